@@ -1,0 +1,76 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+
+namespace wheelwright {
+
+/// A point or vector in R^dim. In the ring's own coordinates axis 0 is radial, 1 azimuthal, 2 axial.
+template <int dim>
+using Vec = std::array<double, dim>;
+
+/// A dim x dim tensor, row-major: m[i][j].
+template <int dim>
+using Mat = std::array<std::array<double, dim>, dim>;
+
+template <int dim>
+constexpr double dot(const Vec<dim>& a, const Vec<dim>& b) {
+  double sum = 0;
+  for (int d = 0; d < dim; ++d) sum += a[d] * b[d];
+  return sum;
+}
+
+template <int dim>
+double norm(const Vec<dim>& a) {
+  return std::sqrt(dot<dim>(a, a));
+}
+
+/// Determinant of m.
+template <int dim>
+constexpr double determinant(const Mat<dim>& m) {
+  if constexpr (dim == 1) {
+    return m[0][0];
+  } else if constexpr (dim == 2) {
+    return m[0][0] * m[1][1] - m[0][1] * m[1][0];
+  } else {
+    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+           m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+           m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+  }
+}
+
+/// Inverse of m; m must be regular.
+template <int dim>
+constexpr Mat<dim> inverse(const Mat<dim>& m) {
+  const double scale = 1 / determinant<dim>(m);
+  if constexpr (dim == 2) {
+    return {{{m[1][1] * scale, -m[0][1] * scale}, {-m[1][0] * scale, m[0][0] * scale}}};
+  } else {
+    Mat<dim> result{};
+    for (int i = 0; i < dim; ++i) {
+      for (int j = 0; j < dim; ++j) {
+        const int i1 = (i + 1) % dim, i2 = (i + 2) % dim, j1 = (j + 1) % dim, j2 = (j + 2) % dim;
+        result[j][i] = (m[i1][j1] * m[i2][j2] - m[i1][j2] * m[i2][j1]) * scale;
+      }
+    }
+    return result;
+  }
+}
+
+/// m^T v.
+template <int dim>
+constexpr Vec<dim> transpose_times(const Mat<dim>& m, const Vec<dim>& v) {
+  Vec<dim> result{};
+  for (int i = 0; i < dim; ++i)
+    for (int j = 0; j < dim; ++j) result[j] += m[i][j] * v[i];
+  return result;
+}
+
+/// n^dim for small integers.
+constexpr int power(int n, int dim) {
+  int result = 1;
+  for (int d = 0; d < dim; ++d) result *= n;
+  return result;
+}
+
+}  // namespace wheelwright
