@@ -1,5 +1,3 @@
-# deal.II ships a CMake config that rewrites build type and flags; its library, headers and the few
-# packages that those headers include are all that is needed here.
 find_package(PkgConfig REQUIRED)
 find_package(fmt REQUIRED)
 find_package(BLAS REQUIRED)
@@ -14,8 +12,11 @@ add_library(wheelwright_cholmod INTERFACE)
 target_include_directories(wheelwright_cholmod SYSTEM INTERFACE ${CHOLMOD_INCLUDE_DIR})
 target_link_libraries(wheelwright_cholmod INTERFACE ${CHOLMOD_LIBRARY} LAPACK::LAPACK BLAS::BLAS)
 
-find_path(DEAL_II_INCLUDE_DIR deal.II/non_matching/quadrature_generator.h REQUIRED)
-find_library(DEAL_II_LIBRARY deal.ii REQUIRED)
+# deal.II's own target setup would append -O2 and -std=c++17: take its library and header paths only.
+find_package(deal.II 9.4 REQUIRED)
+find_library(DEAL_II_RELEASE_LIBRARY deal.ii REQUIRED)
 add_library(wheelwright_dealii INTERFACE)
-target_include_directories(wheelwright_dealii SYSTEM INTERFACE ${DEAL_II_INCLUDE_DIR})
-target_link_libraries(wheelwright_dealii INTERFACE ${DEAL_II_LIBRARY} MPI::MPI_CXX)
+target_include_directories(wheelwright_dealii SYSTEM INTERFACE ${DEAL_II_INCLUDE_DIRS})
+target_link_libraries(wheelwright_dealii INTERFACE ${DEAL_II_RELEASE_LIBRARY} MPI::MPI_CXX)
+# deal.II's headers call into the libraries that it depends on itself.
+target_link_options(wheelwright_dealii INTERFACE -Wl,--copy-dt-needed-entries)

@@ -7,31 +7,41 @@
 
 namespace wheelwright {
 
-/// Why a numerical stage could not deliver. The optimization loop rejects the trial shape and halves its step.
+/// Why a numerical stage could not deliver. The optimization loop rejects the trial shape and halves its
+/// step.
 enum class FailureReason {
-  disconnected_material,   ///< some material is not attached to the rim, or the tread is cut off from it
-  cut_quadrature,          ///< a cut cell's quadrature does not add up to the cell
-  not_positive_definite,   ///< the stiffness could not be factored
-  newton_stalled,          ///< the contact iteration did not converge
-  no_contact,              ///< no point touches the ground
-  not_finite,              ///< a NaN or an infinity appeared
-  inaccurate_solution,     ///< the residual of a solve is too large
-  negative_energy,         ///< a strain energy came out negative
-  empty_shape,             ///< no material, or no boundary to move
+  disconnected_material,  ///< some material is not attached to the rim, or the tread is cut off from it
+  cut_quadrature,         ///< a cut cell's quadrature does not add up to the cell
+  not_positive_definite,  ///< the stiffness could not be factored
+  newton_stalled,         ///< the contact iteration did not converge
+  no_contact,             ///< no point touches the ground
+  not_finite,             ///< a NaN or an infinity appeared
+  inaccurate_solution,    ///< the residual of a solve is too large
+  negative_energy,        ///< a strain energy came out negative
+  empty_shape,            ///< no material, or no boundary to move
 };
 
 /// The reason as a word for logs and history files, e.g. "newton_stalled".
 constexpr const char* to_string(FailureReason reason) {
   switch (reason) {
-    case FailureReason::disconnected_material: return "disconnected_material";
-    case FailureReason::cut_quadrature: return "cut_quadrature";
-    case FailureReason::not_positive_definite: return "not_positive_definite";
-    case FailureReason::newton_stalled: return "newton_stalled";
-    case FailureReason::no_contact: return "no_contact";
-    case FailureReason::not_finite: return "not_finite";
-    case FailureReason::inaccurate_solution: return "inaccurate_solution";
-    case FailureReason::negative_energy: return "negative_energy";
-    case FailureReason::empty_shape: return "empty_shape";
+    case FailureReason::disconnected_material:
+      return "disconnected_material";
+    case FailureReason::cut_quadrature:
+      return "cut_quadrature";
+    case FailureReason::not_positive_definite:
+      return "not_positive_definite";
+    case FailureReason::newton_stalled:
+      return "newton_stalled";
+    case FailureReason::no_contact:
+      return "no_contact";
+    case FailureReason::not_finite:
+      return "not_finite";
+    case FailureReason::inaccurate_solution:
+      return "inaccurate_solution";
+    case FailureReason::negative_energy:
+      return "negative_energy";
+    case FailureReason::empty_shape:
+      return "empty_shape";
   }
   return "unknown";
 }

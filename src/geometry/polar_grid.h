@@ -21,7 +21,7 @@ struct PolarGrid {
   std::array<int, dim> cells;  ///< cells of one sector along each axis
 
   double sector_angle() const { return 2 * std::numbers::pi / n_sectors; }
-  int columns() const { return cells[1]; }                ///< angular cells of a sector
+  int columns() const { return cells[1]; }                   ///< angular cells of a sector
   int ring_columns() const { return cells[1] * n_sectors; }  ///< angular cells of the full ring
 
   /// Extent of a cell along each axis, in (m, rad, m).

@@ -1,0 +1,141 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wheelwright {
+
+// A case: everything that defines one optimization, as plain data in SI units and radians. The initial values
+// here are the defaults of the case file; names, units, ranges and meanings are declared in case/keys.cc.
+
+struct Wheel {
+  double inner_radius = 0.20;  ///< R_i, the rim
+  double outer_radius = 0.34;  ///< R_e, the tread
+  double width = 0.12;         ///< w_r, along the axle
+  int sectors = 16;            ///< N_s
+  bool operator==(const Wheel&) const = default;
+};
+
+struct Material {
+  double youngs_modulus = 200e6;
+  double poissons_ratio = 0.48;
+  bool operator==(const Material&) const = default;
+};
+
+struct Load {
+  double force = 300 * 9.81;  ///< on the whole width [N]
+  int positions = 8;          ///< N_d, load positions of one sector
+  bool operator==(const Load&) const = default;
+};
+
+enum class ContactMethod { nitsche, penalty };
+
+struct Contact {
+  ContactMethod method = ContactMethod::nitsche;
+  double theta = -1;
+  double gamma_0 = 1;  ///< gamma = gamma_0 E / h_T [Pa/m]
+  int quadrature_points = 5;
+  bool operator==(const Contact&) const = default;
+};
+
+/// Equal holes, evenly spaced on a circle about the axle.
+struct HoleRing {
+  int count = 0;
+  double center_radius = 0;
+  double radius = 0;
+  std::optional<double> phase;  ///< azimuth of the first hole's centre; absent: half the spacing
+  bool operator==(const HoleRing&) const = default;
+};
+
+/// A hole that is repeated in every sector.
+struct HoleCircle {
+  std::array<double, 2> center{};  ///< one of its centres: Cartesian, body frame
+  double radius = 0;
+  bool operator==(const HoleCircle&) const = default;
+};
+
+struct Holes {
+  std::vector<HoleRing> rings;
+  std::vector<HoleCircle> circles;
+  bool operator==(const Holes&) const = default;
+};
+
+struct Grid {
+  int radial_cells = 28;
+  int angular_cells = 384;  ///< round the full ring
+  int degree = 2;           ///< of the displacement
+  int level_set_degree = 2;
+  bool operator==(const Grid&) const = default;
+};
+
+enum class GhostPenaltyKind {
+  full,   ///< all faces of cut cells; jumps of the stress and of the second normal derivative
+  paper,  ///< (81): the faces that the boundary cuts; jump of the stress
+};
+
+struct GhostPenalty {
+  GhostPenaltyKind kind = GhostPenaltyKind::full;
+  double xi = 1e-4;
+  bool operator==(const GhostPenalty&) const = default;
+};
+
+/// Weights of the criteria in J.
+struct Objective {
+  double strain_energy = 1;
+  bool operator==(const Objective&) const = default;
+};
+
+enum class VolumeControl {
+  exact,  ///< the level set is shifted to the target volume
+  paper,  ///< the multiplier lambda_k of section 4.2
+};
+
+struct Volume {
+  VolumeControl control = VolumeControl::exact;
+  std::optional<double> target;  ///< material fraction of the ring; absent: the initial shape's
+  bool operator==(const Volume&) const = default;
+};
+
+enum class VelocityKind { h1, harmonic };
+
+struct Optimizer {
+  int iterations = 100;
+  VelocityKind velocity = VelocityKind::h1;
+  double velocity_length = 2;  ///< [cells]
+  double step = 0.5;           ///< largest move of the boundary a shape [cells]
+  int max_halvings = 6;
+  double accepted_increase = 1e-4;
+  double tolerance = 1e-5;
+  int redistance_every = 5;
+  double smoothing = 0;  ///< tau of (76) [cells^2]
+  int smooth_every = 5;
+  std::optional<double> rim_band;    ///< absent: one radial cell
+  std::optional<double> tread_band;  ///< absent: one radial cell
+  bool operator==(const Optimizer&) const = default;
+};
+
+struct Output {
+  std::string folder;  ///< never empty in a case that was read from a file
+  int vtu_every = 10;
+  bool operator==(const Output&) const = default;
+};
+
+struct Case {
+  std::string title;
+  Wheel wheel;
+  Material material;
+  Load load;
+  Contact contact;
+  Holes holes;
+  Grid grid;
+  GhostPenalty ghost_penalty;
+  Objective objective;
+  Volume volume;
+  Optimizer optimizer;
+  Output output;
+  bool operator==(const Case&) const = default;
+};
+
+}  // namespace wheelwright

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <vector>
+
+#include "case/case.h"
+
+namespace wheelwright {
+
+// Numbers that follow from a case without solving. Plane strain, per metre of width.
+
+/// P [N/m].
+double load_per_metre(const Case& c);
+
+struct LameParameters {
+  double lambda, mu;  ///< [Pa]
+};
+LameParameters lame_parameters(const Material& material);
+
+/// E* = E / (1 - nu^2) [Pa].
+double plane_strain_modulus(const Material& material);
+
+/// a = 2 sqrt(P R_e / (pi E*)) [m]: half the contact patch of a solid disc under the load, an estimate of the
+/// wheel's own.
+double hertz_half_width(const Case& c);
+
+/// p_0 = 2 P / (pi a) [Pa].
+double hertz_peak_pressure(const Case& c);
+
+/// Arc of one grid cell on the tread [m].
+double tread_cell_width(const Case& c);
+
+/// Cells on the tread under the Hertz patch 2a.
+double cells_per_contact_patch(const Case& c);
+
+/// Contact pressures are not resolved with fewer cells per patch.
+inline constexpr double least_cells_per_contact_patch = 6;
+
+/// 2 pi / N_s [rad].
+double sector_angle(const Case& c);
+
+/// N_l = N_d N_s: load positions of the full wheel.
+int total_load_positions(const Case& c);
+
+/// Thicknesses that stay material [m].
+double rim_band(const Case& c);
+double tread_band(const Case& c);
+
+/// All holes of the full wheel, rings and circles, as circles.
+std::vector<HoleCircle> all_holes(const Case& c);
+
+/// Displacement unknowns of the full ring if every cell held material: an upper bound.
+long long dof_bound(const Case& c);
+
+/// Memory of a run [bytes], to a factor of about two: the libraries, the factor of one sector, its interface
+/// harmonics and the fields of the full ring.
+double estimated_memory(const Case& c);
+
+/// The least gamma_0 for which Nitsche's method is safe with this theta and nu: 0 for theta = -1, about 10 for
+/// 0 and 100 for 1 at nu = 0.48. In between 10 (1 + theta)^2 for the lack of symmetry plus 60 theta for the
+/// indefinite boundary term, times (lambda + 2 mu) / E.
+double least_gamma_0(double theta, const Material& material);
+
+}  // namespace wheelwright

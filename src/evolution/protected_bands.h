@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "geometry/level_set.h"
+
+namespace wheelwright {
+
+/// The rings along rim and tread that stay material: r < R_i + rim_band and r > R_e - tread_band.
+template <int dim>
+class ProtectedBands {
+ public:
+  /// Widths in metres.
+  ProtectedBands(const Lattice<dim>& lattice, double rim_band, double tread_band);
+
+  /// One flag a lattice node: true in a band.
+  const std::vector<bool>& nodes() const { return nodes_; }
+
+  /// The shape with every hole cut off at the edges of the bands: the smaller of psi and the distance to the
+  /// nearest band, less a thousandth of the resolution, so that the nodes on an edge are material too.
+  LevelSet<dim> keep(LevelSet<dim> psi) const;
+
+ private:
+  std::vector<bool> nodes_;
+  std::vector<double> upper_bound_;
+};
+
+}  // namespace wheelwright
