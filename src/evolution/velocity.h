@@ -9,18 +9,19 @@
 namespace wheelwright {
 
 /// How the shape gradient becomes a velocity on all lattice nodes.
-enum class VelocityKind {
+enum class ExtensionKind {
   h1,        ///< Riesz representative in H1: smooth, and a descent direction by construction
   harmonic,  ///< harmonic extension of the boundary values, the paper's (section 4)
 };
 
 struct VelocityOptions {
-  VelocityKind kind = VelocityKind::h1;
+  ExtensionKind kind = ExtensionKind::h1;
   double length = 2;  ///< regularization length of h1, in units of the grid's resolution
 };
 
-/// Takes the density G of a shape derivative, given on the boundary, to a descent velocity V along the outward
-/// normal at all lattice nodes (V > 0: the material grows). Linear in G; V = 0 in the protected bands.
+/// Takes the density G of a shape derivative, given on the boundary, to a descent velocity V along the
+/// outward normal at all lattice nodes (V > 0: the material grows). Linear in G; V = 0 in the protected
+/// bands.
 template <int dim>
 class VelocityExtension {
  public:

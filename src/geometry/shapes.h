@@ -6,7 +6,8 @@
 
 namespace wheelwright {
 
-/// A circular hole, its centre given in polar coordinates of the ring; a cylinder along the axle when dim = 3.
+/// A circular hole, its centre given in polar coordinates of the ring; a cylinder along the axle when dim
+/// = 3.
 struct Circle {
   double centre_radius;   ///< distance of the hole's centre from the axle [m]
   double centre_azimuth;  ///< [rad]

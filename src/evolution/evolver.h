@@ -1,0 +1,48 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "base/expected.h"
+#include "evolution/smoothing.h"
+#include "evolution/velocity.h"
+
+namespace wheelwright {
+
+struct EvolutionOptions {
+  VelocityOptions velocity;
+  double smoothing = 0;   ///< tau of (76), in squares of the grid's resolution; 0: smooth() does nothing
+  double rim_band = 0;    ///< [m]
+  double tread_band = 0;  ///< [m]
+};
+
+/// Everything that moves shapes of one lattice; factors what depends on the lattice alone once. All shapes it
+/// returns keep the protected bands.
+template <int dim>
+class Evolver {
+ public:
+  Evolver(const Lattice<dim>& lattice, const EvolutionOptions& options);
+
+  /// Descent velocity of the shape gradient density G, and the same made to preserve the measure.
+  std::vector<double> velocity(std::span<const SurfaceSample<dim>> gradient) const;
+  std::vector<double> measure_preserving_velocity(std::span<const SurfaceSample<dim>> gradient) const;
+
+  /// Transport for as long as the fastest node takes to travel `distance` [m]. `velocity` is not all zero.
+  LevelSet<dim> move(const LevelSet<dim>& psi, std::span<const double> velocity, double distance) const;
+
+  LevelSet<dim> redistance(const LevelSet<dim>& psi) const;
+  LevelSet<dim> smooth(const LevelSet<dim>& psi) const;
+  LevelSet<dim> keep_bands(const LevelSet<dim>& psi) const;
+
+  /// As the free function of this name.
+  Expected<LevelSet<dim>> with_measure(const LevelSet<dim>& psi, double target,
+                                       double boundary_measure) const;
+
+ private:
+  Lattice<dim> lattice_;
+  ProtectedBands<dim> bands_;
+  std::unique_ptr<VelocityExtension<dim>> extension_;
+  std::optional<Smoother<dim>> smoother_;
+};
+
+}  // namespace wheelwright
