@@ -11,6 +11,7 @@ namespace wheelwright {
 /// step.
 enum class FailureReason {
   disconnected_material,  ///< some material is not attached to the rim, or the tread is cut off from it
+  protected_band,         ///< a hole reaches the rows of cells kept full at the rim or the tread
   cut_quadrature,         ///< a cut cell's quadrature does not add up to the cell
   not_positive_definite,  ///< the stiffness could not be factored
   newton_stalled,         ///< the contact iteration did not converge
@@ -26,6 +27,8 @@ constexpr const char* to_string(FailureReason reason) {
   switch (reason) {
     case FailureReason::disconnected_material:
       return "disconnected_material";
+    case FailureReason::protected_band:
+      return "protected_band";
     case FailureReason::cut_quadrature:
       return "cut_quadrature";
     case FailureReason::not_positive_definite:

@@ -45,19 +45,36 @@ void for_each_neighbour(const PolarGrid<dim>& grid, int cell, Visit visit) {
 }
 
 template <int dim>
+std::string place(const PolarGrid<dim>& grid, int cell) {
+  const auto p = grid.cell_position(cell);
+  return fmt::format("r = {:.4g} m, azimuth = {:.4g} deg",
+                     grid.inner_radius + (p[0] + 0.5) * grid.cell_size()[0],
+                     (p[1] + 0.5) * grid.cell_size()[1] * 180 / std::numbers::pi);
+}
+
+template <int dim>
+std::optional<Failure> check_bands(const CutDomain<dim>& domain, int rim_rows, int tread_rows) {
+  const PolarGrid<dim>& grid = domain.grid;
+  for (int cell = 0; cell < grid.n_cells(); ++cell) {
+    const int row = grid.cell_position(cell)[0];
+    const bool at_rim = row < rim_rows, at_tread = row >= grid.cells[0] - tread_rows;
+    if ((at_rim || at_tread) && domain.kinds[cell] != CellKind::inside)
+      return Failure{FailureReason::protected_band,
+                     fmt::format("a hole reaches the protected band at the {}: {}", at_rim ? "rim" : "tread",
+                                 place(grid, cell))};
+  }
+  return {};
+}
+
+template <int dim>
 std::optional<Failure> check_connected(const CutDomain<dim>& domain) {
   const PolarGrid<dim>& grid = domain.grid;
   std::vector<char> reached(domain.kinds.size(), 0);
   std::vector<int> front;
   for (int cell = 0; cell < grid.n_cells(); ++cell) {
-    const int radial = grid.cell_position(cell)[0];
-    if ((radial == 0 || radial == grid.cells[0] - 1) && domain.kinds[cell] != CellKind::inside)
-      return Failure{FailureReason::disconnected_material,
-                     fmt::format("a hole reaches the {} in cell {}", radial == 0 ? "rim" : "tread", cell)};
-    if (radial == 0) {
-      reached[cell] = 1;
-      front.push_back(cell);
-    }
+    if (grid.cell_position(cell)[0] > 0 || !domain.active(cell)) continue;
+    reached[cell] = 1;
+    front.push_back(cell);
   }
   while (!front.empty()) {
     const int cell = front.back();
@@ -75,13 +92,10 @@ std::optional<Failure> check_connected(const CutDomain<dim>& domain) {
     if (islands++ == 0) first = cell;
   }
   if (islands == 0) return {};
-  const auto p = grid.cell_position(first);
   return Failure{
       FailureReason::disconnected_material,
-      fmt::format("{} cells of a sector hold material that is not attached to the rim, the first at "
-                  "r = {:.4g} m, azimuth = {:.4g} deg",
-                  islands, grid.inner_radius + (p[0] + 0.5) * grid.cell_size()[0],
-                  (p[1] + 0.5) * grid.cell_size()[1] * 180 / std::numbers::pi)};
+      fmt::format("{} cells of a sector hold material that is not attached to the rim, the first at {}",
+                  islands, place(grid, first))};
 }
 
 /// Whether the nodal values of psi change sign on the face of `cell` at the end of `axis`.
@@ -146,12 +160,19 @@ Expected<CutDomain<dim>> cut_domain(const LevelSet<dim>& given, int points) {
       domain.cut.push_back(*std::move(split));
     }
   }
-  if (auto failure = check_connected(domain)) return *failure;
   domain.ghost_faces = find_ghost_faces(psi, domain);
   return domain;
 }
 
+template <int dim>
+std::optional<Failure> check_attached(const CutDomain<dim>& domain, int rim_rows, int tread_rows) {
+  if (auto failure = check_bands(domain, rim_rows, tread_rows)) return failure;
+  return check_connected(domain);
+}
+
 template Expected<CutDomain<2>> cut_domain(const LevelSet<2>&, int);
 template Expected<CutDomain<3>> cut_domain(const LevelSet<3>&, int);
+template std::optional<Failure> check_attached(const CutDomain<2>&, int, int);
+template std::optional<Failure> check_attached(const CutDomain<3>&, int, int);
 
 }  // namespace wheelwright

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "base/expected.h"
@@ -37,7 +38,6 @@ struct GhostFace {
 };
 
 /// Where the material is on one sector's grid: which cells are inside, cut or outside, and how to integrate.
-/// Cells of islands (material not attached to the rim through active cells) make it fail.
 template <int dim>
 struct CutDomain {
   PolarGrid<dim> grid;
@@ -49,9 +49,14 @@ struct CutDomain {
 };
 
 /// Classifies the cells of psi's grid and builds the cut quadrature with `points` Gauss points a direction.
-/// Fails with cut_quadrature (a cell's parts do not add up), not_finite, disconnected_material (an active
-/// cell is not reached from the rim, or a rim or tread cell is not full).
+/// Fails with cut_quadrature (a cell's parts do not add up) or not_finite.
 template <int dim>
 Expected<CutDomain<dim>> cut_domain(const LevelSet<dim>& psi, int points);
+
+/// Whether the shape can be computed with: fails with protected_band when a cell of the innermost `rim_rows`
+/// or outermost `tread_rows` rows is not full, and with disconnected_material when an active cell is not
+/// reached from the rim through active cells.
+template <int dim>
+std::optional<Failure> check_attached(const CutDomain<dim>& domain, int rim_rows, int tread_rows);
 
 }  // namespace wheelwright

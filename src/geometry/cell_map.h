@@ -38,6 +38,16 @@ class CellMap {
     return j;
   }
 
+  /// d^2 x / dm^2 at xi for a direction m in the unit cell's coordinates.
+  Vec<dim> second_derivative(const Vec<dim>& xi, const Vec<dim>& m) const {
+    Vec<dim> result{};
+    for (int a = 0; a < nodes_per_cell<dim>(degree_); ++a) {
+      const double value = shape_second_derivative<dim>(degree_, a, xi, m);
+      for (int d = 0; d < dim; ++d) result[d] += value * nodes_[a][d];
+    }
+    return result;
+  }
+
  private:
   int degree_;
   std::array<Vec<dim>, power(3, dim)> nodes_;

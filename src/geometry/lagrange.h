@@ -71,4 +71,23 @@ struct ShapeFunctions {
   }
 };
 
+/// d^2 N_a / dm^2 at xi for a direction m in the unit cell's coordinates.
+template <int dim>
+double shape_second_derivative(int degree, int node, const Vec<dim>& xi, const Vec<dim>& m) {
+  const auto p = local_node_position<dim>(degree, node);
+  double sum = 0;
+  for (int g = 0; g < dim; ++g) {
+    for (int h = 0; h < dim; ++h) {
+      double term = m[g] * m[h];
+      for (int d = 0; d < dim; ++d) {
+        const Lagrange1D axis(degree, xi[d]);
+        const int order = (d == g) + (d == h);
+        term *= order == 0 ? axis.value[p[d]] : order == 1 ? axis.derivative[p[d]] : axis.second[p[d]];
+      }
+      sum += term;
+    }
+  }
+  return sum;
+}
+
 }  // namespace wheelwright

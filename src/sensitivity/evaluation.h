@@ -7,10 +7,10 @@
 
 namespace wheelwright {
 
-/// One criterion's value, summed over all load positions of the ring.
+/// One criterion's value, summed over the load positions of one sector.
 struct CriterionValue {
   std::string name;  ///< as in the case file, e.g. "strain_energy"
-  double value;      ///< J per metre of width when dim = 2
+  double value;      ///< before weighting; per metre of width when dim = 2
 };
 
 /// Wall time of one phase of an evaluation.
@@ -19,12 +19,15 @@ struct PhaseTime {
   double seconds;
 };
 
-/// What the physics says about one shape: the objective (5), its shape gradient (42), and how it went.
+/// What the physics says about one shape: the objective (5), its shape gradient (42), and how it went. Sums
+/// run over the N_d load positions of one sector; the paper's sum over all N_l = N_d N_s positions is N_s
+/// times that.
 template <int dim>
 struct Evaluation {
-  double objective;                          ///< J, summed over all N_l positions [J/m when dim = 2]
-  std::vector<CriterionValue> criteria;      ///< the terms of J before weighting
-  std::vector<SurfaceSample<dim>> gradient;  ///< density G: DJ(Theta) = N_s * sum weight value Theta.n
+  double objective;                          ///< J [J/m when dim = 2]
+  std::vector<CriterionValue> criteria;      ///< the terms of J
+  std::vector<SurfaceSample<dim>> gradient;  ///< density G: DJ(Theta) = sum weight value Theta.n, for Theta
+                                             ///< equal in all sectors
   std::vector<int> newton_iterations;        ///< one a position of the sector
   std::vector<PhaseTime> phases;
 };

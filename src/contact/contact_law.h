@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cmath>
+
+#include "base/vec.h"
+
+namespace wheelwright {
+
+/// How the contact conditions (11), (16) enter the weak form.
+enum class ContactMethod {
+  penalty,  ///< (22): I_P
+  nitsche,  ///< (28): I_N, with the parameter theta
+};
+
+/// Both methods are one form. With the augmented traction
+///   z(u) = tau sigma(u)n - gamma (u - g n_y)
+/// and the contact traction Phi(z) of (18), (23),
+///   I(u, v) = int_Gamma_C -theta/gamma sigma(u)n . sigma(v)n + Phi(z(u)) . (theta/gamma sigma(v)n - v),
+/// where penalty is tau = theta = 0 and Nitsche's method tau = 1.
+struct ContactForm {
+  ContactMethod method = ContactMethod::nitsche;
+  double theta_nitsche = -1;  ///< theta; ignored by the penalty method
+  double gamma_0 = 1;         ///< gamma = gamma_0 E / h_T [Pa/m]
+  double friction = 0;        ///< Coulomb's coefficient F
+
+  double tau() const { return method == ContactMethod::nitsche ? 1 : 0; }
+  double theta() const { return method == ContactMethod::nitsche ? theta_nitsche : 0; }
+};
+
+/// [x]_- = max(-x, 0).
+inline double negative_part(double x) { return x < 0 ? -x : 0; }
+
+/// The contact traction on the body and its tangent, in the ground frame: component 0 along n_y (into the
+/// ground), the others tangential.
+template <int dim>
+struct ContactResponse {
+  Vec<dim> traction;  ///< Phi(z)
+  Mat<dim>
+      tangent;  ///< d Phi_i / d z_j, the dependence of the friction threshold on z_0 included: (56), (57)
+};
+
+/// Phi(z) of (18), (23): Phi_n = -[z_n]_-, Phi_t = z_t projected on the ball of radius F [z_n]_- (19).
+template <int dim>
+ContactResponse<dim> contact_response(const Vec<dim>& z, double friction) {
+  ContactResponse<dim> r{};
+  const double pressure = negative_part(z[0]);
+  if (pressure <= 0) return r;
+  r.traction[0] = -pressure;
+  r.tangent[0][0] = 1;
+  if (friction <= 0) return r;
+
+  const double threshold = friction * pressure;
+  double tangential = 0;
+  for (int d = 1; d < dim; ++d) tangential += z[d] * z[d];
+  tangential = std::sqrt(tangential);
+  const bool sticks = tangential <= threshold;
+  for (int i = 1; i < dim; ++i) {
+    if (sticks) {
+      r.traction[i] = z[i];
+      r.tangent[i][i] = 1;
+      continue;
+    }
+    const double direction = z[i] / tangential;
+    r.traction[i] = threshold * direction;
+    r.tangent[i][0] = -friction * direction;
+    for (int j = 1; j < dim; ++j)
+      r.tangent[i][j] = threshold / tangential * ((i == j) - direction * z[j] / tangential);
+  }
+  return r;
+}
+
+}  // namespace wheelwright

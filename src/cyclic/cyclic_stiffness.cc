@@ -1,0 +1,184 @@
+#include "cyclic/cyclic_stiffness.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+namespace wheelwright {
+namespace {
+
+/// The boundary nodes of a sector, at their positions in the sector's own period, and the elimination order.
+template <int dim>
+struct BoundaryLayout {
+  std::vector<std::array<int, dim>> interface_nodes;  ///< not on the outer line
+  std::vector<int> interior_nodes;                    ///< node numbers in elimination order
+  std::vector<int> trailing_nodes;                    ///< node numbers
+};
+
+template <int dim>
+BoundaryLayout<dim> boundary_layout(const SectorSpace<dim>& space,
+                                    std::span<const std::array<int, dim>> order) {
+  const int period = space.degree() * space.grid().cells[1], outer = space.degree() * space.core_rows();
+  std::vector<char> trailing(space.n_nodes(), 0);
+  BoundaryLayout<dim> layout;
+  for (int node = 0; node < space.n_nodes(); ++node) {
+    auto p = space.position(node);
+    if (p[0] == outer) trailing[node] = 1;
+    if (p[1] < period) continue;
+    trailing[node] = 1;
+    p[1] %= period;
+    if (p[0] == outer) continue;
+    layout.interface_nodes.push_back(p);
+    if (const int own = space.number(p); own >= 0) trailing[own] = 1;
+  }
+  for (const auto& p : order)
+    if (const int node = space.number(p); node >= 0 && !trailing[node]) layout.interior_nodes.push_back(node);
+  for (int node = 0; node < space.n_nodes(); ++node)
+    if (trailing[node]) layout.trailing_nodes.push_back(node);
+  return layout;
+}
+
+}  // namespace
+
+template <int dim>
+CyclicStiffness<dim>::CyclicStiffness(SectorStiffness<dim> sector, PartialCholesky sector_factor,
+                                      const SectorHarmonics& harmonics)
+    : sector_(std::move(sector)), sector_factor_(std::move(sector_factor)), harmonics_(harmonics) {}
+
+template <int dim>
+Expected<CyclicStiffness<dim>> CyclicStiffness<dim>::factor(SectorStiffness<dim> sector,
+                                                            std::span<const std::array<int, dim>> order,
+                                                            std::span<const ComplexMatrix> outer_stiffness,
+                                                            const SectorHarmonics& harmonics) {
+  const SectorSpace<dim>& space = sector.space;
+  const BoundaryLayout<dim> layout = boundary_layout<dim>(space, order);
+  const int n_trailing = dim * static_cast<int>(layout.trailing_nodes.size());
+  std::vector<int> dof_order;
+  dof_order.reserve(space.n_dofs());
+  for (const auto* nodes : {&layout.interior_nodes, &layout.trailing_nodes})
+    for (int node : *nodes)
+      for (int c = 0; c < dim; ++c) dof_order.push_back(dim * node + c);
+
+  auto factored = PartialCholesky::factor(sector.matrix, dof_order, n_trailing);
+  if (!factored) return factored.failure();
+  CyclicStiffness ring(std::move(sector), *std::move(factored), harmonics);
+  ring.row_.resize(dof_order.size());
+  for (int k = 0; k < static_cast<int>(dof_order.size()); ++k) ring.row_[dof_order[k]] = k;
+
+  const SectorSpace<dim>& own_space = ring.sector_.space;
+  const PolarGrid<dim>& grid = own_space.grid();
+  const int period = own_space.degree() * grid.cells[1], outer = own_space.degree() * own_space.core_rows();
+  int axial_nodes = 1;
+  if constexpr (dim == 3) axial_nodes = own_space.degree() * grid.cells[2] + 1;
+  std::map<std::array<int, dim>, int> interface_index;
+  for (const auto& p : layout.interface_nodes)
+    interface_index.emplace(p, static_cast<int>(interface_index.size()));
+  const int n_interface = dim * static_cast<int>(interface_index.size());
+  ring.n_outer_ = dim * period * axial_nodes;
+  ring.n_boundary_ = n_interface + ring.n_outer_;
+  for (int node : layout.trailing_nodes) {
+    auto p = own_space.position(node);
+    const int shift = p[1] / period;
+    p[1] %= period;
+    int first;
+    if (p[0] == outer) {
+      int line = p[1];
+      if constexpr (dim == 3) line = line * axial_nodes + p[2];
+      first = n_interface + dim * line;
+    } else {
+      first = dim * interface_index.at(p);
+    }
+    for (int c = 0; c < dim; ++c) ring.trailing_.push_back({first + c, shift});
+  }
+
+  const Matrix& schur = ring.sector_factor_.schur();
+  ComplexMatrix outer_inverse(ring.n_outer_ * ring.n_outer_, harmonics.n_harmonics());
+  for (int h = 0; h < harmonics.n_harmonics(); ++h) {
+    ComplexMatrix k(ring.n_boundary_, ring.n_boundary_);
+    for (int j = 0; j < n_trailing; ++j)
+      for (int i = 0; i < n_trailing; ++i)
+        k(ring.trailing_[i].boundary, ring.trailing_[j].boundary) +=
+            schur(i, j) * harmonics.phase(h, ring.trailing_[j].shift - ring.trailing_[i].shift);
+    for (int j = 0; j < ring.n_outer_; ++j)
+      for (int i = 0; i < ring.n_outer_; ++i) k(n_interface + i, n_interface + j) += outer_stiffness[h](i, j);
+    if (!cholesky(k))
+      return Failure{FailureReason::not_positive_definite,
+                     fmt::format("the ring's stiffness is not positive definite for harmonic {}", h)};
+    ComplexMatrix block(ring.n_outer_, ring.n_outer_), inverse(ring.n_outer_, ring.n_outer_);
+    for (int j = 0; j < ring.n_outer_; ++j) {
+      inverse(j, j) = 1;
+      for (int i = j; i < ring.n_outer_; ++i) block(i, j) = k(n_interface + i, n_interface + j);
+    }
+    cholesky_solve(block, inverse);
+    std::copy(inverse.entries().begin(), inverse.entries().end(), outer_inverse.column(h));
+    ring.harmonic_factors_.push_back(std::move(k));
+  }
+  for (auto& x : outer_inverse.entries()) x /= harmonics.n_sectors();
+  const Matrix by_difference = harmonics.backward(outer_inverse);
+  for (int d = 0; d < harmonics.n_sectors(); ++d) {
+    Matrix block(ring.n_outer_, ring.n_outer_);
+    std::copy_n(by_difference.column(d), block.entries().size(), block.data());
+    ring.outer_compliance_.push_back(std::move(block));
+  }
+  return ring;
+}
+
+template <int dim>
+const Matrix& CyclicStiffness<dim>::outer_compliance(int difference) const {
+  const int n = n_sectors();
+  return outer_compliance_[(difference % n + n) % n];
+}
+
+template <int dim>
+Matrix CyclicStiffness<dim>::condense(Matrix& loads) const {
+  sector_factor_.eliminate(loads);
+  const int n = n_sectors(), interior = sector_factor_.size() - sector_factor_.n_trailing();
+  Matrix boundary(n_boundary_, loads.columns());
+  for (int column = 0; column < loads.columns(); ++column) {
+    const int sector = column % n, first = column - sector;
+    for (size_t t = 0; t < trailing_.size(); ++t)
+      boundary(trailing_[t].boundary, first + (sector + trailing_[t].shift) % n) +=
+          loads(interior + static_cast<int>(t), column);
+  }
+  return boundary;
+}
+
+template <int dim>
+Matrix CyclicStiffness<dim>::solve_boundary(const Matrix& loads) const {
+  const int n = n_sectors(), rhs = loads.columns() / n;
+  std::vector<ComplexMatrix> by_harmonic(harmonics_.n_harmonics(), ComplexMatrix(n_boundary_, rhs));
+  Matrix one(n_boundary_, n);
+  for (int r = 0; r < rhs; ++r) {
+    std::copy_n(loads.column(r * n), one.entries().size(), one.data());
+    const ComplexMatrix transformed = harmonics_.forward(one);
+    for (int h = 0; h < harmonics_.n_harmonics(); ++h)
+      std::copy_n(transformed.column(h), n_boundary_, by_harmonic[h].column(r));
+  }
+  for (int h = 0; h < harmonics_.n_harmonics(); ++h) cholesky_solve(harmonic_factors_[h], by_harmonic[h]);
+  Matrix result(n_boundary_, loads.columns());
+  ComplexMatrix transformed(n_boundary_, harmonics_.n_harmonics());
+  for (int r = 0; r < rhs; ++r) {
+    for (int h = 0; h < harmonics_.n_harmonics(); ++h)
+      std::copy_n(by_harmonic[h].column(r), n_boundary_, transformed.column(h));
+    one = harmonics_.backward(transformed);
+    std::copy_n(one.data(), one.entries().size(), result.column(r * n));
+  }
+  return result;
+}
+
+template <int dim>
+void CyclicStiffness<dim>::recover(const Matrix& boundary, Matrix& x) const {
+  const int n = n_sectors(), interior = sector_factor_.size() - sector_factor_.n_trailing();
+  for (int column = 0; column < x.columns(); ++column) {
+    const int sector = column % n, first = column - sector;
+    for (size_t t = 0; t < trailing_.size(); ++t)
+      x(interior + static_cast<int>(t), column) =
+          boundary(trailing_[t].boundary, first + (sector + trailing_[t].shift) % n);
+  }
+  sector_factor_.substitute(x);
+}
+
+template class CyclicStiffness<2>;
+template class CyclicStiffness<3>;
+
+}  // namespace wheelwright

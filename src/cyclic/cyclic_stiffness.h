@@ -1,0 +1,72 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "cyclic/harmonics.h"
+#include "elasticity/sector_stiffness.h"
+#include "linalg/partial_cholesky.h"
+
+namespace wheelwright {
+
+/// The factored stiffness of the ring's core plus whatever stands on its outer line (the tread), by cyclic
+/// symmetry: one real factorization of one sector, condensed onto its boundary, and a small Hermitian system
+/// for every harmonic of the sectors.
+///
+/// The boundary unknowns of a sector are those that it shares with its neighbours or with the tread: first
+/// the interface ones, then those of the outer line (azimuth line major, then axial node, then component).
+/// Vectors of the ring are matrices with one column for every (right-hand side, sector): column =
+/// rhs * n_sectors + sector. Components are polar, body frame.
+template <int dim>
+class CyclicStiffness {
+ public:
+  /// `order` from nested_dissection(); `outer_stiffness[h]` is the tread's contribution on the outer line for
+  /// harmonic h. Fails with not_positive_definite or not_finite.
+  static Expected<CyclicStiffness> factor(SectorStiffness<dim> sector,
+                                          std::span<const std::array<int, dim>> order,
+                                          std::span<const ComplexMatrix> outer_stiffness,
+                                          const SectorHarmonics& harmonics);
+
+  const SectorStiffness<dim>& sector() const { return sector_; }
+  int n_sectors() const { return harmonics_.n_sectors(); }
+  int n_boundary() const { return n_boundary_; }
+  int n_outer() const { return n_outer_; }  ///< they are the last of the boundary unknowns
+  const PartialCholesky& sector_factor() const { return sector_factor_; }
+
+  /// Where a sector's dof (2) stands in elimination order.
+  int row(int dof) const { return row_[dof]; }
+
+  /// The compliance between outer-line unknowns of two sectors: entry (i, j) of the ring's inverse between i
+  /// in sector s and j in sector s - difference.
+  const Matrix& outer_compliance(int difference) const;
+
+  /// Loads of the ring in elimination order (n_dofs x columns; a node shared by sectors may carry its load in
+  /// any of them) to the condensed boundary loads (n_boundary x columns). The interior rows of `loads` are
+  /// left as PartialCholesky::eliminate leaves them.
+  Matrix condense(Matrix& loads) const;
+
+  /// Boundary displacements (n_boundary x columns) for boundary loads.
+  Matrix solve_boundary(const Matrix& loads) const;
+
+  /// Displacements of all sectors in elimination order; `x` comes with condense()'s interior rows, or zero.
+  void recover(const Matrix& boundary, Matrix& x) const;
+
+ private:
+  CyclicStiffness(SectorStiffness<dim> sector, PartialCholesky sector_factor,
+                  const SectorHarmonics& harmonics);
+
+  SectorStiffness<dim> sector_;
+  PartialCholesky sector_factor_;
+  SectorHarmonics harmonics_;
+  std::vector<int> row_;
+  struct Trailing {
+    int boundary;  ///< index among the boundary unknowns
+    int shift;     ///< sectors ahead
+  };
+  std::vector<Trailing> trailing_;
+  int n_boundary_ = 0, n_outer_ = 0;
+  std::vector<ComplexMatrix> harmonic_factors_;
+  std::vector<Matrix> outer_compliance_;
+};
+
+}  // namespace wheelwright

@@ -1,0 +1,89 @@
+#include "linalg/dense.h"
+
+#include <algorithm>
+#include <cassert>
+
+extern "C" {
+void dgemm_(const char*, const char*, const int*, const int*, const int*, const double*, const double*,
+            const int*, const double*, const int*, const double*, double*, const int*);
+void zgemm_(const char*, const char*, const int*, const int*, const int*, const std::complex<double>*,
+            const std::complex<double>*, const int*, const std::complex<double>*, const int*,
+            const std::complex<double>*, std::complex<double>*, const int*);
+void dpotrf_(const char*, const int*, double*, const int*, int*);
+void zpotrf_(const char*, const int*, std::complex<double>*, const int*, int*);
+void dpotrs_(const char*, const int*, const int*, const double*, const int*, double*, const int*, int*);
+void zpotrs_(const char*, const int*, const int*, const std::complex<double>*, const int*,
+             std::complex<double>*, const int*, int*);
+void dgesv_(const int*, const int*, double*, const int*, int*, double*, const int*, int*);
+}
+
+namespace wheelwright {
+namespace {
+
+char letter(Op op) { return op == Op::none ? 'N' : op == Op::transpose ? 'T' : 'C'; }
+
+template <class Scalar, class Gemm>
+void multiply_with(Gemm gemm, Scalar alpha, const DenseMatrix<Scalar>& a, Op op_a,
+                   const DenseMatrix<Scalar>& b, Op op_b, Scalar beta, DenseMatrix<Scalar>& c) {
+  const int m = c.rows(), n = c.columns(), k = op_a == Op::none ? a.columns() : a.rows();
+  assert((op_a == Op::none ? a.rows() : a.columns()) == m);
+  assert((op_b == Op::none ? b.columns() : b.rows()) == n);
+  assert((op_b == Op::none ? b.rows() : b.columns()) == k);
+  if (m == 0 || n == 0) return;
+  const char ta = letter(op_a), tb = letter(op_b);
+  const int lda = std::max(1, a.rows()), ldb = std::max(1, b.rows());
+  gemm(&ta, &tb, &m, &n, &k, &alpha, a.data(), &lda, b.data(), &ldb, &beta, c.data(), &m);
+}
+
+}  // namespace
+
+void multiply(double alpha, const Matrix& a, Op op_a, const Matrix& b, Op op_b, double beta, Matrix& c) {
+  multiply_with(dgemm_, alpha, a, op_a, b, op_b, beta, c);
+}
+
+void multiply(std::complex<double> alpha, const ComplexMatrix& a, Op op_a, const ComplexMatrix& b, Op op_b,
+              std::complex<double> beta, ComplexMatrix& c) {
+  multiply_with(zgemm_, alpha, a, op_a, b, op_b, beta, c);
+}
+
+Matrix product(const Matrix& a, Op op_a, const Matrix& b, Op op_b) {
+  Matrix c(op_a == Op::none ? a.rows() : a.columns(), op_b == Op::none ? b.columns() : b.rows());
+  multiply(1, a, op_a, b, op_b, 0, c);
+  return c;
+}
+
+bool cholesky(Matrix& a) {
+  const int n = a.rows();
+  int info = 0;
+  if (n > 0) dpotrf_("L", &n, a.data(), &n, &info);
+  return info == 0;
+}
+
+bool cholesky(ComplexMatrix& a) {
+  const int n = a.rows();
+  int info = 0;
+  if (n > 0) zpotrf_("L", &n, a.data(), &n, &info);
+  return info == 0;
+}
+
+void cholesky_solve(const Matrix& factor, Matrix& b) {
+  const int n = factor.rows(), m = b.columns();
+  int info = 0;
+  if (n > 0 && m > 0) dpotrs_("L", &n, &m, factor.data(), &n, b.data(), &n, &info);
+}
+
+void cholesky_solve(const ComplexMatrix& factor, ComplexMatrix& b) {
+  const int n = factor.rows(), m = b.columns();
+  int info = 0;
+  if (n > 0 && m > 0) zpotrs_("L", &n, &m, factor.data(), &n, b.data(), &n, &info);
+}
+
+bool lu_solve(Matrix& a, Matrix& b) {
+  const int n = a.rows(), m = b.columns();
+  std::vector<int> pivots(n);
+  int info = 0;
+  if (n > 0) dgesv_(&n, &m, a.data(), &n, pivots.data(), b.data(), &n, &info);
+  return info == 0;
+}
+
+}  // namespace wheelwright

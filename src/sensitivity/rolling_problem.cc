@@ -1,0 +1,295 @@
+#include "sensitivity/rolling_problem.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/stopwatch.h"
+
+namespace wheelwright {
+namespace {
+
+int wrap(int column, int n_columns) { return (column % n_columns + n_columns) % n_columns; }
+
+/// Rows of a few nodes (zero for fixed ones) of a core field.
+template <int dim>
+void gather(const CyclicStiffness<dim>& ring, std::span<const int> nodes, const Matrix& field,
+            Matrix& local) {
+  for (size_t a = 0; a < nodes.size(); ++a)
+    for (int c = 0; c < dim; ++c) {
+      const int row = nodes[a] < 0 ? -1 : ring.row(dim * nodes[a] + c);
+      for (int j = 0; j < field.columns(); ++j)
+        local(dim * static_cast<int>(a) + c, j) = row < 0 ? 0.0 : field(row, j);
+    }
+}
+
+/// The ghost penalty applied to a core field.
+template <int dim>
+Matrix apply_ghost(const CyclicStiffness<dim>& ring, const Matrix& field) {
+  Matrix result(field.rows(), field.columns());
+  Matrix local, applied;
+  for (const auto& ghost : ring.sector().ghosts) {
+    const int n = dim * static_cast<int>(ghost.nodes.size());
+    if (local.rows() != n) local = applied = Matrix(n, field.columns());
+    gather(ring, ghost.nodes, field, local);
+    multiply(1, *ghost.stiffness, Op::none, local, Op::none, 0, applied);
+    for (int j = 0; j < field.columns(); ++j)
+      for (int i = 0; i < n; ++i)
+        if (const int node = ghost.nodes[i / dim]; node >= 0)
+          result(ring.row(dim * node + i % dim), j) += applied(i, j);
+  }
+  return result;
+}
+
+/// The outer-line rows of boundary vectors, one column an angular cell of the ring.
+template <int dim>
+Matrix outer_rows(const CyclicStiffness<dim>& ring, const Matrix& boundary, int per_column) {
+  const int n_outer = ring.n_outer(), first = ring.n_boundary() - n_outer;
+  Matrix result(per_column, boundary.columns() * (n_outer / per_column));
+  for (int j = 0; j < boundary.columns(); ++j)
+    std::copy_n(boundary.column(j) + first, n_outer, result.data() + size_t(j) * n_outer);
+  return result;
+}
+
+/// Adds loads on the outer line (one column an angular cell) to boundary vectors.
+template <int dim>
+void add_outer_rows(const CyclicStiffness<dim>& ring, const Matrix& outer, Matrix& boundary) {
+  const int n_outer = ring.n_outer(), first = ring.n_boundary() - n_outer;
+  for (int j = 0; j < boundary.columns(); ++j)
+    for (int i = 0; i < n_outer; ++i) boundary(first + i, j) += outer.entries()[size_t(j) * n_outer + i];
+}
+
+double column_dot(const Matrix& a, const Matrix& b, int column) {
+  const double *x = a.column(column), *y = b.column(column);
+  double sum = 0;
+  for (int i = 0; i < a.rows(); ++i) sum += x[i] * y[i];
+  return sum;
+}
+
+bool all_finite(const Matrix& a) {
+  return std::all_of(a.entries().begin(), a.entries().end(), [](double x) { return std::isfinite(x); });
+}
+
+}  // namespace
+
+template <int dim>
+RollingProblem<dim>::RollingProblem(const RollingModel<dim>& model,
+                                    std::unique_ptr<ElementTable<dim>> elements, Tread<dim> tread)
+    : model_(model),
+      elements_(std::move(elements)),
+      harmonics_(model.grid.n_sectors),
+      tread_(std::move(tread)),
+      elimination_order_(nested_dissection<dim>(model.grid, model.degree, core_rows())),
+      outer_stiffness_(tread_.outer_stiffness(harmonics_)) {}
+
+template <int dim>
+Expected<RollingProblem<dim>> RollingProblem<dim>::create(const RollingModel<dim>& model) {
+  auto elements = std::make_unique<ElementTable<dim>>(model.grid, model.degree, model.material, model.ghost);
+  auto tread = Tread<dim>::condense(*elements, tread_rows, model.contact, model.contact_points);
+  if (!tread) return tread.failure();
+  return RollingProblem(model, std::move(elements), *std::move(tread));
+}
+
+template <int dim>
+Expected<std::pair<ReducedContact<dim>, ContactState<dim>>> RollingProblem<dim>::roll_to(
+    const CyclicStiffness<dim>& ring, GroundPosition ground,
+    const std::optional<ContactState<dim>>& neighbour) const {
+  const PolarGrid<dim>& grid = model_.grid;
+  const Material& material = model_.material;
+  const double reduced_modulus =
+      material.youngs_modulus / (1 - material.poissons_ratio * material.poissons_ratio);
+  const double line_load = dim == 2 ? model_.load : model_.load / grid.width;
+  const double half_width =
+      2 * std::sqrt(line_load * grid.outer_radius / (std::numbers::pi * reduced_modulus));
+  int half = static_cast<int>(std::ceil(half_width / (grid.outer_radius * grid.cell_size()[1]))) + 2;
+  const auto start = [&](const ReducedContact<dim>& contact) {
+    return neighbour && neighbour->augmented.size() == contact.points().size()
+               ? neighbour->augmented
+               : contact.hertz_start(line_load, grid.outer_radius, reduced_modulus);
+  };
+  while (true) {
+    half = std::min(half, (grid.ring_columns() - 1) / 2);
+    ReducedContact<dim> contact(ring, tread_, grid, ground, {ground.column - half, 2 * half});
+    auto state = contact.solve(model_.load, start(contact));
+    if (!state) return state.failure();
+    const int per_column = contact.n_points() / contact.zone().n_columns;
+    const auto touches = [&](auto first, auto last) {
+      return std::any_of(first, last, [](const Vec<dim>& t) { return t[0] < 0; });
+    };
+    const bool at_edge = touches(state->traction.begin(), state->traction.begin() + per_column) ||
+                         touches(state->traction.end() - per_column, state->traction.end());
+    if (!at_edge || 2 * half + 2 > grid.ring_columns() / 2)
+      return std::pair{std::move(contact), *std::move(state)};
+    half += 2;
+  }
+}
+
+/// Nitsche's symmetric term of the tread applied to what is observed: loads on the tractions.
+template <int dim>
+Matrix RollingProblem<dim>::nitsche_loads(const Matrix& observations) const {
+  Matrix loads(observations.rows(), observations.columns());
+  for (int j = 0; j < loads.columns(); ++j)
+    for (size_t q = 0; q < tread_.points().size(); ++q)
+      for (int d = 0; d < dim; ++d) {
+        const int row = 2 * dim * static_cast<int>(q) + dim + d;
+        loads(row, j) = -tread_.form().theta() / tread_.points()[q].gamma * tread_.points()[q].weight *
+                        observations(row, j);
+      }
+  return loads;
+}
+
+template <int dim>
+Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& psi) const {
+  const PolarGrid<dim>& grid = model_.grid;
+  const int n_sectors = grid.n_sectors, n_positions = model_.n_positions, n_columns = grid.ring_columns();
+  std::vector<PhaseTime> phases;
+  Stopwatch watch;
+
+  auto domain = cut_domain(psi, model_.degree + 2);
+  if (!domain) return domain.failure();
+  if (auto failure = check_attached(*domain, protected_rim_rows, protected_tread_rows)) return *failure;
+  phases.push_back({"cut", watch.lap()});
+  auto sector = sector_stiffness(*domain, *elements_, core_rows());
+  phases.push_back({"assembly", watch.lap()});
+  auto factored =
+      CyclicStiffness<dim>::factor(std::move(sector), elimination_order_, outer_stiffness_, harmonics_);
+  if (!factored) return factored.failure();
+  phases.push_back({"factorization", watch.lap()});
+
+  RollingSolution<dim> s{*std::move(domain), *std::move(factored), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+  s.contact_loads = Matrix(tread_.n_observations(), n_positions * n_columns);
+  std::optional<ContactState<dim>> neighbour;
+  for (int i = 0; i < n_positions; ++i) {
+    s.grounds.push_back({i * grid.columns() / n_positions});
+    auto rolled = roll_to(s.ring, s.grounds.back(), neighbour);
+    if (!rolled) return rolled.failure();
+    neighbour = rolled->second;
+    const ContactZone& zone = rolled->first.zone();
+    const Matrix loads = rolled->first.contact_loads(rolled->second);
+    for (int c = 0; c < zone.n_columns; ++c)
+      std::copy_n(loads.column(c), loads.rows(),
+                  s.contact_loads.column(i * n_columns + wrap(zone.first_column + c, n_columns)));
+    s.contacts.push_back(std::move(rolled->first));
+    s.states.push_back(std::move(rolled->second));
+  }
+  phases.push_back({"contact", watch.lap()});
+
+  Matrix boundary(s.ring.n_boundary(), n_positions * n_sectors);
+  add_outer_rows(s.ring, base_loads(tread_, s.contact_loads), boundary);
+  boundary = s.ring.solve_boundary(boundary);
+  s.displacement = Matrix(s.ring.sector_factor().size(), n_positions * n_sectors);
+  s.ring.recover(boundary, s.displacement);
+  s.outer_line = outer_rows(s.ring, boundary, tread_.base_per_column());
+  s.observations = observe(tread_, s.outer_line, s.contact_loads);
+  s.ghost_loads = apply_ghost(s.ring, s.displacement);
+  if (!all_finite(s.displacement) || !all_finite(s.observations))
+    return Failure{FailureReason::not_finite, "the displacement is not finite"};
+
+  const Matrix nitsche = nitsche_loads(s.observations);
+  for (int i = 0; i < n_positions; ++i) {
+    double work = 0;
+    for (int c = i * n_columns; c < (i + 1) * n_columns; ++c)
+      work += column_dot(s.contact_loads, s.observations, c) - column_dot(nitsche, s.observations, c);
+    for (int c = i * n_sectors; c < (i + 1) * n_sectors; ++c)
+      work -= column_dot(s.ghost_loads, s.displacement, c);
+    s.strain_energy.push_back(0.5 * work);
+    if (!(work > 0))
+      return Failure{FailureReason::negative_energy,
+                     fmt::format("the strain energy of position {} is {:.4g} J/m", i, 0.5 * work)};
+  }
+  phases.push_back({"recovery", watch.lap()});
+  s.phases = std::move(phases);
+  return s;
+}
+
+template <int dim>
+Expected<Evaluation<dim>> RollingProblem<dim>::evaluate(const LevelSet<dim>& psi) const {
+  auto solution = solve(psi);
+  if (!solution) return solution.failure();
+  return differentiate(*solution);
+}
+
+template <int dim>
+Expected<Evaluation<dim>> RollingProblem<dim>::differentiate(const RollingSolution<dim>& s) const {
+  const PolarGrid<dim>& grid = model_.grid;
+  const int n_positions = model_.n_positions, n_columns = grid.ring_columns();
+  Evaluation<dim> evaluation{};
+  evaluation.phases = s.phases;
+  Stopwatch watch;
+  double energy = 0;
+  for (double e : s.strain_energy) energy += e;
+  evaluation.criteria.push_back({"strain_energy", energy});
+  evaluation.objective = model_.strain_energy_weight * energy;
+  for (const auto& state : s.states) evaluation.newton_iterations.push_back(state.newton_iterations);
+
+  // Adjoint (79) of J_e (59): K p + S^T m = -A(v), A the bulk stiffness. With A = K - ghost - nitsche and
+  // p = q - v: K q = ghost(v) + nitsche(v) - S^T m.
+  Matrix core_loads = s.ghost_loads;
+  Matrix observation_loads = nitsche_loads(s.observations);
+  Matrix boundary_loads = s.ring.condense(core_loads);
+  add_outer_rows(s.ring, base_loads(tread_, observation_loads), boundary_loads);
+  const Matrix without_contact = s.ring.solve_boundary(boundary_loads);
+  const Matrix observed =
+      observe(tread_, outer_rows(s.ring, without_contact, tread_.base_per_column()), observation_loads);
+  Matrix multiplier_loads(tread_.n_observations(), n_positions * n_columns);
+  for (int i = 0; i < n_positions; ++i) {
+    const ContactZone& zone = s.contacts[i].zone();
+    Matrix in_zone(tread_.n_observations(), zone.n_columns);
+    for (int c = 0; c < zone.n_columns; ++c) {
+      const int column = i * n_columns + wrap(zone.first_column + c, n_columns);
+      for (int r = 0; r < in_zone.rows(); ++r)
+        in_zone(r, c) = observed(r, column) - s.observations(r, column);
+    }
+    const auto loads = s.contacts[i].adjoint_loads(s.states[i], in_zone);
+    if (!loads) return loads.failure();
+    for (int c = 0; c < zone.n_columns; ++c)
+      std::copy_n(loads->column(c), loads->rows(),
+                  multiplier_loads.column(i * n_columns + wrap(zone.first_column + c, n_columns)));
+  }
+  add_outer_rows(s.ring, base_loads(tread_, multiplier_loads), boundary_loads);
+  Matrix adjoint = std::move(core_loads);
+  s.ring.recover(s.ring.solve_boundary(boundary_loads), adjoint);
+  for (size_t k = 0; k < adjoint.entries().size(); ++k) adjoint.entries()[k] -= s.displacement.entries()[k];
+  evaluation.phases.push_back({"adjoint", watch.lap()});
+
+  // Shape gradient (42): 1/2 sigma(u):eps(u) + sigma(u):eps(p) on the moving boundary.
+  const Material& material = model_.material;
+  for (const CutCell<dim>& cut : s.domain.cut) {
+    const auto position = grid.cell_position(cut.cell);
+    const auto& element = elements_->element(position[0]);
+    const auto nodes = s.ring.sector().space.cell_nodes(cut.cell);
+    Matrix u(element.n_dofs(), s.displacement.columns()), p = u;
+    gather(s.ring, nodes, s.displacement, u);
+    gather(s.ring, nodes, adjoint, p);
+    for (const auto& q : cut.boundary) {
+      const auto at = element.at(q.xi);
+      Matrix strain(n_strains<dim>, element.n_dofs());
+      for (int j = 0; j < element.n_dofs(); ++j)
+        for (int k = 0; k < n_strains<dim>; ++k) strain(k, j) = at.strain[k][j];
+      const Matrix strain_u = product(strain, Op::none, u, Op::none),
+                   strain_p = product(strain, Op::none, p, Op::none);
+      double density = 0;
+      for (int j = 0; j < u.columns(); ++j) {
+        Voigt<dim> e;
+        std::copy_n(strain_u.column(j), n_strains<dim>, e.begin());
+        const Voigt<dim> sigma = stress<dim>(material, e);
+        for (int k = 0; k < n_strains<dim>; ++k) density += sigma[k] * (0.5 * e[k] + strain_p(k, j));
+      }
+      const auto surface = map_surface<dim>(at.jacobian, q.normal);
+      evaluation.gradient.push_back({cut.cell, q.xi,
+                                     rotated<dim>(surface.normal, position[1] * grid.cell_size()[1]),
+                                     q.weight * surface.scale, model_.strain_energy_weight * density});
+    }
+  }
+  if (!std::all_of(evaluation.gradient.begin(), evaluation.gradient.end(),
+                   [](const auto& sample) { return std::isfinite(sample.value); }))
+    return Failure{FailureReason::not_finite, "the shape gradient is not finite"};
+  evaluation.phases.push_back({"gradient", watch.lap()});
+  return evaluation;
+}
+
+template class RollingProblem<2>;
+template class RollingProblem<3>;
+
+}  // namespace wheelwright

@@ -1,0 +1,85 @@
+#pragma once
+
+#include "contact/reduced_contact.h"
+#include "contact/tread_ring.h"
+#include "sensitivity/evaluation.h"
+
+namespace wheelwright {
+
+/// A rolling structure and its load, all but its shape.
+template <int dim>
+struct RollingModel {
+  PolarGrid<dim> grid;
+  int degree = 2;  ///< of the displacement, 1 or 2
+  Material material;
+  GhostPenalty ghost;
+  ContactForm contact;
+  int contact_points = 5;  ///< Gauss points a direction on each contact face
+  double load;             ///< P [N/m when dim = 2, N when dim = 3]
+  int n_positions = 8;     ///< N_d, load positions of one sector; divides the sector's angular cells
+  double strain_energy_weight = 1;
+};
+
+/// The direct problems of all load positions for one shape. Fields of the core are matrices with one column
+/// for every (position, sector), column = position * n_sectors + sector, rows in elimination order
+/// (CyclicStiffness::row); those of the tread have one column for every (position, ring column). Position i
+/// is solved with the ground turned to it, in the body frame; the field in sector s is also the field in
+/// sector 0 for the load position that lies s sectors back. The rim's displacement is left out: u = v +
+/// alpha_D n_y.
+template <int dim>
+struct RollingSolution {
+  CutDomain<dim> domain;
+  CyclicStiffness<dim> ring;
+  std::vector<GroundPosition> grounds;
+  std::vector<ReducedContact<dim>> contacts;
+  std::vector<ContactState<dim>> states;
+  Matrix displacement;                ///< v in the core
+  Matrix outer_line;                  ///< v on the core's outer line
+  Matrix contact_loads;               ///< of the ground, on the tread's observations
+  Matrix observations;                ///< of v on the tread
+  Matrix ghost_loads;                 ///< ghost penalty applied to v, in the core
+  std::vector<double> strain_energy;  ///< J_e (3) of every position
+  std::vector<PhaseTime> phases;
+};
+
+/// The rolling problem of one run: what no shape changes is built once; every shape is then one call.
+template <int dim>
+class RollingProblem {
+ public:
+  /// Fails with not_positive_definite when theta and gamma_0 do not go together.
+  static Expected<RollingProblem> create(const RollingModel<dim>& model);
+
+  const RollingModel<dim>& model() const { return model_; }
+  const ElementTable<dim>& elements() const { return *elements_; }
+  const Tread<dim>& tread() const { return tread_; }
+  int core_rows() const { return model_.grid.cells[0] - tread_rows; }
+
+  /// Rows of cells that must stay full at the rim and at the tread: the tread and one row below it.
+  static constexpr int tread_rows = 1, protected_rim_rows = 1, protected_tread_rows = tread_rows + 1;
+
+  /// Direct problems of all positions.
+  Expected<RollingSolution<dim>> solve(const LevelSet<dim>& psi) const;
+
+  /// Objective and shape gradient.
+  Expected<Evaluation<dim>> evaluate(const LevelSet<dim>& psi) const;
+
+  /// Objective and shape gradient from solutions.
+  Expected<Evaluation<dim>> differentiate(const RollingSolution<dim>& solution) const;
+
+ private:
+  RollingProblem(const RollingModel<dim>& model, std::unique_ptr<ElementTable<dim>> elements,
+                 Tread<dim> tread);
+  Expected<std::pair<ReducedContact<dim>, ContactState<dim>>> roll_to(
+      const CyclicStiffness<dim>& ring, GroundPosition ground,
+      const std::optional<ContactState<dim>>& neighbour) const;
+  Matrix nitsche_loads(const Matrix& observations) const;
+
+  RollingModel<dim> model_;
+  std::unique_ptr<ElementTable<dim>> elements_;
+  SectorHarmonics harmonics_;
+  Tread<dim> tread_;
+  std::vector<std::array<int, dim>> elimination_order_;
+  std::vector<ComplexMatrix> outer_stiffness_;
+};
+
+}  // namespace wheelwright

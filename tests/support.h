@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "sensitivity/rolling_problem.h"
+
+/// Shapes and models that the tests share.
+namespace wheelwright::testing {
+
+/// The wheel of the paper's section 5.1, without its shape.
+inline RollingModel<2> paper_model(int radial_cells = 28, int angular_cells = 384) {
+  RollingModel<2> model;
+  model.grid = {0.20, 0.34, 0.12, 16, {radial_cells, angular_cells / 16}};
+  model.material = {200e6, 0.48};
+  model.load = 300 * 9.81 / 0.12;
+  return model;
+}
+
+/// A circular hole given by its centre, in (radius, azimuth), and its radius.
+struct Hole {
+  double centre_radius, azimuth, radius;
+};
+
+/// Signed distance of holes, repeated in every sector.
+inline LevelSet<2> holes(const PolarGrid<2>& grid, int degree, const std::vector<Hole>& all) {
+  LevelSet<2> psi{Lattice<2>(grid, degree), {}};
+  for (int i = 0; i < psi.lattice.n_nodes(); ++i) {
+    const Vec<2> x = cartesian<2>(psi.lattice.polar_point(i));
+    double value = -1;
+    for (const Hole& hole : all)
+      for (int image = -1; image <= 1; ++image) {
+        const Vec<2> c = cartesian<2>({hole.centre_radius, hole.azimuth + image * grid.sector_angle()});
+        value = std::max(value, hole.radius - std::hypot(x[0] - c[0], x[1] - c[1]));
+      }
+    psi.values.push_back(value);
+  }
+  return psi;
+}
+
+inline LevelSet<2> paper_holes(const PolarGrid<2>& grid) {
+  return holes(grid, 2, {{0.27, 0.5 * grid.sector_angle(), 0.04}});
+}
+
+}  // namespace wheelwright::testing
