@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "case/case.h"
+#include "geometry/shapes.h"
 
 namespace wheelwright {
 
@@ -45,8 +46,9 @@ int total_load_positions(const Case& c);
 double rim_band(const Case& c);
 double tread_band(const Case& c);
 
-/// All holes of the full wheel, rings and circles, as circles.
-std::vector<HoleCircle> all_holes(const Case& c);
+/// The holes of one sector, rings and circles; those of the others are their images. A hole may lie in any
+/// sector and cross the sector's faces.
+std::vector<Circle> sector_holes(const Case& c);
 
 /// Displacement unknowns of the full ring if every cell held material: an upper bound.
 long long dof_bound(const Case& c);
@@ -55,9 +57,9 @@ long long dof_bound(const Case& c);
 /// harmonics and the fields of the full ring.
 double estimated_memory(const Case& c);
 
-/// The least gamma_0 for which Nitsche's method is safe with this theta and nu: 0 for theta = -1, about 10 for
-/// 0 and 100 for 1 at nu = 0.48. In between 10 (1 + theta)^2 for the lack of symmetry plus 60 theta for the
-/// indefinite boundary term, times (lambda + 2 mu) / E.
+/// The least gamma_0 for which Nitsche's method is safe with this theta and nu: 0 for theta = -1, about 10
+/// for 0 and 100 for 1 at nu = 0.48. In between 10 (1 + theta)^2 for the lack of symmetry plus 60 theta for
+/// the indefinite boundary term, times (lambda + 2 mu) / E.
 double least_gamma_0(double theta, const Material& material);
 
 }  // namespace wheelwright

@@ -7,22 +7,22 @@ namespace wheelwright {
 /// Something wrong with a case file.
 struct Diagnostic {
   enum class Kind {
-    unreadable,    ///< the file cannot be opened or is too large
-    syntax,        ///< not TOML
+    unreadable,  ///< the file cannot be opened or is too large
+    syntax,      ///< not TOML
     unknown_key,
     missing_key,
     wrong_type,
     out_of_range,
-    conflict,      ///< values that do not go together
+    conflict,  ///< values that do not go together
   };
 
   Kind kind;
   std::string file;
-  int line, column;     ///< from 1; 0 when the problem has no place
-  std::string key;      ///< path, e.g. "wheel.sectors" or "holes.ring[2].count" (from 1); may be empty
-  std::string value;    ///< as in the file; may be empty
+  int line, column;   ///< from 1; 0 when the problem has no place
+  std::string key;    ///< path, e.g. "wheel.sectors" or "holes.ring[2].count" (from 1); may be empty
+  std::string value;  ///< as in the file; may be empty
   std::string problem;
-  std::string remedy;   ///< what to do; may be empty
+  std::string remedy;  ///< what to do; may be empty
 
   /// "file:line:column: key = value: problem; remedy", one line.
   std::string text() const;

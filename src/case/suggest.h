@@ -11,6 +11,7 @@ namespace wheelwright {
 int edit_distance(std::string_view a, std::string_view b);
 
 /// The candidate that the word is most likely a misspelling of, if any is near enough.
-std::optional<std::string> did_you_mean(std::string_view word, const std::vector<std::string_view>& candidates);
+std::optional<std::string> did_you_mean(std::string_view word,
+                                        const std::vector<std::string_view>& candidates);
 
 }  // namespace wheelwright

@@ -1,0 +1,23 @@
+#include "app/commands/commands.h"
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <string_view>
+
+#include "app/commands/run.h"
+#include "app/commands/verify.h"
+#include "app/exit_code.h"
+
+using namespace wheelwright;
+
+extern "C" int wheelwright_command(const char* name, const Case* c, const RunOptions* options) {
+  try {
+    if (std::string_view(name) == "run") return run_command(*c, *options);
+    if (std::string_view(name) == "verify") return verify_command(*c, *options);
+    fmt::print(stderr, "wheelwright: no command {}\n", name);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "wheelwright {}: bug: {}\n", name, error.what());
+  }
+  return exit_bug;
+}

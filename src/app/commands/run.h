@@ -1,0 +1,11 @@
+#pragma once
+
+#include "app/commands/run_options.h"
+#include "case/case.h"
+
+namespace wheelwright {
+
+/// Optimizes the case and writes its output folder; returns an ExitCode.
+int run_command(const Case& c, const RunOptions& options);
+
+}  // namespace wheelwright

@@ -1,0 +1,35 @@
+#include "app/load_command.h"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <cstdlib>
+
+#include "app/commands/commands.h"
+#include "app/exit_code.h"
+
+namespace wheelwright {
+
+namespace {
+
+/// The matrices are too small for threads of BLAS to pay; read when the library is loaded.
+void default_to_one_thread() {
+  constexpr int keep_existing = 0;
+  setenv("OPENBLAS_NUM_THREADS", "1", keep_existing);
+  setenv("OMP_NUM_THREADS", "1", keep_existing);
+}
+
+}  // namespace
+
+int load_and_run_command(const std::string& name, const Case& c, const RunOptions& options) {
+  default_to_one_thread();
+  void* library = dlopen("libwheelwright_commands.so", RTLD_NOW);
+  void* symbol = library ? dlsym(library, "wheelwright_command") : nullptr;
+  if (!symbol) {
+    fmt::print(stderr, "wheelwright: cannot load the solver: {}\n", dlerror());
+    return exit_input_output;
+  }
+  return reinterpret_cast<decltype(&wheelwright_command)>(symbol)(name.c_str(), &c, &options);
+}
+
+}  // namespace wheelwright

@@ -1,0 +1,164 @@
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <system_error>
+
+#include "app/check.h"
+#include "app/exit_code.h"
+#include "app/load_command.h"
+#include "app/terminal.h"
+#include "case/keys.h"
+#include "case/read.h"
+#include "case/version.h"
+#include "case/write.h"
+
+namespace wheelwright {
+
+namespace {
+
+struct CommandLine {
+  std::string case_file;
+  std::string template_file = "case.toml";
+  std::optional<std::string> output_folder;
+  std::optional<int> iterations;
+};
+
+std::string count_of_problems(std::size_t n) { return fmt::format("{} problem{}", n, n == 1 ? "" : "s"); }
+
+int report_problems(const std::string& file, const std::vector<Diagnostic>& problems) {
+  bool unreadable = false;
+  for (const Diagnostic& problem : problems) {
+    fmt::print(stderr, "{}\n", problem.text());
+    unreadable = unreadable || problem.kind == Diagnostic::Kind::unreadable;
+  }
+  fmt::print(stderr, "{}\n",
+             styled(stderr, Style::red, fmt::format("{}: {}", file, count_of_problems(problems.size()))));
+  return unreadable ? exit_input_output : exit_usage;
+}
+
+void print_warnings(std::FILE* stream, const Case& c) {
+  for (const std::string& text : warnings(c))
+    fmt::print(stream, "{} {}\n", styled(stream, Style::yellow, "warning:"), text);
+}
+
+int check(const CommandLine& line) {
+  const CaseResult result = read_case(line.case_file);
+  if (!result.value) return report_problems(line.case_file, result.problems);
+  fmt::print("{}\n", styled(stdout, Style::green, line.case_file + ": no problems"));
+  fmt::print("{}", derived_report(*result.value));
+  print_warnings(stdout, *result.value);
+  return exit_done;
+}
+
+int init(const CommandLine& line) {
+  const int file = open(line.template_file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (file < 0) {
+    const int reason = errno;
+    fmt::print(stderr, "{}: {}\n", line.template_file, std::strerror(reason));
+    return reason == EEXIST ? exit_refused : exit_input_output;
+  }
+  std::FILE* stream = fdopen(file, "w");
+  const std::string text = case_template();
+  const bool written = std::fwrite(text.data(), 1, text.size(), stream) == text.size();
+  if (std::fclose(stream) != 0 || !written) {
+    fmt::print(stderr, "{}: cannot be written\n", line.template_file);
+    return exit_input_output;
+  }
+  fmt::print("wrote {0}; next: wheelwright check {0}\n", line.template_file);
+  return exit_done;
+}
+
+int compute(const std::string& command, const CommandLine& line) {
+  CaseResult result = read_case(line.case_file);
+  if (!result.value) return report_problems(line.case_file, result.problems);
+  Case& c = *result.value;
+  if (line.output_folder) c.output.folder = *line.output_folder;
+  if (line.iterations) c.optimizer.iterations = *line.iterations;
+  print_warnings(stderr, c);
+  return load_and_run_command(command, c, {.case_file = line.case_file});
+}
+
+Range range_of_iterations() {
+  const auto* key = find_key(optimizer_section().keys, "iterations");
+  return std::get<IntegerField<Optimizer>>(key->field).range;
+}
+
+CLI::App* add_case_command(CLI::App& app, CommandLine& line, const std::string& name,
+                           const std::string& meaning) {
+  CLI::App* command = app.add_subcommand(name, meaning);
+  command->add_option("CASE", line.case_file, "case file")->required();
+  return command;
+}
+
+void declare_commands(CLI::App& app, CommandLine& line) {
+  app.require_subcommand(1);
+  app.set_version_flag("--version", fmt::format("wheelwright {}", version()));
+  CLI::App* run = add_case_command(app, line, "run", "Optimize a case and write its output folder");
+  const Range iterations = range_of_iterations();
+  run->add_option("--output", line.output_folder, "Folder to write instead of the case's output.folder")
+      ->type_name("DIR")
+      ->check([](const std::string& text) { return text.empty() ? "must not be empty" : ""; });
+  run->add_option("--iterations", line.iterations,
+                  "Number of shapes instead of the case's optimizer.iterations")
+      ->type_name("N")
+      ->check(CLI::Range(static_cast<int>(iterations.low), static_cast<int>(iterations.high)));
+  add_case_command(app, line, "verify", "Test the solver's shape gradient on a case");
+  add_case_command(app, line, "check", "Report every problem of a case and the numbers that follow from it");
+  app.add_subcommand("init", "Write a commented case file to start from")
+      ->add_option("FILE", line.template_file, "File to write; never overwritten")
+      ->capture_default_str();
+  app.add_subcommand("reference", "Print the reference page of all keys of a case file");
+}
+
+int dispatch(const std::string& command, const CommandLine& line) {
+  if (command == "check") return check(line);
+  if (command == "init") return init(line);
+  if (command == "reference") {
+    fmt::print("{}", case_reference_markdown());
+    return exit_done;
+  }
+  return compute(command, line);
+}
+
+int parse_and_dispatch(int argc, char** argv) {
+  CLI::App app("Optimizes the shape of elastic rolling structures");
+  CommandLine line;
+  declare_commands(app, line);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? exit_done : exit_usage;
+  }
+  return dispatch(app.get_subcommands().front()->get_name(), line);
+}
+
+/// Output that was lost, e.g. on a full disk, turns success into failure.
+int after_flushing(int code) {
+  const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout);
+  if (!lost) return code;
+  fmt::print(stderr, "wheelwright: standard output cannot be written\n");
+  return code == exit_done ? exit_input_output : code;
+}
+
+}  // namespace
+
+}  // namespace wheelwright
+
+int main(int argc, char** argv) {
+  try {
+    return wheelwright::after_flushing(wheelwright::parse_and_dispatch(argc, argv));
+  } catch (const std::system_error& error) {
+    std::fprintf(stderr, "wheelwright: %s\n", error.what());
+    return wheelwright::exit_input_output;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "wheelwright: bug: {}\n", error.what());
+    return wheelwright::exit_bug;
+  }
+}

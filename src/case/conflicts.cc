@@ -1,0 +1,161 @@
+#include "case/conflicts.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include "case/derived.h"
+
+namespace wheelwright {
+
+namespace {
+
+using Conflicts = std::vector<Conflict>;
+
+const std::vector<std::string> ring_shape_keys{"wheel.inner_radius", "wheel.outer_radius",
+                                               "optimizer.rim_band", "optimizer.tread_band",
+                                               "grid.radial_cells"};
+
+std::vector<std::string> with_ring_shape(std::vector<std::string> keys) {
+  keys.insert(keys.end(), ring_shape_keys.begin(), ring_shape_keys.end());
+  return keys;
+}
+
+/// A value rounded up to three digits, so that what a message advises is accepted.
+double rounded_up(double value) {
+  const double unit = std::pow(10, std::floor(std::log10(value)) - 2);
+  return std::ceil(value / unit) * unit;
+}
+
+void check_radii(const Case& c, Conflicts& found) {
+  const Wheel& w = c.wheel;
+  if (w.inner_radius >= w.outer_radius) {
+    found.push_back({{"wheel.outer_radius", "wheel.inner_radius"},
+                     fmt::format("must be larger than inner_radius = {} m", w.inner_radius),
+                     "give the rim's radius as inner_radius and the tread's as outer_radius"});
+  } else if (rim_band(c) + tread_band(c) >= w.outer_radius - w.inner_radius) {
+    found.push_back(
+        {with_ring_shape({"optimizer.rim_band", "optimizer.tread_band"}),
+         fmt::format("the bands at rim and tread, {:.6g} m and {:.6g} m, fill the whole ring of {:.6g} m",
+                     rim_band(c), tread_band(c), w.outer_radius - w.inner_radius),
+         "make them thinner, or the grid finer"});
+  }
+}
+
+void check_angular_cells(const Case& c, Conflicts& found) {
+  const int cells = c.grid.angular_cells;
+  const int positions = total_load_positions(c);
+  if (cells % positions == 0) return;
+  const int below = cells / positions * positions;
+  const int above = below + positions;
+  const std::string fitting = below > 0 ? fmt::format("{} or {}", below, above) : fmt::format("{}", above);
+  found.push_back({{"grid.angular_cells", "wheel.sectors", "load.positions"},
+                   fmt::format("must be a multiple of sectors * positions = {} * {} = {}", c.wheel.sectors,
+                               c.load.positions, positions),
+                   fmt::format("the nearest that fit: {}", fitting)});
+}
+
+std::string ring_key(std::size_t i, std::string_view name) {
+  return fmt::format("holes.ring[{}].{}", i + 1, name);
+}
+std::string circle_key(std::size_t i, std::string_view name) {
+  return fmt::format("holes.circle[{}].{}", i + 1, name);
+}
+
+std::vector<int> divisors(int n) {
+  std::vector<int> result;
+  for (int d = 1; d <= n; ++d)
+    if (n % d == 0) result.push_back(d);
+  return result;
+}
+
+void check_ring_counts(const Case& c, Conflicts& found) {
+  int common = 0;
+  for (const HoleRing& ring : c.holes.rings) common = std::gcd(common, ring.count);
+  for (std::size_t i = 0; i < c.holes.rings.size(); ++i) {
+    if (c.holes.rings[i].count % c.wheel.sectors == 0) continue;
+    found.push_back({{ring_key(i, "count"), "wheel.sectors"},
+                     fmt::format("must be a multiple of wheel.sectors = {}", c.wheel.sectors),
+                     fmt::format("sectors that fit all rings: {}", fmt::join(divisors(common), ", "))});
+  }
+}
+
+void check_hole_inside(const Case& c, double center_radius, double radius, std::vector<std::string> keys,
+                       Conflicts& found) {
+  const double low = c.wheel.inner_radius + rim_band(c), high = c.wheel.outer_radius - tread_band(c);
+  const double rounding = 1e-9 * c.wheel.outer_radius;
+  const double lowest = center_radius - radius, highest = center_radius + radius;
+  if (low >= high || (lowest >= low - rounding && highest <= high + rounding)) return;
+  found.push_back(
+      {with_ring_shape(std::move(keys)),
+       fmt::format("the hole reaches from radius {:.6g} m to {:.6g} m, beyond what the bands at rim and "
+                   "tread leave: {:.6g} m to {:.6g} m",
+                   lowest, highest, low, high),
+       fmt::format("the largest hole at this place has radius {:.6g} m",
+                   std::max(0.0, std::min(center_radius - low, high - center_radius)))});
+}
+
+/// Equal holes that touch all round the wheel cut the tread off from the rim.
+void check_holes_apart(int count, double center_radius, double radius, std::vector<std::string> keys,
+                       Conflicts& found) {
+  const double half_distance = center_radius * std::sin(std::numbers::pi / count);
+  if (count == 1 || radius < half_distance) return;
+  found.push_back({std::move(keys), "neighbouring holes touch and cut the tread off from the rim",
+                   fmt::format("take a radius below {:.6g} m", half_distance)});
+}
+
+void check_holes(const Case& c, Conflicts& found) {
+  for (std::size_t i = 0; i < c.holes.rings.size(); ++i) {
+    const HoleRing& ring = c.holes.rings[i];
+    const std::vector<std::string> keys{ring_key(i, "radius"), ring_key(i, "center_radius")};
+    check_hole_inside(c, ring.center_radius, ring.radius, keys, found);
+    check_holes_apart(ring.count, ring.center_radius, ring.radius, {keys[0], keys[1], ring_key(i, "count")},
+                      found);
+  }
+  for (std::size_t i = 0; i < c.holes.circles.size(); ++i) {
+    const HoleCircle& circle = c.holes.circles[i];
+    const double center_radius = std::hypot(circle.center[0], circle.center[1]);
+    const std::vector<std::string> keys{circle_key(i, "radius"), circle_key(i, "center")};
+    check_hole_inside(c, center_radius, circle.radius, keys, found);
+    check_holes_apart(c.wheel.sectors, center_radius, circle.radius, {keys[0], keys[1], "wheel.sectors"},
+                      found);
+  }
+}
+
+void check_nitsche(const Case& c, Conflicts& found) {
+  if (c.contact.method != ContactMethod::nitsche) return;
+  const double least = least_gamma_0(c.contact.theta, c.material);
+  if (c.contact.gamma_0 >= least) return;
+  found.push_back(
+      {{"contact.gamma_0", "contact.theta", "contact.method", "material.poissons_ratio"},
+       fmt::format("too small for theta = {} at poissons_ratio = {}: the stiffness is not safely positive "
+                   "definite",
+                   c.contact.theta, c.material.poissons_ratio),
+       fmt::format("take gamma_0 >= {:.6g}, or theta = -1", rounded_up(least))});
+}
+
+void check_objective(const Case& c, Conflicts& found) {
+  if (c.objective.strain_energy > 0) return;
+  found.push_back(
+      {{"objective.strain_energy"}, "all weights are 0: nothing to minimize", "give one a weight > 0"});
+}
+
+}  // namespace
+
+std::vector<Conflict> conflicts(const Case& c) {
+  Conflicts found;
+  check_radii(c, found);
+  check_angular_cells(c, found);
+  check_ring_counts(c, found);
+  check_holes(c, found);
+  check_nitsche(c, found);
+  check_objective(c, found);
+  return found;
+}
+
+}  // namespace wheelwright

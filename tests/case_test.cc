@@ -1,0 +1,478 @@
+#include "case/case.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <random>
+#include <set>
+#include <sstream>
+#include <tuple>
+
+#include "case/conflicts.h"
+#include "case/derived.h"
+#include "case/keys.h"
+#include "case/number_text.h"
+#include "case/read.h"
+#include "case/suggest.h"
+#include "case/toml_guard.h"
+#include "case/write.h"
+
+namespace wheelwright {
+namespace {
+
+using Kind = Diagnostic::Kind;
+
+const std::filesystem::path source(WHEELWRIGHT_SOURCE_DIR);
+
+std::string contents(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+std::vector<std::filesystem::path> toml_files(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  return files;
+}
+
+std::string texts(const std::vector<Diagnostic>& problems) {
+  std::string result;
+  for (const auto& problem : problems) result += problem.text() + "\n";
+  return result;
+}
+
+std::string kind_name(Kind kind) {
+  switch (kind) {
+    case Kind::unreadable:
+      return "unreadable";
+    case Kind::syntax:
+      return "syntax";
+    case Kind::unknown_key:
+      return "unknown_key";
+    case Kind::missing_key:
+      return "missing_key";
+    case Kind::wrong_type:
+      return "wrong_type";
+    case Kind::out_of_range:
+      return "out_of_range";
+    case Kind::conflict:
+      return "conflict";
+  }
+  return "";
+}
+
+using Place = std::tuple<int, std::string, std::string>;  // line, kind, key
+
+/// The problems that the comments "#! kind key kind key" of a bad case announce.
+std::multiset<Place> announced(const std::string& text) {
+  std::multiset<Place> result;
+  std::istringstream lines(text);
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    const auto mark = line.find("#! ");
+    if (mark == std::string::npos) continue;
+    std::istringstream words(line.substr(mark + 3));
+    std::string kind, key;
+    while (words >> kind) {
+      if (kind != "syntax") words >> key;
+      result.emplace(number, kind, key);
+    }
+  }
+  return result;
+}
+
+std::multiset<Place> places(const std::vector<Diagnostic>& problems) {
+  std::multiset<Place> result;
+  for (const auto& problem : problems) result.emplace(problem.line, kind_name(problem.kind), problem.key);
+  return result;
+}
+
+Case with_holes() {
+  Case c;
+  c.output.folder = "runs/test";
+  c.holes.rings = {ring_sections().example};
+  c.holes.circles = {circle_sections().example};
+  return c;
+}
+
+TEST(CaseFile, EveryProblemOfEveryBadCaseIsReportedOnItsLine) {
+  const auto files = toml_files(source / "tests" / "bad_cases");
+  ASSERT_FALSE(files.empty());
+  for (const auto& file : files) {
+    const CaseResult result = read_case(file);
+    EXPECT_FALSE(result.value) << file;
+    EXPECT_EQ(places(result.problems), announced(contents(file))) << texts(result.problems);
+  }
+}
+
+TEST(CaseFile, ProblemsComeInTheOrderOfTheFile) {
+  const auto problems = read_case(source / "tests" / "bad_cases" / "everything.toml").problems;
+  EXPECT_TRUE(std::is_sorted(problems.begin(), problems.end(),
+                             [](const auto& a, const auto& b) { return a.line < b.line; }));
+}
+
+TEST(CaseFile, EveryExampleIsAccepted) {
+  for (const auto& file : toml_files(source / "cases")) {
+    const CaseResult result = read_case(file);
+    EXPECT_TRUE(result.value) << texts(result.problems);
+  }
+}
+
+TEST(CaseFile, HolesOfThePapersWheel) {
+  const CaseResult result = read_case(source / "cases" / "holes16.toml");
+  ASSERT_TRUE(result.value) << texts(result.problems);
+  Case expected;
+  expected.title = result.value->title;
+  expected.output.folder = "runs/holes16";
+  expected.holes.rings = {{.count = 16, .center_radius = 0.27, .radius = 0.04, .phase = {}}};
+  EXPECT_EQ(*result.value, expected);
+  const auto holes = sector_holes(*result.value);
+  ASSERT_EQ(holes.size(), 1u);
+  EXPECT_DOUBLE_EQ(holes[0].centre_azimuth, sector_angle(*result.value) / 2);
+}
+
+TEST(CaseFile, AnEmptyFileIsTheDefaultCase) {
+  Case expected;
+  expected.output.folder = "runs/empty";
+  const CaseResult result = parse_case("", "some/empty.toml");
+  ASSERT_TRUE(result.value) << texts(result.problems);
+  EXPECT_EQ(*result.value, expected);
+}
+
+TEST(CaseFile, TheTemplateIsTheDefaultCaseWithOneRing) {
+  Case expected;
+  expected.output.folder = "runs/template";
+  expected.holes.rings = {ring_sections().example};
+  const CaseResult result = parse_case(case_template(), "template.toml");
+  ASSERT_TRUE(result.value) << texts(result.problems);
+  EXPECT_EQ(*result.value, expected);
+}
+
+/// Removes the comment sign of every key of the template that is commented out.
+std::string with_all_keys(std::string text) {
+  std::istringstream lines(text);
+  std::string line, result;
+  while (std::getline(lines, line)) {
+    const bool has_value = !line.ends_with("=");
+    if (line.size() > 1 && line[0] == '#' && line[1] != ' ' && has_value) line.erase(0, 1);
+    if (!line.starts_with("force")) result += line + "\n";
+  }
+  return result;
+}
+
+TEST(CaseFile, TheTemplatesCommentedHolesAreValid) {
+  const CaseResult result = parse_case(with_all_keys(case_template()), "template.toml");
+  ASSERT_TRUE(result.value) << texts(result.problems);
+  EXPECT_EQ(result.value->holes.circles, std::vector{circle_sections().example});
+}
+
+TEST(CaseFile, AResolvedCaseReadsBackEqual) {
+  Case c = with_holes();
+  c.title = "quotes \" and \\ and a bell \a, umlaut ü\n";
+  c.load.force = 1e4 / 3;
+  c.contact = {.method = ContactMethod::penalty, .theta = 1.0 / 3, .gamma_0 = 12.5, .quadrature_points = 20};
+  c.grid.level_set_degree = 1;
+  c.ghost_penalty = {.kind = GhostPenaltyKind::paper, .xi = 1e-3};
+  c.volume = {.control = VolumeControl::paper, .target = 0.7};
+  c.optimizer.velocity = VelocityKind::harmonic;
+  c.optimizer.rim_band = 0.001;
+  c.optimizer.tread_band = 0.002;
+  const CaseResult result = parse_case(to_toml(c), "resolved.toml");
+  ASSERT_TRUE(result.value) << texts(result.problems);
+  EXPECT_EQ(*result.value, c);
+}
+
+TEST(CaseFile, RandomNumbersInOtherUnitsSurviveReadingAndWriting) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> degrees(-360, 360), kilograms(1, 1e4);
+  for (int i = 0; i < 200; ++i) {
+    const std::string text = fmt::format(
+        "[load]\nmass = {}\n[[holes.ring]]\ncount = 16\ncenter_radius = 0.27\nradius = 0.04\nphase = {}\n",
+        kilograms(random), degrees(random));
+    const CaseResult first = parse_case(text, "random.toml");
+    ASSERT_TRUE(first.value) << texts(first.problems);
+    const CaseResult second = parse_case(to_toml(*first.value), "random.toml");
+    ASSERT_TRUE(second.value) << texts(second.problems);
+    EXPECT_EQ(*second.value, *first.value);
+  }
+}
+
+TEST(CaseFile, UnitsBecomeSi) {
+  const auto by_mass = parse_case("[load]\nmass = 100", "x.toml"),
+             by_force = parse_case("[load]\nforce = 981", "x.toml");
+  EXPECT_DOUBLE_EQ(by_mass.value->load.force, by_force.value->load.force);
+  const auto ring =
+      parse_case("[[holes.ring]]\ncount = 16\ncenter_radius = 0.27\nradius = 0.04\nphase = 90\n", "x.toml");
+  EXPECT_DOUBLE_EQ(*ring.value->holes.rings[0].phase, std::numbers::pi / 2);
+}
+
+TEST(CaseFile, TheReferencePageIsFresh) {
+  EXPECT_EQ(contents(source / "docs" / "case-reference.md"), case_reference_markdown())
+      << "write it again: wheelwright reference > docs/case-reference.md";
+}
+
+TEST(CaseFile, AMissingFileOrAFolderIsUnreadable) {
+  for (const auto& file : {source / "cases" / "no_such_file.toml", source / "cases"}) {
+    const auto problems = read_case(file).problems;
+    ASSERT_EQ(problems.size(), 1u);
+    EXPECT_EQ(problems[0].kind, Kind::unreadable);
+  }
+}
+
+// Every key in turn, with values that it must refuse.
+
+struct BadValue {
+  std::string value;
+  Kind kind;
+};
+
+std::vector<BadValue> beyond(const Range& range) {
+  const double step = 1 + std::abs(range.high) * 1e-3;
+  return {{fmt::format("{:.0f}", std::floor(range.low - step)), Kind::out_of_range},
+          {fmt::format("{:.0f}", std::ceil(range.high + step)), Kind::out_of_range}};
+}
+
+template <class Field>
+std::vector<BadValue> bad_values(const Field& field) {
+  if constexpr (requires { field.words; }) {
+    return {{"\"no such word\"", Kind::out_of_range}, {"1", Kind::wrong_type}, {"true", Kind::wrong_type}};
+  } else if constexpr (!requires { field.range; }) {
+    return {{"1", Kind::wrong_type}, {"[]", Kind::wrong_type}, {"{}", Kind::wrong_type}};
+  } else if constexpr (std::is_same_v<Field, PointField<HoleCircle>>) {
+    return {{"1.0", Kind::wrong_type},
+            {"[1, 2, 3]", Kind::wrong_type},
+            {"[0.27, \"0\"]", Kind::wrong_type},
+            {"[nan, 0]", Kind::out_of_range},
+            {"[0.27, inf]", Kind::out_of_range}};
+  } else {
+    auto values = beyond(field.range);
+    for (const char* wrong : {"\"1\"", "true", "[1]", "{}", "1979-05-27"})
+      values.push_back({wrong, Kind::wrong_type});
+    return values;
+  }
+}
+
+/// The case as a file in which the line of one key is replaced.
+struct Edited {
+  std::string text;
+  int line;
+};
+
+Edited replace_key(const std::string& header, std::string_view key, std::string_view replaced_by) {
+  std::istringstream lines(to_toml(with_holes()));
+  std::string line, text;
+  bool inside = header.empty();
+  int place = 0;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    if (line.starts_with("[")) inside = line == header;
+    const bool here =
+        inside && place == 0 &&
+        (line.starts_with(fmt::format("{} =", key)) || line.starts_with(fmt::format("# {}:", key)));
+    if (here) place = number;
+    text += (here ? std::string(replaced_by) : line) + "\n";
+  }
+  return {text, place};
+}
+
+template <class SomeSection>
+std::string header_of(const SomeSection& section) {
+  if constexpr (requires { section.path(); })
+    return fmt::format("[[{}]]", section.path());
+  else
+    return section.name.empty() ? "" : fmt::format("[{}]", section.name);
+}
+
+void expect_only(const Edited& edited, Kind kind) {
+  const CaseResult result = parse_case(edited.text, "edited.toml");
+  ASSERT_GT(edited.line, 0) << edited.text;
+  ASSERT_EQ(result.problems.size(), 1u) << edited.text << texts(result.problems);
+  EXPECT_EQ(result.problems[0].line, edited.line) << texts(result.problems);
+  EXPECT_EQ(kind_name(result.problems[0].kind), kind_name(kind)) << texts(result.problems);
+}
+
+/// The key whose line in the resolved case is replaced: `force` stands for `mass` too.
+template <class SomeKey>
+std::string_view written_key(const std::vector<SomeKey>& keys, const SomeKey& key) {
+  const SomeKey* other = alternative(keys, key);
+  return other ? other->name : key.name;
+}
+
+TEST(CaseKeys, EveryKeyRefusesValuesOutOfRangeAndOfTheWrongType) {
+  int tried = 0;
+  for_each_section([&](const auto& section) {
+    for (const auto& key : section.keys) {
+      const auto values = std::visit([](const auto& field) { return bad_values(field); }, key.field);
+      for (const BadValue& bad : values) {
+        const std::string line = fmt::format("{} = {}", key.name, bad.value);
+        expect_only(replace_key(header_of(section), written_key(section.keys, key), line), bad.kind);
+        ++tried;
+      }
+    }
+  });
+  EXPECT_GT(tried, 200);
+}
+
+TEST(CaseKeys, NoNumberMayBeNanOrInfinite) {
+  for_each_section([&](const auto& section) {
+    for (const auto& key : section.keys) {
+      const bool is_real = std::visit(
+          [](const auto& field) {
+            return requires { field.factor; };
+          },
+          key.field);
+      if (!is_real) continue;
+      for (const char* bad : {"nan", "-nan", "inf", "-inf"})
+        expect_only(replace_key(header_of(section), written_key(section.keys, key),
+                                fmt::format("{} = {}", key.name, bad)),
+                    Kind::out_of_range);
+    }
+  });
+}
+
+TEST(CaseKeys, EveryMisspeltKeyIsUnknownAndItsRightNameIsSuggested) {
+  for_each_section([&](const auto& section) {
+    for (const auto& key : section.keys) {
+      if (key.presence == Presence::required || key.name.size() < 4) continue;
+      const std::string misspelt = fmt::format("{}{}", key.name, key.name.back());
+      const Edited edited =
+          replace_key(header_of(section), written_key(section.keys, key), misspelt + " = 1");
+      expect_only(edited, Kind::unknown_key);
+      const auto problems = parse_case(edited.text, "edited.toml").problems;
+      EXPECT_NE(problems.at(0).remedy.find(key.name), std::string::npos) << texts(problems);
+    }
+  });
+}
+
+TEST(CaseKeys, EveryDefaultIsInRange) {
+  const CaseResult result = parse_case(to_toml(with_holes()), "x.toml");
+  EXPECT_TRUE(result.value) << texts(result.problems);
+}
+
+TEST(Suggestion, EditDistanceIsAMetricOnExamples) {
+  EXPECT_EQ(edit_distance("sectors", "sectors"), 0);
+  EXPECT_EQ(edit_distance("", "abc"), 3);
+  EXPECT_EQ(edit_distance("kitten", "sitting"), 3);
+  EXPECT_EQ(edit_distance("sitting", "kitten"), 3);
+  EXPECT_EQ(edit_distance("thete", "theta"), 1);
+  EXPECT_EQ(edit_distance("tehta", "theta"), 1);
+  EXPECT_FALSE(did_you_mean("volume", {"theta", "width"}));
+}
+
+TEST(TomlGuard, DepthCountsOutsideStringsAndCommentsOnly) {
+  const std::string dots(50000, '.');
+  EXPECT_FALSE(exceeded_parser_limit("a = \"" + dots + "\" # " + dots));
+  EXPECT_FALSE(exceeded_parser_limit("a = '''" + dots + "\n" + dots + "'''\nb = 1"));
+  EXPECT_FALSE(exceeded_parser_limit("a = \"\\\"" + dots + "\""));
+  std::string numbers = "a = [";
+  for (int i = 0; i < 1000; ++i) numbers += "0.5, ";
+  EXPECT_FALSE(exceeded_parser_limit(numbers + "]"));
+  const auto deep = exceeded_parser_limit("b = 1\n\"=\"" + dots + "a = 1");
+  ASSERT_TRUE(deep);
+  EXPECT_EQ(deep->line, 2);
+  EXPECT_TRUE(exceeded_parser_limit("x = {a" + dots + " = 1}"));
+  EXPECT_TRUE(exceeded_parser_limit(std::string(1 << 21, ' ')));
+}
+
+TEST(TomlGuard, HostileTextsGiveProblemsNotCrashes) {
+  std::string keys, tables = "a = ";
+  for (int i = 0; i < 50000; ++i) keys += "a.";
+  for (int i = 0; i < 50000; ++i) tables += "{a=";
+  for (const std::string& text : {keys + "a = 1", "[" + keys + "a]", "a = " + std::string(50000, '['), tables,
+                                  std::string("\xff\xfe\x00", 3), std::string("\"unterminated"),
+                                  std::string("a = '''"), std::string(1 << 21, 'a')})
+    EXPECT_FALSE(parse_case(text, "hostile.toml").problems.empty());
+}
+
+TEST(NumberText, ReadsBackAsTheSameNumber) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> exponent(-20, 20);
+  for (int i = 0; i < 1000; ++i) {
+    const double exact = std::pow(10, exponent(random)), rounded = std::pow(10, std::round(exponent(random)));
+    EXPECT_EQ(std::stod(number_text(exact)), exact);
+    EXPECT_EQ(std::stod(number_text(-rounded)), -rounded);
+  }
+  EXPECT_EQ(number_text(200e6), "200e6");
+}
+
+TEST(Derived, ThePapersWheel) {
+  const Case c;
+  EXPECT_NEAR(load_per_metre(c), 24525, 1e-9);
+  EXPECT_NEAR(lame_parameters(c.material).mu, 67.567568e6, 1);
+  EXPECT_NEAR(lame_parameters(c.material).lambda, 1621.62162e6, 10);
+  EXPECT_NEAR(plane_strain_modulus(c.material), 259.875260e6, 1);
+  EXPECT_NEAR(hertz_half_width(c), 6.39170e-3, 1e-8);
+  EXPECT_NEAR(hertz_peak_pressure(c), 2.442714e6, 1);
+  EXPECT_NEAR(cells_per_contact_patch(c), 2.3, 0.01);
+  EXPECT_EQ(dof_bound(c), 2 * 57 * 768);
+  EXPECT_EQ(total_load_positions(c), 128);
+  EXPECT_DOUBLE_EQ(rim_band(c), 0.005);
+}
+
+TEST(Derived, TheHertzianPressureCarriesTheLoad) {
+  Case c;
+  c.wheel.outer_radius = 0.5;
+  c.material = {.youngs_modulus = 3e6, .poissons_ratio = 0.2};
+  const double half_ellipse = std::numbers::pi / 2 * hertz_half_width(c) * hertz_peak_pressure(c);
+  EXPECT_NEAR(half_ellipse, load_per_metre(c), 1e-12 * load_per_metre(c));
+}
+
+TEST(Derived, LeastGammaAtThePapersThetas) {
+  const Material material{.youngs_modulus = 200e6, .poissons_ratio = 0.48};
+  EXPECT_EQ(least_gamma_0(-1, material), 0);
+  EXPECT_NEAR(least_gamma_0(0, material), 10, 0.05);
+  EXPECT_NEAR(least_gamma_0(1, material), 100, 0.5);
+  const Material stiffer{.youngs_modulus = 1, .poissons_ratio = 0.48};
+  EXPECT_DOUBLE_EQ(least_gamma_0(1, stiffer), least_gamma_0(1, material));
+}
+
+TEST(Derived, HolesOfOneSector) {
+  Case c;
+  c.wheel.sectors = 4;
+  c.holes.rings = {{.count = 16, .center_radius = 0.27, .radius = 0.04, .phase = 0.1}};
+  c.holes.circles = {{.center = {0.0, 0.25}, .radius = 0.01}};
+  const auto holes = sector_holes(c);
+  ASSERT_EQ(holes.size(), 5u);
+  for (int i = 0; i < 4; ++i) EXPECT_DOUBLE_EQ(holes[i].centre_azimuth, 0.1 + i * std::numbers::pi / 8);
+  EXPECT_DOUBLE_EQ(holes[4].centre_azimuth, std::numbers::pi / 2);
+  EXPECT_DOUBLE_EQ(holes[4].centre_radius, 0.25);
+}
+
+// What the advice of a conflict names must itself be free of conflict.
+
+TEST(Conflicts, HolesMayTouchTheBandsButNotEnterThem) {
+  Case c;
+  c.holes.rings = {{.count = 16, .center_radius = 0.25, .radius = 0.045, .phase = {}}};
+  EXPECT_TRUE(conflicts(c).empty());
+  c.holes.rings[0].radius = 0.0451;
+  EXPECT_EQ(conflicts(c).size(), 1u);
+}
+
+TEST(Conflicts, NitscheNeedsALargeGammaForThetaZeroAndOneOnly) {
+  for (const auto& [theta, enough, too_small] : {std::tuple{0.0, 10.0, 9.9}, std::tuple{1.0, 100.0, 99.0}}) {
+    Case c;
+    c.contact.theta = theta;
+    c.contact.gamma_0 = enough;
+    EXPECT_TRUE(conflicts(c).empty());
+    c.contact.gamma_0 = too_small;
+    EXPECT_EQ(conflicts(c).size(), 1u);
+    c.contact.method = ContactMethod::penalty;
+    EXPECT_TRUE(conflicts(c).empty());
+  }
+}
+
+TEST(Conflicts, AngularCellsMustHoldWholeTurns) {
+  for (int cells = 1; cells <= 1000; ++cells) {
+    Case c;
+    c.grid.angular_cells = cells;
+    EXPECT_EQ(conflicts(c).empty(), cells % 128 == 0);
+  }
+}
+
+}  // namespace
+}  // namespace wheelwright

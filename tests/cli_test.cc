@@ -1,0 +1,108 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "app/exit_code.h"
+
+namespace wheelwright {
+namespace {
+
+const std::filesystem::path source(WHEELWRIGHT_SOURCE_DIR);
+
+struct Outcome {
+  int code;
+  std::string output;  ///< standard output and error
+};
+
+/// Runs the program that the build put beside this test.
+Outcome wheelwright(const std::string& arguments) {
+  const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "wheelwright";
+  std::FILE* pipe = popen(fmt::format("'{}' {} 2>&1", program.string(), arguments).c_str(), "r");
+  std::string output;
+  char buffer[4096];
+  while (const std::size_t n = std::fread(buffer, 1, sizeof buffer, pipe)) output.append(buffer, n);
+  const int status = pclose(pipe);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, output};
+}
+
+std::string path_of_case(const std::string& name) { return fmt::format("'{}'", (source / name).string()); }
+
+class CommandLine : public testing::Test {
+ protected:
+  CommandLine() {
+    std::string name = (std::filesystem::temp_directory_path() / "wheelwright-XXXXXX").string();
+    folder_ = mkdtemp(name.data());
+  }
+  ~CommandLine() override { std::filesystem::remove_all(folder_); }
+  std::string in_folder(const std::string& name) const {
+    return fmt::format("'{}'", (folder_ / name).string());
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(CommandLine, HelpAndVersionSucceed) {
+  EXPECT_EQ(wheelwright("--help").code, exit_done);
+  EXPECT_EQ(wheelwright("run --help").code, exit_done);
+  EXPECT_EQ(wheelwright("--version").code, exit_done);
+}
+
+TEST_F(CommandLine, WrongUsageIsTwo) {
+  for (const char* arguments : {"", "fly", "check", "check --fast x", "run x --iterations -1",
+                                "run x --iterations two", "run x --output ''", "verify"})
+    EXPECT_EQ(wheelwright(arguments).code, exit_usage) << arguments;
+}
+
+TEST_F(CommandLine, CheckAcceptsAGoodCaseAndRefusesABadOne) {
+  EXPECT_EQ(wheelwright("check " + path_of_case("cases/holes16.toml")).code, exit_done);
+  const std::string bad = path_of_case("tests/bad_cases/everything.toml");
+  for (const char* command : {"check ", "run ", "verify "}) {
+    const Outcome outcome = wheelwright(command + bad);
+    EXPECT_EQ(outcome.code, exit_usage);
+    EXPECT_NE(outcome.output.find("everything.toml:2:1: titel"), std::string::npos) << outcome.output;
+  }
+}
+
+TEST_F(CommandLine, FilesThatCannotBeReadOrWrittenAreFive) {
+  EXPECT_EQ(wheelwright("check " + in_folder("none.toml")).code, exit_input_output);
+  EXPECT_EQ(wheelwright("check " + in_folder("")).code, exit_input_output);
+  EXPECT_EQ(wheelwright("init " + in_folder("no/folder.toml")).code, exit_input_output);
+  EXPECT_EQ(wheelwright("reference > /dev/full").code, exit_input_output);
+  EXPECT_EQ(wheelwright("check " + path_of_case("cases/holes16.toml") + " > /dev/full").code,
+            exit_input_output);
+}
+
+TEST_F(CommandLine, InitWritesACaseThatChecksAndNeverOverwrites) {
+  const std::string file = in_folder("new.toml");
+  EXPECT_EQ(wheelwright("init " + file).code, exit_done);
+  EXPECT_EQ(wheelwright("check " + file).code, exit_done);
+  std::ofstream(folder_ / "new.toml") << "mine";
+  EXPECT_EQ(wheelwright("init " + file).code, exit_refused);
+  std::ifstream in(folder_ / "new.toml");
+  std::string text;
+  std::getline(in, text);
+  EXPECT_EQ(text, "mine");
+}
+
+TEST_F(CommandLine, OutputThatIsNotATerminalHasNoEscapeCodes) {
+  EXPECT_EQ(wheelwright("check " + path_of_case("cases/holes16.toml")).output.find('\x1b'),
+            std::string::npos);
+}
+
+TEST_F(CommandLine, TheProgramItselfDoesNotLoadTheSolversLibraries) {
+  setenv("LD_TRACE_LOADED_OBJECTS", "1", 1);
+  const std::string libraries = wheelwright("").output;
+  unsetenv("LD_TRACE_LOADED_OBJECTS");
+  for (const char* heavy : {"deal", "cholmod", "blas", "mpi"})
+    EXPECT_EQ(libraries.find(heavy), std::string::npos) << libraries;
+}
+
+}  // namespace
+}  // namespace wheelwright
