@@ -7,7 +7,7 @@ ProtectedBands<dim>::ProtectedBands(const Lattice<dim>& lattice, double rim_band
     : nodes_(lattice.n_nodes()), upper_bound_(lattice.n_nodes()) {
   const auto& grid = lattice.grid();
   const double rounding = 1e-9 * grid.resolution();
-  const double margin = 1e-3 * grid.resolution();
+  const double margin = 0.1 * grid.resolution();
   for (int node = 0; node < lattice.n_nodes(); ++node) {
     const double radius = lattice.polar_point(node)[0];
     const double distance =

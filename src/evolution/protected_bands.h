@@ -17,7 +17,8 @@ class ProtectedBands {
   const std::vector<bool>& nodes() const { return nodes_; }
 
   /// The shape with every hole cut off at the edges of the bands: the smaller of psi and the distance to the
-  /// nearest band, less a thousandth of the resolution, so that the nodes on an edge are material too.
+  /// nearest band, less a tenth of the resolution, so that quadratic cells between an edge node and the next
+  /// do not overshoot into the band.
   LevelSet<dim> keep(LevelSet<dim> psi) const;
 
  private:

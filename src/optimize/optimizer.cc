@@ -11,6 +11,7 @@ namespace wheelwright {
 namespace {
 
 constexpr double step_growth = 1.5;
+constexpr double step_reduction = 0.5;
 constexpr std::size_t convergence_window = 10;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -125,7 +126,7 @@ template <int dim>
 Trial<dim> ShapeOptimizer<dim>::attempt(const OptimizationState<dim>& state, std::span<const double> velocity,
                                         int halvings) const {
   const auto start = std::chrono::steady_clock::now();
-  const double step = std::ldexp(state.step, -halvings);
+  const double step = state.step * std::pow(step_reduction, halvings);
   auto shape = evolve(state, velocity, step, halvings);
   Trial<dim> trial{state.iteration + 1,
                    halvings,
@@ -180,6 +181,15 @@ bool ShapeOptimizer<dim>::is_due(int every, int since, int halvings) const {
   return every > 0 && since + 1 >= every && halvings == 0;
 }
 
+/// A step that raised the objective, if within bounds, went past the minimum along its direction.
+template <int dim>
+double ShapeOptimizer<dim>::next_step(const OptimizationState<dim>& state, const Trial<dim>& trial) const {
+  const bool overshot = options_.measure_control == MeasureControl::exact &&
+                        trial.evaluation->objective > state.evaluation.objective;
+  const double step = trial.step * (overshot ? step_reduction : step_growth);
+  return std::clamp(step, std::ldexp(options_.step, -options_.max_halvings), options_.step);
+}
+
 template <int dim>
 OptimizationState<dim> ShapeOptimizer<dim>::successor(const OptimizationState<dim>& state,
                                                       const Trial<dim>& trial) const {
@@ -193,7 +203,7 @@ OptimizationState<dim> ShapeOptimizer<dim>::successor(const OptimizationState<di
           trial.measure,
           state.target_measure,
           trial.iteration,
-          std::min(options_.step, step_growth * trial.step),
+          next_step(state, trial),
           count(options_.redistance_every, state.since_redistance),
           count(options_.smooth_every, state.since_smoothing),
           std::move(history)};

@@ -101,9 +101,10 @@ constexpr const char* to_string(StopReason reason) {
   return "unknown";
 }
 
-/// Gradient descent on shapes: velocity, transport, redistancing and smoothing when due, measure, evaluation;
-/// the step is halved when a trial is rejected and grows back by half after an accepted one. Redistancing and
-/// smoothing wait for the next shape when a trial with them is rejected.
+/// Gradient descent on shapes: velocity, transport, redistancing and smoothing when due, measure, evaluation.
+/// The step is halved when a trial is rejected, and for the next shape when the objective rose within bounds;
+/// it grows back by half after a fall. Redistancing and smoothing wait for the next shape when a trial with
+/// them is rejected.
 template <int dim>
 class ShapeOptimizer {
  public:
@@ -134,6 +135,7 @@ class ShapeOptimizer {
                                  double step, int halvings) const;
   void evaluate(Trial<dim>& trial) const;
   bool is_due(int every, int since, int halvings) const;
+  double next_step(const OptimizationState<dim>& state, const Trial<dim>& trial) const;
   OptimizationState<dim> successor(const OptimizationState<dim>& state, const Trial<dim>& trial) const;
 
   Lattice<dim> lattice_;

@@ -1,0 +1,274 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "cut/measure.h"
+#include "geometry/cell_map.h"
+#include "geometry/shapes.h"
+#include "optimize/optimizer.h"
+
+using namespace wheelwright;
+
+namespace {
+
+const PolarGrid<2> grid{0.20, 0.34, 0.12, 16, {28, 24}};
+const Lattice<2> lattice(grid, 2);
+const double h = grid.resolution();
+
+/// J = int_material (2 - q) with q >= 0 of period one sector, q = 0 at its centre: at a given measure the
+/// best hole is bounded by a level line of q.
+struct Bowl {
+  double centre_radius = 0.27, centre_azimuth = std::numbers::pi / 16, length = 0.03, depth = 0.4;
+
+  double wave(double azimuth) const { return std::cos(grid.n_sectors * (azimuth - centre_azimuth)); }
+  double q(double radius, double azimuth) const {
+    const double offset = (radius - centre_radius) / length;
+    return offset * offset + depth * (1 - wave(azimuth));
+  }
+  /// int_{R_i}^r (2 - q) r dr: r times the radial field whose divergence is 2 - q.
+  double flux(double radius, double wave_value) const {
+    const auto antiderivative = [&](double r) {
+      const double c = centre_radius;
+      const double square =
+          (r * r * r * r / 4 - 2 * c * r * r * r / 3 + c * c * r * r / 2) / (length * length);
+      return (2 - depth * (1 - wave_value)) * r * r / 2 - square;
+    };
+    return antiderivative(radius) - antiderivative(grid.inner_radius);
+  }
+};
+
+/// Radius and azimuth of a boundary sample.
+Vec<2> polar_of(const SurfaceSample<2>& sample) {
+  const auto cell = grid.cell_position(sample.cell);
+  const Vec<2> x =
+      CellMap<2>(grid, lattice.degree(), cell).position(ShapeFunctions<2>(lattice.degree(), sample.xi));
+  return {norm<2>(x), std::atan2(x[1], x[0]) + cell[1] * grid.cell_size()[1]};
+}
+
+Evaluation<2> evaluate_bowl(const LevelSet<2>& psi) {
+  const Bowl bowl;
+  Evaluation<2> result{
+      grid.sector_angle() * bowl.flux(grid.outer_radius, 0), {}, boundary_samples<2>(psi), {}, {}};
+  for (auto& sample : result.gradient) {
+    const Vec<2> x = polar_of(sample);
+    const double radial_normal = sample.normal[0] * std::cos(x[1]) + sample.normal[1] * std::sin(x[1]);
+    result.objective += sample.weight * radial_normal * bowl.flux(x[0], bowl.wave(x[1])) / x[0];
+    sample.value = 2 - bowl.q(x[0], x[1]);
+  }
+  return result;
+}
+
+Expected<Evaluation<2>> bowl_objective(const LevelSet<2>& psi) { return evaluate_bowl(psi); }
+
+const EvolutionOptions evolution{{ExtensionKind::h1, 2}, 0.04, 0.005, 0.005};
+
+LevelSet<2> displaced_hole() {
+  return make_level_set<2>(lattice, std::vector<Circle>{{0.262, std::numbers::pi / 16 + 0.04, 0.02}});
+}
+
+/// Smallest and largest q on the boundary.
+std::pair<double, double> range_of_q(const LevelSet<2>& psi) {
+  std::vector<double> q;
+  for (const auto& sample : boundary_samples<2>(psi)) {
+    const Vec<2> x = polar_of(sample);
+    q.push_back(Bowl().q(x[0], x[1]));
+  }
+  const auto [low, high] = std::minmax_element(q.begin(), q.end());
+  return {*low, *high};
+}
+
+const auto never = [] { return false; };
+
+struct Record {
+  std::vector<Trial<2>> trials;
+  ShapeOptimizer<2>::Observer observer() {
+    return [this](const Trial<2>& trial, const OptimizationState<2>&) { trials.push_back(trial); };
+  }
+};
+
+TEST(Bowl, HasTheShapeDerivativeThatItReturns) {
+  const auto psi = displaced_hole();
+  const auto moved = [&](double distance) {
+    auto shifted = psi;
+    for (double& value : shifted.values) value -= distance;
+    return evaluate_bowl(shifted).objective;
+  };
+  double derivative = 0;
+  for (const auto& sample : evaluate_bowl(psi).gradient) derivative += sample.weight * sample.value;
+  const double step = 1e-5;
+  EXPECT_NEAR((moved(step) - moved(-step)) / (2 * step), derivative, 1e-4 * derivative);
+}
+
+TEST(ShapeOptimizer, ConvergesToTheLevelLineAtConstantMeasure) {
+  OptimizerOptions options;
+  options.iterations = 200;
+  options.smooth_every = 20;
+  const ShapeOptimizer<2> optimizer(lattice, evolution, options, bowl_objective);
+  Record record;
+  const auto outcome = optimize<2>(optimizer, displaced_hole(), record.observer(), never);
+  EXPECT_TRUE(outcome.reason == StopReason::converged || outcome.reason == StopReason::no_descent)
+      << to_string(outcome.reason);
+  const auto [low, high] = range_of_q(outcome.state->shape);
+  EXPECT_LT(high - low, 0.05 * high);
+  double last = record.trials.front().evaluation->objective;
+  for (const auto& trial : record.trials) {
+    if (trial.verdict != Verdict::accepted) continue;
+    EXPECT_LE(trial.evaluation->objective, last + options.accepted_increase * std::abs(last));
+    EXPECT_NEAR(trial.measure, outcome.state->target_measure, 1e-6 * trial.measure);
+    last = trial.evaluation->objective;
+  }
+  RecordProperty("stop", to_string(outcome.reason));
+  RecordProperty("q", fmt::format("{} {}", low, high));
+  RecordProperty("trials", static_cast<int>(record.trials.size()));
+  RecordProperty("iterations", outcome.state->iteration);
+}
+
+TEST(ShapeOptimizer, ReachesAGivenMeasure) {
+  OptimizerOptions options;
+  options.iterations = 3;
+  options.target_measure = 1.01 * material_measure(displaced_hole());
+  const ShapeOptimizer<2> optimizer(lattice, evolution, options, bowl_objective);
+  Record record;
+  const auto outcome = optimize<2>(optimizer, displaced_hole(), record.observer(), never);
+  EXPECT_EQ(outcome.reason, StopReason::iterations);
+  for (const auto& trial : record.trials)
+    EXPECT_NEAR(trial.measure, *options.target_measure, 1e-6 * trial.measure);
+}
+
+TEST(ShapeOptimizer, FollowsThePapersRule) {
+  OptimizerOptions options;
+  options.iterations = 30;
+  options.tolerance = 0;
+  options.measure_control = MeasureControl::proportional;
+  auto harmonic = evolution;
+  harmonic.velocity.kind = ExtensionKind::harmonic;
+  const ShapeOptimizer<2> optimizer(lattice, harmonic, options, bowl_objective);
+  Record record;
+  const auto outcome = optimize<2>(optimizer, displaced_hole(), record.observer(), never);
+  EXPECT_EQ(outcome.reason, StopReason::iterations);
+  EXPECT_EQ(record.trials.size(), 31u);
+  for (std::size_t k = 1; k < record.trials.size(); ++k) {
+    EXPECT_EQ(record.trials[k].verdict, Verdict::accepted);
+    EXPECT_EQ(record.trials[k].step, options.step);
+  }
+  // The density is positive on the whole boundary: the multiplier leaves an offset.
+  EXPECT_LT(outcome.state->measure, outcome.state->target_measure);
+  RecordProperty("measure_ratio",
+                 testing::PrintToString(outcome.state->measure / outcome.state->target_measure));
+}
+
+TEST(ShapeOptimizer, HalvesTheStepWhereTheEvaluationFails) {
+  std::vector<double> last = displaced_hole().values;
+  const auto fragile = [&last](const LevelSet<2>& psi) -> Expected<Evaluation<2>> {
+    double change = 0;
+    for (std::size_t k = 0; k < last.size(); ++k)
+      change = std::max(change, std::abs(psi.values[k] - last[k]));
+    if (change > 0.2 * h) return Failure{FailureReason::newton_stalled, "the shape moved too far"};
+    last = psi.values;
+    return evaluate_bowl(psi);
+  };
+  OptimizerOptions options;
+  options.iterations = 8;
+  options.redistance_every = 0;
+  const ShapeOptimizer<2> optimizer(lattice, evolution, options, fragile);
+  Record record;
+  const auto outcome = optimize<2>(optimizer, displaced_hole(), record.observer(), never);
+  EXPECT_EQ(outcome.reason, StopReason::iterations);
+  int failures = 0;
+  for (const auto& trial : record.trials) {
+    if (trial.verdict == Verdict::accepted) continue;
+    ++failures;
+    EXPECT_EQ(trial.verdict, Verdict::failed);
+    EXPECT_EQ(trial.failure->reason, FailureReason::newton_stalled);
+    EXPECT_FALSE(trial.evaluation);
+  }
+  EXPECT_GE(failures, 1);
+  EXPECT_LT(outcome.state->evaluation.objective, outcome.state->history.front());
+}
+
+TEST(ShapeOptimizer, StopsWhereNoStepDescends) {
+  int calls = 0;
+  const auto only_once = [&calls](const LevelSet<2>& psi) -> Expected<Evaluation<2>> {
+    if (calls++ > 0) return Failure{FailureReason::no_contact, ""};
+    return evaluate_bowl(psi);
+  };
+  OptimizerOptions options;
+  options.max_halvings = 3;
+  const ShapeOptimizer<2> optimizer(lattice, evolution, options, only_once);
+  Record record;
+  const auto outcome = optimize<2>(optimizer, displaced_hole(), record.observer(), never);
+  EXPECT_EQ(outcome.reason, StopReason::no_descent);
+  EXPECT_EQ(outcome.state->iteration, 0);
+  ASSERT_EQ(record.trials.size(), 5u);
+  EXPECT_EQ(record.trials.back().step, options.step / 8);
+}
+
+TEST(ShapeOptimizer, RejectsARiseOfTheObjective) {
+  const auto uphill = [](const LevelSet<2>& psi) -> Expected<Evaluation<2>> {
+    auto evaluation = evaluate_bowl(psi);
+    for (auto& sample : evaluation.gradient) sample.value = -sample.value;
+    return evaluation;
+  };
+  OptimizerOptions options;
+  options.accepted_increase = 0;
+  const ShapeOptimizer<2> optimizer(lattice, evolution, options, uphill);
+  Record record;
+  const auto outcome = optimize<2>(optimizer, displaced_hole(), record.observer(), never);
+  EXPECT_EQ(outcome.reason, StopReason::no_descent);
+  EXPECT_EQ(record.trials.back().verdict, Verdict::objective_rose);
+}
+
+TEST(ShapeOptimizer, NamesAFailedStart) {
+  const auto failing = [](const LevelSet<2>&) -> Expected<Evaluation<2>> {
+    return Failure{FailureReason::disconnected_material, "x"};
+  };
+  const ShapeOptimizer<2> optimizer(lattice, evolution, {}, failing);
+  const auto outcome = optimize<2>(optimizer, displaced_hole(), Record().observer(), never);
+  EXPECT_EQ(outcome.reason, StopReason::failed_start);
+  EXPECT_FALSE(outcome.state);
+  EXPECT_EQ(outcome.failure->reason, FailureReason::disconnected_material);
+}
+
+TEST(ShapeOptimizer, TreatsANotFiniteObjectiveAsAFailure) {
+  const auto not_a_number = [](const LevelSet<2>& psi) -> Expected<Evaluation<2>> {
+    auto evaluation = evaluate_bowl(psi);
+    evaluation.objective = std::nan("");
+    return evaluation;
+  };
+  const ShapeOptimizer<2> optimizer(lattice, evolution, {}, not_a_number);
+  const auto outcome = optimize<2>(optimizer, displaced_hole(), Record().observer(), never);
+  EXPECT_EQ(outcome.failure->reason, FailureReason::not_finite);
+}
+
+TEST(ShapeOptimizer, ResumesACopyBitForBit) {
+  OptimizerOptions options;
+  options.iterations = 12;
+  options.redistance_every = 3;
+  options.smooth_every = 4;
+  const ShapeOptimizer<2> optimizer(lattice, evolution, options, bowl_objective);
+  std::optional<OptimizationState<2>> copy;
+  const auto outcome = optimize<2>(
+      optimizer, displaced_hole(),
+      [&copy](const Trial<2>&, const OptimizationState<2>& state) {
+        if (state.iteration == 5) copy = state;
+      },
+      never);
+  ASSERT_TRUE(copy);
+  const ShapeOptimizer<2> another(lattice, evolution, options, bowl_objective);
+  EXPECT_EQ(another.run(*copy, Record().observer(), never), outcome.reason);
+  EXPECT_EQ(copy->shape.values, outcome.state->shape.values);
+  EXPECT_EQ(copy->history, outcome.state->history);
+  EXPECT_EQ(copy->step, outcome.state->step);
+}
+
+TEST(ShapeOptimizer, StopsOnRequest) {
+  const ShapeOptimizer<2> optimizer(lattice, evolution, {}, bowl_objective);
+  auto state = optimizer.start(displaced_hole(), Record().observer());
+  ASSERT_TRUE(state);
+  EXPECT_EQ(optimizer.run(*state, Record().observer(), [&] { return state->iteration == 4; }),
+            StopReason::stop_requested);
+  EXPECT_EQ(state->iteration, 4);
+}
+
+}  // namespace
