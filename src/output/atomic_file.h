@@ -1,0 +1,12 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace wheelwright {
+
+/// Makes `content` the whole content of the file, by a temporary file beside it, synchronized to disk and
+/// renamed: whoever reads `path`, also after a crash, sees the old file or the new one. Throws OutputError.
+void write_atomically(const std::filesystem::path& path, std::string_view content);
+
+}  // namespace wheelwright

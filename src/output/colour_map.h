@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+
+namespace wheelwright {
+
+/// Colour of t in [0, 1] on the viridis map (perceptually even, readable in grey and by the colour-blind), as
+/// "#rrggbb"; t outside is clamped, NaN is grey.
+std::string viridis(double t);
+
+}  // namespace wheelwright

@@ -1,0 +1,59 @@
+#include "output/history.h"
+
+#include <algorithm>
+#include <cerrno>
+
+#include "output/csv.h"
+#include "output/output_error.h"
+
+namespace wheelwright {
+namespace {
+
+std::string criterion_cell(const std::vector<CriterionValue>& criteria, const std::string& name) {
+  const auto found = std::ranges::find(criteria, name, &CriterionValue::name);
+  return found == criteria.end() ? "" : csv_number(found->value);
+}
+
+/// A phase may occur several times in one trial: the sum.
+std::string phase_cell(const std::vector<PhaseTime>& phases, const std::string& name) {
+  if (std::ranges::find(phases, name, &PhaseTime::phase) == phases.end()) return "";
+  double seconds = 0;
+  for (const PhaseTime& p : phases)
+    if (p.phase == name) seconds += p.seconds;
+  return csv_number(seconds);
+}
+
+}  // namespace
+
+History::History(std::filesystem::path path, HistoryColumns columns)
+    : path_(std::move(path)), columns_(std::move(columns)), file_(std::fopen(path_.c_str(), "w")) {
+  if (!file_) throw OutputError(path_, errno);
+  std::vector<std::string> header{"iteration", "trial", "accepted", "reason",
+                                  "objective [" + columns_.objective_unit + "]"};
+  for (const auto& c : columns_.criteria) header.push_back(c.name + " [" + c.unit + "]");
+  for (const char* name : {"volume fraction [-]", "step [m]", "max velocity [Pa]", "max newton iterations"})
+    header.push_back(name);
+  for (const auto& phase : columns_.phases) header.push_back(phase + " [s]");
+  for (const char* name : {"trial [s]", "elapsed [s]"}) header.push_back(name);
+  write_line(header);
+}
+
+void History::add(const HistoryRow& row) {
+  std::vector<std::string> cells{std::to_string(row.iteration), std::to_string(row.trial),
+                                 row.accepted ? "1" : "0", row.reason, csv_number(row.objective)};
+  for (const auto& c : columns_.criteria) cells.push_back(criterion_cell(row.criteria, c.name));
+  for (const double value : {row.volume_fraction, row.step, row.max_velocity})
+    cells.push_back(csv_number(value));
+  cells.push_back(std::to_string(row.max_newton_iterations));
+  for (const auto& phase : columns_.phases) cells.push_back(phase_cell(row.phases, phase));
+  for (const double value : {row.trial_seconds, row.elapsed_seconds}) cells.push_back(csv_number(value));
+  write_line(cells);
+}
+
+void History::write_line(const std::vector<std::string>& cells) {
+  const std::string line = csv_line(cells);
+  if (std::fwrite(line.data(), 1, line.size(), file_.get()) != line.size() || std::fflush(file_.get()) != 0)
+    throw OutputError(path_, errno);
+}
+
+}  // namespace wheelwright

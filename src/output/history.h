@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sensitivity/evaluation.h"
+
+namespace wheelwright {
+
+/// The columns of a history file that depend on the case.
+struct HistoryColumns {
+  struct Criterion {
+    std::string name;
+    std::string unit;
+  };
+  std::string objective_unit;       ///< e.g. "J/m"
+  std::vector<Criterion> criteria;  ///< one column each, by the names of Evaluation::criteria
+  std::vector<std::string> phases;  ///< one column each, in seconds, by the names of Evaluation::phases
+};
+
+/// One trial shape, accepted or not. What is NaN, and what a failed evaluation did not reach, stays an empty
+/// cell.
+struct HistoryRow {
+  int iteration;  ///< number of the shape that this trial wants to become
+  int trial;      ///< counts the step halvings of one iteration
+  bool accepted;
+  std::string reason;  ///< why it was rejected, e.g. "newton_stalled"; empty when accepted
+  double objective;
+  std::vector<CriterionValue> criteria;
+  double volume_fraction;     ///< material area over the area of the full ring
+  double step;                ///< farthest that the boundary travelled [m]
+  double max_velocity;        ///< largest normal velocity, in units of the gradient density [Pa]
+  int max_newton_iterations;  ///< over the load positions
+  std::vector<PhaseTime> phases;
+  double trial_seconds;    ///< wall time of this trial
+  double elapsed_seconds;  ///< wall time since the run began
+};
+
+/// history.csv: a header that names the units, then one row a trial, on disk as soon as it is added. Numbers
+/// are the shortest that read back to the same double.
+class History {
+ public:
+  /// Replaces the file. Throws OutputError.
+  History(std::filesystem::path path, HistoryColumns columns);
+
+  /// Throws OutputError.
+  void add(const HistoryRow& row);
+
+ private:
+  void write_line(const std::vector<std::string>& cells);
+
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  std::filesystem::path path_;
+  HistoryColumns columns_;
+  std::unique_ptr<std::FILE, Close> file_;
+};
+
+}  // namespace wheelwright

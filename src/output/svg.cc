@@ -1,0 +1,156 @@
+#include "output/svg.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace wheelwright {
+namespace {
+
+/// A full circle about the axle, by two arcs.
+std::string circle_path(double radius, int decimals) {
+  return fmt::format(
+      "M{0:.{1}f} 0A{0:.{1}f} {0:.{1}f} 0 1 0 -{0:.{1}f} 0A{0:.{1}f} {0:.{1}f} 0 1 0 {0:.{1}f} 0Z", radius,
+      decimals);
+}
+
+std::string polyline_path(const std::vector<Vec<2>>& points, double units_per_metre, int decimals,
+                          double spacing) {
+  std::string path;
+  Vec<2> last{};
+  for (const Vec<2>& p : points) {
+    if (!path.empty() && std::hypot(p[0] - last[0], p[1] - last[1]) < spacing) continue;
+    path += fmt::format("{}{:.{}f} {:.{}f}", path.empty() ? 'M' : 'L', p[0] * units_per_metre, decimals,
+                        -p[1] * units_per_metre, decimals);
+    last = p;
+  }
+  return path + 'Z';
+}
+
+/// Size of the comparison's parts, in pixels.
+constexpr double wheel_diameter = 400, margin = 30, gap = 50, top = 110, foot = 110;
+constexpr double picture_width = 2 * wheel_diameter + 2 * margin + gap;
+constexpr double picture_height = top + wheel_diameter + foot;
+
+std::string text(double x, double y, std::string_view style, std::string_view content) {
+  return fmt::format("<text x=\"{}\" y=\"{}\" class=\"{}\">{}</text>\n", x, y, style, escape_xml(content));
+}
+
+std::string percentage(double fraction) { return fmt::format("{:.2f} %", 100 * fraction); }
+
+/// e.g. "-18.1 %", with a proper minus sign.
+std::string signed_percentage(double fraction) {
+  return fmt::format("{}{:.1f} %", fraction < 0 ? "\u2212" : "+", 100 * std::abs(fraction));
+}
+
+std::vector<Contour> free_contours(const std::vector<Contour>& contours) {
+  std::vector<Contour> result;
+  for (const Contour& c : contours)
+    if (c.kind == ContourKind::free) result.push_back(c);
+  return result;
+}
+
+constexpr std::string_view comparison_style = R"(<style>
+text{font-family:"Helvetica Neue",Helvetica,Arial,"DejaVu Sans",sans-serif;fill:#24292f;text-anchor:middle}
+.title{font-size:22px;font-weight:600}.heading{font-size:16px;font-weight:600}
+.fact{font-size:15px}.caption{font-size:13px;fill:#57606a}
+.material{fill:#3b6ea5;fill-rule:evenodd;stroke:#1f3d5c;stroke-width:.8;stroke-linejoin:round}
+.former{fill:none;stroke:#d1495b;stroke-width:1.1;stroke-dasharray:4 2.5}
+.rim{fill:none;stroke:#24292f;stroke-width:3}
+</style>
+)";
+
+std::string wheel_panel(const PolarGrid<2>& grid, const WheelState& wheel, double centre_x,
+                        std::string_view overlay) {
+  const double scale = 0.5 * wheel_diameter / grid.outer_radius, pixel = 1 / scale;
+  std::string panel =
+      fmt::format("<g transform=\"translate({} {})\">\n", centre_x, top + 0.5 * wheel_diameter);
+  panel += fmt::format("<path class=\"material\" d=\"{}\"/>\n",
+                       material_path(grid, wheel.contours, scale, 2, pixel));
+  panel += fmt::format("<path class=\"rim\" d=\"{}\"/>\n", circle_path(grid.inner_radius * scale, 2));
+  panel += overlay;
+  return panel + "</g>\n" + text(centre_x, top - 18, "heading", wheel.heading);
+}
+
+}  // namespace
+
+std::string escape_xml(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '&')
+      result += "&amp;";
+    else if (c == '<')
+      result += "&lt;";
+    else if (c == '>')
+      result += "&gt;";
+    else if (c == '"')
+      result += "&quot;";
+    else if (c == '\'')
+      result += "&apos;";
+    else
+      result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  }
+  return result;
+}
+
+std::string material_path(const PolarGrid<2>& grid, std::span<const Contour> contours, double units_per_metre,
+                          int decimals, double spacing) {
+  std::string path;
+  for (const Contour& c : contours) {
+    if (c.kind == ContourKind::free)
+      path += polyline_path(c.points, units_per_metre, decimals, spacing);
+    else
+      path += circle_path(
+          (c.kind == ContourKind::rim ? grid.inner_radius : grid.outer_radius) * units_per_metre, decimals);
+    path += '\n';
+  }
+  return path;
+}
+
+std::string shape_svg(const PolarGrid<2>& grid, std::span<const Contour> contours, std::string_view title) {
+  constexpr double mm = 1000, border = 1;
+  const double half = grid.outer_radius * mm + border;
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}mm\" height=\"{0}mm\" "
+      "viewBox=\"{1} {1} {0} {0}\">\n"
+      "<title>{2}</title>\n"
+      "<desc>One user unit is one millimetre.</desc>\n"
+      "<path fill=\"#d0d7de\" fill-rule=\"evenodd\" stroke=\"#000000\" stroke-width=\"0.1\" d=\"{3}\"/>\n"
+      "</svg>\n",
+      2 * half, -half, escape_xml(title), material_path(grid, contours, mm, 4, 0));
+}
+
+std::string comparison_svg(const PolarGrid<2>& grid, const Comparison& comparison) {
+  const WheelState &before = comparison.before, &after = comparison.after;
+  const double scale = 0.5 * wheel_diameter / grid.outer_radius;
+  const double left = margin + 0.5 * wheel_diameter, right = left + wheel_diameter + gap;
+  const double first_line = top + wheel_diameter + 32, second_line = first_line + 22;
+  const std::string former =
+      fmt::format("<path class=\"former\" d=\"{}\"/>\n",
+                  material_path(grid, free_contours(before.contours), scale, 2, 1 / scale));
+  const auto objective = [&](double value) {
+    return fmt::format("{}: {:.5g} {}", comparison.objective_name, value, comparison.objective_unit);
+  };
+  const auto volume = [](double fraction) { return "volume: " + percentage(fraction) + " of the ring"; };
+
+  std::string svg = fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\">\n"
+      "<title>{2}</title>\n{3}"
+      "<rect width=\"{0}\" height=\"{1}\" rx=\"8\" fill=\"#ffffff\"/>\n",
+      picture_width, picture_height, escape_xml(comparison.title), comparison_style);
+  svg += text(0.5 * picture_width, 44, "title", comparison.title);
+  svg += wheel_panel(grid, before, left, "");
+  svg += wheel_panel(grid, after, right, former);
+  svg += text(left, first_line, "fact", objective(before.objective));
+  svg += text(left, second_line, "fact", volume(before.volume_fraction));
+  svg += text(
+      right, first_line, "fact",
+      objective(after.objective) + "  (" + signed_percentage(after.objective / before.objective - 1) + ")");
+  svg += text(right, second_line, "fact", volume(after.volume_fraction));
+  svg += text(0.5 * picture_width, picture_height - 18, "caption", comparison.caption);
+  return svg + "</svg>\n";
+}
+
+}  // namespace wheelwright

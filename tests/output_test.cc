@@ -1,0 +1,410 @@
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <numbers>
+#include <regex>
+#include <sstream>
+
+#include "geometry/contour.h"
+#include "output/atomic_file.h"
+#include "output/colour_map.h"
+#include "output/csv.h"
+#include "output/deformed_svg.h"
+#include "output/history.h"
+#include "output/output_error.h"
+#include "output/pressure_csv.h"
+#include "output/progress.h"
+#include "output/svg.h"
+#include "output/vtu.h"
+
+namespace wheelwright {
+namespace {
+
+namespace fs = std::filesystem;
+using std::numbers::pi;
+
+constexpr double hole_radius = 0.04, mid_radius = 0.27;
+const PolarGrid<2> wheel_grid{0.20, 0.34, 0.12, 16, {28, 24}};
+const double material_area = pi * (0.34 * 0.34 - 0.2 * 0.2) - 16 * pi * hole_radius * hole_radius;
+
+/// Sixteen holes, each across a sector face, `stretch` times longer radially than wide.
+LevelSet<2> holes_level_set(int degree, double stretch) {
+  const Lattice<2> lattice(wheel_grid, degree);
+  LevelSet<2> psi{lattice, {}};
+  for (int k = 0; k < lattice.n_nodes(); ++k) {
+    const Vec<2> x = cartesian<2>(lattice.polar_point(k));
+    double nearest = 1;
+    for (int s = 0; s <= 1; ++s) {
+      const double a = s * wheel_grid.sector_angle();
+      const double along = x[0] * std::cos(a) + x[1] * std::sin(a) - mid_radius;
+      const double across = -x[0] * std::sin(a) + x[1] * std::cos(a);
+      nearest = std::min(nearest, std::hypot(along / stretch, across * stretch));
+    }
+    psi.values.push_back(hole_radius - nearest);
+  }
+  return psi;
+}
+
+/// The field x -> f(x) on the full ring.
+template <class F>
+RingField ring_field(const Lattice<2>& lattice, int components, F f) {
+  RingField field{components, {}};
+  for (int s = 0; s < lattice.grid().n_sectors; ++s) {
+    for (int k = 0; k < lattice.n_nodes(); ++k) {
+      Vec<2> polar = lattice.polar_point(k);
+      polar[1] += s * lattice.grid().sector_angle();
+      const auto value = f(cartesian<2>(polar));
+      field.values.insert(field.values.end(), value.begin(), value.begin() + components);
+    }
+  }
+  return field;
+}
+
+class OutputFolder : public testing::Test {
+ protected:
+  OutputFolder() {
+    std::string name = (fs::temp_directory_path() / "wheelwright-output-XXXXXX").string();
+    folder = ::mkdtemp(name.data());
+  }
+  ~OutputFolder() override { fs::remove_all(folder); }
+
+  static std::string content(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  fs::path folder;
+};
+
+std::vector<std::string> lines(const std::string& text) {
+  std::vector<std::string> result;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) result.push_back(line);
+  return result;
+}
+
+int count(const std::string& text, const std::string& word) {
+  int n = 0;
+  for (auto p = text.find(word); p != std::string::npos; p = text.find(word, p + word.size())) ++n;
+  return n;
+}
+
+// --- VTU -----------------------------------------------------------------------------------------------
+
+std::string base64_decoded(std::string_view text) {
+  static constexpr std::string_view digits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  unsigned buffer = 0;
+  int bits = 0;
+  for (const char c : text) {
+    const auto digit = digits.find(c);
+    if (digit == std::string_view::npos) continue;
+    buffer = buffer << 6 | static_cast<unsigned>(digit);
+    bits += 6;
+    if (bits < 8) continue;
+    bits -= 8;
+    bytes += static_cast<char>(buffer >> bits & 0xff);
+  }
+  return bytes;
+}
+
+/// An array of a VTU file: a base64 header of four 32-bit counts, then one base64 zlib block.
+template <class T>
+std::vector<T> vtu_array(const std::string& vtu, const std::string& tag) {
+  const auto begin = vtu.find('>', vtu.find(tag)) + 1;
+  std::string text = vtu.substr(begin, vtu.find('<', begin) - begin);
+  std::erase_if(text, [](char c) { return std::isspace(static_cast<unsigned char>(c)); });
+  const std::string header = base64_decoded(text.substr(0, 24)), block = base64_decoded(text.substr(24));
+  std::uint32_t counts[4];
+  std::memcpy(counts, header.data(), sizeof counts);
+  std::vector<T> values(counts[1] / sizeof(T));
+  uLongf size = counts[1];
+  EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(values.data()), &size,
+                       reinterpret_cast<const Bytef*>(block.data()), counts[3]),
+            Z_OK);
+  return values;
+}
+
+struct VtuMesh {
+  std::vector<float> points;
+  std::vector<std::int32_t> connectivity, offsets;
+
+  explicit VtuMesh(const std::string& vtu) {
+    const std::string mesh = vtu.substr(vtu.find("<Points>"));
+    points = vtu_array<float>(mesh, "<DataArray");
+    connectivity = vtu_array<std::int32_t>(mesh, "Name=\"connectivity\"");
+    offsets = vtu_array<std::int32_t>(mesh, "Name=\"offsets\"");
+  }
+
+  double area() const {
+    double twice = 0;
+    for (std::size_t cell = 0; cell < offsets.size(); ++cell) {
+      const int begin = cell == 0 ? 0 : offsets[cell - 1], n = offsets[cell] - begin;
+      for (int k = 0; k < n; ++k) {
+        const float *a = &points[3 * connectivity[begin + k]],
+                    *b = &points[3 * connectivity[begin + (k + 1) % n]];
+        twice += double(a[0]) * b[1] - double(a[1]) * b[0];
+      }
+    }
+    return 0.5 * twice;
+  }
+};
+
+class VtuFile : public OutputFolder {};
+
+TEST_F(VtuFile, CellsCoverTheMaterialAndFieldsAreInterpolated) {
+  for (int degree : {1, 2}) {
+    const auto psi = holes_level_set(degree, 1.0);
+    const Lattice<2> lattice(wheel_grid, 2);
+    const std::vector<NamedField> fields{
+        {"displacement", "m",
+         ring_field(lattice, 2,
+                    [](const Vec<2>& x) {
+                      return std::array{0.5 * x[1], x[0] - 2 * x[1]};
+                    })},
+        {"von_mises", "Pa", ring_field(lattice, 1, [](const Vec<2>& x) { return std::array{3e6 * x[0]}; })}};
+    write_vtu(folder / "shape.vtu", psi, lattice, fields, 4);
+    const std::string vtu = content(folder / "shape.vtu");
+    const VtuMesh mesh(vtu);
+    double contour_area = 0;
+    for (const Contour& c : material_contours(psi, 4)) contour_area += signed_area(c);
+    EXPECT_NEAR(mesh.area() / contour_area, 1, 2e-5);
+    EXPECT_NEAR(mesh.area() / material_area, 1, degree == 1 ? 2e-3 : 1e-4);
+
+    const auto u = vtu_array<float>(vtu, "Name=\"displacement\"");
+    const auto stress = vtu_array<float>(vtu, "Name=\"von_mises\"");
+    const auto level = vtu_array<float>(vtu, "Name=\"psi\"");
+    ASSERT_EQ(u.size(), mesh.points.size());
+    ASSERT_EQ(3 * stress.size(), mesh.points.size());
+    for (std::size_t k = 0; k < stress.size(); ++k) {
+      const double x = mesh.points[3 * k], y = mesh.points[3 * k + 1];
+      const double tolerance = degree == 2 ? 1e-6 : 3e-5;
+      EXPECT_NEAR(u[3 * k], 0.5 * y, tolerance);
+      EXPECT_NEAR(u[3 * k + 1], x - 2 * y, 3 * tolerance);
+      EXPECT_EQ(u[3 * k + 2], 0);
+      EXPECT_NEAR(stress[k], 3e6 * x, 3e6 * tolerance);
+      EXPECT_LE(level[k], 2e-8);
+    }
+  }
+}
+
+TEST_F(VtuFile, SameInputGivesTheSameBytes) {
+  const auto psi = holes_level_set(2, 1.0);
+  write_vtu(folder / "a.vtu", psi, psi.lattice, {}, 2);
+  write_vtu(folder / "b.vtu", psi, psi.lattice, {}, 2);
+  EXPECT_EQ(content(folder / "a.vtu"), content(folder / "b.vtu"));
+}
+
+TEST_F(VtuFile, CollectionListsTheFilesInOrder) {
+  const std::vector<PvdEntry> entries{{0, "shape-0000.vtu"}, {1.5, "shape-0001.vtu"}};
+  write_pvd(folder / "run.pvd", entries);
+  const std::string pvd = content(folder / "run.pvd");
+  EXPECT_EQ(count(pvd, "<DataSet "), 2);
+  EXPECT_LT(pvd.find("shape-0000.vtu"), pvd.find("timestep=\"1.5\""));
+}
+
+// --- Files ---------------------------------------------------------------------------------------------
+
+class AtomicFile : public OutputFolder {};
+
+TEST_F(AtomicFile, ReplacesTheContentAndLeavesNothingElse) {
+  write_atomically(folder / "a", "first, and longer");
+  write_atomically(folder / "a", "second");
+  EXPECT_EQ(content(folder / "a"), "second");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1);
+}
+
+TEST_F(AtomicFile, FailureNamesThePathAndTheCause) {
+  const fs::path path = folder / "missing" / "a";
+  try {
+    write_atomically(path, "x");
+    FAIL();
+  } catch (const OutputError& e) {
+    EXPECT_EQ(e.path(), path);
+    EXPECT_EQ(e.error(), ENOENT);
+    EXPECT_NE(std::string(e.what()).find(path.string()), std::string::npos);
+  }
+}
+
+TEST(Csv, NumbersReadBackExactly) {
+  for (const double x : {0.1, 1.0 / 3, 6.96839, -1e-300, 123456789.123456789, 5e-324})
+    EXPECT_EQ(std::strtod(csv_number(x).c_str(), nullptr), x);
+  EXPECT_EQ(csv_number(NAN), "");
+  EXPECT_EQ(csv_line({"a", "b,c", "d\"e"}), "a,\"b,c\",\"d\"\"e\"\n");
+}
+
+HistoryRow history_row() {
+  return {3, 1, true, "", 0.1, {{"strain_energy", 1.0 / 3}}, 0.75, 0.002, 4e5, 6, {{"factor", 0.25}}, 0.5, 9};
+}
+
+class HistoryFile : public OutputFolder {};
+
+TEST_F(HistoryFile, EveryRowIsOnDiskAndHasTheColumnsOfTheHeader) {
+  History history(folder / "history.csv",
+                  {"J/m", {{"strain_energy", "J/m"}, {"uniformity", "Pa2.m"}}, {"factor"}});
+  history.add(history_row());
+  HistoryRow failed = history_row();
+  failed.accepted = false;
+  failed.reason = "newton_stalled";
+  failed.objective = NAN;
+  failed.criteria.clear();
+  failed.phases.clear();
+  history.add(failed);
+  const auto rows = lines(content(folder / "history.csv"));
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[0],
+            "iteration,trial,accepted,reason,objective [J/m],strain_energy [J/m],uniformity [Pa2.m],"
+            "volume fraction [-],step [m],max velocity [Pa],max newton iterations,factor [s],trial "
+            "[s],elapsed [s]");
+  EXPECT_EQ(rows[1], "3,1,1,,0.1,0.3333333333333333,,0.75,0.002,400000,6,0.25,0.5,9");
+  EXPECT_EQ(rows[2], "3,1,0,newton_stalled,,,,0.75,0.002,400000,6,,0.5,9");
+}
+
+TEST(History, FullDiskIsAnOutputError) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP();
+  try {
+    History history("/dev/full", {"J/m", {}, {}});
+    FAIL();
+  } catch (const OutputError& e) {
+    EXPECT_EQ(e.error(), ENOSPC);
+  }
+}
+
+class PressureFile : public OutputFolder {};
+
+TEST_F(PressureFile, AzimuthIsInDegrees) {
+  const std::vector<ContactPoint> points{{2, pi / 6, 0.01, 2e6, -1.5e6, -1e-6}};
+  write_pressure_csv(folder / "p.csv", points);
+  const auto rows = lines(content(folder / "p.csv"));
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(count(rows[0], ","), count(rows[1], ","));
+  EXPECT_NEAR(std::strtod(rows[1].c_str() + 2, nullptr), 30, 1e-12);
+}
+
+// --- Pictures ------------------------------------------------------------------------------------------
+
+/// Area enclosed by the polylines of a path in millimetres, each counted as a hole.
+double polyline_area(const std::string& path) {
+  static const std::regex number("-?[0-9]+\\.[0-9]+");
+  double total = 0;
+  for (const std::string& line : lines(path)) {
+    if (line.find('L') == std::string::npos) continue;
+    Contour contour{ContourKind::free, {}};
+    std::vector<double> numbers;
+    for (std::sregex_iterator it(line.begin(), line.end(), number), end; it != end; ++it)
+      numbers.push_back(std::strtod(it->str().c_str(), nullptr));
+    for (std::size_t k = 0; k + 1 < numbers.size(); k += 2)
+      contour.points.push_back({numbers[k], numbers[k + 1]});
+    total += std::abs(signed_area(contour));
+  }
+  return total;
+}
+
+TEST(Svg, ShapeIsInTrueMillimetres) {
+  const auto contours = material_contours(holes_level_set(2, 1.0), contour_subdivisions(2));
+  const std::string path = material_path(wheel_grid, contours, 1000, 4, 0);
+  EXPECT_EQ(count(path, "A"), 4);
+  EXPECT_EQ(count(path, "Z"), 18);
+  EXPECT_NEAR(polyline_area(path) / (16 * pi * 1600), 1, 5e-5);
+  const std::string svg = shape_svg(wheel_grid, contours, "a < b & c");
+  EXPECT_NE(svg.find("width=\"682mm\""), std::string::npos);
+  EXPECT_NE(svg.find("viewBox=\"-341 -341 682 682\""), std::string::npos);
+  EXPECT_NE(svg.find("<title>a &lt; b &amp; c</title>"), std::string::npos);
+}
+
+TEST(Svg, SpacingThinsTheCurveButKeepsTheShape) {
+  const auto contours = material_contours(holes_level_set(2, 1.0), 8);
+  const std::string fine = material_path(wheel_grid, contours, 1000, 4, 0);
+  const std::string coarse = material_path(wheel_grid, contours, 1000, 4, 0.002);
+  EXPECT_LT(coarse.size(), 0.6 * fine.size());
+  EXPECT_NEAR(polyline_area(coarse) / polyline_area(fine), 1, 2e-3);
+}
+
+/// Sum of the channels' luminance weights.
+double luminance(const std::string& colour) {
+  const long rgb = std::strtol(colour.c_str() + 1, nullptr, 16);
+  return 0.2126 * (rgb >> 16) + 0.7152 * (rgb >> 8 & 0xff) + 0.0722 * (rgb & 0xff);
+}
+
+TEST(ColourMap, GetsLighterMonotonically) {
+  for (int k = 0; k < 100; ++k) EXPECT_LT(luminance(viridis(k / 100.0)), luminance(viridis((k + 1) / 100.0)));
+  EXPECT_EQ(viridis(-1), viridis(0));
+  EXPECT_EQ(viridis(2), viridis(1));
+}
+
+TEST(DeformedSvg, MissingValuesAreLeftOutAndTextIsEscaped) {
+  const auto psi = holes_level_set(2, 1.0);
+  DeformedPicture picture{"a & b",
+                          ring_field(psi.lattice, 2, [](const Vec<2>& x) { return x; }),
+                          0.1,
+                          0,
+                          {"von Mises", "Pa", ring_field(psi.lattice, 1, [](const Vec<2>& x) {
+                             return std::array{x[0] * 1e7};
+                           })}};
+  picture.displacement.values[0] = NAN;
+  const std::string svg = deformed_svg(psi, psi.lattice, picture);
+  EXPECT_EQ(count(svg, "nan"), 0);
+  EXPECT_EQ(count(svg, "a &amp; b"), 2);
+  EXPECT_EQ(count(svg, "[MPa]"), 1);
+}
+
+// --- Progress ------------------------------------------------------------------------------------------
+
+TEST(Progress, ClockAndBarFitAnyWidth) {
+  EXPECT_EQ(clock_text(59.6), "1:00");
+  EXPECT_EQ(clock_text(3723), "1:02:03");
+  const ProgressState state{50, 100, 38.2, 44.0, 0.7, 0.0012, 12};
+  for (int width = 1; width < 200; ++width)
+    EXPECT_LE(progress_bar(state, 10, width).size(), std::size_t(width));
+  EXPECT_EQ(count(progress_bar(state, 10, 120), "#"), 20);
+  EXPECT_EQ(count(progress_bar(state, 10, 120), "."), 20 + 4);
+}
+
+std::string shown(ProgressStyle style, double seconds_per_shape) {
+  char* text = nullptr;
+  std::size_t size = 0;
+  std::FILE* stream = open_memstream(&text, &size);
+  {
+    Progress progress(stream, style);
+    for (int k = 0; k <= 20; ++k) progress.show({k, 20, 44.0 - k, 44.0, 0.7, 0.001, k * seconds_per_shape});
+  }
+  std::fclose(stream);
+  const std::string result(text, size);
+  std::free(text);
+  return result;
+}
+
+TEST(Progress, LinesAtMostOnceASecondAndTheLastShape) {
+  EXPECT_EQ(lines(shown(ProgressStyle::lines, 2)).size(), 21u);
+  const auto quick = lines(shown(ProgressStyle::lines, 0.24));
+  EXPECT_EQ(quick.size(), 5u);  // shapes 0, 5, 10, 15 and 20
+  EXPECT_NE(quick.back().find("20/20"), std::string::npos);
+}
+
+TEST(Progress, TimeLeftFollowsTheLastShapes) {
+  EXPECT_NE(lines(shown(ProgressStyle::lines, 2))[10].find("0:20 left"), std::string::npos);
+}
+
+TEST(Progress, ColourOnlyWhereAsked) {
+  EXPECT_EQ(count(shown(ProgressStyle::lines, 2), "\x1b"), 0);
+  EXPECT_EQ(count(shown(ProgressStyle::bar, 2), "m["), 0);
+  EXPECT_GT(count(shown(ProgressStyle::coloured_bar, 2), "\x1b[36m"), 0);
+  EXPECT_EQ(shown(ProgressStyle::bar, 2).back(), '\n');
+}
+
+TEST(Progress, StyleOfAFileIsLines) {
+  std::FILE* file = std::tmpfile();
+  EXPECT_EQ(progress_style(file), ProgressStyle::lines);
+  std::fclose(file);
+}
+
+}  // namespace
+}  // namespace wheelwright
