@@ -70,7 +70,7 @@ std::string progress_bar(const ProgressState& s, double seconds_left, int width)
   constexpr int shortest_bar = 10, longest_bar = 40;
   const std::vector<std::string> parts{
       fmt::format(" {}/{}", s.shape, s.n_shapes), fmt::format("  J {:.5g} ({})", s.objective, change_text(s)),
-      "  " + left_text(seconds_left), fmt::format("  volume {:.2f} %", 100 * s.volume_fraction),
+      fmt::format("  {}", left_text(seconds_left)), fmt::format("  volume {:.2f} %", 100 * s.volume_fraction),
       fmt::format("  step {:.2g} mm", 1000 * s.step)};
   std::string numbers;
   for (const std::string& part : parts) {
@@ -79,8 +79,8 @@ std::string progress_bar(const ProgressState& s, double seconds_left, int width)
   }
   const int length = std::clamp(width - 2 - static_cast<int>(numbers.size()), 0, longest_bar);
   const int done = std::lround(completed_fraction(s) * length);
-  return ("[" + std::string(done, '#') + std::string(length - done, '.') + "]" + numbers)
-      .substr(0, std::max(width, 0));
+  const std::string bar = fmt::format("[{:.<{}}]{}", std::string(done, '#'), length, numbers);
+  return bar.substr(0, std::max(width, 0));
 }
 
 Progress::~Progress() {

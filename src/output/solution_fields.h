@@ -1,0 +1,27 @@
+#pragma once
+
+#include "output/pressure_csv.h"
+#include "output/ring_field.h"
+#include "sensitivity/rolling_problem.h"
+
+namespace wheelwright {
+
+/// u = v + alpha_D n_y of one load position at the nodes of the displacement's lattice, Cartesian, body
+/// frame.
+RingField displacement_field(const RollingProblem<2>& problem, const RollingSolution<2>& solution,
+                             int position);
+
+/// Von Mises stress [Pa] of a displacement, at the nodes: the mean over the cells with material around a
+/// node.
+RingField von_mises_field(const RollingProblem<2>& problem, const RollingSolution<2>& solution,
+                          const RingField& displacement);
+
+/// One value a node of a sector's level set lattice, as a field on the displacement's lattice, equal in all
+/// sectors.
+RingField repeated_field(const RollingProblem<2>& problem, const LevelSet<2>& sector_values);
+
+/// The contact zones of all load positions.
+std::vector<ContactPoint> contact_points(const RollingProblem<2>& problem,
+                                         const RollingSolution<2>& solution);
+
+}  // namespace wheelwright
