@@ -181,8 +181,8 @@ TEST(CaseFile, AResolvedCaseReadsBackEqual) {
   c.ghost_penalty = {.kind = GhostPenaltyKind::paper, .xi = 1e-3};
   c.volume = {.control = VolumeControl::paper, .target = 0.7};
   c.optimizer.velocity = VelocityKind::harmonic;
-  c.optimizer.rim_band = 0.001;
-  c.optimizer.tread_band = 0.002;
+  c.optimizer.rim_band = 0.006;
+  c.optimizer.tread_band = 0.011;
   const CaseResult result = parse_case(to_toml(c), "resolved.toml");
   ASSERT_TRUE(result.value) << texts(result.problems);
   EXPECT_EQ(*result.value, c);
@@ -403,9 +403,9 @@ TEST(NumberText, ReadsBackAsTheSameNumber) {
 TEST(Derived, ThePapersWheel) {
   const Case c;
   EXPECT_NEAR(load_per_metre(c), 24525, 1e-9);
-  EXPECT_NEAR(lame_parameters(c.material).mu, 67.567568e6, 1);
-  EXPECT_NEAR(lame_parameters(c.material).lambda, 1621.62162e6, 10);
-  EXPECT_NEAR(plane_strain_modulus(c.material), 259.875260e6, 1);
+  EXPECT_NEAR(c.material.mu(), 67.567568e6, 1);
+  EXPECT_NEAR(c.material.lambda(), 1621.62162e6, 10);
+  EXPECT_NEAR(c.material.plane_strain_modulus(), 259.875260e6, 1);
   EXPECT_NEAR(hertz_half_width(c), 6.39170e-3, 1e-8);
   EXPECT_NEAR(hertz_peak_pressure(c), 2.442714e6, 1);
   EXPECT_NEAR(cells_per_contact_patch(c), 2.3, 0.01);

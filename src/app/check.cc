@@ -23,10 +23,9 @@ std::string load_report(const Case& c) {
 }
 
 std::string material_report(const Case& c) {
-  const auto [lambda, mu] = lame_parameters(c.material);
-  return line("lambda", fmt::format("{:.6g} MPa", lambda / 1e6)) +
-         line("mu", fmt::format("{:.6g} MPa", mu / 1e6)) +
-         line("E / (1 - nu^2)", fmt::format("{:.6g} MPa", plane_strain_modulus(c.material) / 1e6));
+  return line("lambda", fmt::format("{:.6g} MPa", c.material.lambda() / 1e6)) +
+         line("mu", fmt::format("{:.6g} MPa", c.material.mu() / 1e6)) +
+         line("E / (1 - nu^2)", fmt::format("{:.6g} MPa", c.material.plane_strain_modulus() / 1e6));
 }
 
 std::string contact_report(const Case& c) {

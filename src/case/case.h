@@ -5,6 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "contact/contact_law.h"
+#include "elasticity/ghost_penalty.h"
+#include "elasticity/material.h"
+
 namespace wheelwright {
 
 // A case: everything that defines one optimization, as plain data in SI units and radians. The initial values
@@ -18,19 +22,11 @@ struct Wheel {
   bool operator==(const Wheel&) const = default;
 };
 
-struct Material {
-  double youngs_modulus = 200e6;
-  double poissons_ratio = 0.48;
-  bool operator==(const Material&) const = default;
-};
-
 struct Load {
   double force = 300 * 9.81;  ///< on the whole width [N]
   int positions = 8;          ///< N_d, load positions of one sector
   bool operator==(const Load&) const = default;
 };
-
-enum class ContactMethod { nitsche, penalty };
 
 struct Contact {
   ContactMethod method = ContactMethod::nitsche;
@@ -70,17 +66,6 @@ struct Grid {
   bool operator==(const Grid&) const = default;
 };
 
-enum class GhostPenaltyKind {
-  full,   ///< all faces of cut cells; jumps of the stress and of the second normal derivative
-  paper,  ///< (81): the faces that the boundary cuts; jump of the stress
-};
-
-struct GhostPenalty {
-  GhostPenaltyKind kind = GhostPenaltyKind::full;
-  double xi = 1e-4;
-  bool operator==(const GhostPenalty&) const = default;
-};
-
 /// Weights of the criteria in J.
 struct Objective {
   double strain_energy = 1;
@@ -112,7 +97,7 @@ struct Optimizer {
   double smoothing = 0;  ///< tau of (76) [cells^2]
   int smooth_every = 5;
   std::optional<double> rim_band;    ///< absent: one radial cell
-  std::optional<double> tread_band;  ///< absent: one radial cell
+  std::optional<double> tread_band;  ///< absent: two radial cells
   bool operator==(const Optimizer&) const = default;
 };
 

@@ -38,7 +38,18 @@ void check_radii(const Case& c, Conflicts& found) {
     found.push_back({{"wheel.outer_radius", "wheel.inner_radius"},
                      fmt::format("must be larger than inner_radius = {} m", w.inner_radius),
                      "give the rim's radius as inner_radius and the tread's as outer_radius"});
-  } else if (rim_band(c) + tread_band(c) >= w.outer_radius - w.inner_radius) {
+    return;
+  }
+  const double rounding = 1e-9 * w.outer_radius;
+  if (rim_band(c) < least_rim_band(c) - rounding)
+    found.push_back({{"optimizer.rim_band", "grid.radial_cells"},
+                     "thinner than one radial cell",
+                     fmt::format("take at least {:.6g} m, or more grid.radial_cells", least_rim_band(c))});
+  if (tread_band(c) < least_tread_band(c) - rounding)
+    found.push_back({{"optimizer.tread_band", "grid.radial_cells"},
+                     "thinner than two radial cells",
+                     fmt::format("take at least {:.6g} m, or more grid.radial_cells", least_tread_band(c))});
+  if (rim_band(c) + tread_band(c) >= w.outer_radius - w.inner_radius) {
     found.push_back(
         {with_ring_shape({"optimizer.rim_band", "optimizer.tread_band"}),
          fmt::format("the bands at rim and tread, {:.6g} m and {:.6g} m, fill the whole ring of {:.6g} m",

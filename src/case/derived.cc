@@ -10,18 +10,8 @@ using std::numbers::pi;
 
 double load_per_metre(const Case& c) { return c.load.force / c.wheel.width; }
 
-LameParameters lame_parameters(const Material& material) {
-  const double e = material.youngs_modulus, nu = material.poissons_ratio;
-  return {.lambda = e * nu / ((1 + nu) * (1 - 2 * nu)), .mu = e / (2 * (1 + nu))};
-}
-
-double plane_strain_modulus(const Material& material) {
-  const double nu = material.poissons_ratio;
-  return material.youngs_modulus / (1 - nu * nu);
-}
-
 double hertz_half_width(const Case& c) {
-  return 2 * std::sqrt(load_per_metre(c) * c.wheel.outer_radius / (pi * plane_strain_modulus(c.material)));
+  return 2 * std::sqrt(load_per_metre(c) * c.wheel.outer_radius / (pi * c.material.plane_strain_modulus()));
 }
 
 double hertz_peak_pressure(const Case& c) { return 2 * load_per_metre(c) / (pi * hertz_half_width(c)); }
@@ -40,9 +30,13 @@ double radial_cell(const Case& c) {
 }
 }  // namespace
 
-double rim_band(const Case& c) { return c.optimizer.rim_band.value_or(radial_cell(c)); }
+double least_rim_band(const Case& c) { return radial_cell(c); }
 
-double tread_band(const Case& c) { return c.optimizer.tread_band.value_or(radial_cell(c)); }
+double least_tread_band(const Case& c) { return 2 * radial_cell(c); }
+
+double rim_band(const Case& c) { return c.optimizer.rim_band.value_or(least_rim_band(c)); }
+
+double tread_band(const Case& c) { return c.optimizer.tread_band.value_or(least_tread_band(c)); }
 
 std::vector<Circle> sector_holes(const Case& c) {
   std::vector<Circle> holes;
@@ -82,8 +76,7 @@ double estimated_memory(const Case& c) {
 
 double least_gamma_0(double theta, const Material& material) {
   constexpr double reference = 8.8;  // (lambda + 2 mu) / E at nu = 0.48, where 10 and 100 were found
-  const auto [lambda, mu] = lame_parameters(material);
-  const double stiffness = (lambda + 2 * mu) / material.youngs_modulus / reference;
+  const double stiffness = (material.lambda() + 2 * material.mu()) / material.youngs_modulus / reference;
   return stiffness * (10 * (1 + theta) * (1 + theta) + 60 * std::max(theta, 0.0));
 }
 

@@ -12,14 +12,6 @@ namespace wheelwright {
 /// P [N/m].
 double load_per_metre(const Case& c);
 
-struct LameParameters {
-  double lambda, mu;  ///< [Pa]
-};
-LameParameters lame_parameters(const Material& material);
-
-/// E* = E / (1 - nu^2) [Pa].
-double plane_strain_modulus(const Material& material);
-
 /// a = 2 sqrt(P R_e / (pi E*)) [m]: half the contact patch of a solid disc under the load, an estimate of the
 /// wheel's own.
 double hertz_half_width(const Case& c);
@@ -41,6 +33,11 @@ double sector_angle(const Case& c);
 
 /// N_l = N_d N_s: load positions of the full wheel.
 int total_load_positions(const Case& c);
+
+/// The thinnest bands that the solver can do with [m]: its outermost row of cells is condensed once a run,
+/// and the row below it carries the ghost penalty of the cells that are cut.
+double least_rim_band(const Case& c);
+double least_tread_band(const Case& c);
 
 /// Thicknesses that stay material [m].
 double rim_band(const Case& c);

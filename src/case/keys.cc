@@ -294,12 +294,12 @@ const Section<Optimizer>& optimizer_section() {
           {.name = "rim_band",
            .unit = "m",
            .field = OptionalNumberField<Optimizer>{&Optimizer::rim_band, between(0, 1000), "one radial cell"},
-           .meaning = "thickness at the rim that stays material"},
+           .meaning = "thickness at the rim that stays material, at least one radial cell"},
           {.name = "tread_band",
            .unit = "m",
            .field =
-               OptionalNumberField<Optimizer>{&Optimizer::tread_band, between(0, 1000), "one radial cell"},
-           .meaning = "thickness at the tread that stays material"}}};
+               OptionalNumberField<Optimizer>{&Optimizer::tread_band, between(0, 1000), "two radial cells"},
+           .meaning = "thickness at the tread that stays material, at least two radial cells"}}};
   return section;
 }
 

@@ -8,8 +8,8 @@ namespace wheelwright {
 
 /// How the contact conditions (11), (16) enter the weak form.
 enum class ContactMethod {
-  penalty,  ///< (22): I_P
   nitsche,  ///< (28): I_N, with the parameter theta
+  penalty,  ///< (22): I_P
 };
 
 /// Both methods are one form. With the augmented traction

@@ -41,6 +41,7 @@ Expected<Tread<dim>> Tread<dim>::condense(const ElementTable<dim>& table, int ro
 
   Tread tread;
   tread.form_ = form;
+  tread.rows_ = rows;
   tread.points_ = column.points;
   tread.degree_ = table.degree();
   tread.n_base_ = n_base;
@@ -99,6 +100,9 @@ Expected<Tread<dim>> Tread<dim>::condense(const ElementTable<dim>& table, int ro
   for (int j = 0; j < base_rows.columns(); ++j)
     std::copy_n(column.stiffness.column(j), n_base, base_rows.column(j));
 
+  Matrix own_nodal(column.nodal.rows(), n_base);
+  for (int j = 0; j < n_base; ++j) std::copy_n(column.nodal.column(j), own_nodal.rows(), own_nodal.column(j));
+
   const int farthest = (n_columns - 1) / 2;
   std::vector<Matrix> transfer, compliance, base;
   for (int d = -farthest; d <= farthest; ++d) {
@@ -118,6 +122,8 @@ Expected<Tread<dim>> Tread<dim>::condense(const ElementTable<dim>& table, int ro
     tread.transfer_.push_back(std::move(transfer[farthest + d]));
     tread.compliance_.push_back(std::move(compliance[farthest + d]));
     tread.base_stiffness_.push_back(std::move(base[farthest + d]));
+    tread.nodal_transfer_.push_back(seen(column.nodal, to_base, d, own_nodal));
+    tread.nodal_compliance_.push_back(seen(column.nodal, to_observation, d, column.nodal_compliance));
   }
   return tread;
 }

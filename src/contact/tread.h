@@ -51,6 +51,13 @@ class Tread {
   /// load that reaches the base of column c from a unit load on an observation of column c + difference.
   const Matrix& transfer(int difference) const { return transfer_[slot(difference)]; }
 
+  /// As transfer() and compliance(), for the displacements of the nodes above the base on the column's first
+  /// azimuth line and inside the column (line major, then axial node, then radial node, then polar
+  /// component).
+  const Matrix& nodal_transfer(int difference) const { return nodal_transfer_[slot(difference)]; }
+  const Matrix& nodal_compliance(int difference) const { return nodal_compliance_[slot(difference)]; }
+  int rows() const { return rows_; }  ///< radial cells
+
   /// The tread's stiffness on the core's outer line for one harmonic of the sectors, in the order of
   /// CyclicStiffness.
   std::vector<ComplexMatrix> outer_stiffness(const SectorHarmonics& harmonics) const;
@@ -59,9 +66,10 @@ class Tread {
   int slot(int difference) const { return difference + reach_; }
 
   ContactForm form_;
-  int degree_ = 0, n_base_ = 0, n_columns_ = 0, base_per_line_ = 0, columns_per_sector_ = 0, reach_ = 0;
+  int rows_ = 0, degree_ = 0, n_base_ = 0, n_columns_ = 0, base_per_line_ = 0, columns_per_sector_ = 0,
+      reach_ = 0;
   std::vector<TreadPoint<dim>> points_;
-  std::vector<Matrix> compliance_, transfer_, base_stiffness_;
+  std::vector<Matrix> compliance_, transfer_, base_stiffness_, nodal_transfer_, nodal_compliance_;
 };
 
 }  // namespace wheelwright

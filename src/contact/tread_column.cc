@@ -56,7 +56,7 @@ Expected<TreadColumn<dim>> tread_column(const ElementTable<dim>& table, int rows
 
   const auto face_rule = unit_cell_rule<dim - 1>(points_per_direction);
   const int n_points = static_cast<int>(face_rule.size()) * axial_cells;
-  TreadColumn<dim> column{{}, numbering.n_base, numbering.n_line, {}, {}, {}};
+  TreadColumn<dim> column{{}, numbering.n_base, numbering.n_line, {}, {}, {}, {}, {}};
   Matrix stiffness(n, n), observation(2 * dim * n_points, n);
   const Material& material = table.material();
 
@@ -105,6 +105,10 @@ Expected<TreadColumn<dim>> tread_column(const ElementTable<dim>& table, int rows
   column.stiffness = block(stiffness, 0, n_retained, 0, n_retained);
   column.observation = block(observation, 0, observation.rows(), 0, n_retained);
   column.compliance = Matrix(observation.rows(), observation.rows());
+  // The column's own nodes: its first line, then the inner ones.
+  column.nodal = Matrix(numbering.n_line + n_inner, n_retained);
+  column.nodal_compliance = Matrix(numbering.n_line + n_inner, observation.rows());
+  for (int i = 0; i < numbering.n_line; ++i) column.nodal(i, numbering.n_base + i) = 1;
   if (n_inner == 0) return column;
 
   Matrix inner = block(stiffness, n_retained, n_inner, n_retained, n_inner);
@@ -126,6 +130,11 @@ Expected<TreadColumn<dim>> tread_column(const ElementTable<dim>& table, int rows
   multiply(-1, coupling, Op::none, to_retained, Op::none, 1, column.stiffness);
   multiply(-1, observed, Op::none, to_retained, Op::none, 1, column.observation);
   multiply(1, observed, Op::none, to_observed, Op::none, 0, column.compliance);
+  for (int i = 0; i < n_inner; ++i) {
+    for (int j = 0; j < n_retained; ++j) column.nodal(numbering.n_line + i, j) = -to_retained(i, j);
+    for (int j = 0; j < observation.rows(); ++j)
+      column.nodal_compliance(numbering.n_line + i, j) = to_observed(i, j);
+  }
   return column;
 }
 

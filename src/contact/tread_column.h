@@ -10,9 +10,11 @@ template <int dim>
 struct TreadColumn {
   std::vector<TreadPoint<dim>> points;
   int n_base, n_line;
-  Matrix stiffness;    ///< retained x retained
-  Matrix observation;  ///< observations x retained
-  Matrix compliance;   ///< observations x observations, retained unknowns fixed
+  Matrix stiffness;         ///< retained x retained
+  Matrix observation;       ///< observations x retained
+  Matrix compliance;        ///< observations x observations, retained unknowns fixed
+  Matrix nodal;             ///< the column's own nodes (see Tread::nodal_transfer) x retained
+  Matrix nodal_compliance;  ///< the column's own nodes x observations, retained unknowns fixed
 };
 
 /// Assembles and condenses a column of `rows` cells below the outer radius.

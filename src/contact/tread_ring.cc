@@ -54,8 +54,12 @@ Matrix base_loads(const Tread<dim>& tread, const Matrix& observation_loads) {
   return result;
 }
 
-template <int dim>
-Matrix observe(const Tread<dim>& tread, const Matrix& outer_line, const Matrix& observation_loads) {
+namespace {
+
+/// Responses of all columns to displacements of the outer line and observation loads.
+template <int dim, class Transfer, class Compliance>
+Matrix respond(const Tread<dim>& tread, const Transfer& transfer, const Compliance& compliance,
+               const Matrix& outer_line, const Matrix& observation_loads) {
   const int n = tread.n_columns(), n_base = tread.n_base(), per_column = tread.base_per_column();
   Matrix base(n_base, outer_line.columns());
   for (int first = 0; first < base.columns(); first += n)
@@ -63,9 +67,7 @@ Matrix observe(const Tread<dim>& tread, const Matrix& outer_line, const Matrix& 
       for (int i = 0; i < n_base; ++i)
         base(i, first + c) = outer_line(i % per_column, first + wrap(c + i / per_column, n));
 
-  Matrix result(tread.n_observations(), outer_line.columns());
-  const auto transfer = [&](int d) -> const Matrix& { return tread.transfer(d); };
-  const auto compliance = [&](int d) -> const Matrix& { return tread.compliance(d); };
+  Matrix result(transfer(0).rows(), outer_line.columns());
   for (int first = 0; first < result.columns(); first += n) {
     spread(transfer, Op::none, tread.reach(), 1, base, first, n, result);
     spread(compliance, Op::none, tread.reach(), 1, observation_loads, first, n, result);
@@ -73,9 +75,28 @@ Matrix observe(const Tread<dim>& tread, const Matrix& outer_line, const Matrix& 
   return result;
 }
 
+}  // namespace
+
+template <int dim>
+Matrix observe(const Tread<dim>& tread, const Matrix& outer_line, const Matrix& observation_loads) {
+  const auto transfer = [&](int d) -> const Matrix& { return tread.transfer(d); };
+  const auto compliance = [&](int d) -> const Matrix& { return tread.compliance(d); };
+  return respond(tread, transfer, compliance, outer_line, observation_loads);
+}
+
+template <int dim>
+Matrix nodal_displacements(const Tread<dim>& tread, const Matrix& outer_line,
+                           const Matrix& observation_loads) {
+  const auto transfer = [&](int d) -> const Matrix& { return tread.nodal_transfer(d); };
+  const auto compliance = [&](int d) -> const Matrix& { return tread.nodal_compliance(d); };
+  return respond(tread, transfer, compliance, outer_line, observation_loads);
+}
+
 template Matrix base_loads(const Tread<2>&, const Matrix&);
 template Matrix base_loads(const Tread<3>&, const Matrix&);
 template Matrix observe(const Tread<2>&, const Matrix&, const Matrix&);
 template Matrix observe(const Tread<3>&, const Matrix&, const Matrix&);
+template Matrix nodal_displacements(const Tread<2>&, const Matrix&, const Matrix&);
+template Matrix nodal_displacements(const Tread<3>&, const Matrix&, const Matrix&);
 
 }  // namespace wheelwright

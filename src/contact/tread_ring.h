@@ -16,4 +16,10 @@ Matrix base_loads(const Tread<dim>& tread, const Matrix& observation_loads);
 template <int dim>
 Matrix observe(const Tread<dim>& tread, const Matrix& outer_line, const Matrix& observation_loads);
 
+/// Displacements of the tread's nodes above the base, rows as in Tread::nodal_transfer, one column a ring
+/// column.
+template <int dim>
+Matrix nodal_displacements(const Tread<dim>& tread, const Matrix& outer_line,
+                           const Matrix& observation_loads);
+
 }  // namespace wheelwright

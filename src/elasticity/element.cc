@@ -206,7 +206,7 @@ Matrix ghost_stiffness(const ElasticElement<dim>& minus, const ElasticElement<di
     set_jump(traction_map<dim>(minus, material, at_minus, normal),
              traction_map<dim>(plus, material, at_plus, plus_normal));
     add_jump(weight * h / modulus);
-    if (ghost.kind == GhostKind::full && minus.degree() > 1) {
+    if (ghost.kind == GhostPenaltyKind::full && minus.degree() > 1) {
       set_jump(minus.second_derivative(xi_minus, normal), plus.second_derivative(xi_plus, plus_normal));
       add_jump(weight * h * h * h * modulus);
     }

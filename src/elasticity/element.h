@@ -3,6 +3,7 @@
 #include <array>
 #include <span>
 
+#include "elasticity/ghost_penalty.h"
 #include "elasticity/material.h"
 #include "geometry/cell_map.h"
 #include "geometry/gauss.h"
@@ -80,18 +81,7 @@ template <int dim>
 Matrix cell_stiffness(const ElasticElement<dim>& element, const Material& material,
                       std::span<const ReferencePoint<dim>> points);
 
-/// Which jumps the ghost penalty holds.
-enum class GhostKind {
-  full,   ///< every face of a cut cell; stress jump and second normal-derivative jump
-  paper,  ///< (81): faces that the boundary crosses; stress jump
-};
-
-struct GhostPenalty {
-  GhostKind kind = GhostKind::full;
-  double xi = 1e-4;
-};
-
-/// One face's term of (81), 1/2 int_F xi h_F / E [[sigma n]].[[sigma n]], and for GhostKind::full also
+/// One face's term of (81), 1/2 int_F xi h_F / E [[sigma n]].[[sigma n]], and for GhostPenaltyKind::full also
 /// 1/2 int_F xi h_F^3 E [[d_nn u]].[[d_nn u]], on the dofs (minus cell, plus cell); h_F is the mean diameter
 /// of the two cells. `angle` is the azimuth of the plus cell's frame less the minus cell's; `axis` the
 /// face's.

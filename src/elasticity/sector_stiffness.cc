@@ -36,7 +36,7 @@ SectorStiffness<dim> sector_stiffness(const CutDomain<dim>& domain, const Elemen
     pattern.couple(cell_nodes[cell]);
   }
   for (const GhostFace& face : domain.ghost_faces) {
-    if (!space.holds(face) || (table.ghost().kind == GhostKind::paper && !face.crossed)) continue;
+    if (!space.holds(face) || (table.ghost().kind == GhostPenaltyKind::paper && !face.crossed)) continue;
     auto nodes = space.cell_nodes(face.minus);
     const auto plus = space.cell_nodes(face.plus, space.wraps(face) ? 1 : 0);
     nodes.insert(nodes.end(), plus.begin(), plus.end());

@@ -17,13 +17,20 @@ Evolver<dim>::Evolver(const Lattice<dim>& lattice, const EvolutionOptions& optio
 
 template <int dim>
 std::vector<double> Evolver<dim>::velocity(std::span<const SurfaceSample<dim>> gradient) const {
-  return (*extension_)(gradient);
+  auto velocity = (*extension_)(gradient);
+  const auto movable = movable_samples<dim>(lattice_, bands_, gradient, velocity);
+  return movable.size() == gradient.size() ? velocity : (*extension_)(movable);
 }
 
 template <int dim>
 std::vector<double> Evolver<dim>::measure_preserving_velocity(
     std::span<const SurfaceSample<dim>> gradient) const {
-  return wheelwright::measure_preserving_velocity<dim>(lattice_, *extension_, gradient);
+  const auto preserving = [&](std::span<const SurfaceSample<dim>> samples) {
+    return wheelwright::measure_preserving_velocity<dim>(lattice_, *extension_, samples);
+  };
+  auto velocity = preserving(gradient);
+  const auto movable = movable_samples<dim>(lattice_, bands_, gradient, velocity);
+  return movable.size() == gradient.size() ? velocity : preserving(movable);
 }
 
 template <int dim>

@@ -23,7 +23,8 @@ class Evolver {
  public:
   Evolver(const Lattice<dim>& lattice, const EvolutionOptions& options);
 
-  /// Descent velocity of the shape gradient density G, and the same made to preserve the measure.
+  /// Descent velocity of the shape gradient density G, and the same made to preserve the measure. Where the
+  /// boundary lies on the edge of a band and would go into it, G is left out.
   std::vector<double> velocity(std::span<const SurfaceSample<dim>> gradient) const;
   std::vector<double> measure_preserving_velocity(std::span<const SurfaceSample<dim>> gradient) const;
 

@@ -72,10 +72,8 @@ template <int dim>
 double boundary_integral(const Lattice<dim>& lattice, std::span<const SurfaceSample<dim>> boundary,
                          std::span<const double> field) {
   double sum = 0;
-  for (const auto& sample : boundary) {
-    const auto at = node_weights<dim>(lattice, sample.cell, sample.xi);
-    for (int a = 0; a < n_corners<dim>; ++a) sum += sample.weight * at.weight[a] * field[at.node[a]];
-  }
+  for (const auto& sample : boundary)
+    sum += sample.weight * interpolate(node_weights<dim>(lattice, sample.cell, sample.xi), field);
   return sum;
 }
 

@@ -22,6 +22,14 @@ struct NodeWeights {
 template <int dim>
 NodeWeights<dim> node_weights(const Lattice<dim>& lattice, int cell, const Vec<dim>& xi);
 
+/// The field at that point.
+template <int dim>
+double interpolate(const NodeWeights<dim>& at, std::span<const double> field) {
+  double value = 0;
+  for (std::size_t a = 0; a < at.node.size(); ++a) value += at.weight[a] * field[at.node[a]];
+  return value;
+}
+
 /// Sum over the boundary of weight * field: the integral of a nodal field over the boundary.
 template <int dim>
 double boundary_integral(const Lattice<dim>& lattice, std::span<const SurfaceSample<dim>> boundary,

@@ -21,7 +21,14 @@ class ProtectedBands {
   /// do not overshoot into the band.
   LevelSet<dim> keep(LevelSet<dim> psi) const;
 
+  /// Whether a boundary point lies on the edge of a band, where keep() stops it.
+  bool touches(const SurfaceSample<dim>& sample) const;
+
  private:
+  double distance(double radius) const;
+
+  PolarGrid<dim> grid_;
+  double inner_edge_, outer_edge_;
   std::vector<bool> nodes_;
   std::vector<double> upper_bound_;
 };

@@ -103,6 +103,19 @@ std::vector<double> measure_preserving_velocity(const Lattice<dim>& lattice,
   return velocity;
 }
 
+template <int dim>
+std::vector<SurfaceSample<dim>> movable_samples(const Lattice<dim>& lattice, const ProtectedBands<dim>& bands,
+                                                std::span<const SurfaceSample<dim>> gradient,
+                                                std::span<const double> velocity) {
+  std::vector<SurfaceSample<dim>> result;
+  for (const auto& sample : gradient) {
+    const bool is_blocked = bands.touches(sample) &&
+                            interpolate(node_weights<dim>(lattice, sample.cell, sample.xi), velocity) < 0;
+    if (!is_blocked) result.push_back(sample);
+  }
+  return result;
+}
+
 template std::unique_ptr<VelocityExtension<2>> make_velocity_extension<2>(const Lattice<2>&,
                                                                           const ProtectedBands<2>&,
                                                                           const VelocityOptions&);
@@ -113,5 +126,11 @@ template std::vector<double> measure_preserving_velocity<2>(const Lattice<2>&, c
                                                             std::span<const SurfaceSample<2>>);
 template std::vector<double> measure_preserving_velocity<3>(const Lattice<3>&, const VelocityExtension<3>&,
                                                             std::span<const SurfaceSample<3>>);
+template std::vector<SurfaceSample<2>> movable_samples<2>(const Lattice<2>&, const ProtectedBands<2>&,
+                                                          std::span<const SurfaceSample<2>>,
+                                                          std::span<const double>);
+template std::vector<SurfaceSample<3>> movable_samples<3>(const Lattice<3>&, const ProtectedBands<3>&,
+                                                          std::span<const SurfaceSample<3>>,
+                                                          std::span<const double>);
 
 }  // namespace wheelwright

@@ -43,4 +43,11 @@ std::vector<double> measure_preserving_velocity(const Lattice<dim>& lattice,
                                                 const VelocityExtension<dim>& extension,
                                                 std::span<const SurfaceSample<dim>> gradient);
 
+/// The samples of a gradient that can follow a velocity: without those on the edge of a band that it would
+/// push into the band.
+template <int dim>
+std::vector<SurfaceSample<dim>> movable_samples(const Lattice<dim>& lattice, const ProtectedBands<dim>& bands,
+                                                std::span<const SurfaceSample<dim>> gradient,
+                                                std::span<const double> velocity);
+
 }  // namespace wheelwright

@@ -96,9 +96,7 @@ Expected<std::pair<ReducedContact<dim>, ContactState<dim>>> RollingProblem<dim>:
     const CyclicStiffness<dim>& ring, GroundPosition ground,
     const std::optional<ContactState<dim>>& neighbour) const {
   const PolarGrid<dim>& grid = model_.grid;
-  const Material& material = model_.material;
-  const double reduced_modulus =
-      material.youngs_modulus / (1 - material.poissons_ratio * material.poissons_ratio);
+  const double reduced_modulus = model_.material.plane_strain_modulus();
   const double line_load = dim == 2 ? model_.load : model_.load / grid.width;
   const double half_width =
       2 * std::sqrt(line_load * grid.outer_radius / (std::numbers::pi * reduced_modulus));

@@ -1,0 +1,70 @@
+#include "app/commands/model.h"
+
+#include "case/derived.h"
+
+namespace wheelwright {
+namespace {
+
+double sector_area(const PolarGrid<2>& grid) {
+  return 0.5 * grid.sector_angle() *
+         (grid.outer_radius * grid.outer_radius - grid.inner_radius * grid.inner_radius);
+}
+
+}  // namespace
+
+PolarGrid<2> polar_grid(const Case& c) {
+  return {c.wheel.inner_radius,
+          c.wheel.outer_radius,
+          c.wheel.width,
+          c.wheel.sectors,
+          {c.grid.radial_cells, c.grid.angular_cells / c.wheel.sectors}};
+}
+
+RollingModel<2> rolling_model(const Case& c) {
+  RollingModel<2> model;
+  model.grid = polar_grid(c);
+  model.degree = c.grid.degree;
+  model.material = c.material;
+  model.ghost = c.ghost_penalty;
+  model.contact = {
+      .method = c.contact.method, .theta_nitsche = c.contact.theta, .gamma_0 = c.contact.gamma_0};
+  model.contact_points = c.contact.quadrature_points;
+  model.load = load_per_metre(c);
+  model.n_positions = c.load.positions;
+  model.strain_energy_weight = c.objective.strain_energy;
+  return model;
+}
+
+LevelSet<2> initial_shape(const Case& c) {
+  return make_level_set(Lattice<2>(polar_grid(c), c.grid.level_set_degree), sector_holes(c));
+}
+
+EvolutionOptions evolution_options(const Case& c) {
+  EvolutionOptions options;
+  options.velocity.kind =
+      c.optimizer.velocity == VelocityKind::h1 ? ExtensionKind::h1 : ExtensionKind::harmonic;
+  options.velocity.length = c.optimizer.velocity_length;
+  options.smoothing = c.optimizer.smoothing;
+  options.rim_band = rim_band(c);
+  options.tread_band = tread_band(c);
+  return options;
+}
+
+OptimizerOptions optimizer_options(const Case& c) {
+  OptimizerOptions options;
+  options.iterations = c.optimizer.iterations;
+  options.step = c.optimizer.step;
+  options.max_halvings = c.optimizer.max_halvings;
+  options.accepted_increase = c.optimizer.accepted_increase;
+  options.tolerance = c.optimizer.tolerance;
+  options.redistance_every = c.optimizer.redistance_every;
+  options.smooth_every = c.optimizer.smoothing > 0 ? c.optimizer.smooth_every : 0;
+  options.measure_control =
+      c.volume.control == VolumeControl::exact ? MeasureControl::exact : MeasureControl::proportional;
+  if (c.volume.target) options.target_measure = *c.volume.target * sector_area(polar_grid(c));
+  return options;
+}
+
+double volume_fraction(const PolarGrid<2>& grid, double measure) { return measure / sector_area(grid); }
+
+}  // namespace wheelwright

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "case/case.h"
+#include "geometry/level_set.h"
+#include "optimize/optimizer.h"
+#include "sensitivity/rolling_problem.h"
+
+namespace wheelwright {
+
+/// The solver's view of a case: what every command that computes builds from it.
+PolarGrid<2> polar_grid(const Case& c);
+RollingModel<2> rolling_model(const Case& c);
+LevelSet<2> initial_shape(const Case& c);
+EvolutionOptions evolution_options(const Case& c);
+OptimizerOptions optimizer_options(const Case& c);
+
+/// Material area over the area of the ring, from the measure of one sector.
+double volume_fraction(const PolarGrid<2>& grid, double measure);
+
+}  // namespace wheelwright

@@ -1,0 +1,114 @@
+#include "app/commands/run_folder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+
+#include "case/version.h"
+#include "case/write.h"
+#include "output/atomic_file.h"
+#include "output/deformed_svg.h"
+#include "output/output_error.h"
+#include "output/solution_fields.h"
+#include "output/svg.h"
+
+namespace wheelwright {
+namespace {
+
+constexpr int cut_subdivisions = 4;
+
+int worst_position(const RollingSolution<2>& solution) {
+  const auto& energy = solution.strain_energy;
+  return static_cast<int>(std::max_element(energy.begin(), energy.end()) - energy.begin());
+}
+
+std::vector<NamedField> position_fields(const RollingProblem<2>& problem, const RollingSolution<2>& solution,
+                                        int position) {
+  RingField displacement = displacement_field(problem, solution, position);
+  RingField von_mises = von_mises_field(problem, solution, displacement);
+  return {{"displacement", "m", std::move(displacement)}, {"von_mises", "Pa", std::move(von_mises)}};
+}
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw OutputError(folder, error.value());
+}
+
+Lattice<2> displacement_lattice(const RollingProblem<2>& problem) {
+  return Lattice<2>(problem.model().grid, problem.model().degree);
+}
+
+WheelState wheel_state(const std::string& heading, const OptimizationState<2>& state) {
+  return {heading, material_contours(state.shape, contour_subdivisions(state.shape.lattice.degree())),
+          state.evaluation.objective, volume_fraction(state.shape.lattice.grid(), state.measure)};
+}
+
+}  // namespace
+
+RunFolder::RunFolder(std::filesystem::path folder, const Case& c) : folder_(std::move(folder)), case_(c) {
+  make_folder(folder_);
+  write_atomically(folder_ / "case.toml", fmt::format("# wheelwright {}, deal.II 9.4, compiled by {}\n\n{}",
+                                                      version(), __VERSION__, to_toml(c)));
+}
+
+void RunFolder::write_shape(const RollingProblem<2>& problem, const OptimizationState<2>& state) {
+  const auto solution = problem.solve(state.shape);
+  if (!solution) return;  // accepted shapes were solved before; nothing to draw otherwise
+  auto fields = position_fields(problem, *solution, worst_position(*solution));
+  LevelSet<2> gradient{
+      state.shape.lattice,
+      Evolver<2>(state.shape.lattice, evolution_options(case_)).velocity(state.evaluation.gradient)};
+  for (double& value : gradient.values) value = -value;
+  fields.push_back({"shape_gradient", "Pa", repeated_field(problem, gradient)});
+
+  const std::string file = fmt::format("shapes/shape_{:04d}.vtu", state.iteration);
+  make_folder(folder_ / "shapes");
+  write_vtu(folder_ / file, state.shape, displacement_lattice(problem), fields, cut_subdivisions);
+  shapes_.push_back({static_cast<double>(state.iteration), file});
+  write_pvd(folder_ / "shapes.pvd", shapes_);
+}
+
+void RunFolder::write_pressures(const RollingProblem<2>& problem, const RollingSolution<2>& solution,
+                                const std::string& name) const {
+  write_pressure_csv(folder_ / fmt::format("pressures_{}.csv", name), contact_points(problem, solution));
+}
+
+void RunFolder::write_result(const RollingProblem<2>& problem, const OptimizationState<2>& initial,
+                             const OptimizationState<2>& final_state) const {
+  const PolarGrid<2>& grid = problem.model().grid;
+  const std::string title = case_.title.empty() ? folder_.filename().string() : case_.title;
+  const WheelState before = wheel_state("initial", initial);
+  const WheelState after = wheel_state(fmt::format("after {} shapes", final_state.iteration), final_state);
+  write_atomically(folder_ / "shape.svg", shape_svg(grid, after.contours, title));
+  write_atomically(folder_ / "comparison.svg",
+                   comparison_svg(grid, {title,
+                                         fmt::format("sum over {} load positions, {:.6g} N/m",
+                                                     problem.model().n_positions, problem.model().load),
+                                         "objective", "J/m", before, after}));
+
+  const auto solution = problem.solve(final_state.shape);
+  if (!solution) return;
+  write_pressures(problem, *solution, "final");
+  make_folder(folder_ / "rolling");
+  std::vector<PvdEntry> positions;
+  for (int i = 0; i < problem.model().n_positions; ++i) {
+    const std::string file = fmt::format("rolling/position_{:02d}.vtu", i);
+    write_vtu(folder_ / file, final_state.shape, displacement_lattice(problem),
+              position_fields(problem, *solution, i), cut_subdivisions);
+    positions.push_back({static_cast<double>(i), file});
+  }
+  write_pvd(folder_ / "rolling.pvd", positions);
+
+  const int worst = worst_position(*solution);
+  RingField displacement = displacement_field(problem, *solution, worst);
+  NamedField von_mises{"von Mises stress", "Pa", von_mises_field(problem, *solution, displacement)};
+  write_atomically(
+      folder_ / "stress.svg",
+      deformed_svg(final_state.shape, displacement_lattice(problem),
+                   {title, std::move(displacement), 20, solution->grounds[worst].column * grid.cell_size()[1],
+                    std::move(von_mises)}));
+}
+
+}  // namespace wheelwright

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/commands/model.h"
+#include "output/vtu.h"
+
+namespace wheelwright {
+
+/// Writes everything of a run but its history. All paths stay inside the folder; throws OutputError.
+class RunFolder {
+ public:
+  /// Makes the folder and writes case.toml, the resolved case with the versions that computed it.
+  RunFolder(std::filesystem::path folder, const Case& c);
+
+  const std::filesystem::path& path() const { return folder_; }
+  std::filesystem::path history() const { return folder_ / "history.csv"; }
+
+  /// shapes/shape_NNNN.vtu with the fields of the worst load position, and shapes.pvd over all shapes so far.
+  void write_shape(const RollingProblem<2>& problem, const OptimizationState<2>& state);
+
+  /// pressures_NAME.csv: the contact of all positions.
+  void write_pressures(const RollingProblem<2>& problem, const RollingSolution<2>& solution,
+                       const std::string& name) const;
+
+  /// The result: shape.svg for cutting, comparison.svg and stress.svg to look at, rolling.pvd with the fields
+  /// of every load position.
+  void write_result(const RollingProblem<2>& problem, const OptimizationState<2>& initial,
+                    const OptimizationState<2>& final_state) const;
+
+ private:
+  std::filesystem::path folder_;
+  Case case_;
+  std::vector<PvdEntry> shapes_;
+};
+
+}  // namespace wheelwright
