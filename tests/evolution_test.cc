@@ -3,6 +3,7 @@
 #include <numeric>
 #include <random>
 
+#include "cut/cut_domain.h"
 #include "cut/measure.h"
 #include "evolution/closest_point.h"
 #include "evolution/evolver.h"
@@ -379,6 +380,59 @@ TEST(ProtectedBands, CutHolesOffAtTheirEdges) {
     EXPECT_GT(radius, 0.2125);
     EXPECT_LT(radius, 0.3025);
   }
+}
+
+TEST(ProtectedBands, StayFullCellsUnderHolesThatOverlapThem) {
+  for (int degree : {1, 2}) {
+    const auto lattice = lattice_of(degree);
+    const ProtectedBands<2> bands(lattice, 0.005, 0.01);
+    for (double shift : {0.0, 0.0007, 0.0013, 0.0021}) {
+      const std::vector<Circle> holes{{0.215 + shift, 0.1 + shift, 0.03}, {0.33 - shift, 0.3, 0.02 + shift}};
+      const auto domain = cut_domain<2>(bands.keep(make_level_set<2>(lattice, holes)), 4);
+      ASSERT_TRUE(domain);
+      for (int cell = 0; cell < lattice.grid().n_cells(); ++cell) {
+        const int row = lattice.grid().cell_position(cell)[0];
+        if (row == 0 || row >= 26) {
+          EXPECT_EQ(domain->kinds[cell], CellKind::inside);
+        }
+      }
+    }
+  }
+}
+
+TEST(ProtectedBands, StopTheBoundaryThatWouldGoIntoThem) {
+  const auto lattice = lattice_of(2);
+  const Evolver<2> evolver(lattice, {{ExtensionKind::h1, 2}, 0, 0.04, 0.01});
+  const auto psi = evolver.keep_bands(make_level_set<2>(lattice, one_hole));
+  auto gradient = boundary_samples<2>(psi);
+  const ProtectedBands<2> bands(lattice, 0.04, 0.01);
+  std::vector<SurfaceSample<2>> elsewhere;
+  int n_touching = 0;
+  for (auto& sample : gradient) {
+    sample.value = bands.touches(sample) ? 100 : 1;
+    n_touching += bands.touches(sample);
+    if (!bands.touches(sample)) elsewhere.push_back(sample);
+  }
+  EXPECT_GT(n_touching, 10);
+  EXPECT_EQ(evolver.velocity(gradient), evolver.velocity(elsewhere));
+}
+
+TEST(Evolver3D, MovesAShapeAndRestoresItsMeasure) {
+  const Lattice<3> lattice({0.20, 0.34, 0.12, 16, {10, 8, 3}}, 1);
+  const Evolver<3> evolver(lattice, {{ExtensionKind::h1, 2}, 0.1, 0.014, 0.014});
+  const auto psi = make_level_set<3>(lattice, one_hole);
+  auto gradient = boundary_samples<3>(psi);
+  double area = 0;
+  for (auto& sample : gradient) {
+    sample.value = -1 - sample.normal[1];
+    area += sample.weight;
+  }
+  const auto velocity = evolver.measure_preserving_velocity(gradient);
+  const double h = lattice.grid().resolution(), measure = material_measure(psi);
+  const auto moved = evolver.smooth(evolver.redistance(evolver.move(psi, velocity, 0.5 * h)));
+  const auto restored = evolver.with_measure(moved, measure, area);
+  ASSERT_TRUE(restored);
+  EXPECT_NEAR(material_measure(*restored), measure, 1e-6 * measure);
 }
 
 TEST(ProportionalMultiplier, IsTheFormulaOfThePaper) {
