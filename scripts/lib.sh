@@ -1,0 +1,57 @@
+# shellcheck shell=bash
+# What scripts/demo and scripts/test share: packages, configuration, build. To be sourced from the
+# repository's top folder.
+
+packages=(
+  g++ cmake ninja-build pkg-config
+  libdeal.ii-dev libsuitesparse-dev libopenblas-dev
+  libtomlplusplus-dev libcli11-dev libfmt-dev
+  libgtest-dev libbenchmark-dev
+)
+build_folder=build/release
+
+fail() {
+  printf '%s\n' "$@" >&2
+  exit 1
+}
+
+is_installed() {
+  [[ $(dpkg-query --show --showformat='${db:Status-Status}' "$1" 2>/dev/null) == installed ]]
+}
+
+as_root() {
+  if ((EUID == 0)); then
+    "$@"
+  elif command -v sudo >/dev/null; then
+    sudo "$@"
+  else
+    fail "Packages are missing, and only root may install them. Run as root:" \
+      "  apt-get update && apt-get install --no-install-recommends ${missing[*]}"
+  fi
+}
+
+# Installs what dpkg does not know as installed; asks nothing and touches nothing when all is there.
+install_packages() {
+  if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
+    fail "This system has no apt-get. Install what these packages of Debian 12 hold:" \
+      "  ${packages[*]}" \
+      "and build with: cmake --preset release && cmake --build --preset release"
+  fi
+  local missing=() package
+  for package in "${packages[@]}"; do
+    is_installed "$package" || missing+=("$package")
+  done
+  ((${#missing[@]})) || return 0
+  echo "Installing ${missing[*]}"
+  as_root apt-get --quiet update ||
+    fail "apt-get could not read the package lists: is there a network?"
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get --quiet --yes --no-install-recommends install \
+    "${missing[@]}" ||
+    fail "apt-get could not install the packages. Debian 12 (bookworm) has all of them."
+}
+
+# Builds the targets in Release; a build that is up to date is left alone.
+build() {
+  [[ -f $build_folder/build.ninja ]] || cmake --preset release
+  cmake --build --preset release --target "$@"
+}
