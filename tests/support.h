@@ -42,4 +42,14 @@ inline LevelSet<2> paper_holes(const PolarGrid<2>& grid) {
   return holes(grid, 2, {{0.27, 0.5 * grid.sector_angle(), 0.04}});
 }
 
+/// |a - b| / |b| in the Euclidean norm.
+inline double relative_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double difference = 0, size = 0;
+  for (size_t i = 0; i < b.size(); ++i) {
+    difference += (a[i] - b[i]) * (a[i] - b[i]);
+    size += b[i] * b[i];
+  }
+  return a.size() == b.size() ? std::sqrt(difference / size) : INFINITY;
+}
+
 }  // namespace wheelwright::testing

@@ -1,0 +1,197 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+
+#include "linalg/sparse_spd.h"
+#include "tests/support.h"
+
+namespace wheelwright {
+namespace {
+
+using testing::holes;
+using testing::paper_model;
+using testing::relative_difference;
+
+constexpr int n_sectors = 4;
+
+/// A wheel of four sectors; the same wheel as a single sector.
+RollingModel<2> four_sectors() {
+  auto model = paper_model();
+  model.grid.n_sectors = n_sectors;
+  model.grid.cells = {10, 24};
+  model.n_positions = 4;
+  return model;
+}
+
+RollingModel<2> one_sector() {
+  auto model = four_sectors();
+  model.grid.n_sectors = 1;
+  model.grid.cells[1] *= n_sectors;
+  model.n_positions *= n_sectors;
+  return model;
+}
+
+/// Holes across the sector's face, inside, and one in a corner of a cell's face.
+LevelSet<2> unsymmetric_holes(const PolarGrid<2>& grid) {
+  return holes(grid, 2, {{0.265, 0.02, 0.034}, {0.27, 0.55, 0.031}, {0.262, 1.05, 0.027}});
+}
+
+LevelSet<2> repeated(const LevelSet<2>& sector, const PolarGrid<2>& ring) {
+  LevelSet<2> psi{Lattice<2>(ring, sector.lattice.degree()), {}};
+  for (int s = 0; s < n_sectors; ++s)
+    psi.values.insert(psi.values.end(), sector.values.begin(), sector.values.end());
+  return psi;
+}
+
+TEST(Cyclic, SectorsAgreeWithTheWholeRing) {
+  for (int degree : {1, 2}) {
+    auto by_sector = four_sectors(), whole = one_sector();
+    by_sector.degree = whole.degree = degree;
+    const auto psi = unsymmetric_holes(by_sector.grid);
+    const auto a = RollingProblem<2>::create(by_sector)->solve(psi);
+    const auto b = RollingProblem<2>::create(whole)->solve(repeated(psi, whole.grid));
+    ASSERT_TRUE(a) << a.failure().detail;
+    ASSERT_TRUE(b) << b.failure().detail;
+    const int ring_columns = by_sector.grid.ring_columns();
+    for (int i = 0; i < whole.n_positions; ++i) {
+      const int own = i % by_sector.n_positions, sectors_ahead = i / by_sector.n_positions;
+      EXPECT_NEAR(a->strain_energy[own], b->strain_energy[i], 1e-9 * b->strain_energy[i]);
+      EXPECT_NEAR(a->states[own].rim_displacement, b->states[i].rim_displacement,
+                  1e-9 * b->states[i].rim_displacement);
+      std::vector<double> traction_a, traction_b, observed_a, observed_b;
+      for (const auto& t : a->states[own].traction) traction_a.push_back(t[0]);
+      for (const auto& t : b->states[i].traction) traction_b.push_back(t[0]);
+      for (int c = 0; c < ring_columns; ++c) {
+        const int turned = (c + sectors_ahead * by_sector.grid.columns()) % ring_columns;
+        for (int r = 0; r < a->observations.rows(); ++r) {
+          // Displacements and tractions (in units of E) are of one size.
+          const double unit = r % 4 < 2 ? 1 : 1 / whole.material.youngs_modulus;
+          observed_a.push_back(unit * a->observations(r, own * ring_columns + c));
+          observed_b.push_back(unit * b->observations(r, i * ring_columns + turned));
+        }
+      }
+      EXPECT_LT(relative_difference(traction_a, traction_b), 1e-9);
+      EXPECT_LT(relative_difference(observed_a, observed_b), 1e-9);
+    }
+  }
+}
+
+/// The core of the whole ring, assembled cell by cell and face by face with nodes numbered periodically.
+class PlainRing {
+ public:
+  PlainRing(const CutDomain<2>& domain, const ElementTable<2>& table, int core_rows)
+      : lattice_(domain.grid, table.degree()), outer_(table.degree() * core_rows) {
+    const PolarGrid<2>& grid = domain.grid;
+    std::vector<const CutCell<2>*> cut(grid.n_cells());
+    for (const auto& cell : domain.cut) cut[cell.cell] = &cell;
+    for (int cell = 0; cell < grid.n_cells(); ++cell) {
+      const int row = grid.cell_position(cell)[0];
+      if (row >= core_rows || !domain.active(cell)) continue;
+      add(nodes(cell), cut[cell]
+                           ? cell_stiffness<2>(table.element(row), table.material(), cut[cell]->material)
+                           : table.full_cell_stiffness(row));
+    }
+    for (const GhostFace& face : domain.ghost_faces) {
+      if (grid.cell_position(face.plus)[0] >= core_rows) continue;
+      auto both = nodes(face.minus);
+      const auto plus = nodes(face.plus);
+      both.insert(both.end(), plus.begin(), plus.end());
+      add(both, table.face_ghost(grid.cell_position(face.minus)[0], face.axis));
+    }
+  }
+
+  /// Radial and azimuthal displacements of the outer line (node major) for loads on it.
+  std::vector<double> solve(const std::vector<double>& outer_loads) {
+    const auto factor = SparseSpd::factor(static_cast<int>(number_.size()), entries_);
+    std::vector<double> x(number_.size()), result;
+    for (size_t i = 0; i < outer_loads.size(); ++i) x[outer_dof(static_cast<int>(i))] = outer_loads[i];
+    x = factor->solve(x);
+    for (size_t i = 0; i < outer_loads.size(); ++i) result.push_back(x[outer_dof(static_cast<int>(i))]);
+    return result;
+  }
+
+ private:
+  int outer_dof(int i) { return dof(lattice_.node_index({outer_, i / 2}), i % 2); }
+
+  std::vector<int> nodes(int cell) const {
+    const int degree = lattice_.degree();
+    const auto c = lattice_.grid().cell_position(cell);
+    std::vector<int> result;
+    for (int a = 0; a < nodes_per_cell<2>(degree); ++a) {
+      const auto p = local_node_position<2>(degree, a);
+      result.push_back(lattice_.node_index({degree * c[0] + p[0], degree * c[1] + p[1]}));
+    }
+    return result;
+  }
+
+  int dof(int node, int component) {
+    return number_.try_emplace(2 * node + component, static_cast<int>(number_.size())).first->second;
+  }
+
+  void add(const std::vector<int>& nodes, const Matrix& block) {
+    const auto fixed = [&](int i) { return lattice_.node_position(nodes[i / 2])[0] == 0; };
+    for (int j = 0; j < block.columns(); ++j)
+      for (int i = 0; i < block.rows(); ++i) {
+        if (fixed(i) || fixed(j)) continue;
+        const int row = dof(nodes[i / 2], i % 2), column = dof(nodes[j / 2], j % 2);
+        if (row >= column) entries_.push_back({row, column, block(i, j)});
+      }
+  }
+
+  Lattice<2> lattice_;
+  int outer_;
+  std::map<int, int> number_;
+  std::vector<SparseSpd::Entry> entries_;
+};
+
+TEST(Cyclic, AgreesWithAPlainSolveOfTheWholeRing) {
+  for (int degree : {1, 2}) {
+    const auto model = four_sectors(), whole = one_sector();
+    const int core_rows = model.grid.cells[0] - 1;
+    const auto psi = unsymmetric_holes(model.grid);
+    const auto domain = cut_domain(psi, 4);
+    const auto whole_domain = cut_domain(repeated(psi, whole.grid), 4);
+    ASSERT_TRUE(domain && whole_domain);
+    const ElementTable<2> table(model.grid, degree, model.material, model.ghost);
+    const ElementTable<2> whole_table(whole.grid, degree, whole.material, whole.ghost);
+    auto sector = sector_stiffness(*domain, table, core_rows);
+    ASSERT_TRUE(std::any_of(domain->ghost_faces.begin(), domain->ghost_faces.end(),
+                            [&](const GhostFace& face) { return sector.space.wraps(face); }));
+
+    const SectorHarmonics harmonics(n_sectors);
+    const int n_outer = 2 * degree * model.grid.columns();
+    const std::vector<ComplexMatrix> no_tread(harmonics.n_harmonics(), ComplexMatrix(n_outer, n_outer));
+    const auto ring = CyclicStiffness<2>::factor(
+        std::move(sector), nested_dissection<2>(model.grid, degree, core_rows), no_tread, harmonics);
+    ASSERT_TRUE(ring) << ring.failure().detail;
+
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    std::vector<double> loads(n_outer * n_sectors);
+    for (double& x : loads) x = uniform(random);
+    Matrix boundary(ring->n_boundary(), n_sectors);
+    for (int s = 0; s < n_sectors; ++s)
+      std::copy_n(&loads[n_outer * s], n_outer, boundary.column(s) + ring->n_boundary() - n_outer);
+    boundary = ring->solve_boundary(boundary);
+    std::vector<double> displacement, through_compliance(loads.size());
+    for (int s = 0; s < n_sectors; ++s) {
+      const double* outer = boundary.column(s) + ring->n_boundary() - n_outer;
+      displacement.insert(displacement.end(), outer, outer + n_outer);
+      for (int source = 0; source < n_sectors; ++source) {
+        const Matrix& compliance = ring->outer_compliance(s - source);
+        for (int j = 0; j < n_outer; ++j)
+          for (int i = 0; i < n_outer; ++i)
+            through_compliance[n_outer * s + i] += compliance(i, j) * loads[n_outer * source + j];
+      }
+    }
+    const auto expected = PlainRing(*whole_domain, whole_table, core_rows).solve(loads);
+    EXPECT_LT(relative_difference(displacement, expected), 1e-9);
+    EXPECT_LT(relative_difference(through_compliance, expected), 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace wheelwright
