@@ -5,6 +5,7 @@
 
 #include "cut/cut_domain.h"
 #include "cut/measure.h"
+#include "evolution/cell_scale.h"
 #include "evolution/closest_point.h"
 #include "evolution/evolver.h"
 #include "evolution/multilinear.h"
@@ -442,6 +443,31 @@ TEST(ProportionalMultiplier, IsTheFormulaOfThePaper) {
 }
 
 // --- invariance ---
+
+TEST(CellScale, RemovesBulgesOfSingleCellsAndKeepsTheBoundary) {
+  for (double refinement : {1.0, 2.0}) {
+    const auto lattice = lattice_of(2, refinement);
+    const double h = lattice.grid().resolution();
+    const auto circle = make_level_set<2>(lattice, one_hole);
+    auto bulged = circle;
+    for (int node = 0; node < lattice.n_nodes(); ++node) {
+      const auto p = lattice.node_position(node);
+      if (p[0] % 2 != 0 || p[1] % 2 != 0) bulged.values[node] += 0.02 * h;
+    }
+    EXPECT_GT(boundary_error(bulged, one_hole[0]), 0.015 * h);
+    EXPECT_LT(boundary_error(on_cell_scale(bulged), one_hole[0]), 2e-3 * h / refinement);
+    const double hole = sector_measure<2>(lattice.grid()) - material_measure(circle);
+    EXPECT_NEAR(material_measure(on_cell_scale(circle)), material_measure(circle),
+                2e-5 * hole / (refinement * refinement));
+  }
+}
+
+TEST(CellScale, IsAProjection) {
+  const auto once = on_cell_scale(make_level_set<2>(lattice_of(2), one_hole));
+  EXPECT_LT(largest_difference(on_cell_scale(once).values, once.values), 1e-15);
+  const auto linear = make_level_set<2>(lattice_of(1), one_hole);
+  EXPECT_EQ(on_cell_scale(linear).values, linear.values);
+}
 
 TEST(Evolution, DoesNotSeeWhereTheSectorBegins) {
   const auto lattice = lattice_of(2);

@@ -1,5 +1,6 @@
 #include "evolution/evolver.h"
 
+#include "evolution/cell_scale.h"
 #include "evolution/redistance.h"
 #include "evolution/transport.h"
 #include "evolution/volume.h"
@@ -38,17 +39,17 @@ LevelSet<dim> Evolver<dim>::move(const LevelSet<dim>& psi, std::span<const doubl
                                  double distance) const {
   double fastest = 0;
   for (double v : velocity) fastest = std::max(fastest, std::abs(v));
-  return bands_.keep(transport<dim>(psi, velocity, distance / fastest));
+  return bands_.keep(on_cell_scale(transport<dim>(psi, velocity, distance / fastest)));
 }
 
 template <int dim>
 LevelSet<dim> Evolver<dim>::redistance(const LevelSet<dim>& psi) const {
-  return bands_.keep(wheelwright::redistance<dim>(psi));
+  return bands_.keep(on_cell_scale(wheelwright::redistance<dim>(psi)));
 }
 
 template <int dim>
 LevelSet<dim> Evolver<dim>::smooth(const LevelSet<dim>& psi) const {
-  return smoother_ ? bands_.keep((*smoother_)(psi)) : psi;
+  return smoother_ ? bands_.keep(on_cell_scale((*smoother_)(psi))) : psi;
 }
 
 template <int dim>

@@ -17,7 +17,7 @@ struct EvolutionOptions {
 };
 
 /// Everything that moves shapes of one lattice; factors what depends on the lattice alone once. All shapes it
-/// returns keep the protected bands.
+/// returns keep the protected bands; what it moved has no structure below the cells (cell_scale.h).
 template <int dim>
 class Evolver {
  public:

@@ -102,7 +102,7 @@ StopReason ShapeOptimizer<dim>::run(OptimizationState<dim>& state, const Observe
 
 template <int dim>
 bool ShapeOptimizer<dim>::is_converged(const std::vector<double>& history) const {
-  if (history.size() <= convergence_window) return false;
+  if (options_.tolerance <= 0 || history.size() <= convergence_window) return false;
   const double before = history[history.size() - 1 - convergence_window];
   double fall = before - history.back();
   // The paper's rule lets the measure drift, and the objective rise with it.
