@@ -52,13 +52,11 @@ std::string derived_report(const Case& c) {
 std::vector<std::string> warnings(const Case& c) {
   std::vector<std::string> result;
   if (const double cells = cells_per_contact_patch(c); cells < least_cells_per_contact_patch) {
-    const int positions = total_load_positions(c);
-    const double wanted = c.grid.angular_cells * least_cells_per_contact_patch / cells;
-    result.push_back(
-        fmt::format("the contact patch is {:.1f} grid cells wide: energies are good to about a percent, "
-                    "pressures are not; {} "
-                    "cells resolve it (grid.angular_cells = {:.0f})",
-                    cells, least_cells_per_contact_patch, std::ceil(wanted / positions) * positions));
+    const int more = static_cast<int>(std::ceil(std::log2(least_cells_per_contact_patch / cells)));
+    result.push_back(fmt::format(
+        "the contact patch is {:.1f} cells wide: energies are good to about a percent, pressures are "
+        "not; grid.tread_levels = {} makes it {:.1f} cells",
+        cells, c.grid.tread_levels + more, cells * (1 << more)));
   }
   if (c.holes.rings.empty() && c.holes.circles.empty())
     result.push_back("there are no holes: the shape has no boundary that could move");

@@ -16,7 +16,9 @@ double hertz_half_width(const Case& c) {
 
 double hertz_peak_pressure(const Case& c) { return 2 * load_per_metre(c) / (pi * hertz_half_width(c)); }
 
-double tread_cell_width(const Case& c) { return 2 * pi * c.wheel.outer_radius / c.grid.angular_cells; }
+double tread_cell_width(const Case& c) {
+  return 2 * pi * c.wheel.outer_radius / c.grid.angular_cells / (1 << c.grid.tread_levels);
+}
 
 double cells_per_contact_patch(const Case& c) { return 2 * hertz_half_width(c) / tread_cell_width(c); }
 

@@ -19,7 +19,7 @@ double hertz_half_width(const Case& c);
 /// p_0 = 2 P / (pi a) [Pa].
 double hertz_peak_pressure(const Case& c);
 
-/// Arc of one grid cell on the tread [m].
+/// Arc of the smallest cells, those at the tread [m].
 double tread_cell_width(const Case& c);
 
 /// Cells on the tread under the Hertz patch 2a.

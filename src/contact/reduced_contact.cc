@@ -141,25 +141,70 @@ std::vector<double> ReducedContact<dim>::residual(const std::vector<Vec<dim>>& z
   return result;
 }
 
+/// The points that carry traction: the columns of all others are unit vectors in the Newton matrix.
 template <int dim>
-Matrix ReducedContact<dim>::newton_matrix(const std::vector<Vec<dim>>& z) const {
+std::vector<int> ReducedContact<dim>::active_rows(const std::vector<Vec<dim>>& z) const {
+  const int nc = components();
+  std::vector<int> rows;
+  for (int i = 0; i < n_points(); ++i)
+    if (z[i][0] < 0)
+      for (int d = 0; d < nc; ++d) rows.push_back(nc * i + d);
+  return rows;
+}
+
+/// d(response)/dz, the columns of the active rows: F W Phi', all rows.
+template <int dim>
+Matrix ReducedContact<dim>::response_tangent(const std::vector<Vec<dim>>& z,
+                                             const std::vector<int>& active) const {
   const int nc = components(), n = n_points() * nc;
-  Matrix a(n + 1, n + 1);
-  for (int i = 0; i < n; ++i) a(i, i) = 1;
-  for (int j = 0; j < n_points(); ++j) {
-    const auto r = contact_response<dim>(z[j], friction_);
-    const double weight = points_[j].weight;
-    for (int column = 0; column < nc; ++column) {
-      for (int k = 0; k < nc; ++k) {
-        const double tangent = weight * r.tangent[k][column];
-        if (tangent == 0) continue;
-        for (int i = 0; i < n; ++i) a(i, nc * j + column) -= flexibility_(i, nc * j + k) * tangent;
-      }
-      a(n, nc * j + column) = -weight * r.tangent[0][column];
+  Matrix tangent(n, static_cast<int>(active.size()));
+  for (int column = 0; column < tangent.columns(); ++column) {
+    const int point = active[column] / nc, component = active[column] % nc;
+    const auto r = contact_response<dim>(z[point], friction_);
+    for (int k = 0; k < nc; ++k) {
+      const double weight = points_[point].weight * r.tangent[k][component];
+      if (weight == 0) continue;
+      const double* f = flexibility_.column(nc * point + k);
+      double* t = tangent.column(column);
+      for (int i = 0; i < n; ++i) t[i] += weight * f[i];
     }
-    a(nc * j, n) = points_[j].gamma;
+  }
+  return tangent;
+}
+
+/// The Newton system on the active rows and the rim's displacement.
+template <int dim>
+Matrix ReducedContact<dim>::active_system(const std::vector<Vec<dim>>& z, const std::vector<int>& active,
+                                          const Matrix& tangent) const {
+  const int nc = components(), n = static_cast<int>(active.size());
+  Matrix a(n + 1, n + 1);
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < n; ++i) a(i, j) = (i == j) - tangent(active[i], j);
+    const int point = active[j] / nc, component = active[j] % nc;
+    a(n, j) = -points_[point].weight * contact_response<dim>(z[point], friction_).tangent[0][component];
+    if (component == 0) a(j, n) = points_[point].gamma;
   }
   return a;
+}
+
+template <int dim>
+std::optional<std::vector<double>> ReducedContact<dim>::newton_step(
+    const std::vector<Vec<dim>>& z, const std::vector<double>& residual) const {
+  const int nc = components(), n = n_points() * nc;
+  const auto active = active_rows(z);
+  const int n_active = static_cast<int>(active.size());
+  const Matrix tangent = response_tangent(z, active);
+  Matrix a = active_system(z, active, tangent), x(n_active + 1, 1);
+  for (int i = 0; i < n_active; ++i) x(i, 0) = residual[active[i]];
+  x(n_active, 0) = residual[n];
+  if (!lu_solve(a, x)) return {};
+  std::vector<double> step(residual);
+  step[n] = x(n_active, 0);
+  for (int j = 0; j < n_active; ++j)
+    for (int i = 0; i < n; ++i) step[i] += tangent(i, j) * x(j, 0);
+  for (int i = 0; i < n_points(); ++i) step[nc * i] -= points_[i].gamma * step[n];
+  for (int i = 0; i < n_active; ++i) step[active[i]] = x(i, 0);
+  return step;
 }
 
 template <int dim>
@@ -177,18 +222,15 @@ Expected<ContactState<dim>> ReducedContact<dim>::solve(double load, std::vector<
   };
   double current = measure(residual(z, rim, load));
   for (int iteration = 1; iteration <= max_newton_iterations; ++iteration) {
-    Matrix a = newton_matrix(z), step(n + 1, 1);
-    const auto r = residual(z, rim, load);
-    for (int i = 0; i <= n; ++i) step(i, 0) = r[i];
-    if (!lu_solve(a, step))
-      return Failure{FailureReason::no_contact, "the contact iteration lost all contact"};
+    const auto step = newton_step(z, residual(z, rim, load));
+    if (!step) return Failure{FailureReason::no_contact, "the contact iteration lost all contact"};
     double length = 1;
     std::vector<Vec<dim>> trial = z;
     double trial_rim = rim, reached = 0;
     for (int halving = 0;; ++halving) {
       for (int i = 0; i < n_points(); ++i)
-        for (int d = 0; d < nc; ++d) trial[i][d] = z[i][d] - length * step(nc * i + d, 0);
-      trial_rim = rim - length * step(n, 0);
+        for (int d = 0; d < nc; ++d) trial[i][d] = z[i][d] - length * (*step)[nc * i + d];
+      trial_rim = rim - length * (*step)[n];
       reached = measure(residual(trial, trial_rim, load));
       if (reached < current || halving == 5) break;
       length /= 2;
@@ -227,14 +269,17 @@ Matrix ReducedContact<dim>::contact_loads(const ContactState<dim>& state) const 
 template <int dim>
 Expected<Matrix> ReducedContact<dim>::adjoint_loads(const ContactState<dim>& state,
                                                     const Matrix& observations) const {
-  // With Te p = h + F^T m: m - W Phi'^T F^T m + beta W Phi'^T n_y = W Phi'^T h and sum gamma m_n = 0. The
-  // matrix is newton_matrix() transposed, in the unknowns (m, beta) and with rows scaled by W Phi'^T.
-  const int nc = components(), n = n_points() * nc, per_column = n_points() / zone_.n_columns;
-  const Matrix forward = newton_matrix(state.augmented);
-  Matrix a(n + 1, n + 1), m(n + 1, 1);
-  for (int j = 0; j <= n; ++j)
-    for (int i = 0; i <= n; ++i) a(i, j) = forward(j, i);
-  for (int i = 0; i < n_points(); ++i) {
+  // With Te p = h + F^T m: m - W Phi'^T F^T m + beta W Phi'^T n_y = W Phi'^T h and sum gamma m_n = 0. m
+  // vanishes off the active points; on them the matrix is solve()'s, transposed.
+  const int nc = components(), per_column = n_points() / zone_.n_columns;
+  const auto active = active_rows(state.augmented);
+  const int n_active = static_cast<int>(active.size());
+  const Matrix forward = active_system(state.augmented, active, response_tangent(state.augmented, active));
+  Matrix a(n_active + 1, n_active + 1), m(n_active + 1, 1);
+  for (int j = 0; j <= n_active; ++j)
+    for (int i = 0; i <= n_active; ++i) a(i, j) = forward(j, i);
+  for (int k = 0; k < n_active; ++k) {
+    const int i = active[k] / nc, component = active[k] % nc;
     const Point& point = points_[i];
     const int row = 2 * dim * (i % per_column), column = i / per_column;
     Vec<dim> tested;
@@ -242,17 +287,16 @@ Expected<Matrix> ReducedContact<dim>::adjoint_loads(const ContactState<dim>& sta
       tested[d] = theta_ / point.gamma * observations(row + dim + d, column) - observations(row + d, column);
     tested = rotated<dim>(tested, point.angle);
     const auto r = contact_response<dim>(state.augmented[i], friction_);
-    for (int d = 0; d < nc; ++d)
-      for (int k = 0; k < nc; ++k) m(nc * i + d, 0) += point.weight * r.tangent[k][d] * tested[k];
+    for (int d = 0; d < nc; ++d) m(k, 0) += point.weight * r.tangent[d][component] * tested[d];
   }
   if (!lu_solve(a, m)) return Failure{FailureReason::no_contact, "the adjoint contact system is singular"};
 
+  std::vector<Vec<dim>> multiplier(n_points(), Vec<dim>{});
+  for (int k = 0; k < n_active; ++k) multiplier[active[k] / nc][active[k] % nc] = m(k, 0);
   Matrix loads(2 * dim * per_column, zone_.n_columns);
   for (int i = 0; i < n_points(); ++i) {
     const Point& point = points_[i];
-    Vec<dim> value{};
-    for (int d = 0; d < nc; ++d) value[d] = m(nc * i + d, 0);
-    value = rotated<dim>(value, -point.angle);
+    const Vec<dim> value = rotated<dim>(multiplier[i], -point.angle);
     const int row = 2 * dim * (i % per_column), column = i / per_column;
     for (int d = 0; d < dim; ++d) {
       loads(row + d, column) = point.gamma * value[d];

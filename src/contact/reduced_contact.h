@@ -69,7 +69,12 @@ class ReducedContact {
 
  private:
   int components() const { return friction_ > 0 ? dim : 1; }
-  Matrix newton_matrix(const std::vector<Vec<dim>>& z) const;
+  std::vector<int> active_rows(const std::vector<Vec<dim>>& z) const;
+  Matrix response_tangent(const std::vector<Vec<dim>>& z, const std::vector<int>& active) const;
+  Matrix active_system(const std::vector<Vec<dim>>& z, const std::vector<int>& active,
+                       const Matrix& tangent) const;
+  std::optional<std::vector<double>> newton_step(const std::vector<Vec<dim>>& z,
+                                                 const std::vector<double>& residual) const;
   std::vector<double> residual(const std::vector<Vec<dim>>& z, double rim_displacement, double load) const;
 
   ContactZone zone_;

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/tread_column.h"
 #include "linalg/sparse_spd.h"
 
 namespace wheelwright {
 namespace {
+
+/// Couplings below this fraction of a column's own are dropped.
+constexpr double negligible = 1e-14;
 
 double largest(const Matrix& a) {
   double result = 0;
@@ -15,43 +17,28 @@ double largest(const Matrix& a) {
   return result;
 }
 
-/// Responses of all azimuth lines of the tread above the base, one column a load on column 0.
-struct LineResponse {
-  int n_line;
-  std::vector<std::vector<double>> lines;
-
-  /// Rows of one line for all loads.
-  Matrix line(int index) const {
-    Matrix result(n_line, static_cast<int>(lines.size()));
-    for (int j = 0; j < result.columns(); ++j)
-      std::copy_n(lines[j].begin() + size_t(index) * n_line, n_line, result.column(j));
-    return result;
-  }
-};
-
-}  // namespace
-
+/// The columns of a map on retained unknowns that belong to the column's first (0) or last (1) line.
 template <int dim>
-Expected<Tread<dim>> Tread<dim>::condense(const ElementTable<dim>& table, int rows, const ContactForm& form,
-                                          int points_per_direction) {
-  auto condensed = tread_column<dim>(table, rows, form, points_per_direction);
-  if (!condensed) return condensed.failure();
-  const TreadColumn<dim>& column = *condensed;
-  const int n_base = column.n_base, n_line = column.n_line;
+Matrix on_line(const TreadColumn<dim>& column, const Matrix& map, int side) {
+  Matrix result(map.rows(), column.n_line);
+  for (int j = 0; j < column.n_line; ++j)
+    std::copy_n(map.column(column.n_base + side * column.n_line + j), map.rows(), result.column(j));
+  return result;
+}
 
-  Tread tread;
-  tread.form_ = form;
-  tread.rows_ = rows;
-  tread.points_ = column.points;
-  tread.degree_ = table.degree();
-  tread.n_base_ = n_base;
-  tread.n_columns_ = table.grid().ring_columns();
-  tread.columns_per_sector_ = table.grid().columns();
-  tread.base_per_line_ = n_base / (tread.degree_ + 1);
-  const int n_columns = tread.n_columns_, n_observations = tread.n_observations();
+/// The columns of a map on retained unknowns that belong to the base.
+template <int dim>
+Matrix on_base(const TreadColumn<dim>& column, const Matrix& map) {
+  Matrix result(map.rows(), column.n_base);
+  std::copy_n(map.data(), result.entries().size(), result.data());
+  return result;
+}
 
-  // The ring of azimuth lines, base fixed: column c couples lines c and c + 1.
-  const auto line_dof = [&](int c, int local) {  // local: first line, then last line
+/// Responses of all lines to unit loads on line 0, base fixed.
+template <int dim>
+Expected<std::vector<Matrix>> line_responses(const TreadColumn<dim>& column, int n_columns) {
+  const int n_line = column.n_line;
+  const auto dof = [&](int c, int local) {  // local: first line, then last line
     return ((c + local / n_line) % n_columns) * n_line + local % n_line;
   };
   std::vector<SparseSpd::Entry> entries;
@@ -59,87 +46,103 @@ Expected<Tread<dim>> Tread<dim>::condense(const ElementTable<dim>& table, int ro
   for (int c = 0; c < n_columns; ++c)
     for (int j = 0; j < 2 * n_line; ++j)
       for (int i = 0; i < 2 * n_line; ++i)
-        if (const int row = line_dof(c, i), col = line_dof(c, j); row >= col)
-          entries.push_back({row, col, column.stiffness(n_base + i, n_base + j)});
-  auto lines = SparseSpd::factor(n_columns * n_line, entries);
-  if (!lines) return lines.failure();
-
-  const auto respond = [&](const auto& load_of, int n_loads) {
-    LineResponse response{n_line, {}};
-    for (int load = 0; load < n_loads; ++load) {
-      std::vector<double> rhs(size_t(n_columns) * n_line, 0.0);
-      for (int i = 0; i < 2 * n_line; ++i) rhs[line_dof(0, i)] += load_of(load, i);
-      response.lines.push_back(lines->solve(rhs));
-    }
-    return response;
-  };
-  const LineResponse to_observation =
-      respond([&](int load, int i) { return column.observation(load, n_base + i); }, n_observations);
-  const LineResponse to_base =
-      respond([&](int load, int i) { return -column.stiffness(n_base + i, load); }, n_base);
-
-  // What column `difference` sees of a response, through its first and last line.
-  const auto seen = [&](const Matrix& map, const LineResponse& response, int difference, const Matrix& own) {
-    Matrix result(map.rows(), static_cast<int>(response.lines.size()));
-    if (difference == 0) result = own;
-    for (int side = 0; side < 2; ++side) {
-      Matrix part(map.rows(), n_line);
-      for (int j = 0; j < n_line; ++j)
-        std::copy_n(map.column(n_base + side * n_line + j), map.rows(), part.column(j));
-      const int line = ((difference + side) % n_columns + n_columns) % n_columns;
-      multiply(1, part, Op::none, response.line(line), Op::none, 1, result);
-    }
-    return result;
-  };
-  Matrix own_transfer(n_observations, n_base), base_rows(n_base, column.stiffness.columns()),
-      own_base(n_base, n_base);
-  for (int j = 0; j < n_base; ++j) {
-    std::copy_n(column.observation.column(j), n_observations, own_transfer.column(j));
-    std::copy_n(column.stiffness.column(j), n_base, own_base.column(j));
+        if (const int row = dof(c, i), col = dof(c, j); row >= col)
+          entries.push_back({row, col, column.stiffness(column.n_base + i, column.n_base + j)});
+  auto factor = SparseSpd::factor(n_columns * n_line, entries);
+  if (!factor) return factor.failure();
+  std::vector<Matrix> responses(n_columns, Matrix(n_line, n_line));
+  for (int load = 0; load < n_line; ++load) {
+    std::vector<double> rhs(size_t(n_columns) * n_line, 0.0);
+    rhs[load] = 1;
+    const auto x = factor->solve(rhs);
+    for (int c = 0; c < n_columns; ++c)
+      std::copy_n(x.begin() + size_t(c) * n_line, n_line, responses[c].column(load));
   }
-  for (int j = 0; j < base_rows.columns(); ++j)
-    std::copy_n(column.stiffness.column(j), n_base, base_rows.column(j));
+  return responses;
+}
 
-  Matrix own_nodal(column.nodal.rows(), n_base);
-  for (int j = 0; j < n_base; ++j) std::copy_n(column.nodal.column(j), own_nodal.rows(), own_nodal.column(j));
+}  // namespace
 
-  const int farthest = (n_columns - 1) / 2;
-  std::vector<Matrix> transfer, compliance, base;
-  for (int d = -farthest; d <= farthest; ++d) {
-    transfer.push_back(seen(column.observation, to_base, d, own_transfer));
-    compliance.push_back(seen(column.observation, to_observation, d, column.compliance));
-    base.push_back(seen(base_rows, to_base, d, own_base));
-  }
-  const auto negligible = [&](const std::vector<Matrix>& kernel, int d) {
-    return largest(kernel[farthest + d]) < 1e-18 * largest(kernel[farthest]) &&
-           largest(kernel[farthest - d]) < 1e-18 * largest(kernel[farthest]);
+template <int dim>
+Expected<Tread<dim>> Tread<dim>::condense(const ElementTable<dim>& table, const TreadGrid& grid,
+                                          const ContactForm& form, int points_per_direction) {
+  auto column = tread_column<dim>(table, grid, form, points_per_direction);
+  if (!column) return column.failure();
+  Tread tread;
+  tread.grid_ = grid;
+  tread.form_ = form;
+  tread.column_ = *std::move(column);
+  tread.degree_ = table.degree();
+  tread.n_columns_ = table.grid().ring_columns();
+  tread.columns_per_sector_ = table.grid().columns();
+  const int n = tread.n_columns_;
+  const auto responses = line_responses(tread.column_, n);
+  if (!responses) return responses.failure();
+  const auto response = [&](int difference) -> const Matrix& {
+    return (*responses)[((difference % n) + n) % n];
   };
-  tread.reach_ = farthest;
-  while (tread.reach_ > 1 && negligible(transfer, tread.reach_) && negligible(compliance, tread.reach_) &&
-         negligible(base, tread.reach_))
-    --tread.reach_;
-  for (int d = -tread.reach_; d <= tread.reach_; ++d) {
-    tread.transfer_.push_back(std::move(transfer[farthest + d]));
-    tread.compliance_.push_back(std::move(compliance[farthest + d]));
-    tread.base_stiffness_.push_back(std::move(base[farthest + d]));
-    tread.nodal_transfer_.push_back(seen(column.nodal, to_base, d, own_nodal));
-    tread.nodal_compliance_.push_back(seen(column.nodal, to_observation, d, column.nodal_compliance));
+
+  const int farthest = (n - 1) / 2 - 1;
+  int reach = farthest;
+  while (reach > 1 &&
+         std::max(largest(response(reach)), largest(response(-reach))) < negligible * largest(response(0)))
+    --reach;
+  tread.reach_ = reach;
+  for (int d = -reach - 1; d <= reach + 1; ++d) tread.line_compliance_.push_back(response(d));
+
+  // What a column sees of another's lines, and how it loads them: through its own first and last line.
+  const Matrix stiffness_on_base = on_base(tread.column_, tread.column_.stiffness);
+  const Matrix observation_on_base = on_base(tread.column_, tread.column_.observation);
+  const int n_base = tread.n_base(), n_line = tread.n_line(), n_observations = tread.n_observations();
+  Matrix line_load_of_base[2], base_rows[2], observation_rows[2];
+  for (int side = 0; side < 2; ++side) {
+    line_load_of_base[side] = Matrix(n_line, n_base);
+    for (int j = 0; j < n_base; ++j)
+      for (int i = 0; i < n_line; ++i)
+        line_load_of_base[side](i, j) = -stiffness_on_base(n_base + side * n_line + i, j);
+    base_rows[side] = Matrix(n_base, n_line);
+    for (int j = 0; j < n_line; ++j)
+      for (int i = 0; i < n_base; ++i) base_rows[side](i, j) = -line_load_of_base[side](j, i);
+    observation_rows[side] = on_line(tread.column_, tread.column_.observation, side);
+  }
+  for (int d = -reach; d <= reach; ++d) {
+    Matrix base(n_base, n_base), transfer(n_observations, n_base), compliance(n_observations, n_observations);
+    if (d == 0) {
+      for (int j = 0; j < n_base; ++j)
+        for (int i = 0; i < n_base; ++i) base(i, j) = stiffness_on_base(i, j);
+      transfer = observation_on_base;
+      compliance = tread.column_.compliance;
+    }
+    for (int seen = 0; seen < 2; ++seen) {
+      Matrix of_base(n_line, n_base), of_observations(n_line, n_observations);
+      for (int loaded = 0; loaded < 2; ++loaded) {
+        const Matrix& lines = response(d + seen - loaded);
+        multiply(1, lines, Op::none, line_load_of_base[loaded], Op::none, 1, of_base);
+        multiply(1, lines, Op::none, observation_rows[loaded], Op::transpose, 1, of_observations);
+      }
+      multiply(1, base_rows[seen], Op::none, of_base, Op::none, 1, base);
+      multiply(1, observation_rows[seen], Op::none, of_base, Op::none, 1, transfer);
+      multiply(1, observation_rows[seen], Op::none, of_observations, Op::none, 1, compliance);
+    }
+    tread.base_stiffness_.push_back(std::move(base));
+    tread.transfer_.push_back(std::move(transfer));
+    tread.compliance_.push_back(std::move(compliance));
   }
   return tread;
 }
 
 template <int dim>
 std::vector<ComplexMatrix> Tread<dim>::outer_stiffness(const SectorHarmonics& harmonics) const {
-  const int period = columns_per_sector_, per_column = degree_ * base_per_line_;
+  const int period = columns_per_sector_, per_column = base_per_column(), n_base = column_.n_base;
   const int n_outer = period * per_column;
   std::vector<ComplexMatrix> result(harmonics.n_harmonics(), ComplexMatrix(n_outer, n_outer));
   for (int h = 0; h < harmonics.n_harmonics(); ++h) {
     for (int from = 0; from < period; ++from) {
       for (int d = -reach_; d <= reach_; ++d) {
-        const Matrix& k = base_stiffness_[slot(d)];
-        for (int j = 0; j < n_base_; ++j) {
+        const Matrix& k = base_stiffness_[d + reach_];
+        for (int j = 0; j < n_base; ++j) {
           const int source = from * per_column + j;
-          for (int i = 0; i < n_base_; ++i) {
+          for (int i = 0; i < n_base; ++i) {
             // Floor division: columns before the sector belong to the one before.
             const int target = (from + d) * per_column + i;
             const int target_sector = (target >= 0 ? target : target - n_outer + 1) / n_outer;

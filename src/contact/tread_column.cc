@@ -2,39 +2,162 @@
 
 #include <fmt/format.h>
 
+#include <map>
+
 namespace wheelwright {
 namespace {
 
-/// Column nodes in the order base, first line, last line, inner.
+/// A layer of equal cells across the column.
+struct Layer {
+  double inner_radius, outer_radius;
+  int rows, level;
+};
+
+/// Lower half once, next quarter twice, ..., the last part `levels` times halved: two rows of its cells.
+std::vector<Layer> layers(double inner_radius, double outer_radius, const TreadGrid& tread) {
+  if (tread.levels == 0) return {{inner_radius, outer_radius, tread.rows, 0}};
+  std::vector<Layer> result;
+  double r = inner_radius, height = outer_radius - inner_radius;
+  for (int level = 1; level < tread.levels; ++level) {
+    height /= 2;
+    result.push_back({r, r + height, tread.rows, level});
+    r += height;
+  }
+  result.push_back({r, outer_radius, 2 * tread.rows, tread.levels});
+  return result;
+}
+
+/// A node's polar displacement as a combination of those of free nodes.
 template <int dim>
-class ColumnNumbering {
+using NodeMap = std::vector<std::pair<int, Mat<dim>>>;
+
+/// The nodes of a column: free ones are numbered base, first azimuth, last azimuth, inner.
+template <int dim>
+class ColumnNodes {
  public:
-  ColumnNumbering(const PolarGrid<dim>& grid, int degree, int rows)
-      : degree_(degree), height_(degree * rows) {
-    if constexpr (dim == 3) axial_ = degree * grid.cells[2] + 1;
-    n_base = dim * (degree + 1) * axial_;
-    n_line = dim * height_ * axial_;
-    n_inner = (degree - 1) * n_line;
+  ColumnNodes(const PolarGrid<dim>& grid, int degree, const TreadGrid& tread)
+      : degree_(degree), column_angle_(grid.cell_size()[1]), rows_(tread.rows) {
+    if constexpr (dim == 3) axial_nodes_ = degree * grid.cells[2] + 1;
+    const double row = grid.cell_size()[0];
+    layers_ = layers(grid.outer_radius - tread.rows * row, grid.outer_radius, tread);
+    // Free lines upward: the base, then every line of every layer but its lowest, which is the one below's
+    // top.
+    intervals_.push_back(degree);
+    for (const Layer& layer : layers_) {
+      first_line_.push_back(static_cast<int>(intervals_.size()) - 1);
+      for (int j = 1; j <= degree * layer.rows; ++j) intervals_.push_back(degree << layer.level);
+    }
+    int next = 0;
+    const auto number = [&](size_t line, int across, int axial) {
+      numbers_[{int(line), across, axial}] = next++;
+    };
+    for (int across = 0; across <= degree; ++across)
+      for (int axial = 0; axial < axial_nodes_; ++axial) number(0, across, axial);
+    for (int side = 0; side < 2; ++side)
+      for (int axial = 0; axial < axial_nodes_; ++axial)
+        for (size_t line = 1; line < intervals_.size(); ++line) number(line, side * intervals_[line], axial);
+    for (size_t line = 1; line < intervals_.size(); ++line)
+      for (int across = 1; across < intervals_[line]; ++across)
+        for (int axial = 0; axial < axial_nodes_; ++axial) number(line, across, axial);
+    n_nodes_ = next;
   }
 
-  int n_retained() const { return n_base + 2 * n_line; }
+  const std::vector<Layer>& all_layers() const { return layers_; }
+  int n_base() const { return dim * (degree_ + 1) * axial_nodes_; }
+  int n_line() const { return dim * (static_cast<int>(intervals_.size()) - 1) * axial_nodes_; }
+  int n_dofs() const { return dim * n_nodes_; }
 
-  /// First dof of the node at (height above the base, azimuth line, axial).
-  int dof(const std::array<int, dim>& p) const {
-    int axial = 0;
-    if constexpr (dim == 3) axial = p[2];
-    if (p[0] == 0) return dim * (p[1] * axial_ + axial);
-    const int in_line = dim * (axial * height_ + p[0] - 1);
-    if (p[1] == 0) return n_base + in_line;
-    if (p[1] == degree_) return n_base + n_line + in_line;
-    return n_retained() + (p[1] - 1) * n_line + in_line;
+  /// The node of a layer at (line above the layer's bottom, node across the column, axial).
+  NodeMap<dim> node(int layer, int line, int across, int axial) const {
+    const int free_line = first_line_[layer] + line;
+    const int intervals = degree_ << layers_[layer].level;
+    if (intervals_[free_line] == intervals) return {{numbers_.at({free_line, across, axial}), turn(0)}};
+    // Hanging: interpolate the coarser cell's displacement along its edge.
+    const int coarse_intervals = intervals_[free_line];
+    const double position = static_cast<double>(across) * coarse_intervals / intervals;  // in coarse nodes
+    const int cell = std::min(static_cast<int>(position) / degree_, coarse_intervals / degree_ - 1);
+    const Lagrange1D basis(degree_, position / degree_ - cell);
+    NodeMap<dim> map;
+    for (int a = 0; a <= degree_; ++a) {
+      const int coarse = degree_ * cell + a;
+      if (basis.value[a] == 0) continue;
+      Mat<dim> weight = turn((coarse - position) * column_angle_ / coarse_intervals);
+      for (auto& weights : weight)
+        for (double& w : weights) w *= basis.value[a];
+      map.push_back({numbers_.at({free_line, coarse, axial}), weight});
+    }
+    return map;
   }
 
-  int n_base, n_line, n_inner;
+  /// The free node at a node of the level set's grid: `row_node` and `across` in units of its node spacing.
+  int grid_node(int row_node, int across, int axial) const {
+    const double height = static_cast<double>(row_node) / (degree_ * rows_);
+    const double r0 = layers_.front().inner_radius, r1 = layers_.back().outer_radius;
+    for (size_t i = 0; i < layers_.size(); ++i) {
+      const Layer& layer = layers_[i];
+      const double line = (r0 + height * (r1 - r0) - layer.inner_radius) /
+                          (layer.outer_radius - layer.inner_radius) * degree_ * layer.rows;
+      const int nearest = static_cast<int>(std::lround(line));
+      if (nearest < 1 || nearest > degree_ * layer.rows || std::abs(line - nearest) > 1e-6) continue;
+      return numbers_.at({first_line_[i] + nearest, across << layer.level, axial});
+    }
+    return -1;
+  }
 
  private:
-  int degree_, height_, axial_ = 1;
+  /// Polar components at one azimuth to those at another, `angle` further back.
+  static Mat<dim> turn(double angle) {
+    Mat<dim> m{};
+    for (int d = 0; d < dim; ++d) m[d][d] = 1;
+    m[0][0] = m[1][1] = std::cos(angle);
+    m[0][1] = -std::sin(angle);
+    m[1][0] = std::sin(angle);
+    return m;
+  }
+
+  int degree_, axial_nodes_ = 1, n_nodes_ = 0;
+  double column_angle_;
+  int rows_;
+  std::vector<Layer> layers_;
+  std::vector<int> intervals_;   ///< of each free line, across the column
+  std::vector<int> first_line_;  ///< of each layer: its lowest
+  std::map<std::array<int, 3>, int> numbers_;
 };
+
+/// Adds rows of a linear map of a cell's dofs to a matrix on the free dofs.
+template <int dim, class Map>
+void add_rows(const Map& map, std::span<const NodeMap<dim>> nodes, int first_row, double angle,
+              Matrix& result) {
+  for (size_t a = 0; a < nodes.size(); ++a)
+    for (const auto& [node, weight] : nodes[a])
+      for (int c = 0; c < dim; ++c) {
+        Vec<dim> value{};
+        for (int k = 0; k < dim; ++k)
+          for (int d = 0; d < dim; ++d) value[d] += map[d][dim * a + k] * weight[k][c];
+        value = rotated<dim>(value, angle);
+        for (int d = 0; d < dim; ++d) result(first_row + d, dim * node + c) += value[d];
+      }
+}
+
+/// Adds a cell's stiffness on its free dofs.
+template <int dim>
+void add_stiffness(const Matrix& k, std::span<const NodeMap<dim>> nodes, Matrix& result) {
+  std::vector<int> dofs;
+  std::map<int, int> position;
+  for (const auto& map : nodes)
+    for (const auto& entry : map)
+      if (position.emplace(entry.first, static_cast<int>(position.size())).second)
+        for (int c = 0; c < dim; ++c) dofs.push_back(dim * entry.first + c);
+  Matrix expand(k.rows(), static_cast<int>(dofs.size()));
+  for (size_t a = 0; a < nodes.size(); ++a)
+    for (const auto& [node, weight] : nodes[a])
+      for (int i = 0; i < dim; ++i)
+        for (int c = 0; c < dim; ++c)
+          expand(dim * static_cast<int>(a) + i, dim * position[node] + c) += weight[i][c];
+  const Matrix free = product(expand, Op::transpose, product(k, Op::none, expand, Op::none), Op::none);
+  for (int j = 0; j < free.columns(); ++j)
+    for (int i = 0; i < free.rows(); ++i) result(dofs[i], dofs[j]) += free(i, j);
+}
 
 Matrix block(const Matrix& a, int first_row, int rows, int first_column, int columns) {
   Matrix b(rows, columns);
@@ -42,103 +165,144 @@ Matrix block(const Matrix& a, int first_row, int rows, int first_column, int col
   return b;
 }
 
-}  // namespace
+Matrix transposed(const Matrix& a) {
+  Matrix result(a.columns(), a.rows());
+  for (int j = 0; j < a.columns(); ++j)
+    for (int i = 0; i < a.rows(); ++i) result(j, i) = a(i, j);
+  return result;
+}
+
+/// The uncondensed column.
+template <int dim>
+struct FreeColumn {
+  std::vector<TreadPoint<dim>> points;
+  Matrix stiffness, observation, nodal;
+};
 
 template <int dim>
-Expected<TreadColumn<dim>> tread_column(const ElementTable<dim>& table, int rows, const ContactForm& form,
-                                        int points_per_direction) {
+FreeColumn<dim> assemble(const ElementTable<dim>& table, const ColumnNodes<dim>& nodes,
+                         const TreadGrid& tread, const ContactForm& form, int points_per_direction) {
   const PolarGrid<dim>& grid = table.grid();
-  const int degree = table.degree(), first_row = grid.cells[0] - rows;
-  const ColumnNumbering<dim> numbering(grid, degree, rows);
-  const int n_retained = numbering.n_retained(), n_inner = numbering.n_inner, n = n_retained + n_inner;
+  const Material& material = table.material();
+  const int degree = table.degree();
   int axial_cells = 1;
   if constexpr (dim == 3) axial_cells = grid.cells[2];
-
+  const auto volume_rule = unit_cell_rule<dim>(degree + 2);
   const auto face_rule = unit_cell_rule<dim - 1>(points_per_direction);
-  const int n_points = static_cast<int>(face_rule.size()) * axial_cells;
-  TreadColumn<dim> column{{}, numbering.n_base, numbering.n_line, {}, {}, {}, {}, {}};
-  Matrix stiffness(n, n), observation(2 * dim * n_points, n);
-  const Material& material = table.material();
+  const int top_cells = (1 << nodes.all_layers().back().level) * axial_cells;
 
-  for (int axial = 0; axial < axial_cells; ++axial) {
-    for (int row = 0; row < rows; ++row) {
-      const auto& element = table.element(first_row + row);
-      std::vector<int> dofs;
-      for (int a = 0; a < element.n_nodes(); ++a) {
-        auto p = local_node_position<dim>(degree, a);
-        p[0] += degree * row;
-        if constexpr (dim == 3) p[2] += degree * axial;
-        for (int c = 0; c < dim; ++c) dofs.push_back(numbering.dof(p) + c);
-      }
-      const Matrix& k = table.full_cell_stiffness(first_row + row);
-      for (int j = 0; j < element.n_dofs(); ++j)
-        for (int i = 0; i < element.n_dofs(); ++i) stiffness(dofs[i], dofs[j]) += k(i, j);
-      if (row + 1 < rows) continue;
-
+  FreeColumn<dim> column{{},
+                         Matrix(nodes.n_dofs(), nodes.n_dofs()),
+                         Matrix(2 * dim * top_cells * static_cast<int>(face_rule.size()), nodes.n_dofs()),
+                         {}};
+  for (size_t l = 0; l < nodes.all_layers().size(); ++l) {
+    const Layer& layer = nodes.all_layers()[l];
+    PolarGrid<dim> fine = grid;
+    fine.inner_radius = layer.inner_radius;
+    fine.outer_radius = layer.outer_radius;
+    fine.cells[0] = layer.rows;
+    fine.cells[1] <<= layer.level;
+    const double cell_angle = fine.cell_size()[1];
+    for (int row = 0; row < layer.rows; ++row) {
+      const ElasticElement<dim> element(fine, degree, {row});
+      const Matrix stiffness = cell_stiffness<dim>(element, material, volume_rule);
+      const bool at_tread = l + 1 == nodes.all_layers().size() && row + 1 == layer.rows;
       const double gamma = form.gamma_0 * material.youngs_modulus / element.diameter();
-      for (const auto& q : face_rule) {
-        Vec<dim> xi{}, outward{};
-        xi[0] = outward[0] = 1;
-        for (int d = 1; d < dim; ++d) xi[d] = q.xi[d - 1];
-        const auto at = element.at(xi);
-        const auto surface = map_surface<dim>(at.jacobian, outward);
-        const auto traction = traction_map<dim>(element, material, at, surface.normal);
-        const int first = 2 * dim * static_cast<int>(column.points.size());
-        for (int j = 0; j < element.n_dofs(); ++j) {
-          for (int d = 0; d < dim; ++d) {
-            observation(first + d, dofs[j]) = at.displacement[d][j];
-            observation(first + dim + d, dofs[j]) = traction[d][j];
+      for (int axial = 0; axial < axial_cells; ++axial) {
+        for (int across = 0; across < (1 << layer.level); ++across) {
+          std::vector<NodeMap<dim>> cell;
+          for (int a = 0; a < element.n_nodes(); ++a) {
+            const auto p = local_node_position<dim>(degree, a);
+            int axial_node = 0;
+            if constexpr (dim == 3) axial_node = degree * axial + p[2];
+            cell.push_back(
+                nodes.node(static_cast<int>(l), degree * row + p[0], degree * across + p[1], axial_node));
           }
+          Matrix k = stiffness;
+          if (at_tread) {
+            for (const auto& q : face_rule) {
+              Vec<dim> xi{}, outward{};
+              xi[0] = outward[0] = 1;
+              for (int d = 1; d < dim; ++d) xi[d] = q.xi[d - 1];
+              const auto at = element.at(xi);
+              const auto surface = map_surface<dim>(at.jacobian, outward);
+              const auto traction = traction_map<dim>(element, material, at, surface.normal);
+              const double angle = across * cell_angle, weight = q.weight * surface.scale;
+              const int first = 2 * dim * static_cast<int>(column.points.size());
+              add_rows<dim>(at.displacement, cell, first, angle, column.observation);
+              add_rows<dim>(traction, cell, first + dim, angle, column.observation);
+              const double nitsche = -form.theta() / gamma * weight;
+              for (int j = 0; j < element.n_dofs(); ++j)
+                for (int i = 0; i < element.n_dofs(); ++i)
+                  for (int d = 0; d < dim; ++d) k(i, j) += nitsche * traction[d][i] * traction[d][j];
+              Vec<dim> position = rotated<dim>(at.position, angle);
+              if constexpr (dim == 3) position[2] += axial * grid.cell_size()[2];
+              column.points.push_back({position, weight, gamma});
+            }
+          }
+          add_stiffness<dim>(k, cell, column.stiffness);
         }
-        Vec<dim> position = at.position;
-        if constexpr (dim == 3) position[2] += axial * grid.cell_size()[2];
-        const double weight = q.weight * surface.scale, nitsche = -form.theta() / gamma * weight;
-        for (int j = 0; j < element.n_dofs(); ++j)
-          for (int i = 0; i < element.n_dofs(); ++i)
-            for (int d = 0; d < dim; ++d)
-              stiffness(dofs[i], dofs[j]) += nitsche * traction[d][i] * traction[d][j];
-        column.points.push_back({position, weight, gamma});
       }
     }
   }
 
-  column.stiffness = block(stiffness, 0, n_retained, 0, n_retained);
-  column.observation = block(observation, 0, observation.rows(), 0, n_retained);
-  column.compliance = Matrix(observation.rows(), observation.rows());
-  // The column's own nodes: its first line, then the inner ones.
-  column.nodal = Matrix(numbering.n_line + n_inner, n_retained);
-  column.nodal_compliance = Matrix(numbering.n_line + n_inner, observation.rows());
-  for (int i = 0; i < numbering.n_line; ++i) column.nodal(i, numbering.n_base + i) = 1;
+  int axial_nodes = 1;
+  if constexpr (dim == 3) axial_nodes = degree * grid.cells[2] + 1;
+  const int height = degree * tread.rows;
+  column.nodal = Matrix(dim * degree * axial_nodes * height, nodes.n_dofs());
+  for (int across = 0; across < degree; ++across)
+    for (int axial = 0; axial < axial_nodes; ++axial)
+      for (int line = 1; line <= height; ++line)
+        for (int c = 0; c < dim; ++c)
+          column.nodal(dim * ((across * axial_nodes + axial) * height + line - 1) + c,
+                       dim * nodes.grid_node(line, across, axial) + c) = 1;
+  return column;
+}
+
+}  // namespace
+
+template <int dim>
+Expected<TreadColumn<dim>> tread_column(const ElementTable<dim>& table, const TreadGrid& tread,
+                                        const ContactForm& form, int points_per_direction) {
+  const ColumnNodes<dim> nodes(table.grid(), table.degree(), tread);
+  FreeColumn<dim> free = assemble<dim>(table, nodes, tread, form, points_per_direction);
+  const int n = nodes.n_dofs(), n_retained = nodes.n_base() + 2 * nodes.n_line(), n_inner = n - n_retained;
+  const int n_observations = free.observation.rows(), n_nodal = free.nodal.rows();
+
+  TreadColumn<dim> column{std::move(free.points),
+                          nodes.n_base(),
+                          nodes.n_line(),
+                          block(free.stiffness, 0, n_retained, 0, n_retained),
+                          block(free.observation, 0, n_observations, 0, n_retained),
+                          Matrix(n_observations, n_observations),
+                          block(free.nodal, 0, n_nodal, 0, n_retained),
+                          Matrix(n_nodal, n_observations)};
   if (n_inner == 0) return column;
 
-  Matrix inner = block(stiffness, n_retained, n_inner, n_retained, n_inner);
+  Matrix inner = block(free.stiffness, n_retained, n_inner, n_retained, n_inner);
   if (!cholesky(inner))
     return Failure{
         FailureReason::not_positive_definite,
         fmt::format("Nitsche's method with theta = {:g} needs a larger gamma_0 than {:g}: its contact "
                     "term makes the tread's stiffness indefinite",
                     form.theta(), form.gamma_0)};
-  const Matrix coupling = block(stiffness, 0, n_retained, n_retained, n_inner);
-  const Matrix observed = block(observation, 0, observation.rows(), n_retained, n_inner);
-  Matrix to_retained(n_inner, n_retained), to_observed(n_inner, observation.rows());
-  for (int j = 0; j < n_inner; ++j) {
-    for (int i = 0; i < n_retained; ++i) to_retained(j, i) = coupling(i, j);
-    for (int i = 0; i < observation.rows(); ++i) to_observed(j, i) = observed(i, j);
-  }
-  cholesky_solve(inner, to_retained);
-  cholesky_solve(inner, to_observed);
-  multiply(-1, coupling, Op::none, to_retained, Op::none, 1, column.stiffness);
-  multiply(-1, observed, Op::none, to_retained, Op::none, 1, column.observation);
-  multiply(1, observed, Op::none, to_observed, Op::none, 0, column.compliance);
-  for (int i = 0; i < n_inner; ++i) {
-    for (int j = 0; j < n_retained; ++j) column.nodal(numbering.n_line + i, j) = -to_retained(i, j);
-    for (int j = 0; j < observation.rows(); ++j)
-      column.nodal_compliance(numbering.n_line + i, j) = to_observed(i, j);
-  }
+  const Matrix coupling = block(free.stiffness, 0, n_retained, n_retained, n_inner);
+  const Matrix observed = block(free.observation, 0, n_observations, n_retained, n_inner);
+  const Matrix nodal = block(free.nodal, 0, n_nodal, n_retained, n_inner);
+  Matrix from_retained = transposed(coupling), from_observed = transposed(observed);
+  cholesky_solve(inner, from_retained);
+  cholesky_solve(inner, from_observed);
+  multiply(-1, coupling, Op::none, from_retained, Op::none, 1, column.stiffness);
+  multiply(-1, observed, Op::none, from_retained, Op::none, 1, column.observation);
+  multiply(1, observed, Op::none, from_observed, Op::none, 0, column.compliance);
+  multiply(-1, nodal, Op::none, from_retained, Op::none, 1, column.nodal);
+  multiply(1, nodal, Op::none, from_observed, Op::none, 0, column.nodal_compliance);
   return column;
 }
 
-template Expected<TreadColumn<2>> tread_column(const ElementTable<2>&, int, const ContactForm&, int);
-template Expected<TreadColumn<3>> tread_column(const ElementTable<3>&, int, const ContactForm&, int);
+template Expected<TreadColumn<2>> tread_column(const ElementTable<2>&, const TreadGrid&, const ContactForm&,
+                                               int);
+template Expected<TreadColumn<3>> tread_column(const ElementTable<3>&, const TreadGrid&, const ContactForm&,
+                                               int);
 
 }  // namespace wheelwright

@@ -17,23 +17,53 @@ std::vector<int> loaded_columns(const Matrix& field, int first, int n_columns) {
   return loaded;
 }
 
-/// result(:, c + d) += op(kernel(d)) field(:, c) for one right-hand side.
-template <class Kernel>
-void spread(const Kernel& kernel, Op op, int reach, int sign, const Matrix& field, int first, int n_columns,
-            Matrix& result) {
-  const auto loaded = loaded_columns(field, first, n_columns);
-  if (loaded.empty()) return;
-  Matrix source(field.rows(), static_cast<int>(loaded.size())), target(result.rows(), source.columns());
-  for (int k = 0; k < source.columns(); ++k)
-    std::copy_n(field.column(first + loaded[k]), field.rows(), source.column(k));
-  for (int d = -reach; d <= reach; ++d) {
-    multiply(1, kernel(d), op, source, Op::none, 0, target);
-    for (int k = 0; k < source.columns(); ++k) {
-      double* to = result.column(first + wrap(loaded[k] + sign * d, n_columns));
-      const double* from = target.column(k);
-      for (int i = 0; i < target.rows(); ++i) to[i] += from[i];
+/// Lines for loads on lines, base held fixed.
+template <int dim>
+Matrix respond(const Tread<dim>& tread, const Matrix& line_loads) {
+  const int n = tread.n_columns(), n_line = tread.n_line(), reach = tread.reach() + 1;
+  Matrix lines(n_line, line_loads.columns());
+  for (int first = 0; first < lines.columns(); first += n) {
+    const auto loaded = loaded_columns(line_loads, first, n);
+    if (loaded.empty()) continue;
+    Matrix source(n_line, static_cast<int>(loaded.size())), target = source;
+    for (int k = 0; k < source.columns(); ++k)
+      std::copy_n(line_loads.column(first + loaded[k]), n_line, source.column(k));
+    for (int d = -reach; d <= reach; ++d) {
+      multiply(1, tread.line_compliance(d), Op::none, source, Op::none, 0, target);
+      for (int k = 0; k < target.columns(); ++k) {
+        double* to = lines.column(first + wrap(loaded[k] + d, n));
+        for (int i = 0; i < n_line; ++i) to[i] += target(i, k);
+      }
     }
   }
+  return lines;
+}
+
+/// Rows of a column's retained unknowns: its base, its first line, its last line, by ring column.
+Matrix retained(const Matrix& base, const Matrix& lines, int n_columns) {
+  const int n_base = base.rows(), n_line = lines.rows();
+  Matrix result(n_base + 2 * n_line, base.columns());
+  for (int first = 0; first < base.columns(); first += n_columns)
+    for (int c = 0; c < n_columns; ++c) {
+      double* to = result.column(first + c);
+      std::copy_n(base.column(first + c), n_base, to);
+      std::copy_n(lines.column(first + c), n_line, to + n_base);
+      std::copy_n(lines.column(first + wrap(c + 1, n_columns)), n_line, to + n_base + n_line);
+    }
+  return result;
+}
+
+/// Sums loads on columns' first and last lines into loads on lines.
+template <int dim>
+Matrix collect_line_loads(const Tread<dim>& tread, const Matrix& retained_loads) {
+  const int n = tread.n_columns(), n_base = tread.n_base(), n_line = tread.n_line();
+  Matrix result(n_line, retained_loads.columns());
+  for (int first = 0; first < result.columns(); first += n)
+    for (int c = 0; c < n; ++c)
+      for (int side = 0; side < 2; ++side)
+        for (int i = 0; i < n_line; ++i)
+          result(i, first + wrap(c + side, n)) += retained_loads(n_base + side * n_line + i, first + c);
+  return result;
 }
 
 }  // namespace
@@ -41,62 +71,54 @@ void spread(const Kernel& kernel, Op op, int reach, int sign, const Matrix& fiel
 template <int dim>
 Matrix base_loads(const Tread<dim>& tread, const Matrix& observation_loads) {
   const int n = tread.n_columns(), n_base = tread.n_base(), per_column = tread.base_per_column();
-  Matrix by_column(n_base, observation_loads.columns());
-  const auto kernel = [&](int d) -> const Matrix& { return tread.transfer(d); };
-  for (int first = 0; first < observation_loads.columns(); first += n)
-    spread(kernel, Op::transpose, tread.reach(), -1, observation_loads, first, n, by_column);
-
-  Matrix result(per_column, observation_loads.columns());
+  const TreadColumn<dim>& column = tread.column();
+  Matrix loads = product(column.observation, Op::transpose, observation_loads, Op::none);
+  const Matrix lines = respond(tread, collect_line_loads(tread, loads));
+  // The base feels its own loads less what it takes to hold it while the lines move.
+  const Matrix moved = retained(Matrix(n_base, loads.columns()), lines, n);
+  multiply(-1, column.stiffness, Op::none, moved, Op::none, 1, loads);
+  Matrix result(per_column, loads.columns());
   for (int first = 0; first < result.columns(); first += n)
     for (int c = 0; c < n; ++c)
       for (int i = 0; i < n_base; ++i)
-        result(i % per_column, first + wrap(c + i / per_column, n)) += by_column(i, first + c);
+        result(i % per_column, first + wrap(c + i / per_column, n)) += loads(i, first + c);
   return result;
 }
 
-namespace {
-
-/// Responses of all columns to displacements of the outer line and observation loads.
-template <int dim, class Transfer, class Compliance>
-Matrix respond(const Tread<dim>& tread, const Transfer& transfer, const Compliance& compliance,
-               const Matrix& outer_line, const Matrix& observation_loads) {
+template <int dim>
+TreadField tread_field(const Tread<dim>& tread, const Matrix& outer_line, const Matrix& observation_loads) {
   const int n = tread.n_columns(), n_base = tread.n_base(), per_column = tread.base_per_column();
-  Matrix base(n_base, outer_line.columns());
-  for (int first = 0; first < base.columns(); first += n)
+  const TreadColumn<dim>& column = tread.column();
+  TreadField field{Matrix(n_base, outer_line.columns()), {}, {}};
+  for (int first = 0; first < outer_line.columns(); first += n)
     for (int c = 0; c < n; ++c)
       for (int i = 0; i < n_base; ++i)
-        base(i, first + c) = outer_line(i % per_column, first + wrap(c + i / per_column, n));
+        field.base(i, first + c) = outer_line(i % per_column, first + wrap(c + i / per_column, n));
 
-  Matrix result(transfer(0).rows(), outer_line.columns());
-  for (int first = 0; first < result.columns(); first += n) {
-    spread(transfer, Op::none, tread.reach(), 1, base, first, n, result);
-    spread(compliance, Op::none, tread.reach(), 1, observation_loads, first, n, result);
-  }
+  Matrix loads = product(column.observation, Op::transpose, observation_loads, Op::none);
+  const Matrix held = retained(field.base, Matrix(tread.n_line(), outer_line.columns()), n);
+  multiply(-1, column.stiffness, Op::none, held, Op::none, 1, loads);
+  field.lines = respond(tread, collect_line_loads(tread, loads));
+  field.observations = product(column.observation, Op::none, retained(field.base, field.lines, n), Op::none);
+  multiply(1, column.compliance, Op::none, observation_loads, Op::none, 1, field.observations);
+  return field;
+}
+
+template <int dim>
+Matrix nodal_displacements(const Tread<dim>& tread, const TreadField& field,
+                           const Matrix& observation_loads) {
+  Matrix result =
+      product(tread.column().nodal, Op::none, retained(field.base, field.lines, tread.n_columns()), Op::none);
+  multiply(1, tread.column().nodal_compliance, Op::none, observation_loads, Op::none, 1, result);
   return result;
 }
 
-}  // namespace
-
-template <int dim>
-Matrix observe(const Tread<dim>& tread, const Matrix& outer_line, const Matrix& observation_loads) {
-  const auto transfer = [&](int d) -> const Matrix& { return tread.transfer(d); };
-  const auto compliance = [&](int d) -> const Matrix& { return tread.compliance(d); };
-  return respond(tread, transfer, compliance, outer_line, observation_loads);
-}
-
-template <int dim>
-Matrix nodal_displacements(const Tread<dim>& tread, const Matrix& outer_line,
-                           const Matrix& observation_loads) {
-  const auto transfer = [&](int d) -> const Matrix& { return tread.nodal_transfer(d); };
-  const auto compliance = [&](int d) -> const Matrix& { return tread.nodal_compliance(d); };
-  return respond(tread, transfer, compliance, outer_line, observation_loads);
-}
-
-template Matrix base_loads(const Tread<2>&, const Matrix&);
-template Matrix base_loads(const Tread<3>&, const Matrix&);
-template Matrix observe(const Tread<2>&, const Matrix&, const Matrix&);
-template Matrix observe(const Tread<3>&, const Matrix&, const Matrix&);
-template Matrix nodal_displacements(const Tread<2>&, const Matrix&, const Matrix&);
-template Matrix nodal_displacements(const Tread<3>&, const Matrix&, const Matrix&);
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                \
+  template Matrix base_loads(const Tread<dim>&, const Matrix&);                     \
+  template TreadField tread_field(const Tread<dim>&, const Matrix&, const Matrix&); \
+  template Matrix nodal_displacements(const Tread<dim>&, const TreadField&, const Matrix&);
+WHEELWRIGHT_INSTANTIATE(2)
+WHEELWRIGHT_INSTANTIATE(3)
+#undef WHEELWRIGHT_INSTANTIATE
 
 }  // namespace wheelwright

@@ -6,20 +6,24 @@ namespace wheelwright {
 
 /// Fields of the whole tread for several right-hand sides: one column for every (right-hand side, ring
 /// column), column = rhs * n_columns + ring column. Observations have Tread::n_observations() rows; the outer
-/// line of the core has `per_column` rows: its unknowns of one angular cell.
+/// line of the core has base_per_column() rows, its unknowns of one angular cell; lines (see Tread) have
+/// n_line() rows.
 
-/// Loads on the core's outer line (per_column rows) that observation loads send through the tread.
+/// Loads on the core's outer line that observation loads send through the tread.
 template <int dim>
 Matrix base_loads(const Tread<dim>& tread, const Matrix& observation_loads);
 
-/// Observations for displacements of the outer line and observation loads.
+/// What the tread does under displacements of the outer line and observation loads.
+struct TreadField {
+  Matrix base;          ///< displacements of every column's own base, n_base() rows
+  Matrix lines;         ///< displacements of every column's first line
+  Matrix observations;  ///< what is observed
+};
 template <int dim>
-Matrix observe(const Tread<dim>& tread, const Matrix& outer_line, const Matrix& observation_loads);
+TreadField tread_field(const Tread<dim>& tread, const Matrix& outer_line, const Matrix& observation_loads);
 
-/// Displacements of the tread's nodes above the base, rows as in Tread::nodal_transfer, one column a ring
-/// column.
+/// Displacements of the grid's nodes above the base, rows as TreadColumn::nodal.
 template <int dim>
-Matrix nodal_displacements(const Tread<dim>& tread, const Matrix& outer_line,
-                           const Matrix& observation_loads);
+Matrix nodal_displacements(const Tread<dim>& tread, const TreadField& field, const Matrix& observation_loads);
 
 }  // namespace wheelwright

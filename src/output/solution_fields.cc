@@ -24,7 +24,8 @@ RingField displacement_field(const RollingProblem<2>& problem, const RollingSolu
   Matrix outer(s.outer_line.rows(), n_columns), loads(s.contact_loads.rows(), n_columns);
   std::copy_n(s.outer_line.column(position * n_columns), outer.entries().size(), outer.data());
   std::copy_n(s.contact_loads.column(position * n_columns), loads.entries().size(), loads.data());
-  const Matrix tread = nodal_displacements(problem.tread(), outer, loads);
+  const Matrix tread =
+      nodal_displacements(problem.tread(), tread_field(problem.tread(), outer, loads), loads);
   const int upper_rows = degree * problem.tread().rows();
 
   const double ground_azimuth = s.grounds[position].column * grid.cell_size()[1];

@@ -86,7 +86,8 @@ RollingProblem<dim>::RollingProblem(const RollingModel<dim>& model,
 template <int dim>
 Expected<RollingProblem<dim>> RollingProblem<dim>::create(const RollingModel<dim>& model) {
   auto elements = std::make_unique<ElementTable<dim>>(model.grid, model.degree, model.material, model.ghost);
-  auto tread = Tread<dim>::condense(*elements, tread_rows, model.contact, model.contact_points);
+  auto tread =
+      Tread<dim>::condense(*elements, {tread_rows, model.tread_levels}, model.contact, model.contact_points);
   if (!tread) return tread.failure();
   return RollingProblem(model, std::move(elements), *std::move(tread));
 }
@@ -179,7 +180,7 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& p
   s.displacement = Matrix(s.ring.sector_factor().size(), n_positions * n_sectors);
   s.ring.recover(boundary, s.displacement);
   s.outer_line = outer_rows(s.ring, boundary, tread_.base_per_column());
-  s.observations = observe(tread_, s.outer_line, s.contact_loads);
+  s.observations = tread_field(tread_, s.outer_line, s.contact_loads).observations;
   s.ghost_loads = apply_ghost(s.ring, s.displacement);
   if (!all_finite(s.displacement) || !all_finite(s.observations))
     return Failure{FailureReason::not_finite, "the displacement is not finite"};
@@ -229,7 +230,8 @@ Expected<Evaluation<dim>> RollingProblem<dim>::differentiate(const RollingSoluti
   add_outer_rows(s.ring, base_loads(tread_, observation_loads), boundary_loads);
   const Matrix without_contact = s.ring.solve_boundary(boundary_loads);
   const Matrix observed =
-      observe(tread_, outer_rows(s.ring, without_contact, tread_.base_per_column()), observation_loads);
+      tread_field(tread_, outer_rows(s.ring, without_contact, tread_.base_per_column()), observation_loads)
+          .observations;
   Matrix multiplier_loads(tread_.n_observations(), n_positions * n_columns);
   for (int i = 0; i < n_positions; ++i) {
     const ContactZone& zone = s.contacts[i].zone();

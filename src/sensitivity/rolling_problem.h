@@ -15,6 +15,7 @@ struct RollingModel {
   GhostPenalty ghost;
   ContactForm contact;
   int contact_points = 5;  ///< Gauss points a direction on each contact face
+  int tread_levels = 0;    ///< L, halvings of the cells at the tread
   double load;             ///< P [N/m when dim = 2, N when dim = 3]
   int n_positions = 8;     ///< N_d, load positions of one sector; divides the sector's angular cells
   double strain_energy_weight = 1;

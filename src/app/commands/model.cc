@@ -29,6 +29,7 @@ RollingModel<2> rolling_model(const Case& c) {
   model.contact = {
       .method = c.contact.method, .theta_nitsche = c.contact.theta, .gamma_0 = c.contact.gamma_0};
   model.contact_points = c.contact.quadrature_points;
+  model.tread_levels = c.grid.tread_levels;
   model.load = load_per_metre(c);
   model.n_positions = c.load.positions;
   model.strain_energy_weight = c.objective.strain_energy;

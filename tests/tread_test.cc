@@ -1,0 +1,69 @@
+#include <gtest/gtest.h>
+
+#include "tests/support.h"
+
+namespace wheelwright {
+namespace {
+
+using testing::paper_model;
+
+// The ring without holes, converged on four meshes of independent finite elements: rim travel 0.21798 mm,
+// peak pressure 2.445 MPa, J_e 2.4892 J/m.
+TEST(TreadRefinement, PressuresConvergeOnTheBaseGrid) {
+  auto model = paper_model();
+  model.n_positions = 1;
+  for (int levels : {2, 3}) {
+    model.tread_levels = levels;
+    const auto problem = RollingProblem<2>::create(model);
+    ASSERT_TRUE(problem);
+    LevelSet<2> solid{Lattice<2>(model.grid, 2), {}};
+    solid.values.assign(solid.lattice.n_nodes(), -1.0);
+    const auto s = problem->solve(solid);
+    ASSERT_TRUE(s) << s.failure().detail;
+    double peak = 0;
+    for (const auto& traction : s->states[0].traction) peak = std::max(peak, -traction[0]);
+    EXPECT_NEAR(peak, 2.445e6, 0.005 * 2.445e6) << levels;
+    EXPECT_NEAR(s->states[0].rim_displacement, 0.21798e-3, 1e-3 * 0.21798e-3) << levels;
+    EXPECT_NEAR(s->strain_energy[0], 2.4892, 1e-3 * 2.4892) << levels;
+  }
+}
+
+TEST(TreadRefinement, HangingNodesKeepRigidMotionsFreeOfForce) {
+  auto model = paper_model(7, 96);
+  for (int levels : {0, 1, 3}) {
+    const ElementTable<2> table(model.grid, 2, model.material, model.ghost);
+    const auto column = tread_column<2>(table, {1, levels}, model.contact, 5);
+    ASSERT_TRUE(column);
+    // A translation along the column's first radius: polar components turn with the node. The condensed
+    // column knows base and both lines; their azimuths are 0, half and one column angle.
+    const double angle = model.grid.cell_size()[1];
+    const int n_line_nodes = column->n_line / 2;
+    std::vector<double> u;
+    for (int line = 0; line <= 2; ++line) {
+      u.push_back(std::cos(0.5 * line * angle));
+      u.push_back(-std::sin(0.5 * line * angle));
+    }
+    for (int side = 0; side < 2; ++side)
+      for (int i = 0; i < n_line_nodes; ++i) {
+        u.push_back(std::cos(side * angle));
+        u.push_back(-std::sin(side * angle));
+      }
+    ASSERT_EQ(static_cast<int>(u.size()), column->stiffness.rows());
+    double scale = 0;
+    for (double k : column->stiffness.entries()) scale = std::max(scale, std::abs(k));
+    for (int i = 0; i < column->stiffness.rows(); ++i) {
+      double force = 0;
+      for (size_t j = 0; j < u.size(); ++j) force += column->stiffness(i, static_cast<int>(j)) * u[j];
+      EXPECT_LT(std::abs(force), 1e-11 * scale);
+    }
+    for (int q = 0; q < column->observation.rows(); ++q) {
+      double observed = 0;
+      for (size_t j = 0; j < u.size(); ++j) observed += column->observation(q, static_cast<int>(j)) * u[j];
+      const double expected = q % 4 == 0 ? 1 : 0;
+      EXPECT_NEAR(observed, expected, q % 4 < 2 ? 1e-12 : 1e-12 * scale / model.grid.resolution());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace wheelwright
