@@ -3,7 +3,8 @@
 #include <cmath>
 #include <vector>
 
-#include "sensitivity/rolling_problem.h"
+#include "criteria/strain_energy.h"
+#include "sensitivity/evaluate.h"
 
 /// Shapes and models that the tests share.
 namespace wheelwright::testing {
@@ -51,5 +52,7 @@ inline double relative_difference(const std::vector<double>& a, const std::vecto
   }
   return a.size() == b.size() ? std::sqrt(difference / size) : INFINITY;
 }
+
+inline Criteria<2> strain_energy_alone() { return {{1, std::make_shared<StrainEnergy<2>>()}}; }
 
 }  // namespace wheelwright::testing

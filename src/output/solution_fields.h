@@ -1,8 +1,8 @@
 #pragma once
 
+#include "contact/rolling_problem.h"
 #include "output/pressure_csv.h"
 #include "output/ring_field.h"
-#include "sensitivity/rolling_problem.h"
 
 namespace wheelwright {
 

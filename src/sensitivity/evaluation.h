@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/phase_time.h"
 #include "geometry/level_set.h"
 
 namespace wheelwright {
@@ -11,12 +12,6 @@ namespace wheelwright {
 struct CriterionValue {
   std::string name;  ///< as in the case file, e.g. "strain_energy"
   double value;      ///< before weighting; per metre of width when dim = 2
-};
-
-/// Wall time of one phase of an evaluation.
-struct PhaseTime {
-  std::string phase;
-  double seconds;
 };
 
 /// What the physics says about one shape: the objective (5), its shape gradient (42), and how it went. Sums

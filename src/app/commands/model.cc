@@ -1,6 +1,7 @@
 #include "app/commands/model.h"
 
 #include "case/derived.h"
+#include "criteria/strain_energy.h"
 
 namespace wheelwright {
 namespace {
@@ -32,8 +33,16 @@ RollingModel<2> rolling_model(const Case& c) {
   model.tread_levels = c.grid.tread_levels;
   model.load = load_per_metre(c);
   model.n_positions = c.load.positions;
-  model.strain_energy_weight = c.objective.strain_energy;
   return model;
+}
+
+Criteria<2> criteria(const Case& c) {
+  Criteria<2> result;
+  const auto add = [&](double weight, auto criterion) {
+    if (weight > 0) result.push_back({weight, std::move(criterion)});
+  };
+  add(c.objective.strain_energy, std::make_shared<StrainEnergy<2>>());
+  return result;
 }
 
 LevelSet<2> initial_shape(const Case& c) {

@@ -3,13 +3,16 @@
 #include "case/case.h"
 #include "geometry/level_set.h"
 #include "optimize/optimizer.h"
-#include "sensitivity/rolling_problem.h"
+#include "sensitivity/evaluate.h"
 
 namespace wheelwright {
 
 /// The solver's view of a case: what every command that computes builds from it.
 PolarGrid<2> polar_grid(const Case& c);
 RollingModel<2> rolling_model(const Case& c);
+/// The terms of the objective with weights > 0: the list of all criteria.
+Criteria<2> criteria(const Case& c);
+
 LevelSet<2> initial_shape(const Case& c);
 EvolutionOptions evolution_options(const Case& c);
 OptimizerOptions optimizer_options(const Case& c);

@@ -14,8 +14,8 @@
 namespace wheelwright {
 namespace {
 
-const std::vector<std::string> phase_names{"cut",      "assembly", "factorization", "contact",
-                                           "recovery", "adjoint",  "gradient",      "evolution"};
+const std::vector<std::string> phase_names{"cut",      "assembly", "factorization", "contact",  "recovery",
+                                           "criteria", "adjoint",  "gradient",      "evolution"};
 
 /// Watches the loop: history, progress and pictures. The loop knows nothing of it.
 class RunRecorder {
@@ -131,8 +131,10 @@ int run(const Case& c) {
   RunFolder folder(path, c);
   RunRecorder recorder(c, *problem, folder);
   const LevelSet<2> initial = initial_shape(c);
-  const ShapeOptimizer<2> optimizer(initial.lattice, evolution_options(c), optimizer_options(c),
-                                    [&](const LevelSet<2>& psi) { return problem->evaluate(psi); });
+  const Criteria<2> objective = criteria(c);
+  const ShapeOptimizer<2> optimizer(
+      initial.lattice, evolution_options(c), optimizer_options(c),
+      [&](const LevelSet<2>& psi) { return evaluate<2>(*problem, objective, psi); });
   const Outcome<2> outcome = optimize<2>(
       optimizer, initial,
       [&](const Trial<2>& trial, const OptimizationState<2>& state) { recorder(trial, state); },

@@ -105,8 +105,9 @@ int verify_command(const Case& c, const RunOptions&) {
     return give_up({FailureReason::empty_shape,
                     "the case has no boundary that can move without changing its cut cells"});
 
-  const auto test = taylor_test<2>([&](const LevelSet<2>& psi) { return problem->evaluate(psi); }, *shape,
-                                   direction, c.grid.degree, step, halvings);
+  const auto test =
+      taylor_test<2>([&](const LevelSet<2>& psi) { return evaluate<2>(*problem, criteria(c), psi); }, *shape,
+                     direction, c.grid.degree, step, halvings);
   if (!test) return give_up(test.failure());
   const auto solution = problem->solve(*shape);
   if (!solution) return give_up(solution.failure());

@@ -1,4 +1,4 @@
-#include "sensitivity/rolling_problem.h"
+#include "contact/rolling_problem.h"
 
 #include <fmt/format.h>
 
@@ -8,11 +8,7 @@
 #include "base/stopwatch.h"
 
 namespace wheelwright {
-namespace {
 
-int wrap(int column, int n_columns) { return (column % n_columns + n_columns) % n_columns; }
-
-/// Rows of a few nodes (zero for fixed ones) of a core field.
 template <int dim>
 void gather(const CyclicStiffness<dim>& ring, std::span<const int> nodes, const Matrix& field,
             Matrix& local) {
@@ -23,6 +19,26 @@ void gather(const CyclicStiffness<dim>& ring, std::span<const int> nodes, const 
         local(dim * static_cast<int>(a) + c, j) = row < 0 ? 0.0 : field(row, j);
     }
 }
+
+template <int dim>
+Matrix outer_rows(const CyclicStiffness<dim>& ring, const Matrix& boundary, int per_column) {
+  const int n_outer = ring.n_outer(), first = ring.n_boundary() - n_outer;
+  Matrix result(per_column, boundary.columns() * (n_outer / per_column));
+  for (int j = 0; j < boundary.columns(); ++j)
+    std::copy_n(boundary.column(j) + first, n_outer, result.data() + size_t(j) * n_outer);
+  return result;
+}
+
+template <int dim>
+void add_outer_rows(const CyclicStiffness<dim>& ring, const Matrix& outer, Matrix& boundary) {
+  const int n_outer = ring.n_outer(), first = ring.n_boundary() - n_outer;
+  for (int j = 0; j < boundary.columns(); ++j)
+    for (int i = 0; i < n_outer; ++i) boundary(first + i, j) += outer.entries()[size_t(j) * n_outer + i];
+}
+
+namespace {
+
+int wrap(int column, int n_columns) { return (column % n_columns + n_columns) % n_columns; }
 
 /// The ghost penalty applied to a core field.
 template <int dim>
@@ -40,24 +56,6 @@ Matrix apply_ghost(const CyclicStiffness<dim>& ring, const Matrix& field) {
           result(ring.row(dim * node + i % dim), j) += applied(i, j);
   }
   return result;
-}
-
-/// The outer-line rows of boundary vectors, one column an angular cell of the ring.
-template <int dim>
-Matrix outer_rows(const CyclicStiffness<dim>& ring, const Matrix& boundary, int per_column) {
-  const int n_outer = ring.n_outer(), first = ring.n_boundary() - n_outer;
-  Matrix result(per_column, boundary.columns() * (n_outer / per_column));
-  for (int j = 0; j < boundary.columns(); ++j)
-    std::copy_n(boundary.column(j) + first, n_outer, result.data() + size_t(j) * n_outer);
-  return result;
-}
-
-/// Adds loads on the outer line (one column an angular cell) to boundary vectors.
-template <int dim>
-void add_outer_rows(const CyclicStiffness<dim>& ring, const Matrix& outer, Matrix& boundary) {
-  const int n_outer = ring.n_outer(), first = ring.n_boundary() - n_outer;
-  for (int j = 0; j < boundary.columns(); ++j)
-    for (int i = 0; i < n_outer; ++i) boundary(first + i, j) += outer.entries()[size_t(j) * n_outer + i];
 }
 
 double column_dot(const Matrix& a, const Matrix& b, int column) {
@@ -124,7 +122,6 @@ Expected<std::pair<ReducedContact<dim>, ContactState<dim>>> RollingProblem<dim>:
   }
 }
 
-/// Nitsche's symmetric term of the tread applied to what is observed: loads on the tractions.
 template <int dim>
 Matrix RollingProblem<dim>::nitsche_loads(const Matrix& observations) const {
   Matrix loads(observations.rows(), observations.columns());
@@ -202,94 +199,14 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& p
   return s;
 }
 
-template <int dim>
-Expected<Evaluation<dim>> RollingProblem<dim>::evaluate(const LevelSet<dim>& psi) const {
-  auto solution = solve(psi);
-  if (!solution) return solution.failure();
-  return differentiate(*solution);
-}
-
-template <int dim>
-Expected<Evaluation<dim>> RollingProblem<dim>::differentiate(const RollingSolution<dim>& s) const {
-  const PolarGrid<dim>& grid = model_.grid;
-  const int n_positions = model_.n_positions, n_columns = grid.ring_columns();
-  Evaluation<dim> evaluation{};
-  evaluation.phases = s.phases;
-  Stopwatch watch;
-  double energy = 0;
-  for (double e : s.strain_energy) energy += e;
-  evaluation.criteria.push_back({"strain_energy", energy});
-  evaluation.objective = model_.strain_energy_weight * energy;
-  for (const auto& state : s.states) evaluation.newton_iterations.push_back(state.newton_iterations);
-
-  // Adjoint (79) of J_e (59): K p + S^T m = -A(v), A the bulk stiffness. With A = K - ghost - nitsche and
-  // p = q - v: K q = ghost(v) + nitsche(v) - S^T m.
-  Matrix core_loads = s.ghost_loads;
-  Matrix observation_loads = nitsche_loads(s.observations);
-  Matrix boundary_loads = s.ring.condense(core_loads);
-  add_outer_rows(s.ring, base_loads(tread_, observation_loads), boundary_loads);
-  const Matrix without_contact = s.ring.solve_boundary(boundary_loads);
-  const Matrix observed =
-      tread_field(tread_, outer_rows(s.ring, without_contact, tread_.base_per_column()), observation_loads)
-          .observations;
-  Matrix multiplier_loads(tread_.n_observations(), n_positions * n_columns);
-  for (int i = 0; i < n_positions; ++i) {
-    const ContactZone& zone = s.contacts[i].zone();
-    Matrix in_zone(tread_.n_observations(), zone.n_columns);
-    for (int c = 0; c < zone.n_columns; ++c) {
-      const int column = i * n_columns + wrap(zone.first_column + c, n_columns);
-      for (int r = 0; r < in_zone.rows(); ++r)
-        in_zone(r, c) = observed(r, column) - s.observations(r, column);
-    }
-    const auto loads = s.contacts[i].adjoint_loads(s.states[i], in_zone);
-    if (!loads) return loads.failure();
-    for (int c = 0; c < zone.n_columns; ++c)
-      std::copy_n(loads->column(c), loads->rows(),
-                  multiplier_loads.column(i * n_columns + wrap(zone.first_column + c, n_columns)));
-  }
-  add_outer_rows(s.ring, base_loads(tread_, multiplier_loads), boundary_loads);
-  Matrix adjoint = std::move(core_loads);
-  s.ring.recover(s.ring.solve_boundary(boundary_loads), adjoint);
-  for (size_t k = 0; k < adjoint.entries().size(); ++k) adjoint.entries()[k] -= s.displacement.entries()[k];
-  evaluation.phases.push_back({"adjoint", watch.lap()});
-
-  // Shape gradient (42): 1/2 sigma(u):eps(u) + sigma(u):eps(p) on the moving boundary.
-  const Material& material = model_.material;
-  for (const CutCell<dim>& cut : s.domain.cut) {
-    const auto position = grid.cell_position(cut.cell);
-    const auto& element = elements_->element(position[0]);
-    const auto nodes = s.ring.sector().space.cell_nodes(cut.cell);
-    Matrix u(element.n_dofs(), s.displacement.columns()), p = u;
-    gather(s.ring, nodes, s.displacement, u);
-    gather(s.ring, nodes, adjoint, p);
-    for (const auto& q : cut.boundary) {
-      const auto at = element.at(q.xi);
-      Matrix strain(n_strains<dim>, element.n_dofs());
-      for (int j = 0; j < element.n_dofs(); ++j)
-        for (int k = 0; k < n_strains<dim>; ++k) strain(k, j) = at.strain[k][j];
-      const Matrix strain_u = product(strain, Op::none, u, Op::none),
-                   strain_p = product(strain, Op::none, p, Op::none);
-      double density = 0;
-      for (int j = 0; j < u.columns(); ++j) {
-        Voigt<dim> e;
-        std::copy_n(strain_u.column(j), n_strains<dim>, e.begin());
-        const Voigt<dim> sigma = stress<dim>(material, e);
-        for (int k = 0; k < n_strains<dim>; ++k) density += sigma[k] * (0.5 * e[k] + strain_p(k, j));
-      }
-      const auto surface = map_surface<dim>(at.jacobian, q.normal);
-      evaluation.gradient.push_back({cut.cell, q.xi,
-                                     rotated<dim>(surface.normal, position[1] * grid.cell_size()[1]),
-                                     q.weight * surface.scale, model_.strain_energy_weight * density});
-    }
-  }
-  if (!std::all_of(evaluation.gradient.begin(), evaluation.gradient.end(),
-                   [](const auto& sample) { return std::isfinite(sample.value); }))
-    return Failure{FailureReason::not_finite, "the shape gradient is not finite"};
-  evaluation.phases.push_back({"gradient", watch.lap()});
-  return evaluation;
-}
-
 template class RollingProblem<2>;
 template class RollingProblem<3>;
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                 \
+  template Matrix outer_rows(const CyclicStiffness<dim>&, const Matrix&, int);       \
+  template void add_outer_rows(const CyclicStiffness<dim>&, const Matrix&, Matrix&); \
+  template void gather(const CyclicStiffness<dim>&, std::span<const int>, const Matrix&, Matrix&);
+WHEELWRIGHT_INSTANTIATE(2)
+WHEELWRIGHT_INSTANTIATE(3)
+#undef WHEELWRIGHT_INSTANTIATE
 
 }  // namespace wheelwright

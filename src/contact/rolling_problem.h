@@ -1,8 +1,8 @@
 #pragma once
 
+#include "base/phase_time.h"
 #include "contact/reduced_contact.h"
 #include "contact/tread_ring.h"
-#include "sensitivity/evaluation.h"
 
 namespace wheelwright {
 
@@ -18,7 +18,6 @@ struct RollingModel {
   int tread_levels = 0;    ///< L, halvings of the cells at the tread
   double load;             ///< P [N/m when dim = 2, N when dim = 3]
   int n_positions = 8;     ///< N_d, load positions of one sector; divides the sector's angular cells
-  double strain_energy_weight = 1;
 };
 
 /// The direct problems of all load positions for one shape. Fields of the core are matrices with one column
@@ -61,11 +60,8 @@ class RollingProblem {
   /// Direct problems of all positions.
   Expected<RollingSolution<dim>> solve(const LevelSet<dim>& psi) const;
 
-  /// Objective and shape gradient.
-  Expected<Evaluation<dim>> evaluate(const LevelSet<dim>& psi) const;
-
-  /// Objective and shape gradient from solutions.
-  Expected<Evaluation<dim>> differentiate(const RollingSolution<dim>& solution) const;
+  /// Nitsche's symmetric term of the tread applied to what is observed: loads on the tractions.
+  Matrix nitsche_loads(const Matrix& observations) const;
 
  private:
   RollingProblem(const RollingModel<dim>& model, std::unique_ptr<ElementTable<dim>> elements,
@@ -73,7 +69,6 @@ class RollingProblem {
   Expected<std::pair<ReducedContact<dim>, ContactState<dim>>> roll_to(
       const CyclicStiffness<dim>& ring, GroundPosition ground,
       const std::optional<ContactState<dim>>& neighbour) const;
-  Matrix nitsche_loads(const Matrix& observations) const;
 
   RollingModel<dim> model_;
   std::unique_ptr<ElementTable<dim>> elements_;
@@ -82,5 +77,18 @@ class RollingProblem {
   std::vector<std::array<int, dim>> elimination_order_;
   std::vector<ComplexMatrix> outer_stiffness_;
 };
+
+/// The rows of boundary vectors (CyclicStiffness) on the core's outer line, one column an angular cell of the
+/// ring, `per_column` rows.
+template <int dim>
+Matrix outer_rows(const CyclicStiffness<dim>& ring, const Matrix& boundary, int per_column);
+
+/// Adds loads on the outer line (one column an angular cell) to boundary vectors.
+template <int dim>
+void add_outer_rows(const CyclicStiffness<dim>& ring, const Matrix& outer, Matrix& boundary);
+
+/// Rows of a few nodes (zero for fixed ones) of a core field, `local` has dim rows a node.
+template <int dim>
+void gather(const CyclicStiffness<dim>& ring, std::span<const int> nodes, const Matrix& field, Matrix& local);
 
 }  // namespace wheelwright

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "contact/rolling_problem.h"
+
+namespace wheelwright {
+
+/// The derivative of a criterion with respect to the displacements v of all positions, as loads: with K the
+/// ring's stiffness and T the tread's observations (RollingSolution's columns and rows),
+///   -dJ/dv = -state_weight K v + core + T^T observations.
+/// An empty matrix is zero.
+struct AdjointLoads {
+  double state_weight = 0;
+  Matrix core;
+  Matrix observations;
+};
+
+/// A criterion at one shape.
+struct CriterionTerm {
+  double value;  ///< summed over the load positions of one sector
+  AdjointLoads loads;
+};
+
+/// A criterion of the form (36), summed over the load positions. To add one: a file with a class like this, a
+/// finite-difference test, and its line in the list of criteria
+/// (app/commands/model.cc).
+template <int dim>
+class Criterion {
+ public:
+  virtual ~Criterion() = default;
+
+  /// As in the case file and in history files.
+  virtual std::string name() const = 0;
+
+  virtual CriterionTerm evaluate(const RollingProblem<dim>& problem,
+                                 const RollingSolution<dim>& solution) const = 0;
+
+  /// M(u, x) of (36) at a point of the moving boundary, per unit volume.
+  virtual double boundary_density(const Voigt<dim>& strain, const Voigt<dim>& stress) const = 0;
+};
+
+/// A term of the objective (6).
+template <int dim>
+struct WeightedCriterion {
+  double weight;
+  std::shared_ptr<const Criterion<dim>> criterion;
+};
+
+template <int dim>
+using Criteria = std::vector<WeightedCriterion<dim>>;
+
+}  // namespace wheelwright

@@ -1,0 +1,62 @@
+#include "sensitivity/adjoint.h"
+
+#include <algorithm>
+
+namespace wheelwright {
+namespace {
+
+int wrap(int column, int n_columns) { return (column % n_columns + n_columns) % n_columns; }
+
+/// The multiplier loads -S^T m of all positions, from what is observed of p without them.
+template <int dim>
+Expected<Matrix> contact_multipliers(const RollingSolution<dim>& s, const Matrix& observed, int n_columns) {
+  Matrix result(observed.rows(), observed.columns());
+  for (int i = 0; i < static_cast<int>(s.contacts.size()); ++i) {
+    const ContactZone& zone = s.contacts[i].zone();
+    const auto column = [&](int c) { return i * n_columns + wrap(zone.first_column + c, n_columns); };
+    Matrix in_zone(observed.rows(), zone.n_columns);
+    for (int c = 0; c < zone.n_columns; ++c)
+      std::copy_n(observed.column(column(c)), observed.rows(), in_zone.column(c));
+    const auto loads = s.contacts[i].adjoint_loads(s.states[i], in_zone);
+    if (!loads) return loads.failure();
+    for (int c = 0; c < zone.n_columns; ++c)
+      std::copy_n(loads->column(c), loads->rows(), result.column(column(c)));
+  }
+  return result;
+}
+
+}  // namespace
+
+template <int dim>
+Expected<Matrix> solve_adjoint(const RollingProblem<dim>& problem, const RollingSolution<dim>& s,
+                               const AdjointLoads& loads) {
+  const Tread<dim>& tread = problem.tread();
+  const int n_columns = tread.n_columns(), per_column = tread.base_per_column();
+  // p = q - state_weight v with K q = core + T^T observations - S^T m.
+  Matrix core = loads.core.rows() > 0 ? loads.core : Matrix(s.displacement.rows(), s.displacement.columns());
+  const Matrix observation_loads = loads.observations.rows() > 0
+                                       ? loads.observations
+                                       : Matrix(s.observations.rows(), s.observations.columns());
+  Matrix boundary = s.ring.condense(core);
+  add_outer_rows(s.ring, base_loads(tread, observation_loads), boundary);
+  const Matrix without_contact = s.ring.solve_boundary(boundary);
+  Matrix observed =
+      tread_field(tread, outer_rows(s.ring, without_contact, per_column), observation_loads).observations;
+  for (size_t k = 0; k < observed.entries().size(); ++k)
+    observed.entries()[k] -= loads.state_weight * s.observations.entries()[k];
+  const auto multipliers = contact_multipliers(s, observed, n_columns);
+  if (!multipliers) return multipliers.failure();
+
+  add_outer_rows(s.ring, base_loads(tread, *multipliers), boundary);
+  s.ring.recover(s.ring.solve_boundary(boundary), core);
+  for (size_t k = 0; k < core.entries().size(); ++k)
+    core.entries()[k] -= loads.state_weight * s.displacement.entries()[k];
+  return core;
+}
+
+template Expected<Matrix> solve_adjoint(const RollingProblem<2>&, const RollingSolution<2>&,
+                                        const AdjointLoads&);
+template Expected<Matrix> solve_adjoint(const RollingProblem<3>&, const RollingSolution<3>&,
+                                        const AdjointLoads&);
+
+}  // namespace wheelwright

@@ -1,0 +1,68 @@
+#include "sensitivity/evaluate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/stopwatch.h"
+#include "sensitivity/adjoint.h"
+#include "sensitivity/shape_gradient.h"
+
+namespace wheelwright {
+namespace {
+
+/// sum += weight * term, where an empty matrix is zero.
+void accumulate(double weight, const Matrix& term, Matrix& sum) {
+  if (term.rows() == 0) return;
+  if (sum.rows() == 0) sum = Matrix(term.rows(), term.columns());
+  for (size_t k = 0; k < term.entries().size(); ++k) sum.entries()[k] += weight * term.entries()[k];
+}
+
+}  // namespace
+
+template <int dim>
+Expected<Evaluation<dim>> differentiate(const RollingProblem<dim>& problem, const Criteria<dim>& criteria,
+                                        const RollingSolution<dim>& solution) {
+  Evaluation<dim> evaluation{0, {}, {}, {}, solution.phases};
+  Stopwatch watch;
+  AdjointLoads loads;
+  for (const auto& [weight, criterion] : criteria) {
+    const CriterionTerm term = criterion->evaluate(problem, solution);
+    evaluation.criteria.push_back({criterion->name(), term.value});
+    evaluation.objective += weight * term.value;
+    loads.state_weight += weight * term.loads.state_weight;
+    accumulate(weight, term.loads.core, loads.core);
+    accumulate(weight, term.loads.observations, loads.observations);
+  }
+  for (const auto& state : solution.states) evaluation.newton_iterations.push_back(state.newton_iterations);
+  evaluation.phases.push_back({"criteria", watch.lap()});
+
+  const auto adjoint = solve_adjoint(problem, solution, loads);
+  if (!adjoint) return adjoint.failure();
+  evaluation.phases.push_back({"adjoint", watch.lap()});
+  evaluation.gradient = shape_gradient(problem, criteria, solution, *adjoint);
+  evaluation.phases.push_back({"gradient", watch.lap()});
+  if (!std::isfinite(evaluation.objective) ||
+      !std::all_of(evaluation.gradient.begin(), evaluation.gradient.end(),
+                   [](const auto& sample) { return std::isfinite(sample.value); }))
+    return Failure{FailureReason::not_finite, "the objective or its shape gradient is not finite"};
+  return evaluation;
+}
+
+template <int dim>
+Expected<Evaluation<dim>> evaluate(const RollingProblem<dim>& problem, const Criteria<dim>& criteria,
+                                   const LevelSet<dim>& psi) {
+  const auto solution = problem.solve(psi);
+  if (!solution) return solution.failure();
+  return differentiate(problem, criteria, *solution);
+}
+
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                                 \
+  template Expected<Evaluation<dim>> differentiate(const RollingProblem<dim>&, const Criteria<dim>&, \
+                                                   const RollingSolution<dim>&);                     \
+  template Expected<Evaluation<dim>> evaluate(const RollingProblem<dim>&, const Criteria<dim>&,      \
+                                              const LevelSet<dim>&);
+WHEELWRIGHT_INSTANTIATE(2)
+WHEELWRIGHT_INSTANTIATE(3)
+#undef WHEELWRIGHT_INSTANTIATE
+
+}  // namespace wheelwright

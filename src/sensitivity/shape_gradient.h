@@ -1,0 +1,15 @@
+#pragma once
+
+#include "criteria/criterion.h"
+#include "geometry/level_set.h"
+
+namespace wheelwright {
+
+/// The density G of the shape derivative (42) on the moving boundary of one sector, summed over all positions
+/// and sectors: M(u) + sigma(u):eps(p). `adjoint` from solve_adjoint() for the weighted sum of the criteria.
+template <int dim>
+std::vector<SurfaceSample<dim>> shape_gradient(const RollingProblem<dim>& problem,
+                                               const Criteria<dim>& criteria,
+                                               const RollingSolution<dim>& solution, const Matrix& adjoint);
+
+}  // namespace wheelwright
