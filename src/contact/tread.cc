@@ -26,11 +26,9 @@ Matrix on_line(const TreadColumn<dim>& column, const Matrix& map, int side) {
   return result;
 }
 
-/// The columns of a map on retained unknowns that belong to the base.
-template <int dim>
-Matrix on_base(const TreadColumn<dim>& column, const Matrix& map) {
-  Matrix result(map.rows(), column.n_base);
-  std::copy_n(map.data(), result.entries().size(), result.data());
+Matrix leading_block(const Matrix& a, int rows, int columns) {
+  Matrix result(rows, columns);
+  for (int j = 0; j < columns; ++j) std::copy_n(a.column(j), rows, result.column(j));
   return result;
 }
 
@@ -91,9 +89,10 @@ Expected<Tread<dim>> Tread<dim>::condense(const ElementTable<dim>& table, const 
   for (int d = -reach - 1; d <= reach + 1; ++d) tread.line_compliance_.push_back(response(d));
 
   // What a column sees of another's lines, and how it loads them: through its own first and last line.
-  const Matrix stiffness_on_base = on_base(tread.column_, tread.column_.stiffness);
-  const Matrix observation_on_base = on_base(tread.column_, tread.column_.observation);
-  const int n_base = tread.n_base(), n_line = tread.n_line(), n_observations = tread.n_observations();
+  const TreadColumn<dim>& own = tread.column_;
+  const int n_base = own.n_base, n_line = own.n_line, n_contact = tread.n_contact();
+  const Matrix stiffness_on_base = leading_block(own.stiffness, own.stiffness.rows(), n_base);
+  const Matrix contact_rows = leading_block(own.observation, n_contact, own.observation.columns());
   Matrix line_load_of_base[2], base_rows[2], observation_rows[2];
   for (int side = 0; side < 2; ++side) {
     line_load_of_base[side] = Matrix(n_line, n_base);
@@ -103,18 +102,17 @@ Expected<Tread<dim>> Tread<dim>::condense(const ElementTable<dim>& table, const 
     base_rows[side] = Matrix(n_base, n_line);
     for (int j = 0; j < n_line; ++j)
       for (int i = 0; i < n_base; ++i) base_rows[side](i, j) = -line_load_of_base[side](j, i);
-    observation_rows[side] = on_line(tread.column_, tread.column_.observation, side);
+    observation_rows[side] = on_line(own, contact_rows, side);
   }
   for (int d = -reach; d <= reach; ++d) {
-    Matrix base(n_base, n_base), transfer(n_observations, n_base), compliance(n_observations, n_observations);
+    Matrix base(n_base, n_base), transfer(n_contact, n_base), compliance(n_contact, n_contact);
     if (d == 0) {
-      for (int j = 0; j < n_base; ++j)
-        for (int i = 0; i < n_base; ++i) base(i, j) = stiffness_on_base(i, j);
-      transfer = observation_on_base;
-      compliance = tread.column_.compliance;
+      base = leading_block(own.stiffness, n_base, n_base);
+      transfer = leading_block(own.observation, n_contact, n_base);
+      compliance = leading_block(own.compliance, n_contact, n_contact);
     }
     for (int seen = 0; seen < 2; ++seen) {
-      Matrix of_base(n_line, n_base), of_observations(n_line, n_observations);
+      Matrix of_base(n_line, n_base), of_observations(n_line, n_contact);
       for (int loaded = 0; loaded < 2; ++loaded) {
         const Matrix& lines = response(d + seen - loaded);
         multiply(1, lines, Op::none, line_load_of_base[loaded], Op::none, 1, of_base);

@@ -21,6 +21,7 @@ class Tread {
   int n_observations() const { return column_.observation.rows(); }
   int n_base() const { return column_.n_base; }
   int n_line() const { return column_.n_line; }
+  int n_contact() const { return 2 * dim * static_cast<int>(points().size()); }  ///< observations on Gamma_C
   int base_per_column() const {
     return degree_ * column_.n_base / (degree_ + 1);
   }  ///< not shared with the next
@@ -34,12 +35,13 @@ class Tread {
   /// Line c + difference for a unit load on line c, base held fixed; |difference| <= reach() + 1.
   const Matrix& line_compliance(int difference) const { return line_compliance_[difference + reach_ + 1]; }
 
-  /// Observations in column c + difference for a unit load on an observation of column c, base held fixed;
+  /// Observations on Gamma_C in column c + difference for a unit load on one of column c, base held fixed;
   /// |difference| <= reach().
   const Matrix& compliance(int difference) const { return compliance_[difference + reach_]; }
 
-  /// Observations in column c + difference for a unit displacement of the base of column c; |difference| <=
-  /// reach(). Transposed: the load that reaches the base of column c from a load on column c + difference.
+  /// Observations on Gamma_C in column c + difference for a unit displacement of the base of column c;
+  /// |difference| <= reach(). Transposed: the load that reaches the base of column c from a load on column c
+  /// + difference.
   const Matrix& transfer(int difference) const { return transfer_[difference + reach_]; }
 
   /// The tread's stiffness on the core's outer line for every harmonic of the sectors, in the order of

@@ -176,6 +176,7 @@ Matrix transposed(const Matrix& a) {
 template <int dim>
 struct FreeColumn {
   std::vector<TreadPoint<dim>> points;
+  std::vector<AnnulusPoint> annulus;
   Matrix stiffness, observation, nodal;
 };
 
@@ -189,12 +190,18 @@ FreeColumn<dim> assemble(const ElementTable<dim>& table, const ColumnNodes<dim>&
   if constexpr (dim == 3) axial_cells = grid.cells[2];
   const auto volume_rule = unit_cell_rule<dim>(degree + 2);
   const auto face_rule = unit_cell_rule<dim - 1>(points_per_direction);
-  const int top_cells = (1 << nodes.all_layers().back().level) * axial_cells;
+  const auto annulus_rule = unit_cell_rule<dim>(tread.annulus_points);
+  const int n_contact =
+      2 * dim * (1 << nodes.all_layers().back().level) * axial_cells * static_cast<int>(face_rule.size());
+  int n_cells = 0;
+  for (const Layer& layer : nodes.all_layers()) n_cells += layer.rows * (1 << layer.level) * axial_cells;
 
-  FreeColumn<dim> column{{},
-                         Matrix(nodes.n_dofs(), nodes.n_dofs()),
-                         Matrix(2 * dim * top_cells * static_cast<int>(face_rule.size()), nodes.n_dofs()),
-                         {}};
+  FreeColumn<dim> column{
+      {},
+      {},
+      Matrix(nodes.n_dofs(), nodes.n_dofs()),
+      Matrix(n_contact + dim * n_cells * static_cast<int>(annulus_rule.size()), nodes.n_dofs()),
+      {}};
   for (size_t l = 0; l < nodes.all_layers().size(); ++l) {
     const Layer& layer = nodes.all_layers()[l];
     PolarGrid<dim> fine = grid;
@@ -240,6 +247,16 @@ FreeColumn<dim> assemble(const ElementTable<dim>& table, const ColumnNodes<dim>&
               column.points.push_back({position, weight, gamma});
             }
           }
+          for (const auto& q : annulus_rule) {
+            const auto at = element.at(q.xi);
+            Vec<dim> radial{at.position[0], at.position[1]};
+            const double radius = norm<dim>(radial);
+            for (double& x : radial) x /= radius;
+            add_rows<dim>(traction_map<dim>(element, material, at, radial), cell,
+                          n_contact + dim * static_cast<int>(column.annulus.size()), across * cell_angle,
+                          column.observation);
+            column.annulus.push_back({q.weight * at.determinant});
+          }
           add_stiffness<dim>(k, cell, column.stiffness);
         }
       }
@@ -270,6 +287,7 @@ Expected<TreadColumn<dim>> tread_column(const ElementTable<dim>& table, const Tr
   const int n_observations = free.observation.rows(), n_nodal = free.nodal.rows();
 
   TreadColumn<dim> column{std::move(free.points),
+                          std::move(free.annulus),
                           nodes.n_base(),
                           nodes.n_line(),
                           block(free.stiffness, 0, n_retained, 0, n_retained),

@@ -35,11 +35,14 @@ class Criterion {
   /// As in the case file and in history files.
   virtual std::string name() const = 0;
 
-  virtual CriterionTerm evaluate(const RollingProblem<dim>& problem,
-                                 const RollingSolution<dim>& solution) const = 0;
+  /// `mean`: what mean_observations() gives, of this solution or held from an earlier shape. At this
+  /// solution's own mean the loads are the exact derivative: deviations sum to zero over the positions, so
+  /// that the mean's own derivative drops out.
+  virtual CriterionTerm evaluate(const RollingProblem<dim>& problem, const RollingSolution<dim>& solution,
+                                 const Matrix& mean) const = 0;
 
-  /// M(u, x) of (36) at a point of the moving boundary, per unit volume.
-  virtual double boundary_density(const Voigt<dim>& strain, const Voigt<dim>& stress) const = 0;
+  /// M(u, x) of (36) at a point of the moving boundary, per unit volume; zero for what lives at the tread.
+  virtual double boundary_density(const Voigt<dim>&, const Voigt<dim>&) const { return 0; }
 };
 
 /// A term of the objective (6).

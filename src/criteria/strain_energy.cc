@@ -5,7 +5,7 @@ namespace wheelwright {
 /// dJ_e/dv (59) is the bulk stiffness alone: K v less the ghost penalty and Nitsche's symmetric term.
 template <int dim>
 CriterionTerm StrainEnergy<dim>::evaluate(const RollingProblem<dim>& problem,
-                                          const RollingSolution<dim>& solution) const {
+                                          const RollingSolution<dim>& solution, const Matrix&) const {
   CriterionTerm term{0, {1, solution.ghost_loads, problem.nitsche_loads(solution.observations)}};
   for (double energy : solution.strain_energy) term.value += energy;
   return term;

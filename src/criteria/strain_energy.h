@@ -9,8 +9,8 @@ template <int dim>
 class StrainEnergy : public Criterion<dim> {
  public:
   std::string name() const override { return "strain_energy"; }
-  CriterionTerm evaluate(const RollingProblem<dim>& problem,
-                         const RollingSolution<dim>& solution) const override;
+  CriterionTerm evaluate(const RollingProblem<dim>& problem, const RollingSolution<dim>& solution,
+                         const Matrix& mean) const override;
   double boundary_density(const Voigt<dim>& strain, const Voigt<dim>& stress) const override;
 };
 

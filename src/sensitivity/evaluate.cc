@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/stopwatch.h"
+#include "criteria/mean_contact_stress.h"
 #include "sensitivity/adjoint.h"
 #include "sensitivity/shape_gradient.h"
 
@@ -21,12 +22,13 @@ void accumulate(double weight, const Matrix& term, Matrix& sum) {
 
 template <int dim>
 Expected<Evaluation<dim>> differentiate(const RollingProblem<dim>& problem, const Criteria<dim>& criteria,
-                                        const RollingSolution<dim>& solution) {
-  Evaluation<dim> evaluation{0, {}, {}, {}, solution.phases};
+                                        const RollingSolution<dim>& solution, const Matrix* held_mean) {
+  Evaluation<dim> evaluation{0, {}, {}, {}, mean_observations(problem, solution), solution.phases};
   Stopwatch watch;
   AdjointLoads loads;
   for (const auto& [weight, criterion] : criteria) {
-    const CriterionTerm term = criterion->evaluate(problem, solution);
+    const CriterionTerm term =
+        criterion->evaluate(problem, solution, held_mean ? *held_mean : evaluation.mean_observations);
     evaluation.criteria.push_back({criterion->name(), term.value});
     evaluation.objective += weight * term.value;
     loads.state_weight += weight * term.loads.state_weight;
@@ -50,17 +52,17 @@ Expected<Evaluation<dim>> differentiate(const RollingProblem<dim>& problem, cons
 
 template <int dim>
 Expected<Evaluation<dim>> evaluate(const RollingProblem<dim>& problem, const Criteria<dim>& criteria,
-                                   const LevelSet<dim>& psi) {
+                                   const LevelSet<dim>& psi, const Matrix* held_mean) {
   const auto solution = problem.solve(psi);
   if (!solution) return solution.failure();
-  return differentiate(problem, criteria, *solution);
+  return differentiate(problem, criteria, *solution, held_mean);
 }
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                 \
   template Expected<Evaluation<dim>> differentiate(const RollingProblem<dim>&, const Criteria<dim>&, \
-                                                   const RollingSolution<dim>&);                     \
+                                                   const RollingSolution<dim>&, const Matrix*);      \
   template Expected<Evaluation<dim>> evaluate(const RollingProblem<dim>&, const Criteria<dim>&,      \
-                                              const LevelSet<dim>&);
+                                              const LevelSet<dim>&, const Matrix*);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)
 #undef WHEELWRIGHT_INSTANTIATE

@@ -5,6 +5,7 @@
 
 #include "base/phase_time.h"
 #include "geometry/level_set.h"
+#include "linalg/dense.h"
 
 namespace wheelwright {
 
@@ -24,6 +25,7 @@ struct Evaluation {
   std::vector<SurfaceSample<dim>> gradient;  ///< density G: DJ(Theta) = sum weight value Theta.n, for Theta
                                              ///< equal in all sectors
   std::vector<int> newton_iterations;        ///< one a position of the sector
+  Matrix mean_observations;  ///< of the tread over the positions (criteria/mean_contact_stress.h)
   std::vector<PhaseTime> phases;
 };
 

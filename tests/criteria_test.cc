@@ -1,0 +1,125 @@
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "criteria/mean_contact_stress.h"
+#include "criteria/strain_energy.h"
+#include "criteria/uniformity_annulus.h"
+#include "criteria/uniformity_dual.h"
+#include "criteria/uniformity_l2.h"
+#include "sensitivity/taylor_test.h"
+#include "tests/support.h"
+
+namespace wheelwright {
+namespace {
+
+using testing::holes;
+using testing::paper_holes;
+using testing::paper_model;
+
+RollingModel<2> annulus_model(int radial_cells, int angular_cells, int levels) {
+  auto model = paper_model(radial_cells, angular_cells);
+  model.tread = {1, levels, 3};
+  return model;
+}
+
+std::shared_ptr<const NeumannToDirichlet<2>> image_of(const RollingModel<2>& model) {
+  auto created = NeumannToDirichlet<2>::create(model);
+  EXPECT_TRUE(created);
+  return std::make_shared<const NeumannToDirichlet<2>>(*std::move(created));
+}
+
+std::vector<std::shared_ptr<const Criterion<2>>> uniformity_criteria(const RollingModel<2>& model) {
+  return {std::make_shared<UniformityL2<2>>(0.01), std::make_shared<UniformityAnnulus<2>>(0.01),
+          std::make_shared<UniformityDual<2>>(image_of(model))};
+}
+
+std::vector<double> smooth_direction(const Lattice<2>& lattice) {
+  std::vector<double> direction;
+  for (int i = 0; i < lattice.n_nodes(); ++i) {
+    const Vec<2> p = lattice.polar_point(i);
+    direction.push_back(1 + 0.4 * std::cos(16 * p[1]) + 0.3 * std::sin(40 * (p[0] - 0.27)));
+  }
+  return direction;
+}
+
+// p_mean of the shape itself, and held at an earlier shape's as the paper does.
+TEST(Uniformity, GradientsPassTheTaylorTest) {
+  const auto model = annulus_model(14, 192, 1);
+  const auto problem = RollingProblem<2>::create(model);
+  ASSERT_TRUE(problem);
+  const auto psi = holes(model.grid, 2, {{0.2681, 0.47 * model.grid.sector_angle(), 0.0373}});
+  const auto earlier = problem->solve(holes(model.grid, 2, {{0.27, 0.5 * model.grid.sector_angle(), 0.04}}));
+  ASSERT_TRUE(earlier);
+  const Matrix held = mean_observations(*problem, *earlier);
+  const auto direction = smooth_direction(psi.lattice);
+  for (const auto& criterion : uniformity_criteria(model)) {
+    for (const Matrix* mean : {static_cast<const Matrix*>(nullptr), &held}) {
+      const Criteria<2> objective{{1, criterion}};
+      const auto test = taylor_test<2>(
+          [&](const LevelSet<2>& shape) { return evaluate<2>(*problem, objective, shape, mean); }, psi,
+          direction, model.degree, 2e-5, 3);
+      ASSERT_TRUE(test) << test.failure().detail;
+      for (double order : test->orders)
+        EXPECT_GT(order, 1.9) << criterion->name() << (mean ? " held" : " own");
+    }
+  }
+}
+
+TEST(Uniformity, AUniformRingIsUniform) {
+  const auto model = annulus_model(14, 192, 0);
+  const auto problem = RollingProblem<2>::create(model);
+  LevelSet<2> solid{Lattice<2>(model.grid, 2), {}};
+  solid.values.assign(solid.lattice.n_nodes(), -1.0);
+  const auto s = problem->solve(solid);
+  ASSERT_TRUE(s);
+  const auto holed = problem->solve(paper_holes(model.grid));
+  ASSERT_TRUE(holed);
+  for (const auto& criterion : uniformity_criteria(model)) {
+    const double uniform = criterion->evaluate(*problem, *s, mean_observations(*problem, *s)).value;
+    const double uneven = criterion->evaluate(*problem, *holed, mean_observations(*problem, *holed)).value;
+    EXPECT_GT(uneven, 0) << criterion->name();
+    EXPECT_LT(std::abs(uniform), 1e-15 * uneven) << criterion->name();
+  }
+}
+
+// (71): the energy of w in the whole ring, half the work of the traction on w, and the value of the
+// criterion.
+TEST(Uniformity, TheDualNormIsTheEnergyOfItsImage) {
+  for (int levels : {0, 2}) {
+    const auto model = annulus_model(14, 192, levels);
+    const auto problem = RollingProblem<2>::create(model);
+    const auto s = problem->solve(paper_holes(model.grid));
+    ASSERT_TRUE(s);
+    const Matrix mean = mean_observations(*problem, *s);
+    const auto image = image_of(model);
+    const Matrix g = traction_deviation(*problem, *s, mean);
+    const auto energies = image->energies(g);
+    const Matrix w = (*image)(g);
+    double work = 0;
+    for (int j = 0; j < g.columns(); ++j)
+      for (int i = 0; i < g.rows(); ++i)
+        work += 0.5 * problem->tread().points()[i / 2].weight * g(i, j) * w(i, j);
+    const double value = UniformityDual<2>(image).evaluate(*problem, *s, mean).value;
+    EXPECT_NEAR(std::accumulate(energies.begin(), energies.end(), 0.0), value, 1e-9 * value);
+    EXPECT_NEAR(work, value, 1e-12 * value);
+  }
+}
+
+// With p_mean at the shape's own value nothing is left of its derivative: holding it gives the same gradient.
+TEST(Uniformity, HoldingTheOwnMeanChangesNothing) {
+  const auto model = annulus_model(14, 192, 0);
+  const auto problem = RollingProblem<2>::create(model);
+  const Criteria<2> objective{{1, std::make_shared<UniformityAnnulus<2>>(0.01)}};
+  const auto psi = paper_holes(model.grid);
+  const auto own = evaluate<2>(*problem, objective, psi);
+  ASSERT_TRUE(own);
+  const auto held = evaluate<2>(*problem, objective, psi, &own->mean_observations);
+  ASSERT_TRUE(held);
+  EXPECT_EQ(own->objective, held->objective);
+  for (size_t i = 0; i < own->gradient.size(); ++i)
+    EXPECT_EQ(own->gradient[i].value, held->gradient[i].value);
+}
+
+}  // namespace
+}  // namespace wheelwright
