@@ -13,7 +13,7 @@ TEST(TreadRefinement, PressuresConvergeOnTheBaseGrid) {
   auto model = paper_model();
   model.n_positions = 1;
   for (int levels : {2, 3}) {
-    model.tread_levels = levels;
+    model.tread.levels = levels;
     const auto problem = RollingProblem<2>::create(model);
     ASSERT_TRUE(problem);
     LevelSet<2> solid{Lattice<2>(model.grid, 2), {}};
@@ -32,7 +32,7 @@ TEST(TreadRefinement, HangingNodesKeepRigidMotionsFreeOfForce) {
   auto model = paper_model(7, 96);
   for (int levels : {0, 1, 3}) {
     const ElementTable<2> table(model.grid, 2, model.material, model.ghost);
-    const auto column = tread_column<2>(table, {1, levels}, model.contact, 5);
+    const auto column = tread_column<2>(table, {1, levels, 0}, model.contact, 5);
     ASSERT_TRUE(column);
     // A translation along the column's first radius: polar components turn with the node. The condensed
     // column knows base and both lines; their azimuths are 0, half and one column angle.

@@ -47,7 +47,7 @@ ReducedContact<dim>::ReducedContact(const CyclicStiffness<dim>& ring, const Trea
   const double column_angle = grid.cell_size()[1];
   const int per_zone_column = static_cast<int>(tread.points().size()), n_components = components();
   for (int c = 0; c < zone.n_columns; ++c) {
-    const double angle = (zone.first_column + c - ground.column) * column_angle;
+    const double angle = (zone.first_column + c - ground.column - ground.offset) * column_angle;
     for (const auto& point : tread.points()) {
       const Vec<dim> x = rotated<dim>(point.position, angle);
       points_.push_back({x[1], grid.outer_radius - x[0], point.weight, point.gamma, angle});
@@ -56,7 +56,7 @@ ReducedContact<dim>::ReducedContact(const CyclicStiffness<dim>& ring, const Trea
 
   // Rows that sample z and rows that test, on a column's observations: S = tau T - gamma U, Te = theta/gamma
   // T - U.
-  const int n = n_points() * n_components, n_observations = tread.n_observations();
+  const int n = n_points() * n_components;
   const auto project = [&](int c, const Matrix& observed, bool sample, Matrix& result, int first_column) {
     for (int q = 0; q < per_zone_column; ++q) {
       const Point& point = points_[c * per_zone_column + q];
@@ -89,18 +89,15 @@ ReducedContact<dim>::ReducedContact(const CyclicStiffness<dim>& ring, const Trea
   const Matrix through_core = product(g, Op::none, test, Op::transpose);
   flexibility_ = Matrix(n, n);
   multiply(-1, sample, Op::none, through_core, Op::none, 0, flexibility_);
+  const int block = per_zone_column * n_components;
   for (int from = 0; from < zone.n_columns; ++from) {
     for (int to = 0; to < zone.n_columns; ++to) {
       if (std::abs(to - from) > reach) continue;
-      const Matrix& c = tread.compliance(to - from);
-      Matrix transposed(n_observations, n_observations), tested(n, n_observations), sampled(n, n);
-      for (int j = 0; j < n_observations; ++j)
-        for (int i = 0; i < n_observations; ++i) transposed(i, j) = c(j, i);
-      project(from, transposed, false, tested, 0);
-      const int block = per_zone_column * n_components;
-      Matrix columns(n_observations, block);
+      // -S C Te^T by its transposes: the compliance of (to, from) is that of (from, to) transposed.
+      Matrix tested(n, tread.n_contact()), columns(tread.n_contact(), block);
+      project(from, tread.compliance(from - to), false, tested, 0);
       for (int j = 0; j < block; ++j)
-        for (int i = 0; i < n_observations; ++i) columns(i, j) = -tested(from * block + j, i);
+        for (int i = 0; i < columns.rows(); ++i) columns(i, j) = -tested(from * block + j, i);
       project(to, columns, true, flexibility_, from * block);
     }
   }

@@ -8,9 +8,10 @@
 namespace wheelwright {
 
 /// The ground at one load position, in the body frame: flat, rigid, touching the undeformed tread's circle at
-/// the first azimuth of ring column `column`; n_y points there from the axle.
+/// ring column `column` (a fraction `offset` of it past its first azimuth); n_y points there from the axle.
 struct GroundPosition {
   int column;
+  double offset = 0;  ///< 0 <= offset < 1
 };
 
 /// Contact quadrature points near the ground position, in the order (column, point of the column).

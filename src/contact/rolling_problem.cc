@@ -84,8 +84,7 @@ RollingProblem<dim>::RollingProblem(const RollingModel<dim>& model,
 template <int dim>
 Expected<RollingProblem<dim>> RollingProblem<dim>::create(const RollingModel<dim>& model) {
   auto elements = std::make_unique<ElementTable<dim>>(model.grid, model.degree, model.material, model.ghost);
-  auto tread =
-      Tread<dim>::condense(*elements, {tread_rows, model.tread_levels}, model.contact, model.contact_points);
+  auto tread = Tread<dim>::condense(*elements, model.tread, model.contact, model.contact_points);
   if (!tread) return tread.failure();
   return RollingProblem(model, std::move(elements), *std::move(tread));
 }
@@ -144,7 +143,7 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& p
 
   auto domain = cut_domain(psi, model_.degree + 2);
   if (!domain) return domain.failure();
-  if (auto failure = check_attached(*domain, protected_rim_rows, protected_tread_rows)) return *failure;
+  if (auto failure = check_attached(*domain, protected_rim_rows(), protected_tread_rows())) return *failure;
   phases.push_back({"cut", watch.lap()});
   auto sector = sector_stiffness(*domain, *elements_, core_rows());
   phases.push_back({"assembly", watch.lap()});
@@ -157,7 +156,8 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& p
   s.contact_loads = Matrix(tread_.n_observations(), n_positions * n_columns);
   std::optional<ContactState<dim>> neighbour;
   for (int i = 0; i < n_positions; ++i) {
-    s.grounds.push_back({i * grid.columns() / n_positions});
+    s.grounds.push_back(
+        {i * grid.columns() / n_positions, double(i * grid.columns() % n_positions) / n_positions});
     auto rolled = roll_to(s.ring, s.grounds.back(), neighbour);
     if (!rolled) return rolled.failure();
     neighbour = rolled->second;

@@ -15,9 +15,9 @@ struct RollingModel {
   GhostPenalty ghost;
   ContactForm contact;
   int contact_points = 5;  ///< Gauss points a direction on each contact face
-  int tread_levels = 0;    ///< L, halvings of the cells at the tread
+  TreadGrid tread;         ///< rows that are condensed once a run, and their refinement
   double load;             ///< P [N/m when dim = 2, N when dim = 3]
-  int n_positions = 8;     ///< N_d, load positions of one sector; divides the sector's angular cells
+  int n_positions = 8;  ///< N_d, load positions of one sector; means over them need a divisor of its columns
 };
 
 /// The direct problems of all load positions for one shape. Fields of the core are matrices with one column
@@ -52,10 +52,11 @@ class RollingProblem {
   const RollingModel<dim>& model() const { return model_; }
   const ElementTable<dim>& elements() const { return *elements_; }
   const Tread<dim>& tread() const { return tread_; }
-  int core_rows() const { return model_.grid.cells[0] - tread_rows; }
+  int core_rows() const { return model_.grid.cells[0] - model_.tread.rows; }
 
   /// Rows of cells that must stay full at the rim and at the tread: the tread and one row below it.
-  static constexpr int tread_rows = 1, protected_rim_rows = 1, protected_tread_rows = tread_rows + 1;
+  int protected_rim_rows() const { return 1; }
+  int protected_tread_rows() const { return model_.tread.rows + 1; }
 
   /// Direct problems of all positions.
   Expected<RollingSolution<dim>> solve(const LevelSet<dim>& psi) const;

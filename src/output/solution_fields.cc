@@ -28,7 +28,8 @@ RingField displacement_field(const RollingProblem<2>& problem, const RollingSolu
       nodal_displacements(problem.tread(), tread_field(problem.tread(), outer, loads), loads);
   const int upper_rows = degree * problem.tread().rows();
 
-  const double ground_azimuth = s.grounds[position].column * grid.cell_size()[1];
+  const double ground_azimuth =
+      (s.grounds[position].column + s.grounds[position].offset) * grid.cell_size()[1];
   const double rim = s.states[position].rim_displacement;
   RingField field{2, std::vector<double>(2 * size_t(lattice.n_nodes()) * n_sectors, no_material)};
   for (int sector = 0; sector < n_sectors; ++sector) {

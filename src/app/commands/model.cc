@@ -30,7 +30,7 @@ RollingModel<2> rolling_model(const Case& c) {
   model.contact = {
       .method = c.contact.method, .theta_nitsche = c.contact.theta, .gamma_0 = c.contact.gamma_0};
   model.contact_points = c.contact.quadrature_points;
-  model.tread_levels = c.grid.tread_levels;
+  model.tread.levels = c.grid.tread_levels;
   model.load = load_per_metre(c);
   model.n_positions = c.load.positions;
   return model;

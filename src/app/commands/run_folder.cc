@@ -107,7 +107,8 @@ void RunFolder::write_result(const RollingProblem<2>& problem, const Optimizatio
   write_atomically(
       folder_ / "stress.svg",
       deformed_svg(final_state.shape, displacement_lattice(problem),
-                   {title, std::move(displacement), 20, solution->grounds[worst].column * grid.cell_size()[1],
+                   {title, std::move(displacement), 20,
+                    (solution->grounds[worst].column + solution->grounds[worst].offset) * grid.cell_size()[1],
                     std::move(von_mises)}));
 }
 
