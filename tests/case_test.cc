@@ -182,6 +182,13 @@ TEST(CaseFile, AResolvedCaseReadsBackEqual) {
   c.grid.tread_levels = 3;
   c.ghost_penalty = {.kind = GhostPenaltyKind::paper, .xi = 1e-3};
   c.volume = {.control = VolumeControl::paper, .target = 0.7};
+  c.objective = {.strain_energy = 0.5,
+                 .uniformity_dual = 100,
+                 .uniformity_l2 = 2,
+                 .annulus_matches_dual = 7,
+                 .annulus = 0.005,
+                 .length = 0.02,
+                 .mean = MeanStress::held};
   c.optimizer.velocity = VelocityKind::harmonic;
   c.optimizer.rim_band = 0.006;
   c.optimizer.tread_band = 0.011;

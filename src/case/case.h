@@ -67,9 +67,22 @@ struct Grid {
   bool operator==(const Grid&) const = default;
 };
 
-/// Weights of the criteria in J.
+/// The mean contact stress p_mean (73) that uniformity criteria compare with.
+enum class MeanStress {
+  exact,  ///< that of the shape itself
+  held,   ///< that of the last accepted shape, as the paper does
+};
+
+/// Weights of the criteria in J, and what the criteria need.
 struct Objective {
   double strain_energy = 1;
+  double uniformity_annulus = 0;               ///< alpha_1 of J_p1
+  double uniformity_dual = 0;                  ///< alpha_2 of J_p2
+  double uniformity_l2 = 0;                    ///< of the naive criterion (4)
+  std::optional<double> annulus_matches_dual;  ///< alpha_2 from which (83) gives alpha_1
+  std::optional<double> annulus;               ///< epsilon; absent: one radial cell
+  std::optional<double> length;                ///< L; absent: epsilon
+  MeanStress mean = MeanStress::exact;
   bool operator==(const Objective&) const = default;
 };
 
@@ -98,7 +111,7 @@ struct Optimizer {
   double smoothing = 0;  ///< tau of (76) [cells^2]
   int smooth_every = 5;
   std::optional<double> rim_band;    ///< absent: one radial cell
-  std::optional<double> tread_band;  ///< absent: two radial cells
+  std::optional<double> tread_band;  ///< absent: one radial cell more than the annulus
   bool operator==(const Optimizer&) const = default;
 };
 

@@ -46,8 +46,8 @@ void check_radii(const Case& c, Conflicts& found) {
                      "thinner than one radial cell",
                      fmt::format("take at least {:.6g} m, or more grid.radial_cells", least_rim_band(c))});
   if (tread_band(c) < least_tread_band(c) - rounding)
-    found.push_back({{"optimizer.tread_band", "grid.radial_cells"},
-                     "thinner than two radial cells",
+    found.push_back({{"optimizer.tread_band", "grid.radial_cells", "objective.annulus"},
+                     fmt::format("thinner than {} radial cells", tread_rows(c) + 1),
                      fmt::format("take at least {:.6g} m, or more grid.radial_cells", least_tread_band(c))});
   if (rim_band(c) + tread_band(c) >= w.outer_radius - w.inner_radius) {
     found.push_back(
@@ -150,8 +150,24 @@ void check_nitsche(const Case& c, Conflicts& found) {
        fmt::format("take gamma_0 >= {:.6g}, or theta = -1", rounded_up(least))});
 }
 
+void check_annulus(const Case& c, Conflicts& found) {
+  if (!wants_annulus(c)) return;
+  const double cell = (c.wheel.outer_radius - c.wheel.inner_radius) / c.grid.radial_cells;
+  if (std::abs(annulus_thickness(c) - tread_rows(c) * cell) < 1e-6 * cell) return;
+  found.push_back({{"objective.annulus", "grid.radial_cells"},
+                   fmt::format("must be a whole number of radial cells of {:.6g} m", cell),
+                   fmt::format("the nearest that fits: {:.6g} m", tread_rows(c) * cell)});
+}
+
 void check_objective(const Case& c, Conflicts& found) {
-  if (c.objective.strain_energy > 0) return;
+  const Objective& o = c.objective;
+  if (o.annulus_matches_dual && o.uniformity_annulus > 0)
+    found.push_back({{"objective.annulus_matches_dual", "objective.uniformity_annulus"},
+                     "the weight of J_p1 is given twice",
+                     "keep one of annulus_matches_dual and uniformity_annulus"});
+  if (o.strain_energy > 0 || o.uniformity_annulus > 0 || o.uniformity_dual > 0 || o.uniformity_l2 > 0 ||
+      o.annulus_matches_dual)
+    return;
   found.push_back(
       {{"objective.strain_energy"}, "all weights are 0: nothing to minimize", "give one a weight > 0"});
 }
@@ -165,6 +181,7 @@ std::vector<Conflict> conflicts(const Case& c) {
   check_ring_counts(c, found);
   check_holes(c, found);
   check_nitsche(c, found);
+  check_annulus(c, found);
   check_objective(c, found);
   return found;
 }

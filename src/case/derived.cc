@@ -34,7 +34,20 @@ double radial_cell(const Case& c) {
 
 double least_rim_band(const Case& c) { return radial_cell(c); }
 
-double least_tread_band(const Case& c) { return 2 * radial_cell(c); }
+double least_tread_band(const Case& c) { return (tread_rows(c) + 1) * radial_cell(c); }
+
+bool wants_annulus(const Case& c) {
+  return c.objective.uniformity_annulus > 0 || c.objective.annulus_matches_dual.has_value();
+}
+
+double annulus_thickness(const Case& c) { return c.objective.annulus.value_or(radial_cell(c)); }
+
+double characteristic_length(const Case& c) { return c.objective.length.value_or(annulus_thickness(c)); }
+
+int tread_rows(const Case& c) {
+  if (!wants_annulus(c)) return 1;
+  return std::max(1, static_cast<int>(std::lround(annulus_thickness(c) / radial_cell(c))));
+}
 
 double rim_band(const Case& c) { return c.optimizer.rim_band.value_or(least_rim_band(c)); }
 

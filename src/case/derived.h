@@ -34,8 +34,18 @@ double sector_angle(const Case& c);
 /// N_l = N_d N_s: load positions of the full wheel.
 int total_load_positions(const Case& c);
 
-/// The thinnest bands that the solver can do with [m]: its outermost row of cells is condensed once a run,
-/// and the row below it carries the ghost penalty of the cells that are cut.
+/// Radial cells of the annulus of J_p1, which are condensed once a run; 1 without that criterion.
+int tread_rows(const Case& c);
+
+/// Whether J_p1 is part of the objective.
+bool wants_annulus(const Case& c);
+
+/// epsilon and L of the uniformity criteria [m].
+double annulus_thickness(const Case& c);
+double characteristic_length(const Case& c);
+
+/// The thinnest bands that the solver can do with [m]: its outermost rows of cells are condensed once a run,
+/// and the row below them carries the ghost penalty of the cells that are cut.
 double least_rim_band(const Case& c);
 double least_tread_band(const Case& c);
 

@@ -226,10 +226,41 @@ const Section<Objective>& objective_section() {
       .name = "objective",
       .meaning = "weights of the criteria in J, which is summed over all load positions and minimized",
       .in = [](Case& c) -> Objective& { return c.objective; },
-      .keys = {{.name = "strain_energy",
-                .unit = "",
-                .field = NumberField<Objective>{&Objective::strain_energy, between(0, 1e9)},
-                .meaning = "weight of the strain energy J_e (3)"}}};
+      .keys = {
+          {.name = "strain_energy",
+           .unit = "",
+           .field = NumberField<Objective>{&Objective::strain_energy, between(0, 1e9)},
+           .meaning = "weight of the strain energy J_e (3)"},
+          {.name = "uniformity_annulus",
+           .unit = "",
+           .field = NumberField<Objective>{&Objective::uniformity_annulus, between(0, 1e9)},
+           .meaning = "weight alpha_1 of J_p1 (60): evenness of the contact stress in the annulus"},
+          {.name = "uniformity_dual",
+           .unit = "",
+           .field = NumberField<Objective>{&Objective::uniformity_dual, between(0, 1e9)},
+           .meaning = "weight alpha_2 of J_p2 (61): evenness of the contact stress in H^-1/2"},
+          {.name = "uniformity_l2",
+           .unit = "",
+           .field = NumberField<Objective>{&Objective::uniformity_l2, between(0, 1e9)},
+           .meaning = "weight of the naive evenness criterion (4); for comparison"},
+          {.name = "annulus_matches_dual",
+           .unit = "",
+           .field = OptionalNumberField<Objective>{&Objective::annulus_matches_dual, above(0, 1e9),
+                                                   "uniformity_annulus counts"},
+           .meaning = "chooses uniformity_annulus by (83): J_p1 starts as large as J_p2 with this weight"},
+          {.name = "annulus",
+           .unit = "m",
+           .field = OptionalNumberField<Objective>{&Objective::annulus, above(0, 1000), "one radial cell"},
+           .meaning = "epsilon of J_p1, a whole number of radial cells; it stays material"},
+          {.name = "length",
+           .unit = "m",
+           .field = OptionalNumberField<Objective>{&Objective::length, above(0, 1000), "epsilon"},
+           .meaning = "characteristic length L of J_p1 and of the naive criterion"},
+          {.name = "mean",
+           .unit = "",
+           .field = choice<&Objective::mean>({"exact", "held"}),
+           .meaning =
+               "p_mean (73) of the shape itself, or held at the last accepted shape as the paper does"}}};
   return section;
 }
 
@@ -303,9 +334,10 @@ const Section<Optimizer>& optimizer_section() {
            .meaning = "thickness at the rim that stays material, at least one radial cell"},
           {.name = "tread_band",
            .unit = "m",
-           .field =
-               OptionalNumberField<Optimizer>{&Optimizer::tread_band, between(0, 1000), "two radial cells"},
-           .meaning = "thickness at the tread that stays material, at least two radial cells"}}};
+           .field = OptionalNumberField<Optimizer>{&Optimizer::tread_band, between(0, 1000),
+                                                   "one radial cell more than the annulus"},
+           .meaning = "thickness at the tread that stays material, at least one radial cell more than the "
+                      "annulus"}}};
   return section;
 }
 

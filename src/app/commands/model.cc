@@ -1,7 +1,11 @@
 #include "app/commands/model.h"
 
 #include "case/derived.h"
+#include "criteria/mean_contact_stress.h"
 #include "criteria/strain_energy.h"
+#include "criteria/uniformity_annulus.h"
+#include "criteria/uniformity_dual.h"
+#include "criteria/uniformity_l2.h"
 
 namespace wheelwright {
 namespace {
@@ -30,18 +34,50 @@ RollingModel<2> rolling_model(const Case& c) {
   model.contact = {
       .method = c.contact.method, .theta_nitsche = c.contact.theta, .gamma_0 = c.contact.gamma_0};
   model.contact_points = c.contact.quadrature_points;
-  model.tread.levels = c.grid.tread_levels;
+  model.tread = {tread_rows(c), c.grid.tread_levels, wants_annulus(c) ? c.grid.degree + 1 : 0};
   model.load = load_per_metre(c);
   model.n_positions = c.load.positions;
   return model;
 }
 
-Criteria<2> criteria(const Case& c) {
+namespace {
+
+/// alpha_1 from alpha_2 by (83), on the initial shape.
+Expected<double> matching_weight(const Case& c, const RollingProblem<2>& problem, const Criterion<2>& annulus,
+                                 const Criterion<2>& dual) {
+  const auto solution = problem.solve(initial_shape(c));
+  if (!solution) return solution.failure();
+  const Matrix mean = mean_observations(problem, *solution);
+  return *c.objective.annulus_matches_dual * dual.evaluate(problem, *solution, mean).value /
+         annulus.evaluate(problem, *solution, mean).value;
+}
+
+}  // namespace
+
+Expected<Criteria<2>> criteria(const Case& c, const RollingProblem<2>& problem) {
+  const Objective& o = c.objective;
   Criteria<2> result;
-  const auto add = [&](double weight, auto criterion) {
+  const auto add = [&](double weight, std::shared_ptr<const Criterion<2>> criterion) {
     if (weight > 0) result.push_back({weight, std::move(criterion)});
   };
-  add(c.objective.strain_energy, std::make_shared<StrainEnergy<2>>());
+  std::shared_ptr<const Criterion<2>> dual;
+  if (o.uniformity_dual > 0 || o.annulus_matches_dual) {
+    auto image = NeumannToDirichlet<2>::create(problem.model());
+    if (!image) return image.failure();
+    dual =
+        std::make_shared<UniformityDual<2>>(std::make_shared<const NeumannToDirichlet<2>>(*std::move(image)));
+  }
+  const auto annulus = std::make_shared<UniformityAnnulus<2>>(characteristic_length(c));
+  double annulus_weight = o.uniformity_annulus;
+  if (o.annulus_matches_dual) {
+    const auto weight = matching_weight(c, problem, *annulus, *dual);
+    if (!weight) return weight.failure();
+    annulus_weight = *weight;
+  }
+  add(o.strain_energy, std::make_shared<StrainEnergy<2>>());
+  add(annulus_weight, annulus);
+  add(o.uniformity_dual, dual);
+  add(o.uniformity_l2, std::make_shared<UniformityL2<2>>(characteristic_length(c)));
   return result;
 }
 

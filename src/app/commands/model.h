@@ -10,8 +10,9 @@ namespace wheelwright {
 /// The solver's view of a case: what every command that computes builds from it.
 PolarGrid<2> polar_grid(const Case& c);
 RollingModel<2> rolling_model(const Case& c);
-/// The terms of the objective with weights > 0: the list of all criteria.
-Criteria<2> criteria(const Case& c);
+/// The terms of the objective with weights > 0: the list of all criteria. Solves the initial shape when (83)
+/// is to choose a weight. Fails as RollingProblem does.
+Expected<Criteria<2>> criteria(const Case& c, const RollingProblem<2>& problem);
 
 LevelSet<2> initial_shape(const Case& c);
 EvolutionOptions evolution_options(const Case& c);

@@ -20,11 +20,11 @@ const std::vector<std::string> phase_names{"cut",      "assembly", "factorizatio
 /// Watches the loop: history, progress and pictures. The loop knows nothing of it.
 class RunRecorder {
  public:
-  RunRecorder(const Case& c, const RollingProblem<2>& problem, RunFolder& folder)
+  RunRecorder(const Case& c, const RollingProblem<2>& problem, const Criteria<2>& criteria, RunFolder& folder)
       : case_(c),
         problem_(problem),
         folder_(folder),
-        history_(folder.history(), {"J/m", {{"strain_energy", "J/m"}}, phase_names}),
+        history_(folder.history(), {"J/m", columns(criteria), phase_names}),
         progress_(stderr, progress_style(stderr)) {}
 
   void operator()(const Trial<2>& trial, const OptimizationState<2>& state) {
@@ -53,6 +53,12 @@ class RunRecorder {
   double elapsed() const { return elapsed_; }
 
  private:
+  static std::vector<HistoryColumns::Criterion> columns(const Criteria<2>& criteria) {
+    std::vector<HistoryColumns::Criterion> result;
+    for (const auto& term : criteria) result.push_back({term.criterion->name(), "J/m"});
+    return result;
+  }
+
   static std::string reason(const Trial<2>& trial, bool with_detail) {
     if (trial.verdict == Verdict::accepted) return "";
     if (!trial.failure) return to_string(trial.verdict);
@@ -128,16 +134,24 @@ int run(const Case& c) {
   }
   const auto problem = RollingProblem<2>::create(rolling_model(c));
   if (!problem) return give_up(problem.failure());
+  const auto objective = criteria(c, *problem);
+  if (!objective) return give_up(objective.failure());
+  for (const auto& [weight, criterion] : *objective)
+    if (objective->size() > 1) fmt::print(stderr, "objective: {:.6g} * {}\n", weight, criterion->name());
   RunFolder folder(path, c);
-  RunRecorder recorder(c, *problem, folder);
+  RunRecorder recorder(c, *problem, *objective, folder);
   const LevelSet<2> initial = initial_shape(c);
-  const Criteria<2> objective = criteria(c);
+  Matrix held_mean;  // of the last accepted shape, when the case wants it held
   const ShapeOptimizer<2> optimizer(
-      initial.lattice, evolution_options(c), optimizer_options(c),
-      [&](const LevelSet<2>& psi) { return evaluate<2>(*problem, objective, psi); });
+      initial.lattice, evolution_options(c), optimizer_options(c), [&](const LevelSet<2>& psi) {
+        return evaluate<2>(*problem, *objective, psi, held_mean.rows() > 0 ? &held_mean : nullptr);
+      });
   const Outcome<2> outcome = optimize<2>(
       optimizer, initial,
-      [&](const Trial<2>& trial, const OptimizationState<2>& state) { recorder(trial, state); },
+      [&](const Trial<2>& trial, const OptimizationState<2>& state) {
+        if (c.objective.mean == MeanStress::held) held_mean = state.evaluation.mean_observations;
+        recorder(trial, state);
+      },
       [] { return false; });
   if (outcome.failure) return give_up(*outcome.failure);
   folder.write_result(*problem, *recorder.initial(), *outcome.state);

@@ -97,6 +97,8 @@ int give_up(const Failure& failure) {
 int verify_command(const Case& c, const RunOptions&) {
   const auto problem = RollingProblem<2>::create(rolling_model(c));
   if (!problem) return give_up(problem.failure());
+  const auto objective = criteria(c, *problem);
+  if (!objective) return give_up(objective.failure());
   const LevelSet<2> initial = initial_shape(c);
   const auto direction = test_direction(initial.lattice);
   const double step = 1e-3 * initial.lattice.grid().resolution();
@@ -106,7 +108,7 @@ int verify_command(const Case& c, const RunOptions&) {
                     "the case has no boundary that can move without changing its cut cells"});
 
   const auto test =
-      taylor_test<2>([&](const LevelSet<2>& psi) { return evaluate<2>(*problem, criteria(c), psi); }, *shape,
+      taylor_test<2>([&](const LevelSet<2>& psi) { return evaluate<2>(*problem, *objective, psi); }, *shape,
                      direction, c.grid.degree, step, halvings);
   if (!test) return give_up(test.failure());
   const auto solution = problem->solve(*shape);
