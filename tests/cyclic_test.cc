@@ -59,8 +59,8 @@ TEST(Cyclic, SectorsAgreeWithTheWholeRing) {
     for (int i = 0; i < whole.n_positions; ++i) {
       const int own = i % by_sector.n_positions, sectors_ahead = i / by_sector.n_positions;
       EXPECT_NEAR(a->strain_energy[own], b->strain_energy[i], 1e-9 * b->strain_energy[i]);
-      EXPECT_NEAR(a->states[own].rim_displacement, b->states[i].rim_displacement,
-                  1e-9 * b->states[i].rim_displacement);
+      EXPECT_NEAR(a->states[own].rim.towards_ground, b->states[i].rim.towards_ground,
+                  1e-9 * b->states[i].rim.towards_ground);
       std::vector<double> traction_a, traction_b, observed_a, observed_b;
       for (const auto& t : a->states[own].traction) traction_a.push_back(t[0]);
       for (const auto& t : b->states[i].traction) traction_b.push_back(t[0]);

@@ -30,6 +30,14 @@ struct ContactForm {
 /// [x]_- = max(-x, 0).
 inline double negative_part(double x) { return x < 0 ? -x : 0; }
 
+/// The length of a vector's part along the ground.
+template <int dim>
+double tangential_norm(const Vec<dim>& z) {
+  double sum = 0;
+  for (int d = 1; d < dim; ++d) sum += z[d] * z[d];
+  return std::sqrt(sum);
+}
+
 /// The contact traction on the body and its tangent, in the ground frame: component 0 along n_y (into the
 /// ground), the others tangential.
 template <int dim>
@@ -49,10 +57,7 @@ ContactResponse<dim> contact_response(const Vec<dim>& z, double friction) {
   r.tangent[0][0] = 1;
   if (friction <= 0) return r;
 
-  const double threshold = friction * pressure;
-  double tangential = 0;
-  for (int d = 1; d < dim; ++d) tangential += z[d] * z[d];
-  tangential = std::sqrt(tangential);
+  const double threshold = friction * pressure, tangential = tangential_norm<dim>(z);
   const bool sticks = tangential <= threshold;
   for (int i = 1; i < dim; ++i) {
     if (sticks) {
@@ -67,6 +72,16 @@ ContactResponse<dim> contact_response(const Vec<dim>& z, double friction) {
       r.tangent[i][j] = threshold / tangential * ((i == j) - direction * z[j] / tangential);
   }
   return r;
+}
+
+/// What a point does according to its augmented traction.
+enum class ContactStatus { open, sticks, slides };
+
+template <int dim>
+ContactStatus contact_status(const Vec<dim>& z, double friction) {
+  if (z[0] >= 0) return ContactStatus::open;
+  return tangential_norm<dim>(z) <= friction * negative_part(z[0]) ? ContactStatus::sticks
+                                                                   : ContactStatus::slides;
 }
 
 }  // namespace wheelwright

@@ -1,11 +1,9 @@
 #include "contact/reduced_contact.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
-#include <numeric>
 
 namespace wheelwright {
 namespace {
@@ -31,26 +29,24 @@ Matrix outer_compliance(const CyclicStiffness<dim>& ring, int per_column, int co
   return g;
 }
 
-double squared_norm(const std::vector<double>& v) {
-  return std::inner_product(v.begin(), v.end(), v.begin(), 0.0);
-}
-
-constexpr int max_newton_iterations = 60;
-constexpr double newton_tolerance = 1e-12;
-
 }  // namespace
 
 template <int dim>
 ReducedContact<dim>::ReducedContact(const CyclicStiffness<dim>& ring, const Tread<dim>& tread,
-                                    const PolarGrid<dim>& grid, GroundPosition ground, ContactZone zone)
-    : zone_(zone), friction_(tread.form().friction), tau_(tread.form().tau()), theta_(tread.form().theta()) {
+                                    const PolarGrid<dim>& grid, GroundPosition ground, ContactZone zone,
+                                    RimControl rim)
+    : zone_(zone),
+      rim_(std::move(rim)),
+      friction_(tread.form().friction),
+      tau_(tread.form().tau()),
+      theta_(tread.form().theta()) {
   const double column_angle = grid.cell_size()[1];
   const int per_zone_column = static_cast<int>(tread.points().size()), n_components = components();
   for (int c = 0; c < zone.n_columns; ++c) {
     const double angle = (zone.first_column + c - ground.column - ground.offset) * column_angle;
     for (const auto& point : tread.points()) {
       const Vec<dim> x = rotated<dim>(point.position, angle);
-      points_.push_back({x[1], grid.outer_radius - x[0], point.weight, point.gamma, angle});
+      points_.push_back({x, grid.outer_radius - x[0], point.weight, point.gamma, angle});
     }
   }
 
@@ -104,37 +100,76 @@ ReducedContact<dim>::ReducedContact(const CyclicStiffness<dim>& ring, const Trea
 }
 
 template <int dim>
-std::vector<Vec<dim>> ReducedContact<dim>::hertz_start(double load, double radius,
-                                                       double reduced_modulus) const {
+ContactUnknowns<dim> ReducedContact<dim>::hertz_start(double load, double radius,
+                                                      double reduced_modulus) const {
   const double half_width = 2 * std::sqrt(load * radius / (std::numbers::pi * reduced_modulus));
   const double peak = 2 * load / (std::numbers::pi * half_width);
-  std::vector<Vec<dim>> z(points_.size());
+  ContactUnknowns<dim> x{std::vector<Vec<dim>>(points_.size(), Vec<dim>{}), std::vector<double>(n_free())};
   for (size_t i = 0; i < points_.size(); ++i) {
-    const double s = points_[i].along / half_width;
-    z[i] = {};
-    z[i][0] = std::abs(s) < 1 ? -peak * std::sqrt(1 - s * s) : points_[i].gamma * points_[i].gap;
+    const double s = points_[i].position[1] / half_width;
+    x.augmented[i][0] = std::abs(s) < 1 ? -peak * std::sqrt(1 - s * s) : points_[i].gamma * points_[i].gap;
   }
-  return z;
+  return x;
 }
 
 template <int dim>
-std::vector<double> ReducedContact<dim>::residual(const std::vector<Vec<dim>>& z, double rim_displacement,
-                                                  double load) const {
+ContactUnknowns<dim> ReducedContact<dim>::undeformed_start(double fraction) const {
+  ContactUnknowns<dim> x{{}, std::vector<double>(n_free())};
+  const RimMotion rim = rim_motion(x.rim, fraction);
+  for (const Point& point : points_) {
+    Vec<dim> z = displacement<dim>(rim, point.position);
+    z[0] -= point.gap;
+    for (double& component : z) component *= -point.gamma;
+    x.augmented.push_back(z);
+  }
+  return x;
+}
+
+template <int dim>
+ContactUnknowns<dim> ReducedContact<dim>::start_from(const ContactState<dim>& other) const {
+  const int per_column = n_points() / zone_.n_columns;
+  const int shift = per_column * (other.zone.n_columns - zone_.n_columns) / 2;
+  const int n_other = static_cast<int>(other.augmented.size());
+  ContactUnknowns<dim> x{{}, std::vector<double>(n_free())};
+  for (int i = 0; i < n_points(); ++i) {
+    const Point& point = points_[i];
+    Vec<dim> open{};
+    open[0] = point.gamma * std::max(0.0, point.gap - displacement<dim>(other.rim, point.position)[0]);
+    const int j = i + shift;
+    x.augmented.push_back(j >= 0 && j < n_other ? other.augmented[j] : open);
+  }
+  return x;
+}
+
+template <int dim>
+RimMotion ReducedContact<dim>::rim_motion(const std::vector<double>& free, double fraction) const {
+  RimMotion motion = combined({}, fraction, rim_.prescribed);
+  for (int k = 0; k < n_free(); ++k) motion = combined(motion, free[k], rim_.free[k].direction);
+  return motion;
+}
+
+template <int dim>
+ContactUnknowns<dim> ReducedContact<dim>::residual(const ContactUnknowns<dim>& x, double fraction) const {
   const int nc = components(), n = n_points() * nc;
   Matrix force(n, 1), response(n, 1);
-  double balance = load;
+  ContactUnknowns<dim> result{std::vector<Vec<dim>>(points_.size(), Vec<dim>{}), {}};
+  for (const FreeMotion& motion : rim_.free) result.rim.push_back(-fraction * motion.force);
   for (int i = 0; i < n_points(); ++i) {
-    const auto r = contact_response<dim>(z[i], friction_);
-    for (int d = 0; d < nc; ++d) force(nc * i + d, 0) = points_[i].weight * r.traction[d];
-    balance += points_[i].weight * r.traction[0];
+    const Vec<dim> traction = contact_response<dim>(x.augmented[i], friction_).traction;
+    if (traction[0] == 0) continue;
+    for (int d = 0; d < nc; ++d) force(nc * i + d, 0) = points_[i].weight * traction[d];
+    for (int k = 0; k < n_free(); ++k)
+      result.rim[k] -= points_[i].weight *
+                       dot<dim>(traction, displacement<dim>(rim_.free[k].direction, points_[i].position));
   }
   multiply(1, flexibility_, Op::none, force, Op::none, 0, response);
-  std::vector<double> result(n + 1);
-  for (int i = 0; i < n_points(); ++i)
+  const RimMotion rim = rim_motion(x.rim, fraction);
+  for (int i = 0; i < n_points(); ++i) {
+    Vec<dim> approach = displacement<dim>(rim, points_[i].position);
+    approach[0] -= points_[i].gap;
     for (int d = 0; d < nc; ++d)
-      result[nc * i + d] = z[i][d] - response(nc * i + d, 0) -
-                           (d == 0 ? points_[i].gamma * (points_[i].gap - rim_displacement) : 0.0);
-  result[n] = -balance;
+      result.augmented[i][d] = x.augmented[i][d] - response(nc * i + d, 0) + points_[i].gamma * approach[d];
+  }
   return result;
 }
 
@@ -169,82 +204,79 @@ Matrix ReducedContact<dim>::response_tangent(const std::vector<Vec<dim>>& z,
   return tangent;
 }
 
-/// The Newton system on the active rows and the rim's displacement.
+/// The Newton system on the active rows and the rim's free motions.
 template <int dim>
 Matrix ReducedContact<dim>::active_system(const std::vector<Vec<dim>>& z, const std::vector<int>& active,
                                           const Matrix& tangent) const {
   const int nc = components(), n = static_cast<int>(active.size());
-  Matrix a(n + 1, n + 1);
+  Matrix a(n + n_free(), n + n_free());
   for (int j = 0; j < n; ++j) {
     for (int i = 0; i < n; ++i) a(i, j) = (i == j) - tangent(active[i], j);
-    const int point = active[j] / nc, component = active[j] % nc;
-    a(n, j) = -points_[point].weight * contact_response<dim>(z[point], friction_).tangent[0][component];
-    if (component == 0) a(j, n) = points_[point].gamma;
+    const int component = active[j] % nc;
+    const Point& point = points_[active[j] / nc];
+    const auto r = contact_response<dim>(z[active[j] / nc], friction_);
+    for (int k = 0; k < n_free(); ++k) {
+      const Vec<dim> motion = displacement<dim>(rim_.free[k].direction, point.position);
+      for (int d = 0; d < nc; ++d) a(n + k, j) -= point.weight * r.tangent[d][component] * motion[d];
+      a(j, n + k) = point.gamma * motion[component];
+    }
   }
   return a;
 }
 
 template <int dim>
-std::optional<std::vector<double>> ReducedContact<dim>::newton_step(
-    const std::vector<Vec<dim>>& z, const std::vector<double>& residual) const {
-  const int nc = components(), n = n_points() * nc;
-  const auto active = active_rows(z);
+std::optional<ContactUnknowns<dim>> ReducedContact<dim>::newton_step(
+    const ContactUnknowns<dim>& x, const ContactUnknowns<dim>& residual) const {
+  const int nc = components();
+  const auto active = active_rows(x.augmented);
   const int n_active = static_cast<int>(active.size());
-  const Matrix tangent = response_tangent(z, active);
-  Matrix a = active_system(z, active, tangent), x(n_active + 1, 1);
-  for (int i = 0; i < n_active; ++i) x(i, 0) = residual[active[i]];
-  x(n_active, 0) = residual[n];
-  if (!lu_solve(a, x)) return {};
-  std::vector<double> step(residual);
-  step[n] = x(n_active, 0);
-  for (int j = 0; j < n_active; ++j)
-    for (int i = 0; i < n; ++i) step[i] += tangent(i, j) * x(j, 0);
-  for (int i = 0; i < n_points(); ++i) step[nc * i] -= points_[i].gamma * step[n];
-  for (int i = 0; i < n_active; ++i) step[active[i]] = x(i, 0);
+  const Matrix tangent = response_tangent(x.augmented, active);
+  Matrix a = active_system(x.augmented, active, tangent), solution(n_active + n_free(), 1);
+  for (int i = 0; i < n_active; ++i) solution(i, 0) = residual.augmented[active[i] / nc][active[i] % nc];
+  for (int k = 0; k < n_free(); ++k) solution(n_active + k, 0) = residual.rim[k];
+  if (!lu_solve(a, solution)) return {};
+
+  // Points without contact follow from the others: their columns are unit vectors.
+  ContactUnknowns<dim> step = residual;
+  for (int k = 0; k < n_free(); ++k) step.rim[k] = solution(n_active + k, 0);
+  for (int i = 0; i < n_points(); ++i) {
+    for (int k = 0; k < n_free(); ++k) {
+      const Vec<dim> motion = displacement<dim>(rim_.free[k].direction, points_[i].position);
+      for (int d = 0; d < nc; ++d) step.augmented[i][d] -= points_[i].gamma * motion[d] * step.rim[k];
+    }
+    for (int d = 0; d < nc; ++d)
+      for (int j = 0; j < n_active; ++j) step.augmented[i][d] += tangent(nc * i + d, j) * solution(j, 0);
+  }
+  for (int i = 0; i < n_active; ++i) step.augmented[active[i] / nc][active[i] % nc] = solution(i, 0);
   return step;
 }
 
 template <int dim>
-Expected<ContactState<dim>> ReducedContact<dim>::solve(double load, std::vector<Vec<dim>> z) const {
-  const int nc = components(), n = n_points() * nc;
-  double rim = 0, pressure_scale = 0, gamma_scale = 0;
-  for (const Point& point : points_) gamma_scale = std::max(gamma_scale, point.gamma);
-  for (const auto& value : z) pressure_scale = std::max(pressure_scale, -value[0]);
-  if (!(pressure_scale > 0)) return Failure{FailureReason::no_contact, "the start has no point in contact"};
-
-  // Balance and traction equations are compared in the same unit.
-  const auto measure = [&](std::vector<double> r) {
-    r[n] *= pressure_scale / load;
-    return std::sqrt(squared_norm(r));
-  };
-  double current = measure(residual(z, rim, load));
-  for (int iteration = 1; iteration <= max_newton_iterations; ++iteration) {
-    const auto step = newton_step(z, residual(z, rim, load));
-    if (!step) return Failure{FailureReason::no_contact, "the contact iteration lost all contact"};
-    double length = 1;
-    std::vector<Vec<dim>> trial = z;
-    double trial_rim = rim, reached = 0;
-    for (int halving = 0;; ++halving) {
-      for (int i = 0; i < n_points(); ++i)
-        for (int d = 0; d < nc; ++d) trial[i][d] = z[i][d] - length * (*step)[nc * i + d];
-      trial_rim = rim - length * (*step)[n];
-      reached = measure(residual(trial, trial_rim, load));
-      if (reached < current || halving == 5) break;
-      length /= 2;
-    }
-    if (!std::isfinite(reached)) return Failure{FailureReason::not_finite, "the contact iteration diverged"};
-    z = trial;
-    rim = trial_rim;
-    current = reached;
-    if (current <= newton_tolerance * std::sqrt(n) * std::max(pressure_scale, gamma_scale * std::abs(rim))) {
-      ContactState<dim> state{zone_, z, {}, rim, iteration};
-      for (const auto& value : z) state.traction.push_back(contact_response<dim>(value, friction_).traction);
-      return state;
-    }
+ContactState<dim> ReducedContact<dim>::state(const ContactUnknowns<dim>& x, int newton_iterations) const {
+  ContactState<dim> state{zone_, x.augmented, {}, rim_motion(x.rim, 1), {}, newton_iterations};
+  for (int i = 0; i < n_points(); ++i) {
+    state.traction.push_back(contact_response<dim>(x.augmented[i], friction_).traction);
+    const RimForce force = resultant<dim>(state.traction.back(), points_[i].position);
+    state.rim_force.towards_ground -= points_[i].weight * force.towards_ground;
+    state.rim_force.along_ground -= points_[i].weight * force.along_ground;
+    state.rim_force.torque -= points_[i].weight * force.torque;
   }
-  return Failure{FailureReason::newton_stalled,
-                 fmt::format("contact: residual {:.3g} Pa after {} iterations, {} points", current,
-                             max_newton_iterations, n_points())};
+  return state;
+}
+
+template <int dim>
+double ReducedContact<dim>::smallest_gap(const ContactUnknowns<dim>& x) const {
+  double gap = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < n_points(); ++i) gap = std::min(gap, x.augmented[i][0] / points_[i].gamma);
+  return gap;
+}
+
+template <int dim>
+double ReducedContact<dim>::amplitude(const RimMotion& motion) const {
+  double largest = 0;
+  for (const Point& point : points_)
+    largest = std::max(largest, norm<dim>(displacement<dim>(motion, point.position)));
+  return largest;
 }
 
 template <int dim>
@@ -266,15 +298,16 @@ Matrix ReducedContact<dim>::contact_loads(const ContactState<dim>& state) const 
 template <int dim>
 Expected<Matrix> ReducedContact<dim>::adjoint_loads(const ContactState<dim>& state,
                                                     const Matrix& observations) const {
-  // With Te p = h + F^T m: m - W Phi'^T F^T m + beta W Phi'^T n_y = W Phi'^T h and sum gamma m_n = 0. m
-  // vanishes off the active points; on them the matrix is solve()'s, transposed.
+  // With Te p = h + F^T m: m - W Phi'^T F^T m + sum_k beta_k W Phi'^T m_k = W Phi'^T h and, for every free
+  // motion, sum gamma m.m_k = 0. m vanishes off the active points; on them the matrix is newton_step()'s,
+  // transposed.
   const int nc = components(), per_column = n_points() / zone_.n_columns;
   const auto active = active_rows(state.augmented);
   const int n_active = static_cast<int>(active.size());
   const Matrix forward = active_system(state.augmented, active, response_tangent(state.augmented, active));
-  Matrix a(n_active + 1, n_active + 1), m(n_active + 1, 1);
-  for (int j = 0; j <= n_active; ++j)
-    for (int i = 0; i <= n_active; ++i) a(i, j) = forward(j, i);
+  Matrix a(forward.rows(), forward.rows()), m(forward.rows(), 1);
+  for (int j = 0; j < a.columns(); ++j)
+    for (int i = 0; i < a.rows(); ++i) a(i, j) = forward(j, i);
   for (int k = 0; k < n_active; ++k) {
     const int i = active[k] / nc, component = active[k] % nc;
     const Point& point = points_[i];

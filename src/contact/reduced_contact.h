@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "contact/rim.h"
 #include "contact/tread.h"
 #include "cyclic/cyclic_stiffness.h"
 
@@ -20,65 +21,91 @@ struct ContactZone {
   int n_columns;
 };
 
+/// The unknowns of one load position's contact problem, or a change of them, or its residual.
+template <int dim>
+struct ContactUnknowns {
+  std::vector<Vec<dim>> augmented;  ///< z = tau sigma(u)n - gamma (u - g n_y), ground frame [Pa]
+  std::vector<double> rim;          ///< how far the rim goes along each of its free motions
+};
+
 /// The solution of one load position's contact problem, reduced to the zone.
 template <int dim>
 struct ContactState {
   ContactZone zone;
-  std::vector<Vec<dim>> augmented;  ///< z = tau sigma(u)n - gamma (u - g n_y), ground frame [Pa]
+  std::vector<Vec<dim>> augmented;  ///< z
   std::vector<Vec<dim>> traction;   ///< Phi(z) on the body, ground frame: component 0 along n_y [Pa]
-  double rim_displacement;          ///< alpha_D, towards the ground [m]
-  int newton_iterations;
+  RimMotion rim;
+  RimForce rim_force;     ///< on the rim: its load, and the reaction in motions that are not free
+  int newton_iterations;  ///< of all attempts
 };
 
 /// The contact problem (27) with the rigid rim (4.3) of one load position, condensed onto its contact zone:
-///   z = F W Phi(z) + gamma (g - alpha_D) n_y,   sum w Phi_n(z) + P = 0,
-/// W the weights, F the flexibility of the zone. Only the components that can carry traction are kept: the
-/// normal one without friction.
+///   z = F W Phi(z) + gamma (g n_y - m),   sum w Phi(z).m_k + force_k = 0,
+/// W the weights, F the flexibility of the zone, m the rim's motion and m_k its free motions. Only the
+/// components that can carry traction are kept: the normal one without friction.
 template <int dim>
 class ReducedContact {
  public:
   ReducedContact(const CyclicStiffness<dim>& ring, const Tread<dim>& tread, const PolarGrid<dim>& grid,
-                 GroundPosition ground, ContactZone zone);
+                 GroundPosition ground, ContactZone zone, RimControl rim);
 
   const ContactZone& zone() const { return zone_; }
+  const RimControl& rim() const { return rim_; }
+  double friction() const { return friction_; }
   int n_points() const { return static_cast<int>(points_.size()); }
 
   /// A contact quadrature point in the ground frame.
   struct Point {
-    double along;   ///< distance from the ground position along the ground [m], towards larger azimuth
-    double gap;     ///< g (9) [m]
-    double weight;  ///< dS
-    double gamma;   ///< [Pa/m]
-    double angle;   ///< turns column-frame components into ground-frame ones
+    Vec<dim> position;  ///< relative to the axle: component 0 towards the ground, 1 along it [m]
+    double gap;         ///< g (9) [m]
+    double weight;      ///< dS
+    double gamma;       ///< [Pa/m]
+    double angle;       ///< turns column-frame components into ground-frame ones
   };
   const std::vector<Point>& points() const { return points_; }
 
-  /// Semi-smooth Newton from an initial z (normal components in component 0), with a line search on the
-  /// residual. `load` P > 0 [N/m when dim = 2]. Fails with newton_stalled, no_contact or not_finite.
-  Expected<ContactState<dim>> solve(double load, std::vector<Vec<dim>> initial) const;
+  /// Starts for Newton's method: the pressure of the Hertz contact of a solid disc; the undeformed tread
+  /// under a fraction of the rim's prescribed motion; another zone's solution, both zones centred on their
+  /// ground position.
+  ContactUnknowns<dim> hertz_start(double load, double radius, double reduced_modulus) const;
+  ContactUnknowns<dim> undeformed_start(double fraction) const;
+  ContactUnknowns<dim> start_from(const ContactState<dim>& other) const;
 
-  /// A start for solve(): the pressure of the Hertz contact of a solid disc.
-  std::vector<Vec<dim>> hertz_start(double load, double radius, double reduced_modulus) const;
+  /// The residual under a fraction of all loads and prescribed motions.
+  ContactUnknowns<dim> residual(const ContactUnknowns<dim>& x, double fraction) const;
+
+  /// Newton's step, to be subtracted. Nothing when the tangent is singular.
+  std::optional<ContactUnknowns<dim>> newton_step(const ContactUnknowns<dim>& x,
+                                                  const ContactUnknowns<dim>& residual) const;
+
+  /// What a solution x under the full loads means.
+  ContactState<dim> state(const ContactUnknowns<dim>& x, int newton_iterations) const;
+
+  /// The least distance to the ground at x where nothing touches [m].
+  double smallest_gap(const ContactUnknowns<dim>& x) const;
+
+  /// The largest displacement of a point that moves with the rim.
+  double amplitude(const RimMotion& motion) const;
 
   /// Loads on the zone's observations (rows as in Tread, one column a zone column): -Te^T W Phi.
   Matrix contact_loads(const ContactState<dim>& state) const;
 
-  /// The multiplier of the adjoint problem (79): the transpose of solve()'s last linear system.
+  /// The multiplier of the adjoint problem (79): the transpose of Newton's last linear system.
   /// `observations` of p without the contact part, in the zone. Returns loads on the zone's observations,
   /// -S^T m.
   Expected<Matrix> adjoint_loads(const ContactState<dim>& state, const Matrix& observations) const;
 
  private:
   int components() const { return friction_ > 0 ? dim : 1; }
+  int n_free() const { return static_cast<int>(rim_.free.size()); }
+  RimMotion rim_motion(const std::vector<double>& free, double fraction) const;
   std::vector<int> active_rows(const std::vector<Vec<dim>>& z) const;
   Matrix response_tangent(const std::vector<Vec<dim>>& z, const std::vector<int>& active) const;
   Matrix active_system(const std::vector<Vec<dim>>& z, const std::vector<int>& active,
                        const Matrix& tangent) const;
-  std::optional<std::vector<double>> newton_step(const std::vector<Vec<dim>>& z,
-                                                 const std::vector<double>& residual) const;
-  std::vector<double> residual(const std::vector<Vec<dim>>& z, double rim_displacement, double load) const;
 
   ContactZone zone_;
+  RimControl rim_;
   double friction_, tau_, theta_;
   std::vector<Point> points_;
   Matrix flexibility_;

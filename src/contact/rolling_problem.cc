@@ -4,10 +4,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/stopwatch.h"
+#include "contact/contact_solver.h"
 
 namespace wheelwright {
+
+template <int dim>
+RimControl rim_control(const RollingModel<dim>& model) {
+  RimControl rim;
+  if (model.travel)
+    rim.prescribed.towards_ground = *model.travel;
+  else
+    rim.free.push_back({{.towards_ground = 1}, model.load});
+  if (model.horizontal_force != 0) rim.free.push_back({{.along_ground = 1}, model.horizontal_force});
+  if (model.torque != 0) rim.free.push_back({{.rotation = 1}, model.torque});
+  return rim;
+}
 
 template <int dim>
 void gather(const CyclicStiffness<dim>& ring, std::span<const int> nodes, const Matrix& field,
@@ -65,6 +79,34 @@ double column_dot(const Matrix& a, const Matrix& b, int column) {
   return sum;
 }
 
+/// P per metre of width.
+template <int dim>
+double line_load(const RollingModel<dim>& model) {
+  return dim == 2 ? model.load : model.load / model.grid.width;
+}
+
+/// Columns from the ground position to beyond the likely end of contact: from Hertz's theory for a load, for
+/// a prescribed travel from where the circle meets the ground.
+template <int dim>
+int columns_in_contact(const RollingModel<dim>& model) {
+  const PolarGrid<dim>& grid = model.grid;
+  const double half_width = model.travel
+                                ? 0.5 * std::sqrt(2 * grid.outer_radius * std::max(*model.travel, 0.0))
+                                : 2 * std::sqrt(line_load(model) * grid.outer_radius /
+                                                (std::numbers::pi * model.material.plane_strain_modulus()));
+  return static_cast<int>(std::ceil(half_width / (grid.outer_radius * grid.cell_size()[1]))) + 2;
+}
+
+template <int dim>
+bool touches_edge(const ContactState<dim>& state) {
+  const auto per_column = static_cast<long>(state.traction.size()) / state.zone.n_columns;
+  const auto touches = [](auto first, auto last) {
+    return std::any_of(first, last, [](const Vec<dim>& t) { return t[0] < 0; });
+  };
+  return touches(state.traction.begin(), state.traction.begin() + per_column) ||
+         touches(state.traction.end() - per_column, state.traction.end());
+}
+
 bool all_finite(const Matrix& a) {
   return std::all_of(a.entries().begin(), a.entries().end(), [](double x) { return std::isfinite(x); });
 }
@@ -94,29 +136,25 @@ Expected<std::pair<ReducedContact<dim>, ContactState<dim>>> RollingProblem<dim>:
     const CyclicStiffness<dim>& ring, GroundPosition ground,
     const std::optional<ContactState<dim>>& neighbour) const {
   const PolarGrid<dim>& grid = model_.grid;
-  const double reduced_modulus = model_.material.plane_strain_modulus();
-  const double line_load = dim == 2 ? model_.load : model_.load / grid.width;
-  const double half_width =
-      2 * std::sqrt(line_load * grid.outer_radius / (std::numbers::pi * reduced_modulus));
-  int half = static_cast<int>(std::ceil(half_width / (grid.outer_radius * grid.cell_size()[1]))) + 2;
-  const auto start = [&](const ReducedContact<dim>& contact) {
-    return neighbour && neighbour->augmented.size() == contact.points().size()
-               ? neighbour->augmented
-               : contact.hertz_start(line_load, grid.outer_radius, reduced_modulus);
-  };
+  int half = std::max(columns_in_contact(model_), neighbour ? neighbour->zone.n_columns / 2 : 0);
+  const int largest_half = (grid.ring_columns() / 2 - 1) / 2;
+  std::optional<ContactState<dim>> known = neighbour;
   while (true) {
     half = std::min(half, (grid.ring_columns() - 1) / 2);
-    ReducedContact<dim> contact(ring, tread_, grid, ground, {ground.column - half, 2 * half});
-    auto state = contact.solve(model_.load, start(contact));
-    if (!state) return state.failure();
-    const int per_column = contact.n_points() / contact.zone().n_columns;
-    const auto touches = [&](auto first, auto last) {
-      return std::any_of(first, last, [](const Vec<dim>& t) { return t[0] < 0; });
+    ReducedContact<dim> contact(ring, tread_, grid, ground, {ground.column - half, 2 * half},
+                                rim_control(model_));
+    const auto cold_start = [&](double fraction) {
+      return model_.travel ? contact.undeformed_start(fraction)
+                           : contact.hertz_start(fraction * line_load(model_), grid.outer_radius,
+                                                 model_.material.plane_strain_modulus());
     };
-    const bool at_edge = touches(state->traction.begin(), state->traction.begin() + per_column) ||
-                         touches(state->traction.end() - per_column, state->traction.end());
-    if (!at_edge || 2 * half + 2 > grid.ring_columns() / 2)
+    std::optional<ContactUnknowns<dim>> warm_start;
+    if (known) warm_start = contact.start_from(*known);
+    auto state = solve_contact<dim>(contact, cold_start, warm_start);
+    if (!state) return state.failure();
+    if (!touches_edge(*state) || half >= largest_half)
       return std::pair{std::move(contact), *std::move(state)};
+    known = *std::move(state);
     half += 2;
   }
 }
@@ -202,6 +240,7 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& p
 template class RollingProblem<2>;
 template class RollingProblem<3>;
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                 \
+  template RimControl rim_control(const RollingModel<dim>&);                         \
   template Matrix outer_rows(const CyclicStiffness<dim>&, const Matrix&, int);       \
   template void add_outer_rows(const CyclicStiffness<dim>&, const Matrix&, Matrix&); \
   template void gather(const CyclicStiffness<dim>&, std::span<const int>, const Matrix&, Matrix&);

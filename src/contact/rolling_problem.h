@@ -14,18 +14,25 @@ struct RollingModel {
   Material material;
   GhostPenalty ghost;
   ContactForm contact;
-  int contact_points = 5;  ///< Gauss points a direction on each contact face
-  TreadGrid tread;         ///< rows that are condensed once a run, and their refinement
-  double load;             ///< P [N/m when dim = 2, N when dim = 3]
+  int contact_points = 5;       ///< Gauss points a direction on each contact face
+  TreadGrid tread;              ///< rows that are condensed once a run, and their refinement
+  double load;                  ///< P [N/m when dim = 2, N when dim = 3]
+  double horizontal_force = 0;  ///< H on the rim, towards larger azimuth; if not 0, it moves along the ground
+  double torque = 0;            ///< M on the rim about the axle; if not 0, it turns
+  std::optional<double> travel;  ///< of the rim towards the ground [m], instead of the load
   int n_positions = 8;  ///< N_d, load positions of one sector; means over them need a divisor of its columns
 };
+
+/// What a model does to its rim.
+template <int dim>
+RimControl rim_control(const RollingModel<dim>& model);
 
 /// The direct problems of all load positions for one shape. Fields of the core are matrices with one column
 /// for every (position, sector), column = position * n_sectors + sector, rows in elimination order
 /// (CyclicStiffness::row); those of the tread have one column for every (position, ring column). Position i
 /// is solved with the ground turned to it, in the body frame; the field in sector s is also the field in
-/// sector 0 for the load position that lies s sectors back. The rim's displacement is left out: u = v +
-/// alpha_D n_y.
+/// sector 0 for the load position that lies s sectors back. The rim's motion is left out: u = v +
+/// motion.
 template <int dim>
 struct RollingSolution {
   CutDomain<dim> domain;

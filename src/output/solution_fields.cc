@@ -30,7 +30,6 @@ RingField displacement_field(const RollingProblem<2>& problem, const RollingSolu
 
   const double ground_azimuth =
       (s.grounds[position].column + s.grounds[position].offset) * grid.cell_size()[1];
-  const double rim = s.states[position].rim_displacement;
   RingField field{2, std::vector<double>(2 * size_t(lattice.n_nodes()) * n_sectors, no_material)};
   for (int sector = 0; sector < n_sectors; ++sector) {
     for (int node = 0; node < lattice.n_nodes(); ++node) {
@@ -52,11 +51,14 @@ RingField displacement_field(const RollingProblem<2>& problem, const RollingSolu
         polar = {s.displacement(s.ring.row(2 * number), column),
                  s.displacement(s.ring.row(2 * number + 1), column)};
       }
-      const double azimuth = lattice.polar_point(p)[1] + sector * grid.sector_angle();
+      const Vec<2> at = lattice.polar_point(p);
+      const double azimuth = at[1] + sector * grid.sector_angle();
       const Vec<2> u = rotated<2>(polar, azimuth);
+      const Vec<2> of_rim =
+          rotated<2>(displacement<2>(s.states[position].rim, cartesian<2>({at[0], azimuth - ground_azimuth})),
+                     ground_azimuth);
       double* value = &field.values[2 * (node + size_t(lattice.n_nodes()) * sector)];
-      value[0] = u[0] + rim * std::cos(ground_azimuth);
-      value[1] = u[1] + rim * std::sin(ground_azimuth);
+      for (int d = 0; d < 2; ++d) value[d] = u[d] + of_rim[d];
     }
   }
   return field;
@@ -143,9 +145,9 @@ std::vector<ContactPoint> contact_points(const RollingProblem<2>& problem, const
       const double* observed = s.observations.column(position * n_columns + column);
       const Vec<2> u = rotated<2>({observed[row], observed[row + 1]}, point.angle);
       const Vec<2> traction = rotated<2>({observed[row + 2], observed[row + 3]}, point.angle);
-      const double radius = problem.model().grid.outer_radius;
-      result.push_back({position, std::atan2(point.along, radius - point.gap), point.along,
-                        -state.traction[i][0], traction[0], point.gap - u[0] - state.rim_displacement});
+      const double approach = u[0] + displacement<2>(state.rim, point.position)[0];
+      result.push_back({position, std::atan2(point.position[1], point.position[0]), point.position[1],
+                        -state.traction[i][0], traction[0], point.gap - approach});
     }
   }
   return result;

@@ -6,7 +6,7 @@
 
 namespace wheelwright {
 
-/// u = v + alpha_D n_y of one load position at the nodes of the displacement's lattice, Cartesian, body
+/// u = v + the rim's motion of one load position at the nodes of the displacement's lattice, Cartesian, body
 /// frame.
 RingField displacement_field(const RollingProblem<2>& problem, const RollingSolution<2>& solution,
                              int position);
