@@ -95,10 +95,13 @@ Expected<CyclicStiffness<dim>> CyclicStiffness<dim>::factor(SectorStiffness<dim>
   ComplexMatrix outer_inverse(ring.n_outer_ * ring.n_outer_, harmonics.n_harmonics());
   for (int h = 0; h < harmonics.n_harmonics(); ++h) {
     ComplexMatrix k(ring.n_boundary_, ring.n_boundary_);
-    for (int j = 0; j < n_trailing; ++j)
+    std::vector<std::complex<double>> phase;
+    for (const Trailing& t : ring.trailing_) phase.push_back(harmonics.phase(h, t.shift));
+    for (int j = 0; j < n_trailing; ++j) {
+      std::complex<double>* column = k.column(ring.trailing_[j].boundary);
       for (int i = 0; i < n_trailing; ++i)
-        k(ring.trailing_[i].boundary, ring.trailing_[j].boundary) +=
-            schur(i, j) * harmonics.phase(h, ring.trailing_[j].shift - ring.trailing_[i].shift);
+        column[ring.trailing_[i].boundary] += schur(i, j) * (phase[j] * std::conj(phase[i]));
+    }
     for (int j = 0; j < ring.n_outer_; ++j)
       for (int i = 0; i < ring.n_outer_; ++i) k(n_interface + i, n_interface + j) += outer_stiffness[h](i, j);
     if (!cholesky(k))
