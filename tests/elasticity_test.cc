@@ -1,0 +1,288 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "elasticity/element.h"
+
+namespace wheelwright {
+namespace {
+
+template <int dim>
+PolarGrid<dim> coarse_grid(int refinement = 1) {
+  PolarGrid<dim> grid{0.20, 0.34, 0.12, 16, {}};
+  grid.cells.fill(2 * refinement);
+  return grid;
+}
+
+const Material material{200e6, 0.48};
+
+/// A displacement, Cartesian in the frame of the first column.
+template <int dim>
+using Field = std::function<Vec<dim>(const Vec<dim>&)>;
+
+/// Nodal values of a field on a cell, as the cell's dofs.
+template <int dim>
+std::vector<double> interpolate(const PolarGrid<dim>& grid, int degree, const std::array<int, dim>& cell,
+                                const Field<dim>& field) {
+  const Lattice<dim> lattice(grid, degree);
+  std::vector<double> dofs;
+  for (int a = 0; a < nodes_per_cell<dim>(degree); ++a) {
+    auto p = local_node_position<dim>(degree, a);
+    for (int d = 0; d < dim; ++d) p[d] += degree * cell[d];
+    const Vec<dim> polar = lattice.polar_point(p);
+    const Vec<dim> u = rotated<dim>(field(cartesian<dim>(polar)), -polar[1]);
+    dofs.insert(dofs.end(), u.begin(), u.end());
+  }
+  return dofs;
+}
+
+double energy(const Matrix& k, const std::vector<double>& u) {
+  double sum = 0;
+  for (int j = 0; j < k.columns(); ++j)
+    for (int i = 0; i < k.rows(); ++i) sum += u[i] * k(i, j) * u[j];
+  return sum;
+}
+
+/// The energy that rounding alone could leave: sum |u_i k_ij u_j|.
+double energy_scale(const Matrix& k, const std::vector<double>& u) {
+  double sum = 0;
+  for (int j = 0; j < k.columns(); ++j)
+    for (int i = 0; i < k.rows(); ++i) sum += std::abs(u[i] * k(i, j) * u[j]);
+  return sum;
+}
+
+/// u = A x with a general matrix.
+template <int dim>
+Mat<dim> some_gradient() {
+  Mat<dim> a;
+  for (int i = 0; i < dim; ++i)
+    for (int j = 0; j < dim; ++j) a[i][j] = 0.3 + i - 0.7 * j + 0.1 * i * j;
+  return a;
+}
+
+template <int dim>
+Vec<dim> times(const Mat<dim>& a, const Vec<dim>& x) {
+  Vec<dim> result{};
+  for (int i = 0; i < dim; ++i)
+    for (int j = 0; j < dim; ++j) result[i] += a[i][j] * x[j];
+  return result;
+}
+
+/// Voigt strain of u = A x.
+template <int dim>
+Voigt<dim> strain_of(const Mat<dim>& a) {
+  if constexpr (dim == 2)
+    return {a[0][0], a[1][1], a[0][1] + a[1][0]};
+  else
+    return {a[0][0], a[1][1], a[2][2], a[1][2] + a[2][1], a[0][2] + a[2][0], a[0][1] + a[1][0]};
+}
+
+template <int dim>
+std::vector<Field<dim>> rigid_motions() {
+  std::vector<Field<dim>> motions;
+  for (int d = 0; d < dim; ++d) {
+    motions.push_back([d](const Vec<dim>&) {
+      Vec<dim> u{};
+      u[d] = 1;
+      return u;
+    });
+    for (int e = 0; e < d; ++e)
+      motions.push_back([d, e](const Vec<dim>& x) {
+        Vec<dim> u{};
+        u[d] = x[e];
+        u[e] = -x[d];
+        return u;
+      });
+  }
+  return motions;
+}
+
+template <class Dimension>
+class Element : public ::testing::Test {};
+using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(Element, Dimensions);
+
+TYPED_TEST(Element, RigidMotionsHaveNoEnergy) {
+  constexpr int dim = TypeParam::value;
+  const auto grid = coarse_grid<dim>();
+  for (int degree : {1, 2}) {
+    std::array<int, dim> cell{};
+    cell[1] = 1;
+    const ElasticElement<dim> element(grid, degree, cell);
+    const Matrix k = cell_stiffness<dim>(element, material, unit_cell_rule<dim>(degree + 2));
+    for (const auto& motion : rigid_motions<dim>()) {
+      const auto u = interpolate<dim>(grid, degree, cell, motion);
+      EXPECT_LT(std::abs(energy(k, u)), 1e-13 * energy_scale(k, u));
+    }
+    for (int j = 0; j < k.columns(); ++j)
+      for (int i = 0; i < j; ++i) EXPECT_EQ(k(i, j), k(j, i));
+  }
+}
+
+TYPED_TEST(Element, StrainOfALinearFieldIsExact) {
+  constexpr int dim = TypeParam::value;
+  const auto grid = coarse_grid<dim>();
+  const Mat<dim> a = some_gradient<dim>();
+  for (int degree : {1, 2}) {
+    const std::array<int, dim> cell{1};  // of the first column: its frame is that of the field
+    const ElasticElement<dim> element(grid, degree, cell);
+    const auto u = interpolate<dim>(grid, degree, cell, [&](const Vec<dim>& x) { return times<dim>(a, x); });
+    for (const auto& q : unit_cell_rule<dim>(3)) {
+      const auto at = element.at(q.xi);
+      const Vec<dim> expected = times<dim>(a, at.position);
+      for (int d = 0; d < dim; ++d) {
+        double value = 0;
+        for (int i = 0; i < element.n_dofs(); ++i) value += at.displacement[d][i] * u[i];
+        EXPECT_NEAR(value, expected[d], 1e-13);
+      }
+      const Voigt<dim> expected_strain = strain_of<dim>(a);
+      for (int s = 0; s < n_strains<dim>; ++s) {
+        double value = 0;
+        for (int i = 0; i < element.n_dofs(); ++i) value += at.strain[s][i] * u[i];
+        EXPECT_NEAR(value, expected_strain[s], 1e-12);
+      }
+    }
+  }
+}
+
+TYPED_TEST(Element, EnergyOfALinearFieldIsExact) {
+  constexpr int dim = TypeParam::value;
+  const auto grid = coarse_grid<dim>();
+  const Mat<dim> a = some_gradient<dim>();
+  const Voigt<dim> e = strain_of<dim>(a), sigma = stress<dim>(material, e);
+  double density = 0;
+  for (int s = 0; s < n_strains<dim>; ++s) density += sigma[s] * e[s];
+  for (int degree : {1, 2}) {
+    const std::array<int, dim> cell{1};
+    const ElasticElement<dim> element(grid, degree, cell);
+    const auto rule = unit_cell_rule<dim>(degree + 2);
+    double measure = 0;
+    for (const auto& q : rule) measure += q.weight * element.at(q.xi).determinant;
+    const auto u = interpolate<dim>(grid, degree, cell, [&](const Vec<dim>& x) { return times<dim>(a, x); });
+    EXPECT_NEAR(energy(cell_stiffness<dim>(element, material, rule), u), density * measure,
+                1e-11 * density * measure);
+  }
+}
+
+TYPED_TEST(Element, StressIsThatOfTheLameParameters) {
+  constexpr int dim = TypeParam::value;
+  // A dilation: sigma = (dim lambda + 2 mu) I; a shear: sigma_01 = 2 mu e_01.
+  Voigt<dim> dilation{}, shear{};
+  for (int d = 0; d < dim; ++d) dilation[d] = 1;
+  shear[n_strains<dim> - 1] = 1;
+  const auto of_dilation = stress<dim>(material, dilation), of_shear = stress<dim>(material, shear);
+  for (int d = 0; d < dim; ++d) {
+    EXPECT_NEAR(of_dilation[d], dim * 1621.62162e6 + 2 * 67.567568e6, 10);
+    EXPECT_EQ(of_shear[d], 0);
+  }
+  EXPECT_NEAR(of_shear[n_strains<dim> - 1], 67.567568e6, 1);
+  EXPECT_NEAR(von_mises<dim>(material, of_shear), std::sqrt(3.0) * 67.567568e6, 2);
+  Vec<dim> normal{};
+  normal[1] = 1;
+  EXPECT_NEAR((traction<dim>(of_shear, normal)[0]), 67.567568e6, 1);
+}
+
+/// Both cells of a face in mid-grid.
+template <int dim>
+struct Face {
+  std::array<int, dim> minus, plus;
+  double angle;  ///< between their frames
+
+  Face(const PolarGrid<dim>& grid, int axis) : minus{}, plus{} {
+    plus[axis] = 1;
+    angle = axis == 1 ? grid.cell_size()[1] : 0.0;
+  }
+
+  std::vector<double> interpolate_both(const PolarGrid<dim>& grid, int degree,
+                                       const Field<dim>& field) const {
+    auto u = interpolate<dim>(grid, degree, minus, field);
+    const auto of_plus = interpolate<dim>(grid, degree, plus, field);
+    u.insert(u.end(), of_plus.begin(), of_plus.end());
+    return u;
+  }
+};
+
+TYPED_TEST(Element, GhostPenaltyDoesNotFeelLinearFields) {
+  constexpr int dim = TypeParam::value;
+  const auto grid = coarse_grid<dim>();
+  const Mat<dim> a = some_gradient<dim>();
+  for (int degree : {1, 2})
+    for (GhostPenaltyKind kind : {GhostPenaltyKind::full, GhostPenaltyKind::paper})
+      for (int axis = 0; axis < dim; ++axis) {
+        const Face<dim> face(grid, axis);
+        const ElasticElement<dim> minus(grid, degree, face.minus), plus(grid, degree, face.plus);
+        const Matrix k = ghost_stiffness<dim>(minus, plus, axis, face.angle, material, {kind, 1});
+        const auto u =
+            face.interpolate_both(grid, degree, [&](const Vec<dim>& x) { return times<dim>(a, x); });
+        EXPECT_LT(std::abs(energy(k, u)), 1e-13 * energy_scale(k, u)) << degree << axis;
+      }
+}
+
+TEST(Ghost, PenalizesTheJumpOfTheStress) {
+  // A radial kink: u_r = max(r - r_face, 0). The stress on the face jumps by (lambda + 2 mu) on the normal,
+  // so that the energy is xi h / (2 E) (lambda + 2 mu)^2 |F|, up to the curvature of one cell.
+  for (int degree : {1, 2}) {
+    const auto grid = coarse_grid<2>(16);
+    const Face<2> face(grid, 0);
+    const ElasticElement<2> minus(grid, degree, face.minus), plus(grid, degree, face.plus);
+    const double radius = grid.inner_radius + grid.cell_size()[0], xi = 0.37;
+    const Field<2> kink = [&](const Vec<2>& x) {
+      const double r = norm<2>(x), u = std::max(r - radius, 0.0) / r;
+      return Vec<2>{u * x[0], u * x[1]};
+    };
+    const Matrix k = ghost_stiffness<2>(minus, plus, 0, face.angle, material, {GhostPenaltyKind::paper, xi});
+    const double h = 0.5 * (minus.diameter() + plus.diameter());
+    const double jump = material.lambda() + 2 * material.mu();
+    const double expected =
+        xi * h / (2 * material.youngs_modulus) * jump * jump * radius * grid.cell_size()[1];
+    EXPECT_NEAR(energy(k, face.interpolate_both(grid, degree, kink)), expected, 5e-3 * expected) << degree;
+  }
+}
+
+TEST(Ghost, PenalizesTheJumpOfTheSecondDerivative) {
+  // u_r = 1/2 max(r - r_face, 0)^2 jumps by one in its second normal derivative, and not in its first.
+  const auto grid = coarse_grid<2>(16);
+  const Face<2> face(grid, 0);
+  const ElasticElement<2> minus(grid, 2, face.minus), plus(grid, 2, face.plus);
+  const double radius = grid.inner_radius + grid.cell_size()[0], xi = 0.37;
+  const Field<2> bend = [&](const Vec<2>& x) {
+    const double r = norm<2>(x), s = std::max(r - radius, 0.0), u = 0.5 * s * s / r;
+    return Vec<2>{u * x[0], u * x[1]};
+  };
+  const Matrix k = ghost_stiffness<2>(minus, plus, 0, face.angle, material, {GhostPenaltyKind::full, xi});
+  const double h = 0.5 * (minus.diameter() + plus.diameter());
+  const double expected = 0.5 * xi * h * h * h * material.youngs_modulus * radius * grid.cell_size()[1];
+  EXPECT_NEAR(energy(k, face.interpolate_both(grid, 2, bend)), expected, 5e-3 * expected);
+}
+
+// A quadratic field is not in the isoparametric space. Two cells of one column have one map, so that its
+// interpolant is smooth across their face; across an azimuthal face its second derivative jumps by O(h), and
+// the penalty decays as h^3 h^2 |F|, against h^3 |F| for a field that jumps.
+TEST(Ghost, QuadraticFieldsJumpByTheOrderOfTheGeometry) {
+  const Field<2> quadratic = [](const Vec<2>& x) {
+    return Vec<2>{x[0] * x[0] - 0.4 * x[0] * x[1], 0.7 * x[1] * x[1] + 0.2 * x[0] * x[0]};
+  };
+  for (int axis : {0, 1}) {
+    std::vector<double> penalties;
+    for (int refinement : {2, 4, 8, 16}) {
+      const auto grid = coarse_grid<2>(refinement);
+      const Face<2> face(grid, axis);
+      const ElasticElement<2> minus(grid, 2, face.minus), plus(grid, 2, face.plus);
+      const Matrix k =
+          ghost_stiffness<2>(minus, plus, axis, face.angle, material, {GhostPenaltyKind::full, 1});
+      const auto u = face.interpolate_both(grid, 2, quadratic);
+      penalties.push_back(energy(k, u));
+      if (axis == 0) {
+        EXPECT_LT(std::abs(penalties.back()), 1e-13 * energy_scale(k, u));
+      }
+    }
+    for (size_t i = 0; axis == 1 && i + 1 < penalties.size(); ++i)
+      EXPECT_GT(std::log2(penalties[i] / penalties[i + 1]), 5.8);
+  }
+}
+
+}  // namespace
+}  // namespace wheelwright
