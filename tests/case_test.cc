@@ -177,7 +177,12 @@ TEST(CaseFile, AResolvedCaseReadsBackEqual) {
   Case c = with_holes();
   c.title = "quotes \" and \\ and a bell \a, umlaut ü\n";
   c.load.force = 1e4 / 3;
-  c.contact = {.method = ContactMethod::penalty, .theta = 1.0 / 3, .gamma_0 = 12.5, .quadrature_points = 20};
+  c.load.horizontal_force = -123.4;
+  c.contact = {.method = ContactMethod::penalty,
+               .theta = 1.0 / 3,
+               .gamma_0 = 12.5,
+               .friction = 0.3,
+               .quadrature_points = 20};
   c.grid.level_set_degree = 1;
   c.grid.tread_levels = 3;
   c.ghost_penalty = {.kind = GhostPenaltyKind::paper, .xi = 1e-3};
@@ -192,6 +197,16 @@ TEST(CaseFile, AResolvedCaseReadsBackEqual) {
   c.optimizer.velocity = VelocityKind::harmonic;
   c.optimizer.rim_band = 0.006;
   c.optimizer.tread_band = 0.011;
+  const CaseResult result = parse_case(to_toml(c), "resolved.toml");
+  ASSERT_TRUE(result.value) << texts(result.problems);
+  EXPECT_EQ(*result.value, c);
+}
+
+TEST(CaseFile, ATravelInsteadOfALoadReadsBackEqual) {
+  Case c = with_holes();
+  c.load.travel = 5e-4;
+  c.load.torque = 12;
+  c.contact.friction = 0.3;
   const CaseResult result = parse_case(to_toml(c), "resolved.toml");
   ASSERT_TRUE(result.value) << texts(result.problems);
   EXPECT_EQ(*result.value, c);
@@ -305,11 +320,14 @@ void expect_only(const Edited& edited, Kind kind) {
   EXPECT_EQ(kind_name(result.problems[0].kind), kind_name(kind)) << texts(result.problems);
 }
 
-/// The key whose line in the resolved case is replaced: `force` stands for `mass` too.
-template <class SomeKey>
-std::string_view written_key(const std::vector<SomeKey>& keys, const SomeKey& key) {
-  const SomeKey* other = alternative(keys, key);
-  return other ? other->name : key.name;
+/// The key whose line in the resolved case is replaced: `force` stands for `mass` and `travel` too.
+template <class Struct>
+std::string_view written_key(const std::vector<Key<Struct>>& keys, const Key<Struct>& key) {
+  std::string_view written = key.name;
+  for (const auto& other : keys)
+    if (are_alternatives(other, key) && std::holds_alternative<NumberField<Struct>>(other.field))
+      written = other.name;
+  return written;
 }
 
 TEST(CaseKeys, EveryKeyRefusesValuesOutOfRangeAndOfTheWrongType) {

@@ -16,10 +16,12 @@ std::string line(std::string_view name, std::string_view value) {
 }
 
 std::string load_report(const Case& c) {
-  return line("load", fmt::format("{:.6g} N on {:.6g} m = {:.6g} N/m", c.load.force, c.wheel.width,
-                                  load_per_metre(c))) +
-         line("load positions",
-              fmt::format("{} a sector, {} round the wheel", c.load.positions, total_load_positions(c)));
+  const std::string load = c.load.travel
+                               ? line("rim travel", fmt::format("{:.6g} mm", *c.load.travel * 1e3))
+                               : line("load", fmt::format("{:.6g} N on {:.6g} m = {:.6g} N/m", c.load.force,
+                                                          c.wheel.width, load_per_metre(c)));
+  return load + line("load positions", fmt::format("{} a sector, {} round the wheel", c.load.positions,
+                                                   total_load_positions(c)));
 }
 
 std::string material_report(const Case& c) {
@@ -28,7 +30,9 @@ std::string material_report(const Case& c) {
          line("E / (1 - nu^2)", fmt::format("{:.6g} MPa", c.material.plane_strain_modulus() / 1e6));
 }
 
+/// Estimates for a given load.
 std::string contact_report(const Case& c) {
+  if (c.load.travel) return "";
   return line("Hertz half-width", fmt::format("{:.4g} mm", hertz_half_width(c) * 1e3)) +
          line("Hertz peak pressure", fmt::format("{:.4g} MPa", hertz_peak_pressure(c) / 1e6)) +
          line("cells in the contact",
@@ -51,7 +55,8 @@ std::string derived_report(const Case& c) {
 
 std::vector<std::string> warnings(const Case& c) {
   std::vector<std::string> result;
-  if (const double cells = cells_per_contact_patch(c); cells < least_cells_per_contact_patch) {
+  if (const double cells = cells_per_contact_patch(c);
+      !c.load.travel && cells < least_cells_per_contact_patch) {
     const int more = static_cast<int>(std::ceil(std::log2(least_cells_per_contact_patch / cells)));
     result.push_back(fmt::format(
         "the contact patch is {:.1f} cells wide: energies are good to about a percent, pressures are "

@@ -23,15 +23,19 @@ struct Wheel {
 };
 
 struct Load {
-  double force = 300 * 9.81;  ///< on the whole width [N]
-  int positions = 8;          ///< N_d, load positions of one sector
+  double force = 300 * 9.81;     ///< on the whole width [N]
+  std::optional<double> travel;  ///< of the rim towards the ground [m]; the force is then a result
+  double horizontal_force = 0;   ///< on the rim, towards larger azimuth, on the whole width [N]
+  double torque = 0;             ///< on the rim, towards larger azimuth, on the whole width [N m]
+  int positions = 8;             ///< N_d, load positions of one sector
   bool operator==(const Load&) const = default;
 };
 
 struct Contact {
   ContactMethod method = ContactMethod::nitsche;
   double theta = -1;
-  double gamma_0 = 1;  ///< gamma = gamma_0 E / h_T [Pa/m]
+  double gamma_0 = 1;   ///< gamma = gamma_0 E / h_T [Pa/m]
+  double friction = 0;  ///< Coulomb's coefficient F
   int quadrature_points = 5;
   bool operator==(const Contact&) const = default;
 };

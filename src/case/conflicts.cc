@@ -150,6 +150,30 @@ void check_nitsche(const Case& c, Conflicts& found) {
        fmt::format("take gamma_0 >= {:.6g}, or theta = -1", rounded_up(least))});
 }
 
+/// What moves or turns the rim must be held by friction.
+void check_friction(const Case& c, Conflicts& found) {
+  const Load& load = c.load;
+  if (load.horizontal_force != 0 && load.torque != 0)
+    found.push_back(
+        {{"load.torque", "load.horizontal_force"},
+         "the wheel would roll away: the ground holds the rim along it or about the axle, not both",
+         "keep one of torque and horizontal_force"});
+  const double arm = c.wheel.outer_radius, held = c.contact.friction * load.force;
+  const auto check = [&](const char* key, double value, double limit, const char* unit) {
+    if (value == 0) return;
+    if (c.contact.friction == 0)
+      found.push_back({{key, "contact.friction"},
+                       "nothing holds the wheel without friction",
+                       "give contact.friction > 0"});
+    else if (!load.travel && std::abs(value) >= limit)
+      found.push_back({{key, "contact.friction", "load.force", "load.mass"},
+                       fmt::format("the wheel would slide: friction holds less than {:.6g} {}", limit, unit),
+                       "take less of it, or more contact.friction"});
+  };
+  check("load.horizontal_force", load.horizontal_force, held, "N");
+  check("load.torque", load.torque, held * arm, "N m");
+}
+
 void check_annulus(const Case& c, Conflicts& found) {
   if (!wants_annulus(c)) return;
   const double cell = (c.wheel.outer_radius - c.wheel.inner_radius) / c.grid.radial_cells;
@@ -181,6 +205,7 @@ std::vector<Conflict> conflicts(const Case& c) {
   check_ring_counts(c, found);
   check_holes(c, found);
   check_nitsche(c, found);
+  check_friction(c, found);
   check_annulus(c, found);
   check_objective(c, found);
   return found;

@@ -104,7 +104,7 @@ struct Key {
       field;
   std::string_view meaning;
   Presence presence = Presence::has_default;
-  std::string_view instead_of = {};  ///< the key of the same section that binds the same field
+  std::string_view instead_of = {};  ///< the key of the same section that this one may replace
 };
 
 /// A table of the file, [name]; the empty name is the file's top level.
@@ -172,12 +172,13 @@ const Key<Struct>* find_key(const std::vector<Key<Struct>>& keys, std::string_vi
   return nullptr;
 }
 
-/// The key that may be given instead of this one, or null.
+/// Whether only one of two different keys may be given.
 template <class Struct>
-const Key<Struct>* alternative(const std::vector<Key<Struct>>& keys, const Key<Struct>& key) {
-  for (const auto& other : keys)
-    if (other.instead_of == key.name) return &other;
-  return nullptr;
+bool are_alternatives(const Key<Struct>& a, const Key<Struct>& b) {
+  const auto group = [](const Key<Struct>& key) {
+    return key.instead_of.empty() ? key.name : key.instead_of;
+  };
+  return group(a) == group(b);
 }
 
 }  // namespace wheelwright

@@ -211,14 +211,18 @@ void read_value(Reading& reading, const std::string& path, const toml::node& nod
   if (auto complaint = std::visit(read, key.field)) complain(reading, path, std::move(*complaint));
 }
 
+/// Complains of a key that is given though an earlier one of the same alternatives is given too.
 template <class Struct>
 void check_alternatives(Reading& reading, const std::string& parent, const std::vector<Key<Struct>>& keys) {
   for (const auto& key : keys) {
-    if (key.instead_of.empty()) continue;
-    const std::string path = join_path(parent, key.name);
-    if (reading.entries.contains(path) && reading.entries.contains(join_path(parent, key.instead_of)))
-      complain(reading, path,
-               {Kind::conflict, fmt::format("{} is given too", key.instead_of), "remove one of the two"});
+    if (!reading.entries.contains(join_path(parent, key.name))) continue;
+    for (const auto& other : keys) {
+      if (&other == &key) break;
+      if (!are_alternatives(other, key) || !reading.entries.contains(join_path(parent, other.name))) continue;
+      complain(reading, join_path(parent, key.name),
+               {Kind::conflict, fmt::format("{} is given too", other.name), "remove one of the two"});
+      break;
+    }
   }
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 
@@ -109,17 +110,19 @@ std::string default_text(const Key<Struct>& key) {
       key.field);
 }
 
-/// Whether the resolved case leaves the key out because another one binds the same field in SI units.
+/// Whether the resolved case leaves the key out because a later one of its alternatives has a value.
 template <class Struct>
-bool is_superseded(const std::vector<Key<Struct>>& keys, const Key<Struct>& key) {
-  return alternative(keys, key) != nullptr;
+bool is_superseded(const std::vector<Key<Struct>>& keys, const Key<Struct>& key, const Struct& s) {
+  return std::any_of(keys.begin(), keys.end(), [&](const auto& other) {
+    return &other > &key && are_alternatives(other, key) && !value_text(other, s).empty();
+  });
 }
 
 template <class Struct>
 std::string resolved_lines(const std::vector<Key<Struct>>& keys, const Struct& s) {
   std::string result;
   for (const auto& key : keys) {
-    if (is_superseded(keys, key)) continue;
+    if (is_superseded(keys, key, s)) continue;
     const std::string value = value_text(key, s);
     result += value.empty() ? fmt::format("# {}: {}\n", key.name, default_text(key))
                             : fmt::format("{} = {}\n", key.name, value);

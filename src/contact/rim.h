@@ -37,6 +37,12 @@ inline RimMotion combined(const RimMotion& a, double factor, const RimMotion& b)
           a.rotation + factor * b.rotation};
 }
 
+/// What a force does on a motion.
+inline double work(const RimForce& force, const RimMotion& motion) {
+  return force.towards_ground * motion.towards_ground + force.along_ground * motion.along_ground +
+         force.torque * motion.rotation;
+}
+
 /// The displacement of a point that moves with the rim, in the ground frame: component 0 towards the ground,
 /// 1 along it. `position` is relative to the axle, in the same frame.
 template <int dim>

@@ -31,11 +31,16 @@ RollingModel<2> rolling_model(const Case& c) {
   model.degree = c.grid.degree;
   model.material = c.material;
   model.ghost = c.ghost_penalty;
-  model.contact = {
-      .method = c.contact.method, .theta_nitsche = c.contact.theta, .gamma_0 = c.contact.gamma_0};
+  model.contact = {.method = c.contact.method,
+                   .theta_nitsche = c.contact.theta,
+                   .gamma_0 = c.contact.gamma_0,
+                   .friction = c.contact.friction};
   model.contact_points = c.contact.quadrature_points;
   model.tread = {tread_rows(c), c.grid.tread_levels, wants_annulus(c) ? c.grid.degree + 1 : 0};
   model.load = load_per_metre(c);
+  model.horizontal_force = c.load.horizontal_force / c.wheel.width;
+  model.torque = c.load.torque / c.wheel.width;
+  model.travel = c.load.travel;
   model.n_positions = c.load.positions;
   return model;
 }

@@ -30,6 +30,11 @@ std::vector<NamedField> position_fields(const RollingProblem<2>& problem, const 
   return {{"displacement", "m", std::move(displacement)}, {"von_mises", "Pa", std::move(von_mises)}};
 }
 
+std::string load_text(const RollingModel<2>& model) {
+  return model.travel ? fmt::format("rim travel {:.6g} mm", *model.travel * 1e3)
+                      : fmt::format("{:.6g} N/m", model.load);
+}
+
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
@@ -84,8 +89,8 @@ void RunFolder::write_result(const RollingProblem<2>& problem, const Optimizatio
   write_atomically(folder_ / "shape.svg", shape_svg(grid, after.contours, title));
   write_atomically(folder_ / "comparison.svg",
                    comparison_svg(grid, {title,
-                                         fmt::format("sum over {} load positions, {:.6g} N/m",
-                                                     problem.model().n_positions, problem.model().load),
+                                         fmt::format("sum over {} load positions, {}",
+                                                     problem.model().n_positions, load_text(problem.model())),
                                          "objective", "J/m", before, after}));
 
   const auto solution = problem.solve(final_state.shape);

@@ -74,15 +74,13 @@ bool report_taylor(const TaylorTest& test) {
   return lowest > least_order;
 }
 
-bool report_balance(const RollingSolution<2>& solution, double load) {
+/// The ground's forces and moments on the wheel against those on the rim, in the motions that are free.
+bool report_balance(const RollingSolution<2>& solution, const RimControl& rim) {
   double worst = 0;
-  for (size_t i = 0; i < solution.states.size(); ++i) {
-    double force = 0;
-    for (size_t q = 0; q < solution.states[i].traction.size(); ++q)
-      force -= solution.contacts[i].points()[q].weight * solution.states[i].traction[q][0];
-    worst = std::max(worst, std::abs(force / load - 1));
-  }
-  fmt::print("Contact force against load, worst of {} positions: {:.2e}, wanted < {:.0e}: {}\n",
+  for (const auto& state : solution.states)
+    for (const FreeMotion& motion : rim.free)
+      worst = std::max(worst, std::abs(work(state.rim_force, motion.direction) / motion.force - 1));
+  fmt::print("Contact forces against loads, worst of {} positions: {:.2e}, wanted < {:.0e}: {}\n",
              solution.states.size(), worst, balance_tolerance, verdict(worst < balance_tolerance));
   return worst < balance_tolerance;
 }
@@ -113,7 +111,8 @@ int verify_command(const Case& c, const RunOptions&) {
   if (!test) return give_up(test.failure());
   const auto solution = problem->solve(*shape);
   if (!solution) return give_up(solution.failure());
-  const bool taylor = report_taylor(*test), balance = report_balance(*solution, problem->model().load);
+  const bool taylor = report_taylor(*test),
+             balance = report_balance(*solution, rim_control(problem->model()));
   return taylor && balance ? exit_done : exit_no_solution;
 }
 
