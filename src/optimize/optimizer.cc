@@ -1,5 +1,6 @@
 #include "optimize/optimizer.h"
 
+#include <algorithm>
 #include <chrono>
 #include <limits>
 
@@ -146,8 +147,8 @@ Trial<dim> ShapeOptimizer<dim>::attempt(const OptimizationState<dim>& state, std
   if (trial.failure) return trial;
   evaluate(trial);
   if (trial.failure) return trial;
-  const double before = state.evaluation.objective;
-  const double bound = before + options_.accepted_increase * std::abs(before);
+  const double best = *std::min_element(state.history.begin(), state.history.end());
+  const double bound = best + options_.accepted_increase * std::abs(best);
   const bool accepted =
       options_.measure_control == MeasureControl::proportional || trial.evaluation->objective <= bound;
   trial.verdict = accepted ? Verdict::accepted : Verdict::objective_rose;

@@ -21,7 +21,7 @@ struct OptimizerOptions {
   int iterations = 100;
   double step = 0.5;                ///< farthest that the boundary travels in one shape [cells]
   int max_halvings = 6;             ///< of the step, for one shape
-  double accepted_increase = 1e-4;  ///< of the objective from one shape to the next, relative
+  double accepted_increase = 1e-4;  ///< of the objective over the best shape so far, relative
   double tolerance = 1e-5;  ///< converged when the objective falls by less over 10 shapes, relative; 0: never
   int redistance_every = 5;  ///< accepted shapes; 0: never
   int smooth_every = 0;      ///< accepted shapes; 0: never
