@@ -330,7 +330,7 @@ const Section<Optimizer>& optimizer_section() {
           {.name = "accepted_increase",
            .unit = "",
            .field = NumberField<Optimizer>{&Optimizer::accepted_increase, between(0, 1)},
-           .meaning = "relative rise of J that a shape may bring and still be accepted"},
+           .meaning = "relative rise of J over the best shape so far with which a shape is still accepted"},
           {.name = "tolerance",
            .unit = "",
            .field = NumberField<Optimizer>{&Optimizer::tolerance, between(0, 1)},
