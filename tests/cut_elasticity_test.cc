@@ -1,0 +1,426 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <random>
+
+#include "elasticity/sector_stiffness.h"
+#include "linalg/sparse_spd.h"
+
+extern "C" void dsyev_(const char*, const char*, const int*, double*, const int*, double*, double*,
+                       const int*, int*);
+
+namespace wheelwright {
+namespace {
+
+/// A smooth displacement with what the equations make of it, Cartesian.
+struct ExactSolution {
+  std::function<Vec<2>(const Vec<2>&)> displacement;
+  std::function<Mat<2>(const Vec<2>&)> gradient;
+  std::function<Vec<2>(const Vec<2>&)> body_force;
+};
+
+Voigt<2> strain_of(const Mat<2>& gradient) {
+  return {gradient[0][0], gradient[1][1], gradient[0][1] + gradient[1][0]};
+}
+
+/// One sector, elastic, loaded by the exact solution's body force and by its traction on the cut boundary.
+/// Nodes on the outer circle and on both sector faces are held at the exact solution; those on the rim at
+/// zero.
+class LoadedSector {
+ public:
+  LoadedSector(const LevelSet<2>& psi, int degree, const Material& material, const GhostPenalty& ghost)
+      : grid_(psi.lattice.grid()),
+        lattice_(grid_, degree),
+        domain_(*cut_domain(psi, degree + 2)),
+        table_(grid_, degree, material, ghost),
+        sector_(sector_stiffness(domain_, table_, grid_.cells[0])) {}
+
+  const CutDomain<2>& domain() const { return domain_; }
+
+  /// Calls visit(cell, point, azimuth of the cell's frame, weight) at the quadrature points of the material.
+  template <class Visit>
+  void visit_material(Visit visit) const {
+    const auto full_rule = unit_cell_rule<2>(lattice_.degree() + 2);
+    const auto visit_cell = [&](int cell, const std::vector<ReferencePoint<2>>& points) {
+      for (const auto& q : points) {
+        const auto at = element(cell).at(q.xi);
+        visit(cell, at, azimuth(cell), q.weight * at.determinant);
+      }
+    };
+    for (int cell = 0; cell < grid_.n_cells(); ++cell)
+      if (domain_.kinds[cell] == CellKind::inside) visit_cell(cell, full_rule);
+    for (const auto& cut : domain_.cut) visit_cell(cut.cell, cut.material);
+  }
+
+  std::vector<double> solve(const ExactSolution& exact) const {
+    std::vector<double> x = held_displacements(exact), rhs = loads(exact);
+    const auto& k = sector_.matrix;
+    std::vector<double> held_forces(k.size);
+    k.add_product(x.data(), held_forces.data());
+    const std::vector<int> free = free_numbers();
+    std::vector<double> free_rhs(n_free());
+    for (int i = 0; i < k.size; ++i)
+      if (free[i] >= 0) free_rhs[free[i]] = rhs[i] - held_forces[i];
+    const auto solution = SparseSpd::factor(n_free(), free_entries())->solve(free_rhs);
+    for (int i = 0; i < k.size; ++i)
+      if (free[i] >= 0) x[i] = solution[free[i]];
+    return x;
+  }
+
+  /// Displacement and strain of a solution at a point, in the cell's frame.
+  std::pair<Vec<2>, Voigt<2>> evaluate(const std::vector<double>& x, int cell,
+                                       const ElasticElement<2>::Point& at) const {
+    const auto nodes = sector_.space.cell_nodes(cell);
+    std::pair<Vec<2>, Voigt<2>> result{};
+    for (size_t a = 0; a < nodes.size(); ++a)
+      for (int c = 0; nodes[a] >= 0 && c < 2; ++c) {
+        const double value = x[2 * nodes[a] + c];
+        for (int d = 0; d < 2; ++d) result.first[d] += at.displacement[d][2 * a + c] * value;
+        for (int s = 0; s < 3; ++s) result.second[s] += at.strain[s][2 * a + c] * value;
+      }
+    return result;
+  }
+
+  /// The stiffness on the free unknowns, lower triangle.
+  Matrix free_stiffness() const {
+    Matrix k(n_free(), n_free());
+    for (const auto& e : free_entries()) k(e.row, e.column) = e.value;
+    return k;
+  }
+
+ private:
+  const ElasticElement<2>& element(int cell) const { return table_.element(grid_.cell_position(cell)[0]); }
+  double azimuth(int cell) const { return grid_.cell_position(cell)[1] * grid_.cell_size()[1]; }
+
+  bool is_held(int node) const {
+    const auto& p = sector_.space.position(node);
+    return p[0] == lattice_.nodes()[0] - 1 || p[1] == 0 || p[1] >= lattice_.nodes()[1];
+  }
+
+  /// Number among the free unknowns, -1 for held ones.
+  std::vector<int> free_numbers() const {
+    std::vector<int> numbers;
+    int next = 0;
+    for (int i = 0; i < sector_.matrix.size; ++i) numbers.push_back(is_held(i / 2) ? -1 : next++);
+    return numbers;
+  }
+
+  int n_free() const {
+    const auto numbers = free_numbers();
+    return *std::max_element(numbers.begin(), numbers.end()) + 1;
+  }
+
+  std::vector<SparseSpd::Entry> free_entries() const {
+    const auto free = free_numbers();
+    const auto& k = sector_.matrix;
+    std::vector<SparseSpd::Entry> entries;
+    for (int j = 0; j < k.size; ++j)
+      for (int e = k.column_start[j]; free[j] >= 0 && e < k.column_start[j + 1]; ++e)
+        if (free[k.rows[e]] >= 0) entries.push_back({free[k.rows[e]], free[j], k.values[e]});
+    return entries;
+  }
+
+  std::vector<double> held_displacements(const ExactSolution& exact) const {
+    std::vector<double> x(sector_.matrix.size);
+    for (int node = 0; node < sector_.space.n_nodes(); ++node) {
+      if (!is_held(node)) continue;
+      const Vec<2> polar = lattice_.polar_point(sector_.space.position(node));
+      const Vec<2> u = rotated<2>(exact.displacement(cartesian<2>(polar)), -polar[1]);
+      for (int c = 0; c < 2; ++c) x[2 * node + c] = u[c];
+    }
+    return x;
+  }
+
+  std::vector<double> loads(const ExactSolution& exact) const {
+    std::vector<double> result(sector_.matrix.size);
+    const auto add = [&](int cell, const ElasticElement<2>::Point& at, const Vec<2>& force) {
+      const auto nodes = sector_.space.cell_nodes(cell);
+      for (size_t a = 0; a < nodes.size(); ++a)
+        for (int c = 0; nodes[a] >= 0 && c < 2; ++c)
+          for (int d = 0; d < 2; ++d) result[2 * nodes[a] + c] += at.displacement[d][2 * a + c] * force[d];
+    };
+    const auto scaled = [](Vec<2> v, double factor) {
+      for (double& component : v) component *= factor;
+      return v;
+    };
+    visit_material([&](int cell, const ElasticElement<2>::Point& at, double angle, double weight) {
+      const Vec<2> force = exact.body_force(rotated<2>(at.position, angle));
+      add(cell, at, scaled(rotated<2>(force, -angle), weight));
+    });
+    for (const auto& cut : domain_.cut)
+      for (const auto& q : cut.boundary) {
+        const auto at = element(cut.cell).at(q.xi);
+        const auto surface = map_surface<2>(at.jacobian, q.normal);
+        const double angle = azimuth(cut.cell);
+        const auto sigma =
+            stress<2>(table_.material(), strain_of(exact.gradient(rotated<2>(at.position, angle))));
+        const Vec<2> t = traction<2>(sigma, rotated<2>(surface.normal, angle));
+        add(cut.cell, at, scaled(rotated<2>(t, -angle), q.weight * surface.scale));
+      }
+    return result;
+  }
+
+  PolarGrid<2> grid_;
+  Lattice<2> lattice_;
+  CutDomain<2> domain_;
+  ElementTable<2> table_;
+  SectorStiffness<2> sector_;
+};
+
+/// Material outside of a circle that cuts off `fraction` of the cells of one row.
+LevelSet<2> circle_cut(const PolarGrid<2>& grid, int degree, double fraction) {
+  LevelSet<2> psi{Lattice<2>(grid, degree), {}};
+  const double height = grid.cell_size()[0], radius = grid.inner_radius + (3 - fraction) * height;
+  for (int i = 0; i < psi.lattice.n_nodes(); ++i)
+    psi.values.push_back(radius - psi.lattice.polar_point(i)[0]);
+  return psi;
+}
+
+/// Material above a roof whose sides run through the nodes at 45 degrees of the unit cell, less
+/// sqrt(2 fraction): the cells below those nodes have that fraction of material, in one corner.
+LevelSet<2> corner_cut(const PolarGrid<2>& grid, int degree, double fraction) {
+  LevelSet<2> psi{Lattice<2>(grid, degree), {}};
+  const Vec<2> size = grid.cell_size();
+  for (int i = 0; i < psi.lattice.n_nodes(); ++i) {
+    const Vec<2> p = psi.lattice.polar_point(i);
+    const double row = (p[0] - grid.inner_radius) / size[0], column = p[1] / size[1];
+    psi.values.push_back(size[0] * (0.75 * grid.cells[0] - std::sqrt(2 * fraction) - row -
+                                    std::abs(column - 0.5 * grid.cells[1])));
+  }
+  return psi;
+}
+
+/// Largest over smallest eigenvalue of a symmetric matrix given by its lower triangle; infinite when it is
+/// not positive definite.
+double condition_number(Matrix k) {
+  const int n = k.rows(), work_size = 4 * n;
+  std::vector<double> eigenvalues(n), work(work_size);
+  int info = 0;
+  dsyev_("N", "L", &n, k.data(), &n, eigenvalues.data(), work.data(), &work_size, &info);
+  return info == 0 && eigenvalues.front() > 0 ? eigenvalues.back() / eigenvalues.front() : INFINITY;
+}
+
+Matrix scaled_to_unit_diagonal(Matrix k) {
+  std::vector<double> scale;
+  for (int i = 0; i < k.rows(); ++i) scale.push_back(1 / std::sqrt(k(i, i)));
+  for (int j = 0; j < k.columns(); ++j)
+    for (int i = 0; i < k.rows(); ++i) k(i, j) *= scale[i] * scale[j];
+  return k;
+}
+
+constexpr auto cut_kinds = {circle_cut, corner_cut};
+constexpr double cut_fractions[] = {0.5, 0.3, 1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12};
+
+double smallest_material_fraction(const CutDomain<2>& domain) {
+  double smallest = 1;
+  for (const auto& cut : domain.cut) {
+    double fraction = 0;
+    for (const auto& point : cut.material) fraction += point.weight;
+    smallest = std::min(smallest, fraction);
+  }
+  return smallest;
+}
+
+PolarGrid<2> small_sector(int n) { return {0.20, 0.34, 0.12, 12, {n, n}}; }
+
+TEST(CutElasticity, PassesThePatchTestOnSlivers) {
+  const Material material{200e6, 0.48};
+  const Mat<2> a{{{0.3, -0.4}, {1.1, 0.7}}};
+  const ExactSolution linear{
+      [&](const Vec<2>& x) {
+        return Vec<2>{a[0][0] * x[0] + a[0][1] * x[1], a[1][0] * x[0] + a[1][1] * x[1]};
+      },
+      [&](const Vec<2>&) { return a; }, [](const Vec<2>&) { return Vec<2>{}; }};
+  const auto expected = stress<2>(material, strain_of(a));
+  const double size = std::hypot(expected[0], expected[1], expected[2]);
+  double smallest = 1;
+  for (auto cut : cut_kinds)
+    for (int degree : {1, 2})
+      for (int level_set_degree : {1, 2})
+        for (double fraction : cut_fractions) {
+          const LoadedSector sector(cut(small_sector(8), level_set_degree, fraction), degree, material, {});
+          smallest = std::min(smallest, smallest_material_fraction(sector.domain()));
+          const auto x = sector.solve(linear);
+          double error = 0;
+          sector.visit_material([&](int cell, const ElasticElement<2>::Point& at, double angle, double) {
+            const auto sigma = stress<2>(material, sector.evaluate(x, cell, at).second);
+            // Tractions on two planes, turned back, are the stress in the field's frame.
+            for (const Vec<2>& plane : {Vec<2>{1, 0}, Vec<2>{0, 1}}) {
+              const Vec<2> t = rotated<2>(traction<2>(sigma, rotated<2>(plane, -angle)), angle);
+              const Vec<2> t_expected = traction<2>(expected, plane);
+              for (int d = 0; d < 2; ++d) error = std::max(error, std::abs(t[d] - t_expected[d]) / size);
+            }
+          });
+          EXPECT_LT(error, 1e-8) << "degree " << degree << ", level set " << level_set_degree << ", fraction "
+                                 << fraction;
+        }
+  EXPECT_LT(smallest, 2e-12);
+}
+
+// The penalty bounds the energy of a sliver from below by xi times that of a full cell: so 1/xi bounds the
+// condition number, and scaling to a unit diagonal, which a Cholesky factorization is invariant to, takes
+// most of that away.
+TEST(CutElasticity, ConditionIsBoundedForAllCuts) {
+  const Material material{200e6, 0.48};
+  const GhostPenalty ghost;
+  for (auto cut : cut_kinds)
+    for (int degree : {1, 2}) {
+      std::vector<double> plain, scaled;
+      for (double fraction : cut_fractions) {
+        const LoadedSector sector(cut(small_sector(8), 2, fraction), degree, material, ghost);
+        plain.push_back(condition_number(sector.free_stiffness()));
+        scaled.push_back(condition_number(scaled_to_unit_diagonal(sector.free_stiffness())));
+      }
+      const auto largest = [](const auto& v) { return *std::max_element(v.begin(), v.end()); };
+      EXPECT_LT(largest(scaled), 100 * scaled.front());
+      EXPECT_LT(largest(plain), 10 / ghost.xi * plain.front());
+      for (const auto& conditions : {plain, scaled})
+        EXPECT_NEAR(conditions.back(), conditions[conditions.size() - 4], 0.01 * conditions.back());
+    }
+}
+
+TEST(CutElasticity, WithoutGhostPenaltyTheConditionHasNoBound) {
+  const Material material{200e6, 0.48};
+  const GhostPenalty none{GhostPenaltyKind::full, 0};
+  for (auto cut : cut_kinds) {
+    const LoadedSector sector(cut(small_sector(8), 2, 1e-3), 2, material, none);
+    EXPECT_GT(condition_number(scaled_to_unit_diagonal(sector.free_stiffness())), 1e6);
+  }
+}
+
+/// u_i = (|x|^2 - Ri^2) sin(k_i . x + c_i), which vanishes on the rim.
+class SmoothSolution {
+ public:
+  SmoothSolution(double rim_radius, const Material& material) : radius_(rim_radius), material_(material) {}
+
+  Vec<2> displacement(const Vec<2>& x) const {
+    Vec<2> u;
+    for (int i = 0; i < 2; ++i) u[i] = factor(x) * std::sin(phase(i, x));
+    return u;
+  }
+
+  Mat<2> gradient(const Vec<2>& x) const {
+    Mat<2> g;
+    for (int i = 0; i < 2; ++i)
+      for (int j = 0; j < 2; ++j)
+        g[i][j] = 2 * x[j] * std::sin(phase(i, x)) + factor(x) * wave_[i][j] * std::cos(phase(i, x));
+    return g;
+  }
+
+  /// -div sigma = -(lambda + mu) grad div u - mu Laplace u.
+  Vec<2> body_force(const Vec<2>& x) const {
+    Vec<2> force;
+    for (int i = 0; i < 2; ++i) {
+      force[i] = -material_.mu() * (second(i, 0, 0, x) + second(i, 1, 1, x));
+      for (int j = 0; j < 2; ++j) force[i] -= (material_.lambda() + material_.mu()) * second(j, j, i, x);
+    }
+    return force;
+  }
+
+ private:
+  double factor(const Vec<2>& x) const { return dot<2>(x, x) - radius_ * radius_; }
+  double phase(int i, const Vec<2>& x) const { return dot<2>(wave_[i], x) + 0.3 + i; }
+
+  /// d^2 u_i / dx_j dx_k.
+  double second(int i, int j, int k, const Vec<2>& x) const {
+    const double sine = std::sin(phase(i, x)), cosine = std::cos(phase(i, x));
+    return (j == k ? 2 : 0) * sine + 2 * (x[j] * wave_[i][k] + x[k] * wave_[i][j]) * cosine -
+           factor(x) * wave_[i][j] * wave_[i][k] * sine;
+  }
+
+  double radius_;
+  Material material_;
+  Mat<2> wave_{{{21, -13}, {9, 24}}};
+};
+
+struct Errors {
+  double l2, h1;  ///< norm of the error; of its strain
+};
+
+/// Errors on an n x n sector with a hole whose centre is moved by a fraction of a cell along both axes.
+Errors manufactured_errors(int n, int degree, const Vec<2>& shift) {
+  const Material material{1, 0.3};
+  const PolarGrid<2> grid = small_sector(n);
+  const SmoothSolution smooth(grid.inner_radius, material);
+  const ExactSolution exact{[&](const Vec<2>& x) { return smooth.displacement(x); },
+                            [&](const Vec<2>& x) { return smooth.gradient(x); },
+                            [&](const Vec<2>& x) { return smooth.body_force(x); }};
+  const Vec<2> size = grid.cell_size();
+  const Vec<2> centre =
+      cartesian<2>({0.27 + shift[0] * size[0], 0.5 * grid.sector_angle() + shift[1] * size[1]});
+  LevelSet<2> psi{Lattice<2>(grid, degree), {}};
+  for (int i = 0; i < psi.lattice.n_nodes(); ++i) {
+    const Vec<2> x = cartesian<2>(psi.lattice.polar_point(i));
+    psi.values.push_back(0.035 - std::hypot(x[0] - centre[0], x[1] - centre[1]));
+  }
+  const LoadedSector sector(psi, degree, material, {});
+  const auto solution = sector.solve(exact);
+  Errors errors{};
+  sector.visit_material([&](int cell, const ElasticElement<2>::Point& at, double angle, double weight) {
+    const auto [u, strain] = sector.evaluate(solution, cell, at);
+    const Vec<2> x = rotated<2>(at.position, angle);
+    const Vec<2> u_exact = smooth.displacement(x), u_turned = rotated<2>(u, angle);
+    const Voigt<2> e = strain_of(smooth.gradient(x));
+    const double c = std::cos(angle), s = std::sin(angle);
+    const Voigt<2> turned{c * c * strain[0] + s * s * strain[1] - c * s * strain[2],
+                          s * s * strain[0] + c * c * strain[1] + c * s * strain[2],
+                          2 * c * s * (strain[0] - strain[1]) + (c * c - s * s) * strain[2]};
+    for (int d = 0; d < 2; ++d) errors.l2 += weight * (u_turned[d] - u_exact[d]) * (u_turned[d] - u_exact[d]);
+    for (int k = 0; k < 3; ++k)
+      errors.h1 += weight * (k < 2 ? 1 : 0.5) * (turned[k] - e[k]) * (turned[k] - e[k]);
+  });
+  return {std::sqrt(errors.l2), std::sqrt(errors.h1)};
+}
+
+/// Slope of log(error) over log(1/n) by least squares.
+double observed_order(const std::vector<int>& cells, const std::vector<double>& errors) {
+  double sx = 0, sy = 0, sxx = 0, sxy = 0;
+  for (size_t k = 0; k < cells.size(); ++k) {
+    const double x = -std::log(cells[k]), y = std::log(errors[k]);
+    sx += x;
+    sy += y;
+    sxx += x * x;
+    sxy += x * y;
+  }
+  const double n = double(cells.size());
+  return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+}
+
+void expect_optimal_orders(int n_shifts, const std::vector<int>& cells) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (int degree : {1, 2}) {
+    std::vector<std::vector<double>> l2(n_shifts), h1(n_shifts);
+    for (int shift = 0; shift < n_shifts; ++shift) {
+      const Vec<2> fraction{uniform(random), uniform(random)};
+      for (int n : cells) {
+        const Errors errors = manufactured_errors(n, degree, fraction);
+        l2[shift].push_back(errors.l2);
+        h1[shift].push_back(errors.h1);
+      }
+      EXPECT_GT(observed_order(cells, h1[shift]), degree - 0.1);
+      EXPECT_GT(observed_order(cells, l2[shift]), degree + 0.9);
+    }
+    for (size_t k = 0; k < cells.size(); ++k)
+      for (const auto* errors : {&l2, &h1}) {
+        double smallest = INFINITY, largest = 0;
+        for (const auto& of_shift : *errors) {
+          smallest = std::min(smallest, of_shift[k]);
+          largest = std::max(largest, of_shift[k]);
+        }
+        EXPECT_LT(largest, 1.3 * smallest) << "degree " << degree << ", " << cells[k] << " cells";
+      }
+  }
+}
+
+TEST(CutElasticity, ManufacturedSolutionConvergesOptimally) { expect_optimal_orders(4, {8, 12, 16, 24, 32}); }
+
+TEST(CutElasticity, ManufacturedSolutionConvergesOptimallySlow) {
+  expect_optimal_orders(20, {8, 16, 24, 40, 64});
+}
+
+}  // namespace
+}  // namespace wheelwright
