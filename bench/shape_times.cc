@@ -1,0 +1,74 @@
+/// Solves one shape of the paper's 16-hole wheel, with the paper's ghost penalty (81) and xi = 1e-3, and
+/// prints answers and times as JSON: strain energy and rim displacement of every load position, and the
+/// phases of the fastest repetition.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "single_thread.h"
+#include "tests/support.h"
+#include "unavoidable_work.h"
+
+namespace wheelwright::bench {
+namespace {
+
+double total(const std::vector<PhaseTime>& phases) {
+  return std::accumulate(phases.begin(), phases.end(), 0.0,
+                         [](double sum, const PhaseTime& phase) { return sum + phase.seconds; });
+}
+
+std::string to_json(const RollingProblem<2>& problem, const RollingSolution<2>& solution,
+                    const std::vector<PhaseTime>& phases) {
+  std::vector<std::string> positions, seconds;
+  for (size_t i = 0; i < solution.states.size(); ++i)
+    positions.push_back(
+        fmt::format(R"({{"strain_energy": {}, "rim_displacement": {}, "newton_iterations": {}}})",
+                    solution.strain_energy[i], solution.states[i].rim.towards_ground,
+                    solution.states[i].newton_iterations));
+  for (const PhaseTime& phase : phases)
+    seconds.push_back(fmt::format(R"("{}": {})", phase.phase, phase.seconds));
+  return fmt::format("{{\"unknowns\": {},\n \"positions\": [{}],\n \"seconds\": {{{}}}}}\n",
+                     ring_unknowns(problem, solution), fmt::join(positions, ",\n  "),
+                     fmt::join(seconds, ", "));
+}
+
+int run(int radial_cells, int angular_cells, int n_positions, int repetitions) {
+  auto model = testing::paper_model(radial_cells, angular_cells);
+  model.ghost = {GhostPenaltyKind::paper, 1e-3};
+  model.n_positions = n_positions;
+  const auto problem = RollingProblem<2>::create(model);
+  if (!problem) {
+    fmt::print(stderr, "{}\n", problem.failure().detail);
+    return 1;
+  }
+  const auto psi = testing::paper_holes(model.grid);
+  std::vector<PhaseTime> fastest;
+  for (int i = 0; i < repetitions; ++i) {
+    const auto evaluation = evaluate(*problem, testing::strain_energy_alone(), psi);
+    if (!evaluation) {
+      fmt::print(stderr, "{}\n", evaluation.failure().detail);
+      return 1;
+    }
+    if (fastest.empty() || total(evaluation->phases) < total(fastest)) fastest = evaluation->phases;
+  }
+  const auto solution = problem->solve(psi);
+  fmt::print("{}", to_json(*problem, *solution, fastest));
+  return 0;
+}
+
+}  // namespace
+}  // namespace wheelwright::bench
+
+int main(int count, char** arguments) {
+  wheelwright::bench::restart_single_threaded(arguments);
+  if (count != 5) {
+    fmt::print(stderr, "usage: {} RADIAL_CELLS ANGULAR_CELLS POSITIONS REPETITIONS\n", arguments[0]);
+    return 2;
+  }
+  return wheelwright::bench::run(std::atoi(arguments[1]), std::atoi(arguments[2]), std::atoi(arguments[3]),
+                                 std::atoi(arguments[4]));
+}
