@@ -20,6 +20,7 @@ using testing::paper_model;
 RollingModel<2> annulus_model(int radial_cells, int angular_cells, int levels) {
   auto model = paper_model(radial_cells, angular_cells);
   model.tread = {1, levels, 3};
+  model.n_positions = 4;  // on columns, for the mean
   return model;
 }
 

@@ -72,6 +72,27 @@ Matrix apply_ghost(const CyclicStiffness<dim>& ring, const Matrix& field) {
   return result;
 }
 
+/// How far the interior equations of one sector are from K v = 0, relative to their largest terms.
+template <int dim>
+double interior_residual(const CyclicStiffness<dim>& ring, const Matrix& field, int column) {
+  const SparseSymmetric& k = ring.sector().matrix;
+  const int n_interior = ring.sector_factor().size() - ring.sector_factor().n_trailing();
+  std::vector<double> x(k.size), force(k.size, 0.0);
+  double largest_displacement = 0, largest_stiffness = 0, largest_force = 0;
+  for (int dof = 0; dof < k.size; ++dof) {
+    x[dof] = field(ring.row(dof), column);
+    largest_displacement = std::max(largest_displacement, std::abs(x[dof]));
+    largest_stiffness = std::max(largest_stiffness, k.values[k.column_start[dof]]);
+  }
+  k.add_product(x.data(), force.data());
+  for (int dof = 0; dof < k.size; ++dof)
+    if (ring.row(dof) < n_interior) largest_force = std::max(largest_force, std::abs(force[dof]));
+  return largest_force / (largest_stiffness * largest_displacement);
+}
+
+/// Of interior_residual(): rounding leaves about 1e-15.
+constexpr double largest_residual = 1e-10;
+
 double column_dot(const Matrix& a, const Matrix& b, int column) {
   const double *x = a.column(column), *y = b.column(column);
   double sum = 0;
@@ -219,6 +240,9 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& p
   s.ghost_loads = apply_ghost(s.ring, s.displacement);
   if (!all_finite(s.displacement) || !all_finite(s.observations))
     return Failure{FailureReason::not_finite, "the displacement is not finite"};
+  if (const double residual = interior_residual(s.ring, s.displacement, 0); residual > largest_residual)
+    return Failure{FailureReason::inaccurate_solution,
+                   fmt::format("the equations of a sector are off by {:.2g} of their terms", residual)};
 
   const Matrix nitsche = nitsche_loads(s.observations);
   for (int i = 0; i < n_positions; ++i) {
