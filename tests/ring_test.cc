@@ -26,9 +26,9 @@ struct RollingRing {
 RollingRing roll(const RollingModel<2>& model) {
   constexpr double quarter_patch = 0.5 * 6.384e-3;
   const auto s = RollingProblem<2>::create(model)->solve(solid(model.grid));
-  RollingRing result{s->states[0].rim_displacement, 0, s->strain_energy[0]};
+  RollingRing result{s->states[0].rim.towards_ground, 0, s->strain_energy[0]};
   for (int q = 0; q < s->contacts[0].n_points(); ++q)
-    if (std::abs(s->contacts[0].points()[q].along) < quarter_patch)
+    if (std::abs(s->contacts[0].points()[q].position[1]) < quarter_patch)
       result.peak_pressure = std::max(result.peak_pressure, -s->states[0].traction[q][0]);
   return result;
 }
