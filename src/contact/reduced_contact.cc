@@ -100,6 +100,13 @@ ReducedContact<dim>::ReducedContact(const CyclicStiffness<dim>& ring, const Trea
 }
 
 template <int dim>
+ReducedContact<dim> ReducedContact<dim>::under(RimControl rim) const {
+  ReducedContact contact = *this;
+  contact.rim_ = std::move(rim);
+  return contact;
+}
+
+template <int dim>
 ContactUnknowns<dim> ReducedContact<dim>::hertz_start(double load, double radius,
                                                       double reduced_modulus) const {
   const double half_width = 2 * std::sqrt(load * radius / (std::numbers::pi * reduced_modulus));

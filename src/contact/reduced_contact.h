@@ -13,6 +13,12 @@ namespace wheelwright {
 struct GroundPosition {
   int column;
   double offset = 0;  ///< 0 <= offset < 1
+
+  /// Of n_y [rad].
+  template <int dim>
+  double azimuth(const PolarGrid<dim>& grid) const {
+    return (column + offset) * grid.cell_size()[1];
+  }
 };
 
 /// Contact quadrature points near the ground position, in the order (column, point of the column).
@@ -48,6 +54,9 @@ class ReducedContact {
  public:
   ReducedContact(const CyclicStiffness<dim>& ring, const Tread<dim>& tread, const PolarGrid<dim>& grid,
                  GroundPosition ground, ContactZone zone, RimControl rim);
+
+  /// The same zone with another control of the rim.
+  ReducedContact under(RimControl rim) const;
 
   const ContactZone& zone() const { return zone_; }
   const RimControl& rim() const { return rim_; }

@@ -152,32 +152,53 @@ Expected<RollingProblem<dim>> RollingProblem<dim>::create(const RollingModel<dim
   return RollingProblem(model, std::move(elements), *std::move(tread));
 }
 
+namespace {
+
 template <int dim>
-Expected<std::pair<ReducedContact<dim>, ContactState<dim>>> RollingProblem<dim>::roll_to(
-    const CyclicStiffness<dim>& ring, GroundPosition ground,
-    const std::optional<ContactState<dim>>& neighbour) const {
-  const PolarGrid<dim>& grid = model_.grid;
-  int half = std::max(columns_in_contact(model_), neighbour ? neighbour->zone.n_columns / 2 : 0);
+Expected<ContactState<dim>> solve_in_zone(const RollingModel<dim>& model, const ReducedContact<dim>& contact,
+                                          const std::optional<ContactState<dim>>& known) {
+  const auto cold_start = [&](double fraction) {
+    return model.travel ? contact.undeformed_start(fraction)
+                        : contact.hertz_start(fraction * line_load(model), model.grid.outer_radius,
+                                              model.material.plane_strain_modulus());
+  };
+  std::optional<ContactUnknowns<dim>> warm_start;
+  if (known) warm_start = contact.start_from(*known);
+  return solve_contact<dim>(contact, cold_start, warm_start);
+}
+
+}  // namespace
+
+template <int dim>
+Expected<RolledContact<dim>> roll_to(const RollingModel<dim>& model, const Tread<dim>& tread,
+                                     const CyclicStiffness<dim>& ring, GroundPosition ground,
+                                     const std::optional<ContactState<dim>>& neighbour) {
+  const PolarGrid<dim>& grid = model.grid;
+  int half = std::max(columns_in_contact(model), neighbour ? neighbour->zone.n_columns / 2 : 0);
   const int largest_half = (grid.ring_columns() / 2 - 1) / 2;
   std::optional<ContactState<dim>> known = neighbour;
   while (true) {
     half = std::min(half, (grid.ring_columns() - 1) / 2);
-    ReducedContact<dim> contact(ring, tread_, grid, ground, {ground.column - half, 2 * half},
-                                rim_control(model_));
-    const auto cold_start = [&](double fraction) {
-      return model_.travel ? contact.undeformed_start(fraction)
-                           : contact.hertz_start(fraction * line_load(model_), grid.outer_radius,
-                                                 model_.material.plane_strain_modulus());
-    };
-    std::optional<ContactUnknowns<dim>> warm_start;
-    if (known) warm_start = contact.start_from(*known);
-    auto state = solve_contact<dim>(contact, cold_start, warm_start);
+    ReducedContact<dim> contact(ring, tread, grid, ground, {ground.column - half, 2 * half},
+                                rim_control(model));
+    auto state = solve_in_zone(model, contact, known);
     if (!state) return state.failure();
     if (!touches_edge(*state) || half >= largest_half)
-      return std::pair{std::move(contact), *std::move(state)};
+      return RolledContact<dim>{std::move(contact), *std::move(state)};
     known = *std::move(state);
     half += 2;
   }
+}
+
+template <int dim>
+Expected<RolledContact<dim>> reload(const RollingModel<dim>& model, const Tread<dim>& tread,
+                                    const CyclicStiffness<dim>& ring, GroundPosition ground,
+                                    const RolledContact<dim>& before) {
+  ReducedContact<dim> contact = before.contact.under(rim_control(model));
+  auto state = solve_in_zone<dim>(model, contact, before.state);
+  if (!state) return state.failure();
+  if (touches_edge(*state)) return roll_to<dim>(model, tread, ring, ground, *state);
+  return RolledContact<dim>{std::move(contact), *std::move(state)};
 }
 
 template <int dim>
@@ -217,16 +238,16 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& p
   for (int i = 0; i < n_positions; ++i) {
     s.grounds.push_back(
         {i * grid.columns() / n_positions, double(i * grid.columns() % n_positions) / n_positions});
-    auto rolled = roll_to(s.ring, s.grounds.back(), neighbour);
+    auto rolled = roll_to(model_, tread_, s.ring, s.grounds.back(), neighbour);
     if (!rolled) return rolled.failure();
-    neighbour = rolled->second;
-    const ContactZone& zone = rolled->first.zone();
-    const Matrix loads = rolled->first.contact_loads(rolled->second);
+    neighbour = rolled->state;
+    const ContactZone& zone = rolled->contact.zone();
+    const Matrix loads = rolled->contact.contact_loads(rolled->state);
     for (int c = 0; c < zone.n_columns; ++c)
       std::copy_n(loads.column(c), loads.rows(),
                   s.contact_loads.column(i * n_columns + wrap(zone.first_column + c, n_columns)));
-    s.contacts.push_back(std::move(rolled->first));
-    s.states.push_back(std::move(rolled->second));
+    s.contacts.push_back(std::move(rolled->contact));
+    s.states.push_back(std::move(rolled->state));
   }
   phases.push_back({"contact", watch.lap()});
 
@@ -263,11 +284,17 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& p
 
 template class RollingProblem<2>;
 template class RollingProblem<3>;
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                 \
-  template RimControl rim_control(const RollingModel<dim>&);                         \
-  template Matrix outer_rows(const CyclicStiffness<dim>&, const Matrix&, int);       \
-  template void add_outer_rows(const CyclicStiffness<dim>&, const Matrix&, Matrix&); \
-  template void gather(const CyclicStiffness<dim>&, std::span<const int>, const Matrix&, Matrix&);
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                               \
+  template RimControl rim_control(const RollingModel<dim>&);                                       \
+  template Matrix outer_rows(const CyclicStiffness<dim>&, const Matrix&, int);                     \
+  template void add_outer_rows(const CyclicStiffness<dim>&, const Matrix&, Matrix&);               \
+  template void gather(const CyclicStiffness<dim>&, std::span<const int>, const Matrix&, Matrix&); \
+  template Expected<RolledContact<dim>> roll_to(const RollingModel<dim>&, const Tread<dim>&,       \
+                                                const CyclicStiffness<dim>&, GroundPosition,       \
+                                                const std::optional<ContactState<dim>>&);          \
+  template Expected<RolledContact<dim>> reload(const RollingModel<dim>&, const Tread<dim>&,        \
+                                               const CyclicStiffness<dim>&, GroundPosition,        \
+                                               const RolledContact<dim>&);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)
 #undef WHEELWRIGHT_INSTANTIATE

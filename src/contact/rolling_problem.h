@@ -74,9 +74,6 @@ class RollingProblem {
  private:
   RollingProblem(const RollingModel<dim>& model, std::unique_ptr<ElementTable<dim>> elements,
                  Tread<dim> tread);
-  Expected<std::pair<ReducedContact<dim>, ContactState<dim>>> roll_to(
-      const CyclicStiffness<dim>& ring, GroundPosition ground,
-      const std::optional<ContactState<dim>>& neighbour) const;
 
   RollingModel<dim> model_;
   std::unique_ptr<ElementTable<dim>> elements_;
@@ -85,6 +82,27 @@ class RollingProblem {
   std::vector<std::array<int, dim>> elimination_order_;
   std::vector<ComplexMatrix> outer_stiffness_;
 };
+
+/// One load position's contact problem and its solution.
+template <int dim>
+struct RolledContact {
+  ReducedContact<dim> contact;
+  ContactState<dim> state;
+};
+
+/// The contact of one load position alone, on a ring that solve() has factored. The zone is widened until it
+/// holds the contact. `neighbour`: a solution to start from.
+template <int dim>
+Expected<RolledContact<dim>> roll_to(const RollingModel<dim>& model, const Tread<dim>& tread,
+                                     const CyclicStiffness<dim>& ring, GroundPosition ground,
+                                     const std::optional<ContactState<dim>>& neighbour);
+
+/// The same position under the loads or the travel of `model`, which differs in nothing else: next to free as
+/// long as the contact stays in the zone of `before`.
+template <int dim>
+Expected<RolledContact<dim>> reload(const RollingModel<dim>& model, const Tread<dim>& tread,
+                                    const CyclicStiffness<dim>& ring, GroundPosition ground,
+                                    const RolledContact<dim>& before);
 
 /// The rows of boundary vectors (CyclicStiffness) on the core's outer line, one column an angular cell of the
 /// ring, `per_column` rows.

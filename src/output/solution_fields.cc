@@ -28,8 +28,7 @@ RingField displacement_field(const RollingProblem<2>& problem, const RollingSolu
       nodal_displacements(problem.tread(), tread_field(problem.tread(), outer, loads), loads);
   const int upper_rows = degree * problem.tread().rows();
 
-  const double ground_azimuth =
-      (s.grounds[position].column + s.grounds[position].offset) * grid.cell_size()[1];
+  const double ground_azimuth = s.grounds[position].azimuth(grid);
   RingField field{2, std::vector<double>(2 * size_t(lattice.n_nodes()) * n_sectors, no_material)};
   for (int sector = 0; sector < n_sectors; ++sector) {
     for (int node = 0; node < lattice.n_nodes(); ++node) {
