@@ -242,36 +242,52 @@ TEST(Csv, NumbersReadBackExactly) {
 }
 
 HistoryRow history_row() {
-  return {3, 1, true, "", 0.1, {{"strain_energy", 1.0 / 3}}, 0.75, 0.002, 4e5, 6, {{"factor", 0.25}}, 0.5, 9};
+  return {3,
+          1,
+          true,
+          "",
+          0.1,
+          {{"strain_energy", 1.0 / 3}},
+          {{"run_out", 2e-4}},
+          0.75,
+          0.002,
+          4e5,
+          6,
+          {{"factor", 0.25}},
+          0.5,
+          9};
 }
 
 class HistoryFile : public OutputFolder {};
 
 TEST_F(HistoryFile, EveryRowIsOnDiskAndHasTheColumnsOfTheHeader) {
-  History history(folder / "history.csv",
-                  {"J/m", {{"strain_energy", "J/m"}, {"uniformity", "Pa2.m"}}, {"factor"}});
+  History history(
+      folder / "history.csv",
+      {"J/m", {{"strain_energy", "J/m"}, {"uniformity", "Pa2.m"}}, {{"run_out", "m"}}, {"factor"}});
   history.add(history_row());
   HistoryRow failed = history_row();
   failed.accepted = false;
   failed.reason = "newton_stalled";
   failed.objective = NAN;
   failed.criteria.clear();
+  failed.measures.clear();
   failed.phases.clear();
   history.add(failed);
   const auto rows = lines(content(folder / "history.csv"));
   ASSERT_EQ(rows.size(), 3u);
-  EXPECT_EQ(rows[0],
-            "iteration,trial,accepted,reason,objective [J/m],strain_energy [J/m],uniformity [Pa2.m],"
-            "volume fraction [-],step [m],max velocity [Pa],max newton iterations,factor [s],trial "
-            "[s],elapsed [s]");
-  EXPECT_EQ(rows[1], "3,1,1,,0.1,0.3333333333333333,,0.75,0.002,400000,6,0.25,0.5,9");
-  EXPECT_EQ(rows[2], "3,1,0,newton_stalled,,,,0.75,0.002,400000,6,,0.5,9");
+  EXPECT_EQ(
+      rows[0],
+      "iteration,trial,accepted,reason,objective [J/m],strain_energy [J/m],uniformity [Pa2.m],"
+      "run_out [m],volume fraction [-],step [m],max velocity [Pa],max newton iterations,factor [s],trial "
+      "[s],elapsed [s]");
+  EXPECT_EQ(rows[1], "3,1,1,,0.1,0.3333333333333333,,0.0002,0.75,0.002,400000,6,0.25,0.5,9");
+  EXPECT_EQ(rows[2], "3,1,0,newton_stalled,,,,,0.75,0.002,400000,6,,0.5,9");
 }
 
 TEST(History, FullDiskIsAnOutputError) {
   if (!fs::exists("/dev/full")) GTEST_SKIP();
   try {
-    History history("/dev/full", {"J/m", {}, {}});
+    History history("/dev/full", {"J/m", {}, {}, {}});
     FAIL();
   } catch (const OutputError& e) {
     EXPECT_EQ(e.error(), ENOSPC);

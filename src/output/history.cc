@@ -9,9 +9,10 @@
 namespace wheelwright {
 namespace {
 
-std::string criterion_cell(const std::vector<CriterionValue>& criteria, const std::string& name) {
-  const auto found = std::ranges::find(criteria, name, &CriterionValue::name);
-  return found == criteria.end() ? "" : csv_number(found->value);
+template <class NamedValue>
+std::string value_cell(const std::vector<NamedValue>& values, const std::string& name) {
+  const auto found = std::ranges::find(values, name, &NamedValue::name);
+  return found == values.end() ? "" : csv_number(found->value);
 }
 
 /// A phase may occur several times in one trial: the sum.
@@ -30,7 +31,8 @@ History::History(std::filesystem::path path, HistoryColumns columns)
   if (!file_) throw OutputError(path_, errno);
   std::vector<std::string> header{"iteration", "trial", "accepted", "reason",
                                   "objective [" + columns_.objective_unit + "]"};
-  for (const auto& c : columns_.criteria) header.push_back(c.name + " [" + c.unit + "]");
+  for (const auto* quantities : {&columns_.criteria, &columns_.measures})
+    for (const auto& q : *quantities) header.push_back(q.name + " [" + q.unit + "]");
   for (const char* name : {"volume fraction [-]", "step [m]", "max velocity [Pa]", "max newton iterations"})
     header.push_back(name);
   for (const auto& phase : columns_.phases) header.push_back(phase + " [s]");
@@ -41,7 +43,8 @@ History::History(std::filesystem::path path, HistoryColumns columns)
 void History::add(const HistoryRow& row) {
   std::vector<std::string> cells{std::to_string(row.iteration), std::to_string(row.trial),
                                  row.accepted ? "1" : "0", row.reason, csv_number(row.objective)};
-  for (const auto& c : columns_.criteria) cells.push_back(criterion_cell(row.criteria, c.name));
+  for (const auto& c : columns_.criteria) cells.push_back(value_cell(row.criteria, c.name));
+  for (const auto& m : columns_.measures) cells.push_back(value_cell(row.measures, m.name));
   for (const double value : {row.volume_fraction, row.step, row.max_velocity})
     cells.push_back(csv_number(value));
   cells.push_back(std::to_string(row.max_newton_iterations));

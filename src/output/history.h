@@ -12,12 +12,13 @@ namespace wheelwright {
 
 /// The columns of a history file that depend on the case.
 struct HistoryColumns {
-  struct Criterion {
+  struct Quantity {
     std::string name;
     std::string unit;
   };
   std::string objective_unit;       ///< e.g. "J/m"
-  std::vector<Criterion> criteria;  ///< one column each, by the names of Evaluation::criteria
+  std::vector<Quantity> criteria;   ///< one column each, by the names of Evaluation::criteria
+  std::vector<Quantity> measures;   ///< one column each, by the names of Evaluation::measures
   std::vector<std::string> phases;  ///< one column each, in seconds, by the names of Evaluation::phases
 };
 
@@ -30,6 +31,7 @@ struct HistoryRow {
   std::string reason;  ///< why it was rejected, e.g. "newton_stalled"; empty when accepted
   double objective;
   std::vector<CriterionValue> criteria;
+  std::vector<MeasureValue> measures;
   double volume_fraction;     ///< material area over the area of the full ring
   double step;                ///< farthest that the boundary travelled [m]
   double max_velocity;        ///< largest normal velocity, in units of the gradient density [Pa]

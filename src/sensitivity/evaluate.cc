@@ -5,6 +5,7 @@
 
 #include "base/stopwatch.h"
 #include "criteria/mean_contact_stress.h"
+#include "criteria/rolling_measures.h"
 #include "sensitivity/adjoint.h"
 #include "sensitivity/shape_gradient.h"
 
@@ -18,12 +19,25 @@ void accumulate(double weight, const Matrix& term, Matrix& sum) {
   for (size_t k = 0; k < term.entries().size(); ++k) sum.entries()[k] += weight * term.entries()[k];
 }
 
+template <int dim>
+std::vector<MeasureValue> measures(const RollingSolution<dim>& solution) {
+  std::vector<ContactSummary> positions;
+  for (size_t i = 0; i < solution.contacts.size(); ++i)
+    positions.push_back(contact_summary(solution.contacts[i], solution.states[i]));
+  const RollingMeasures m = rolling_measures(positions);
+  return {{"mean_travel", m.mean_travel},
+          {"run_out", m.run_out},
+          {"peak_pressure", m.peak_pressure},
+          {"pressure_spread", m.pressure_spread}};
+}
+
 }  // namespace
 
 template <int dim>
 Expected<Evaluation<dim>> differentiate(const RollingProblem<dim>& problem, const Criteria<dim>& criteria,
                                         const RollingSolution<dim>& solution, const Matrix* held_mean) {
-  Evaluation<dim> evaluation{0, {}, {}, {}, mean_observations(problem, solution), solution.phases};
+  Evaluation<dim> evaluation{
+      0, {}, {}, {}, mean_observations(problem, solution), solution.phases, measures(solution)};
   Stopwatch watch;
   AdjointLoads loads;
   for (const auto& [weight, criterion] : criteria) {

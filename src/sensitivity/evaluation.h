@@ -15,6 +15,12 @@ struct CriterionValue {
   double value;      ///< before weighting; per metre of width when dim = 2
 };
 
+/// A number that is watched but not optimized, over the load positions of one sector.
+struct MeasureValue {
+  std::string name;  ///< e.g. "peak_pressure"
+  double value;      ///< in SI units
+};
+
 /// What the physics says about one shape: the objective (5), its shape gradient (42), and how it went. Sums
 /// run over the N_d load positions of one sector; the paper's sum over all N_l = N_d N_s positions is N_s
 /// times that.
@@ -27,6 +33,7 @@ struct Evaluation {
   std::vector<int> newton_iterations;        ///< one a position of the sector
   Matrix mean_observations;  ///< of the tread over the positions (criteria/mean_contact_stress.h)
   std::vector<PhaseTime> phases;
+  std::vector<MeasureValue> measures;  ///< RollingMeasures, by its names
 };
 
 }  // namespace wheelwright

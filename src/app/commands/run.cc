@@ -16,6 +16,8 @@ namespace {
 
 const std::vector<std::string> phase_names{"cut",      "assembly", "factorization", "contact",  "recovery",
                                            "criteria", "adjoint",  "gradient",      "evolution"};
+const std::vector<HistoryColumns::Quantity> rolling_columns{
+    {"mean_travel", "m"}, {"run_out", "m"}, {"peak_pressure", "Pa"}, {"pressure_spread", "-"}};
 
 /// Watches the loop: history, progress and pictures. The loop knows nothing of it.
 class RunRecorder {
@@ -24,7 +26,7 @@ class RunRecorder {
       : case_(c),
         problem_(problem),
         folder_(folder),
-        history_(folder.history(), {"J/m", columns(criteria), phase_names}),
+        history_(folder.history(), {"J/m", columns(criteria), rolling_columns, phase_names}),
         progress_(stderr, progress_style(stderr)) {}
 
   void operator()(const Trial<2>& trial, const OptimizationState<2>& state) {
@@ -53,8 +55,8 @@ class RunRecorder {
   double elapsed() const { return elapsed_; }
 
  private:
-  static std::vector<HistoryColumns::Criterion> columns(const Criteria<2>& criteria) {
-    std::vector<HistoryColumns::Criterion> result;
+  static std::vector<HistoryColumns::Quantity> columns(const Criteria<2>& criteria) {
+    std::vector<HistoryColumns::Quantity> result;
     for (const auto& term : criteria) result.push_back({term.criterion->name(), "J/m"});
     return result;
   }
@@ -74,6 +76,7 @@ class RunRecorder {
                    reason(trial, false),
                    std::numeric_limits<double>::quiet_NaN(),
                    {},
+                   {},
                    volume_fraction(grid, trial.measure),
                    trial.step * grid.resolution(),
                    trial.max_velocity,
@@ -85,6 +88,7 @@ class RunRecorder {
       const auto& newton = trial.evaluation->newton_iterations;
       row.objective = trial.evaluation->objective;
       row.criteria = trial.evaluation->criteria;
+      row.measures = trial.evaluation->measures;
       row.max_newton_iterations = newton.empty() ? 0 : *std::max_element(newton.begin(), newton.end());
       row.phases = trial.evaluation->phases;
     }

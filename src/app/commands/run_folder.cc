@@ -10,6 +10,7 @@
 #include "output/atomic_file.h"
 #include "output/deformed_svg.h"
 #include "output/output_error.h"
+#include "output/pressure_plot.h"
 #include "output/solution_fields.h"
 #include "output/svg.h"
 
@@ -77,7 +78,14 @@ void RunFolder::write_shape(const RollingProblem<2>& problem, const Optimization
 
 void RunFolder::write_pressures(const RollingProblem<2>& problem, const RollingSolution<2>& solution,
                                 const std::string& name) const {
-  write_pressure_csv(folder_ / fmt::format("pressures_{}.csv", name), contact_points(problem, solution));
+  const auto points = contact_points(problem, solution);
+  std::vector<double> azimuths;
+  for (const GroundPosition& ground : solution.grounds)
+    azimuths.push_back(ground.azimuth(problem.model().grid));
+  write_pressure_csv(folder_ / fmt::format("pressures_{}.csv", name), points);
+  write_atomically(
+      folder_ / fmt::format("pressures_{}.svg", name),
+      plot_svg(pressure_plot(points, azimuths, fmt::format("Contact pressure, {} shape", name))));
 }
 
 void RunFolder::write_result(const RollingProblem<2>& problem, const OptimizationState<2>& initial,
@@ -109,12 +117,10 @@ void RunFolder::write_result(const RollingProblem<2>& problem, const Optimizatio
   const int worst = worst_position(*solution);
   RingField displacement = displacement_field(problem, *solution, worst);
   NamedField von_mises{"von Mises stress", "Pa", von_mises_field(problem, *solution, displacement)};
-  write_atomically(
-      folder_ / "stress.svg",
-      deformed_svg(final_state.shape, displacement_lattice(problem),
-                   {title, std::move(displacement), 20,
-                    (solution->grounds[worst].column + solution->grounds[worst].offset) * grid.cell_size()[1],
-                    std::move(von_mises)}));
+  write_atomically(folder_ / "stress.svg",
+                   deformed_svg(final_state.shape, displacement_lattice(problem),
+                                {title, std::move(displacement), 20, solution->grounds[worst].azimuth(grid),
+                                 std::move(von_mises)}));
 }
 
 }  // namespace wheelwright

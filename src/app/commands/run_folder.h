@@ -21,7 +21,7 @@ class RunFolder {
   /// shapes/shape_NNNN.vtu with the fields of the worst load position, and shapes.pvd over all shapes so far.
   void write_shape(const RollingProblem<2>& problem, const OptimizationState<2>& state);
 
-  /// pressures_NAME.csv: the contact of all positions.
+  /// pressures_NAME.csv and its plot: the contact of all positions.
   void write_pressures(const RollingProblem<2>& problem, const RollingSolution<2>& solution,
                        const std::string& name) const;
 
