@@ -56,14 +56,16 @@ TEST_F(CommandLine, HelpAndVersionSucceed) {
 
 TEST_F(CommandLine, WrongUsageIsTwo) {
   for (const char* arguments : {"", "fly", "check", "check --fast x", "run x --iterations -1",
-                                "run x --iterations two", "run x --output ''", "verify"})
+                                "run x --iterations two", "run x --output ''", "verify",
+                                "analyze x --positions 0", "analyze x --loads 0,1", "analyze x --loads 1:2",
+                                "analyze x --loads 1,,2", "analyze x --loads 1:2:1", "analyze x --loads nan"})
     EXPECT_EQ(wheelwright(arguments).code, exit_usage) << arguments;
 }
 
 TEST_F(CommandLine, CheckAcceptsAGoodCaseAndRefusesABadOne) {
   EXPECT_EQ(wheelwright("check " + path_of_case("cases/holes16.toml")).code, exit_done);
   const std::string bad = path_of_case("tests/bad_cases/everything.toml");
-  for (const char* command : {"check ", "run ", "verify "}) {
+  for (const char* command : {"check ", "run ", "verify ", "analyze "}) {
     const Outcome outcome = wheelwright(command + bad);
     EXPECT_EQ(outcome.code, exit_usage);
     EXPECT_NE(outcome.output.find("everything.toml:2:1: titel"), std::string::npos) << outcome.output;
@@ -89,6 +91,22 @@ TEST_F(CommandLine, InitWritesACaseThatChecksAndNeverOverwrites) {
   std::string text;
   std::getline(in, text);
   EXPECT_EQ(text, "mine");
+}
+
+TEST_F(CommandLine, AnalyzeWritesItsFolderOnceAndNothingWithoutOne) {
+  const std::string analyze =
+      "analyze " + path_of_case("cases/holes16.toml") + " --positions 3 --loads 3000,1000,1000";
+  EXPECT_EQ(wheelwright(analyze).code, exit_done);
+  EXPECT_TRUE(std::filesystem::is_empty(folder_));
+  const std::string with_output = analyze + " --output " + in_folder("a/b");
+  EXPECT_EQ(wheelwright(with_output).code, exit_done);
+  EXPECT_EQ(wheelwright(with_output).code, exit_refused);
+  const Outcome json = wheelwright(analyze + " --json");
+  std::ifstream file(folder_ / "a/b/analysis.json");
+  EXPECT_TRUE(json.output.ends_with(std::string(std::istreambuf_iterator<char>(file), {}))) << json.output;
+  for (const char* plot : {"travel.svg", "force.svg", "peak_pressure.svg", "pressures.svg", "loads.svg"})
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "a/b" / plot)) << plot;
+  EXPECT_EQ(wheelwright(analyze + " --output /proc/none").code, exit_input_output);
 }
 
 TEST_F(CommandLine, OutputThatIsNotATerminalHasNoEscapeCodes) {

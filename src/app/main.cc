@@ -13,6 +13,7 @@
 #include "app/check.h"
 #include "app/exit_code.h"
 #include "app/load_command.h"
+#include "app/load_list.h"
 #include "app/terminal.h"
 #include "case/keys.h"
 #include "case/read.h"
@@ -28,6 +29,9 @@ struct CommandLine {
   std::string template_file = "case.toml";
   std::optional<std::string> output_folder;
   std::optional<int> iterations;
+  int analyzed_positions = 64;
+  std::string loads;
+  bool json = false;
 };
 
 std::string count_of_problems(std::size_t n) { return fmt::format("{} problem{}", n, n == 1 ? "" : "s"); }
@@ -85,6 +89,18 @@ int compute(const std::string& command, const CommandLine& line) {
   return load_and_run_command(command, c, {.case_file = line.case_file});
 }
 
+int analyze(const CommandLine& line) {
+  CaseResult result = read_case(line.case_file);
+  if (!result.value) return report_problems(line.case_file, result.problems);
+  Case& c = *result.value;
+  c.load.positions = line.analyzed_positions;
+  print_warnings(stderr, c);
+  RunOptions options{.case_file = line.case_file, .json = line.json};
+  if (line.output_folder) options.output = *line.output_folder;
+  if (!line.loads.empty()) options.loads = *parse_loads(line.loads);
+  return load_and_run_command("analyze", c, options);
+}
+
 Range range_of_iterations() {
   const auto* key = find_key(optimizer_section().keys, "iterations");
   return std::get<IntegerField<Optimizer>>(key->field).range;
@@ -97,18 +113,40 @@ CLI::App* add_case_command(CLI::App& app, CommandLine& line, const std::string& 
   return command;
 }
 
+void add_output_option(CLI::App& command, CommandLine& line, const std::string& meaning) {
+  command.add_option("--output", line.output_folder, meaning)
+      ->type_name("DIR")
+      ->check([](const std::string& text) { return text.empty() ? "must not be empty" : ""; });
+}
+
+void declare_analyze(CLI::App& app, CommandLine& line) {
+  constexpr int most_positions = 1000;
+  CLI::App* analyze = add_case_command(
+      app, line, "analyze", "Tell stiffness, contact, stress and evenness of rolling of one shape");
+  analyze->add_option("--positions", line.analyzed_positions, "Load positions of one sector")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(CLI::Range(1, most_positions));
+  analyze->add_option("--loads", line.loads, "Deflection under these loads on the whole width [N]")
+      ->type_name("P1,P2,... | FROM:TO:NUMBER")
+      ->check([](const std::string& text) {
+        return parse_loads(text) ? "" : "must be loads > 0, as in 1000,2000 or 500:3000:6";
+      });
+  add_output_option(*analyze, line, "Folder to write with JSON and plots; the table alone without it");
+  analyze->add_flag("--json", line.json, "Print JSON instead of the table");
+}
+
 void declare_commands(CLI::App& app, CommandLine& line) {
   app.require_subcommand(1);
   app.set_version_flag("--version", fmt::format("wheelwright {}", version()));
   CLI::App* run = add_case_command(app, line, "run", "Optimize a case and write its output folder");
   const Range iterations = range_of_iterations();
-  run->add_option("--output", line.output_folder, "Folder to write instead of the case's output.folder")
-      ->type_name("DIR")
-      ->check([](const std::string& text) { return text.empty() ? "must not be empty" : ""; });
+  add_output_option(*run, line, "Folder to write instead of the case's output.folder");
   run->add_option("--iterations", line.iterations,
                   "Number of shapes instead of the case's optimizer.iterations")
       ->type_name("N")
       ->check(CLI::Range(static_cast<int>(iterations.low), static_cast<int>(iterations.high)));
+  declare_analyze(app, line);
   add_case_command(app, line, "verify", "Test the solver's shape gradient on a case");
   add_case_command(app, line, "check", "Report every problem of a case and the numbers that follow from it");
   app.add_subcommand("init", "Write a commented case file to start from")
@@ -120,6 +158,7 @@ void declare_commands(CLI::App& app, CommandLine& line) {
 int dispatch(const std::string& command, const CommandLine& line) {
   if (command == "check") return check(line);
   if (command == "init") return init(line);
+  if (command == "analyze") return analyze(line);
   if (command == "reference") {
     fmt::print("{}", case_reference_markdown());
     return exit_done;

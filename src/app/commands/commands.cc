@@ -5,6 +5,7 @@
 #include <exception>
 #include <string_view>
 
+#include "app/commands/analyze.h"
 #include "app/commands/run.h"
 #include "app/commands/verify.h"
 #include "app/exit_code.h"
@@ -14,6 +15,7 @@ using namespace wheelwright;
 extern "C" int wheelwright_command(const char* name, const Case* c, const RunOptions* options) {
   try {
     if (std::string_view(name) == "run") return run_command(*c, *options);
+    if (std::string_view(name) == "analyze") return analyze_command(*c, *options);
     if (std::string_view(name) == "verify") return verify_command(*c, *options);
     fmt::print(stderr, "wheelwright: no command {}\n", name);
   } catch (const std::exception& error) {

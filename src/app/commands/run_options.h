@@ -1,12 +1,17 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <vector>
 
 namespace wheelwright {
 
 /// What the command line says besides the case; options that override keys are already in the case.
 struct RunOptions {
   std::filesystem::path case_file;
+  std::optional<std::filesystem::path> output = {};  ///< analyze: folder for its files
+  std::vector<double> loads = {};                    ///< analyze: on the whole width [N], ascending
+  bool json = false;                                 ///< analyze: JSON instead of the table
 };
 
 }  // namespace wheelwright

@@ -1,0 +1,85 @@
+#include "app/commands/analyze.h"
+
+#include <fmt/format.h>
+
+#include "app/commands/model.h"
+#include "app/exit_code.h"
+#include "output/atomic_file.h"
+#include "output/output_error.h"
+#include "output/pressure_plot.h"
+#include "output/rolling_report.h"
+#include "output/solution_fields.h"
+
+namespace wheelwright {
+namespace {
+
+constexpr const char* result_file = "analysis.json";
+
+int give_up(const Failure& failure) {
+  fmt::print(stderr, "wheelwright analyze: {}: {}\n", to_string(failure.reason), failure.detail);
+  return exit_no_solution;
+}
+
+Expected<RollingReport> rolling_report(const Case& c, const RunOptions& options,
+                                       const RollingProblem<2>& problem, const RollingSolution<2>& solution) {
+  auto analysis = rolling_analysis(problem, solution);
+  if (!analysis) return analysis.failure();
+  RollingReport report{c.title.empty() ? options.case_file.stem().string() : c.title,
+                       c.wheel.width,
+                       c.wheel.sectors,
+                       *std::move(analysis),
+                       {},
+                       {}};
+  for (const double load : options.loads) report.loads.push_back(load / c.wheel.width);
+  auto under = under_loads<2>(problem, solution, report.loads);
+  if (!under) return under.failure();
+  report.under_loads = *std::move(under);
+  return report;
+}
+
+void write_folder(const std::filesystem::path& folder, const RollingReport& report,
+                  const std::vector<ContactPoint>& points) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw OutputError(folder, error.value());
+  const auto plot = [&](const char* file, const LinePlot& picture) {
+    write_atomically(folder / file, plot_svg(picture));
+  };
+  plot("travel.svg", travel_plot(report));
+  plot("force.svg", force_plot(report));
+  plot("peak_pressure.svg", peak_pressure_plot(report));
+  plot("pressures.svg", pressure_plot(points, report.analysis.azimuths, "Contact pressure"));
+  if (!report.loads.empty()) plot("loads.svg", load_plot(report));
+  write_pressure_csv(folder / "pressures.csv", points);
+  write_atomically(folder / result_file, rolling_json(report));
+}
+
+int analyze(const Case& c, const RunOptions& options) {
+  if (options.output && std::filesystem::exists(*options.output / result_file)) {
+    fmt::print(stderr, "{}: holds an analysis already; choose another folder, or remove it\n",
+               options.output->string());
+    return exit_refused;
+  }
+  const auto problem = RollingProblem<2>::create(rolling_model(c));
+  if (!problem) return give_up(problem.failure());
+  const auto solution = problem->solve(initial_shape(c));
+  if (!solution) return give_up(solution.failure());
+  const auto report = rolling_report(c, options, *problem, *solution);
+  if (!report) return give_up(report.failure());
+  fmt::print("{}", options.json ? rolling_json(*report) : report->title + "\n\n" + rolling_table(*report));
+  if (options.output) write_folder(*options.output, *report, contact_points(*problem, *solution));
+  return exit_done;
+}
+
+}  // namespace
+
+int analyze_command(const Case& c, const RunOptions& options) {
+  try {
+    return analyze(c, options);
+  } catch (const OutputError& error) {
+    fmt::print(stderr, "wheelwright analyze: {}\n", error.what());
+    return exit_input_output;
+  }
+}
+
+}  // namespace wheelwright

@@ -1,0 +1,310 @@
+#include <gtest/gtest.h>
+
+#include <complex>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "criteria/rolling_analysis.h"
+#include "criteria/stress_peak.h"
+#include "output/rolling_report.h"
+#include "output/solution_fields.h"
+#include "tests/support.h"
+
+namespace wheelwright {
+namespace {
+
+using std::numbers::pi;
+using testing::Hole;
+
+/// A case solved and analyzed.
+struct Analyzed {
+  RollingProblem<2> problem;
+  RollingSolution<2> solution;
+  RollingAnalysis analysis;
+};
+
+Analyzed analyzed(const RollingModel<2>& model, const std::vector<Hole>& holes) {
+  auto problem = RollingProblem<2>::create(model);
+  auto solution = problem->solve(testing::holes(model.grid, 2, holes));
+  auto analysis = rolling_analysis(*problem, *solution);
+  return {*std::move(problem), *std::move(solution), *std::move(analysis)};
+}
+
+RollingModel<2> coarse_model(int n_positions) {
+  RollingModel<2> model = testing::paper_model(14, 192);
+  model.n_positions = n_positions;
+  return model;
+}
+
+const std::vector<Hole> no_holes, one_hole{{0.27, pi / 16, 0.036}};
+
+std::vector<double> member(const std::vector<ContactSummary>& positions, double ContactSummary::*m) {
+  std::vector<double> result;
+  for (const ContactSummary& p : positions) result.push_back(p.*m);
+  return result;
+}
+
+double relative_peak_to_peak(const std::vector<double>& values) {
+  const RollingVariation v = rolling_variation(values);
+  return v.peak_to_peak() / v.mean;
+}
+
+// --- Harmonics -----------------------------------------------------------------------------------------
+
+TEST(RollingVariation, KnowsTheAmplitudesOfAKnownSignal) {
+  for (int n : {7, 16, 64}) {
+    const std::vector<double> amplitudes{0.3, 0, 0.02};
+    std::vector<double> values;
+    for (int j = 0; j < n; ++j) {
+      double value = 5;
+      for (size_t k = 0; k < amplitudes.size(); ++k)
+        value += amplitudes[k] * std::cos(2 * pi * (k + 1.0) * j / n + 0.7 + static_cast<double>(k));
+      values.push_back(value);
+    }
+    const RollingVariation v = rolling_variation(values);
+    EXPECT_NEAR(v.mean, 5, 1e-14);
+    ASSERT_EQ(v.harmonics.size(), size_t(n - 1) / 2);
+    for (size_t k = 0; k < v.harmonics.size(); ++k)
+      EXPECT_NEAR(v.harmonics[k], k < amplitudes.size() ? amplitudes[k] : 0, 1e-14);
+    EXPECT_EQ(v.peak_to_peak(), *std::ranges::max_element(values) - *std::ranges::min_element(values));
+  }
+}
+
+TEST(RollingVariation, OneOrTwoValuesHaveNoHarmonics) {
+  EXPECT_TRUE(rolling_variation(std::vector<double>{3}).harmonics.empty());
+  EXPECT_TRUE(rolling_variation(std::vector<double>{3, 4}).harmonics.empty());
+}
+
+// --- The plain ring ------------------------------------------------------------------------------------
+
+TEST(Analysis, RingRunsTrueAtThePositionsOfColumns) {
+  const auto [problem, solution, a] = analyzed(coarse_model(12), no_holes);
+  EXPECT_LT(relative_peak_to_peak(a.travel_at_load), 1e-9);
+  EXPECT_LT(relative_peak_to_peak(a.force_at_travel), 1e-9);
+  EXPECT_LT(relative_peak_to_peak(member(a.positions, &ContactSummary::peak_pressure)), 1e-9);
+  EXPECT_LT(relative_peak_to_peak(a.peak_von_mises), 1e-9);
+  EXPECT_LT(relative_peak_to_peak(a.strain_energy), 1e-9);
+}
+
+/// Seven positions a column, all harmonics of a sector but those of a column vanish.
+TEST(Analysis, BetweenColumnsTheRingRunsOutByTheGridAlone) {
+  std::vector<double> run_out;
+  for (int refinement : {1, 2}) {
+    RollingModel<2> model = testing::paper_model(14 * refinement, 192 * refinement);
+    const int columns = model.grid.columns();
+    model.n_positions = 7 * columns;
+    const auto [problem, solution, a] = analyzed(model, no_holes);
+    const RollingVariation travel = rolling_variation(a.travel_at_load);
+    run_out.push_back(travel.peak_to_peak() / travel.mean);
+    for (size_t k = 0; k < travel.harmonics.size(); ++k)
+      if ((static_cast<int>(k) + 1) % columns != 0) {
+        EXPECT_LT(travel.harmonics[k], 1e-9 * travel.mean);
+      }
+  }
+  RecordProperty("run_out", std::to_string(run_out[0]) + " " + std::to_string(run_out[1]));
+  EXPECT_LT(run_out[0], 0.02);
+  EXPECT_GT(std::log2(run_out[0] / run_out[1]), 1.5);
+}
+
+// --- Identities ----------------------------------------------------------------------------------------
+
+TEST(Analysis, MirrorSymmetricShapeGivesMirrorSymmetricCurves) {
+  const int n = 10;
+  const auto [problem, solution, a] = analyzed(coarse_model(n), one_hole);
+  for (int i = 1; i < n; ++i) {
+    EXPECT_NEAR(a.travel_at_load[i] / a.travel_at_load[n - i], 1, 1e-9);
+    EXPECT_NEAR(a.force_at_travel[i] / a.force_at_travel[n - i], 1, 1e-9);
+    EXPECT_NEAR(a.positions[i].peak_pressure / a.positions[n - i].peak_pressure, 1, 1e-9);
+    EXPECT_NEAR(a.positions[i].patch_length / a.positions[n - i].patch_length, 1, 1e-9);
+    EXPECT_NEAR(a.peak_von_mises[i] / a.peak_von_mises[n - i], 1, 1e-9);
+  }
+}
+
+TEST(Analysis, TravelThatCameFromALoadTakesThatForce) {
+  const RollingModel<2> model = coarse_model(6);
+  const auto [problem, solution, a] = analyzed(model, one_hole);
+  for (size_t i = 0; i < a.positions.size(); ++i) {
+    EXPECT_NEAR(a.positions[i].radial_force / model.load, 1, 1e-9);
+    RollingModel<2> held = model;
+    held.travel = a.positions[i].travel;
+    const auto rolled = reload<2>(held, problem.tread(), solution.ring, solution.grounds[i],
+                                  {solution.contacts[i], solution.states[i]});
+    ASSERT_TRUE(rolled);
+    EXPECT_NEAR(contact_summary(rolled->contact, rolled->state).radial_force / model.load, 1, 1e-9);
+  }
+}
+
+TEST(Analysis, HeldTravelAndLoadGiveTheSameCurves) {
+  RollingModel<2> model = coarse_model(6);
+  const auto loaded = analyzed(model, one_hole);
+  EXPECT_EQ(loaded.analysis.held, Held::load);
+  model.travel = loaded.analysis.travel;
+  const auto held = analyzed(model, one_hole);
+  EXPECT_EQ(held.analysis.held, Held::travel);
+  EXPECT_LT(testing::relative_difference(held.analysis.force_at_travel, loaded.analysis.force_at_travel),
+            1e-9);
+  const std::vector<double> load{held.analysis.load};
+  const auto again = under_loads<2>(loaded.problem, loaded.solution, load);
+  ASSERT_TRUE(again);
+  EXPECT_LT(testing::relative_difference(held.analysis.travel_at_load,
+                                         member((*again)[0], &ContactSummary::travel)),
+            1e-9);
+}
+
+TEST(Analysis, LoadsAgreeWithSolvingAfresh) {
+  const RollingModel<2> model = coarse_model(4);
+  const auto base = analyzed(model, one_hole);
+  // Up to a load whose contact leaves the zone of the first one.
+  const std::vector<double> loads{0.1 * model.load, model.load, 20 * model.load};
+  const auto curve = under_loads<2>(base.problem, base.solution, loads);
+  ASSERT_TRUE(curve);
+  for (size_t k = 0; k < loads.size(); ++k) {
+    RollingModel<2> other = model;
+    other.load = loads[k];
+    const auto fresh = analyzed(other, one_hole);
+    for (auto m : {&ContactSummary::travel, &ContactSummary::radial_force, &ContactSummary::peak_pressure,
+                   &ContactSummary::patch_length})
+      EXPECT_LT(testing::relative_difference(member((*curve)[k], m), member(fresh.analysis.positions, m)),
+                1e-9);
+  }
+}
+
+// --- Physics -------------------------------------------------------------------------------------------
+
+/// Nothing but the ghost penalty and Nitsche's terms take work that is not strain energy.
+TEST(Analysis, WorkOfTheLoadIsTheStrainEnergy) {
+  RollingModel<2> model = coarse_model(2);
+  model.tread.levels = 2;
+  const auto [problem, solution, a] = analyzed(model, one_hole);
+  const int n = 200;
+  std::vector<double> loads;
+  for (int k = 1; k <= n; ++k) loads.push_back(k * model.load / n);
+  const auto curve = under_loads<2>(problem, solution, loads);
+  ASSERT_TRUE(curve);
+  for (size_t i = 0; i < a.positions.size(); ++i) {
+    double work = 0, travel = 0;
+    for (int k = 0; k < n; ++k) {
+      const double next = (*curve)[k][i].travel;
+      work += (loads[k] - 0.5 * model.load / n) * (next - travel);
+      travel = next;
+    }
+    EXPECT_NEAR(work / a.strain_energy[i], 1, 5e-3);
+  }
+}
+
+/// Hertz: the patch of a disc grows with the root of the load, and so does the peak pressure.
+TEST(Analysis, PatchAndPressureOfAThickRingGrowAsHertzSays) {
+  RollingModel<2> model = coarse_model(1);
+  model.tread.levels = 4;
+  const auto [problem, solution, a] = analyzed(model, no_holes);
+  const std::vector<double> loads{0.25 * model.load, model.load};
+  const auto curve = under_loads<2>(problem, solution, loads);
+  ASSERT_TRUE(curve);
+  const ContactSummary &quarter = (*curve)[0][0], &whole = (*curve)[1][0];
+  EXPECT_NEAR(whole.patch_length / quarter.patch_length, 2, 0.02);
+  EXPECT_NEAR(whole.peak_pressure / quarter.peak_pressure, 2, 0.04);
+  const double half_width =
+      2 * std::sqrt(model.load * model.grid.outer_radius / (pi * model.material.plane_strain_modulus()));
+  EXPECT_NEAR(whole.patch_length / (2 * half_width), 1, 0.02);
+  EXPECT_NEAR(whole.peak_pressure / (2 * model.load / (pi * half_width)), 1, 0.02);
+}
+
+/// Strain by differences of the displacement field at the quadrature points of whole cells.
+TEST(Analysis, PeakStressIsThatOfTheDisplacementField) {
+  const RollingModel<2> model = coarse_model(3);
+  const auto [problem, solution, a] = analyzed(model, no_holes);
+  const Lattice<2> lattice(model.grid, model.degree);
+  const auto points = unit_cell_rule<2>(model.degree + 1);
+  for (int position = 0; position < 3; ++position) {
+    const RingField field = displacement_field(problem, solution, position);
+    double peak = 0;
+    for (int sector = 0; sector < model.grid.n_sectors; ++sector)
+      for (int cell = 0; cell < model.grid.n_cells(); ++cell) {
+        const CellMap<2> map(model.grid, model.degree, model.grid.cell_position(cell));
+        for (const auto& q : points) {
+          Mat<2> gradient{}, jacobian{};  // by xi
+          for (int g = 0; g < 2; ++g) {
+            Vec<2> ahead = q.xi, back = q.xi;
+            const double h = 1e-3;  // exact for polynomials of degree 2
+            ahead[g] += h;
+            back[g] -= h;
+            const ShapeFunctions<2> to(model.degree, ahead), from(model.degree, back);
+            const Vec<2> x = map.position(to), y = map.position(from);
+            const double angle = sector * model.grid.sector_angle() +
+                                 model.grid.cell_position(cell)[1] * model.grid.cell_size()[1];
+            Vec<2> du{};
+            for (int d = 0; d < 2; ++d)
+              du[d] = (interpolate<2>(lattice, field, sector, cell, to, d) -
+                       interpolate<2>(lattice, field, sector, cell, from, d)) /
+                      (2 * h);
+            du = rotated<2>(du, -angle);
+            for (int d = 0; d < 2; ++d) {
+              jacobian[d][g] = (x[d] - y[d]) / (2 * h);
+              gradient[d][g] = du[d];
+            }
+          }
+          const double det = jacobian[0][0] * jacobian[1][1] - jacobian[0][1] * jacobian[1][0];
+          const Mat<2> inverse{
+              {{jacobian[1][1] / det, -jacobian[0][1] / det}, {-jacobian[1][0] / det, jacobian[0][0] / det}}};
+          Mat<2> du{};
+          for (int d = 0; d < 2; ++d)
+            for (int e = 0; e < 2; ++e)
+              for (int g = 0; g < 2; ++g) du[d][e] += gradient[d][g] * inverse[g][e];
+          const Voigt<2> strain{du[0][0], du[1][1], du[0][1] + du[1][0]};
+          peak = std::max(peak, von_mises<2>(model.material, stress<2>(model.material, strain)));
+        }
+      }
+    EXPECT_NEAR(a.peak_von_mises[position] / peak, 1, 1e-8);
+  }
+}
+
+// --- Report --------------------------------------------------------------------------------------------
+
+TEST(Report, JsonReadsBackToTheSameNumbers) {
+  const RollingModel<2> model = coarse_model(5);
+  auto [problem, solution, a] = analyzed(model, one_hole);
+  const std::vector<double> loads{0.5 * model.load, 2 * model.load};
+  const auto curve = under_loads<2>(problem, solution, loads);
+  const RollingReport report{"a \"wheel\"", 1, 16, a, loads, *curve};
+  const auto json = nlohmann::json::parse(rolling_json(report));
+  EXPECT_EQ(json["title"], report.title);
+  ASSERT_EQ(json["positions"].size(), 5u);
+  for (size_t i = 0; i < 5; ++i) {
+    const auto& position = json["positions"][i];
+    EXPECT_EQ(position["azimuth_rad"], a.azimuths[i]);
+    EXPECT_EQ(position["travel_m"], a.positions[i].travel);
+    EXPECT_EQ(position["force_at_travel_N"], a.force_at_travel[i]);
+    EXPECT_EQ(position["peak_von_mises_Pa"], a.peak_von_mises[i]);
+    EXPECT_EQ(position["stiffness_N_per_m"], a.positions[i].radial_force / a.positions[i].travel);
+  }
+  const RollingVariation travel = rolling_variation(a.travel_at_load);
+  EXPECT_EQ(json["travel_at_load_m"]["mean"], travel.mean);
+  ASSERT_EQ(json["travel_at_load_m"]["harmonics"].size(), travel.harmonics.size());
+  EXPECT_EQ(json["travel_at_load_m"]["harmonics"][1]["waves_per_revolution"], 32);
+  EXPECT_EQ(json["travel_at_load_m"]["harmonics"][1]["amplitude"], travel.harmonics[1]);
+  ASSERT_EQ(json["loads"].size(), 2u);
+  EXPECT_EQ(json["loads"][1]["load_N"], loads[1]);
+  EXPECT_EQ(json["loads"][1]["positions"][3]["travel_m"], (*curve)[1][3].travel);
+}
+
+TEST(Report, ForcesAreOnTheWholeWidth) {
+  const RollingModel<2> model = coarse_model(2);
+  const auto [problem, solution, a] = analyzed(model, one_hole);
+  const auto json = nlohmann::json::parse(rolling_json({"", 0.12, 16, a, {}, {}}));
+  EXPECT_NEAR(double(json["load_N"]) / (0.12 * model.load), 1, 1e-14);
+  EXPECT_NEAR(double(json["positions"][0]["radial_force_N"]) / (0.12 * model.load), 1, 1e-9);
+  EXPECT_FALSE(json.contains("loads"));
+}
+
+TEST(Report, CurvesOfASectorAreClosed) {
+  const auto [problem, solution, a] = analyzed(coarse_model(6), one_hole);
+  const RollingReport report{"", 0.12, 16, a, {}, {}};
+  for (const LinePlot& plot : {travel_plot(report), force_plot(report), peak_pressure_plot(report)}) {
+    ASSERT_EQ(plot.curves.size(), 1u);
+    EXPECT_EQ(plot.curves[0].y.front(), plot.curves[0].y.back());
+    EXPECT_NEAR(plot.curves[0].x.back() - plot.curves[0].x.front(), 22.5, 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace wheelwright
