@@ -30,12 +30,17 @@ struct ContactForm {
 /// [x]_- = max(-x, 0).
 inline double negative_part(double x) { return x < 0 ? -x : 0; }
 
-/// The length of a vector's part along the ground.
+/// The product of two vectors' parts along the ground, and the length of one.
+template <int dim>
+double tangential_dot(const Vec<dim>& a, const Vec<dim>& b) {
+  double sum = 0;
+  for (int d = 1; d < dim; ++d) sum += a[d] * b[d];
+  return sum;
+}
+
 template <int dim>
 double tangential_norm(const Vec<dim>& z) {
-  double sum = 0;
-  for (int d = 1; d < dim; ++d) sum += z[d] * z[d];
-  return std::sqrt(sum);
+  return std::sqrt(tangential_dot<dim>(z, z));
 }
 
 /// The contact traction on the body and its tangent, in the ground frame: component 0 along n_y (into the

@@ -9,7 +9,7 @@
 namespace wheelwright {
 namespace {
 
-constexpr double tolerance = 1e-12;
+constexpr double tolerance = 1e-12, balance_tolerance = 1e-11;
 constexpr int max_residual_halvings = 5, max_contact_set_halvings = 30;
 
 /// What shortens a Newton step.
@@ -62,20 +62,30 @@ class ResidualNorm {
   }
 
   double operator()(const ContactUnknowns<dim>& residual) const {
+    return std::hypot(of_tractions(residual), of_balance(residual));
+  }
+
+  /// Whether only rounding is left.
+  bool vanishes(const ContactUnknowns<dim>& residual, const ContactUnknowns<dim>& x) const {
+    double scale = scale_;
+    for (size_t k = 0; k < balance_.size(); ++k) scale = std::max(scale, stiffness_[k] * std::abs(x.rim[k]));
+    return of_tractions(residual) <= tolerance * std::sqrt(double(x.augmented.size())) * scale &&
+           of_balance(residual) <= balance_tolerance * pressure_;
+  }
+
+ private:
+  double of_tractions(const ContactUnknowns<dim>& residual) const {
     double sum = 0;
     for (const Vec<dim>& r : residual.augmented) sum += dot<dim>(r, r);
+    return std::sqrt(sum);
+  }
+
+  double of_balance(const ContactUnknowns<dim>& residual) const {
+    double sum = 0;
     for (size_t k = 0; k < balance_.size(); ++k) sum += std::pow(balance_[k] * residual.rim[k], 2);
     return std::sqrt(sum);
   }
 
-  /// What rounding leaves.
-  double goal(const ContactUnknowns<dim>& x) const {
-    double scale = scale_;
-    for (size_t k = 0; k < balance_.size(); ++k) scale = std::max(scale, stiffness_[k] * std::abs(x.rim[k]));
-    return tolerance * std::sqrt(static_cast<double>(x.augmented.size())) * scale;
-  }
-
- private:
   double pressure_ = 0, scale_ = 0;
   std::vector<double> balance_, stiffness_;
 };
@@ -86,8 +96,7 @@ int changed_points(const ContactUnknowns<dim>& a, const ContactUnknowns<dim>& b,
   for (size_t i = 0; i < a.augmented.size(); ++i) {
     const Vec<dim>&before = a.augmented[i], &after = b.augmented[i];
     const ContactStatus status = contact_status<dim>(before, friction);
-    const bool turned = status == ContactStatus::slides &&
-                        dot<dim>(before, after) < before[0] * after[0];  // of the tangential parts
+    const bool turned = status == ContactStatus::slides && tangential_dot<dim>(before, after) < 0;
     changed += turned || status != contact_status<dim>(after, friction);
   }
   return changed;
@@ -124,6 +133,32 @@ ContactUnknowns<dim> residual_search(const ReducedContact<dim>& contact, const R
   return trial;
 }
 
+/// Whether every touching point slides to the same side though friction must hold the rim.
+template <int dim>
+bool slides(const ReducedContact<dim>& contact, const ContactUnknowns<dim>& x) {
+  const auto& free = contact.rim().free;
+  if (std::none_of(free.begin(), free.end(), [](const FreeMotion& motion) {
+        return motion.direction.along_ground != 0 || motion.direction.rotation != 0;
+      }))
+    return false;
+  const Vec<dim>* first = nullptr;
+  for (const Vec<dim>& z : x.augmented) {
+    const ContactStatus status = contact_status<dim>(z, contact.friction());
+    if (status == ContactStatus::sticks) return false;
+    if (status == ContactStatus::open) continue;
+    if (!first) first = &z;
+    if (tangential_dot<dim>(z, *first) < 0) return false;
+  }
+  return first;
+}
+
+/// Lets every touching point stick: the way out where the tangent is singular because all slide.
+template <int dim>
+void stick(ContactUnknowns<dim>& x) {
+  for (Vec<dim>& z : x.augmented)
+    if (z[0] < 0) std::fill(z.begin() + 1, z.end(), 0.0);
+}
+
 template <int dim>
 NewtonEnd<dim> newton(const ReducedContact<dim>& contact, ContactUnknowns<dim> start, double fraction,
                       Damping damping) {
@@ -134,15 +169,22 @@ NewtonEnd<dim> newton(const ReducedContact<dim>& contact, ContactUnknowns<dim> s
   ContactUnknowns<dim> residual = contact.residual(end.x, fraction);
   end.residual = norm(residual);
   while (end.iterations < max_iterations && std::isfinite(end.residual)) {
-    const auto step = contact.newton_step(end.x, residual);
+    auto step = contact.newton_step(end.x, residual);
+    if (!step) {
+      stick(end.x);
+      residual = contact.residual(end.x, fraction);
+      end.residual = norm(residual);
+      step = contact.newton_step(end.x, residual);
+    }
     if (!step) return end;
     ++end.iterations;
     end.x = damping == Damping::residual
                 ? residual_search(contact, norm, fraction, end.residual, end.x, *step)
                 : contact_set_search(end.x, *step, contact.friction());
+    if (slides(contact, end.x)) stick(end.x);
     residual = contact.residual(end.x, fraction);
     end.residual = norm(residual);
-    end.converged = end.residual <= norm.goal(end.x);
+    end.converged = norm.vanishes(residual, end.x);
     if (end.converged) return end;
   }
   return end;
@@ -160,15 +202,6 @@ NewtonEnd<dim> newton_in_load_steps(const ReducedContact<dim>& contact, const Co
   }
   end.iterations = iterations;
   return end;
-}
-
-/// Whether every touching point slides: then friction cannot hold the rim.
-template <int dim>
-bool slides(const ReducedContact<dim>& contact, const ContactUnknowns<dim>& x) {
-  return contact.friction() > 0 && contact.rim().free.size() > 1 &&
-         std::none_of(x.augmented.begin(), x.augmented.end(), [&](const Vec<dim>& z) {
-           return contact_status<dim>(z, contact.friction()) == ContactStatus::sticks;
-         });
 }
 
 template <int dim>

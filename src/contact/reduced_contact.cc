@@ -245,7 +245,11 @@ std::optional<ContactUnknowns<dim>> ReducedContact<dim>::newton_step(
 
   // Points without contact follow from the others: their columns are unit vectors.
   ContactUnknowns<dim> step = residual;
-  for (int k = 0; k < n_free(); ++k) step.rim[k] = solution(n_active + k, 0);
+  const double longest = norm<dim>(points_.front().position);
+  for (int k = 0; k < n_free(); ++k) {
+    step.rim[k] = solution(n_active + k, 0);
+    if (!(std::abs(step.rim[k]) * amplitude(rim_.free[k].direction) < longest)) return {};
+  }
   for (int i = 0; i < n_points(); ++i) {
     for (int k = 0; k < n_free(); ++k) {
       const Vec<dim> motion = displacement<dim>(rim_.free[k].direction, points_[i].position);

@@ -83,7 +83,8 @@ class ReducedContact {
   /// The residual under a fraction of all loads and prescribed motions.
   ContactUnknowns<dim> residual(const ContactUnknowns<dim>& x, double fraction) const;
 
-  /// Newton's step, to be subtracted. Nothing when the tangent is singular.
+  /// Newton's step, to be subtracted. Nothing when the tangent is singular, or the rim would go farther than
+  /// the tread's radius.
   std::optional<ContactUnknowns<dim>> newton_step(const ContactUnknowns<dim>& x,
                                                   const ContactUnknowns<dim>& residual) const;
 

@@ -1,0 +1,164 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "sensitivity/taylor_test.h"
+#include "tests/support.h"
+
+namespace wheelwright {
+namespace {
+
+using testing::holes;
+using testing::paper_holes;
+using testing::paper_model;
+using testing::strain_energy_alone;
+
+RollingModel<2> with_friction(RollingModel<2> model) {
+  model.contact.friction = 0.3;
+  return model;
+}
+
+RollingModel<2> braked(RollingModel<2> model) {
+  model = with_friction(model);
+  model.horizontal_force = 0.1 * model.load;
+  return model;
+}
+
+RollingModel<2> driven(RollingModel<2> model) {
+  model = with_friction(model);
+  model.torque = -0.1 * model.load * model.grid.outer_radius;
+  return model;
+}
+
+double total_energy(const RollingModel<2>& model, const LevelSet<2>& psi) {
+  const auto problem = RollingProblem<2>::create(model);
+  EXPECT_TRUE(problem);
+  const auto s = problem->solve(psi);
+  EXPECT_TRUE(s) << s.failure().detail;
+  double sum = 0;
+  for (double e : s->strain_energy) sum += e;
+  return sum;
+}
+
+// At gamma_0 = 1000 all methods approximate the same problem closely.
+TEST(Friction, ContactMethodsAgree) {
+  for (const int levels : {0, 2}) {
+    for (const double friction : {0.0, 0.3}) {
+      auto model = paper_model();
+      model.tread.levels = levels;
+      model.contact.gamma_0 = 1000;
+      model.contact.friction = friction;
+      const auto psi = paper_holes(model.grid);
+      const double reference = total_energy(model, psi);
+      for (const double theta : {0.0, 1.0}) {
+        model.contact.theta_nitsche = theta;
+        EXPECT_NEAR(total_energy(model, psi), reference, 2e-3 * reference) << levels << friction << theta;
+      }
+      model.contact.method = ContactMethod::penalty;
+      EXPECT_NEAR(total_energy(model, psi), reference, 2e-3 * reference) << levels << friction;
+    }
+  }
+}
+
+TEST(Friction, ForcesAndMomentsBalance) {
+  for (const auto& model : {braked(paper_model()), driven(paper_model())}) {
+    const auto problem = RollingProblem<2>::create(model);
+    ASSERT_TRUE(problem);
+    const auto s = problem->solve(paper_holes(model.grid));
+    ASSERT_TRUE(s) << s.failure().detail;
+    for (int i = 0; i < model.n_positions; ++i) {
+      const auto& contact = s->contacts[i];
+      const auto& state = s->states[i];
+      RimForce ground;
+      for (int q = 0; q < contact.n_points(); ++q) {
+        const auto& point = contact.points()[q];
+        const Vec<2>& t = state.traction[q];
+        ground.towards_ground += point.weight * t[0];
+        ground.along_ground += point.weight * t[1];
+        ground.torque += point.weight * (point.position[0] * t[1] - point.position[1] * t[0]);
+        EXPECT_LE(t[0], 0);
+        EXPECT_LE(std::abs(t[1]), model.contact.friction * std::abs(t[0]) * (1 + 1e-14));
+      }
+      EXPECT_NEAR(ground.towards_ground, -model.load, 1e-9 * model.load);
+      if (model.horizontal_force != 0) {
+        EXPECT_NEAR(ground.along_ground, -model.horizontal_force, 1e-9 * model.load);
+        EXPECT_EQ(state.rim.rotation, 0);
+        EXPECT_NE(state.rim.along_ground, 0);
+      }
+      if (model.torque != 0) {
+        EXPECT_NEAR(ground.torque, -model.torque, 1e-9 * model.load * model.grid.outer_radius);
+        EXPECT_EQ(state.rim.along_ground, 0);
+        EXPECT_NE(state.rim.rotation, 0);
+      }
+    }
+  }
+}
+
+// Without a force along the ground friction only hinders the tread from spreading.
+TEST(Friction, ASymmetricWheelStaysSymmetric) {
+  const auto model = with_friction(paper_model());
+  const auto problem = RollingProblem<2>::create(model);
+  ASSERT_TRUE(problem);
+  const auto psi = paper_holes(model.grid);
+  const auto s = problem->solve(psi);
+  ASSERT_TRUE(s) << s.failure().detail;
+  for (int i = 1; i < 4; ++i)
+    EXPECT_NEAR(s->strain_energy[i], s->strain_energy[8 - i], 1e-9 * s->strain_energy[i]);
+  for (const int i : {0, 4}) {
+    const auto& traction = s->states[i].traction;
+    double peak = 0;
+    for (const auto& t : traction) peak = std::max(peak, -t[0]);
+    for (size_t q = 0; q < traction.size(); ++q) {
+      const auto& mirrored = traction[traction.size() - 1 - q];
+      EXPECT_NEAR(traction[q][0], mirrored[0], 1e-8 * peak);
+      EXPECT_NEAR(traction[q][1], -mirrored[1], 1e-8 * peak);
+    }
+    EXPECT_NEAR(s->states[i].rim_force.along_ground, 0, 1e-9 * model.load);
+  }
+  const double without = total_energy(paper_model(), psi), with = total_energy(model, psi);
+  EXPECT_LT(with, without);
+  EXPECT_GT(with, 0.97 * without);
+}
+
+TEST(Friction, ForceAndTorqueActAlongLargerAzimuth) {
+  auto model = braked(paper_model(14, 192));
+  const auto psi = paper_holes(model.grid);
+  const auto forward = RollingProblem<2>::create(model)->solve(psi);
+  model.horizontal_force = -model.horizontal_force;
+  const auto back = RollingProblem<2>::create(model)->solve(psi);
+  ASSERT_TRUE(forward);
+  ASSERT_TRUE(back);
+  EXPECT_GT(forward->states[0].rim.along_ground, 0);
+  EXPECT_NEAR(forward->states[0].rim.along_ground, -back->states[0].rim.along_ground,
+              1e-9 * forward->states[0].rim.along_ground);
+}
+
+TEST(Friction, ShapeGradientPassesTheTaylorTest) {
+  for (const auto& base :
+       {braked(paper_model(14, 192)), driven(paper_model(14, 192)), with_friction(paper_model(14, 192))}) {
+    for (const double theta : {-1.0, 0.0, 1.0}) {
+      auto model = base;
+      model.contact.theta_nitsche = theta;
+      model.contact.gamma_0 = theta == 1 ? 1000 : theta == 0 ? 10 : 1;
+      const auto problem = RollingProblem<2>::create(model);
+      ASSERT_TRUE(problem);
+      const auto& grid = model.grid;
+      const auto psi = holes(grid, 2, {{0.2681, 0.47 * grid.sector_angle(), 0.0373}});
+      std::vector<double> direction;
+      for (int i = 0; i < psi.lattice.n_nodes(); ++i) {
+        const Vec<2> p = psi.lattice.polar_point(i);
+        direction.push_back(1 + 0.4 * std::cos(16 * p[1]) + 0.3 * std::sin(40 * (p[0] - 0.27)));
+      }
+      const auto test = taylor_test<2>(
+          [&](const LevelSet<2>& shape) { return evaluate<2>(*problem, strain_energy_alone(), shape); }, psi,
+          direction, model.degree, 2e-5, 3);
+      ASSERT_TRUE(test) << test.failure().detail;
+      for (double order : test->orders) EXPECT_GT(order, 1.9) << theta;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace wheelwright
