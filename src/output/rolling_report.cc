@@ -49,9 +49,9 @@ std::string travel_text(const RollingReport& report) {
 std::string position_lines(const RollingReport& report) {
   constexpr const char* words = "{:>9}{:>11}{:>11}{:>9}{:>11}{:>11}{:>13}{:>13}\n";
   const RollingAnalysis& a = report.analysis;
-  std::string table =
-      fmt::format("stiffness, contact, stress and strain energy at every position {}\n\n",
-                  a.held == Held::load ? "under " + load_text(report) : "at " + travel_text(report));
+  std::string table = fmt::format(
+      "stiffness, contact, stress and strain energy at every position {}\n\n",
+      a.held == Held::load ? "under " + load_text(report) : "at a rim travel of " + travel_text(report));
   table += fmt::format(words, "azimuth", "stiffness", "pressure", "patch", "von Mises", "energy", "travel at",
                        "force at");
   table += fmt::format(words, "", "", "peak", "length", "peak", "", load_text(report), travel_text(report));
