@@ -49,7 +49,7 @@ Vec<2> polar_of(const SurfaceSample<2>& sample) {
 Evaluation<2> evaluate_bowl(const LevelSet<2>& psi) {
   const Bowl bowl;
   Evaluation<2> result{
-      grid.sector_angle() * bowl.flux(grid.outer_radius, 0), {}, boundary_samples<2>(psi), {}, {}, {}};
+      grid.sector_angle() * bowl.flux(grid.outer_radius, 0), {}, boundary_samples<2>(psi), {}, {}, {}, {}};
   for (auto& sample : result.gradient) {
     const Vec<2> x = polar_of(sample);
     const double radial_normal = sample.normal[0] * std::cos(x[1]) + sample.normal[1] * std::sin(x[1]);

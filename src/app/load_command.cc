@@ -12,11 +12,13 @@ namespace wheelwright {
 
 namespace {
 
-/// The matrices are too small for threads of BLAS to pay; read when the library is loaded.
+/// The matrices are too small for threads to pay, of BLAS or of CHOLMOD, which opens four whatever
+/// OMP_NUM_THREADS says; read when the library is loaded.
 void default_to_one_thread() {
   constexpr int keep_existing = 0;
   setenv("OPENBLAS_NUM_THREADS", "1", keep_existing);
   setenv("OMP_NUM_THREADS", "1", keep_existing);
+  setenv("OMP_THREAD_LIMIT", "1", keep_existing);
 }
 
 }  // namespace

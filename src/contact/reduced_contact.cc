@@ -29,6 +29,12 @@ Matrix outer_compliance(const CyclicStiffness<dim>& ring, int per_column, int co
   return g;
 }
 
+/// result += block, at a place of it.
+void add_block(const Matrix& block, int first_row, int first_column, Matrix& result) {
+  for (int j = 0; j < block.columns(); ++j)
+    for (int i = 0; i < block.rows(); ++i) result(first_row + i, first_column + j) += block(i, j);
+}
+
 }  // namespace
 
 template <int dim>
@@ -50,25 +56,31 @@ ReducedContact<dim>::ReducedContact(const CyclicStiffness<dim>& ring, const Trea
     }
   }
 
-  // Rows that sample z and rows that test, on a column's observations: S = tau T - gamma U, Te = theta/gamma
-  // T - U.
-  const int n = n_points() * n_components;
-  const auto project = [&](int c, const Matrix& observed, bool sample, Matrix& result, int first_column) {
+  // What samples z and what tests, on a column's observations: S = tau T - gamma U, Te = theta/gamma T - U.
+  const int block = per_zone_column * n_components, n = zone.n_columns * block;
+  const auto ground_rows = [&](int c, auto of_traction, auto of_displacement) {
+    Matrix rows(block, tread.n_contact());
     for (int q = 0; q < per_zone_column; ++q) {
       const Point& point = points_[c * per_zone_column + q];
-      const double of_traction = sample ? tau_ : theta_ / point.gamma,
-                   of_displacement = sample ? point.gamma : 1;
-      for (int j = 0; j < observed.columns(); ++j) {
-        Vec<dim> value;
-        for (int d = 0; d < dim; ++d)
-          value[d] = of_traction * observed(2 * dim * q + dim + d, j) -
-                     of_displacement * observed(2 * dim * q + d, j);
-        value = rotated<dim>(value, point.angle);
-        for (int d = 0; d < n_components; ++d)
-          result((c * per_zone_column + q) * n_components + d, first_column + j) += value[d];
+      for (int d = 0; d < dim; ++d) {
+        Vec<dim> unit{};
+        unit[d] = 1;
+        const Vec<dim> in_ground = rotated<dim>(unit, point.angle);
+        for (int k = 0; k < n_components; ++k) {
+          rows(q * n_components + k, 2 * dim * q + d) = -of_displacement(point) * in_ground[k];
+          rows(q * n_components + k, 2 * dim * q + dim + d) = of_traction(point) * in_ground[k];
+        }
       }
     }
+    return rows;
   };
+  std::vector<Matrix> sampling, testing;
+  for (int c = 0; c < zone.n_columns; ++c) {
+    sampling.push_back(ground_rows(
+        c, [&](const Point&) { return tau_; }, [](const Point& point) { return point.gamma; }));
+    testing.push_back(ground_rows(
+        c, [&](const Point& point) { return theta_ / point.gamma; }, [](const Point&) { return 1.0; }));
+  }
 
   // F = -S (C + T G T^T) Te^T with the tread's compliance C and transfer T and the core's compliance G.
   const int reach = tread.reach(), per_column = tread.base_per_column();
@@ -76,25 +88,22 @@ ReducedContact<dim>::ReducedContact(const CyclicStiffness<dim>& ring, const Trea
   Matrix sample(n, per_column * n_base_columns), test(n, per_column * n_base_columns);
   for (int c = 0; c < zone.n_columns; ++c) {
     for (int d = -reach; d <= reach; ++d) {
-      const int base_column = zone.first_column + c - d - first_base;
-      project(c, tread.transfer(d), true, sample, per_column * base_column);
-      project(c, tread.transfer(d), false, test, per_column * base_column);
+      const int first = per_column * (zone.first_column + c - d - first_base);
+      add_block(product(sampling[c], Op::none, tread.transfer(d), Op::none), c * block, first, sample);
+      add_block(product(testing[c], Op::none, tread.transfer(d), Op::none), c * block, first, test);
     }
   }
   const Matrix g = outer_compliance(ring, per_column, grid.columns(), first_base, n_base_columns);
   const Matrix through_core = product(g, Op::none, test, Op::transpose);
   flexibility_ = Matrix(n, n);
   multiply(-1, sample, Op::none, through_core, Op::none, 0, flexibility_);
-  const int block = per_zone_column * n_components;
   for (int from = 0; from < zone.n_columns; ++from) {
     for (int to = 0; to < zone.n_columns; ++to) {
       if (std::abs(to - from) > reach) continue;
-      // -S C Te^T by its transposes: the compliance of (to, from) is that of (from, to) transposed.
-      Matrix tested(n, tread.n_contact()), columns(tread.n_contact(), block);
-      project(from, tread.compliance(from - to), false, tested, 0);
-      for (int j = 0; j < block; ++j)
-        for (int i = 0; i < columns.rows(); ++i) columns(i, j) = -tested(from * block + j, i);
-      project(to, columns, true, flexibility_, from * block);
+      const Matrix tested = product(tread.compliance(to - from), Op::none, testing[from], Op::transpose);
+      Matrix local(block, block);
+      multiply(-1, sampling[to], Op::none, tested, Op::none, 0, local);
+      add_block(local, to * block, from * block, flexibility_);
     }
   }
 }
