@@ -72,6 +72,11 @@ std::vector<std::string> warnings(const Case& c) {
         "fail; \"full\" is safe");
   if (c.ghost_penalty.xi == 0)
     result.push_back("ghost_penalty.xi = 0: slivers of cut cells will spoil the solution");
+  if (c.optimizer.velocity == VelocityKind::harmonic && c.optimizer.smoothing == 0)
+    result.push_back(
+        "optimizer.velocity = \"harmonic\" without optimizer.smoothing lets fingers of one cell's width "
+        "grow; a "
+        "smoothing of 0.1 to 1 or velocity = \"h1\" prevents them");
   if (c.volume.control == VolumeControl::paper)
     result.push_back("volume.control = \"paper\" lets the volume drift; \"exact\" holds it");
   return result;
