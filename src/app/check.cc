@@ -75,8 +75,7 @@ std::vector<std::string> warnings(const Case& c) {
   if (c.optimizer.velocity == VelocityKind::harmonic && c.optimizer.smoothing == 0)
     result.push_back(
         "optimizer.velocity = \"harmonic\" without optimizer.smoothing lets fingers of one cell's width "
-        "grow; a "
-        "smoothing of 0.1 to 1 or velocity = \"h1\" prevents them");
+        "grow; smoothing = 0.3 with smooth_every = 1, or velocity = \"h1\", prevents them");
   if (c.volume.control == VolumeControl::paper)
     result.push_back("volume.control = \"paper\" lets the volume drift; \"exact\" holds it");
   return result;
