@@ -5,10 +5,10 @@
 #include <limits>
 #include <numbers>
 
+#include "base/periodic.h"
+
 namespace wheelwright {
 namespace {
-
-int wrap(int column, int n_columns) { return (column % n_columns + n_columns) % n_columns; }
 
 /// The core's compliance between the outer-line unknowns of `n_lines` columns from `first_column` on.
 template <int dim>

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/periodic.h"
 #include "base/stopwatch.h"
 #include "contact/contact_solver.h"
 
@@ -51,8 +52,6 @@ void add_outer_rows(const CyclicStiffness<dim>& ring, const Matrix& outer, Matri
 }
 
 namespace {
-
-int wrap(int column, int n_columns) { return (column % n_columns + n_columns) % n_columns; }
 
 /// The ghost penalty applied to a core field.
 template <int dim>

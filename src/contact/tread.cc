@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/periodic.h"
 #include "linalg/sparse_spd.h"
 
 namespace wheelwright {
@@ -76,9 +77,7 @@ Expected<Tread<dim>> Tread<dim>::condense(const ElementTable<dim>& table, const 
   const int n = tread.n_columns_;
   const auto responses = line_responses(tread.column_, n);
   if (!responses) return responses.failure();
-  const auto response = [&](int difference) -> const Matrix& {
-    return (*responses)[((difference % n) + n) % n];
-  };
+  const auto response = [&](int difference) -> const Matrix& { return (*responses)[wrap(difference, n)]; };
 
   const int farthest = (n - 1) / 2 - 1;
   int reach = farthest;

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "base/periodic.h"
+
 namespace wheelwright {
 namespace {
-
-int wrap(int column, int n_columns) { return (column % n_columns + n_columns) % n_columns; }
 
 /// The columns of `field` that hold something, for one right-hand side.
 std::vector<int> loaded_columns(const Matrix& field, int first, int n_columns) {

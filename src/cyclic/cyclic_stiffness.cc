@@ -4,6 +4,8 @@
 
 #include <map>
 
+#include "base/periodic.h"
+
 namespace wheelwright {
 namespace {
 
@@ -129,7 +131,7 @@ Expected<CyclicStiffness<dim>> CyclicStiffness<dim>::factor(SectorStiffness<dim>
 template <int dim>
 const Matrix& CyclicStiffness<dim>::outer_compliance(int difference) const {
   const int n = n_sectors();
-  return outer_compliance_[(difference % n + n) % n];
+  return outer_compliance_[wrap(difference, n)];
 }
 
 template <int dim>

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "base/periodic.h"
+
 namespace wheelwright {
 namespace {
-
-int wrap(int column, int n_columns) { return (column % n_columns + n_columns) % n_columns; }
 
 /// The multiplier loads -S^T m of all positions, from what is observed of p without them.
 template <int dim>

@@ -1,0 +1,8 @@
+#pragma once
+
+namespace wheelwright {
+
+/// The index in [0, period) that stands for `index` in a periodic sequence.
+constexpr int wrap(int index, int period) { return (index % period + period) % period; }
+
+}  // namespace wheelwright
