@@ -128,7 +128,7 @@ TEST(Analysis, TravelThatCameFromALoadTakesThatForce) {
     RollingModel<2> held = model;
     held.travel = a.positions[i].travel;
     const auto rolled = reload<2>(held, problem.tread(), solution.ring, solution.grounds[i],
-                                  {solution.contacts[i], solution.states[i]});
+                                  solution.preloads[i], {solution.contacts[i], solution.states[i]});
     ASSERT_TRUE(rolled);
     EXPECT_NEAR(contact_summary(rolled->contact, rolled->state).radial_force / model.load, 1, 1e-9);
   }

@@ -178,6 +178,8 @@ TEST(CaseFile, AResolvedCaseReadsBackEqual) {
   c.title = "quotes \" and \\ and a bell \a, umlaut ü\n";
   c.load.force = 1e4 / 3;
   c.load.horizontal_force = -123.4;
+  c.load.body_force = {-1.5, 1e4 / 7};
+  c.load.hole_pressure = 2e4;
   c.contact = {.method = ContactMethod::penalty,
                .theta = 1.0 / 3,
                .gamma_0 = 12.5,
@@ -263,12 +265,17 @@ std::vector<BadValue> beyond(const Range& range) {
 }
 
 template <class Field>
+constexpr bool is_point = false;
+template <class Struct>
+constexpr bool is_point<PointField<Struct>> = true;
+
+template <class Field>
 std::vector<BadValue> bad_values(const Field& field) {
   if constexpr (requires { field.words; }) {
     return {{"\"no such word\"", Kind::out_of_range}, {"1", Kind::wrong_type}, {"true", Kind::wrong_type}};
   } else if constexpr (!requires { field.range; }) {
     return {{"1", Kind::wrong_type}, {"[]", Kind::wrong_type}, {"{}", Kind::wrong_type}};
-  } else if constexpr (std::is_same_v<Field, PointField<HoleCircle>>) {
+  } else if constexpr (is_point<Field>) {
     return {{"1.0", Kind::wrong_type},
             {"[1, 2, 3]", Kind::wrong_type},
             {"[0.27, \"0\"]", Kind::wrong_type},

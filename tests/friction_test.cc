@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "sensitivity/adjoint.h"
 #include "sensitivity/taylor_test.h"
 #include "tests/support.h"
 
@@ -133,6 +134,90 @@ TEST(Friction, ForceAndTorqueActAlongLargerAzimuth) {
   EXPECT_GT(forward->states[0].rim.along_ground, 0);
   EXPECT_NEAR(forward->states[0].rim.along_ground, -back->states[0].rim.along_ground,
               1e-9 * forward->states[0].rim.along_ground);
+}
+
+/// Loads of the ground after a change of what the tread would show without it.
+Matrix loads_under(const RollingProblem<2>& problem, const RollingSolution<2>& s, int position,
+                   const Preload& preload) {
+  const auto rolled =
+      roll_to<2>(problem.model(), problem.tread(), s.ring, s.grounds[position], preload, s.states[position]);
+  EXPECT_TRUE(rolled) << rolled.failure().detail;
+  EXPECT_EQ(rolled->contact.n_points(), s.contacts[position].n_points());
+  for (int q = 0; q < rolled->contact.n_points(); ++q)
+    EXPECT_EQ(contact_status<2>(rolled->state.augmented[q], rolled->contact.friction()),
+              contact_status<2>(s.states[position].augmented[q], rolled->contact.friction()));
+  return rolled->contact.contact_loads(rolled->state);
+}
+
+double product(const Matrix& a, const Matrix& b) {
+  double sum = 0;
+  for (int j = 0; j < a.columns(); ++j)
+    for (int i = 0; i < a.rows(); ++i) sum += a(i, j) * b(i, j);
+  return sum;
+}
+
+// In 2D the contact law is linear between changes of status, so differences are derivatives: the adjoint maps
+// observations to loads by the transpose of what the direct problem does.
+TEST(Friction, TheAdjointIsTheTransposeOfTheTangent) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (const auto& model :
+       {with_friction(paper_model(14, 192)), braked(paper_model(14, 192)), driven(paper_model(14, 192))}) {
+    const auto problem = RollingProblem<2>::create(model);
+    ASSERT_TRUE(problem);
+    const auto s = problem->solve(paper_holes(model.grid));
+    ASSERT_TRUE(s) << s.failure().detail;
+    const int n_rows = problem->tread().n_observations(), n_contact = problem->tread().n_contact();
+    const int n_columns = model.grid.ring_columns();
+    for (const int position : {1, 2, 4}) {
+      const ReducedContact<2>& contact = s->contacts[position];
+      const int first = contact.zone().first_column, n_zone = contact.zone().n_columns;
+      Matrix change(n_contact, n_zone), observed(n_contact, n_zone);
+      for (int c = 0; c < n_zone; ++c)
+        for (int row = 0; row < n_contact; ++row) {
+          change(row, c) = (row % 4 < 2 ? 1e-8 : 1e3) * uniform(random);
+          observed(row, c) = (row % 4 < 2 ? 1 : 1e10) * uniform(random);
+        }
+      Matrix difference;
+      for (const double sign : {1.0, -1.0}) {
+        Preload preload{Matrix(n_rows, n_columns), {}};
+        for (int c = 0; c < n_zone; ++c)
+          for (int row = 0; row < n_contact; ++row)
+            preload.observations(row, (first + c + n_columns) % n_columns) = sign * change(row, c);
+        const Matrix loads = loads_under(*problem, *s, position, preload);
+        if (difference.rows() == 0) difference = Matrix(loads.rows(), loads.columns());
+        for (size_t k = 0; k < loads.entries().size(); ++k)
+          difference.entries()[k] += 0.5 * sign * loads.entries()[k];
+      }
+      const auto adjoint = contact.adjoint(s->states[position], observed);
+      ASSERT_TRUE(adjoint);
+      const double direct = product(observed, difference), transposed = product(adjoint->loads, change);
+      EXPECT_NEAR(direct, transposed, 1e-10 * std::abs(direct));
+    }
+  }
+}
+
+// The energy is quadratic in the load between changes of status, so a central difference is its derivative:
+// what the load does on the adjoint's rim motion, with a minus.
+TEST(Friction, TheAdjointPredictsTheEffectOfTheLoad) {
+  for (const auto& model :
+       {with_friction(paper_model(14, 192)), braked(paper_model(14, 192)), driven(paper_model(14, 192))}) {
+    const auto psi = paper_holes(model.grid);
+    const auto problem = RollingProblem<2>::create(model);
+    const auto s = problem->solve(psi);
+    ASSERT_TRUE(s) << s.failure().detail;
+    const auto energy = StrainEnergy<2>().evaluate(*problem, *s, Matrix());
+    const auto adjoint = solve_adjoint(*problem, *s, energy.loads);
+    ASSERT_TRUE(adjoint);
+    double derivative = 0;
+    for (const RimMotion& rim : adjoint->rim) derivative -= rim.towards_ground;
+    const double change = 1e-4 * model.load;
+    auto more = model, less = model;
+    more.load += change;
+    less.load -= change;
+    const double difference = (total_energy(more, psi) - total_energy(less, psi)) / (2 * change);
+    EXPECT_NEAR(derivative, difference, 1e-8 * std::abs(difference));
+  }
 }
 
 TEST(Friction, ShapeGradientPassesTheTaylorTest) {

@@ -23,11 +23,13 @@ struct Wheel {
 };
 
 struct Load {
-  double force = 300 * 9.81;     ///< on the whole width [N]
-  std::optional<double> travel;  ///< of the rim towards the ground [m]; the force is then a result
-  double horizontal_force = 0;   ///< on the rim, towards larger azimuth, on the whole width [N]
-  double torque = 0;             ///< on the rim, towards larger azimuth, on the whole width [N m]
-  int positions = 8;             ///< N_d, load positions of one sector
+  double force = 300 * 9.81;           ///< on the whole width [N]
+  std::optional<double> travel;        ///< of the rim towards the ground [m]; the force is then a result
+  double horizontal_force = 0;         ///< on the rim, towards larger azimuth, on the whole width [N]
+  double torque = 0;                   ///< on the rim, towards larger azimuth, on the whole width [N m]
+  std::array<double, 2> body_force{};  ///< along the ground towards larger azimuth, and down [N/m^3]
+  double hole_pressure = 0;            ///< in the holes [Pa]
+  int positions = 8;                   ///< N_d, load positions of one sector
   bool operator==(const Load&) const = default;
 };
 

@@ -106,6 +106,15 @@ const Section<Load>& load_section() {
                 .field = NumberField<Load>{&Load::torque, between(-1e10, 1e10)},
                 .meaning = "driving or braking torque on the rim, towards larger azimuth, on the whole "
                            "width; the rim turns only under one"},
+               {.name = "body_force",
+                .unit = "N/m^3",
+                .field = PointField<Load>{&Load::body_force, between(-1e12, 1e12)},
+                .meaning = "[along, down]: force on every volume of the structure, along the ground towards "
+                           "larger azimuth and down; its weight is [0, 9.81 * density]"},
+               {.name = "hole_pressure",
+                .unit = "Pa",
+                .field = NumberField<Load>{&Load::hole_pressure, between(-1e12, 1e12)},
+                .meaning = "pressure on the boundary of the holes, g_N = -p n of (1)"},
                {.name = "positions",
                 .unit = "",
                 .field = IntegerField<Load>{&Load::positions, between(1, 1000)},

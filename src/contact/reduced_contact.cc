@@ -40,12 +40,13 @@ void add_block(const Matrix& block, int first_row, int first_column, Matrix& res
 template <int dim>
 ReducedContact<dim>::ReducedContact(const CyclicStiffness<dim>& ring, const Tread<dim>& tread,
                                     const PolarGrid<dim>& grid, GroundPosition ground, ContactZone zone,
-                                    RimControl rim)
+                                    RimControl rim, const Preload& preload)
     : zone_(zone),
       rim_(std::move(rim)),
       friction_(tread.form().friction),
       tau_(tread.form().tau()),
-      theta_(tread.form().theta()) {
+      theta_(tread.form().theta()),
+      preload_resultant_(preload.resultant) {
   const double column_angle = grid.cell_size()[1];
   const int per_zone_column = static_cast<int>(tread.points().size()), n_components = components();
   for (int c = 0; c < zone.n_columns; ++c) {
@@ -93,6 +94,19 @@ ReducedContact<dim>::ReducedContact(const CyclicStiffness<dim>& ring, const Trea
       add_block(product(testing[c], Op::none, tread.transfer(d), Op::none), c * block, first, test);
     }
   }
+  if (preload.observations.rows() > 0)
+    for (int c = 0; c < zone.n_columns; ++c) {
+      const double* observed =
+          preload.observations.column(wrap(zone.first_column + c, preload.observations.columns()));
+      for (int q = 0; q < per_zone_column; ++q) {
+        const Point& point = points_[c * per_zone_column + q];
+        Vec<dim> z;
+        for (int d = 0; d < dim; ++d)
+          z[d] = tau_ * observed[2 * dim * q + dim + d] - point.gamma * observed[2 * dim * q + d];
+        preload_.push_back(rotated<dim>(z, point.angle));
+      }
+    }
+
   const Matrix g = outer_compliance(ring, per_column, grid.columns(), first_base, n_base_columns);
   const Matrix through_core = product(g, Op::none, test, Op::transpose);
   flexibility_ = Matrix(n, n);
@@ -169,7 +183,8 @@ ContactUnknowns<dim> ReducedContact<dim>::residual(const ContactUnknowns<dim>& x
   const int nc = components(), n = n_points() * nc;
   Matrix force(n, 1), response(n, 1);
   ContactUnknowns<dim> result{std::vector<Vec<dim>>(points_.size(), Vec<dim>{}), {}};
-  for (const FreeMotion& motion : rim_.free) result.rim.push_back(-fraction * motion.force);
+  for (const FreeMotion& motion : rim_.free)
+    result.rim.push_back(-fraction * (motion.force + work(preload_resultant_, motion.direction)));
   for (int i = 0; i < n_points(); ++i) {
     const Vec<dim> traction = contact_response<dim>(x.augmented[i], friction_).traction;
     if (traction[0] == 0) continue;
@@ -184,7 +199,8 @@ ContactUnknowns<dim> ReducedContact<dim>::residual(const ContactUnknowns<dim>& x
     Vec<dim> approach = displacement<dim>(rim, points_[i].position);
     approach[0] -= points_[i].gap;
     for (int d = 0; d < nc; ++d)
-      result.augmented[i][d] = x.augmented[i][d] - response(nc * i + d, 0) + points_[i].gamma * approach[d];
+      result.augmented[i][d] = x.augmented[i][d] - response(nc * i + d, 0) + points_[i].gamma * approach[d] -
+                               (preload_.empty() ? 0.0 : fraction * preload_[i][d]);
   }
   return result;
 }
@@ -274,12 +290,11 @@ std::optional<ContactUnknowns<dim>> ReducedContact<dim>::newton_step(
 template <int dim>
 ContactState<dim> ReducedContact<dim>::state(const ContactUnknowns<dim>& x, int newton_iterations) const {
   ContactState<dim> state{zone_, x.augmented, {}, rim_motion(x.rim, 1), {}, newton_iterations};
+  state.rim_force = scaled(-1, preload_resultant_);
   for (int i = 0; i < n_points(); ++i) {
     state.traction.push_back(contact_response<dim>(x.augmented[i], friction_).traction);
     const RimForce force = resultant<dim>(state.traction.back(), points_[i].position);
-    state.rim_force.towards_ground -= points_[i].weight * force.towards_ground;
-    state.rim_force.along_ground -= points_[i].weight * force.along_ground;
-    state.rim_force.torque -= points_[i].weight * force.torque;
+    state.rim_force = sum(state.rim_force, scaled(-points_[i].weight, force));
   }
   return state;
 }
@@ -316,8 +331,8 @@ Matrix ReducedContact<dim>::contact_loads(const ContactState<dim>& state) const 
 }
 
 template <int dim>
-Expected<Matrix> ReducedContact<dim>::adjoint_loads(const ContactState<dim>& state,
-                                                    const Matrix& observations) const {
+Expected<ContactAdjoint> ReducedContact<dim>::adjoint(const ContactState<dim>& state,
+                                                      const Matrix& observations) const {
   // With Te p = h + F^T m: m - W Phi'^T F^T m + sum_k beta_k W Phi'^T m_k = W Phi'^T h and, for every free
   // motion, sum gamma m.m_k = 0. m vanishes off the active points; on them the matrix is newton_step()'s,
   // transposed.
@@ -353,7 +368,9 @@ Expected<Matrix> ReducedContact<dim>::adjoint_loads(const ContactState<dim>& sta
       loads(row + dim + d, column) = -tau_ * value[d];
     }
   }
-  return loads;
+  RimMotion rim;
+  for (int k = 0; k < n_free(); ++k) rim = combined(rim, -m(n_active + k, 0), rim_.free[k].direction);
+  return ContactAdjoint{std::move(loads), rim};
 }
 
 template class ReducedContact<2>;

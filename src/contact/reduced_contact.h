@@ -27,6 +27,12 @@ struct ContactZone {
   int n_columns;
 };
 
+/// What loads other than the ground's do at one load position before the ground does anything.
+struct Preload {
+  Matrix observations;  ///< of v on the tread, one column a ring column; empty: zero
+  RimForce resultant;
+};
+
 /// The unknowns of one load position's contact problem, or a change of them, or its residual.
 template <int dim>
 struct ContactUnknowns {
@@ -45,15 +51,22 @@ struct ContactState {
   int newton_iterations;  ///< of all attempts
 };
 
+/// The contact's part of the adjoint problem (79) at one load position.
+struct ContactAdjoint {
+  Matrix loads;   ///< -S^T m on the zone's observations, m the multiplier
+  RimMotion rim;  ///< of the adjoint
+};
+
 /// The contact problem (27) with the rigid rim (4.3) of one load position, condensed onto its contact zone:
-///   z = F W Phi(z) + gamma (g n_y - m),   sum w Phi(z).m_k + force_k = 0,
-/// W the weights, F the flexibility of the zone, m the rim's motion and m_k its free motions. Only the
+///   z = z_0 + F W Phi(z) + gamma (g n_y - m),   sum w Phi(z).m_k + force_k = 0,
+/// W the weights, F the flexibility of the zone, m the rim's motion and m_k its free motions, z_0 what other
+/// loads make of tau sigma(v)n - gamma v. Only the
 /// components that can carry traction are kept: the normal one without friction.
 template <int dim>
 class ReducedContact {
  public:
   ReducedContact(const CyclicStiffness<dim>& ring, const Tread<dim>& tread, const PolarGrid<dim>& grid,
-                 GroundPosition ground, ContactZone zone, RimControl rim);
+                 GroundPosition ground, ContactZone zone, RimControl rim, const Preload& preload = {});
 
   /// The same zone with another control of the rim.
   ReducedContact under(RimControl rim) const;
@@ -101,9 +114,8 @@ class ReducedContact {
   Matrix contact_loads(const ContactState<dim>& state) const;
 
   /// The multiplier of the adjoint problem (79): the transpose of Newton's last linear system.
-  /// `observations` of p without the contact part, in the zone. Returns loads on the zone's observations,
-  /// -S^T m.
-  Expected<Matrix> adjoint_loads(const ContactState<dim>& state, const Matrix& observations) const;
+  /// `observations` of p without the contact part, in the zone.
+  Expected<ContactAdjoint> adjoint(const ContactState<dim>& state, const Matrix& observations) const;
 
  private:
   int components() const { return friction_ > 0 ? dim : 1; }
@@ -119,6 +131,8 @@ class ReducedContact {
   double friction_, tau_, theta_;
   std::vector<Point> points_;
   Matrix flexibility_;
+  std::vector<Vec<dim>> preload_;  ///< z_0; empty: zero
+  RimForce preload_resultant_;
 };
 
 }  // namespace wheelwright

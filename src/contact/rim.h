@@ -37,6 +37,14 @@ inline RimMotion combined(const RimMotion& a, double factor, const RimMotion& b)
           a.rotation + factor * b.rotation};
 }
 
+inline RimForce sum(const RimForce& a, const RimForce& b) {
+  return {a.towards_ground + b.towards_ground, a.along_ground + b.along_ground, a.torque + b.torque};
+}
+
+inline RimForce scaled(double factor, const RimForce& a) {
+  return {factor * a.towards_ground, factor * a.along_ground, factor * a.torque};
+}
+
 /// What a force does on a motion.
 inline double work(const RimForce& force, const RimMotion& motion) {
   return force.towards_ground * motion.towards_ground + force.along_ground * motion.along_ground +

@@ -71,9 +71,11 @@ Matrix apply_ghost(const CyclicStiffness<dim>& ring, const Matrix& field) {
   return result;
 }
 
-/// How far the interior equations of one sector are from K v = 0, relative to their largest terms.
+/// How far the interior equations of one sector are from K v = loads (empty: zero), relative to their largest
+/// terms.
 template <int dim>
-double interior_residual(const CyclicStiffness<dim>& ring, const Matrix& field, int column) {
+double interior_residual(const CyclicStiffness<dim>& ring, const Matrix& field, const Matrix& loads,
+                         int column) {
   const SparseSymmetric& k = ring.sector().matrix;
   const int n_interior = ring.sector_factor().size() - ring.sector_factor().n_trailing();
   std::vector<double> x(k.size), force(k.size, 0.0);
@@ -84,6 +86,8 @@ double interior_residual(const CyclicStiffness<dim>& ring, const Matrix& field, 
     largest_stiffness = std::max(largest_stiffness, k.values[k.column_start[dof]]);
   }
   k.add_product(x.data(), force.data());
+  if (loads.rows() > 0)
+    for (int dof = 0; dof < k.size; ++dof) force[dof] -= loads(ring.row(dof), column);
   for (int dof = 0; dof < k.size; ++dof)
     if (ring.row(dof) < n_interior) largest_force = std::max(largest_force, std::abs(force[dof]));
   return largest_force / (largest_stiffness * largest_displacement);
@@ -171,6 +175,7 @@ Expected<ContactState<dim>> solve_in_zone(const RollingModel<dim>& model, const 
 template <int dim>
 Expected<RolledContact<dim>> roll_to(const RollingModel<dim>& model, const Tread<dim>& tread,
                                      const CyclicStiffness<dim>& ring, GroundPosition ground,
+                                     const Preload& preload,
                                      const std::optional<ContactState<dim>>& neighbour) {
   const PolarGrid<dim>& grid = model.grid;
   int half = std::max(columns_in_contact(model), neighbour ? neighbour->zone.n_columns / 2 : 0);
@@ -179,7 +184,7 @@ Expected<RolledContact<dim>> roll_to(const RollingModel<dim>& model, const Tread
   while (true) {
     half = std::min(half, (grid.ring_columns() - 1) / 2);
     ReducedContact<dim> contact(ring, tread, grid, ground, {ground.column - half, 2 * half},
-                                rim_control(model));
+                                rim_control(model), preload);
     auto state = solve_in_zone(model, contact, known);
     if (!state) return state.failure();
     if (!touches_edge(*state) || half >= largest_half)
@@ -192,11 +197,11 @@ Expected<RolledContact<dim>> roll_to(const RollingModel<dim>& model, const Tread
 template <int dim>
 Expected<RolledContact<dim>> reload(const RollingModel<dim>& model, const Tread<dim>& tread,
                                     const CyclicStiffness<dim>& ring, GroundPosition ground,
-                                    const RolledContact<dim>& before) {
+                                    const Preload& preload, const RolledContact<dim>& before) {
   ReducedContact<dim> contact = before.contact.under(rim_control(model));
   auto state = solve_in_zone<dim>(model, contact, before.state);
   if (!state) return state.failure();
-  if (touches_edge(*state)) return roll_to<dim>(model, tread, ring, ground, *state);
+  if (touches_edge(*state)) return roll_to<dim>(model, tread, ring, ground, preload, *state);
   return RolledContact<dim>{std::move(contact), *std::move(state)};
 }
 
@@ -211,6 +216,30 @@ Matrix RollingProblem<dim>::nitsche_loads(const Matrix& observations) const {
                         observations(row, j);
       }
   return loads;
+}
+
+/// Applies the loads that are not the ground's: fills the solution's core_loads, tread_loads and preloads,
+/// leaves condense()'s interior rows in its displacement and returns the condensed boundary loads.
+template <int dim>
+Matrix RollingProblem<dim>::preload(RollingSolution<dim>& s) const {
+  const int n_positions = static_cast<int>(s.grounds.size()), n_columns = tread_.n_columns();
+  s.preloads.resize(n_positions);
+  if (!model_.distributed.any()) return Matrix(s.ring.n_boundary(), s.displacement.columns());
+  auto applied = applied_loads<dim>(model_.distributed, s.domain, *elements_, s.ring, tread_, s.grounds);
+  s.displacement = applied.core;
+  s.core_loads = std::move(applied.core);
+  s.tread_loads = std::move(applied.tread);
+  const Matrix core_boundary = s.ring.condense(s.displacement);
+  Matrix boundary = core_boundary;
+  add_outer_rows(s.ring, base_loads(tread_, s.tread_loads), boundary);
+  const Matrix outer = outer_rows(s.ring, s.ring.solve_boundary(boundary), tread_.base_per_column());
+  const Matrix observed = tread_field(tread_, outer, s.tread_loads).observations;
+  for (int i = 0; i < n_positions; ++i) {
+    s.preloads[i] = {Matrix(observed.rows(), n_columns), applied.on_the_rim[i]};
+    std::copy_n(observed.column(i * n_columns), s.preloads[i].observations.entries().size(),
+                s.preloads[i].observations.data());
+  }
+  return core_boundary;
 }
 
 template <int dim>
@@ -231,36 +260,40 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& p
   if (!factored) return factored.failure();
   phases.push_back({"factorization", watch.lap()});
 
-  RollingSolution<dim> s{*std::move(domain), *std::move(factored), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
-  s.contact_loads = Matrix(tread_.n_observations(), n_positions * n_columns);
-  std::optional<ContactState<dim>> neighbour;
-  for (int i = 0; i < n_positions; ++i) {
+  RollingSolution<dim> s{
+      *std::move(domain), *std::move(factored), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+  for (int i = 0; i < n_positions; ++i)
     s.grounds.push_back(
         {i * grid.columns() / n_positions, double(i * grid.columns() % n_positions) / n_positions});
-    auto rolled = roll_to(model_, tread_, s.ring, s.grounds.back(), neighbour);
+  s.displacement = Matrix(s.ring.sector_factor().size(), n_positions * n_sectors);
+  s.tread_loads = Matrix(tread_.n_observations(), n_positions * n_columns);
+  const Matrix core_boundary = preload(s);
+  std::optional<ContactState<dim>> neighbour;
+  for (int i = 0; i < n_positions; ++i) {
+    auto rolled = roll_to(model_, tread_, s.ring, s.grounds[i], s.preloads[i], neighbour);
     if (!rolled) return rolled.failure();
     neighbour = rolled->state;
     const ContactZone& zone = rolled->contact.zone();
     const Matrix loads = rolled->contact.contact_loads(rolled->state);
     for (int c = 0; c < zone.n_columns; ++c)
       std::copy_n(loads.column(c), loads.rows(),
-                  s.contact_loads.column(i * n_columns + wrap(zone.first_column + c, n_columns)));
+                  s.tread_loads.column(i * n_columns + wrap(zone.first_column + c, n_columns)));
     s.contacts.push_back(std::move(rolled->contact));
     s.states.push_back(std::move(rolled->state));
   }
   phases.push_back({"contact", watch.lap()});
 
-  Matrix boundary(s.ring.n_boundary(), n_positions * n_sectors);
-  add_outer_rows(s.ring, base_loads(tread_, s.contact_loads), boundary);
+  Matrix boundary = core_boundary;
+  add_outer_rows(s.ring, base_loads(tread_, s.tread_loads), boundary);
   boundary = s.ring.solve_boundary(boundary);
-  s.displacement = Matrix(s.ring.sector_factor().size(), n_positions * n_sectors);
   s.ring.recover(boundary, s.displacement);
   s.outer_line = outer_rows(s.ring, boundary, tread_.base_per_column());
-  s.observations = tread_field(tread_, s.outer_line, s.contact_loads).observations;
+  s.observations = tread_field(tread_, s.outer_line, s.tread_loads).observations;
   s.ghost_loads = apply_ghost(s.ring, s.displacement);
   if (!all_finite(s.displacement) || !all_finite(s.observations))
     return Failure{FailureReason::not_finite, "the displacement is not finite"};
-  if (const double residual = interior_residual(s.ring, s.displacement, 0); residual > largest_residual)
+  if (const double residual = interior_residual(s.ring, s.displacement, s.core_loads, 0);
+      residual > largest_residual)
     return Failure{FailureReason::inaccurate_solution,
                    fmt::format("the equations of a sector are off by {:.2g} of their terms", residual)};
 
@@ -268,9 +301,10 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& p
   for (int i = 0; i < n_positions; ++i) {
     double work = 0;
     for (int c = i * n_columns; c < (i + 1) * n_columns; ++c)
-      work += column_dot(s.contact_loads, s.observations, c) - column_dot(nitsche, s.observations, c);
+      work += column_dot(s.tread_loads, s.observations, c) - column_dot(nitsche, s.observations, c);
     for (int c = i * n_sectors; c < (i + 1) * n_sectors; ++c)
-      work -= column_dot(s.ghost_loads, s.displacement, c);
+      work += (s.core_loads.rows() > 0 ? column_dot(s.core_loads, s.displacement, c) : 0.0) -
+              column_dot(s.ghost_loads, s.displacement, c);
     s.strain_energy.push_back(0.5 * work);
     if (!(work > 0))
       return Failure{FailureReason::negative_energy,
@@ -283,16 +317,16 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& p
 
 template class RollingProblem<2>;
 template class RollingProblem<3>;
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                               \
-  template RimControl rim_control(const RollingModel<dim>&);                                       \
-  template Matrix outer_rows(const CyclicStiffness<dim>&, const Matrix&, int);                     \
-  template void add_outer_rows(const CyclicStiffness<dim>&, const Matrix&, Matrix&);               \
-  template void gather(const CyclicStiffness<dim>&, std::span<const int>, const Matrix&, Matrix&); \
-  template Expected<RolledContact<dim>> roll_to(const RollingModel<dim>&, const Tread<dim>&,       \
-                                                const CyclicStiffness<dim>&, GroundPosition,       \
-                                                const std::optional<ContactState<dim>>&);          \
-  template Expected<RolledContact<dim>> reload(const RollingModel<dim>&, const Tread<dim>&,        \
-                                               const CyclicStiffness<dim>&, GroundPosition,        \
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                                         \
+  template RimControl rim_control(const RollingModel<dim>&);                                                 \
+  template Matrix outer_rows(const CyclicStiffness<dim>&, const Matrix&, int);                               \
+  template void add_outer_rows(const CyclicStiffness<dim>&, const Matrix&, Matrix&);                         \
+  template void gather(const CyclicStiffness<dim>&, std::span<const int>, const Matrix&, Matrix&);           \
+  template Expected<RolledContact<dim>> roll_to(const RollingModel<dim>&, const Tread<dim>&,                 \
+                                                const CyclicStiffness<dim>&, GroundPosition, const Preload&, \
+                                                const std::optional<ContactState<dim>>&);                    \
+  template Expected<RolledContact<dim>> reload(const RollingModel<dim>&, const Tread<dim>&,                  \
+                                               const CyclicStiffness<dim>&, GroundPosition, const Preload&,  \
                                                const RolledContact<dim>&);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)

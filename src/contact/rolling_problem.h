@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/phase_time.h"
-#include "contact/reduced_contact.h"
+#include "contact/distributed_loads.h"
 #include "contact/tread_ring.h"
 
 namespace wheelwright {
@@ -20,6 +20,7 @@ struct RollingModel {
   double horizontal_force = 0;  ///< H on the rim, towards larger azimuth; if not 0, it moves along the ground
   double torque = 0;            ///< M on the rim about the axle; if not 0, it turns
   std::optional<double> travel;  ///< of the rim towards the ground [m], instead of the load
+  DistributedLoads<dim> distributed;
   int n_positions = 8;  ///< N_d, load positions of one sector; means over them need a divisor of its columns
 };
 
@@ -42,7 +43,9 @@ struct RollingSolution {
   std::vector<ContactState<dim>> states;
   Matrix displacement;                ///< v in the core
   Matrix outer_line;                  ///< v on the core's outer line
-  Matrix contact_loads;               ///< of the ground, on the tread's observations
+  Matrix core_loads;                  ///< of body force and pressure, in the core; empty: none
+  Matrix tread_loads;                 ///< of ground and body force, on the tread's observations
+  std::vector<Preload> preloads;      ///< of every position
   Matrix observations;                ///< of v on the tread
   Matrix ghost_loads;                 ///< ghost penalty applied to v, in the core
   std::vector<double> strain_energy;  ///< J_e (3) of every position
@@ -74,6 +77,7 @@ class RollingProblem {
  private:
   RollingProblem(const RollingModel<dim>& model, std::unique_ptr<ElementTable<dim>> elements,
                  Tread<dim> tread);
+  Matrix preload(RollingSolution<dim>& s) const;
 
   RollingModel<dim> model_;
   std::unique_ptr<ElementTable<dim>> elements_;
@@ -91,10 +95,12 @@ struct RolledContact {
 };
 
 /// The contact of one load position alone, on a ring that solve() has factored. The zone is widened until it
-/// holds the contact. `neighbour`: a solution to start from.
+/// holds the contact. `neighbour`: a solution to start from; `preload`: what other loads than the ground's
+/// do.
 template <int dim>
 Expected<RolledContact<dim>> roll_to(const RollingModel<dim>& model, const Tread<dim>& tread,
                                      const CyclicStiffness<dim>& ring, GroundPosition ground,
+                                     const Preload& preload,
                                      const std::optional<ContactState<dim>>& neighbour);
 
 /// The same position under the loads or the travel of `model`, which differs in nothing else: next to free as
@@ -102,7 +108,7 @@ Expected<RolledContact<dim>> roll_to(const RollingModel<dim>& model, const Tread
 template <int dim>
 Expected<RolledContact<dim>> reload(const RollingModel<dim>& model, const Tread<dim>& tread,
                                     const CyclicStiffness<dim>& ring, GroundPosition ground,
-                                    const RolledContact<dim>& before);
+                                    const Preload& preload, const RolledContact<dim>& before);
 
 /// The rows of boundary vectors (CyclicStiffness) on the core's outer line, one column an angular cell of the
 /// ring, `per_column` rows.

@@ -19,6 +19,7 @@ class Tread {
   const TreadColumn<dim>& column() const { return column_; }
   const std::vector<TreadPoint<dim>>& points() const { return column_.points; }
   int n_observations() const { return column_.observation.rows(); }
+  int body_row() const { return n_observations() - dim; }  ///< first of the integrals of u
   int n_base() const { return column_.n_base; }
   int n_line() const { return column_.n_line; }
   int n_contact() const { return 2 * dim * static_cast<int>(points().size()); }  ///< observations on Gamma_C

@@ -177,6 +177,8 @@ template <int dim>
 struct FreeColumn {
   std::vector<TreadPoint<dim>> points;
   std::vector<AnnulusPoint> annulus;
+  double volume;
+  Vec<dim> moment;
   Matrix stiffness, observation, nodal;
 };
 
@@ -199,8 +201,10 @@ FreeColumn<dim> assemble(const ElementTable<dim>& table, const ColumnNodes<dim>&
   FreeColumn<dim> column{
       {},
       {},
+      0,
+      {},
       Matrix(nodes.n_dofs(), nodes.n_dofs()),
-      Matrix(n_contact + dim * n_cells * static_cast<int>(annulus_rule.size()), nodes.n_dofs()),
+      Matrix(n_contact + dim * n_cells * static_cast<int>(annulus_rule.size()) + dim, nodes.n_dofs()),
       {}};
   for (size_t l = 0; l < nodes.all_layers().size(); ++l) {
     const Layer& layer = nodes.all_layers()[l];
@@ -257,6 +261,17 @@ FreeColumn<dim> assemble(const ElementTable<dim>& table, const ColumnNodes<dim>&
                           column.observation);
             column.annulus.push_back({q.weight * at.determinant});
           }
+          for (const auto& q : volume_rule) {
+            auto at = element.at(q.xi);
+            const double weight = q.weight * at.determinant;
+            for (auto& component : at.displacement)
+              for (double& value : component) value *= weight;
+            add_rows<dim>(at.displacement, cell, column.observation.rows() - dim, across * cell_angle,
+                          column.observation);
+            column.volume += weight;
+            const Vec<dim> position = rotated<dim>(at.position, across * cell_angle);
+            for (int d = 0; d < dim; ++d) column.moment[d] += weight * position[d];
+          }
           add_stiffness<dim>(k, cell, column.stiffness);
         }
       }
@@ -288,6 +303,8 @@ Expected<TreadColumn<dim>> tread_column(const ElementTable<dim>& table, const Tr
 
   TreadColumn<dim> column{std::move(free.points),
                           std::move(free.annulus),
+                          free.volume,
+                          free.moment,
                           nodes.n_base(),
                           nodes.n_line(),
                           block(free.stiffness, 0, n_retained, 0, n_retained),

@@ -32,13 +32,16 @@ struct AnnulusPoint {
 /// Retained unknowns: base (the nodes of the core's outer line on the column's degree + 1 azimuth lines; line
 /// major, then axial node, then polar component), then the nodes above the base on the column's first
 /// azimuth, then those on its last. Observations: for every point first the displacement u, then the traction
-/// After them, if wanted, for every AnnulusPoint sigma(u)n with n radial: dim rows a point.
-/// sigma(u)n on Gamma_C, Cartesian in the column's frame: 2 * dim rows a point. Nitsche's term -theta/gamma
-/// sigma(u)n.sigma(v)n of (28) does not depend on the load position; it is part of the stiffness.
+/// sigma(u)n on Gamma_C, Cartesian in the column's frame: 2 * dim rows a point. After them, if wanted, for
+/// every AnnulusPoint sigma(u)n with n radial: dim rows a point. Last the integral of u over the column: dim
+/// rows, on which body forces act. Nitsche's term -theta/gamma sigma(u)n.sigma(v)n of (28) does not depend on
+/// the load position; it is part of the stiffness.
 template <int dim>
 struct TreadColumn {
   std::vector<TreadPoint<dim>> points;
   std::vector<AnnulusPoint> annulus;
+  double volume;    ///< int dx
+  Vec<dim> moment;  ///< int x dx, in the column's frame
   int n_base, n_line;
   Matrix stiffness;    ///< retained x retained
   Matrix observation;  ///< observations x retained

@@ -62,8 +62,8 @@ class TreadCells {
  public:
   TreadCells(const RollingProblem<dim>& problem, const RollingSolution<dim>& s)
       : problem_(problem),
-        field_(tread_field(problem.tread(), s.outer_line, s.contact_loads)),
-        nodal_(nodal_displacements(problem.tread(), field_, s.contact_loads)) {}
+        field_(tread_field(problem.tread(), s.outer_line, s.tread_loads)),
+        nodal_(nodal_displacements(problem.tread(), field_, s.tread_loads)) {}
 
   /// One column for every (position, ring column). `row` and `axial` are the cell's, the first row lowest.
   Matrix dofs(int row, int axial) const {

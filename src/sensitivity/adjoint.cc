@@ -7,29 +7,33 @@
 namespace wheelwright {
 namespace {
 
-/// The multiplier loads -S^T m of all positions, from what is observed of p without them.
+/// The multiplier loads -S^T m of all positions and the rim's motions, from what is observed of p without
+/// them.
 template <int dim>
-Expected<Matrix> contact_multipliers(const RollingSolution<dim>& s, const Matrix& observed, int n_columns) {
-  Matrix result(observed.rows(), observed.columns());
+Expected<std::pair<Matrix, std::vector<RimMotion>>> contact_adjoints(const RollingSolution<dim>& s,
+                                                                     const Matrix& observed, int n_columns) {
+  Matrix loads(observed.rows(), observed.columns());
+  std::vector<RimMotion> rim;
   for (int i = 0; i < static_cast<int>(s.contacts.size()); ++i) {
     const ContactZone& zone = s.contacts[i].zone();
     const auto column = [&](int c) { return i * n_columns + wrap(zone.first_column + c, n_columns); };
     Matrix in_zone(observed.rows(), zone.n_columns);
     for (int c = 0; c < zone.n_columns; ++c)
       std::copy_n(observed.column(column(c)), observed.rows(), in_zone.column(c));
-    const auto loads = s.contacts[i].adjoint_loads(s.states[i], in_zone);
-    if (!loads) return loads.failure();
+    const auto adjoint = s.contacts[i].adjoint(s.states[i], in_zone);
+    if (!adjoint) return adjoint.failure();
+    rim.push_back(adjoint->rim);
     for (int c = 0; c < zone.n_columns; ++c)
-      std::copy_n(loads->column(c), loads->rows(), result.column(column(c)));
+      std::copy_n(adjoint->loads.column(c), adjoint->loads.rows(), loads.column(column(c)));
   }
-  return result;
+  return std::pair{std::move(loads), std::move(rim)};
 }
 
 }  // namespace
 
 template <int dim>
-Expected<Matrix> solve_adjoint(const RollingProblem<dim>& problem, const RollingSolution<dim>& s,
-                               const AdjointLoads& loads) {
+Expected<Adjoint> solve_adjoint(const RollingProblem<dim>& problem, const RollingSolution<dim>& s,
+                                const AdjointLoads& loads) {
   const Tread<dim>& tread = problem.tread();
   const int n_columns = tread.n_columns(), per_column = tread.base_per_column();
   // p = q - state_weight v with K q = core + T^T observations - S^T m.
@@ -44,19 +48,19 @@ Expected<Matrix> solve_adjoint(const RollingProblem<dim>& problem, const Rolling
       tread_field(tread, outer_rows(s.ring, without_contact, per_column), observation_loads).observations;
   for (size_t k = 0; k < observed.entries().size(); ++k)
     observed.entries()[k] -= loads.state_weight * s.observations.entries()[k];
-  const auto multipliers = contact_multipliers(s, observed, n_columns);
-  if (!multipliers) return multipliers.failure();
+  auto contact = contact_adjoints(s, observed, n_columns);
+  if (!contact) return contact.failure();
 
-  add_outer_rows(s.ring, base_loads(tread, *multipliers), boundary);
+  add_outer_rows(s.ring, base_loads(tread, contact->first), boundary);
   s.ring.recover(s.ring.solve_boundary(boundary), core);
   for (size_t k = 0; k < core.entries().size(); ++k)
     core.entries()[k] -= loads.state_weight * s.displacement.entries()[k];
-  return core;
+  return Adjoint{std::move(core), std::move(contact->second)};
 }
 
-template Expected<Matrix> solve_adjoint(const RollingProblem<2>&, const RollingSolution<2>&,
-                                        const AdjointLoads&);
-template Expected<Matrix> solve_adjoint(const RollingProblem<3>&, const RollingSolution<3>&,
-                                        const AdjointLoads&);
+template Expected<Adjoint> solve_adjoint(const RollingProblem<2>&, const RollingSolution<2>&,
+                                         const AdjointLoads&);
+template Expected<Adjoint> solve_adjoint(const RollingProblem<3>&, const RollingSolution<3>&,
+                                         const AdjointLoads&);
 
 }  // namespace wheelwright

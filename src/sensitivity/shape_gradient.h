@@ -2,14 +2,16 @@
 
 #include "criteria/criterion.h"
 #include "geometry/level_set.h"
+#include "sensitivity/adjoint.h"
 
 namespace wheelwright {
 
 /// The density G of the shape derivative (42) on the moving boundary of one sector, summed over all positions
-/// and sectors: M(u) + sigma(u):eps(p). `adjoint` from solve_adjoint() for the weighted sum of the criteria.
+/// and sectors: M(u) + sigma(u):eps(p) - f.p and, under a pressure p_0
+/// on the moving boundary, + p_0 div p. `adjoint` from solve_adjoint() for the weighted sum of the criteria.
 template <int dim>
 std::vector<SurfaceSample<dim>> shape_gradient(const RollingProblem<dim>& problem,
                                                const Criteria<dim>& criteria,
-                                               const RollingSolution<dim>& solution, const Matrix& adjoint);
+                                               const RollingSolution<dim>& solution, const Adjoint& adjoint);
 
 }  // namespace wheelwright

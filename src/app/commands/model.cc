@@ -41,6 +41,7 @@ RollingModel<2> rolling_model(const Case& c) {
   model.horizontal_force = c.load.horizontal_force / c.wheel.width;
   model.torque = c.load.torque / c.wheel.width;
   model.travel = c.load.travel;
+  model.distributed = {{c.load.body_force[1], c.load.body_force[0]}, c.load.hole_pressure};
   model.n_positions = c.load.positions;
   return model;
 }
