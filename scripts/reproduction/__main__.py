@@ -31,8 +31,10 @@ def run_all(program: str, selection: list[Figure]) -> Runs:
 def section(figure: Figure, runs: Runs) -> str:
     mine = {name: runs[name] for name in figure.cases}
     commands = "".join(f"    wheelwright run cases/paper/{n}.toml  # {r.seconds:.0f} s\n" for n, r in mine.items())
+    failures = [r for r in mine.values() if r.failure and r.name not in figure.may_fail]
+    body = "".join(f"Not reproduced, {r.name}: `{r.failure}`\n" for r in failures) or figure.section(mine)
     plural = "s" if len(figure.numbers) > 1 else ""
-    return f"## Fig{plural}. {figure.label}: {figure.title}\n\n{figure.section(mine)}\n{commands}"
+    return f"## Fig{plural}. {figure.label}: {figure.title}\n\n{body}\n{commands}"
 
 
 def earlier_sections() -> dict[str, str]:

@@ -1,5 +1,6 @@
 """The figures of the paper: which cases each needs, and what its section of the page says."""
 
+import math
 import shutil
 import textwrap
 from collections.abc import Callable
@@ -19,6 +20,7 @@ class Figure:
     title: str
     cases: list[str]
     section: Callable[[Runs], str]
+    may_fail: tuple[str, ...] = ()  # cases whose failure the section tells
 
     @property
     def label(self) -> str:
@@ -83,7 +85,7 @@ def ghost_penalty(r: Runs) -> str:
             (
                 "without ghost penalty the stress is badly wrong on small cuts",
                 f"xi = 0: {texts['ghost_none_p1']} with degree 1, {texts['ghost_none_p2']} with degree 2",
-                verdict(all(stresses[n] > 2 * reference for n in ("ghost_none_p1", "ghost_none_p2"))),
+                verdict(all(stresses.get(n, math.inf) > 2 * reference for n in ("ghost_none_p1", "ghost_none_p2"))),
             ),
             (
                 "xi = 1e-3 in (81) cures it, degree 1",
@@ -91,7 +93,7 @@ def ghost_penalty(r: Runs) -> str:
                 verdict("ghost_paper_p1" in cured and abs(stresses["ghost_paper_p1"] / reference - 1) < 0.2),
             ),
             (
-                "the same, degree 2",
+                "xi = 1e-3 in (81) cures it, degree 2",
                 texts["ghost_paper_p2"],
                 verdict("ghost_paper_p2" in cured and abs(stresses["ghost_paper_p2"] / reference - 1) < 0.2),
             ),
@@ -100,10 +102,16 @@ def ghost_penalty(r: Runs) -> str:
         "(81) penalizes the jump of the stress alone. For degree 2 it leaves quadratic modes of slivers with "
         "almost no stiffness, down to its own rounding errors; the full penalty adds the jump of the second normal "
         "derivative.\n",
-        stress(r["ghost_none_p1"], "Degree 1, no ghost penalty"),
-        stress(r["ghost_paper_p1"], "Degree 1, ghost penalty (81) with xi = 0.001"),
-        stress(r["ghost_none_p2"], "Degree 2, no ghost penalty"),
-        stress(r["ghost_full_p2"], "Degree 2, full ghost penalty with xi = 0.0001"),
+        *(
+            stress(r[name], text)
+            for name, text in (
+                ("ghost_none_p1", "Degree 1, no ghost penalty"),
+                ("ghost_paper_p1", "Degree 1, ghost penalty (81) with xi = 0.001"),
+                ("ghost_none_p2", "Degree 2, no ghost penalty"),
+                ("ghost_full_p2", "Degree 2, full ghost penalty with xi = 0.0001"),
+            )
+            if name in stresses
+        ),
         "The colours of these pictures end at the 99th percentile, so that slivers do not darken the rest.\n",
     )
 
@@ -129,7 +137,7 @@ def energy_alone(r: Runs) -> str:
                 verdict(ours.change("objective") < -0.17),
             ),
             (
-                "the rule lambda_k keeps the volume",
+                "section 4: the rule lambda_k keeps the volume",
                 f"volume {percent(rules.change('volume fraction'))} at the end, "
                 f"{percent(max(rules.column('volume fraction')) / rules.first['volume fraction'] - 1)} at most; J_e "
                 f"{percent(rules.change('objective'))}",
@@ -295,7 +303,7 @@ def uniformity(r: Runs) -> str:
                 verdict(min(band[jp1.name], band[jp2.name]) > band[je.name] + 0.5),
             ),
             (
-                "a little more so with J_p1 than with J_p2",
+                "the holes draw away a little more with J_p1 than with J_p2",
                 f"{band[jp1.name]:.1f} mm (alpha_1 = 6) or {band[balanced.name]:.1f} mm (by (83)) against "
                 f"{band[jp2.name]:.1f} mm",
                 f"{verdict(band[jp1.name] > band[jp2.name])} with alpha_1 = 6, "
@@ -323,6 +331,9 @@ def uniformity(r: Runs) -> str:
                 ),
             ),
         ),
+        f"The verdict on Fig. 16 rests on the peaks. Over the whole curves, whose ends move with the position, "
+        f"{100 * je.curve_deviation('final'):.1f} % of deviation are left with J_e alone, and alpha_2 = 100 only makes "
+        f"it {100 * jp2.curve_deviation('final'):.1f} %. "
         f"J_e alone already moves the holes from 30 mm to {band[je.name]:.0f} mm inside the tread, and with that most "
         f"of the disparity of the initial shape goes. The volume that drifts by the paper's rules does not bring it "
         f"back: its material thickens the tread to {band[rules.name]:.0f} mm. But on cells at the tread that are not "
@@ -331,7 +342,7 @@ def uniformity(r: Runs) -> str:
         "grid's and not the wheel's. The paper publishes neither its mesh nor whether its shapes had converged; either "
         "could be behind its Fig. 16.\n",
         f"For epsilon = L = 10 mm (83) gives alpha_1 = {balance:.1f}, so the paper's 6 weighs J_p1 "
-        f"{balance / 6:.0f} times too little beside its alpha_2. The rows by (83) show J_p1 as the paper means it.\n",
+        f"{balance / 6:.0f} times too lightly beside its alpha_2. The rows by (83) show J_p1 as the paper means it.\n",
         copied(je, "pressures_initial.svg", "Initial shape"),
         *(
             comparison(run, name) + copied(run, "pressures_final.svg", name)
@@ -405,6 +416,7 @@ figures = [
         "von Mises stress with and without ghost penalty",
         ["ghost_none_p1", "ghost_paper_p1", "ghost_none_p2", "ghost_paper_p2", "ghost_full_p2", "ghost_reference"],
         ghost_penalty,
+        may_fail=("ghost_none_p1", "ghost_paper_p1", "ghost_none_p2", "ghost_paper_p2"),
     ),
     Figure(range(10, 12), "strain energy alone", ["uniform_je", "rules_of_the_paper", "more_material"], energy_alone),
     Figure(
