@@ -90,14 +90,21 @@ class ResidualNorm {
   std::vector<double> balance_, stiffness_;
 };
 
+/// Whether a step turned a point's sliding round.
+template <int dim>
+bool turned(const Vec<dim>& before, const Vec<dim>& after, double friction) {
+  return contact_status<dim>(before, friction) == ContactStatus::slides &&
+         contact_status<dim>(after, friction) == ContactStatus::slides &&
+         tangential_dot<dim>(before, after) < 0;
+}
+
 template <int dim>
 int changed_points(const ContactUnknowns<dim>& a, const ContactUnknowns<dim>& b, double friction) {
   int changed = 0;
   for (size_t i = 0; i < a.augmented.size(); ++i) {
     const Vec<dim>&before = a.augmented[i], &after = b.augmented[i];
-    const ContactStatus status = contact_status<dim>(before, friction);
-    const bool turned = status == ContactStatus::slides && tangential_dot<dim>(before, after) < 0;
-    changed += turned || status != contact_status<dim>(after, friction);
+    changed += turned<dim>(before, after, friction) ||
+               contact_status<dim>(before, friction) != contact_status<dim>(after, friction);
   }
   return changed;
 }
@@ -152,11 +159,23 @@ bool slides(const ReducedContact<dim>& contact, const ContactUnknowns<dim>& x) {
   return first;
 }
 
+template <int dim>
+void stick(Vec<dim>& z) {
+  std::fill(z.begin() + 1, z.end(), 0.0);
+}
+
 /// Lets every touching point stick: the way out where the tangent is singular because all slide.
 template <int dim>
-void stick(ContactUnknowns<dim>& x) {
+void stick_all(ContactUnknowns<dim>& x) {
   for (Vec<dim>& z : x.augmented)
-    if (z[0] < 0) std::fill(z.begin() + 1, z.end(), 0.0);
+    if (z[0] < 0) stick<dim>(z);
+}
+
+/// Lets the points stick that a step turned round: between the two directions they come to rest.
+template <int dim>
+void stick_turned(const ContactUnknowns<dim>& before, double friction, ContactUnknowns<dim>& x) {
+  for (size_t i = 0; i < x.augmented.size(); ++i)
+    if (turned<dim>(before.augmented[i], x.augmented[i], friction)) stick<dim>(x.augmented[i]);
 }
 
 template <int dim>
@@ -171,17 +190,19 @@ NewtonEnd<dim> newton(const ReducedContact<dim>& contact, ContactUnknowns<dim> s
   while (end.iterations < max_iterations && std::isfinite(end.residual)) {
     auto step = contact.newton_step(end.x, residual);
     if (!step) {
-      stick(end.x);
+      stick_all(end.x);
       residual = contact.residual(end.x, fraction);
       end.residual = norm(residual);
       step = contact.newton_step(end.x, residual);
     }
     if (!step) return end;
     ++end.iterations;
+    const ContactUnknowns<dim> before = std::move(end.x);
     end.x = damping == Damping::residual
-                ? residual_search(contact, norm, fraction, end.residual, end.x, *step)
-                : contact_set_search(end.x, *step, contact.friction());
-    if (slides(contact, end.x)) stick(end.x);
+                ? residual_search(contact, norm, fraction, end.residual, before, *step)
+                : contact_set_search(before, *step, contact.friction());
+    if (contact.friction() > 0) stick_turned(before, contact.friction(), end.x);
+    if (slides(contact, end.x)) stick_all(end.x);
     residual = contact.residual(end.x, fraction);
     end.residual = norm(residual);
     end.converged = norm.vanishes(residual, end.x);
