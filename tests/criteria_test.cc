@@ -13,9 +13,11 @@
 namespace wheelwright {
 namespace {
 
+using testing::generic_hole;
 using testing::holes;
 using testing::paper_holes;
 using testing::paper_model;
+using testing::smooth_direction;
 
 RollingModel<2> annulus_model(int radial_cells, int angular_cells, int levels) {
   auto model = paper_model(radial_cells, angular_cells);
@@ -35,21 +37,12 @@ std::vector<std::shared_ptr<const Criterion<2>>> uniformity_criteria(const Rolli
           std::make_shared<UniformityDual<2>>(image_of(model))};
 }
 
-std::vector<double> smooth_direction(const Lattice<2>& lattice) {
-  std::vector<double> direction;
-  for (int i = 0; i < lattice.n_nodes(); ++i) {
-    const Vec<2> p = lattice.polar_point(i);
-    direction.push_back(1 + 0.4 * std::cos(16 * p[1]) + 0.3 * std::sin(40 * (p[0] - 0.27)));
-  }
-  return direction;
-}
-
 // p_mean of the shape itself, and held at an earlier shape's as the paper does.
 TEST(Uniformity, GradientsPassTheTaylorTest) {
   const auto model = annulus_model(14, 192, 1);
   const auto problem = RollingProblem<2>::create(model);
   ASSERT_TRUE(problem);
-  const auto psi = holes(model.grid, 2, {{0.2681, 0.47 * model.grid.sector_angle(), 0.0373}});
+  const auto psi = generic_hole(model.grid);
   const auto earlier = problem->solve(holes(model.grid, 2, {{0.27, 0.5 * model.grid.sector_angle(), 0.04}}));
   ASSERT_TRUE(earlier);
   const Matrix held = mean_observations(*problem, *earlier);

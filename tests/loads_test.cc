@@ -11,6 +11,7 @@
 namespace wheelwright {
 namespace {
 
+using testing::generic_taylor_test;
 using testing::holes;
 using testing::paper_holes;
 using testing::paper_model;
@@ -112,16 +113,7 @@ TEST(Loads, ShapeGradientPassesTheTaylorTest) {
       if (which == 2) model.travel = 5e-4;
       const auto problem = RollingProblem<2>::create(model);
       ASSERT_TRUE(problem);
-      const auto& grid = model.grid;
-      const auto psi = holes(grid, 2, {{0.2681, 0.47 * grid.sector_angle(), 0.0373}});
-      std::vector<double> direction;
-      for (int i = 0; i < psi.lattice.n_nodes(); ++i) {
-        const Vec<2> p = psi.lattice.polar_point(i);
-        direction.push_back(1 + 0.4 * std::cos(16 * p[1]) + 0.3 * std::sin(40 * (p[0] - 0.27)));
-      }
-      const auto test = taylor_test<2>(
-          [&](const LevelSet<2>& shape) { return evaluate<2>(*problem, strain_energy_alone(), shape); }, psi,
-          direction, model.degree, 2e-5, 3);
+      const auto test = generic_taylor_test(*problem, strain_energy_alone());
       ASSERT_TRUE(test) << test.failure().detail;
       for (double order : test->orders) EXPECT_GT(order, 1.9) << friction << which;
     }

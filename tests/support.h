@@ -5,6 +5,7 @@
 
 #include "criteria/strain_energy.h"
 #include "sensitivity/evaluate.h"
+#include "sensitivity/taylor_test.h"
 
 /// Shapes and models that the tests share.
 namespace wheelwright::testing {
@@ -54,5 +55,27 @@ inline double relative_difference(const std::vector<double>& a, const std::vecto
 }
 
 inline Criteria<2> strain_energy_alone() { return {{1, std::make_shared<StrainEnergy<2>>()}}; }
+
+/// A hole whose boundary touches no grid line, and a direction with several wave lengths: where a Taylor test
+/// finds the same cells cut at all its steps.
+inline LevelSet<2> generic_hole(const PolarGrid<2>& grid) {
+  return holes(grid, 2, {{0.2681, 0.47 * grid.sector_angle(), 0.0373}});
+}
+inline std::vector<double> smooth_direction(const Lattice<2>& lattice) {
+  std::vector<double> direction;
+  for (int i = 0; i < lattice.n_nodes(); ++i) {
+    const Vec<2> p = lattice.polar_point(i);
+    direction.push_back(1 + 0.4 * std::cos(16 * p[1]) + 0.3 * std::sin(40 * (p[0] - 0.27)));
+  }
+  return direction;
+}
+
+/// The Taylor test of an objective there.
+inline Expected<TaylorTest> generic_taylor_test(const RollingProblem<2>& problem,
+                                                const Criteria<2>& objective) {
+  const auto psi = generic_hole(problem.model().grid);
+  return taylor_test<2>([&](const LevelSet<2>& shape) { return evaluate<2>(problem, objective, shape); }, psi,
+                        smooth_direction(psi.lattice), problem.model().degree, 2e-5, 3);
+}
 
 }  // namespace wheelwright::testing
