@@ -117,7 +117,7 @@ TEST(PapersWheel, SlowUniformityCriteriaEvenOutTheContact) {
     last_energy = energy;
   }
   const Course annulus = optimize_case(read("paper/uniform_jp1.toml")),
-            dual = optimize_case(read("paper/uniform_jp2_100.toml"));
+               dual = optimize_case(read("paper/uniform_jp2_100.toml"));
   const auto ratio = [](const Course& run, const std::string& name) {
     return criterion_value(run.last, name) / criterion_value(run.initial, name);
   };
