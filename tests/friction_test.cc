@@ -16,6 +16,7 @@ using testing::holes;
 using testing::paper_holes;
 using testing::paper_model;
 using testing::strain_energy_alone;
+using testing::with_theta;
 
 RollingModel<2> with_friction(RollingModel<2> model) {
   model.contact.friction = 0.3;
@@ -225,10 +226,7 @@ TEST(Friction, ShapeGradientPassesTheTaylorTest) {
   for (const auto& base :
        {braked(paper_model(14, 192)), driven(paper_model(14, 192)), with_friction(paper_model(14, 192))}) {
     for (const double theta : {-1.0, 0.0, 1.0}) {
-      auto model = base;
-      model.contact.theta_nitsche = theta;
-      model.contact.gamma_0 = theta == 1 ? 1000 : theta == 0 ? 10 : 1;
-      const auto problem = RollingProblem<2>::create(model);
+      const auto problem = RollingProblem<2>::create(with_theta(base, theta));
       ASSERT_TRUE(problem);
       const auto test = generic_taylor_test(*problem, strain_energy_alone());
       ASSERT_TRUE(test) << test.failure().detail;

@@ -14,6 +14,7 @@ using testing::holes;
 using testing::paper_holes;
 using testing::paper_model;
 using testing::strain_energy_alone;
+using testing::with_theta;
 
 // Two independent programs, one of them GetFEM, agree on these values to 1e-5.
 TEST(Rolling, PaperWheelAgreesWithIndependentPrograms) {
@@ -48,10 +49,7 @@ TEST(Rolling, ContactQuadratureMatters) {
 // ghost faces and contact points stays: the basis functions do not move with the boundary.
 TEST(Rolling, ShapeGradientPassesTheTaylorTest) {
   for (double theta : {-1.0, 0.0, 1.0}) {
-    auto model = paper_model(14, 192);
-    model.contact.theta_nitsche = theta;
-    model.contact.gamma_0 = theta == 1 ? 1000 : theta == 0 ? 10 : 1;
-    const auto problem = RollingProblem<2>::create(model);
+    const auto problem = RollingProblem<2>::create(with_theta(paper_model(14, 192), theta));
     ASSERT_TRUE(problem);
     const auto test = generic_taylor_test(*problem, strain_energy_alone());
     ASSERT_TRUE(test) << test.failure().detail;

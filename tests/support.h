@@ -19,6 +19,13 @@ inline RollingModel<2> paper_model(int radial_cells = 28, int angular_cells = 38
   return model;
 }
 
+/// The model by another of Nitsche's variants, with a gamma_0 that is safe for it.
+inline RollingModel<2> with_theta(RollingModel<2> model, double theta) {
+  model.contact.theta_nitsche = theta;
+  model.contact.gamma_0 = theta == 1 ? 1000 : theta == 0 ? 10 : 1;
+  return model;
+}
+
 /// A circular hole given by its centre, in (radius, azimuth), and its radius.
 struct Hole {
   double centre_radius, azimuth, radius;

@@ -5,6 +5,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <concepts>
 #include <fstream>
 #include <map>
 #include <set>
@@ -106,18 +107,10 @@ std::optional<Complaint> read_number(const toml::node& node, std::string_view un
   return {};
 }
 
-template <class Struct>
-std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>& key,
-                                    const NumberField<Struct>& field, Struct& out) {
-  double value = 0;
-  auto complaint = read_number(node, key.unit, field.range, value);
-  if (!complaint) out.*field.member = value * field.factor;
-  return complaint;
-}
-
-template <class Struct>
-std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>& key,
-                                    const OptionalNumberField<Struct>& field, Struct& out) {
+template <class Struct, class Field>
+requires std::same_as<Field, NumberField<Struct>> || std::same_as<Field, OptionalNumberField<Struct>>
+    std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>& key, const Field& field,
+                                        Struct& out) {
   double value = 0;
   auto complaint = read_number(node, key.unit, field.range, value);
   if (!complaint) out.*field.member = value * field.factor;
