@@ -103,6 +103,21 @@ double column_dot(const Matrix& a, const Matrix& b, int column) {
   return sum;
 }
 
+/// J_e (3) of one position: half the work of all loads, less the ghost penalty's and Nitsche's share of it.
+template <int dim>
+double bulk_energy(const RollingSolution<dim>& s, const Matrix& nitsche_loads, int position) {
+  const int n_positions = static_cast<int>(s.grounds.size()), n_sectors = s.ring.n_sectors();
+  const int n_columns = s.observations.columns() / n_positions;
+  double work = 0;
+  for (int c = position * n_columns; c < (position + 1) * n_columns; ++c)
+    work += column_dot(s.tread_loads, s.observations, c) - column_dot(nitsche_loads, s.observations, c);
+  for (int c = position * n_sectors; c < (position + 1) * n_sectors; ++c) {
+    if (s.core_loads.rows() > 0) work += column_dot(s.core_loads, s.displacement, c);
+    work -= column_dot(s.ghost_loads, s.displacement, c);
+  }
+  return 0.5 * work;
+}
+
 /// P per metre of width.
 template <int dim>
 double line_load(const RollingModel<dim>& model) {
@@ -299,16 +314,10 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& p
 
   const Matrix nitsche = nitsche_loads(s.observations);
   for (int i = 0; i < n_positions; ++i) {
-    double work = 0;
-    for (int c = i * n_columns; c < (i + 1) * n_columns; ++c)
-      work += column_dot(s.tread_loads, s.observations, c) - column_dot(nitsche, s.observations, c);
-    for (int c = i * n_sectors; c < (i + 1) * n_sectors; ++c)
-      work += (s.core_loads.rows() > 0 ? column_dot(s.core_loads, s.displacement, c) : 0.0) -
-              column_dot(s.ghost_loads, s.displacement, c);
-    s.strain_energy.push_back(0.5 * work);
-    if (!(work > 0))
+    s.strain_energy.push_back(bulk_energy(s, nitsche, i));
+    if (!(s.strain_energy[i] > 0))
       return Failure{FailureReason::negative_energy,
-                     fmt::format("the strain energy of position {} is {:.4g} J/m", i, 0.5 * work)};
+                     fmt::format("the strain energy of position {} is {:.4g} J/m", i, s.strain_energy[i])};
   }
   phases.push_back({"recovery", watch.lap()});
   s.phases = std::move(phases);
