@@ -55,12 +55,12 @@ struct Failure {
   std::string detail;  ///< where, how much, and what would help; one line
 };
 
-/// Either a T or the Failure that prevented it.
-template <class T>
+/// Either a T or the E, by default a numerical Failure, that prevented it.
+template <class T, class E = Failure>
 class [[nodiscard]] Expected {
  public:
   Expected(T value) : content_(std::move(value)) {}
-  Expected(Failure failure) : content_(std::move(failure)) {}
+  Expected(E failure) : content_(std::move(failure)) {}
 
   explicit operator bool() const { return std::holds_alternative<T>(content_); }
   const T& operator*() const& { return std::get<T>(content_); }
@@ -68,10 +68,10 @@ class [[nodiscard]] Expected {
   T&& operator*() && { return std::get<T>(std::move(content_)); }
   const T* operator->() const { return &std::get<T>(content_); }
   T* operator->() { return &std::get<T>(content_); }
-  const Failure& failure() const { return std::get<Failure>(content_); }
+  const E& failure() const { return std::get<E>(content_); }
 
  private:
-  std::variant<T, Failure> content_;
+  std::variant<T, E> content_;
 };
 
 }  // namespace wheelwright

@@ -1,8 +1,12 @@
 #include "output/history.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
+#include <fstream>
 
+#include "output/checksum.h"
 #include "output/csv.h"
 #include "output/output_error.h"
 
@@ -40,6 +44,26 @@ History::History(std::filesystem::path path, HistoryColumns columns)
   write_line(header);
 }
 
+History::History(std::filesystem::path path, HistoryColumns columns, const HistoryMark& end)
+    : path_(std::move(path)), columns_(std::move(columns)), file_(std::fopen(path_.c_str(), "a")), end_(end) {
+  if (!file_ || ::ftruncate(::fileno(file_.get()), static_cast<off_t>(end.bytes)) != 0)
+    throw OutputError(path_, errno);
+}
+
+bool History::holds(const std::filesystem::path& path, const HistoryMark& mark) {
+  std::error_code error;
+  const auto size = std::filesystem::file_size(path, error);
+  if (error || size < mark.bytes) return false;
+  std::string start(mark.bytes, '\0');
+  std::ifstream file(path, std::ios::binary);
+  return file.read(start.data(), static_cast<std::streamsize>(start.size())) &&
+         checksum(start) == mark.checksum;
+}
+
+void History::synchronize() {
+  if (::fsync(::fileno(file_.get())) != 0 && errno != EINVAL) throw OutputError(path_, errno);
+}
+
 void History::add(const HistoryRow& row) {
   std::vector<std::string> cells{std::to_string(row.iteration), std::to_string(row.trial),
                                  row.accepted ? "1" : "0", row.reason, csv_number(row.objective)};
@@ -57,6 +81,7 @@ void History::write_line(const std::vector<std::string>& cells) {
   const std::string line = csv_line(cells);
   if (std::fwrite(line.data(), 1, line.size(), file_.get()) != line.size() || std::fflush(file_.get()) != 0)
     throw OutputError(path_, errno);
+  end_ = {end_.bytes + line.size(), checksum(line, end_.checksum)};
 }
 
 }  // namespace wheelwright

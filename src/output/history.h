@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -41,6 +42,12 @@ struct HistoryRow {
   double elapsed_seconds;  ///< wall time since the run began
 };
 
+/// A place in a history file: behind its first bytes, known by their checksum.
+struct HistoryMark {
+  std::uint64_t bytes = 0;
+  std::uint32_t checksum = 0;
+};
+
 /// history.csv: a header that names the units, then one row a trial, on disk as soon as it is added. Numbers
 /// are the shortest that read back to the same double.
 class History {
@@ -48,8 +55,20 @@ class History {
   /// Replaces the file. Throws OutputError.
   History(std::filesystem::path path, HistoryColumns columns);
 
+  /// Goes on at a place of the file, which must hold it, and drops the rows behind it. Throws OutputError.
+  History(std::filesystem::path path, HistoryColumns columns, const HistoryMark& end);
+
+  /// Whether the file begins with what the mark was taken of.
+  static bool holds(const std::filesystem::path& path, const HistoryMark& mark);
+
   /// Throws OutputError.
   void add(const HistoryRow& row);
+
+  /// The end of the file as it is now.
+  const HistoryMark& end() const { return end_; }
+
+  /// Returns when all rows are on the disk. Throws OutputError.
+  void synchronize();
 
  private:
   void write_line(const std::vector<std::string>& cells);
@@ -60,6 +79,7 @@ class History {
   std::filesystem::path path_;
   HistoryColumns columns_;
   std::unique_ptr<std::FILE, Close> file_;
+  HistoryMark end_;
 };
 
 }  // namespace wheelwright

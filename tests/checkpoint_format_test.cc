@@ -1,0 +1,246 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "output/checkpoint.h"
+#include "output/level_set_file.h"
+
+namespace wheelwright {
+namespace {
+
+const std::vector<std::string_view> checkpoint_tags{"CASE", "STAT", "INIT", "RUN "};
+
+class Random {
+ public:
+  double number() { return std::ldexp(uniform_(engine_), static_cast<int>(engine_() % 40) - 20); }
+  std::vector<double> numbers(int n) {
+    std::vector<double> result(n);
+    for (double& value : result) value = number();
+    return result;
+  }
+
+ private:
+  std::mt19937 engine_{1};
+  std::uniform_real_distribution<double> uniform_{-1, 1};
+};
+
+template <int dim>
+PolarGrid<dim> small_grid() {
+  PolarGrid<dim> grid{0.2, 0.34, 0.12, 16, {2, 3}};
+  if constexpr (dim == 3) grid.cells[2] = 1;
+  return grid;
+}
+
+template <int dim>
+LevelSet<dim> some_level_set(Random& random, int degree) {
+  const Lattice<dim> lattice(small_grid<dim>(), degree);
+  return {lattice, random.numbers(lattice.n_nodes())};
+}
+
+template <int dim>
+Checkpoint<dim> some_checkpoint() {
+  Random random;
+  const auto point = [&] {
+    Vec<dim> x;
+    for (double& value : x) value = random.number();
+    return x;
+  };
+  Matrix mean(3, 4);
+  mean.entries() = random.numbers(12);
+  Evaluation<dim> evaluation{
+      random.number(),
+      {{"strain_energy", random.number()}, {"uniformity_dual", random.number()}},
+      {{0, point(), point(), random.number(), random.number()}, {5, point(), point(), random.number(), -0.0}},
+      {7, 0, 12},
+      mean,
+      {{"cut", 0.25}, {"contact", 1e-3}},
+      {{"run_out", std::numeric_limits<double>::denorm_min()},
+       {"pressure_spread", std::numeric_limits<double>::quiet_NaN()}}};
+  OptimizationState<dim> state{some_level_set<dim>(random, 2),
+                               evaluation,
+                               random.number(),
+                               random.number(),
+                               3,
+                               0.5,
+                               2,
+                               1,
+                               random.numbers(4)};
+  return {{"[load]\nforce = 1\n", "wheelwright 1.2.3"},
+          state,
+          {some_level_set<dim>(random, 1), random.number(), random.number()},
+          {123456789012, 0xfedcba98},
+          17.25,
+          StopReason::no_descent};
+}
+
+template <int dim>
+std::string round_trip(const std::string& bytes) {
+  const auto parsed = parse_checkpoint_file<dim>(bytes);
+  return parsed ? checkpoint_file(*parsed) : parsed.failure().detail;
+}
+
+TEST(CheckpointFormat, ComesBackBitForBitIn2DAnd3D) {
+  const std::string flat = checkpoint_file(some_checkpoint<2>()),
+                    solid = checkpoint_file(some_checkpoint<3>());
+  EXPECT_EQ(round_trip<2>(flat), flat);
+  EXPECT_EQ(round_trip<3>(solid), solid);
+}
+
+TEST(CheckpointFormat, HoldsTheWholeState) {
+  const auto written = some_checkpoint<2>();
+  const auto parsed = parse_checkpoint_file<2>(checkpoint_file(written));
+  ASSERT_TRUE(parsed);
+  const auto &a = written.state, &b = parsed->state;
+  EXPECT_EQ(a.shape.values, b.shape.values);
+  EXPECT_EQ(a.shape.lattice.degree(), b.shape.lattice.degree());
+  EXPECT_EQ(a.shape.lattice.grid().cells, b.shape.lattice.grid().cells);
+  EXPECT_EQ(a.shape.lattice.grid().outer_radius, b.shape.lattice.grid().outer_radius);
+  EXPECT_EQ(a.evaluation.objective, b.evaluation.objective);
+  EXPECT_EQ(a.evaluation.criteria[1].name, b.evaluation.criteria[1].name);
+  EXPECT_EQ(a.evaluation.gradient[0].normal, b.evaluation.gradient[0].normal);
+  EXPECT_TRUE(std::signbit(b.evaluation.gradient[1].value));
+  EXPECT_EQ(a.evaluation.newton_iterations, b.evaluation.newton_iterations);
+  EXPECT_EQ(a.evaluation.mean_observations.entries(), b.evaluation.mean_observations.entries());
+  EXPECT_EQ(a.evaluation.mean_observations.rows(), b.evaluation.mean_observations.rows());
+  EXPECT_EQ(a.evaluation.phases[1].seconds, b.evaluation.phases[1].seconds);
+  EXPECT_TRUE(std::isnan(b.evaluation.measures[1].value));
+  EXPECT_EQ(a.measure, b.measure);
+  EXPECT_EQ(a.target_measure, b.target_measure);
+  EXPECT_EQ(a.iteration, b.iteration);
+  EXPECT_EQ(a.step, b.step);
+  EXPECT_EQ(a.since_redistance, b.since_redistance);
+  EXPECT_EQ(a.since_smoothing, b.since_smoothing);
+  EXPECT_EQ(a.history, b.history);
+  EXPECT_EQ(written.initial.shape.values, parsed->initial.shape.values);
+  EXPECT_EQ(written.initial.objective, parsed->initial.objective);
+  EXPECT_EQ(written.history.bytes, parsed->history.bytes);
+  EXPECT_EQ(written.history.checksum, parsed->history.checksum);
+  EXPECT_EQ(written.elapsed_seconds, parsed->elapsed_seconds);
+  EXPECT_EQ(written.finished, parsed->finished);
+  EXPECT_EQ(written.provenance.resolved_case, parsed->provenance.resolved_case);
+  EXPECT_EQ(written.provenance.program, parsed->provenance.program);
+}
+
+/// Cuts the file at every length, flips every bit, and appends: `parse` must fail each time, and say why.
+template <class Parse>
+void expect_every_damage_is_seen(const std::string& good, Parse parse) {
+  ASSERT_TRUE(parse(good));
+  for (std::size_t length = 0; length < good.size(); ++length) {
+    const auto parsed = parse(good.substr(0, length));
+    ASSERT_FALSE(parsed) << length;
+    EXPECT_EQ(parsed.failure().fault, FormatFault::truncated) << length;
+    EXPECT_FALSE(parsed.failure().detail.empty());
+  }
+  for (std::size_t bit = 0; bit < 8 * good.size(); ++bit) {
+    std::string bad = good;
+    bad[bit / 8] = static_cast<char>(bad[bit / 8] ^ (1 << bit % 8));
+    ASSERT_FALSE(parse(bad)) << bit;
+  }
+  EXPECT_EQ(parse(good + '\0').failure().fault, FormatFault::wrong_block);
+}
+
+TEST(CheckpointFormat, RejectsEveryTruncationAndEveryFlippedBit) {
+  expect_every_damage_is_seen(checkpoint_file(some_checkpoint<2>()), parse_checkpoint_file<2>);
+}
+
+TEST(LevelSetFile, ComesBackExactlyAndRejectsEveryDamage) {
+  Random random;
+  const auto psi = some_level_set<3>(random, 2);
+  const std::string bytes = level_set_file(psi);
+  EXPECT_EQ(parse_level_set_file<3>(bytes)->values, psi.values);
+  EXPECT_EQ(parse_level_set_file<2>(bytes).failure().fault, FormatFault::invalid_value);
+  expect_every_damage_is_seen(bytes, parse_level_set_file<3>);
+}
+
+TEST(CheckpointFormat, NamesTheFault) {
+  const std::string good = checkpoint_file(some_checkpoint<2>());
+  const auto fault = [](const std::string& bytes) { return parse_checkpoint_file<2>(bytes).failure().fault; };
+  EXPECT_EQ(fault("no such file, but one that is long enough for a header"), FormatFault::wrong_kind);
+  EXPECT_EQ(fault(block_file("LSET", 1, {})), FormatFault::wrong_kind);
+  EXPECT_EQ(fault(block_file("CKPT", 2, {})), FormatFault::unsupported_version);
+  EXPECT_EQ(fault(block_file("CKPT", 1, {{"STAT", ""}, {"CASE", ""}})), FormatFault::wrong_block);
+  EXPECT_EQ(fault(block_file("CKPT", 1, {})), FormatFault::wrong_block);
+  std::string bad = good;
+  bad[good.size() / 2] ^= 1;
+  EXPECT_EQ(fault(bad), FormatFault::wrong_checksum);
+}
+
+/// The checkpoint with right checksums, after a change of the payload of one block.
+template <class Change>
+std::string reframed(const std::string& good, std::size_t block, Change change) {
+  const auto payloads = parse_block_file(good, "CKPT", 1, checkpoint_tags);
+  std::vector<Block> blocks;
+  for (std::size_t k = 0; k < checkpoint_tags.size(); ++k) {
+    std::string payload((*payloads)[k]);
+    if (k == block) change(payload);
+    blocks.push_back({std::string(checkpoint_tags[k]), std::move(payload)});
+  }
+  return block_file("CKPT", 1, blocks);
+}
+
+// Checksums do not protect from files that were made to harm: sizes and values are checked too.
+
+TEST(CheckpointFormat, RejectsWhatDoesNotFitThoughItsChecksumsAreRight) {
+  const std::string good = checkpoint_file(some_checkpoint<2>());
+  int rejected = 0;
+  for (std::size_t block = 0; block < checkpoint_tags.size(); ++block) {
+    const std::size_t size = (*parse_block_file(good, "CKPT", 1, checkpoint_tags))[block].size();
+    for (std::size_t at = 0; at < size; ++at)
+      for (const char value : {'\x00', '\x01', '\x7f', '\x80', '\xff'}) {
+        const auto parsed = parse_checkpoint_file<2>(
+            reframed(good, block, [&](std::string& payload) { payload[at] = value; }));
+        if (parsed) continue;
+        ++rejected;
+        ASSERT_EQ(parsed.failure().fault, FormatFault::invalid_value);
+      }
+    EXPECT_FALSE(
+        parse_checkpoint_file<2>(reframed(good, block, [](std::string& payload) { payload += "more"; })));
+    for (std::size_t length = 0; length < size; ++length)
+      ASSERT_FALSE(parse_checkpoint_file<2>(
+          reframed(good, block, [&](std::string& payload) { payload.resize(length); })))
+          << block << ' ' << length;
+  }
+  EXPECT_GT(rejected, 1000);
+}
+
+TEST(CheckpointFormat, AllocatesNothingForSizesThatTheFileOnlyClaims) {
+  for (const std::int64_t claim : {std::int64_t{1} << 40, std::numeric_limits<std::int64_t>::max(),
+                                   std::int64_t{-1}, std::numeric_limits<std::int64_t>::min()}) {
+    ByteWriter writer;
+    writer.integer(claim);
+    for (int k = 0; k < 8; ++k) writer.number(k);
+    EXPECT_EQ(ByteReader(writer.bytes()).count(1), 0u);
+    EXPECT_TRUE(ByteReader(writer.bytes()).numbers().empty());
+    EXPECT_TRUE(ByteReader(writer.bytes()).text().empty());
+    ByteReader reader(writer.bytes());
+    reader.text();
+    EXPECT_FALSE(reader.ok());
+    EXPECT_EQ(reader.number(), 0);
+  }
+}
+
+template <class Change>
+bool accepts(Change change) {
+  auto checkpoint = some_checkpoint<2>();
+  change(checkpoint);
+  return bool(parse_checkpoint_file<2>(checkpoint_file(checkpoint)));
+}
+
+TEST(CheckpointFormat, RejectsStatesThatNoRunHas) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(accepts([](auto&) {}));
+  EXPECT_FALSE(accepts([](auto& c) { c.state.evaluation.gradient[0].cell = 6; }));
+  EXPECT_FALSE(accepts([](auto& c) { c.state.evaluation.gradient[0].cell = -1; }));
+  EXPECT_FALSE(accepts([](auto& c) { c.state.shape.values.pop_back(); }));
+  EXPECT_FALSE(accepts([&](auto& c) { c.state.shape.values[3] = nan; }));
+  EXPECT_FALSE(accepts([&](auto& c) { c.initial.objective = nan; }));
+  EXPECT_FALSE(accepts([](auto& c) { c.state.history.pop_back(); }));
+  EXPECT_FALSE(accepts([](auto& c) { c.state.iteration = -1; }));
+  EXPECT_FALSE(accepts([](auto& c) { c.state.step = 0; }));
+  EXPECT_FALSE(accepts([](auto& c) { c.state.evaluation.mean_observations.entries().pop_back(); }));
+}
+
+}  // namespace
+}  // namespace wheelwright
