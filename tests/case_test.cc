@@ -98,6 +98,7 @@ Case with_holes() {
   c.output.folder = "runs/test";
   c.holes.rings = {ring_sections().example};
   c.holes.circles = {circle_sections().example};
+  c.expectations = {expectation_sections().example};
   return c;
 }
 
@@ -118,9 +119,11 @@ TEST(CaseFile, ProblemsComeInTheOrderOfTheFile) {
 }
 
 TEST(CaseFile, EveryExampleIsAccepted) {
-  for (const auto& file : toml_files(source / "cases")) {
-    const CaseResult result = read_case(file);
-    EXPECT_TRUE(result.value) << texts(result.problems);
+  for (const char* folder : {"cases", "cases/paper"}) {
+    for (const auto& file : toml_files(source / folder)) {
+      const CaseResult result = read_case(file);
+      EXPECT_TRUE(result.value) << texts(result.problems);
+    }
   }
 }
 
@@ -171,6 +174,7 @@ TEST(CaseFile, TheTemplatesCommentedHolesAreValid) {
   const CaseResult result = parse_case(with_all_keys(case_template()), "template.toml");
   ASSERT_TRUE(result.value) << texts(result.problems);
   EXPECT_EQ(result.value->holes.circles, std::vector{circle_sections().example});
+  EXPECT_EQ(result.value->expectations, std::vector{expectation_sections().example});
 }
 
 TEST(CaseFile, AResolvedCaseReadsBackEqual) {
@@ -199,6 +203,8 @@ TEST(CaseFile, AResolvedCaseReadsBackEqual) {
   c.optimizer.velocity = VelocityKind::harmonic;
   c.optimizer.rim_band = 0.006;
   c.optimizer.tread_band = 0.011;
+  c.expectations = {{.quantity = Quantity::uniformity_dual, .value = 1.0 / 3, .margin = 0.2, .iteration = 0},
+                    {.quantity = Quantity::peak_von_mises, .value = 2e6, .iteration = {}}};
   const CaseResult result = parse_case(to_toml(c), "resolved.toml");
   ASSERT_TRUE(result.value) << texts(result.problems);
   EXPECT_EQ(*result.value, c);

@@ -93,6 +93,39 @@ TEST_F(CommandLine, InitWritesACaseThatChecksAndNeverOverwrites) {
   EXPECT_EQ(text, "mine");
 }
 
+/// A small wheel with the same expectation of its initial and its last shape, whose J_e is that of one run.
+std::string case_that_expects(double energy, const char* margin) {
+  std::string text =
+      "[[holes.ring]]\ncount = 16\ncenter_radius = 0.27\nradius = 0.03\n"
+      "[grid]\nradial_cells = 7\nangular_cells = 128\n[optimizer]\niterations = 1\n";
+  for (const char* iteration : {"iteration = 0\n", ""})
+    text += fmt::format("[[expect]]\nquantity = \"strain_energy\"\nvalue = {}\nmargin = {}\n{}", energy,
+                        margin, iteration);
+  return text;
+}
+
+TEST_F(CommandLine, ARunThatDiffersFromWhatItsCaseExpectsIsSix) {
+  const auto run = [&](const std::string& name, const std::string& text, const std::string& options) {
+    std::ofstream(folder_ / (name + ".toml")) << text;
+    return wheelwright(
+        fmt::format("run {} --output {} {}", in_folder(name + ".toml"), in_folder(name), options));
+  };
+  ASSERT_EQ(run("any", case_that_expects(1, "0.5"), "").code, exit_unexpected);
+  std::ifstream history(folder_ / "any/history.csv");
+  std::string header, first;
+  std::getline(history, header);
+  std::getline(history, first);
+  ASSERT_TRUE(first.starts_with("0,0,1,,")) << first;
+  const double energy = std::stod(first.substr(7));
+
+  EXPECT_EQ(run("wide", case_that_expects(energy, "0.5"), "").code, exit_done);
+  EXPECT_EQ(run("narrow", case_that_expects(energy, "1e-9"), "").code, exit_unexpected) << "the last shape";
+  EXPECT_EQ(run("first", case_that_expects(energy, "1e-9"), "--iterations 0").code, exit_done);
+  EXPECT_EQ(run("wrong", case_that_expects(1.001 * energy, "1e-4"), "--iterations 0").code, exit_unexpected);
+  for (const char* file : {"comparison.svg", "rolling.pvd"})
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "wrong" / file)) << file;
+}
+
 TEST_F(CommandLine, AnalyzeWritesItsFolderOnceAndNothingWithoutOne) {
   const std::string analyze =
       "analyze " + path_of_case("cases/holes16.toml") + " --positions 3 --loads 3000,1000,1000";

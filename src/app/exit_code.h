@@ -10,6 +10,7 @@ enum ExitCode {
   exit_no_solution = 3,   ///< the solver gave up
   exit_refused = 4,       ///< e.g. to overwrite a file
   exit_input_output = 5,  ///< a file or library could not be read or written
+  exit_unexpected = 6,    ///< the run is done, but something that the case expects of it is not so
 };
 
 }  // namespace wheelwright

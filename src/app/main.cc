@@ -79,12 +79,20 @@ int init(const CommandLine& line) {
   return exit_done;
 }
 
+/// Another number of shapes than the case's, without what the case expects of shapes after them.
+void shorten(Case& c, int iterations) {
+  if (iterations == c.optimizer.iterations) return;
+  c.optimizer.iterations = iterations;
+  std::erase_if(c.expectations,
+                [&](const Expectation& e) { return !e.iteration || *e.iteration > iterations; });
+}
+
 int compute(const std::string& command, const CommandLine& line) {
   CaseResult result = read_case(line.case_file);
   if (!result.value) return report_problems(line.case_file, result.problems);
   Case& c = *result.value;
   if (line.output_folder) c.output.folder = *line.output_folder;
-  if (line.iterations) c.optimizer.iterations = *line.iterations;
+  if (line.iterations) shorten(c, *line.iterations);
   print_warnings(stderr, c);
   return load_and_run_command(command, c, {.case_file = line.case_file});
 }
@@ -142,8 +150,10 @@ void declare_commands(CLI::App& app, CommandLine& line) {
   CLI::App* run = add_case_command(app, line, "run", "Optimize a case and write its output folder");
   const Range iterations = range_of_iterations();
   add_output_option(*run, line, "Folder to write instead of the case's output.folder");
-  run->add_option("--iterations", line.iterations,
-                  "Number of shapes instead of the case's optimizer.iterations")
+  run->add_option(
+         "--iterations", line.iterations,
+         "Number of shapes instead of the case's optimizer.iterations; what the case expects of shapes "
+         "after them, or of the last one, is not checked")
       ->type_name("N")
       ->check(CLI::Range(static_cast<int>(iterations.low), static_cast<int>(iterations.high)));
   declare_analyze(app, line);

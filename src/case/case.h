@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "contact/contact_law.h"
@@ -127,6 +128,37 @@ struct Output {
   bool operator==(const Output&) const = default;
 };
 
+/// What can be expected of a shape: the objective and its terms, what history.csv watches, and the stress.
+enum class Quantity {
+  objective,
+  strain_energy,
+  uniformity_annulus,
+  uniformity_dual,
+  uniformity_l2,
+  mean_travel,
+  run_out,
+  peak_pressure,
+  pressure_spread,
+  volume_fraction,
+  peak_von_mises,
+};
+
+/// The words for them, in the order of the enumerators: the names of the criteria and of history.csv.
+inline constexpr std::array<std::string_view, 11> quantity_names{
+    "objective", "strain_energy", "uniformity_annulus", "uniformity_dual", "uniformity_l2", "mean_travel",
+    "run_out",   "peak_pressure", "pressure_spread",    "volume_fraction", "peak_von_mises"};
+
+constexpr std::string_view name(Quantity quantity) { return quantity_names[static_cast<int>(quantity)]; }
+
+/// What a run is expected to find for one quantity of one accepted shape.
+struct Expectation {
+  Quantity quantity = Quantity::objective;
+  double value = 0;              ///< in the unit of history.csv
+  double margin = 0.01;          ///< relative to the value
+  std::optional<int> iteration;  ///< number of the accepted shape; absent: the last one
+  bool operator==(const Expectation&) const = default;
+};
+
 struct Case {
   std::string title;
   Wheel wheel;
@@ -140,6 +172,7 @@ struct Case {
   Volume volume;
   Optimizer optimizer;
   Output output;
+  std::vector<Expectation> expectations;
   bool operator==(const Case&) const = default;
 };
 

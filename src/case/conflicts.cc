@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <numeric>
 
@@ -196,6 +197,29 @@ void check_objective(const Case& c, Conflicts& found) {
       {{"objective.strain_energy"}, "all weights are 0: nothing to minimize", "give one a weight > 0"});
 }
 
+/// A quantity that the run does not compute, or a shape that it does not reach.
+void check_expectations(const Case& c, Conflicts& found) {
+  const Objective& o = c.objective;
+  const std::map<Quantity, bool> computed{
+      {Quantity::strain_energy, o.strain_energy > 0},
+      {Quantity::uniformity_annulus, o.uniformity_annulus > 0 || o.annulus_matches_dual},
+      {Quantity::uniformity_dual, o.uniformity_dual > 0},
+      {Quantity::uniformity_l2, o.uniformity_l2 > 0}};
+  for (std::size_t i = 0; i < c.expectations.size(); ++i) {
+    const Expectation& expectation = c.expectations[i];
+    const auto key = [&](std::string_view name) { return fmt::format("expect[{}].{}", i + 1, name); };
+    const auto criterion = computed.find(expectation.quantity);
+    if (criterion != computed.end() && !criterion->second)
+      found.push_back({{key("quantity"), fmt::format("objective.{}", name(expectation.quantity))},
+                       "has no weight in the objective, so that it is not computed",
+                       "give it a weight, however small, or expect something else"});
+    if (expectation.iteration && *expectation.iteration > c.optimizer.iterations)
+      found.push_back({{key("iteration"), "optimizer.iterations"},
+                       fmt::format("the run ends at shape {} at the latest", c.optimizer.iterations),
+                       "expect it of an earlier shape, or of the last one by leaving the key out"});
+  }
+}
+
 }  // namespace
 
 std::vector<Conflict> conflicts(const Case& c) {
@@ -208,6 +232,7 @@ std::vector<Conflict> conflicts(const Case& c) {
   check_friction(c, found);
   check_annulus(c, found);
   check_objective(c, found);
+  check_expectations(c, found);
   return found;
 }
 

@@ -385,4 +385,35 @@ const Section<Output>& output_section() {
   return section;
 }
 
+const SectionArray<Expectation>& expectation_sections() {
+  static const SectionArray<Expectation> sections{
+      .parent = "",
+      .name = "expect",
+      .meaning =
+          "what a run is expected to find; it says which of these it did not, and ends with exit "
+          "code 6; any number of them",
+      .in = [](Case& c) -> std::vector<Expectation>& { return c.expectations; },
+      .example = {.quantity = Quantity::strain_energy, .value = 35, .margin = 0.01, .iteration = {}},
+      .keys = {{.name = "quantity",
+                .unit = "",
+                .field = choice<&Expectation::quantity>({quantity_names.begin(), quantity_names.end()}),
+                .meaning = "a column of history.csv, or the largest von Mises stress of all positions",
+                .presence = Presence::required},
+               {.name = "value",
+                .unit = "",
+                .field = NumberField<Expectation>{&Expectation::value, above(0, 1e15)},
+                .meaning = "what it should be, in the unit of history.csv, stresses in Pa",
+                .presence = Presence::required},
+               {.name = "margin",
+                .unit = "",
+                .field = NumberField<Expectation>{&Expectation::margin, above(0, 1)},
+                .meaning = "how far it may be from that, relative to the value"},
+               {.name = "iteration",
+                .unit = "",
+                .field = OptionalIntegerField<Expectation>{&Expectation::iteration, between(0, 1000000),
+                                                           "the last shape"},
+                .meaning = "number of the accepted shape; 0 is the initial one"}}};
+  return sections;
+}
+
 }  // namespace wheelwright

@@ -57,6 +57,14 @@ struct IntegerField {
   Range range;
 };
 
+/// A whole number whose default is described by a text.
+template <class Struct>
+struct OptionalIntegerField {
+  std::optional<int> Struct::*member;
+  Range range;
+  std::string_view default_text;
+};
+
 template <class Struct>
 struct TextField {
   std::string Struct::*member;
@@ -99,8 +107,8 @@ template <class Struct>
 struct Key {
   std::string_view name;
   std::string_view unit;  ///< empty for pure numbers and words
-  std::variant<NumberField<Struct>, OptionalNumberField<Struct>, IntegerField<Struct>, TextField<Struct>,
-               PointField<Struct>, ChoiceField<Struct>>
+  std::variant<NumberField<Struct>, OptionalNumberField<Struct>, IntegerField<Struct>,
+               OptionalIntegerField<Struct>, TextField<Struct>, PointField<Struct>, ChoiceField<Struct>>
       field;
   std::string_view meaning;
   Presence presence = Presence::has_default;
@@ -118,7 +126,7 @@ struct Section {
   const Struct& of(const Case& c) const { return in(const_cast<Case&>(c)); }
 };
 
-/// An array of tables of the file, [[parent.name]].
+/// An array of tables of the file, [[parent.name]]; with an empty parent [[name]].
 template <class Struct>
 struct SectionArray {
   std::string_view parent;
@@ -128,7 +136,9 @@ struct SectionArray {
   Struct example;
   std::vector<Key<Struct>> keys;
 
-  std::string path() const { return std::string(parent) + "." + std::string(name); }
+  std::string path() const {
+    return parent.empty() ? std::string(name) : std::string(parent) + "." + std::string(name);
+  }
   const std::vector<Struct>& of(const Case& c) const { return in(const_cast<Case&>(c)); }
 };
 
@@ -145,6 +155,7 @@ const Section<Objective>& objective_section();
 const Section<Volume>& volume_section();
 const Section<Optimizer>& optimizer_section();
 const Section<Output>& output_section();
+const SectionArray<Expectation>& expectation_sections();
 
 /// Calls visit(section) for every Section and SectionArray, in the order of the file.
 template <class Visitor>
@@ -162,6 +173,7 @@ void for_each_section(Visitor&& visit) {
   visit(volume_section());
   visit(optimizer_section());
   visit(output_section());
+  visit(expectation_sections());
 }
 
 /// The key of that name, or null.

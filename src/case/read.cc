@@ -117,9 +117,10 @@ requires std::same_as<Field, NumberField<Struct>> || std::same_as<Field, Optiona
   return complaint;
 }
 
-template <class Struct>
-std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>& key,
-                                    const IntegerField<Struct>& field, Struct& out) {
+template <class Struct, class Field>
+requires std::same_as<Field, IntegerField<Struct>> || std::same_as<Field, OptionalIntegerField<Struct>>
+    std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>& key, const Field& field,
+                                        Struct& out) {
   if (!node.is_integer()) return wrong_type("a whole number", "write it without quotes and decimal point");
   double value = 0;
   auto complaint = read_number(node, key.unit, field.range, value);
@@ -237,7 +238,7 @@ std::vector<std::string_view> table_names(std::string_view parent) {
   for_each_section([&](const auto& section) {
     std::string_view name;
     if constexpr (requires { section.parent; })
-      name = parent.empty() ? section.parent : parent == section.parent ? section.name : "";
+      name = parent == section.parent ? section.name : parent.empty() ? section.parent : "";
     else if (parent.empty())
       name = section.name;
     if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
@@ -285,7 +286,7 @@ void read_section(Reading& reading, const toml::table& root, const Section<Struc
 
 template <class Struct>
 void read_section(Reading& reading, const toml::table& root, const SectionArray<Struct>& section, Case& out) {
-  const toml::table* parent = find_table(reading, root, section.parent);
+  const toml::table* parent = section.parent.empty() ? &root : find_table(reading, root, section.parent);
   const toml::node* node = parent ? parent->get(section.name) : nullptr;
   if (!node) return;
   const toml::array* array = node->as_array();

@@ -61,6 +61,12 @@ std::string value_text(const IntegerField<Struct>& field, const Struct& s) {
 }
 
 template <class Struct>
+std::string value_text(const OptionalIntegerField<Struct>& field, const Struct& s) {
+  const auto& value = s.*field.member;
+  return value ? fmt::format("{}", *value) : "";
+}
+
+template <class Struct>
 std::string value_text(const TextField<Struct>& field, const Struct& s) {
   const std::string& value = s.*field.member;
   return value.empty() && !field.default_text.empty() ? "" : quoted(value);

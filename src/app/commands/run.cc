@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/commands/expectations.h"
 #include "app/commands/run_folder.h"
 #include "app/exit_code.h"
 #include "base/stopwatch.h"
@@ -129,6 +130,16 @@ void print_summary(const OptimizationState<2>& first, const OptimizationState<2>
     fmt::print("  {:<36} {}\n", (folder / file).string(), meaning);
 }
 
+/// Tells what was expected and how it turned out.
+int report_findings(const std::vector<Finding>& findings) {
+  const auto unmet = std::ranges::count_if(findings, [](const Finding& f) { return !f.met(); });
+  if (!findings.empty())
+    fmt::print("expected   {} of {} values found\n", findings.size() - unmet, findings.size());
+  for (const Finding& finding : findings)
+    if (!finding.met()) fmt::print(stderr, "wheelwright run: {}\n", finding.text());
+  return unmet > 0 ? exit_unexpected : exit_done;
+}
+
 int run(const Case& c) {
   const std::filesystem::path path = c.output.folder;
   if (std::filesystem::exists(path / "history.csv")) {
@@ -144,6 +155,7 @@ int run(const Case& c) {
     if (objective->size() > 1) fmt::print(stderr, "objective: {:.6g} * {}\n", weight, criterion->name());
   RunFolder folder(path, c);
   RunRecorder recorder(c, *problem, *objective, folder);
+  ExpectationWatch expectations(c.expectations);
   const LevelSet<2> initial = initial_shape(c);
   Matrix held_mean;  // of the last accepted shape, when the case wants it held
   const ShapeOptimizer<2> optimizer(
@@ -155,12 +167,13 @@ int run(const Case& c) {
       [&](const Trial<2>& trial, const OptimizationState<2>& state) {
         if (c.objective.mean == MeanStress::held) held_mean = state.evaluation.mean_observations;
         recorder(trial, state);
+        if (trial.verdict == Verdict::accepted) expectations(*problem, state);
       },
       [] { return false; });
   if (outcome.failure) return give_up(*outcome.failure);
   folder.write_result(*problem, *recorder.initial(), *outcome.state);
   print_summary(*recorder.initial(), *outcome.state, outcome.reason, recorder.elapsed(), path);
-  return exit_done;
+  return report_findings(expectations.findings(*problem, *outcome.state));
 }
 
 }  // namespace
