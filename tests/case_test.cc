@@ -51,6 +51,8 @@ std::string kind_name(Kind kind) {
   switch (kind) {
     case Kind::unreadable:
       return "unreadable";
+    case Kind::empty:
+      return "empty";
     case Kind::syntax:
       return "syntax";
     case Kind::unknown_key:
@@ -80,8 +82,9 @@ std::multiset<Place> announced(const std::string& text) {
     std::istringstream words(line.substr(mark + 3));
     std::string kind, key;
     while (words >> kind) {
-      if (kind != "syntax") words >> key;
+      if (kind != "syntax" && kind != "empty") words >> key;
       result.emplace(number, kind, key);
+      key.clear();
     }
   }
   return result;
@@ -141,10 +144,10 @@ TEST(CaseFile, HolesOfThePapersWheel) {
   EXPECT_DOUBLE_EQ(holes[0].centre_azimuth, sector_angle(*result.value) / 2);
 }
 
-TEST(CaseFile, AnEmptyFileIsTheDefaultCase) {
+TEST(CaseFile, KeysThatAreLeftOutTakeTheirDefaults) {
   Case expected;
-  expected.output.folder = "runs/empty";
-  const CaseResult result = parse_case("", "some/empty.toml");
+  expected.output.folder = "runs/short";
+  const CaseResult result = parse_case("[wheel]", "some/short.toml");
   ASSERT_TRUE(result.value) << texts(result.problems);
   EXPECT_EQ(*result.value, expected);
 }
@@ -249,12 +252,33 @@ TEST(CaseFile, TheReferencePageIsFresh) {
       << "write it again: wheelwright reference > docs/case-reference.md";
 }
 
-TEST(CaseFile, AMissingFileOrAFolderIsUnreadable) {
-  for (const auto& file : {source / "cases" / "no_such_file.toml", source / "cases"}) {
+TEST(CaseFile, WhatCannotBeReadIsUnreadable) {
+  const std::filesystem::path folder = source / "cases", fails_when_read = "/proc/self/mem";
+  for (const auto& file : {folder / "no_such_file.toml", folder, folder / "holes16.toml" / "x",
+                           std::filesystem::path(), fails_when_read}) {
     const auto problems = read_case(file).problems;
     ASSERT_EQ(problems.size(), 1u);
     EXPECT_EQ(problems[0].kind, Kind::unreadable);
   }
+}
+
+TEST(CaseFile, AFileWithoutEndIsTooLong) {
+  const auto problems = read_case("/dev/zero").problems;
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].kind, Kind::syntax);
+}
+
+TEST(CaseFile, MistakesInTheSyntaxDoNotHideOneAnother) {
+  std::string text = "[wheel]\n";
+  std::multiset<Place> expected;
+  for (int line = 2; line <= 11; ++line) {
+    text += line % 2 ? fmt::format("unknown_{} = 1\n", line) : "width = 1 m\n";
+    if (line % 2)
+      expected.emplace(line, "unknown_key", fmt::format("wheel.unknown_{}", line));
+    else
+      expected.emplace(line, "syntax", "");
+  }
+  EXPECT_EQ(places(parse_case(text, "x.toml").problems), expected);
 }
 
 // Every key in turn, with values that it must refuse.
@@ -358,6 +382,53 @@ TEST(CaseKeys, EveryKeyRefusesValuesOutOfRangeAndOfTheWrongType) {
   EXPECT_GT(tried, 200);
 }
 
+double just_below(double x) { return x == 0 ? -1e-300 : std::nextafter(x, -HUGE_VAL); }
+double just_above(double x) { return -just_below(-x); }
+
+std::string exact_text(double x) { return fmt::format("{:.17g}", x); }
+
+/// The values of a range that end it, and those next to them that are beyond it, as a file writes them.
+struct RangeEnds {
+  std::vector<std::string> inside, outside;
+};
+
+RangeEnds ends(const Range& range, bool whole) {
+  if (whole)
+    return {{fmt::format("{:.0f}", range.low), fmt::format("{:.0f}", range.high)},
+            {fmt::format("{:.0f}", range.low - 1), fmt::format("{:.0f}", range.high + 1), "2147483648",
+             "-2147483649", "4294967297", "9223372036854775807", "-9223372036854775808"}};
+  const bool low_open = range.low_end == Range::End::open, high_open = range.high_end == Range::End::open;
+  return {{exact_text(low_open ? just_above(range.low) : range.low),
+           exact_text(high_open ? just_below(range.high) : range.high)},
+          {exact_text(low_open ? range.low : just_below(range.low)),
+           exact_text(high_open ? range.high : just_above(range.high)), "1e300", "-1e300"}};
+}
+
+TEST(CaseKeys, EveryRangeEndsWhereItIsDeclared) {
+  int tried = 0;
+  const auto try_key = [&](const auto& section, const auto& key, const auto& field) {
+    if constexpr (requires { field.range; }) {
+      const bool point = is_point<std::decay_t<decltype(field)>>;
+      const RangeEnds values = ends(
+          field.range, !point && !requires { field.factor; });
+      const auto edited = [&](const std::string& value) {
+        return replace_key(header_of(section), written_key(section.keys, key),
+                           fmt::format(point ? "{} = [0.27, {}]" : "{} = {}", key.name, value));
+      };
+      for (const auto& value : values.outside) expect_only(edited(value), Kind::out_of_range);
+      for (const auto& value : values.inside)
+        for (const auto& problem : parse_case(edited(value).text, "x.toml").problems)
+          EXPECT_EQ(kind_name(problem.kind), "conflict") << problem.text();
+      tried += static_cast<int>(values.outside.size());
+    }
+  };
+  for_each_section([&](const auto& section) {
+    for (const auto& key : section.keys)
+      std::visit([&](const auto& field) { try_key(section, key, field); }, key.field);
+  });
+  EXPECT_GT(tried, 200);
+}
+
 TEST(CaseKeys, NoNumberMayBeNanOrInfinite) {
   for_each_section([&](const auto& section) {
     for (const auto& key : section.keys) {
@@ -427,6 +498,47 @@ TEST(TomlGuard, HostileTextsGiveProblemsNotCrashes) {
                                   std::string("\xff\xfe\x00", 3), std::string("\"unterminated"),
                                   std::string("a = '''"), std::string(1 << 21, 'a')})
     EXPECT_FALSE(parse_case(text, "hostile.toml").problems.empty());
+}
+
+std::string repeated(std::string_view part, int times) {
+  std::string result;
+  for (int i = 0; i < times; ++i) result += part;
+  return result;
+}
+
+TEST(TomlGuard, LongTextsAreRefusedOnTheirLine) {
+  constexpr int times = 100000;
+  const std::string first_lines = "title = \"x\"\n[wheel]\n";
+  const std::vector<std::string> lines{repeated("a.", times) + "b = 1",
+                                       repeated("a .\t", times) + "b = 1",
+                                       repeated("\"a\".", times) + "b = 1",
+                                       "[" + repeated("a.", times) + "b]",
+                                       "[[" + repeated("a.", times) + "b]]",
+                                       "x = {" + repeated("a.", times) + "b = 1}",
+                                       "x = " + repeated("[", times),
+                                       "x = " + repeated("{a=", times),
+                                       "x = " + repeated("[{a=", times),
+                                       repeated("[", times),
+                                       "x = 1" + repeated("0", times),
+                                       "x = 1." + repeated("0", times) + "e" + repeated("9", times),
+                                       "width = \"" + repeated("ü", times) + "\"",
+                                       "x = \"" + repeated("\\", times + 1),
+                                       repeated("x", times),
+                                       repeated("=", times),
+                                       repeated("\xff", times),
+                                       "# \xe2\x82"};
+  for (const std::string& line : lines) {
+    const auto problems = parse_case(first_lines + line, "long.toml").problems;
+    ASSERT_EQ(problems.size(), 1u) << line.substr(0, 20) << texts(problems);
+    EXPECT_EQ(problems[0].line, 3) << line.substr(0, 20);
+    EXPECT_LT(problems[0].text().size(), 500u) << line.substr(0, 20);
+  }
+}
+
+TEST(TomlGuard, ThousandsOfMistakesAreAllReported) {
+  std::string text;
+  for (int i = 0; i < 20000; ++i) text += fmt::format("x{} = 1\n", i);
+  EXPECT_EQ(parse_case(text, "many.toml").problems.size(), 20000u);
 }
 
 TEST(NumberText, ReadsBackAsTheSameNumber) {

@@ -21,10 +21,12 @@ struct Outcome {
   std::string output;  ///< standard output and error
 };
 
-/// Runs the program that the build put beside this test.
-Outcome wheelwright(const std::string& arguments) {
+/// Runs the program that the build put beside this test, in a folder.
+Outcome wheelwright(const std::string& arguments, const std::filesystem::path& folder = ".") {
   const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "wheelwright";
-  std::FILE* pipe = popen(fmt::format("'{}' {} 2>&1", program.string(), arguments).c_str(), "r");
+  const std::string command =
+      fmt::format("cd '{}' && '{}' {} 2>&1", folder.string(), program.string(), arguments);
+  std::FILE* pipe = popen(command.c_str(), "r");
   std::string output;
   char buffer[4096];
   while (const std::size_t n = std::fread(buffer, 1, sizeof buffer, pipe)) output.append(buffer, n);
@@ -72,9 +74,26 @@ TEST_F(CommandLine, CheckAcceptsAGoodCaseAndRefusesABadOne) {
   }
 }
 
-TEST_F(CommandLine, FilesThatCannotBeReadOrWrittenAreFive) {
-  EXPECT_EQ(wheelwright("check " + in_folder("none.toml")).code, exit_input_output);
-  EXPECT_EQ(wheelwright("check " + in_folder("")).code, exit_input_output);
+TEST_F(CommandLine, NoBadCaseLeavesAnything) {
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(source / "tests" / "bad_cases")) {
+    const Outcome outcome = wheelwright(fmt::format("run '{}'", entry.path().string()), folder_);
+    EXPECT_EQ(outcome.code, exit_usage) << entry.path() << outcome.output;
+    EXPECT_TRUE(std::filesystem::is_empty(folder_)) << entry.path();
+    ++files;
+  }
+  EXPECT_GE(files, 100);
+}
+
+TEST_F(CommandLine, CasesThatCannotBeReadAreTwo) {
+  for (const char* command : {"check ", "run ", "verify ", "analyze "})
+    for (const std::string& file :
+         {in_folder("none.toml"), in_folder(""), std::string("''"), std::string("/dev/null")})
+      EXPECT_EQ(wheelwright(command + file, folder_).code, exit_usage) << command << file;
+  EXPECT_TRUE(std::filesystem::is_empty(folder_));
+}
+
+TEST_F(CommandLine, FilesThatCannotBeWrittenAreFive) {
   EXPECT_EQ(wheelwright("init " + in_folder("no/folder.toml")).code, exit_input_output);
   EXPECT_EQ(wheelwright("reference > /dev/full").code, exit_input_output);
   EXPECT_EQ(wheelwright("check " + path_of_case("cases/holes16.toml") + " > /dev/full").code,

@@ -6,10 +6,10 @@ namespace wheelwright {
 enum ExitCode {
   exit_done = 0,
   exit_bug = 1,
-  exit_usage = 2,         ///< wrong command line or case
+  exit_usage = 2,         ///< wrong command line, or a case that is wrong or cannot be read
   exit_no_solution = 3,   ///< the solver gave up
   exit_refused = 4,       ///< e.g. to overwrite a file
-  exit_input_output = 5,  ///< a file or library could not be read or written
+  exit_input_output = 5,  ///< a file could not be written or a library not be loaded
   exit_unexpected = 6,    ///< the run is done, but something that the case expects of it is not so
 };
 

@@ -37,14 +37,10 @@ struct CommandLine {
 std::string count_of_problems(std::size_t n) { return fmt::format("{} problem{}", n, n == 1 ? "" : "s"); }
 
 int report_problems(const std::string& file, const std::vector<Diagnostic>& problems) {
-  bool unreadable = false;
-  for (const Diagnostic& problem : problems) {
-    fmt::print(stderr, "{}\n", problem.text());
-    unreadable = unreadable || problem.kind == Diagnostic::Kind::unreadable;
-  }
+  for (const Diagnostic& problem : problems) fmt::print(stderr, "{}\n", problem.text());
   fmt::print(stderr, "{}\n",
              styled(stderr, Style::red, fmt::format("{}: {}", file, count_of_problems(problems.size()))));
-  return unreadable ? exit_input_output : exit_usage;
+  return exit_usage;
 }
 
 void print_warnings(std::FILE* stream, const Case& c) {

@@ -20,7 +20,7 @@ using Conflicts = std::vector<Conflict>;
 
 const std::vector<std::string> ring_shape_keys{"wheel.inner_radius", "wheel.outer_radius",
                                                "optimizer.rim_band", "optimizer.tread_band",
-                                               "grid.radial_cells"};
+                                               "grid.radial_cells",  "objective.annulus"};
 
 std::vector<std::string> with_ring_shape(std::vector<std::string> keys) {
   keys.insert(keys.end(), ring_shape_keys.begin(), ring_shape_keys.end());
@@ -41,6 +41,13 @@ void check_radii(const Case& c, Conflicts& found) {
                      "give the rim's radius as inner_radius and the tread's as outer_radius"});
     return;
   }
+  constexpr double thinnest = 1e-4;
+  if (w.outer_radius - w.inner_radius < thinnest * w.outer_radius) {
+    found.push_back({{"wheel.outer_radius", "wheel.inner_radius"},
+                     fmt::format("the ring is thinner than {} of its radius", thinnest),
+                     fmt::format("take outer_radius >= {:.6g} m", w.inner_radius / (1 - 2 * thinnest))});
+    return;
+  }
   const double rounding = 1e-9 * w.outer_radius;
   if (rim_band(c) < least_rim_band(c) - rounding)
     found.push_back({{"optimizer.rim_band", "grid.radial_cells"},
@@ -57,6 +64,23 @@ void check_radii(const Case& c, Conflicts& found) {
                      rim_band(c), tread_band(c), w.outer_radius - w.inner_radius),
          "make them thinner, or the grid finer"});
   }
+}
+
+/// Numbers of nodes and unknowns are int.
+void check_size(const Case& c, Conflicts& found) {
+  constexpr long long most = 1'000'000'000;
+  if (dof_bound(c) <= most) return;
+  found.push_back({{"grid.radial_cells", "grid.angular_cells", "grid.degree"},
+                   fmt::format("the grid has up to {} unknowns", dof_bound(c)),
+                   fmt::format("take a grid with at most {}", most)});
+}
+
+void check_travel(const Case& c, Conflicts& found) {
+  const double thickness = c.wheel.outer_radius - c.wheel.inner_radius;
+  if (!c.load.travel || thickness <= 0 || *c.load.travel < thickness) return;
+  found.push_back({{"load.travel", "wheel.outer_radius", "wheel.inner_radius"},
+                   "the rim itself would be below the ground",
+                   fmt::format("take less than outer_radius - inner_radius = {:.6g} m", thickness)});
 }
 
 void check_angular_cells(const Case& c, Conflicts& found) {
@@ -225,6 +249,8 @@ void check_expectations(const Case& c, Conflicts& found) {
 std::vector<Conflict> conflicts(const Case& c) {
   Conflicts found;
   check_radii(c, found);
+  check_size(c, found);
+  check_travel(c, found);
   check_angular_cells(c, found);
   check_ring_counts(c, found);
   check_holes(c, found);

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include "base/text.h"
+
 namespace wheelwright {
 
 std::string Diagnostic::text() const {
-  std::string result = file;
+  std::string result = without_control_characters(file);
   if (line > 0) result += fmt::format(":{}:{}", line, column);
   result += ": ";
   if (!key.empty()) result += value.empty() ? key + ": " : fmt::format("{} = {}: ", key, value);

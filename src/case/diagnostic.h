@@ -7,8 +7,9 @@ namespace wheelwright {
 /// Something wrong with a case file.
 struct Diagnostic {
   enum class Kind {
-    unreadable,  ///< the file cannot be opened or is too large
-    syntax,      ///< not TOML
+    unreadable,  ///< the file cannot be opened
+    empty,       ///< no key at all
+    syntax,      ///< not TOML, or too large or deep to be a case
     unknown_key,
     missing_key,
     wrong_type,

@@ -12,7 +12,7 @@ namespace wheelwright {
 namespace {
 constexpr double standard_gravity = 9.81;  // as the paper takes it [m/s^2]
 constexpr double degree_of_arc = std::numbers::pi / 180;
-constexpr Range length = above(0, 1000);
+constexpr Range length = between(1e-6, 1000);
 constexpr Range cell_count = between(1, 100000);
 }  // namespace
 

@@ -5,17 +5,21 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cctype>
 #include <concepts>
+#include <cstdint>
 #include <fstream>
 #include <map>
 #include <set>
 #include <sstream>
 #include <tuple>
 
+#include "base/text.h"
 #include "case/conflicts.h"
 #include "case/keys.h"
 #include "case/suggest.h"
 #include "case/toml_guard.h"
+#include "case/toml_lines.h"
 
 namespace wheelwright {
 
@@ -47,18 +51,25 @@ std::string join_path(std::string_view parent, std::string_view name) {
   return parent.empty() ? std::string(name) : fmt::format("{}.{}", parent, name);
 }
 
-std::string without_control_characters(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
-  return text;
+/// At most about 60 bytes, cut between characters of UTF-8.
+std::string shortened(const std::string& text) {
+  std::size_t length = 60;
+  if (text.size() <= length) return text;
+  const auto continues = [&](std::size_t i) { return (static_cast<unsigned char>(text[i]) & 0xc0) == 0x80; };
+  while (length > 0 && continues(length)) --length;
+  return text.substr(0, length) + "...";
 }
 
-std::string shortened(std::string text) {
-  constexpr std::size_t longest = 60;
-  return text.size() > longest ? text.substr(0, longest) + "..." : text;
-}
+std::string printable(const std::string& text) { return without_control_characters(shortened(text)); }
 
-std::string printable(std::string text) { return without_control_characters(shortened(std::move(text))); }
+/// A key as TOML writes it: in quotes unless it is a plain word.
+std::string key_text(std::string_view name) {
+  const bool plain = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return c < 0x80 && (std::isalnum(c) || c == '_' || c == '-');
+  });
+  const std::string text = printable(std::string(name));
+  return plain ? text : fmt::format("\"{}\"", text);
+}
 
 std::string value_text(const toml::node& node) {
   if (node.is_table()) return "a table";
@@ -95,7 +106,8 @@ Complaint wrong_type(std::string_view wanted, std::string_view remedy) {
 
 std::optional<Complaint> read_number(const toml::node& node, std::string_view unit, const Range& range,
                                      double& out) {
-  const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
+  std::optional<double> value = node.value_exact<double>();
+  if (const auto integer = node.value_exact<std::int64_t>()) value = static_cast<double>(*integer);
   if (!value) {
     const std::string in_unit = unit.empty() ? "" : fmt::format(", in {}", unit);
     return wrong_type("a number", fmt::format("write it without quotes and unit{}", in_unit));
@@ -186,7 +198,7 @@ void complain_unknown(Reading& reading, std::string_view parent, const toml::key
   else if (const auto near = did_you_mean(name.str(), candidates))
     remedy = fmt::format("did you mean {}?", *near);
   const Entry entry{static_cast<int>(begin.line), static_cast<int>(begin.column), value_text(node)};
-  complain(reading, join_path(parent, printable(std::string(name.str()))), entry,
+  complain(reading, join_path(parent, key_text(name.str())), entry,
            {Kind::unknown_key, "unknown key", remedy});
 }
 
@@ -334,16 +346,47 @@ void check_conflicts(Reading& reading, const Case& c) {
 
 CaseResult failed(Diagnostic problem) { return {std::nullopt, {std::move(problem)}}; }
 
-CaseResult interpret(const toml::table& root, const std::filesystem::path& file) {
+Diagnostic diagnostic(const SyntaxError& error, const std::string& file) {
+  return {Kind::syntax,
+          file,
+          error.line,
+          error.column,
+          "",
+          "",
+          without_control_characters(error.problem),
+          "write KEY = VALUE, with words in quotes and numbers without unit, below a line [TABLE]"};
+}
+
+/// Leaves out what reading complains of on a line that is no TOML, and keys that are missing since such a
+/// line may hold them.
+std::vector<Diagnostic> merged(const std::vector<Diagnostic>& syntax,
+                               const std::vector<Diagnostic>& reading) {
+  std::vector<Diagnostic> result = syntax;
+  for (const Diagnostic& problem : reading) {
+    const bool said = std::any_of(syntax.begin(), syntax.end(),
+                                  [&](const auto& error) { return error.line == problem.line; });
+    const bool may_be_lost = !syntax.empty() && problem.kind == Kind::missing_key;
+    if (!said && !may_be_lost) result.push_back(problem);
+  }
+  return result;
+}
+
+CaseResult interpret(const TomlLines& toml, const std::filesystem::path& file) {
   Reading reading{.file = file.string(), .entries = {}, .faulty = {}, .problems = {}};
-  Case result = read_root(reading, root);
-  check_conflicts(reading, result);
-  if (result.output.folder.empty())
-    result.output.folder = (std::filesystem::path("runs") / file.stem()).string();
-  std::stable_sort(reading.problems.begin(), reading.problems.end(), [](const auto& a, const auto& b) {
+  std::vector<Diagnostic> syntax;
+  for (const SyntaxError& error : toml.errors) syntax.push_back(diagnostic(error, reading.file));
+  Case result = read_root(reading, toml.root);
+  if (syntax.empty()) check_conflicts(reading, result);
+  if (syntax.empty() && toml.root.empty())
+    return failed({Kind::empty, reading.file, 1, 1, "", "", "the file holds no key",
+                   "wheelwright init writes a case to start from"});
+  std::vector<Diagnostic> problems = merged(syntax, reading.problems);
+  std::stable_sort(problems.begin(), problems.end(), [](const auto& a, const auto& b) {
     return std::tie(a.line, a.column) < std::tie(b.line, b.column);
   });
-  if (!reading.problems.empty()) return {std::nullopt, std::move(reading.problems)};
+  if (!problems.empty()) return {std::nullopt, std::move(problems)};
+  if (result.output.folder.empty())
+    result.output.folder = (std::filesystem::path("runs") / file.stem()).string();
   return {std::move(result), {}};
 }
 
@@ -351,25 +394,20 @@ CaseResult interpret(const toml::table& root, const std::filesystem::path& file)
 
 CaseResult parse_case(std::string_view text, const std::filesystem::path& file) {
   if (const auto exceeded = exceeded_parser_limit(text))
-    return failed({Kind::unreadable, file.string(), exceeded->line, exceeded->column, "", "",
-                   exceeded->problem, "this is not a case file"});
-  try {
-    return interpret(toml::parse(text), file);
-  } catch (const toml::parse_error& error) {
-    const auto begin = error.source().begin;
-    return failed({Kind::syntax, file.string(), static_cast<int>(begin.line), static_cast<int>(begin.column),
-                   "", "", without_control_characters(std::string(error.description())), ""});
-  }
+    return failed({Kind::syntax, file.string(), exceeded->line, exceeded->column, "", "", exceeded->problem,
+                   "this is not a case file"});
+  return interpret(parse_toml_lines(text), file);
 }
 
 CaseResult read_case(const std::filesystem::path& file) {
+  std::string text(most_case_bytes + 1, '\0');  // one byte too many tells that there is more
   std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  if (in && !std::filesystem::is_directory(file)) text << in.rdbuf();
-  if (!in || in.bad() || std::filesystem::is_directory(file))
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (in.bad() || (in.fail() && !in.eof()) || std::filesystem::is_directory(file))
     return failed(
         {Kind::unreadable, file.string(), 0, 0, "", "", "cannot be read", "check its name and permissions"});
-  return parse_case(text.str(), file);
+  text.resize(in.gcount());
+  return parse_case(text, file);
 }
 
 }  // namespace wheelwright

@@ -6,7 +6,6 @@ namespace wheelwright {
 
 namespace {
 
-constexpr std::size_t max_bytes = 1 << 20;
 constexpr int max_dots_in_key = 16;
 
 /// Position just after the string that begins at `begin`; an unterminated one ends with its line, or the
@@ -48,8 +47,8 @@ ParserLimitExceeded at(std::string_view text, std::size_t position, std::string 
 }  // namespace
 
 std::optional<ParserLimitExceeded> exceeded_parser_limit(std::string_view text) {
-  if (text.size() > max_bytes)
-    return ParserLimitExceeded{1, 1, fmt::format("the file is longer than {} bytes", max_bytes)};
+  if (text.size() > most_case_bytes)
+    return ParserLimitExceeded{1, 1, fmt::format("the file is longer than {} bytes", most_case_bytes)};
   int dots = 0;
   for (std::size_t i = 0; i < text.size();) {
     const char c = text[i];

@@ -6,6 +6,9 @@
 
 namespace wheelwright {
 
+/// No case file is longer.
+inline constexpr std::size_t most_case_bytes = 1 << 20;
+
 /// Where a text goes beyond what the TOML parser can take without exhausting the stack.
 struct ParserLimitExceeded {
   int line, column;  ///< from 1

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "base/text.h"
+
 namespace wheelwright {
 namespace {
 
@@ -50,6 +52,14 @@ std::vector<Contour> free_contours(const std::vector<Contour>& contours) {
   return result;
 }
 
+/// Without U+FFFE and U+FFFF, which XML 1.0 excludes.
+std::string without_noncharacters(std::string text) {
+  for (const std::string_view excluded : {"\xef\xbf\xbe", "\xef\xbf\xbf"})
+    for (std::size_t at = 0; (at = text.find(excluded, at)) != std::string::npos;)
+      text.replace(at, excluded.size(), "?");
+  return text;
+}
+
 constexpr std::string_view comparison_style = R"(<style>
 text{font-family:"Helvetica Neue",Helvetica,Arial,"DejaVu Sans",sans-serif;fill:#24292f;text-anchor:middle}
 .title{font-size:22px;font-weight:600}.heading{font-size:16px;font-weight:600}
@@ -76,7 +86,7 @@ std::string wheel_panel(const PolarGrid<2>& grid, const WheelState& wheel, doubl
 
 std::string escape_xml(std::string_view text) {
   std::string result;
-  for (const char c : text) {
+  for (const char c : without_noncharacters(without_control_characters(text))) {
     if (c == '&')
       result += "&amp;";
     else if (c == '<')
@@ -88,7 +98,7 @@ std::string escape_xml(std::string_view text) {
     else if (c == '\'')
       result += "&apos;";
     else
-      result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+      result += c;
   }
   return result;
 }

@@ -8,7 +8,8 @@
 
 namespace wheelwright {
 
-/// Text with & < > " ' and control characters made safe for XML.
+/// Text as XML 1.0 takes it, on one line: & < > " ' as entities, tabs and line ends as spaces, and '?' for what
+/// XML excludes or controls a terminal.
 std::string escape_xml(std::string_view text);
 
 /// The `d` attribute of a path along the material's boundary, to be filled with the even-odd rule: exact arcs

@@ -4,6 +4,7 @@
 
 #include "app/commands/model.h"
 #include "app/exit_code.h"
+#include "base/text.h"
 #include "output/atomic_file.h"
 #include "output/output_error.h"
 #include "output/pressure_plot.h"
@@ -66,7 +67,7 @@ int analyze(const Case& c, const RunOptions& options) {
   if (!solution) return give_up(solution.failure());
   const auto report = rolling_report(c, options, *problem, *solution);
   if (!report) return give_up(report.failure());
-  fmt::print("{}", options.json ? rolling_json(*report) : report->title + "\n\n" + rolling_table(*report));
+  fmt::print("{}", options.json ? rolling_json(*report) : without_control_characters(report->title) + "\n\n" + rolling_table(*report));
   if (options.output) write_folder(*options.output, *report, contact_points(*problem, *solution));
   return exit_done;
 }
