@@ -206,6 +206,7 @@ TEST(CaseFile, AResolvedCaseReadsBackEqual) {
   c.optimizer.velocity = VelocityKind::harmonic;
   c.optimizer.rim_band = 0.006;
   c.optimizer.tread_band = 0.011;
+  c.output.pictures_every = 3;
   c.expectations = {{.quantity = Quantity::uniformity_dual, .value = 1.0 / 3, .margin = 0.2, .iteration = 0},
                     {.quantity = Quantity::peak_von_mises, .value = 2e6, .iteration = {}}};
   const CaseResult result = parse_case(to_toml(c), "resolved.toml");

@@ -18,9 +18,12 @@
 #include "output/csv.h"
 #include "output/deformed_svg.h"
 #include "output/history.h"
+#include "output/mesh_svg.h"
+#include "output/outline.h"
 #include "output/output_error.h"
 #include "output/pressure_csv.h"
 #include "output/progress.h"
+#include "output/solution_fields.h"
 #include "output/svg.h"
 #include "output/vtu.h"
 
@@ -356,15 +359,117 @@ TEST(ColourMap, GetsLighterMonotonically) {
   EXPECT_EQ(viridis(2), viridis(1));
 }
 
+/// Twice the area that closed curves enclose, negative where they run the other way round.
+double double_area(const std::vector<PicturePolygon>& curves) {
+  double sum = 0;
+  for (const PicturePolygon& curve : curves)
+    for (std::size_t k = 0; k < curve.size(); ++k) {
+      const PicturePoint &a = curve[k], &b = curve[(k + 1) % curve.size()];
+      sum += double(a[0]) * b[1] - double(a[1]) * b[0];
+    }
+  return sum;
+}
+
+PicturePolygon unit_square(int x, int y) { return {{x, y}, {x + 1, y}, {x + 1, y + 1}, {x, y + 1}}; }
+
+TEST(Outline, ABlockOfSquaresIsOneCurveAndItsHoleAnother) {
+  constexpr int n = 7;
+  std::vector<PicturePolygon> squares;
+  for (int x = 0; x < n; ++x)
+    for (int y = 0; y < n; ++y) {
+      if (x == 3 && y == 2) continue;
+      squares.push_back(unit_square(x, y));
+      if ((x + y) % 2) std::ranges::reverse(squares.back());
+    }
+  const auto outlines = union_outlines(squares);
+  ASSERT_EQ(outlines.size(), 2u);
+  EXPECT_EQ(outlines[0].size() + outlines[1].size(), 4u * n + 4);
+  EXPECT_EQ(double_area(outlines), 2 * (n * n - 1));
+}
+
+TEST(Outline, PolygonsThatShareNoSideStayAsTheyAre) {
+  const auto outlines = union_outlines({unit_square(0, 0), unit_square(1, 1), {}, {{5, 5}, {5, 5}}});
+  EXPECT_EQ(double_area(outlines), 4);
+  EXPECT_TRUE(union_outlines({}).empty());
+}
+
+TEST(Outline, ThePathLeadsThroughAllPoints) {
+  EXPECT_EQ(outline_path({{{1, -2}, {4, -2}, {4, 3}, {-1, 3}}, {{0, 0}, {1, 1}, {0, 1}}}),
+            "M1 -2l3 0 0 5-5 0zM0 0l1 1-1 0z");
+}
+
+/// Area [pixels^2] under the path of one colour in a picture of whole units.
+double path_area(const std::string& svg, const std::string& colour) {
+  std::smatch match;
+  const std::regex path("<path fill=\"" + colour + "\" d=\"([^\"]*)\"");
+  if (!std::regex_search(svg, match, path)) return 0;
+  const std::string d = match[1];
+  static const std::regex curve("M(-?[0-9]+) (-?[0-9]+)l([^z]*)z"), number("-?[0-9]+");
+  std::vector<PicturePolygon> curves;
+  for (std::sregex_iterator c(d.begin(), d.end(), curve), end; c != end; ++c) {
+    PicturePolygon points{{std::stoi((*c)[1]), std::stoi((*c)[2])}};
+    const std::string moves = (*c)[3];
+    std::vector<int> steps;
+    for (std::sregex_iterator it(moves.begin(), moves.end(), number); it != end; ++it)
+      steps.push_back(std::stoi(it->str()));
+    for (std::size_t k = 0; k + 1 < steps.size(); k += 2)
+      points.push_back({points.back()[0] + steps[k], points.back()[1] + steps[k + 1]});
+    curves.push_back(points);
+  }
+  return 0.5 * std::abs(double_area(curves));
+}
+
+TEST(MeshSvg, CellsInsideAndTheMaterialOfCutCellsAreTheMaterialOfASector) {
+  const auto psi = holes_level_set(2, 1.0);
+  const auto domain = cut_domain(psi, 3);
+  ASSERT_TRUE(domain);
+  const std::string svg = mesh_svg(psi, *domain, "mesh");
+  const double metre = 20 * 360 / 0.34;  // units of the picture
+  const double material = path_area(svg, "#9ec1e3") + path_area(svg, "#e8833a");
+  EXPECT_NEAR(16 * material / (metre * metre) / material_area, 1, 1e-3);
+  EXPECT_GT(path_area(svg, "#fbdcc0"), path_area(svg, "#e8833a"));
+  EXPECT_EQ(count(svg, "<use "), 15);
+}
+
+TEST(DeformedSvg, AWindowShowsThePartAtTheContact) {
+  const auto psi = holes_level_set(2, 1.0);
+  const auto still = ring_field(psi.lattice, 2, [](const Vec<2>&) { return Vec<2>{}; });
+  const auto radius =
+      ring_field(psi.lattice, 1, [](const Vec<2>& x) { return std::array{std::hypot(x[0], x[1])}; });
+  DeformedPicture picture{"wheel", still, 1, 0.3, {}, {"radius", "m", radius}, 0};
+  const std::string whole = deformed_svg(psi, psi.lattice, picture);
+  picture.window = 0.03;
+  const std::string part = deformed_svg(psi, psi.lattice, picture);
+  EXPECT_LT(part.size(), 0.25 * whole.size());
+  // The colour bar spans the radii in view: from 0.2 m for the wheel, from about 0.34 - 1.85 * 0.03 m here.
+  const auto least = [](const std::string& svg) {
+    static const std::regex tick("<text x=\"746\" y=\"545\">([0-9.]+)</text>");
+    std::smatch match;
+    return std::regex_search(svg, match, tick) ? std::stod(match[1]) : NAN;
+  };
+  EXPECT_NEAR(least(whole), 203, 2);
+  EXPECT_NEAR(least(part), 340 - 1.85 * 30, 4);
+}
+
+TEST(VerticalField, IsTheComponentTowardsTheGround) {
+  const double azimuth = 1.1;
+  const RingField field{2, {std::cos(azimuth), std::sin(azimuth), -std::sin(azimuth), std::cos(azimuth)}};
+  const RingField vertical = vertical_field(field, azimuth);
+  ASSERT_EQ(vertical.values.size(), 2u);
+  EXPECT_NEAR(vertical.values[0], 1, 1e-15);
+  EXPECT_NEAR(vertical.values[1], 0, 1e-15);
+}
+
 TEST(DeformedSvg, MissingValuesAreLeftOutAndTextIsEscaped) {
   const auto psi = holes_level_set(2, 1.0);
-  DeformedPicture picture{"a & b",
-                          ring_field(psi.lattice, 2, [](const Vec<2>& x) { return x; }),
-                          0.1,
-                          0,
-                          {"von Mises", "Pa", ring_field(psi.lattice, 1, [](const Vec<2>& x) {
-                             return std::array{x[0] * 1e7};
-                           })}};
+  DeformedPicture picture{
+      "a & b",
+      ring_field(psi.lattice, 2, [](const Vec<2>& x) { return x; }),
+      0.1,
+      0,
+      {},
+      {"von Mises", "Pa", ring_field(psi.lattice, 1, [](const Vec<2>& x) { return std::array{x[0] * 1e7}; })},
+      0.01};
   picture.displacement.values[0] = NAN;
   const std::string svg = deformed_svg(psi, psi.lattice, picture);
   EXPECT_EQ(count(svg, "nan"), 0);

@@ -125,6 +125,7 @@ struct Optimizer {
 struct Output {
   std::string folder;  ///< never empty in a case that was read from a file
   int vtu_every = 10;
+  int pictures_every = 0;
   bool operator==(const Output&) const = default;
 };
 

@@ -381,7 +381,12 @@ const Section<Output>& output_section() {
                {.name = "vtu_every",
                 .unit = "shapes",
                 .field = IntegerField<Output>{&Output::vtu_every, between(0, 1000000)},
-                .meaning = "how often fields are written for ParaView; 0 is never"}}};
+                .meaning = "how often fields are written for ParaView; 0 is never"},
+               {.name = "pictures_every",
+                .unit = "shapes",
+                .field = IntegerField<Output>{&Output::pictures_every, between(0, 1000000)},
+                .meaning = "how often the loaded wheel is drawn in the folder shapes; 0 is never, the last "
+                           "shape is always drawn"}}};
   return section;
 }
 

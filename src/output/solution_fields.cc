@@ -63,6 +63,14 @@ RingField displacement_field(const RollingProblem<2>& problem, const RollingSolu
   return field;
 }
 
+RingField vertical_field(const RingField& displacement, double ground_azimuth) {
+  const double x = std::cos(ground_azimuth), y = std::sin(ground_azimuth);
+  RingField field{1, {}};
+  for (size_t i = 0; i < displacement.values.size(); i += 2)
+    field.values.push_back(x * displacement.values[i] + y * displacement.values[i + 1]);
+  return field;
+}
+
 RingField von_mises_field(const RollingProblem<2>& problem, const RollingSolution<2>& s,
                           const RingField& displacement) {
   const Lattice<2> lattice = displacement_lattice(problem);

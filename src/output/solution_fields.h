@@ -11,6 +11,9 @@ namespace wheelwright {
 RingField displacement_field(const RollingProblem<2>& problem, const RollingSolution<2>& solution,
                              int position);
 
+/// Component of a displacement towards the ground of one load position [m].
+RingField vertical_field(const RingField& displacement, double ground_azimuth);
+
 /// Von Mises stress [Pa] of a displacement, at the nodes: the mean over the cells with material around a
 /// node.
 RingField von_mises_field(const RollingProblem<2>& problem, const RollingSolution<2>& solution,

@@ -31,6 +31,7 @@ std::string polyline_path(const std::vector<Vec<2>>& points, double units_per_me
 
 /// Size of the comparison's parts, in pixels.
 constexpr double wheel_diameter = 400, margin = 30, gap = 50, top = 110, foot = 110;
+constexpr double point_spacing = 1.5;  // along curves
 constexpr double picture_width = 2 * wheel_diameter + 2 * margin + gap;
 constexpr double picture_height = top + wheel_diameter + foot;
 
@@ -72,11 +73,11 @@ text{font-family:"Helvetica Neue",Helvetica,Arial,"DejaVu Sans",sans-serif;fill:
 
 std::string wheel_panel(const PolarGrid<2>& grid, const WheelState& wheel, double centre_x,
                         std::string_view overlay) {
-  const double scale = 0.5 * wheel_diameter / grid.outer_radius, pixel = 1 / scale;
+  const double scale = 0.5 * wheel_diameter / grid.outer_radius;
   std::string panel =
       fmt::format("<g transform=\"translate({} {})\">\n", centre_x, top + 0.5 * wheel_diameter);
   panel += fmt::format("<path class=\"material\" d=\"{}\"/>\n",
-                       material_path(grid, wheel.contours, scale, 2, pixel));
+                       material_path(grid, wheel.contours, scale, 1, point_spacing / scale));
   panel += fmt::format("<path class=\"rim\" d=\"{}\"/>\n", circle_path(grid.inner_radius * scale, 2));
   panel += overlay;
   return panel + "</g>\n" + text(centre_x, top - 18, "heading", wheel.heading);
@@ -138,7 +139,7 @@ std::string comparison_svg(const PolarGrid<2>& grid, const Comparison& compariso
   const double first_line = top + wheel_diameter + 32, second_line = first_line + 22;
   const std::string former =
       fmt::format("<path class=\"former\" d=\"{}\"/>\n",
-                  material_path(grid, free_contours(before.contours), scale, 2, 1 / scale));
+                  material_path(grid, free_contours(before.contours), scale, 1, point_spacing / scale));
   const auto objective = [&](double value) {
     return fmt::format("{}: {:.5g} {}", comparison.objective_name, value, comparison.objective_unit);
   };

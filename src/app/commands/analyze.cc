@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/commands/model.h"
+#include "app/commands/wheel_pictures.h"
 #include "app/exit_code.h"
 #include "base/text.h"
 #include "output/atomic_file.h"
@@ -63,12 +64,18 @@ int analyze(const Case& c, const RunOptions& options) {
   }
   const auto problem = RollingProblem<2>::create(rolling_model(c));
   if (!problem) return give_up(problem.failure());
-  const auto solution = problem->solve(initial_shape(c));
+  const LevelSet<2> shape = initial_shape(c);
+  const auto solution = problem->solve(shape);
   if (!solution) return give_up(solution.failure());
   const auto report = rolling_report(c, options, *problem, *solution);
   if (!report) return give_up(report.failure());
-  fmt::print("{}", options.json ? rolling_json(*report) : without_control_characters(report->title) + "\n\n" + rolling_table(*report));
-  if (options.output) write_folder(*options.output, *report, contact_points(*problem, *solution));
+  fmt::print("{}", options.json
+                       ? rolling_json(*report)
+                       : without_control_characters(report->title) + "\n\n" + rolling_table(*report));
+  if (options.output) {
+    write_folder(*options.output, *report, contact_points(*problem, *solution));
+    write_wheel_pictures(*options.output, "", report->title, *problem, *solution, shape);
+  }
   return exit_done;
 }
 

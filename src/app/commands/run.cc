@@ -44,8 +44,8 @@ class RunRecorder {
     progress_.show({state.iteration, case_.optimizer.iterations, state.evaluation.objective,
                     state.history.front(), volume_fraction(grid, state.measure),
                     trial.step * grid.resolution(), elapsed_});
-    const int every = case_.output.vtu_every;
-    if (every > 0 && state.iteration % every == 0) folder_.write_shape(problem_, state);
+    if (is_due(case_.output.vtu_every, state)) folder_.write_shape(problem_, state);
+    if (is_due(case_.output.pictures_every, state)) folder_.write_pictures(problem_, state);
     if (state.iteration == 0)
       if (const auto solution = problem_.solve(state.shape))
         folder_.write_pressures(problem_, *solution, "initial");
@@ -60,6 +60,10 @@ class RunRecorder {
     std::vector<HistoryColumns::Quantity> result;
     for (const auto& term : criteria) result.push_back({term.criterion->name(), "J/m"});
     return result;
+  }
+
+  static bool is_due(int every, const OptimizationState<2>& state) {
+    return every > 0 && state.iteration % every == 0;
   }
 
   static std::string reason(const Trial<2>& trial, bool with_detail) {
@@ -121,12 +125,15 @@ void print_summary(const OptimizationState<2>& first, const OptimizationState<2>
              to_string(reason));
   fmt::print("volume     {:.6f} -> {:.6f} of the ring\n", volume_fraction(grid, first.measure),
              volume_fraction(grid, last.measure));
-  for (const auto& [file, meaning] : {std::pair{"comparison.svg", "before and after"},
-                                      {"shape.svg", "the shape in true scale, for cutting"},
-                                      {"stress.svg", "the loaded wheel"},
-                                      {"history.csv", "every trial shape"},
-                                      {"shapes.pvd", "all shapes, for ParaView"},
-                                      {"rolling.pvd", "all load positions, for ParaView"}})
+  for (const auto& [file, meaning] :
+       {std::pair{"comparison.svg", "before and after"},
+        {"shape.svg", "the shape in true scale, for cutting"},
+        {"stress.svg", "the loaded wheel; stress_contact.svg about the contact"},
+        {"displacement.svg", "the loaded wheel, how far its points come down"},
+        {"mesh.svg", "the grid and the cells that the boundary cuts"},
+        {"history.csv", "every trial shape"},
+        {"shapes.pvd", "all shapes, for ParaView"},
+        {"rolling.pvd", "all load positions, for ParaView"}})
     fmt::print("  {:<36} {}\n", (folder / file).string(), meaning);
 }
 

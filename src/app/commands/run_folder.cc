@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cerrno>
 
+#include "app/commands/wheel_pictures.h"
 #include "case/version.h"
 #include "case/write.h"
 #include "output/atomic_file.h"
-#include "output/deformed_svg.h"
 #include "output/output_error.h"
 #include "output/pressure_plot.h"
 #include "output/solution_fields.h"
@@ -18,11 +18,6 @@ namespace wheelwright {
 namespace {
 
 constexpr int cut_subdivisions = 4;
-
-int worst_position(const RollingSolution<2>& solution) {
-  const auto& energy = solution.strain_energy;
-  return static_cast<int>(std::max_element(energy.begin(), energy.end()) - energy.begin());
-}
 
 std::vector<NamedField> position_fields(const RollingProblem<2>& problem, const RollingSolution<2>& solution,
                                         int position) {
@@ -76,6 +71,19 @@ void RunFolder::write_shape(const RollingProblem<2>& problem, const Optimization
   write_pvd(folder_ / "shapes.pvd", shapes_);
 }
 
+void RunFolder::write_pictures(const RollingProblem<2>& problem, const OptimizationState<2>& state) const {
+  const auto solution = problem.solve(state.shape);
+  if (!solution) return;
+  make_folder(folder_ / "shapes");
+  write_wheel_pictures(folder_ / "shapes", fmt::format("shape_{:04d}_", state.iteration),
+                       fmt::format("{}, shape {}", title(), state.iteration), problem, *solution,
+                       state.shape);
+}
+
+std::string RunFolder::title() const {
+  return case_.title.empty() ? folder_.filename().string() : case_.title;
+}
+
 void RunFolder::write_pressures(const RollingProblem<2>& problem, const RollingSolution<2>& solution,
                                 const std::string& name) const {
   const auto points = contact_points(problem, solution);
@@ -91,7 +99,7 @@ void RunFolder::write_pressures(const RollingProblem<2>& problem, const RollingS
 void RunFolder::write_result(const RollingProblem<2>& problem, const OptimizationState<2>& initial,
                              const OptimizationState<2>& final_state) const {
   const PolarGrid<2>& grid = problem.model().grid;
-  const std::string title = case_.title.empty() ? folder_.filename().string() : case_.title;
+  const std::string title = this->title();
   const WheelState before = wheel_state("initial", initial);
   const WheelState after = wheel_state(fmt::format("after {} shapes", final_state.iteration), final_state);
   write_atomically(folder_ / "shape.svg", shape_svg(grid, after.contours, title));
@@ -113,14 +121,7 @@ void RunFolder::write_result(const RollingProblem<2>& problem, const Optimizatio
     positions.push_back({static_cast<double>(i), file});
   }
   write_pvd(folder_ / "rolling.pvd", positions);
-
-  const int worst = worst_position(*solution);
-  RingField displacement = displacement_field(problem, *solution, worst);
-  NamedField von_mises{"von Mises stress", "Pa", von_mises_field(problem, *solution, displacement)};
-  write_atomically(folder_ / "stress.svg",
-                   deformed_svg(final_state.shape, displacement_lattice(problem),
-                                {title, std::move(displacement), 20, solution->grounds[worst].azimuth(grid),
-                                 std::move(von_mises)}));
+  write_wheel_pictures(folder_, "", title, problem, *solution, final_state.shape);
 }
 
 }  // namespace wheelwright

@@ -21,16 +21,22 @@ class RunFolder {
   /// shapes/shape_NNNN.vtu with the fields of the worst load position, and shapes.pvd over all shapes so far.
   void write_shape(const RollingProblem<2>& problem, const OptimizationState<2>& state);
 
+  /// shapes/shape_NNNN_*.svg: the pictures of this shape (wheel_pictures.h).
+  void write_pictures(const RollingProblem<2>& problem, const OptimizationState<2>& state) const;
+
   /// pressures_NAME.csv and its plot: the contact of all positions.
   void write_pressures(const RollingProblem<2>& problem, const RollingSolution<2>& solution,
                        const std::string& name) const;
 
-  /// The result: shape.svg for cutting, comparison.svg and stress.svg to look at, rolling.pvd with the fields
+  /// The result: shape.svg for cutting, comparison.svg and the pictures of
+  /// wheel_pictures.h to look at, rolling.pvd with the fields
   /// of every load position.
   void write_result(const RollingProblem<2>& problem, const OptimizationState<2>& initial,
                     const OptimizationState<2>& final_state) const;
 
  private:
+  std::string title() const;
+
   std::filesystem::path folder_;
   Case case_;
   std::vector<PvdEntry> shapes_;
