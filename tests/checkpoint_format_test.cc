@@ -70,6 +70,7 @@ Checkpoint<dim> some_checkpoint() {
   return {{"[load]\nforce = 1\n", "wheelwright 1.2.3"},
           state,
           {some_level_set<dim>(random, 1), random.number(), random.number()},
+          {{1, "peak_von_mises", random.number()}, {0, "run_out", random.number()}},
           {123456789012, 0xfedcba98},
           17.25,
           StopReason::no_descent};
@@ -115,6 +116,9 @@ TEST(CheckpointFormat, HoldsTheWholeState) {
   EXPECT_EQ(a.history, b.history);
   EXPECT_EQ(written.initial.shape.values, parsed->initial.shape.values);
   EXPECT_EQ(written.initial.objective, parsed->initial.objective);
+  EXPECT_EQ(written.found[1].quantity, parsed->found[1].quantity);
+  EXPECT_EQ(written.found[0].iteration, parsed->found[0].iteration);
+  EXPECT_EQ(written.found[0].value, parsed->found[0].value);
   EXPECT_EQ(written.history.bytes, parsed->history.bytes);
   EXPECT_EQ(written.history.checksum, parsed->history.checksum);
   EXPECT_EQ(written.elapsed_seconds, parsed->elapsed_seconds);

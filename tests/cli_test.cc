@@ -123,7 +123,7 @@ std::string case_that_expects(double energy, const char* margin) {
   return text;
 }
 
-TEST_F(CommandLine, ARunThatDiffersFromWhatItsCaseExpectsIsSix) {
+TEST_F(CommandLine, ARunThatDiffersFromWhatItsCaseExpectsIsSeven) {
   const auto run = [&](const std::string& name, const std::string& text, const std::string& options) {
     std::ofstream(folder_ / (name + ".toml")) << text;
     return wheelwright(

@@ -2,15 +2,18 @@
 
 namespace wheelwright {
 
-/// What the program tells its caller.
+/// What the program tells its caller. main.cc prints the list below its --help.
 enum ExitCode {
   exit_done = 0,
   exit_bug = 1,
-  exit_usage = 2,         ///< wrong command line, or a case that is wrong or cannot be read
-  exit_no_solution = 3,   ///< the solver gave up
-  exit_refused = 4,       ///< e.g. to overwrite a file
-  exit_input_output = 5,  ///< a file could not be written or a library not be loaded
-  exit_unexpected = 6,    ///< the run is done, but something that the case expects of it is not so
+  exit_usage = 2,          ///< wrong command line, or a case that is wrong or cannot be read
+  exit_no_solution = 3,    ///< the solver gave up
+  exit_refused = 4,        ///< e.g. to overwrite a file
+  exit_input_output = 5,   ///< a file could not be written or a library not be loaded
+  exit_checkpoint = 6,     ///< no checkpoint can be used
+  exit_unexpected = 7,     ///< the run is done, but something that the case expects of it is not so
+  exit_interrupted = 130,  ///< by SIGINT; the run is saved
+  exit_terminated = 143,   ///< by SIGTERM or a file STOP; the run is saved
 };
 
 }  // namespace wheelwright

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -26,6 +27,7 @@ namespace {
 
 struct CommandLine {
   std::string case_file;
+  std::string run_folder;
   std::string template_file = "case.toml";
   std::optional<std::string> output_folder;
   std::optional<int> iterations;
@@ -33,6 +35,19 @@ struct CommandLine {
   std::string loads;
   bool json = false;
 };
+
+constexpr const char* exit_codes =
+    "Exit codes:\n"
+    "  0    done\n"
+    "  1    a bug of the program\n"
+    "  2    wrong command line, or a case that is wrong or cannot be read\n"
+    "  3    the solver gave up\n"
+    "  4    refused: would overwrite, or another run is writing to the folder\n"
+    "  5    a file could not be written\n"
+    "  6    no checkpoint can be used\n"
+    "  7    done, but without what the case expects of it\n"
+    "  130  stopped by SIGINT (Ctrl-C) and saved\n"
+    "  143  stopped by SIGTERM or by a file STOP in the run's folder, and saved";
 
 std::string count_of_problems(std::size_t n) { return fmt::format("{} problem{}", n, n == 1 ? "" : "s"); }
 
@@ -93,6 +108,20 @@ int compute(const std::string& command, const CommandLine& line) {
   return load_and_run_command(command, c, {.case_file = line.case_file});
 }
 
+int resume(const CommandLine& line) {
+  const std::filesystem::path case_file = std::filesystem::path(line.run_folder) / "case.toml";
+  if (!std::filesystem::exists(case_file)) {
+    fmt::print(stderr, "{}: holds no run; there is no {}\n", line.run_folder, case_file.string());
+    return exit_usage;
+  }
+  CaseResult result = read_case(case_file);
+  if (!result.value) return report_problems(case_file.string(), result.problems);
+  Case& c = *result.value;
+  if (line.iterations) shorten(c, *line.iterations);
+  print_warnings(stderr, c);
+  return load_and_run_command("resume", c, {.case_file = case_file, .run_folder = line.run_folder});
+}
+
 int analyze(const CommandLine& line) {
   CaseResult result = read_case(line.case_file);
   if (!result.value) return report_problems(line.case_file, result.problems);
@@ -140,18 +169,26 @@ void declare_analyze(CLI::App& app, CommandLine& line) {
   analyze->add_flag("--json", line.json, "Print JSON instead of the table");
 }
 
+void add_iterations_option(CLI::App& command, CommandLine& line) {
+  const Range range = range_of_iterations();
+  command
+      .add_option("--iterations", line.iterations,
+                  "Number of shapes instead of the case's optimizer.iterations; what the case expects of "
+                  "shapes after them, or of the last one, is not checked")
+      ->type_name("N")
+      ->check(CLI::Range(static_cast<int>(range.low), static_cast<int>(range.high)));
+}
+
 void declare_commands(CLI::App& app, CommandLine& line) {
   app.require_subcommand(1);
   app.set_version_flag("--version", fmt::format("wheelwright {}", version()));
+  app.footer(exit_codes);
   CLI::App* run = add_case_command(app, line, "run", "Optimize a case and write its output folder");
-  const Range iterations = range_of_iterations();
   add_output_option(*run, line, "Folder to write instead of the case's output.folder");
-  run->add_option(
-         "--iterations", line.iterations,
-         "Number of shapes instead of the case's optimizer.iterations; what the case expects of shapes "
-         "after them, or of the last one, is not checked")
-      ->type_name("N")
-      ->check(CLI::Range(static_cast<int>(iterations.low), static_cast<int>(iterations.high)));
+  add_iterations_option(*run, line);
+  CLI::App* resume = app.add_subcommand("resume", "Go on with a run that was stopped");
+  resume->add_option("DIR", line.run_folder, "folder of the run")->required();
+  add_iterations_option(*resume, line);
   declare_analyze(app, line);
   add_case_command(app, line, "verify", "Test the solver's shape gradient on a case");
   add_case_command(app, line, "check", "Report every problem of a case and the numbers that follow from it");
@@ -164,6 +201,7 @@ void declare_commands(CLI::App& app, CommandLine& line) {
 int dispatch(const std::string& command, const CommandLine& line) {
   if (command == "check") return check(line);
   if (command == "init") return init(line);
+  if (command == "resume") return resume(line);
   if (command == "analyze") return analyze(line);
   if (command == "reference") {
     fmt::print("{}", case_reference_markdown());

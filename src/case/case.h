@@ -126,6 +126,8 @@ struct Output {
   std::string folder;  ///< never empty in a case that was read from a file
   int vtu_every = 10;
   int pictures_every = 0;
+  int checkpoint_every = 10;       ///< shapes; 0: not by their number
+  double checkpoint_seconds = 60;  ///< 0: not by the clock
   bool operator==(const Output&) const = default;
 };
 

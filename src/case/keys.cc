@@ -386,7 +386,15 @@ const Section<Output>& output_section() {
                 .unit = "shapes",
                 .field = IntegerField<Output>{&Output::pictures_every, between(0, 1000000)},
                 .meaning = "how often the loaded wheel is drawn in the folder shapes; 0 is never, the last "
-                           "shape is always drawn"}}};
+                           "shape is always drawn"},
+               {.name = "checkpoint_every",
+                .unit = "shapes",
+                .field = IntegerField<Output>{&Output::checkpoint_every, between(0, 1000000)},
+                .meaning = "how often the run is saved for `wheelwright resume`; 0 is by the clock alone"},
+               {.name = "checkpoint_seconds",
+                .unit = "s",
+                .field = NumberField<Output>{&Output::checkpoint_seconds, between(0, 1e9)},
+                .meaning = "time after which the next shape is saved too; 0 is never"}}};
   return section;
 }
 
@@ -396,7 +404,7 @@ const SectionArray<Expectation>& expectation_sections() {
       .name = "expect",
       .meaning =
           "what a run is expected to find; it says which of these it did not, and ends with exit "
-          "code 6; any number of them",
+          "code 7; any number of them",
       .in = [](Case& c) -> std::vector<Expectation>& { return c.expectations; },
       .example = {.quantity = Quantity::strain_energy, .value = 35, .margin = 0.01, .iteration = {}},
       .keys = {{.name = "quantity",

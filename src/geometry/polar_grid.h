@@ -20,6 +20,8 @@ struct PolarGrid {
   int n_sectors;               ///< N_s
   std::array<int, dim> cells;  ///< cells of one sector along each axis
 
+  bool operator==(const PolarGrid&) const = default;
+
   double sector_angle() const { return 2 * std::numbers::pi / n_sectors; }
   int columns() const { return cells[1]; }                   ///< angular cells of a sector
   int ring_columns() const { return cells[1] * n_sectors; }  ///< angular cells of the full ring

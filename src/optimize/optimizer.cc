@@ -42,7 +42,24 @@ double largest_magnitude(std::span<const double> values) {
   return largest;
 }
 
+bool is_converged(const OptimizerOptions& options, const std::vector<double>& history) {
+  if (options.tolerance <= 0 || history.size() <= convergence_window) return false;
+  const double before = history[history.size() - 1 - convergence_window];
+  double fall = before - history.back();
+  // The paper's rule lets the measure drift, and the objective rise with it.
+  if (options.measure_control == MeasureControl::proportional) fall = std::abs(fall);
+  return fall < options.tolerance * std::abs(before);
+}
+
 }  // namespace
+
+template <int dim>
+std::optional<StopReason> reason_to_stop(const OptimizerOptions& options,
+                                         const OptimizationState<dim>& state) {
+  if (state.iteration >= options.iterations) return StopReason::iterations;
+  if (is_converged(options, state.history)) return StopReason::converged;
+  return {};
+}
 
 template <int dim>
 ShapeOptimizer<dim>::ShapeOptimizer(const Lattice<dim>& lattice, const EvolutionOptions& evolution,
@@ -79,9 +96,10 @@ Expected<OptimizationState<dim>> ShapeOptimizer<dim>::start(const LevelSet<dim>&
 
 template <int dim>
 std::optional<StopReason> ShapeOptimizer<dim>::advance(OptimizationState<dim>& state,
-                                                       const Observer& observer) const {
-  if (state.iteration >= options_.iterations) return StopReason::iterations;
-  if (is_converged(state.history)) return StopReason::converged;
+                                                       const Observer& observer,
+                                                       const std::function<bool()>& stop_requested) const {
+  if (const auto reason = reason_to_stop(options_, state)) return reason;
+  if (stop_requested()) return StopReason::stop_requested;
   const auto velocity = descent_velocity(state);
   if (!(largest_magnitude(velocity) > 0)) return StopReason::no_descent;
   for (int halvings = 0; halvings <= options_.max_halvings; ++halvings) {
@@ -89,6 +107,7 @@ std::optional<StopReason> ShapeOptimizer<dim>::advance(OptimizationState<dim>& s
     if (trial.verdict == Verdict::accepted) state = successor(state, trial);
     observer(trial, state);
     if (trial.verdict == Verdict::accepted) return std::nullopt;
+    if (stop_requested()) return StopReason::stop_requested;
   }
   return StopReason::no_descent;
 }
@@ -96,19 +115,8 @@ std::optional<StopReason> ShapeOptimizer<dim>::advance(OptimizationState<dim>& s
 template <int dim>
 StopReason ShapeOptimizer<dim>::run(OptimizationState<dim>& state, const Observer& observer,
                                     const std::function<bool()>& stop_requested) const {
-  while (!stop_requested())
-    if (const auto reason = advance(state, observer)) return *reason;
-  return StopReason::stop_requested;
-}
-
-template <int dim>
-bool ShapeOptimizer<dim>::is_converged(const std::vector<double>& history) const {
-  if (options_.tolerance <= 0 || history.size() <= convergence_window) return false;
-  const double before = history[history.size() - 1 - convergence_window];
-  double fall = before - history.back();
-  // The paper's rule lets the measure drift, and the objective rise with it.
-  if (options_.measure_control == MeasureControl::proportional) fall = std::abs(fall);
-  return fall < options_.tolerance * std::abs(before);
+  while (true)
+    if (const auto reason = advance(state, observer, stop_requested)) return *reason;
 }
 
 template <int dim>
@@ -220,6 +228,8 @@ Outcome<dim> optimize(const ShapeOptimizer<dim>& optimizer, const LevelSet<dim>&
   return {reason, *std::move(state), {}};
 }
 
+template std::optional<StopReason> reason_to_stop(const OptimizerOptions&, const OptimizationState<2>&);
+template std::optional<StopReason> reason_to_stop(const OptimizerOptions&, const OptimizationState<3>&);
 template class ShapeOptimizer<2>;
 template class ShapeOptimizer<3>;
 template Outcome<2> optimize<2>(const ShapeOptimizer<2>&, const LevelSet<2>&,

@@ -101,6 +101,12 @@ constexpr const char* to_string(StopReason reason) {
   return "unknown";
 }
 
+/// Why a run with these options goes no further than this state, if its number of shapes or its objectives
+/// tell.
+template <int dim>
+std::optional<StopReason> reason_to_stop(const OptimizerOptions& options,
+                                         const OptimizationState<dim>& state);
+
 /// Gradient descent on shapes: velocity, transport, redistancing and smoothing when due, measure, evaluation.
 /// The step is halved when a trial is rejected, and for the next shape when the objective rose within bounds;
 /// it grows back by half after a fall. Redistancing and smoothing wait for the next shape when a trial with
@@ -120,14 +126,15 @@ class ShapeOptimizer {
   Expected<OptimizationState<dim>> start(const LevelSet<dim>& initial, const Observer& observer) const;
 
   /// Goes on to the next accepted shape; a reason when there is none, the state then stays as it is.
-  std::optional<StopReason> advance(OptimizationState<dim>& state, const Observer& observer) const;
+  /// `stop_requested` is asked before every trial.
+  std::optional<StopReason> advance(OptimizationState<dim>& state, const Observer& observer,
+                                    const std::function<bool()>& stop_requested) const;
 
-  /// Advances until there is a reason to stop. `stop_requested` is asked before every shape.
+  /// Advances until there is a reason to stop.
   StopReason run(OptimizationState<dim>& state, const Observer& observer,
                  const std::function<bool()>& stop_requested) const;
 
  private:
-  bool is_converged(const std::vector<double>& history) const;
   std::vector<double> descent_velocity(const OptimizationState<dim>& state) const;
   Trial<dim> attempt(const OptimizationState<dim>& state, std::span<const double> velocity,
                      int halvings) const;

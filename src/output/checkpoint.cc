@@ -184,11 +184,31 @@ std::optional<InitialShape<dim>> read_initial(ByteReader& reader) {
   return InitialShape<dim>{*std::move(shape), objective, measure};
 }
 
+void append(const std::vector<FoundQuantity>& found, ByteWriter& writer) {
+  writer.integer(static_cast<std::int64_t>(found.size()));
+  for (const auto& [iteration, quantity, value] : found) {
+    writer.integer(iteration);
+    writer.text(quantity);
+    writer.number(value);
+  }
+}
+
+std::vector<FoundQuantity> read_found(ByteReader& reader) {
+  constexpr std::size_t bytes_each = 2 * sizeof(std::int64_t) + sizeof(double);
+  std::vector<FoundQuantity> found(reader.count(bytes_each));
+  for (auto& [iteration, quantity, value] : found) {
+    iteration = static_cast<int>(reader.integer(0, largest_int, "the shape of a value that was found"));
+    quantity = reader.text();
+    value = reader.number();
+  }
+  return found;
+}
+
 }  // namespace
 
 template <int dim>
 std::string checkpoint_file(const Checkpoint<dim>& checkpoint) {
-  const auto& [provenance, state, initial, history, elapsed_seconds, finished] = checkpoint;
+  const auto& [provenance, state, initial, found, history, elapsed_seconds, finished] = checkpoint;
   ByteWriter origin, current, first, run;
   origin.text(provenance.resolved_case);
   origin.text(provenance.program);
@@ -198,6 +218,7 @@ std::string checkpoint_file(const Checkpoint<dim>& checkpoint) {
   run.integer(history.checksum);
   run.number(elapsed_seconds);
   run.integer(finished ? static_cast<int>(*finished) : -1);
+  append(found, run);
   return block_file(
       kind, version,
       {{"CASE", origin.bytes()}, {"STAT", current.bytes()}, {"INIT", first.bytes()}, {"RUN ", run.bytes()}});
@@ -219,12 +240,18 @@ Expected<Checkpoint<dim>, FormatError> parse_checkpoint_file(std::string_view by
   const double elapsed_seconds = run.finite_number("the elapsed time");
   const auto finished =
       run.integer(-1, static_cast<int>(StopReason::stop_requested), "the reason why the run ended");
+  auto found = read_found(run);
   for (ByteReader* reader : {&origin, &current, &first, &run}) {
     reader->finish();
     if (!reader->ok()) return FormatError{FormatFault::invalid_value, reader->problem()};
   }
-  Checkpoint<dim> checkpoint{
-      std::move(provenance), *std::move(state), *std::move(initial), history, elapsed_seconds, {}};
+  Checkpoint<dim> checkpoint{std::move(provenance),
+                             *std::move(state),
+                             *std::move(initial),
+                             std::move(found),
+                             history,
+                             elapsed_seconds,
+                             {}};
   if (finished >= 0) checkpoint.finished = static_cast<StopReason>(finished);
   return checkpoint;
 }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "optimize/optimizer.h"
 #include "output/block_file.h"
@@ -19,6 +20,13 @@ struct InitialShape {
   double measure;  ///< of the material, one sector
 };
 
+/// What the case expects a value of, as an earlier shape had it.
+struct FoundQuantity {
+  int iteration;
+  std::string quantity;
+  double value;
+};
+
 /// What a run depends on besides its state. A run may go on where the case is the same; on another program or
 /// machine its last digits may differ.
 struct Provenance {
@@ -32,6 +40,7 @@ struct Checkpoint {
   Provenance provenance;
   OptimizationState<dim> state;
   InitialShape<dim> initial;
+  std::vector<FoundQuantity> found;    ///< for the case's expectations
   HistoryMark history;                 ///< the end of history.csv at this shape
   double elapsed_seconds;              ///< computed so far
   std::optional<StopReason> finished;  ///< set when the run ended by itself and its results are written

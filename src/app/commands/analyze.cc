@@ -7,7 +7,6 @@
 #include "app/exit_code.h"
 #include "base/text.h"
 #include "output/atomic_file.h"
-#include "output/output_error.h"
 #include "output/pressure_plot.h"
 #include "output/rolling_report.h"
 #include "output/solution_fields.h"
@@ -41,9 +40,7 @@ Expected<RollingReport> rolling_report(const Case& c, const RunOptions& options,
 
 void write_folder(const std::filesystem::path& folder, const RollingReport& report,
                   const std::vector<ContactPoint>& points) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw OutputError(folder, error.value());
+  make_folder(folder);
   const auto plot = [&](const char* file, const LinePlot& picture) {
     write_atomically(folder / file, plot_svg(picture));
   };
@@ -56,7 +53,9 @@ void write_folder(const std::filesystem::path& folder, const RollingReport& repo
   write_atomically(folder / result_file, rolling_json(report));
 }
 
-int analyze(const Case& c, const RunOptions& options) {
+}  // namespace
+
+int analyze_command(const Case& c, const RunOptions& options) {
   if (options.output && std::filesystem::exists(*options.output / result_file)) {
     fmt::print(stderr, "{}: holds an analysis already; choose another folder, or remove it\n",
                options.output->string());
@@ -77,17 +76,6 @@ int analyze(const Case& c, const RunOptions& options) {
     write_wheel_pictures(*options.output, "", report->title, *problem, *solution, shape);
   }
   return exit_done;
-}
-
-}  // namespace
-
-int analyze_command(const Case& c, const RunOptions& options) {
-  try {
-    return analyze(c, options);
-  } catch (const OutputError& error) {
-    fmt::print(stderr, "wheelwright analyze: {}\n", error.what());
-    return exit_input_output;
-  }
 }
 
 }  // namespace wheelwright

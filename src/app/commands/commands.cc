@@ -6,18 +6,24 @@
 #include <string_view>
 
 #include "app/commands/analyze.h"
+#include "app/commands/resume.h"
 #include "app/commands/run.h"
 #include "app/commands/verify.h"
 #include "app/exit_code.h"
+#include "output/output_error.h"
 
 using namespace wheelwright;
 
 extern "C" int wheelwright_command(const char* name, const Case* c, const RunOptions* options) {
   try {
     if (std::string_view(name) == "run") return run_command(*c, *options);
+    if (std::string_view(name) == "resume") return resume_command(*c, *options);
     if (std::string_view(name) == "analyze") return analyze_command(*c, *options);
     if (std::string_view(name) == "verify") return verify_command(*c, *options);
     fmt::print(stderr, "wheelwright: no command {}\n", name);
+  } catch (const OutputError& error) {
+    fmt::print(stderr, "wheelwright {}: {}\n", name, error.what());
+    return exit_input_output;
   } catch (const std::exception& error) {
     fmt::print(stderr, "wheelwright {}: bug: {}\n", name, error.what());
   }

@@ -49,14 +49,27 @@ std::string Finding::text() const {
   return fmt::format("{}: {:.6g}, {} {}", quantity, *found, met() ? "as expected," : "expected", expected);
 }
 
-ExpectationWatch::ExpectationWatch(const std::vector<Expectation>& expectations) {
-  for (const Expectation& expectation : expectations) findings_.push_back({expectation, std::nullopt});
+ExpectationWatch::ExpectationWatch(const std::vector<Expectation>& expectations,
+                                   const std::vector<FoundQuantity>& found) {
+  for (const Expectation& expectation : expectations) {
+    const auto noted = std::ranges::find_if(found, [&](const FoundQuantity& f) {
+      return expectation.iteration == f.iteration && name(expectation.quantity) == f.quantity;
+    });
+    findings_.push_back({expectation, noted == found.end() ? std::nullopt : std::optional(noted->value)});
+  }
 }
 
 void ExpectationWatch::operator()(const RollingProblem<2>& problem, const OptimizationState<2>& state) {
   for (Finding& finding : findings_)
     if (finding.expectation.iteration == state.iteration)
       finding.found = value_of(finding.expectation.quantity, problem, state);
+}
+
+std::vector<FoundQuantity> ExpectationWatch::found() const {
+  std::vector<FoundQuantity> result;
+  for (const auto& [expectation, value] : findings_)
+    if (value) result.push_back({*expectation.iteration, std::string(name(expectation.quantity)), *value});
+  return result;
 }
 
 std::vector<Finding> ExpectationWatch::findings(const RollingProblem<2>& problem,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/commands/model.h"
+#include "output/checkpoint.h"
 
 namespace wheelwright {
 
@@ -22,10 +23,14 @@ struct Finding {
 /// Watches the accepted shapes of a run for what its case expects of them.
 class ExpectationWatch {
  public:
-  explicit ExpectationWatch(const std::vector<Expectation>& expectations);
+  /// `found` was noted before the run was stopped, if it was.
+  ExpectationWatch(const std::vector<Expectation>& expectations, const std::vector<FoundQuantity>& found);
 
   /// Notes what is expected of this shape by its number.
   void operator()(const RollingProblem<2>& problem, const OptimizationState<2>& state);
+
+  /// What was noted of shapes so far.
+  std::vector<FoundQuantity> found() const;
 
   /// One finding an expectation, in their order; `last` is the last accepted shape.
   std::vector<Finding> findings(const RollingProblem<2>& problem, const OptimizationState<2>& last) const;

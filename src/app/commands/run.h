@@ -5,7 +5,7 @@
 
 namespace wheelwright {
 
-/// Optimizes the case and writes its output folder; returns an ExitCode.
+/// Optimizes the case and writes its output folder; returns an ExitCode. Throws OutputError.
 int run_command(const Case& c, const RunOptions& options);
 
 }  // namespace wheelwright

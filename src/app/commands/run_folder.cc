@@ -3,13 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 
+#include "app/commands/provenance.h"
 #include "app/commands/wheel_pictures.h"
-#include "case/version.h"
 #include "case/write.h"
 #include "output/atomic_file.h"
-#include "output/output_error.h"
 #include "output/pressure_plot.h"
 #include "output/solution_fields.h"
 #include "output/svg.h"
@@ -31,28 +29,40 @@ std::string load_text(const RollingModel<2>& model) {
                       : fmt::format("{:.6g} N/m", model.load);
 }
 
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw OutputError(folder, error.value());
-}
-
 Lattice<2> displacement_lattice(const RollingProblem<2>& problem) {
   return Lattice<2>(problem.model().grid, problem.model().degree);
 }
 
-WheelState wheel_state(const std::string& heading, const OptimizationState<2>& state) {
-  return {heading, material_contours(state.shape, contour_subdivisions(state.shape.lattice.degree())),
-          state.evaluation.objective, volume_fraction(state.shape.lattice.grid(), state.measure)};
+WheelState wheel_state(const std::string& heading, const LevelSet<2>& shape, double objective,
+                       double measure) {
+  return {heading, material_contours(shape, contour_subdivisions(shape.lattice.degree())), objective,
+          volume_fraction(shape.lattice.grid(), measure)};
+}
+
+std::string shape_file(int iteration) { return fmt::format("shapes/shape_{:04d}.vtu", iteration); }
+
+/// Name of the folder that the case gives, whether or not it ends in a slash.
+std::string folder_name(const Case& c) {
+  return (std::filesystem::path(c.output.folder) / "").parent_path().filename().string();
 }
 
 }  // namespace
 
-RunFolder::RunFolder(std::filesystem::path folder, const Case& c) : folder_(std::move(folder)), case_(c) {
+RunFolder::RunFolder(std::filesystem::path folder, const Case& c, std::optional<int> resumed_at)
+    : folder_(std::move(folder)), case_(c) {
   make_folder(folder_);
-  write_atomically(folder_ / "case.toml", fmt::format("# wheelwright {}, deal.II 9.4, compiled by {}\n\n{}",
-                                                      version(), __VERSION__, to_toml(c)));
+  write_atomically(folder_ / "case.toml", fmt::format("# {}\n\n{}", program_text(), to_toml(c)));
+  if (resumed_at) list_shapes(*resumed_at);
 }
+
+void RunFolder::list_shapes(int last_iteration) {
+  for (int iteration = 0; iteration <= last_iteration; ++iteration)
+    if (const std::string file = shape_file(iteration); std::filesystem::exists(folder_ / file))
+      shapes_.push_back({static_cast<double>(iteration), file});
+  if (!shapes_.empty()) write_list_of_shapes();
+}
+
+void RunFolder::write_list_of_shapes() const { write_pvd(folder_ / "shapes.pvd", shapes_); }
 
 void RunFolder::write_shape(const RollingProblem<2>& problem, const OptimizationState<2>& state) {
   const auto solution = problem.solve(state.shape);
@@ -64,11 +74,11 @@ void RunFolder::write_shape(const RollingProblem<2>& problem, const Optimization
   for (double& value : gradient.values) value = -value;
   fields.push_back({"shape_gradient", "Pa", repeated_field(problem, gradient)});
 
-  const std::string file = fmt::format("shapes/shape_{:04d}.vtu", state.iteration);
+  const std::string file = shape_file(state.iteration);
   make_folder(folder_ / "shapes");
   write_vtu(folder_ / file, state.shape, displacement_lattice(problem), fields, cut_subdivisions);
   shapes_.push_back({static_cast<double>(state.iteration), file});
-  write_pvd(folder_ / "shapes.pvd", shapes_);
+  write_list_of_shapes();
 }
 
 void RunFolder::write_pictures(const RollingProblem<2>& problem, const OptimizationState<2>& state) const {
@@ -80,9 +90,7 @@ void RunFolder::write_pictures(const RollingProblem<2>& problem, const Optimizat
                        state.shape);
 }
 
-std::string RunFolder::title() const {
-  return case_.title.empty() ? folder_.filename().string() : case_.title;
-}
+std::string RunFolder::title() const { return case_.title.empty() ? folder_name(case_) : case_.title; }
 
 void RunFolder::write_pressures(const RollingProblem<2>& problem, const RollingSolution<2>& solution,
                                 const std::string& name) const {
@@ -96,12 +104,14 @@ void RunFolder::write_pressures(const RollingProblem<2>& problem, const RollingS
       plot_svg(pressure_plot(points, azimuths, fmt::format("Contact pressure, {} shape", name))));
 }
 
-void RunFolder::write_result(const RollingProblem<2>& problem, const OptimizationState<2>& initial,
+void RunFolder::write_result(const RollingProblem<2>& problem, const InitialShape<2>& initial,
                              const OptimizationState<2>& final_state) const {
   const PolarGrid<2>& grid = problem.model().grid;
   const std::string title = this->title();
-  const WheelState before = wheel_state("initial", initial);
-  const WheelState after = wheel_state(fmt::format("after {} shapes", final_state.iteration), final_state);
+  const WheelState before = wheel_state("initial", initial.shape, initial.objective, initial.measure);
+  const WheelState after =
+      wheel_state(fmt::format("after {} shapes", final_state.iteration), final_state.shape,
+                  final_state.evaluation.objective, final_state.measure);
   write_atomically(folder_ / "shape.svg", shape_svg(grid, after.contours, title));
   write_atomically(folder_ / "comparison.svg",
                    comparison_svg(grid, {title,

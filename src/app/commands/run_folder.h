@@ -5,15 +5,18 @@
 #include <vector>
 
 #include "app/commands/model.h"
+#include "output/checkpoint.h"
 #include "output/vtu.h"
 
 namespace wheelwright {
 
-/// Writes everything of a run but its history. All paths stay inside the folder; throws OutputError.
+/// Writes everything of a run but its history and checkpoints. All paths stay inside the folder; throws
+/// OutputError.
 class RunFolder {
  public:
-  /// Makes the folder and writes case.toml, the resolved case with the versions that computed it.
-  RunFolder(std::filesystem::path folder, const Case& c);
+  /// Makes the folder and writes case.toml, the resolved case with the versions that computed it. A run that
+  /// goes on at a shape names it: later ones are dropped from shapes.pvd.
+  RunFolder(std::filesystem::path folder, const Case& c, std::optional<int> resumed_at = {});
 
   const std::filesystem::path& path() const { return folder_; }
   std::filesystem::path history() const { return folder_ / "history.csv"; }
@@ -31,11 +34,13 @@ class RunFolder {
   /// The result: shape.svg for cutting, comparison.svg and the pictures of
   /// wheel_pictures.h to look at, rolling.pvd with the fields
   /// of every load position.
-  void write_result(const RollingProblem<2>& problem, const OptimizationState<2>& initial,
+  void write_result(const RollingProblem<2>& problem, const InitialShape<2>& initial,
                     const OptimizationState<2>& final_state) const;
 
  private:
   std::string title() const;
+  void list_shapes(int last_iteration);
+  void write_list_of_shapes() const;
 
   std::filesystem::path folder_;
   Case case_;

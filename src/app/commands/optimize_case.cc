@@ -1,0 +1,146 @@
+#include "app/commands/optimize_case.h"
+
+#include <fmt/format.h>
+#include <signal.h>
+
+#include <algorithm>
+
+#include "app/commands/checkpointer.h"
+#include "app/exit_code.h"
+#include "output/folder_lock.h"
+
+namespace wheelwright {
+namespace {
+
+int give_up(const Failure& failure) {
+  fmt::print(stderr, "wheelwright: {}: {}\n", to_string(failure.reason), failure.detail);
+  return exit_no_solution;
+}
+
+void print_weights(const Criteria<2>& objective) {
+  for (const auto& [weight, criterion] : objective)
+    if (objective.size() > 1) fmt::print(stderr, "objective: {:.6g} * {}\n", weight, criterion->name());
+}
+
+void print_summary(const InitialShape<2>& first, const OptimizationState<2>& last, StopReason reason,
+                   double seconds, const std::filesystem::path& folder) {
+  const PolarGrid<2>& grid = last.shape.lattice.grid();
+  fmt::print("objective  {:.6g} -> {:.6g} J/m ({:+.2f} %) after {} shapes in {:.1f} s ({})\n",
+             first.objective, last.evaluation.objective,
+             100 * (last.evaluation.objective / first.objective - 1), last.iteration, seconds,
+             to_string(reason));
+  fmt::print("volume     {:.6f} -> {:.6f} of the ring\n", volume_fraction(grid, first.measure),
+             volume_fraction(grid, last.measure));
+  for (const auto& [file, meaning] :
+       {std::pair{"comparison.svg", "before and after"},
+        {"shape.svg", "the shape in true scale, for cutting"},
+        {"stress.svg", "the loaded wheel; stress_contact.svg about the contact"},
+        {"displacement.svg", "the loaded wheel, how far its points come down"},
+        {"mesh.svg", "the grid and the cells that the boundary cuts"},
+        {"history.csv", "every trial shape"},
+        {"shapes.pvd", "all shapes, for ParaView"},
+        {"rolling.pvd", "all load positions, for ParaView"}})
+    fmt::print("  {:<36} {}\n", (folder / file).string(), meaning);
+}
+
+/// Tells what was expected and how it turned out.
+int report_findings(const std::vector<Finding>& findings) {
+  const auto unmet = std::ranges::count_if(findings, [](const Finding& f) { return !f.met(); });
+  if (!findings.empty())
+    fmt::print("expected   {} of {} values found\n", findings.size() - unmet, findings.size());
+  for (const Finding& finding : findings)
+    if (!finding.met()) fmt::print(stderr, "wheelwright: {}\n", finding.text());
+  return unmet > 0 ? exit_unexpected : exit_done;
+}
+
+int tell_stopped(const Signals& signals, const OptimizationState<2>& state,
+                 const std::filesystem::path& folder) {
+  fmt::print(stderr, "stopped after {} shapes, saved; to go on: wheelwright resume {}\n", state.iteration,
+             folder.string());
+  return signals.stop() == SIGINT ? exit_interrupted : exit_terminated;
+}
+
+/// The mean contact stress that a run compares with, when the case wants it held: the last accepted shape's.
+class HeldMean {
+ public:
+  explicit HeldMean(const Case& c) : is_held_(c.objective.mean == MeanStress::held) {}
+
+  void hold(const OptimizationState<2>& state) {
+    if (is_held_) mean_ = state.evaluation.mean_observations;
+  }
+  /// Null for the shape's own.
+  const Matrix* get() const { return mean_ ? &*mean_ : nullptr; }
+
+ private:
+  bool is_held_;
+  std::optional<Matrix> mean_;
+};
+
+/// Whether the checkpoint's mean contact stress is one of this problem's tread.
+bool fits(const OptimizationState<2>& state, const RollingProblem<2>& problem) {
+  const Matrix& mean = state.evaluation.mean_observations;
+  return mean.rows() == problem.tread().n_observations() && mean.columns() == problem.tread().n_columns();
+}
+
+/// start() of a new run, or the state of one that goes on.
+Expected<OptimizationState<2>> first_state(const ShapeOptimizer<2>& optimizer, const LevelSet<2>& initial,
+                                           const ShapeOptimizer<2>::Observer& observer,
+                                           const std::optional<Checkpoint<2>>& checkpoint) {
+  if (checkpoint) return checkpoint->state;
+  return optimizer.start(initial, observer);
+}
+
+}  // namespace
+
+int optimize_case(const Case& c, const RunStart& start) {
+  Signals signals;
+  const auto problem = RollingProblem<2>::create(rolling_model(c));
+  if (!problem) return give_up(problem.failure());
+  const auto objective = criteria(c, *problem);
+  if (!objective) return give_up(objective.failure());
+  print_weights(*objective);
+  const auto& checkpoint = start.checkpoint;
+  if (checkpoint && !fits(checkpoint->state, *problem)) {
+    fmt::print(stderr, "{}: the checkpoint's mean contact stress does not fit the tread\n",
+               start.folder.string());
+    return exit_checkpoint;
+  }
+
+  RunFolder folder(start.folder, c, checkpoint ? std::optional(checkpoint->state.iteration) : std::nullopt);
+  RunRecorder recorder(c, *problem, *objective, folder, checkpoint);
+  Checkpointer checkpointer(c, start.checkpoints, recorder, signals, checkpoint);
+  HeldMean mean(c);
+  if (checkpoint) mean.hold(checkpoint->state);
+  const auto observer = [&](const Trial<2>& trial, const OptimizationState<2>& state) {
+    mean.hold(state);
+    recorder(trial, state);
+    checkpointer(trial, state);
+  };
+  const std::filesystem::path stop_file = start.folder / "STOP";
+  std::error_code ignored;
+  const auto stop_requested = [&] { return signals.stop() || std::filesystem::exists(stop_file, ignored); };
+
+  const LevelSet<2> initial = initial_shape(c);
+  const ShapeOptimizer<2> optimizer(
+      initial.lattice, evolution_options(c), optimizer_options(c),
+      [&](const LevelSet<2>& psi) { return evaluate<2>(*problem, *objective, psi, mean.get()); });
+  auto state = first_state(optimizer, initial, observer, checkpoint);
+  if (!state) return give_up(state.failure());
+  const StopReason reason = optimizer.run(*state, observer, stop_requested);
+  checkpointer.save(*state);
+  std::filesystem::remove(stop_file, ignored);
+  if (reason == StopReason::stop_requested) return tell_stopped(signals, *state, start.folder);
+  folder.write_result(*problem, *recorder.initial(), *state);
+  checkpointer.save_finished(*state, reason);
+  print_summary(*recorder.initial(), *state, reason, recorder.elapsed(), start.folder);
+  return report_findings(recorder.expectations().findings(*problem, *state));
+}
+
+int in_locked_folder(const std::filesystem::path& folder, const std::function<int()>& work) {
+  const auto lock = FolderLock::acquire(folder);
+  if (lock) return work();
+  fmt::print(stderr, "{}: another run is writing to this folder\n", folder.string());
+  return exit_refused;
+}
+
+}  // namespace wheelwright

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "app/commands/run_options.h"
+#include "case/case.h"
+
+namespace wheelwright {
+
+/// Goes on with the run in options.run_folder from its newest checkpoint that can be used, or from the
+/// beginning when it has none yet; `c` is that folder's case. Returns an ExitCode; throws OutputError.
+int resume_command(const Case& c, const RunOptions& options);
+
+}  // namespace wheelwright

@@ -1,0 +1,243 @@
+#include "app/commands/resume.h"
+
+#include <csignal>
+
+#include "app/commands/run.h"
+#include "app/exit_code.h"
+#include "case/read.h"
+#include "output/checkpoint.h"
+#include "output/checkpoint_folder.h"
+#include "output/folder_lock.h"
+#include "tests/run_support.h"
+
+namespace wheelwright::testing {
+namespace {
+
+/// What the commands print goes to the test's log only when they fail.
+class Quiet {
+ public:
+  Quiet() {
+    ::testing::internal::CaptureStdout();
+    ::testing::internal::CaptureStderr();
+  }
+  ~Quiet() {
+    ::testing::internal::GetCapturedStdout();
+    ::testing::internal::GetCapturedStderr();
+  }
+};
+
+class Resume : public TemporaryFolder {
+ protected:
+  /// The case in a folder of its own: "run" in it is the run's, so that case.toml says the same everywhere.
+  fs::path workplace(const std::string& name) {
+    fs::create_directories(folder() / name);
+    return folder() / name;
+  }
+
+  int run(const fs::path& where, const std::string& text, std::optional<int> iterations = {}) {
+    return in(where, [&] {
+      Case c = *parse_case(text, "case.toml").value;
+      if (iterations) c.optimizer.iterations = *iterations;
+      return run_command(c, {});
+    });
+  }
+
+  int resume(const fs::path& where, std::optional<int> iterations = {}) {
+    return in(where, [&] {
+      Case c = *read_case("run/case.toml").value;
+      if (iterations) c.optimizer.iterations = *iterations;
+      return resume_command(c, {.case_file = {}, .run_folder = "run"});
+    });
+  }
+
+  void expect_the_same_from_every_stop(const std::string& text, int iterations) {
+    const fs::path straight = workplace("straight");
+    ASSERT_EQ(run(straight, text), exit_done);
+    for (int k = 0; k < iterations; ++k) {
+      const fs::path stopped = workplace(std::to_string(k));
+      ASSERT_EQ(run(stopped, text, k), exit_done);
+      ASSERT_EQ(resume(stopped, iterations), exit_done);
+      SCOPED_TRACE(fmt::format("stopped after shape {}", k));
+      expect_equal_results(straight / "run", stopped / "run");
+      fs::remove_all(stopped);
+    }
+  }
+
+ private:
+  template <class Work>
+  static int in(const fs::path& where, Work work) {
+    const Quiet quiet;
+    const fs::path before = fs::current_path();
+    fs::current_path(where);
+    const int code = work();
+    fs::current_path(before);
+    return code;
+  }
+};
+
+std::vector<std::string> checkpoint_names(const fs::path& run) {
+  std::vector<std::string> names;
+  for (const fs::path& file : CheckpointFolder(run).files()) names.push_back(file.stem().string());
+  return names;
+}
+
+int rows(const fs::path& run) {
+  return static_cast<int>(split(content(run / "history.csv"), '\n').size()) - 1;
+}
+
+void flip_a_bit(const fs::path& file) {
+  std::string bytes = content(file);
+  bytes[bytes.size() / 2] ^= 1;
+  std::ofstream(file, std::ios::binary) << bytes;
+}
+
+TEST_F(Resume, TwentyShapesAreTheSameFromEveryStop) { expect_the_same_from_every_stop(small_case(20), 20); }
+
+TEST_F(Resume, AHeldMeanIsPartOfTheState) {
+  expect_the_same_from_every_stop(small_case(6, R"(
+[objective]
+strain_energy = 1
+uniformity_dual = 10
+mean = "held"
+)"),
+                                  6);
+}
+
+TEST_F(Resume, ThePapersRuleAndItsWeightsGoOnTheSame) {
+  expect_the_same_from_every_stop(small_case(5, R"(
+[objective]
+strain_energy = 1
+annulus_matches_dual = 10
+[volume]
+control = "paper"
+)"),
+                                  5);
+}
+
+TEST_F(Resume, KeepsTheLastTwoAndTakesTheOlderWhenTheNewestIsDamaged) {
+  const fs::path straight = workplace("straight"), damaged = workplace("damaged");
+  ASSERT_EQ(run(straight, small_case(8)), exit_done);
+  ASSERT_EQ(run(damaged, small_case(8)), exit_done);
+  EXPECT_EQ(checkpoint_names(damaged / "run"), (std::vector<std::string>{"shape_000008", "shape_000006"}));
+  flip_a_bit(damaged / "run/checkpoints/shape_000008.checkpoint");
+  fs::remove(damaged / "run/comparison.svg");
+  ASSERT_EQ(resume(damaged), exit_done);
+  expect_equal_results(straight / "run", damaged / "run");
+}
+
+TEST_F(Resume, IsRefusedWhenNoCheckpointIsGood) {
+  const fs::path place = workplace("all-bad");
+  ASSERT_EQ(run(place, small_case(4)), exit_done);
+  const auto before = results(place / "run");
+  for (const fs::path& file : CheckpointFolder(place / "run").files()) flip_a_bit(file);
+  EXPECT_EQ(resume(place, 6), exit_checkpoint);
+  EXPECT_EQ(results(place / "run"), before);
+}
+
+TEST_F(Resume, IsRefusedForAnotherCaseOrHistory) {
+  const fs::path place = workplace("changed");
+  ASSERT_EQ(run(place, small_case(2)), exit_done);
+  const std::string good = content(place / "run/case.toml");
+  std::string other = good;
+  other.replace(other.find("friction = 0\n"), 13, "friction = 1\n");
+  std::ofstream(place / "run/case.toml") << other;
+  EXPECT_EQ(resume(place, 3), exit_checkpoint);
+  std::ofstream(place / "run/case.toml") << good;
+  EXPECT_EQ(resume(place, 3), exit_done);
+
+  std::string history = content(place / "run/history.csv");
+  history[history.size() / 2] ^= 1;
+  std::ofstream(place / "run/history.csv") << history;
+  EXPECT_EQ(resume(place, 4), exit_checkpoint);
+  fs::remove(place / "run/history.csv");
+  EXPECT_EQ(resume(place, 4), exit_checkpoint);
+}
+
+TEST_F(Resume, OfAFinishedRunChangesNothing) {
+  const fs::path place = workplace("finished");
+  ASSERT_EQ(run(place, small_case(4)), exit_done);
+  const auto written = fs::last_write_time(place / "run/comparison.svg");
+  const auto history = content(place / "run/history.csv");
+  EXPECT_EQ(resume(place), exit_done);
+  EXPECT_EQ(fs::last_write_time(place / "run/comparison.svg"), written);
+  EXPECT_EQ(content(place / "run/history.csv"), history);
+}
+
+TEST_F(Resume, WritesResultsThatAKillLeftOut) {
+  const fs::path straight = workplace("straight"), killed = workplace("killed");
+  ASSERT_EQ(run(straight, small_case(4)), exit_done);
+  ASSERT_EQ(run(killed, small_case(4)), exit_done);
+  const fs::path newest = CheckpointFolder(killed / "run").files().front();
+  auto checkpoint = *parse_checkpoint_file<2>(content(newest));
+  checkpoint.finished = {};
+  std::ofstream(newest, std::ios::binary) << checkpoint_file(checkpoint);
+  fs::remove(killed / "run/stress.svg");
+  ASSERT_EQ(resume(killed), exit_done);
+  expect_equal_results(straight / "run", killed / "run");
+}
+
+TEST_F(Resume, DropsRowsAndShapesBehindTheCheckpoint) {
+  const fs::path place = workplace("behind");
+  ASSERT_EQ(run(place, small_case(8)), exit_done);
+  fs::remove(place / "run/checkpoints/shape_000008.checkpoint");
+  ASSERT_NE(content(place / "run/shapes.pvd").find("shape_0007.vtu"), std::string::npos);
+  std::ofstream(place / "run/STOP");
+  EXPECT_EQ(resume(place), exit_terminated);
+  EXPECT_EQ(split(split(content(place / "run/history.csv"), '\n').back(), ',').front(), "6");
+  EXPECT_EQ(content(place / "run/shapes.pvd").find("shape_0007.vtu"), std::string::npos);
+}
+
+TEST_F(Resume, BeginsWhenThereIsNoCheckpointYet) {
+  const fs::path straight = workplace("straight"), killed = workplace("killed");
+  ASSERT_EQ(run(straight, small_case(3)), exit_done);
+  fs::create_directories(killed / "run");
+  fs::copy(straight / "run/case.toml", killed / "run/case.toml");
+  std::ofstream(killed / "run/history.csv") << "half a li";
+  ASSERT_EQ(resume(killed), exit_done);
+  expect_equal_results(straight / "run", killed / "run");
+}
+
+TEST_F(Resume, AFileStopEndsTheRunAndIsRemoved) {
+  const fs::path straight = workplace("straight"), stopped = workplace("stopped");
+  ASSERT_EQ(run(straight, small_case(3)), exit_done);
+  fs::create_directories(stopped / "run");
+  std::ofstream(stopped / "run/STOP");
+  EXPECT_EQ(run(stopped, small_case(3)), exit_terminated);
+  EXPECT_FALSE(fs::exists(stopped / "run/STOP"));
+  EXPECT_EQ(rows(stopped / "run"), 1);
+  ASSERT_EQ(resume(stopped), exit_done);
+  expect_equal_results(straight / "run", stopped / "run");
+}
+
+TEST_F(Resume, ByTheClockSavesEveryShapeThatTakesLonger) {
+  const auto with = [](int every, double seconds) {
+    std::string text = small_case(5);
+    text.replace(text.find("checkpoint_every = 3"), 20, fmt::format("checkpoint_every = {}", every));
+    text.replace(text.find("checkpoint_seconds = 0"), 22, fmt::format("checkpoint_seconds = {}", seconds));
+    return text;
+  };
+  const fs::path quick = workplace("quick"), slow = workplace("slow"), never = workplace("never");
+  ASSERT_EQ(run(quick, with(0, 1e-6)), exit_done);
+  ASSERT_EQ(run(slow, with(0, 1e6)), exit_done);
+  ASSERT_EQ(run(never, with(0, 0)), exit_done);
+  EXPECT_EQ(checkpoint_names(quick / "run"), (std::vector<std::string>{"shape_000005", "shape_000004"}));
+  EXPECT_EQ(checkpoint_names(slow / "run"), (std::vector<std::string>{"shape_000005", "shape_000000"}));
+  EXPECT_EQ(checkpoint_names(never / "run"), (std::vector<std::string>{"shape_000005", "shape_000000"}));
+}
+
+TEST_F(Resume, IsRefusedWhileAnotherRunHoldsTheFolder) {
+  const fs::path place = workplace("locked");
+  ASSERT_EQ(run(place, small_case(2)), exit_done);
+  {
+    const auto lock = FolderLock::acquire(place / "run");
+    ASSERT_TRUE(lock);
+    EXPECT_FALSE(FolderLock::acquire(place / "run"));
+    EXPECT_EQ(resume(place, 3), exit_refused);
+    EXPECT_EQ(run(place, small_case(2)), exit_refused);
+  }
+  EXPECT_EQ(run(place, small_case(2)), exit_refused);
+  EXPECT_EQ(resume(place, 3), exit_done);
+}
+
+}  // namespace
+}  // namespace wheelwright::testing

@@ -1,0 +1,115 @@
+#pragma once
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+/// Small runs and their folders, for the tests of stopping and going on.
+namespace wheelwright::testing {
+
+namespace fs = std::filesystem;
+
+/// A case of `iterations` shapes, each solved within milliseconds, with redistancing, smoothing and rejected
+/// trials. `more` is appended and may open sections.
+inline std::string small_case(int iterations, const std::string& more = "") {
+  return fmt::format(R"(
+[wheel]
+sectors = 8
+[load]
+positions = 2
+[[holes.ring]]
+count = 16
+center_radius = 0.27
+radius = 0.03
+[grid]
+radial_cells = 8
+angular_cells = 96
+[optimizer]
+iterations = {}
+tolerance = 0
+accepted_increase = 0
+smoothing = 0.1
+smooth_every = 4
+redistance_every = 3
+[output]
+folder = "run"
+vtu_every = 7
+checkpoint_every = 3
+checkpoint_seconds = 0
+{})",
+                     iterations, more);
+}
+
+inline std::string content(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+inline std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, separator);) parts.push_back(part);
+  return parts;
+}
+
+/// history.csv without its columns in seconds.
+inline std::string without_times(const std::string& history) {
+  const auto lines = split(history, '\n');
+  if (lines.empty()) return "";
+  const auto header = split(lines.front(), ',');
+  std::string result;
+  for (const std::string& line : lines) {
+    const auto cells = split(line, ',');
+    for (std::size_t k = 0; k < cells.size(); ++k)
+      if (k >= header.size() || !header[k].ends_with(" [s]")) result += cells[k] + ',';
+    result += '\n';
+  }
+  return result;
+}
+
+/// All results in a run's folder, by their path in it: every file but the lock and the checkpoints, and the
+/// history without its times.
+inline std::map<std::string, std::string> results(const fs::path& run) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(run)) {
+    const std::string name = fs::relative(entry.path(), run).string();
+    if (!entry.is_regular_file() || name == "run.lock" || name.starts_with("checkpoints/")) continue;
+    files[name] = name == "history.csv" ? without_times(content(entry.path())) : content(entry.path());
+  }
+  return files;
+}
+
+inline void expect_equal_results(const fs::path& straight, const fs::path& resumed) {
+  const auto expected = results(straight), found = results(resumed);
+  EXPECT_TRUE(expected.contains("history.csv") && expected.contains("comparison.svg") &&
+              expected.contains("rolling/position_00.vtu"));
+  for (const auto& [name, text] : expected) {
+    ASSERT_TRUE(found.contains(name)) << name;
+    EXPECT_TRUE(found.at(name) == text) << name << " differs";
+  }
+  EXPECT_EQ(found.size(), expected.size());
+}
+
+/// A folder for one test, which is removed with it.
+class TemporaryFolder : public ::testing::Test {
+ protected:
+  TemporaryFolder() {
+    std::string name = (fs::temp_directory_path() / "wheelwright-run-XXXXXX").string();
+    folder_ = mkdtemp(name.data());
+  }
+  ~TemporaryFolder() override { fs::remove_all(folder_); }
+
+  const fs::path& folder() const { return folder_; }
+
+ private:
+  fs::path folder_;
+};
+
+}  // namespace wheelwright::testing
