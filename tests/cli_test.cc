@@ -1,3 +1,4 @@
+#include <dlfcn.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -9,6 +10,7 @@
 #include <sstream>
 #include <string>
 
+#include "app/commands/commands.h"
 #include "app/exit_code.h"
 
 namespace wheelwright {
@@ -57,10 +59,11 @@ TEST_F(CommandLine, HelpAndVersionSucceed) {
 }
 
 TEST_F(CommandLine, WrongUsageIsTwo) {
-  for (const char* arguments : {"", "fly", "check", "check --fast x", "run x --iterations -1",
-                                "run x --iterations two", "run x --output ''", "verify",
-                                "analyze x --positions 0", "analyze x --loads 0,1", "analyze x --loads 1:2",
-                                "analyze x --loads 1,,2", "analyze x --loads 1:2:1", "analyze x --loads nan"})
+  for (const char* arguments :
+       {"", "fly", "check", "check --fast x", "run x --iterations -1", "run x --iterations two",
+        "run x --output ''", "verify", "analyze x --positions 0", "analyze x --loads 0,1",
+        "analyze x --loads 1:2", "analyze x --loads 1,,2", "analyze x --loads 1:2:1", "analyze x --loads nan",
+        "resume", "resume .", "resume . --iterations -1"})
     EXPECT_EQ(wheelwright(arguments).code, exit_usage) << arguments;
 }
 
@@ -98,6 +101,43 @@ TEST_F(CommandLine, FilesThatCannotBeWrittenAreFive) {
   EXPECT_EQ(wheelwright("reference > /dev/full").code, exit_input_output);
   EXPECT_EQ(wheelwright("check " + path_of_case("cases/holes16.toml") + " > /dev/full").code,
             exit_input_output);
+}
+
+/// Two rings of holes that together cut the tread off: no rule about cases finds that, the solver does.
+constexpr const char* unsolvable_case = R"(
+[wheel]
+sectors = 8
+[load]
+positions = 1
+[[holes.ring]]
+count = 24
+center_radius = 0.27
+radius = 0.028
+[[holes.ring]]
+count = 24
+center_radius = 0.27
+radius = 0.028
+phase = 0
+[grid]
+radial_cells = 8
+angular_cells = 96
+)";
+
+TEST_F(CommandLine, AShapeThatCannotBeSolvedIsThree) {
+  std::ofstream(folder_ / "cut.toml") << unsolvable_case;
+  for (const char* command : {"run cut.toml --output cut", "resume cut", "analyze cut.toml"})
+    EXPECT_EQ(wheelwright(command, folder_).code, exit_no_solution) << command;
+}
+
+TEST_F(CommandLine, ABugIsOne) {
+  const auto library =
+      std::filesystem::read_symlink("/proc/self/exe").parent_path() / "libwheelwright_commands.so";
+  void* commands = dlopen(library.c_str(), RTLD_NOW);
+  ASSERT_TRUE(commands) << dlerror();
+  const auto command =
+      reinterpret_cast<decltype(&wheelwright_command)>(dlsym(commands, "wheelwright_command"));
+  const RunOptions none;
+  EXPECT_EQ(command("no such command", nullptr, &none), exit_bug);
 }
 
 TEST_F(CommandLine, InitWritesACaseThatChecksAndNeverOverwrites) {

@@ -1,0 +1,327 @@
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <random>
+#include <thread>
+
+#include "app/exit_code.h"
+#include "output/checkpoint.h"
+#include "output/checkpoint_folder.h"
+#include "tests/run_support.h"
+
+// The program as its users and their machines treat it: killed, stopped, out of disk.
+
+namespace wheelwright::testing {
+namespace {
+
+using std::chrono::duration;
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+fs::path folder_of_programs() { return fs::read_symlink("/proc/self/exe").parent_path(); }
+
+/// What is different about one call of the program.
+struct Surroundings {
+  std::string fault = {};            ///< for the library fault_injection
+  rlim_t file_size = RLIM_INFINITY;  ///< largest file that it may write [bytes]
+};
+
+/// The program, running in a folder. What it prints goes to the file "printed" there.
+class Program {
+ public:
+  Program(const fs::path& where, const std::vector<std::string>& arguments,
+          const Surroundings& surroundings = {})
+      : printed_(where / "printed") {
+    pid_ = fork();
+    if (pid_ == 0) become(where, arguments, surroundings);
+  }
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+  ~Program() {
+    if (pid_ <= 0) return;
+    send(SIGKILL);
+    wait();
+  }
+
+  void send(int signal) const { ::kill(pid_, signal); }
+
+  /// Its exit code; minus the signal that ended it.
+  int wait() {
+    int status = 0;
+    waitpid(pid_, &status, 0);
+    pid_ = 0;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+
+  std::string printed() const { return content(printed_); }
+
+ private:
+  [[noreturn]] void become(const fs::path& where, const std::vector<std::string>& arguments,
+                           const Surroundings& surroundings) const {
+    fs::current_path(where);
+    for (const int number : {SIGINT, SIGTERM, SIGUSR1}) ::signal(number, SIG_DFL);  // a shell may ignore them
+    const int out = open(printed_.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0666);
+    dup2(out, STDOUT_FILENO);
+    dup2(out, STDERR_FILENO);
+    const std::string program = folder_of_programs() / "wheelwright";
+    if (!surroundings.fault.empty()) {
+      setenv("WHEELWRIGHT_FAULT", surroundings.fault.c_str(), 1);
+      setenv("LD_PRELOAD", (folder_of_programs() / "libfault_injection.so").c_str(), 1);
+    }
+    const rlimit limit{surroundings.file_size, RLIM_INFINITY};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    std::vector<char*> argv{const_cast<char*>(program.c_str())};
+    for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+    argv.push_back(nullptr);
+    execv(program.c_str(), argv.data());
+    _exit(127);
+  }
+
+  fs::path printed_;
+  pid_t pid_;
+};
+
+int last_accepted(const fs::path& run) {
+  int last = -1;
+  const std::string history = content(run / "history.csv");
+  const std::string whole_lines = history.substr(0, history.rfind('\n') + 1);
+  for (const std::string& line : split(whole_lines, '\n')) {
+    const auto cells = split(line, ',');
+    if (cells.size() > 2 && cells[2] == "1") last = std::stoi(cells[0]);
+  }
+  return last;
+}
+
+/// The shape of the newest good checkpoint; -1 without one.
+int newest_good(const fs::path& run) {
+  for (const fs::path& file : CheckpointFolder(run).files())
+    if (const auto checkpoint = parse_checkpoint_file<2>(content(file))) return checkpoint->state.iteration;
+  return -1;
+}
+
+class Killed : public TemporaryFolder {
+ protected:
+  static constexpr int every = 3;  // small_case's checkpoint_every
+  const std::vector<std::string> begin{"run", "case.toml"}, go_on{"resume", "run"};
+  const std::string endless = small_case(1000);  // longer than any test waits
+
+  fs::path workplace(const std::string& name, const std::string& case_text) {
+    const fs::path place = folder() / name;
+    fs::create_directories(place);
+    std::ofstream(place / "case.toml") << case_text;
+    return place;
+  }
+
+  /// A run of the case that nothing disturbed.
+  fs::path straight(const std::string& case_text) {
+    const fs::path place = workplace("straight", case_text);
+    Program program(place, begin);
+    EXPECT_EQ(program.wait(), exit_done) << program.printed();
+    return place;
+  }
+
+  /// Waits until the run has accepted a shape.
+  static void wait_for_shape(const fs::path& place, int shape) {
+    const auto deadline = steady_clock::now() + std::chrono::seconds(60);
+    while (last_accepted(place / "run") < shape && steady_clock::now() < deadline)
+      std::this_thread::sleep_for(milliseconds(1));
+  }
+
+  void expect_resumes_to(const fs::path& expected, const fs::path& place) {
+    Program program(place, go_on);
+    ASSERT_EQ(program.wait(), exit_done) << program.printed();
+    expect_equal_results(expected / "run", place / "run");
+  }
+
+  /// Goes on for a few shapes from wherever an endless run was stopped.
+  void expect_goes_on_as_if_never_stopped(const fs::path& place) {
+    const std::string shapes = std::to_string(last_accepted(place / "run") + 3);
+    const fs::path expected =
+        workplace(place.filename().string() + "-straight", content(place / "case.toml"));
+    Program straight(expected, {"run", "case.toml", "--iterations", shapes});
+    ASSERT_EQ(straight.wait(), exit_done) << straight.printed();
+    Program resumed(place, {"resume", "run", "--iterations", shapes});
+    ASSERT_EQ(resumed.wait(), exit_done) << resumed.printed();
+    expect_equal_results(expected / "run", place / "run");
+  }
+
+  /// Kills one run again and again, at moments drawn from the time that it takes undisturbed.
+  void kill_at_random_moments(int kills, const std::string& case_text) {
+    const auto start = steady_clock::now();
+    const fs::path expected = straight(case_text);
+    const double whole = duration<double>(steady_clock::now() - start).count();
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> moment(0, whole);
+    fs::path place;
+    for (int k = 0; k < kills; ++k) {
+      if (place.empty()) place = workplace(fmt::format("killed-{}", k), case_text);
+      const bool begun = fs::exists(place / "run/case.toml");
+      Program program(place, begun ? go_on : begin);
+      std::this_thread::sleep_for(duration<double>(moment(random)));
+      program.send(SIGKILL);
+      const int code = program.wait();
+      ASSERT_TRUE(code == -SIGKILL || code == exit_done) << program.printed();
+      EXPECT_LE(last_accepted(place / "run") - newest_good(place / "run"), every);
+      if (code != exit_done && k + 1 < kills) continue;
+      if (!fs::exists(place / "run/case.toml")) continue;
+      expect_resumes_to(expected, place);
+      fs::remove_all(place);
+      place.clear();
+    }
+  }
+};
+
+TEST_F(Killed, AtRandomMomentsItGoesOnAndLosesAtMostAnInterval) { kill_at_random_moments(6, small_case(12)); }
+
+TEST_F(Killed, SlowAHundredTimesItGoesOnAndLosesAtMostAnInterval) {
+  kill_at_random_moments(100, small_case(40));
+}
+
+TEST_F(Killed, InsideTheWritingOfACheckpointItGoesOn) {
+  const std::string text = small_case(7);
+  const fs::path expected = straight(text);
+  // A save writes once, synchronizes file and folder, and renames once. Shapes 0, 3, 6 and 7 are saved, and 7
+  // again as finished.
+  for (const char* fault : {"write:1:kill", "write:2:kill", "write:5:kill", "fsync:3:kill", "fsync:4:kill",
+                            "rename:2:kill", "rename:5:kill"}) {
+    SCOPED_TRACE(fault);
+    const fs::path place = workplace(fault, text);
+    ASSERT_EQ(Program(place, begin, {.fault = fault}).wait(), -SIGKILL);
+    EXPECT_LE(last_accepted(place / "run") - newest_good(place / "run"), every);
+    expect_resumes_to(expected, place);
+  }
+}
+
+TEST_F(Killed, AFailingWriteIsFiveNamesTheFileAndKeepsTheOldCheckpoint) {
+  const std::string text = small_case(7);
+  const fs::path expected = straight(text);
+  for (const auto& [call, error] : {std::pair{"write", ENOSPC}, {"fsync", EIO}, {"rename", EROFS}}) {
+    SCOPED_TRACE(call);
+    const fs::path place = workplace(call, text);
+    Program program(place, begin, {.fault = fmt::format("{}:3:{}", call, error)});
+    ASSERT_EQ(program.wait(), exit_input_output);
+    const int lost = std::string_view(call) == "fsync" ? 3 : 6;
+    EXPECT_NE(program.printed().find(fmt::format("run/checkpoints/shape_{:06}.checkpoint", lost)),
+              std::string::npos)
+        << program.printed();
+    EXPECT_EQ(newest_good(place / "run"), lost - every);
+    expect_resumes_to(expected, place);
+  }
+}
+
+TEST_F(Killed, BeyondTheLimitOnFileSizesItIsFiveAndGoesOnLater) {
+  const std::string text = small_case(7);
+  const fs::path expected = straight(text), place = workplace("limited", text);
+  ASSERT_EQ(Program(place, {"run", "case.toml", "--iterations", "3"}).wait(), exit_done);
+  const std::vector<std::string> further{"resume", "run", "--iterations", "7"};
+  Program program(place, further, {.file_size = 4096});
+  EXPECT_EQ(program.wait(), exit_input_output);
+  EXPECT_NE(program.printed().find("cannot write run/"), std::string::npos) << program.printed();
+  EXPECT_EQ(newest_good(place / "run"), 3);
+  ASSERT_EQ(Program(place, further).wait(), exit_done);
+  expect_equal_results(expected / "run", place / "run");
+}
+
+/// Runs a script in a mount namespace of its own; nothing when this machine allows none.
+std::optional<int> in_own_mounts(const fs::path& where, const std::string& script) {
+  const auto shell = [&](const std::string& text) {
+    const std::string command = fmt::format(
+        "cd '{}' && unshare --user --map-root-user --mount sh -c '{}' >> printed 2>&1", where.string(), text);
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  };
+  if (shell("mount -t tmpfs none /mnt") != 0) return {};
+  return shell(script);
+}
+
+TEST_F(Killed, OnAFullDiskItIsFiveAndGoesOnWhenThereIsRoom) {
+  const std::string text = small_case(7);
+  const fs::path expected = straight(text), place = workplace("full", text);
+  const std::string program = folder_of_programs() / "wheelwright";
+  fs::create_directories(place / "run");
+  const auto code = in_own_mounts(place, fmt::format(R"(
+mount -t tmpfs -o size=400k none run || exit 99
+"{0}" run case.toml; echo "code $?"
+mount -o remount,size=20m run
+"{0}" resume run || exit 98
+cp -r run saved)",
+                                                     program));
+  if (!code) GTEST_SKIP() << "no mount namespaces for this user";
+  ASSERT_EQ(*code, 0) << content(place / "printed");
+  const std::string printed = content(place / "printed");
+  EXPECT_NE(printed.find("code 5"), std::string::npos) << printed;
+  EXPECT_NE(printed.find("cannot write run/"), std::string::npos) << printed;
+  expect_equal_results(expected / "run", place / "saved");
+}
+
+TEST_F(Killed, InAReadOnlyFolderItIsFiveAndTouchesNothing) {
+  const fs::path place = straight(small_case(3));
+  const auto before = results(place / "run");
+  const auto code =
+      in_own_mounts(place, fmt::format(R"(mount --bind run run && mount -o remount,ro,bind run || exit 99
+"{}" resume run --iterations 5)",
+                                       (folder_of_programs() / "wheelwright").string()));
+  if (!code) GTEST_SKIP() << "no mount namespaces for this user";
+  EXPECT_EQ(*code, exit_input_output) << content(place / "printed");
+  EXPECT_NE(content(place / "printed").find("cannot write run/"), std::string::npos);
+  EXPECT_EQ(results(place / "run"), before);
+}
+
+TEST_F(Killed, SignalsSaveAndStop) {
+  for (const auto& [signal, code] : {std::pair{SIGINT, exit_interrupted}, {SIGTERM, exit_terminated}}) {
+    const fs::path place = workplace(std::to_string(signal), endless);
+    Program program(place, begin);
+    wait_for_shape(place, 4);
+    program.send(signal);
+    ASSERT_EQ(program.wait(), code) << program.printed();
+    EXPECT_EQ(newest_good(place / "run"), last_accepted(place / "run"));
+    expect_goes_on_as_if_never_stopped(place);
+  }
+}
+
+TEST_F(Killed, ASecondSignalEndsItAtOnce) {
+  const fs::path place = workplace("twice", endless);
+  Program program(place, begin);
+  wait_for_shape(place, 4);
+  // Both are pending when it goes on, so that the second comes before the loop has asked for the first.
+  for (const int signal : {SIGSTOP, SIGINT, SIGTERM, SIGCONT}) program.send(signal);
+  const int code = program.wait();
+  EXPECT_TRUE(code == exit_interrupted || code == exit_terminated) << code;
+  EXPECT_EQ(program.printed().find("saved"), std::string::npos);
+  EXPECT_LE(last_accepted(place / "run") - newest_good(place / "run"), every);
+  expect_goes_on_as_if_never_stopped(place);
+}
+
+TEST_F(Killed, Usr1SavesAndGoesOn) {
+  std::string text = endless;
+  text.replace(text.find("checkpoint_every = 3"), 20, "checkpoint_every = 0");
+  const fs::path place = workplace("asked", text);
+  Program program(place, begin);
+  wait_for_shape(place, 3);
+  program.send(SIGUSR1);
+  while (newest_good(place / "run") <= 0) std::this_thread::sleep_for(milliseconds(1));
+  wait_for_shape(place, newest_good(place / "run") + 1);
+  program.send(SIGKILL);
+  EXPECT_EQ(program.wait(), -SIGKILL) << program.printed();
+  EXPECT_GE(newest_good(place / "run"), 3);
+  expect_goes_on_as_if_never_stopped(place);
+}
+
+TEST_F(Killed, TwoRunsDoNotShareAFolder) {
+  const fs::path place = workplace("shared", endless);
+  Program first(place, begin);
+  wait_for_shape(place, 1);
+  first.send(SIGSTOP);
+  EXPECT_EQ(Program(place, begin).wait(), exit_refused);
+  EXPECT_EQ(Program(place, go_on).wait(), exit_refused);
+  first.send(SIGKILL);
+  EXPECT_EQ(first.wait(), -SIGKILL);
+  expect_goes_on_as_if_never_stopped(place);
+}
+
+}  // namespace
+}  // namespace wheelwright::testing
