@@ -1,6 +1,7 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 
 #include <cstdio>
@@ -12,6 +13,8 @@
 
 #include "app/commands/commands.h"
 #include "app/exit_code.h"
+#include "case/derived.h"
+#include "case/read.h"
 
 namespace wheelwright {
 namespace {
@@ -138,6 +141,48 @@ TEST_F(CommandLine, ABugIsOne) {
       reinterpret_cast<decltype(&wheelwright_command)>(dlsym(commands, "wheelwright_command"));
   const RunOptions none;
   EXPECT_EQ(command("no such command", nullptr, &none), exit_bug);
+}
+
+constexpr const char* case_beyond_any_memory = R"([wheel]
+sectors = 1
+[load]
+positions = 1000
+[grid]
+radial_cells = 10000
+angular_cells = 10000
+)";
+
+TEST_F(CommandLine, WhatDoesNotFitTheMemoryIsRefusedBeforeAnythingIsWritten) {
+  std::ofstream(folder_ / "huge.toml") << case_beyond_any_memory;
+  EXPECT_EQ(wheelwright("check huge.toml", folder_).code, exit_done);
+  for (const char* command : {"run huge.toml", "analyze huge.toml --output out --positions 1000",
+                              "verify huge.toml", "run huge.toml --output out"})
+    EXPECT_EQ(wheelwright(command, folder_).code, exit_refused) << command;
+  std::filesystem::remove(folder_ / "huge.toml");
+  EXPECT_TRUE(std::filesystem::is_empty(folder_));
+}
+
+/// Peak memory of the largest program that this test has run so far [bytes].
+double peak_of_children() {
+  rusage usage{};
+  getrusage(RUSAGE_CHILDREN, &usage);
+  constexpr double kibibyte = 1024;
+  return static_cast<double>(usage.ru_maxrss) * kibibyte;
+}
+
+TEST_F(CommandLine, TheEstimateOfTheMemoryIsRightToAFactorOfAThird) {
+  for (const int refined : {1, 2}) {
+    std::ofstream(folder_ / "case.toml") << fmt::format(
+        "[grid]\nradial_cells = {}\nangular_cells = {}\n[[holes.ring]]\ncount = 16\ncenter_radius = 0.27\n"
+        "radius = 0.04\n",
+        28 * refined, 384 * refined);
+    const double estimate = estimated_memory(*read_case(folder_ / "case.toml").value);
+    const Outcome run =
+        wheelwright(fmt::format("run case.toml --iterations 0 --output {}", refined), folder_);
+    ASSERT_EQ(run.code, exit_done) << run.output;
+    EXPECT_GT(estimate / peak_of_children(), 1 / 1.35);
+    EXPECT_LT(estimate / peak_of_children(), 1.35);
+  }
 }
 
 TEST_F(CommandLine, InitWritesACaseThatChecksAndNeverOverwrites) {

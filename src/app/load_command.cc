@@ -7,6 +7,7 @@
 
 #include "app/commands/commands.h"
 #include "app/exit_code.h"
+#include "app/memory.h"
 
 namespace wheelwright {
 
@@ -24,6 +25,10 @@ void default_to_one_thread() {
 }  // namespace
 
 int load_and_run_command(const std::string& name, const Case& c, const RunOptions& options) {
+  if (const auto lack = lack_of_memory(c, available_memory())) {
+    fmt::print(stderr, "wheelwright {}: {}: {}\n", name, options.case_file.string(), *lack);
+    return exit_refused;
+  }
   default_to_one_thread();
   void* library = dlopen("libwheelwright_commands.so", RTLD_NOW);
   void* symbol = library ? dlsym(library, "wheelwright_command") : nullptr;

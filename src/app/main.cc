@@ -15,6 +15,7 @@
 #include "app/exit_code.h"
 #include "app/load_command.h"
 #include "app/load_list.h"
+#include "app/memory.h"
 #include "app/terminal.h"
 #include "case/keys.h"
 #include "case/read.h"
@@ -58,9 +59,12 @@ int report_problems(const std::string& file, const std::vector<Diagnostic>& prob
   return exit_usage;
 }
 
+void print_warning(std::FILE* stream, const std::string& text) {
+  fmt::print(stream, "{} {}\n", styled(stream, Style::yellow, "warning:"), text);
+}
+
 void print_warnings(std::FILE* stream, const Case& c) {
-  for (const std::string& text : warnings(c))
-    fmt::print(stream, "{} {}\n", styled(stream, Style::yellow, "warning:"), text);
+  for (const std::string& text : warnings(c)) print_warning(stream, text);
 }
 
 int check(const CommandLine& line) {
@@ -69,6 +73,8 @@ int check(const CommandLine& line) {
   fmt::print("{}\n", styled(stdout, Style::green, line.case_file + ": no problems"));
   fmt::print("{}", derived_report(*result.value));
   print_warnings(stdout, *result.value);
+  if (const auto lack = lack_of_memory(*result.value, available_memory()))
+    print_warning(stdout, "this case would not run here: " + *lack);
   return exit_done;
 }
 

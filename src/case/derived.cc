@@ -73,20 +73,47 @@ long long dof_bound(const Case& c) {
   return 2 * radial * angular;
 }
 
-double estimated_memory(const Case& c) {
-  constexpr double libraries = 200e6, number = sizeof(double), complex = 2 * sizeof(double);
-  const double sectors = c.wheel.sectors;
-  const double sector_dofs = dof_bound(c) / sectors;
-  const double radial_line = 2 * (c.grid.degree * c.grid.radial_cells + 1);
-  const double tread_layer = 2 * (c.grid.degree + 1) * c.grid.degree * c.grid.angular_cells / sectors;
-  const double trailing = 2 * radial_line + tread_layer;
+namespace {
 
-  // Nested dissection of a planar grid fills about 31/4 n log2 n entries for n unknowns.
-  const double factor = number * 31.0 / 4 * sector_dofs * std::log2(std::max(sector_dofs, 2.0));
-  const double trailing_block = 2 * number * trailing * trailing;
-  const double harmonics = complex * (sectors / 2 + 1) * radial_line * radial_line;
-  const double fields = number * static_cast<double>(dof_bound(c)) * (4 + 2 * c.load.positions);
-  return libraries + factor + trailing_block + harmonics + fields;
+bool wants_dual(const Case& c) {
+  return c.objective.uniformity_dual > 0 || c.objective.annulus_matches_dual.has_value();
+}
+
+/// Columns of tread cells that contact may reach [cells of the tread, before they are halved].
+double contact_columns(const Case& c) {
+  const double cell = 2 * pi * c.wheel.outer_radius / c.grid.angular_cells;
+  const double half_width =
+      c.load.travel ? std::sqrt(2 * c.wheel.outer_radius * *c.load.travel) : hertz_half_width(c);
+  constexpr double margin = 4;
+  return std::min(2 * half_width / cell + margin, static_cast<double>(c.grid.angular_cells));
+}
+
+constexpr double square(double x) { return x * x; }
+
+}  // namespace
+
+double estimated_memory(const Case& c) {
+  constexpr double number = sizeof(double), complex = 2 * number;
+  const double sectors = c.wheel.sectors, positions = c.load.positions;
+  const double dofs = static_cast<double>(dof_bound(c)), sector_dofs = dofs / sectors;
+  const double radial_line = 2 * (c.grid.degree * c.grid.radial_cells + 1);
+  const double ring_line = 2.0 * c.grid.degree * c.grid.angular_cells, sector_line = ring_line / sectors;
+  const double observations = 4.0 * c.contact.quadrature_points * (1 << c.grid.tread_levels);
+  double holes = 0;
+  for (const HoleRing& ring : c.holes.rings) holes += ring.count / sectors;
+
+  // What each number counts is known; how many of them there are at the peak is fitted to measurements.
+  const double libraries = 185e6;
+  const double fields = number * dofs * (10 + 3 * positions);
+  const double factor = number * 2.6 * sector_dofs * std::log2(std::max(sector_dofs, 2.0));
+  const double condensed = number * 10 * square(2 * radial_line + sector_line);
+  const double harmonics = complex * 1.25 * (sectors / 2 + 1) * square(radial_line + sector_line);
+  const double compliance = number * 4.7 * square(ring_line) / sectors;
+  const double tread = number * 80 * square(observations);
+  const double zones = number * 0.75 * positions * square(contact_columns(c) * observations / 2);
+  const double shape = number * 10 * holes;
+  const double rings = wants_dual(c) ? 2 : 1;  // the dual norm's is one more
+  return libraries + fields + rings * (factor + condensed + harmonics) + compliance + tread + zones + shape;
 }
 
 double least_gamma_0(double theta, const Material& material) {

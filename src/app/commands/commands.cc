@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <exception>
+#include <new>
 #include <string_view>
 
 #include "app/commands/analyze.h"
@@ -24,6 +25,9 @@ extern "C" int wheelwright_command(const char* name, const Case* c, const RunOpt
   } catch (const OutputError& error) {
     fmt::print(stderr, "wheelwright {}: {}\n", name, error.what());
     return exit_input_output;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "wheelwright {}: the memory is used up; take fewer cells or load positions\n", name);
+    return exit_refused;
   } catch (const std::exception& error) {
     fmt::print(stderr, "wheelwright {}: bug: {}\n", name, error.what());
   }
