@@ -6,75 +6,17 @@
 
 #include "output/checkpoint.h"
 #include "output/level_set_file.h"
+#include "tests/checkpoint_sample.h"
 
 namespace wheelwright {
 namespace {
 
+using testing::Random;
+using testing::small_grid;
+using testing::some_checkpoint;
+using testing::some_level_set;
+
 const std::vector<std::string_view> checkpoint_tags{"CASE", "STAT", "INIT", "RUN "};
-
-class Random {
- public:
-  double number() { return std::ldexp(uniform_(engine_), static_cast<int>(engine_() % 40) - 20); }
-  std::vector<double> numbers(int n) {
-    std::vector<double> result(n);
-    for (double& value : result) value = number();
-    return result;
-  }
-
- private:
-  std::mt19937 engine_{1};
-  std::uniform_real_distribution<double> uniform_{-1, 1};
-};
-
-template <int dim>
-PolarGrid<dim> small_grid() {
-  PolarGrid<dim> grid{0.2, 0.34, 0.12, 16, {2, 3}};
-  if constexpr (dim == 3) grid.cells[2] = 1;
-  return grid;
-}
-
-template <int dim>
-LevelSet<dim> some_level_set(Random& random, int degree) {
-  const Lattice<dim> lattice(small_grid<dim>(), degree);
-  return {lattice, random.numbers(lattice.n_nodes())};
-}
-
-template <int dim>
-Checkpoint<dim> some_checkpoint() {
-  Random random;
-  const auto point = [&] {
-    Vec<dim> x;
-    for (double& value : x) value = random.number();
-    return x;
-  };
-  Matrix mean(3, 4);
-  mean.entries() = random.numbers(12);
-  Evaluation<dim> evaluation{
-      random.number(),
-      {{"strain_energy", random.number()}, {"uniformity_dual", random.number()}},
-      {{0, point(), point(), random.number(), random.number()}, {5, point(), point(), random.number(), -0.0}},
-      {7, 0, 12},
-      mean,
-      {{"cut", 0.25}, {"contact", 1e-3}},
-      {{"run_out", std::numeric_limits<double>::denorm_min()},
-       {"pressure_spread", std::numeric_limits<double>::quiet_NaN()}}};
-  OptimizationState<dim> state{some_level_set<dim>(random, 2),
-                               evaluation,
-                               random.number(),
-                               random.number(),
-                               3,
-                               0.5,
-                               2,
-                               1,
-                               random.numbers(4)};
-  return {{"[load]\nforce = 1\n", "wheelwright 1.2.3"},
-          state,
-          {some_level_set<dim>(random, 1), random.number(), random.number()},
-          {{1, "peak_von_mises", random.number()}, {0, "run_out", random.number()}},
-          {123456789012, 0xfedcba98},
-          17.25,
-          StopReason::no_descent};
-}
 
 template <int dim>
 std::string round_trip(const std::string& bytes) {
