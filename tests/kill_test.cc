@@ -28,6 +28,7 @@ fs::path folder_of_programs() { return fs::read_symlink("/proc/self/exe").parent
 struct Surroundings {
   std::string fault = {};            ///< for the library fault_injection
   rlim_t file_size = RLIM_INFINITY;  ///< largest file that it may write [bytes]
+  std::string threads = "1";         ///< that the environment wants
 };
 
 /// The program, running in a folder. What it prints goes to the file "printed" there.
@@ -72,6 +73,8 @@ class Program {
       setenv("WHEELWRIGHT_FAULT", surroundings.fault.c_str(), 1);
       setenv("LD_PRELOAD", (folder_of_programs() / "libfault_injection.so").c_str(), 1);
     }
+    for (const char* name : {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "OMP_THREAD_LIMIT"})
+      setenv(name, surroundings.threads.c_str(), 1);
     const rlimit limit{surroundings.file_size, RLIM_INFINITY};
     setrlimit(RLIMIT_FSIZE, &limit);
     std::vector<char*> argv{const_cast<char*>(program.c_str())};
@@ -126,9 +129,14 @@ class Killed : public TemporaryFolder {
 
   /// Waits until the run has accepted a shape.
   static void wait_for_shape(const fs::path& place, int shape) {
+    wait_until([&] { return last_accepted(place / "run") >= shape; });
+  }
+
+  template <class Condition>
+  static void wait_until(Condition condition) {
     const auto deadline = steady_clock::now() + std::chrono::seconds(60);
-    while (last_accepted(place / "run") < shape && steady_clock::now() < deadline)
-      std::this_thread::sleep_for(milliseconds(1));
+    while (!condition() && steady_clock::now() < deadline) std::this_thread::sleep_for(milliseconds(1));
+    EXPECT_TRUE(condition());
   }
 
   void expect_resumes_to(const fs::path& expected, const fs::path& place) {
@@ -303,12 +311,25 @@ TEST_F(Killed, Usr1SavesAndGoesOn) {
   Program program(place, begin);
   wait_for_shape(place, 3);
   program.send(SIGUSR1);
-  while (newest_good(place / "run") <= 0) std::this_thread::sleep_for(milliseconds(1));
+  wait_until([&] { return newest_good(place / "run") > 0; });
   wait_for_shape(place, newest_good(place / "run") + 1);
   program.send(SIGKILL);
   EXPECT_EQ(program.wait(), -SIGKILL) << program.printed();
   EXPECT_GE(newest_good(place / "run"), 3);
   expect_goes_on_as_if_never_stopped(place);
+}
+
+TEST_F(Killed, WithAnyNumberOfThreadsItIsTheSame) {
+  // Matrices that are large enough for BLAS to use threads.
+  const std::string text = small_case(2, R"(
+[objective]
+strain_energy = 1
+uniformity_dual = 100
+)");
+  const fs::path expected = straight(text), place = workplace("threads", text);
+  ASSERT_EQ(Program(place, {"run", "case.toml", "--iterations", "1"}, {.threads = "2"}).wait(), exit_done);
+  ASSERT_EQ(Program(place, {"resume", "run", "--iterations", "2"}, {.threads = "4"}).wait(), exit_done);
+  expect_equal_results(expected / "run", place / "run");
 }
 
 TEST_F(Killed, TwoRunsDoNotShareAFolder) {

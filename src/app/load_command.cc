@@ -14,12 +14,12 @@ namespace wheelwright {
 namespace {
 
 /// The matrices are too small for threads to pay, of BLAS or of CHOLMOD, which opens four whatever
-/// OMP_NUM_THREADS says; read when the library is loaded.
-void default_to_one_thread() {
-  constexpr int keep_existing = 0;
-  setenv("OPENBLAS_NUM_THREADS", "1", keep_existing);
-  setenv("OMP_NUM_THREADS", "1", keep_existing);
-  setenv("OMP_THREAD_LIMIT", "1", keep_existing);
+/// OMP_NUM_THREADS says; and sums would be taken in an order that depends on their number. Read when the
+/// library is loaded.
+void hold_to_one_thread() {
+  constexpr int replace = 1;
+  for (const char* name : {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "OMP_THREAD_LIMIT"})
+    setenv(name, "1", replace);
 }
 
 }  // namespace
@@ -29,7 +29,7 @@ int load_and_run_command(const std::string& name, const Case& c, const RunOption
     fmt::print(stderr, "wheelwright {}: {}: {}\n", name, options.case_file.string(), *lack);
     return exit_refused;
   }
-  default_to_one_thread();
+  hold_to_one_thread();
   void* library = dlopen("libwheelwright_commands.so", RTLD_NOW);
   void* symbol = library ? dlsym(library, "wheelwright_command") : nullptr;
   if (!symbol) {

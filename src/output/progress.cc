@@ -83,8 +83,9 @@ std::string progress_bar(const ProgressState& s, double seconds_left, int width)
   return bar.substr(0, std::max(width, 0));
 }
 
-Progress::~Progress() {
+void Progress::end() {
   if (!bar_.empty()) std::fputs("\n", stream_);
+  bar_.clear();
 }
 
 double Progress::seconds_left(const ProgressState& state) {

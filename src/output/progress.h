@@ -42,13 +42,16 @@ class Progress {
   Progress(std::FILE* stream, ProgressStyle style) : stream_(stream), style_(style) {}
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
-  ~Progress();
+  ~Progress() { end(); }
 
   /// Repaints the bar; or writes a line, at most one a second and always for the last shape.
   void show(const ProgressState& state);
 
   /// A line of its own, above the bar.
   void note(std::string_view line);
+
+  /// Leaves the bar as it is; what is printed next begins a line.
+  void end();
 
  private:
   double seconds_left(const ProgressState& state);

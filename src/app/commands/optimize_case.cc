@@ -53,12 +53,26 @@ int report_findings(const std::vector<Finding>& findings) {
   return unmet > 0 ? exit_unexpected : exit_done;
 }
 
-int tell_stopped(const Signals& signals, const OptimizationState<2>& state,
-                 const std::filesystem::path& folder) {
-  fmt::print(stderr, "stopped after {} shapes, saved; to go on: wheelwright resume {}\n", state.iteration,
-             folder.string());
-  return signals.stop() == SIGINT ? exit_interrupted : exit_terminated;
-}
+/// What may ask a run to stop: a signal, or a file STOP in its folder.
+class StopRequest {
+ public:
+  StopRequest(const Signals& signals, const std::filesystem::path& folder)
+      : signals_(signals), file_(folder / "STOP") {}
+
+  bool operator()() const {
+    std::error_code ignored;
+    return signals_.stop() || std::filesystem::exists(file_, ignored);
+  }
+  void remove_file() const {
+    std::error_code ignored;
+    std::filesystem::remove(file_, ignored);
+  }
+  ExitCode exit_code() const { return signals_.stop() == SIGINT ? exit_interrupted : exit_terminated; }
+
+ private:
+  const Signals& signals_;
+  std::filesystem::path file_;
+};
 
 /// The mean contact stress that a run compares with, when the case wants it held: the last accepted shape's.
 class HeldMean {
@@ -116,9 +130,7 @@ int optimize_case(const Case& c, const RunStart& start) {
     recorder(trial, state);
     checkpointer(trial, state);
   };
-  const std::filesystem::path stop_file = start.folder / "STOP";
-  std::error_code ignored;
-  const auto stop_requested = [&] { return signals.stop() || std::filesystem::exists(stop_file, ignored); };
+  const StopRequest stop_requested(signals, start.folder);
 
   const LevelSet<2> initial = initial_shape(c);
   const ShapeOptimizer<2> optimizer(
@@ -128,8 +140,13 @@ int optimize_case(const Case& c, const RunStart& start) {
   if (!state) return give_up(state.failure());
   const StopReason reason = optimizer.run(*state, observer, stop_requested);
   checkpointer.save(*state);
-  std::filesystem::remove(stop_file, ignored);
-  if (reason == StopReason::stop_requested) return tell_stopped(signals, *state, start.folder);
+  stop_requested.remove_file();
+  recorder.end_progress();
+  if (reason == StopReason::stop_requested) {
+    fmt::print(stderr, "stopped after {} shapes, saved; to go on: wheelwright resume {}\n", state->iteration,
+               start.folder.string());
+    return stop_requested.exit_code();
+  }
   folder.write_result(*problem, *recorder.initial(), *state);
   checkpointer.save_finished(*state, reason);
   print_summary(*recorder.initial(), *state, reason, recorder.elapsed(), start.folder);

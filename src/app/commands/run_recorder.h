@@ -23,6 +23,9 @@ class RunRecorder {
   /// A line of text among the progress.
   void note(std::string_view line) { progress_.note(line); }
 
+  /// To be called before anything else is printed.
+  void end_progress() { progress_.end(); }
+
   const ExpectationWatch& expectations() const { return expectations_; }
   const std::optional<InitialShape<2>>& initial() const { return initial_; }
   double elapsed() const { return elapsed_; }
