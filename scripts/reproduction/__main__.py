@@ -1,67 +1,83 @@
-"""Usage: python3 -m reproduction PROGRAM [FIGURE...]; from the repository's top folder."""
+"""Runs the cases of the paper's figures and writes the page; from the repository's top folder."""
 
+import argparse
+import os
 import re
+import resource
 import subprocess
 import sys
+import time
 from pathlib import Path
 
-from .figures import Figure, Runs, figures, pictures
-from .runs import execute
+from .figures import figures
+from .progress import CaseProgress
+from .runs import execute_all
+from .section import Album, Figure, Runs
 
-page = Path("docs/reproduction.md")
 
-
-def chosen(arguments: list[str]) -> list[Figure]:
+def chosen(words: list[str]) -> list[Figure]:
     """The figures that numbers and ranges such as 16-21 name; all if there are none."""
     wanted: set[int] = set()
-    for argument in arguments:
-        match = re.fullmatch(r"(\d+)(?:-(\d+))?", argument)
+    for word in words:
+        match = re.fullmatch(r"(\d+)(?:-(\d+))?", word)
         numbers = range(int(match[1]), int(match[2] or match[1]) + 1) if match else ()
         if not any(n in figure.numbers for figure in figures for n in numbers):
-            sys.exit(f"{argument}: no such figure; there are {', '.join(f.label for f in figures)}")
+            sys.exit(f"{word}: no such figure; there are {', '.join(f.label for f in figures)}")
         wanted.update(numbers)
     return [f for f in figures if not wanted or wanted.intersection(f.numbers)]
 
 
-def run_all(program: str, selection: list[Figure]) -> Runs:
-    names = list(dict.fromkeys(name for figure in selection for name in figure.cases))
-    return {name: execute(program, name, f"[{k}/{len(names)}]") for k, name in enumerate(names, 1)}
-
-
-def section(figure: Figure, runs: Runs) -> str:
+def section(figure: Figure, runs: Runs, album: Album) -> str:
     mine = {name: runs[name] for name in figure.cases}
     commands = "".join(f"    wheelwright run cases/paper/{n}.toml  # {r.seconds:.0f} s\n" for n, r in mine.items())
     failures = [r for r in mine.values() if r.failure and r.name not in figure.may_fail]
-    body = "".join(f"Not reproduced, {r.name}: `{r.failure}`\n" for r in failures) or figure.section(mine)
+    body = "".join(f"Not reproduced, {r.name}: `{r.failure}`\n" for r in failures) or figure.section(mine, album)
+    expected, unmet = sum(r.expected for r in mine.values()), [line for r in mine.values() for line in r.unmet]
+    checks = f"{expected - len(unmet)} of the {expected} values that these cases expect (`[[expect]]`) were found.\n"
+    checks += "".join(f"- not found: {line}\n" for line in unmet)
     plural = "s" if len(figure.numbers) > 1 else ""
-    return f"## Fig{plural}. {figure.label}: {figure.title}\n\n{body}\n{commands}"
+    return f"## Fig{plural}. {figure.label}: {figure.title}\n\n{body}\n{checks}\n{commands}"
 
 
-def earlier_sections() -> dict[str, str]:
+def earlier_sections(page: Path) -> dict[str, str]:
     text = page.read_text() if page.exists() else ""
     return dict(re.findall(r"<!-- figure (\S+) -->\n(.*?)\n<!-- end -->", text, re.DOTALL))
 
 
+def earlier_seconds(page: Path) -> dict[str, float]:
+    text = page.read_text() if page.exists() else ""
+    return {name: float(s) for name, s in re.findall(r"cases/paper/(\w+)\.toml  # (\d+) s", text)}
+
+
 def summary(sections: dict[str, str]) -> str:
-    text = "".join(sections.values())
-    result = f"{text.count('**confirmed**')} claims are confirmed, {text.count('**contradicted**')} contradicted"
-    rows = re.findall(r"^\| (.*) \| (.*) \| (.*\*\*contradicted\*\*.*) \|$", text, re.MULTILINE)
-    if not rows:
+    rows = re.findall(r"^\| (.*) \| (.*) \| (.*\*\*.*) \|$", "".join(sections.values()), re.MULTILINE)
+    kinds: dict[bool | None, int] = {True: 0, False: 0, None: 0}
+    for _, _, verdict in rows:
+        kinds["confirmed" in verdict if "contradicted" not in verdict or "confirmed" not in verdict else None] += 1
+    result = f"{kinds[True]} claims are confirmed, {kinds[None]} in part, {kinds[False]} contradicted"
+    doubtful = [row for row in rows if "contradicted" in row[2]]
+    if not doubtful:
         return result + "."
     return result + ":\n\n" + "\n".join(
-        f"- {paper}: {verdict.replace('**', '')}; {measured}" for paper, measured, verdict in rows
+        f"- {paper}: {verdict.replace('**', '')}; {measured}" for paper, measured, verdict in doubtful
     )
 
 
-def write_page(sections: dict[str, str], version: str) -> None:
+def write_page(page: Path, sections: dict[str, str], last: str) -> None:
     head = f"""# The paper's figures, reproduced
 
 <!-- Written by scripts/reproduce with its pictures: do not edit. -->
 
 `scripts/reproduce` runs the cases of the paper's numerical experiments and writes this page; `scripts/reproduce 9
 16-21` does so for some figures. The paper gives few numbers, so each of its statements stands beside what was
-measured, and the verdict is computed from that. Sums are over the 8 load positions of one sector. Last written by
-{version}.
+measured, and the verdict is computed from that. Sums are over the 8 load positions of one sector.
+
+Shapes descend in two ways. *The paper's rules*: the multiplier lambda_k of section 4, harmonic extension of the
+gradient, smoothing (76), a fixed step, every shape accepted; they let the volume drift, and much of what J_e falls is
+then added material. *Volume held*: every shape has the volume of the first, the velocity is the gradient's H1
+representative, and a shape is accepted only if J does not rise.
+
+{last}
 
 {summary(sections)}
 """
@@ -73,15 +89,43 @@ measured, and the verdict is computed from that. Sums are over the 8 load positi
     page.write_text(head + "\n" + "\n\n".join(parts) + "\n")
 
 
-def main(program: str, arguments: list[str]) -> None:
-    selection = chosen(arguments)
-    pictures.mkdir(parents=True, exist_ok=True)
-    runs = run_all(program, selection)
-    sections = earlier_sections()
-    sections.update({figure.label: section(figure, runs) for figure in selection})
-    version = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout.strip()
-    write_page(sections, version)
-    print(f"{page}: {sum(run.seconds for run in runs.values()):.0f} s of runs")
+def arguments() -> argparse.Namespace:
+    cores = len(os.sched_getaffinity(0))
+    parser = argparse.ArgumentParser(prog="scripts/reproduce", description=__doc__)
+    parser.add_argument("program", help=argparse.SUPPRESS)
+    parser.add_argument("figures", nargs="*", metavar="FIGURE", help="figures, such as 9 or 16-21; default: all")
+    parser.add_argument("--jobs", type=int, default=min(2, cores), help="cases at a time; default: %(default)s")
+    parser.add_argument("--iterations", type=int, help="shapes instead of those of the cases, for a quick look")
+    parser.add_argument("--page", type=Path, default=Path("docs/reproduction.md"), help="default: %(default)s")
+    parser.add_argument("--runs", type=Path, default=Path("runs/reproduction"), help="default: %(default)s")
+    return parser.parse_args()
 
 
-main(sys.argv[1], sys.argv[2:])
+def main() -> None:
+    options = arguments()
+    selection = chosen(options.figures)
+    names = list(dict.fromkeys(name for figure in selection for name in figure.cases))
+    album = Album(options.page.with_suffix(""))
+    album.folder.mkdir(parents=True, exist_ok=True)
+    run_options = [] if options.iterations is None else ["--iterations", str(options.iterations)]
+    start = time.monotonic()
+    with CaseProgress(names, earlier_seconds(options.page)) as progress:
+        runs = execute_all(options.program, names, options.runs, run_options, options.jobs, progress)
+    wall = time.monotonic() - start
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    sections = earlier_sections(options.page)
+    sections.update({figure.label: section(figure, runs, album) for figure in selection})
+    version = subprocess.run([options.program, "--version"], capture_output=True, text=True, check=True).stdout.strip()
+    last = (
+        f"Last written by {version}: {len(names)} cases in {wall:.0f} s, {options.jobs} at a time, with "
+        f"{used.ru_utime + used.ru_stime:.0f} s of processor time."
+    )
+    write_page(options.page, sections, last)
+    album.remove_others_than(options.page.read_text())
+    unmet = sum(len(run.unmet) for run in runs.values())
+    remark = f", {unmet} expected values not found" if unmet else ""
+    print(f"{options.page}: {len(names)} cases in {wall:.0f} s{remark}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,7 +1,6 @@
-"""Line plots and crops as small SVG documents."""
+"""Line plots as small SVG documents."""
 
 import math
-import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -55,31 +54,6 @@ def line_plot(path: Path, title: str, y_name: str, curves: list[Curve]) -> None:
         parts.append(f'<path stroke="{colour}" stroke-width="2" d="M{width - right + 14} {y - 4}h22"/>')
         parts.append(f'<text x="{width - right + 42}" y="{y}">{curve.name}</text>')
     path.write_text("\n".join(parts) + "\n</svg>\n")
-
-
-def crop_stress(source: Path, target: Path, title: str) -> None:
-    """The neighbourhood of the contact from a stress.svg of the program, with its colour bar."""
-    left, top, width, height = 180, 440, 360, 270
-    x0, y0 = 360, 380  # where the program puts the axle
-    wheel, bar = source.read_text().split("</g>", 1)
-    parts = [
-        '<svg xmlns="http://www.w3.org/2000/svg" width="690" height="440" viewBox="0 0 690 440" '
-        'font-family="Helvetica,Arial,DejaVu Sans,sans-serif" font-size="14" fill="#24292f">',
-        f'<title>{title}</title>\n<rect width="690" height="440" fill="#ffffff"/>',
-        f'<text x="16" y="26" font-size="16" font-weight="600">{title}</text>',
-        f'<svg x="16" y="40" width="520" height="390" viewBox="{left} {top} {width} {height}">',
-        f'<g stroke-width="0.6" transform="translate({x0} {y0})">',
-    ]
-    for head, outline in re.findall(r'(<path fill="[^"]*" stroke="[^"]*") d="([^"]*)"', wheel):
-        kept = []
-        for polygon in re.findall(r"M[^Z]*Z", outline):
-            x, y = map(float, re.match(r"M(-?[\d.]+) (-?[\d.]+)", polygon).groups())
-            if left - 10 < x + x0 < left + width + 10 and top - 10 < y + y0:
-                kept.append(re.sub(r"(\.\d)\d", r"\1", polygon))
-        if kept:
-            parts.append(f'{head} d="{"".join(kept)}"/>')
-    parts += ["</g>\n</svg>", '<g transform="translate(-160 -150)">', bar.replace("</svg>", "</g>\n</svg>")]
-    target.write_text("\n".join(parts))
 
 
 def _ticks(low: float, high: float) -> list[float]:

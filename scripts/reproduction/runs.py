@@ -6,14 +6,17 @@ import re
 import shutil
 import subprocess
 import time
-from dataclasses import dataclass
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
-from .vtu import read_array
+from .progress import CaseProgress
+from .vtu import read_array, read_polygons
 
 cases = Path("cases/paper")
-runs = Path("runs/reproduction")
+shear_modulus = 200e6 / 2 / 1.48  # of the paper's material [Pa]
+expectations_unmet = 7  # exit code of the program
 
 
 @dataclass
@@ -28,12 +31,15 @@ class Hole:
 
 @dataclass
 class Run:
-    """A run of cases/paper/NAME.toml. `failure` is the program's last line if it gave up."""
+    """A run of cases/paper/NAME.toml. `failure` is the program's last line if it gave up, `unmet` are its lines
+    about values that are not as the case expects, `expected` how many values it expects."""
 
     name: str
     folder: Path
     seconds: float
     failure: str | None = None
+    unmet: list[str] = field(default_factory=list)
+    expected: int = 0
 
     @cached_property
     def history(self) -> list[dict[str, float]]:
@@ -101,6 +107,21 @@ class Run:
         return largest
 
     @cached_property
+    def stress_near_holes(self) -> list[float]:
+        """Von Mises stress of the material in every piece of a cut cell near the contact [Pa], the largest of all
+        positions, in an order that depends on shape and grid alone. It is that of the piece's displacements, so that
+        nothing outside the material takes part."""
+        largest: list[float] = []
+        for file in sorted((self.folder / "rolling").glob("*.vtu")):
+            points, moves = read_array(file, None), read_array(file, "displacement")
+            if not largest:
+                pieces = [p for p in read_polygons(file) if _is_small_and_near(p, points)]
+                largest = [0.0] * len(pieces)
+            for k, piece in enumerate(pieces):
+                largest[k] = max(largest[k], _von_mises(piece, points, moves))
+        return largest
+
+    @cached_property
     def holes(self) -> list[Hole]:
         """The holes of the final shape one of each kind."""
         path = re.search(r' d="([^"]*)"', (self.folder / "shape.svg").read_text()).group(1)
@@ -115,18 +136,65 @@ class Run:
         return sorted(kinds, key=lambda hole: hole.outer_radius)
 
 
-def execute(program: str, name: str, progress: str) -> Run:
-    folder = runs / name
+def execute(program: str, name: str, folder: Path, options: list[str]) -> Run:
+    """Runs a case into `folder`, replacing what an earlier call left there."""
     shutil.rmtree(folder, ignore_errors=True)
-    print(f"{progress} {cases / name}.toml", flush=True)
     start = time.monotonic()
     result = subprocess.run(
-        [program, "run", str(cases / f"{name}.toml"), "--output", str(folder)], capture_output=True, text=True
+        [program, "run", str(cases / f"{name}.toml"), "--output", str(folder), *options],
+        capture_output=True,
+        text=True,
     )
     run = Run(name, folder, time.monotonic() - start)
-    if result.returncode != 0:
-        run.failure = result.stderr.strip().splitlines()[-1].removeprefix("wheelwright run: ")
+    complaints = [line.removeprefix("wheelwright: ") for line in result.stderr.strip().splitlines()]
+    if result.returncode == expectations_unmet:
+        run.unmet = [line for line in complaints if ", expected " in line]
+    elif result.returncode != 0:
+        run.failure = complaints[-1]
+    found = re.search(r"^expected +(\d+) of (\d+) values", result.stdout, re.MULTILINE)
+    if found:
+        run.expected = int(found[2])
     return run
+
+
+def execute_all(program: str, names: list[str], folder: Path, options: list[str], jobs: int,
+                progress: CaseProgress) -> dict[str, Run]:
+    """All cases, `jobs` at a time; the result is the same however many."""
+
+    def one(name: str) -> Run:
+        progress.started(name)
+        run = execute(program, name, folder / name, options)
+        progress.finished(name, run.failure or "; ".join(run.unmet))
+        return run
+
+    with ThreadPoolExecutor(jobs) as pool:
+        return dict(zip(names, pool.map(one, names)))
+
+
+def _is_small_and_near(piece: list[int], points: list[float]) -> bool:
+    """Whether a piece is of a cut cell, within about one sector and a half of the load positions."""
+    corners = [(points[3 * k], points[3 * k + 1]) for k in piece]
+    across = max(math.dist(a, b) for a in corners for b in corners)
+    return 1e-5 < across < 2.6e-3 and abs(math.atan2(corners[0][1], corners[0][0]) - 0.2) < 0.6
+
+
+def _von_mises(piece: list[int], points: list[float], moves: list[float]) -> float:
+    """Of the linear displacement that fits a piece best, for the paper's material in plane strain."""
+    n = len(piece)
+    x, y, u, v = (sum(a[3 * k + c] for k in piece) / n for a in (points, moves) for c in (0, 1))
+    xx = xy = yy = ux = uy = vx = vy = 0.0
+    for k in piece:
+        dx, dy, du, dv = points[3 * k] - x, points[3 * k + 1] - y, moves[3 * k] - u, moves[3 * k + 1] - v
+        xx, xy, yy = xx + dx * dx, xy + dx * dy, yy + dy * dy
+        ux, uy, vx, vy = ux + du * dx, uy + du * dy, vx + dv * dx, vy + dv * dy
+    determinant = xx * yy - xy * xy
+    if determinant < 1e-6 * (xx + yy) ** 2:  # too thin for a gradient
+        return 0.0
+    exx, exy = (ux * yy - uy * xy) / determinant, (uy * xx - ux * xy) / determinant
+    eyx, eyy = (vx * yy - vy * xy) / determinant, (vy * xx - vx * xy) / determinant
+    shear = exy + eyx
+    squared_deviator = exx**2 + eyy**2 + 0.5 * shear**2 - (exx + eyy) ** 2 / 3
+    return shear_modulus * math.sqrt(6 * squared_deviator)
 
 
 def _number(text: str) -> float:

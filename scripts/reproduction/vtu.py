@@ -23,11 +23,18 @@ def _decode(text: str) -> bytes:
     return result
 
 
-def read_array(path: Path, name: str | None) -> list[float]:
-    """All numbers of a point array; `None` for the coordinates, three a point."""
+def read_array(path: Path, name: str | None) -> list:
+    """All numbers of an array; `None` for the coordinates, three a point."""
     text = path.read_text()
     start = text.index("<Points>") if name is None else text.index(f'Name="{name}"')
-    tag = re.compile(r'format="binary"[^>]*>').search(text, start)
+    tag = re.compile(r'<DataArray type="(\w+)"[^>]*format="binary"[^>]*>').search(text, text.rindex("<", 0, start + 1))
     content = text[tag.end() : text.index("</DataArray>", tag.end())]
     data = _decode(content)
-    return list(struct.unpack(f"<{len(data) // 4}f", data))
+    code, size = {"Float32": ("f", 4), "Int32": ("i", 4)}[tag[1]]
+    return list(struct.unpack(f"<{len(data) // size}{code}", data))
+
+
+def read_polygons(path: Path) -> list[list[int]]:
+    """The points of every cell."""
+    points, ends = read_array(path, "connectivity"), read_array(path, "offsets")
+    return [points[begin:end] for begin, end in zip([0, *ends], ends)]

@@ -19,6 +19,7 @@
 #include "app/terminal.h"
 #include "case/keys.h"
 #include "case/read.h"
+#include "case/shorten.h"
 #include "case/version.h"
 #include "case/write.h"
 
@@ -96,20 +97,12 @@ int init(const CommandLine& line) {
   return exit_done;
 }
 
-/// Another number of shapes than the case's, without what the case expects of shapes after them.
-void shorten(Case& c, int iterations) {
-  if (iterations == c.optimizer.iterations) return;
-  c.optimizer.iterations = iterations;
-  std::erase_if(c.expectations,
-                [&](const Expectation& e) { return !e.iteration || *e.iteration > iterations; });
-}
-
 int compute(const std::string& command, const CommandLine& line) {
   CaseResult result = read_case(line.case_file);
   if (!result.value) return report_problems(line.case_file, result.problems);
   Case& c = *result.value;
   if (line.output_folder) c.output.folder = *line.output_folder;
-  if (line.iterations) shorten(c, *line.iterations);
+  if (line.iterations) c = with_iterations(std::move(c), *line.iterations);
   print_warnings(stderr, c);
   return load_and_run_command(command, c, {.case_file = line.case_file});
 }
@@ -123,7 +116,7 @@ int resume(const CommandLine& line) {
   CaseResult result = read_case(case_file);
   if (!result.value) return report_problems(case_file.string(), result.problems);
   Case& c = *result.value;
-  if (line.iterations) shorten(c, *line.iterations);
+  if (line.iterations) c = with_iterations(std::move(c), *line.iterations);
   print_warnings(stderr, c);
   return load_and_run_command("resume", c, {.case_file = case_file, .run_folder = line.run_folder});
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "output/outline.h"
 
 namespace wheelwright {
 namespace {
@@ -32,6 +33,7 @@ std::string polyline_path(const std::vector<Vec<2>>& points, double units_per_me
 /// Size of the comparison's parts, in pixels.
 constexpr double wheel_diameter = 400, margin = 30, gap = 50, top = 110, foot = 110;
 constexpr double point_spacing = 1.5;  // along curves
+constexpr int units_per_pixel = 10;    // of the wheels
 constexpr double picture_width = 2 * wheel_diameter + 2 * margin + gap;
 constexpr double picture_height = top + wheel_diameter + foot;
 
@@ -46,11 +48,36 @@ std::string signed_percentage(double fraction) {
   return fmt::format("{}{:.1f} %", fraction < 0 ? "\u2212" : "+", 100 * std::abs(fraction));
 }
 
-std::vector<Contour> free_contours(const std::vector<Contour>& contours) {
-  std::vector<Contour> result;
-  for (const Contour& c : contours)
-    if (c.kind == ContourKind::free) result.push_back(c);
+/// Free contours in units of the picture, thinned to points that the eye can tell apart.
+std::vector<PicturePolygon> thinned(const std::vector<Contour>& contours, double pixels_per_metre) {
+  std::vector<PicturePolygon> result;
+  for (const Contour& contour : contours) {
+    if (contour.kind != ContourKind::free) continue;
+    PicturePolygon points;
+    Vec<2> last{};
+    for (const Vec<2>& p : contour.points) {
+      if (!points.empty() && std::hypot(p[0] - last[0], p[1] - last[1]) < point_spacing / pixels_per_metre)
+        continue;
+      const double units = units_per_pixel * pixels_per_metre;
+      points.push_back(
+          {static_cast<int>(std::lround(p[0] * units)), static_cast<int>(std::lround(-p[1] * units))});
+      last = p;
+    }
+    result.push_back(std::move(points));
+  }
   return result;
+}
+
+/// The circles of rim and tread that bound material, in units of the picture.
+std::string circle_paths(const PolarGrid<2>& grid, const std::vector<Contour>& contours,
+                         double pixels_per_metre) {
+  std::string path;
+  for (const Contour& contour : contours)
+    if (contour.kind != ContourKind::free)
+      path += circle_path((contour.kind == ContourKind::rim ? grid.inner_radius : grid.outer_radius) *
+                              units_per_pixel * pixels_per_metre,
+                          0);
+  return path;
 }
 
 /// Without U+FFFE and U+FFFF, which XML 1.0 excludes.
@@ -65,20 +92,21 @@ constexpr std::string_view comparison_style = R"(<style>
 text{font-family:"Helvetica Neue",Helvetica,Arial,"DejaVu Sans",sans-serif;fill:#24292f;text-anchor:middle}
 .title{font-size:22px;font-weight:600}.heading{font-size:16px;font-weight:600}
 .fact{font-size:15px}.caption{font-size:13px;fill:#57606a}
-.material{fill:#3b6ea5;fill-rule:evenodd;stroke:#1f3d5c;stroke-width:.8;stroke-linejoin:round}
-.former{fill:none;stroke:#d1495b;stroke-width:1.1;stroke-dasharray:4 2.5}
-.rim{fill:none;stroke:#24292f;stroke-width:3}
+.material{fill:#3b6ea5;fill-rule:evenodd;stroke:#1f3d5c;stroke-width:8;stroke-linejoin:round}
+.former{fill:none;stroke:#d1495b;stroke-width:11;stroke-dasharray:40 25}
+.rim{fill:none;stroke:#24292f;stroke-width:30}
 </style>
 )";
 
 std::string wheel_panel(const PolarGrid<2>& grid, const WheelState& wheel, double centre_x,
                         std::string_view overlay) {
   const double scale = 0.5 * wheel_diameter / grid.outer_radius;
-  std::string panel =
-      fmt::format("<g transform=\"translate({} {})\">\n", centre_x, top + 0.5 * wheel_diameter);
-  panel += fmt::format("<path class=\"material\" d=\"{}\"/>\n",
-                       material_path(grid, wheel.contours, scale, 1, point_spacing / scale));
-  panel += fmt::format("<path class=\"rim\" d=\"{}\"/>\n", circle_path(grid.inner_radius * scale, 2));
+  std::string panel = fmt::format("<g transform=\"translate({} {}) scale({})\">\n", centre_x,
+                                  top + 0.5 * wheel_diameter, 1.0 / units_per_pixel);
+  panel += fmt::format("<path class=\"material\" d=\"{}{}\"/>\n", circle_paths(grid, wheel.contours, scale),
+                       outline_path(thinned(wheel.contours, scale)));
+  panel += fmt::format("<path class=\"rim\" d=\"{}\"/>\n",
+                       circle_path(grid.inner_radius * scale * units_per_pixel, 0));
   panel += overlay;
   return panel + "</g>\n" + text(centre_x, top - 18, "heading", wheel.heading);
 }
@@ -138,8 +166,7 @@ std::string comparison_svg(const PolarGrid<2>& grid, const Comparison& compariso
   const double left = margin + 0.5 * wheel_diameter, right = left + wheel_diameter + gap;
   const double first_line = top + wheel_diameter + 32, second_line = first_line + 22;
   const std::string former =
-      fmt::format("<path class=\"former\" d=\"{}\"/>\n",
-                  material_path(grid, free_contours(before.contours), scale, 1, point_spacing / scale));
+      fmt::format("<path class=\"former\" d=\"{}\"/>\n", outline_path(thinned(before.contours, scale)));
   const auto objective = [&](double value) {
     return fmt::format("{}: {:.5g} {}", comparison.objective_name, value, comparison.objective_unit);
   };
