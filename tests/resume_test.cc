@@ -134,6 +134,15 @@ TEST_F(Resume, IsRefusedWhenNoCheckpointIsGood) {
   EXPECT_EQ(results(place / "run"), before);
 }
 
+TEST_F(Resume, NeverBeginsAgainWhereCheckpointsAreGone) {
+  const fs::path place = workplace("gone");
+  ASSERT_EQ(run(place, small_case(3)), exit_done);
+  fs::remove_all(place / "run/checkpoints");
+  const auto before = results(place / "run");
+  EXPECT_EQ(resume(place), exit_checkpoint);
+  EXPECT_EQ(results(place / "run"), before);
+}
+
 TEST_F(Resume, IsRefusedForAnotherCaseOrHistory) {
   const fs::path place = workplace("changed");
   ASSERT_EQ(run(place, small_case(2)), exit_done);

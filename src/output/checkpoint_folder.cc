@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "output/atomic_file.h"
-#include "output/output_error.h"
 
 namespace wheelwright {
 namespace {

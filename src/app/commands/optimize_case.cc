@@ -1,9 +1,9 @@
 #include "app/commands/optimize_case.h"
 
 #include <fmt/format.h>
-#include <signal.h>
 
 #include <algorithm>
+#include <csignal>
 
 #include "app/commands/checkpointer.h"
 #include "app/exit_code.h"

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "app/commands/optimize_case.h"
@@ -68,7 +70,8 @@ std::optional<Checkpoint<2>> newest_usable(CheckpointFolder& folder, const Case&
       folder.keep(file);
       return *std::move(checkpoint);
     }
-    fmt::print(stderr, "{}: not usable: {}\n", file.string(), checkpoint.failure().reason);
+    fmt::print(stderr, "{}: cannot be used, trying the one before it: {}\n", file.string(),
+               checkpoint.failure().reason);
   }
   return {};
 }
@@ -87,13 +90,28 @@ int tell_finished(const Checkpoint<2>& checkpoint, const fs::path& folder) {
   return exit_done;
 }
 
-int go_on(const Case& c, const fs::path& folder) {
-  CheckpointFolder checkpoints(folder);
-  if (!checkpoints.exists()) {
-    fmt::print(stderr, "{}: no checkpoint yet; the run begins\n", folder.string());
-    return optimize_case(c, {folder, checkpoints});
+/// Whether the history tells of trials after the initial shape, which is saved before them.
+bool has_trials(const fs::path& history) {
+  constexpr std::ptrdiff_t header_and_initial_shape = 2;
+  std::ifstream file(history, std::ios::binary);
+  return std::count(std::istreambuf_iterator<char>(file), {}, '\n') > header_and_initial_shape;
+}
+
+/// For a run without any checkpoint: it was killed before the first, or its checkpoints were removed.
+int begin_again(const Case& c, const fs::path& folder, const fs::path& history) {
+  if (has_trials(history)) {
+    fmt::print(stderr, "{}: its checkpoints are gone; it cannot go on\n", folder.string());
+    return exit_checkpoint;
   }
-  const auto checkpoint = newest_usable(checkpoints, c, folder / "history.csv");
+  fmt::print(stderr, "{}: no checkpoint yet; the run begins\n", folder.string());
+  return optimize_case(c, {folder, CheckpointFolder(folder)});
+}
+
+int go_on(const Case& c, const fs::path& folder) {
+  const fs::path history = folder / "history.csv";
+  CheckpointFolder checkpoints(folder);
+  if (!checkpoints.exists()) return begin_again(c, folder, history);
+  const auto checkpoint = newest_usable(checkpoints, c, history);
   if (!checkpoint) {
     fmt::print(stderr, "{}: no checkpoint can be used\n", folder.string());
     return exit_checkpoint;
@@ -102,7 +120,7 @@ int go_on(const Case& c, const fs::path& folder) {
   if (checkpoint->provenance.program != program_text())
     fmt::print(stderr, "warning: saved by {}; the last digits may differ from a run without a stop\n",
                checkpoint->provenance.program);
-  fmt::print(stderr, "going on after shape {}\n", checkpoint->state.iteration);
+  fmt::print(stderr, "{}: going on after shape {}\n", folder.string(), checkpoint->state.iteration);
   return optimize_case(c, {folder, checkpoints, checkpoint});
 }
 
