@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <sstream>
 #include <string>
 
@@ -61,13 +62,110 @@ TEST_F(CommandLine, HelpAndVersionSucceed) {
   EXPECT_EQ(wheelwright("--version").code, exit_done);
 }
 
-TEST_F(CommandLine, WrongUsageIsTwo) {
-  for (const char* arguments :
-       {"", "fly", "check", "check --fast x", "run x --iterations -1", "run x --iterations two",
-        "run x --output ''", "verify", "analyze x --positions 0", "analyze x --loads 0,1",
-        "analyze x --loads 1:2", "analyze x --loads 1,,2", "analyze x --loads 1:2:1", "analyze x --loads nan",
-        "resume", "resume .", "resume . --iterations -1"})
-    EXPECT_EQ(wheelwright(arguments).code, exit_usage) << arguments;
+// CASE stands for a good case, so that nothing but the words after it can be wrong.
+constexpr const char* wrong_command_lines[] = {"",
+                                               "fly",
+                                               "''",
+                                               "-x",
+                                               "--fast",
+                                               "check check",
+                                               "run --version",
+                                               "check",
+                                               "check --fast CASE",
+                                               "check CASE CASE",
+                                               "check CASE --iterations 1",
+                                               "check CASE --output x",
+                                               "verify",
+                                               "verify --fast CASE",
+                                               "verify CASE CASE",
+                                               "verify CASE --json",
+                                               "reference x",
+                                               "reference --fast",
+                                               "init x y",
+                                               "init --fast x",
+                                               "init --output x",
+                                               "run",
+                                               "run --fast CASE",
+                                               "run CASE CASE",
+                                               "run CASE --json",
+                                               "run CASE --loads 1",
+                                               "run CASE check",
+                                               "run CASE --output ''",
+                                               "run CASE --output",
+                                               "run CASE --output x --output y",
+                                               "run CASE --iterations",
+                                               "run CASE --iterations ''",
+                                               "run CASE --iterations ' '",
+                                               "run CASE --iterations -1",
+                                               "run CASE --iterations two",
+                                               "run CASE --iterations 1.5",
+                                               "run CASE --iterations 1e3",
+                                               "run CASE --iterations nan",
+                                               "run CASE --iterations inf",
+                                               "run CASE --iterations 1000001",
+                                               "run CASE --iterations 2147483648",
+                                               "run CASE --iterations 99999999999999999999",
+                                               "run CASE --iterations 1 --iterations 2",
+                                               "run CASE --iterations '1 2'",
+                                               "run CASE --iterations=1,2",
+                                               "resume",
+                                               "resume .",
+                                               "resume none",
+                                               "resume . --iterations -1",
+                                               "resume . --fast",
+                                               "resume . --output x",
+                                               "analyze",
+                                               "analyze --fast CASE",
+                                               "analyze CASE CASE",
+                                               "analyze CASE --iterations 1",
+                                               "analyze CASE --json=maybe",
+                                               "analyze CASE --output ''",
+                                               "analyze CASE --positions",
+                                               "analyze CASE --positions ''",
+                                               "analyze CASE --positions 0",
+                                               "analyze CASE --positions -1",
+                                               "analyze CASE --positions 1001",
+                                               "analyze CASE --positions nan",
+                                               "analyze CASE --positions 1e2",
+                                               "analyze CASE --positions 4294967297",
+                                               "analyze CASE --loads",
+                                               "analyze CASE --loads ''",
+                                               "analyze CASE --loads ' '",
+                                               "analyze CASE --loads 0",
+                                               "analyze CASE --loads 0,1",
+                                               "analyze CASE --loads -1",
+                                               "analyze CASE --loads nan",
+                                               "analyze CASE --loads inf",
+                                               "analyze CASE --loads 1e999",
+                                               "analyze CASE --loads 1e-999",
+                                               "analyze CASE --loads 1,nan",
+                                               "analyze CASE --loads 1,",
+                                               "analyze CASE --loads ,1",
+                                               "analyze CASE --loads 1,,2",
+                                               "analyze CASE --loads '1, 2'",
+                                               "analyze CASE --loads 1:2",
+                                               "analyze CASE --loads 1:2:1",
+                                               "analyze CASE --loads 1:2:1.5",
+                                               "analyze CASE --loads 1:2:nan",
+                                               "analyze CASE --loads 1:2:1e99",
+                                               "analyze CASE --loads 1:2:1001",
+                                               "analyze CASE --loads 1:inf:3",
+                                               "analyze CASE --loads 0:2:3",
+                                               "analyze CASE --loads 1:2:3:4",
+                                               "analyze CASE --loads 1:2,3",
+                                               "analyze CASE --loads 0x10",
+                                               "analyze CASE --loads 1N",
+                                               "analyze CASE --loads 1 --loads 2"};
+
+TEST_F(CommandLine, WrongUsageIsTwoSaysSoAndLeavesNothing) {
+  for (const std::string line : wrong_command_lines) {
+    const std::string arguments =
+        std::regex_replace(line, std::regex("CASE"), path_of_case("cases/holes16.toml"));
+    const Outcome outcome = wheelwright(arguments, folder_);
+    EXPECT_EQ(outcome.code, exit_usage) << line << '\n' << outcome.output;
+    EXPECT_FALSE(outcome.output.empty()) << line;
+    EXPECT_TRUE(std::filesystem::is_empty(folder_)) << line;
+  }
 }
 
 TEST_F(CommandLine, CheckAcceptsAGoodCaseAndRefusesABadOne) {

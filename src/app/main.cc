@@ -101,10 +101,11 @@ int compute(const std::string& command, const CommandLine& line) {
   CaseResult result = read_case(line.case_file);
   if (!result.value) return report_problems(line.case_file, result.problems);
   Case& c = *result.value;
-  if (line.output_folder) c.output.folder = *line.output_folder;
   if (line.iterations) c = with_iterations(std::move(c), *line.iterations);
   print_warnings(stderr, c);
-  return load_and_run_command(command, c, {.case_file = line.case_file});
+  RunOptions options{.case_file = line.case_file};
+  if (line.output_folder) options.output = *line.output_folder;
+  return load_and_run_command(command, c, options);
 }
 
 int resume(const CommandLine& line) {

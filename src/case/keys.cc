@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include "case/number_text.h"
@@ -24,6 +26,17 @@ bool Range::contains(double value) const {
 std::string Range::text() const {
   return fmt::format("{} {} value {} {}", number_text(low), low_end == End::closed ? "<=" : "<",
                      high_end == End::closed ? "<=" : "<", number_text(high));
+}
+
+bool keeps(TextRule rule, const std::string& text) {
+  if (rule == TextRule::any) return true;
+  const std::filesystem::path path = text;
+  return path.is_relative() && text.find('\0') == std::string::npos &&
+         std::find(path.begin(), path.end(), "..") == path.end();
+}
+
+std::string_view rule_text(TextRule rule) {
+  return rule == TextRule::any ? "text" : "a relative path without ..";
 }
 
 const Section<Case>& general_section() {
@@ -376,8 +389,9 @@ const Section<Output>& output_section() {
       .in = [](Case& c) -> Output& { return c.output; },
       .keys = {{.name = "folder",
                 .unit = "",
-                .field = TextField<Output>{&Output::folder, "runs/ and the name of the case file"},
-                .meaning = "folder of the run, relative to the current one"},
+                .field = TextField<Output>{&Output::folder, "runs/ and the name of the case file",
+                                           TextRule::path_below},
+                .meaning = "folder of the run, below the current one; the option --output may name any"},
                {.name = "vtu_every",
                 .unit = "shapes",
                 .field = IntegerField<Output>{&Output::vtu_every, between(0, 1000000)},

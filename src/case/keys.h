@@ -65,10 +65,21 @@ struct OptionalIntegerField {
   std::string_view default_text;
 };
 
+enum class TextRule {
+  any,
+  path_below,  ///< of a folder in or below the current one: relative, without ".."
+};
+
+/// Whether a text is what the rule asks for.
+bool keeps(TextRule rule, const std::string& text);
+/// The rule in words, e.g. "text".
+std::string_view rule_text(TextRule rule);
+
 template <class Struct>
 struct TextField {
   std::string Struct::*member;
   std::string_view default_text;  ///< what an absent key means, when that is not the empty text
+  TextRule rule = TextRule::any;
 };
 
 template <class Struct>

@@ -145,6 +145,8 @@ std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>&,
                                     const TextField<Struct>& field, Struct& out) {
   const auto value = node.value<std::string>();
   if (!value) return wrong_type("a text", "put it in quotes");
+  if (!keeps(field.rule, *value))
+    return Complaint{Kind::out_of_range, fmt::format("must be {}", rule_text(field.rule)), ""};
   out.*field.member = *value;
   return {};
 }
@@ -371,6 +373,12 @@ std::vector<Diagnostic> merged(const std::vector<Diagnostic>& syntax,
   return result;
 }
 
+/// runs/ and the name of the file; "...toml" has the name "..", which is no folder of its own.
+std::string default_folder(const std::filesystem::path& file) {
+  const std::string name = without_control_characters(file.stem().string());
+  return "runs/" + (name == "." || name == ".." ? "case" : name);
+}
+
 CaseResult interpret(const TomlLines& toml, const std::filesystem::path& file) {
   Reading reading{.file = file.string(), .entries = {}, .faulty = {}, .problems = {}};
   std::vector<Diagnostic> syntax;
@@ -385,8 +393,7 @@ CaseResult interpret(const TomlLines& toml, const std::filesystem::path& file) {
     return std::tie(a.line, a.column) < std::tie(b.line, b.column);
   });
   if (!problems.empty()) return {std::nullopt, std::move(problems)};
-  if (result.output.folder.empty())
-    result.output.folder = (std::filesystem::path("runs") / file.stem()).string();
+  if (result.output.folder.empty()) result.output.folder = default_folder(file);
   return {std::move(result), {}};
 }
 

@@ -98,7 +98,7 @@ std::string accepted_text(const Key<Struct>& key) {
         else if constexpr (requires { field.range; })
           return field.range.text();
         else
-          return "text";
+          return std::string(rule_text(field.rule));
       },
       key.field);
 }
@@ -216,7 +216,7 @@ std::string capitalized(std::string_view text) {
 template <class Struct>
 std::string default_cell(const Key<Struct>& key, const Struct& defaults) {
   if (key.presence == Presence::required) return "required";
-  if (const std::string text = default_text(key); !text.empty()) return text;
+  if (std::string text = default_text(key); !text.empty()) return text;
   if (!key.instead_of.empty()) return fmt::format("`{}` counts", key.instead_of);
   return fmt::format("`{}`", value_text(key, defaults));
 }

@@ -25,12 +25,9 @@ Expected<RollingReport> rolling_report(const Case& c, const RunOptions& options,
                                        const RollingProblem<2>& problem, const RollingSolution<2>& solution) {
   auto analysis = rolling_analysis(problem, solution);
   if (!analysis) return analysis.failure();
-  RollingReport report{c.title.empty() ? options.case_file.stem().string() : c.title,
-                       c.wheel.width,
-                       c.wheel.sectors,
-                       *std::move(analysis),
-                       {},
-                       {}};
+  const std::string name = without_control_characters(options.case_file.stem().string());
+  RollingReport report{
+      c.title.empty() ? name : c.title, c.wheel.width, c.wheel.sectors, *std::move(analysis), {}, {}};
   for (const double load : options.loads) report.loads.push_back(load / c.wheel.width);
   auto under = under_loads<2>(problem, solution, report.loads);
   if (!under) return under.failure();

@@ -22,8 +22,8 @@ int begin(const Case& c, const std::filesystem::path& folder) {
 
 }  // namespace
 
-int run_command(const Case& c, const RunOptions&) {
-  const std::filesystem::path folder = c.output.folder;
+int run_command(const Case& c, const RunOptions& options) {
+  const std::filesystem::path folder = options.output.value_or(c.output.folder);
   return in_locked_folder(folder, [&] { return begin(c, folder); });
 }
 
