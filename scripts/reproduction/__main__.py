@@ -6,6 +6,7 @@ import re
 import resource
 import subprocess
 import sys
+import textwrap
 import time
 from pathlib import Path
 
@@ -75,7 +76,7 @@ measured, and the verdict is computed from that. Sums are over the 8 load positi
 Shapes descend in two ways. *The paper's rules*: the multiplier lambda_k of section 4, harmonic extension of the
 gradient, smoothing (76), a fixed step, every shape accepted; they let the volume drift, and much of what J_e falls is
 then added material. *Volume held*: every shape has the volume of the first, the velocity is the gradient's H1
-representative, and a shape is accepted only if J does not rise.
+representative, and a shape with a J more than 1e-4 above the least so far is rejected.
 
 {last}
 
@@ -112,15 +113,17 @@ def main() -> None:
     with CaseProgress(names, earlier_seconds(options.page)) as progress:
         runs = execute_all(options.program, names, options.runs, run_options, options.jobs, progress)
     wall = time.monotonic() - start
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    used = usage.ru_utime + usage.ru_stime
     sections = earlier_sections(options.page)
     sections.update({figure.label: section(figure, runs, album) for figure in selection})
     version = subprocess.run([options.program, "--version"], capture_output=True, text=True, check=True).stdout.strip()
     last = (
-        f"Last written by {version}: {len(names)} cases in {wall:.0f} s, {options.jobs} at a time, with "
-        f"{used.ru_utime + used.ru_stime:.0f} s of processor time."
+        f"Last written by {version}: {len(names)} cases in {wall:.0f} s, {options.jobs} at a time, with {used:.0f} s "
+        f"of processor time; on {options.jobs} free cores that is {used / options.jobs:.0f} s. The times beside the "
+        "commands are those of that run."
     )
-    write_page(options.page, sections, last)
+    write_page(options.page, sections, textwrap.fill(last, 115))
     album.remove_others_than(options.page.read_text())
     unmet = sum(len(run.unmet) for run in runs.values())
     remark = f", {unmet} expected values not found" if unmet else ""

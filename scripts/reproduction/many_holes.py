@@ -1,6 +1,21 @@
 """Figs 22 and 23: 48 and 108 holes."""
 
+import math
+
+from .runs import Run
 from .section import Album, Runs, both_ways, claims, joined, percent
+
+
+def _holes(run: Run) -> str:
+    """Length by width of every kind of hole, from the axle outwards."""
+    return ", ".join(f"{hole.length:.1f} x {hole.width:.1f}" for hole in run.holes) + " mm"
+
+
+def _shape_gap(a: Run, b: Run) -> float:
+    """Largest difference of their holes' lengths and widths [mm]; infinite if the holes are other ones."""
+    if len(a.holes) != len(b.holes):
+        return math.inf
+    return max(max(abs(x.length - y.length), abs(x.width - y.width)) for x, y in zip(a.holes, b.holes))
 
 
 def holes_48(r: Runs, album: Album) -> str:
@@ -22,13 +37,27 @@ def holes_48(r: Runs, album: Album) -> str:
                 both_ways(je.change("strain_energy") < -0.1, rules_je.change("strain_energy") < -0.1),
             ),
             (
-                "J_e + 50 J_p2 gives another design, with evener contact stress",
+                "J_e + 50 J_p2 gives another design (holes that differ by 2 mm at least)",
+                f"holes of {_holes(je)} with J_e alone, {_holes(jp2)} with J_p2; by the paper's rules "
+                f"{_holes(rules_je)} and {_holes(rules_jp2)}",
+                both_ways(_shape_gap(je, jp2) > 2, _shape_gap(rules_je, rules_jp2) > 2),
+            ),
+            (
+                "... with evener contact stress",
                 f"peak spread {p(je.peak_spread('initial'))} at first, {p(spread[je.name])} with J_e alone, "
                 f"{p(spread[jp2.name])} with J_p2; J_p2 {percent(jp2.change('uniformity_dual'))}, J_e "
                 f"{percent(jp2.change('strain_energy'))}; by the paper's rules {p(spread[rules_je.name])} and "
                 f"{p(spread[rules_jp2.name])}",
                 both_ways(spread[jp2.name] < spread[je.name], spread[rules_jp2.name] < spread[rules_je.name]),
             ),
+        ),
+        f"With the volume held J_p2 has little to say: J_e alone already leaves a peak spread of {p(spread[je.name])}, and "
+        f"at the end 50 J_p2 is {p(50 * jp2.last['uniformity_dual'] / jp2.last['objective'])} of J.\n",
+        *(
+            f"The run of {run.name} ends after {len(run.history) - 1} shapes: the next one is rejected "
+            f"({run.end}), and the paper's rules have no shorter step.\n"
+            for run in (rules_je, rules_jp2)
+            if run.end
         ),
         album.comparison(je, "J_e alone, volume held"),
         album.comparison(jp2, "J_e + 50 J_p2, volume held"),
@@ -67,6 +96,8 @@ def holes_108(r: Runs, album: Album) -> str:
             ),
             ("a shape in 3D", "not computed", "not examined"),
         ),
+        f"The holes that the three rings become: {_holes(run)} with the volume held, {_holes(rules)} by the paper's "
+        "rules.\n",
         album.comparison(run, "108 holes, volume held"),
         album.comparison(rules, "108 holes, the paper's rules"),
         album.curves(

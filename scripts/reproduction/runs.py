@@ -42,11 +42,20 @@ class Run:
     expected: int = 0
 
     @cached_property
+    def _trials(self) -> list[dict[str, str]]:
+        with open(self.folder / "history.csv") as file:
+            return list(csv.DictReader(file))
+
+    @cached_property
     def history(self) -> list[dict[str, float]]:
         """The accepted shapes; keys are the columns without their units."""
-        with open(self.folder / "history.csv") as file:
-            rows = [row for row in csv.DictReader(file) if row["accepted"] == "1"]
+        rows = [row for row in self._trials if row["accepted"] == "1"]
         return [{k.split(" [")[0]: _number(v) for k, v in row.items()} for row in rows]
+
+    @property
+    def end(self) -> str:
+        """Why the last trial shape was rejected; empty if it was accepted."""
+        return self._trials[-1]["reason"]
 
     @property
     def first(self) -> dict[str, float]:
