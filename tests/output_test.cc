@@ -396,6 +396,7 @@ TEST(Outline, PolygonsThatShareNoSideStayAsTheyAre) {
 TEST(Outline, ThePathLeadsThroughAllPoints) {
   EXPECT_EQ(outline_path({{{1, -2}, {4, -2}, {4, 3}, {-1, 3}}, {{0, 0}, {1, 1}, {0, 1}}}),
             "M1 -2l3 0 0 5-5 0zM0 0l1 1-1 0z");
+  EXPECT_EQ(outline_path({{}, {{1, 1}}, {{1, 1}, {2, 2}}}), "");
 }
 
 /// Area [pixels^2] under the path of one colour in a picture of whole units.

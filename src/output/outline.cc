@@ -79,6 +79,7 @@ std::vector<PicturePolygon> union_outlines(const std::vector<PicturePolygon>& po
 std::string outline_path(const std::vector<PicturePolygon>& outlines) {
   std::string path;
   for (const PicturePolygon& outline : outlines) {
+    if (outline.size() < 3) continue;
     path += fmt::format("M{} {}l", outline[0][0], outline[0][1]);
     for (std::size_t k = 1; k < outline.size(); ++k) {
       const int dx = outline[k][0] - outline[k - 1][0], dy = outline[k][1] - outline[k - 1][1];

@@ -15,7 +15,8 @@ using PicturePolygon = std::vector<PicturePoint>;
 /// Closed curves, all of one sense around what they enclose; sides of no length are dropped.
 std::vector<PicturePolygon> union_outlines(const std::vector<PicturePolygon>& polygons);
 
-/// Closed curves as the `d` attribute of an SVG path, in relative moves.
+/// Closed curves as the `d` attribute of an SVG path, in relative moves; those that enclose nothing, of less
+/// than three points, are left out.
 std::string outline_path(const std::vector<PicturePolygon>& outlines);
 
 }  // namespace wheelwright
