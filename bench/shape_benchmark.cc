@@ -163,19 +163,19 @@ class Evolution {
       : wheel_(wheel),
         evolver_(wheel.psi().lattice, options(wheel)),
         gradient_(wheel.evaluate().gradient),
-        velocity_(evolver_.measure_preserving_velocity(gradient_)),
+        velocity_(value_of(evolver_.measure_preserving_velocity(gradient_))),
         moved_(move()) {}
 
-  std::vector<double> velocity() const { return evolver_.measure_preserving_velocity(gradient_); }
+  std::vector<double> velocity() const { return value_of(evolver_.measure_preserving_velocity(gradient_)); }
   LevelSet<2> move() const {
-    return evolver_.move(wheel_.psi(), velocity_, 0.5 * wheel_.psi().lattice.grid().resolution());
+    return value_of(evolver_.move(wheel_.psi(), velocity_, 0.5 * wheel_.psi().lattice.grid().resolution()));
   }
   LevelSet<2> hold_measure() const {
     double length = 0;
     for (const auto& sample : gradient_) length += sample.weight;
     return value_of(evolver_.with_measure(moved_, material_measure(wheel_.psi()), length));
   }
-  LevelSet<2> redistance() const { return evolver_.redistance(moved_); }
+  LevelSet<2> redistance() const { return value_of(evolver_.redistance(moved_)); }
 
  private:
   static EvolutionOptions options(const Wheel& wheel) {

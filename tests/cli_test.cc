@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -16,6 +17,8 @@
 #include "app/exit_code.h"
 #include "case/derived.h"
 #include "case/read.h"
+#include "geometry/topology.h"
+#include "output/level_set_file.h"
 
 namespace wheelwright {
 namespace {
@@ -326,6 +329,63 @@ TEST_F(CommandLine, ARunThatDiffersFromWhatItsCaseExpectsIsSeven) {
   EXPECT_EQ(run("wrong", case_that_expects(1.001 * energy, "1e-4"), "--iterations 0").code, exit_unexpected);
   for (const char* file : {"comparison.svg", "rolling.pvd"})
     EXPECT_TRUE(std::filesystem::exists(folder_ / "wrong" / file)) << file;
+}
+
+/// Two rings of holes with thin spokes between them, on a coarse grid.
+std::string case_with_thin_spokes(const char* volume, double step) {
+  return fmt::format(
+      "[[holes.ring]]\ncount = 32\ncenter_radius = 0.245\nradius = 0.017\n"
+      "[[holes.ring]]\ncount = 32\ncenter_radius = 0.29\nradius = 0.022\n"
+      "[grid]\nradial_cells = 14\nangular_cells = 192\n[load]\npositions = 2\n"
+      "[volume]\n{}\n[optimizer]\niterations = 12\nstep = {}\n",
+      volume, step);
+}
+
+std::string content(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// The pieces of material of a level set file; 0 when it cannot be read.
+std::size_t n_pieces(const std::filesystem::path& file) {
+  const auto psi = parse_level_set_file<2>(content(file));
+  if (!psi) return 0;
+  const auto found = components(*psi).all;
+  return std::ranges::count_if(found, [](const auto& piece) { return piece.is_material; });
+}
+
+// Far too little material is asked for: the holes grow until there is nothing left that holds the tread.
+TEST_F(CommandLine, ARunThatGivesUpIsThreeAndLeavesWhatIsNeededToSeeWhy) {
+  std::ofstream(folder_ / "c.toml") << case_with_thin_spokes("control = \"paper\"\ntarget = 0.2", 1);
+  const Outcome run = wheelwright(fmt::format("run {} --output {}", in_folder("c.toml"), in_folder("run")));
+  EXPECT_EQ(run.code, exit_no_solution);
+  EXPECT_NE(run.output.find((folder_ / "run/failure/report.txt").string()), std::string::npos) << run.output;
+  for (const char* file : {"report.txt", "rejected.svg", "case.toml"})
+    EXPECT_FALSE(content(folder_ / "run/failure" / file).empty()) << file;
+  EXPECT_EQ(n_pieces(folder_ / "run/failure/accepted.levelset"), 1u);
+  EXPECT_GT(n_pieces(folder_ / "run/failure/rejected.levelset"), 1u);
+  EXPECT_NE(content(folder_ / "run/history.csv").find("tread_cut_off"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "run/comparison.svg"));
+  EXPECT_EQ(wheelwright(fmt::format("check {}", in_folder("run/failure/case.toml"))).code, exit_done);
+}
+
+TEST_F(CommandLine, AnInitialShapeThatFallsApartIsThreeAndIsDrawn) {
+  std::ofstream(folder_ / "c.toml") << case_with_thin_spokes("target = 0.3", 1);
+  const Outcome run = wheelwright(fmt::format("run {} --output {}", in_folder("c.toml"), in_folder("run")));
+  EXPECT_EQ(run.code, exit_no_solution);
+  for (const char* file : {"report.txt", "rejected.svg", "rejected.levelset"})
+    EXPECT_FALSE(content(folder_ / "run/failure" / file).empty()) << file;
+}
+
+// With large steps every pair of holes joins, and reaches the band at the rim.
+TEST_F(CommandLine, ARunTellsOfHolesThatJoinOnTheTerminalAndInItsHistory) {
+  std::ofstream(folder_ / "c.toml") << case_with_thin_spokes("control = \"exact\"", 2);
+  const Outcome run = wheelwright(fmt::format("run {} --output {}", in_folder("c.toml"), in_folder("run")));
+  EXPECT_EQ(run.code, exit_done);
+  const std::string history = content(folder_ / "run/history.csv");
+  for (const ShapeEventKind kind : {ShapeEventKind::holes_merged, ShapeEventKind::hole_at_rim_band})
+    for (const std::string* text : {&run.output, &history})
+      EXPECT_NE(text->find(to_string(kind)), std::string::npos) << *text;
 }
 
 TEST_F(CommandLine, AnalyzeWritesItsFolderOnceAndNothingWithoutOne) {

@@ -138,7 +138,7 @@ TEST(ShapeOptimizer, ReachesAGivenMeasure) {
 
 TEST(ShapeOptimizer, FollowsThePapersRule) {
   OptimizerOptions options;
-  options.iterations = 30;
+  options.iterations = 18;  // later the growing holes would join all round
   options.tolerance = 0;
   options.measure_control = MeasureControl::proportional;
   auto harmonic = evolution;
@@ -147,9 +147,10 @@ TEST(ShapeOptimizer, FollowsThePapersRule) {
   Record record;
   const auto outcome = optimize<2>(optimizer, displaced_hole(), record.observer(), never);
   EXPECT_EQ(outcome.reason, StopReason::iterations);
-  EXPECT_EQ(record.trials.size(), 31u);
+  EXPECT_EQ(record.trials.size(), 19u);
   for (std::size_t k = 1; k < record.trials.size(); ++k) {
-    EXPECT_EQ(record.trials[k].verdict, Verdict::accepted);
+    EXPECT_EQ(record.trials[k].verdict, Verdict::accepted)
+        << (record.trials[k].failure ? record.trials[k].failure->detail : "");
     EXPECT_EQ(record.trials[k].step, options.step);
   }
   // The density is positive on the whole boundary: the multiplier leaves an offset.
@@ -187,7 +188,7 @@ TEST(ShapeOptimizer, HalvesTheStepWhereTheEvaluationFails) {
   EXPECT_LT(outcome.state->evaluation.objective, outcome.state->history.front());
 }
 
-TEST(ShapeOptimizer, StopsWhereNoStepDescends) {
+TEST(ShapeOptimizer, GivesUpWhereEveryTrialFails) {
   int calls = 0;
   const auto only_once = [&calls](const LevelSet<2>& psi) -> Expected<Evaluation<2>> {
     if (calls++ > 0) return Failure{FailureReason::no_contact, ""};
@@ -198,7 +199,7 @@ TEST(ShapeOptimizer, StopsWhereNoStepDescends) {
   const ShapeOptimizer<2> optimizer(lattice, evolution, options, only_once);
   Record record;
   const auto outcome = optimize<2>(optimizer, displaced_hole(), record.observer(), never);
-  EXPECT_EQ(outcome.reason, StopReason::no_descent);
+  EXPECT_EQ(outcome.reason, StopReason::gave_up);
   EXPECT_EQ(outcome.state->iteration, 0);
   ASSERT_EQ(record.trials.size(), 5u);
   EXPECT_EQ(record.trials.back().step, options.step / 8);

@@ -267,7 +267,9 @@ TEST_F(HistoryFile, EveryRowIsOnDiskAndHasTheColumnsOfTheHeader) {
   History history(
       folder / "history.csv",
       {"J/m", {{"strain_energy", "J/m"}, {"uniformity", "Pa2.m"}}, {{"run_out", "m"}}, {"factor"}});
-  history.add(history_row());
+  HistoryRow eventful = history_row();
+  eventful.events = {"split, twice", "gone"};
+  history.add(eventful);
   HistoryRow failed = history_row();
   failed.accepted = false;
   failed.reason = "newton_stalled";
@@ -282,9 +284,10 @@ TEST_F(HistoryFile, EveryRowIsOnDiskAndHasTheColumnsOfTheHeader) {
       rows[0],
       "iteration,trial,accepted,reason,objective [J/m],strain_energy [J/m],uniformity [Pa2.m],"
       "run_out [m],volume fraction [-],step [m],max velocity [Pa],max newton iterations,factor [s],trial "
-      "[s],elapsed [s]");
-  EXPECT_EQ(rows[1], "3,1,1,,0.1,0.3333333333333333,,0.0002,0.75,0.002,400000,6,0.25,0.5,9");
-  EXPECT_EQ(rows[2], "3,1,0,newton_stalled,,,,,0.75,0.002,400000,6,,0.5,9");
+      "[s],elapsed [s],events");
+  EXPECT_EQ(rows[1],
+            "3,1,1,,0.1,0.3333333333333333,,0.0002,0.75,0.002,400000,6,0.25,0.5,9,\"split, twice; gone\"");
+  EXPECT_EQ(rows[2], "3,1,0,newton_stalled,,,,,0.75,0.002,400000,6,,0.5,9,");
 }
 
 TEST(History, FullDiskIsAnOutputError) {

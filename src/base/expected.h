@@ -10,7 +10,8 @@ namespace wheelwright {
 /// Why a numerical stage could not deliver. The optimization loop rejects the trial shape and halves its
 /// step.
 enum class FailureReason {
-  disconnected_material,  ///< some material is not attached to the rim, or the tread is cut off from it
+  disconnected_material,  ///< some material is not attached to the rim
+  tread_cut_off,          ///< holes join all round: the tread is not attached to the rim
   protected_band,         ///< a hole reaches the rows of cells kept full at the rim or the tread
   cut_quadrature,         ///< a cut cell's quadrature does not add up to the cell
   not_positive_definite,  ///< the stiffness could not be factored
@@ -20,6 +21,7 @@ enum class FailureReason {
   inaccurate_solution,    ///< the residual of a solve is too large
   negative_energy,        ///< a strain energy came out negative
   empty_shape,            ///< no material, or no boundary to move
+  objective_jumped,       ///< the objective changed more than a small step can change it
 };
 
 /// The reason as a word for logs and history files, e.g. "newton_stalled".
@@ -27,6 +29,8 @@ constexpr const char* to_string(FailureReason reason) {
   switch (reason) {
     case FailureReason::disconnected_material:
       return "disconnected_material";
+    case FailureReason::tread_cut_off:
+      return "tread_cut_off";
     case FailureReason::protected_band:
       return "protected_band";
     case FailureReason::cut_quadrature:
@@ -45,6 +49,8 @@ constexpr const char* to_string(FailureReason reason) {
       return "negative_energy";
     case FailureReason::empty_shape:
       return "empty_shape";
+    case FailureReason::objective_jumped:
+      return "objective_jumped";
   }
   return "unknown";
 }

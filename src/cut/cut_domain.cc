@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "cut/cell_quadrature.h"
+#include "geometry/finite.h"
+#include "geometry/place.h"
 
 namespace wheelwright {
 namespace {
@@ -47,9 +49,10 @@ void for_each_neighbour(const PolarGrid<dim>& grid, int cell, Visit visit) {
 template <int dim>
 std::string place(const PolarGrid<dim>& grid, int cell) {
   const auto p = grid.cell_position(cell);
-  return fmt::format("r = {:.4g} m, azimuth = {:.4g} deg",
-                     grid.inner_radius + (p[0] + 0.5) * grid.cell_size()[0],
-                     (p[1] + 0.5) * grid.cell_size()[1] * 180 / std::numbers::pi);
+  Vec<dim> centre;
+  for (int d = 0; d < dim; ++d) centre[d] = (p[d] + 0.5) * grid.cell_size()[d];
+  centre[0] += grid.inner_radius;
+  return place_text<dim>(centre);
 }
 
 template <int dim>
@@ -89,6 +92,8 @@ std::optional<Failure> check_connected(const CutDomain<dim>& domain) {
   int islands = 0, first = -1;
   for (int cell = 0; cell < grid.n_cells(); ++cell) {
     if (!domain.active(cell) || reached[cell]) continue;
+    if (grid.cell_position(cell)[0] + 1 == grid.cells[0])
+      return Failure{FailureReason::tread_cut_off, "holes join all round and cut the tread off from the rim"};
     if (islands++ == 0) first = cell;
   }
   if (islands == 0) return {};
@@ -135,10 +140,7 @@ std::vector<GhostFace> find_ghost_faces(const LevelSet<dim>& psi, const CutDomai
 
 template <int dim>
 Expected<CutDomain<dim>> cut_domain(const LevelSet<dim>& given, int points) {
-  for (double value : given.values)
-    if (!std::isfinite(value))
-      return Failure{FailureReason::not_finite, "the level set has a value that is not finite"};
-
+  if (auto failure = check_finite<dim>(given.lattice, given.values, "the level set")) return *failure;
   const LevelSet<dim> psi = nudged(given);
   const PolarGrid<dim>& grid = psi.lattice.grid();
   CutDomain<dim> domain{grid, std::vector<CellKind>(grid.n_cells()), {}, {}};
@@ -149,8 +151,9 @@ Expected<CutDomain<dim>> cut_domain(const LevelSet<dim>& given, int points) {
     if (domain.kinds[cell] != CellKind::cut) continue;
     auto split = quadrature.split(cell, values);
     if (!split)
-      return Failure{FailureReason::cut_quadrature,
-                     fmt::format("the quadrature of cell {} does not add up to the cell", cell)};
+      return Failure{
+          FailureReason::cut_quadrature,
+          fmt::format("the quadrature of the cell at {} does not add up to the cell", place(grid, cell))};
     const double fraction = material_fraction(*split);
     if (fraction < smallest_fraction) {
       domain.kinds[cell] = CellKind::outside;

@@ -54,8 +54,8 @@ template <int dim>
 Expected<CutDomain<dim>> cut_domain(const LevelSet<dim>& psi, int points);
 
 /// Whether the shape can be computed with: fails with protected_band when a cell of the innermost `rim_rows`
-/// or outermost `tread_rows` rows is not full, and with disconnected_material when an active cell is not
-/// reached from the rim through active cells.
+/// or outermost `tread_rows` rows is not full, with tread_cut_off when the outermost row is not reached from
+/// the rim through active cells, and with disconnected_material when another active cell is not.
 template <int dim>
 std::optional<Failure> check_attached(const CutDomain<dim>& domain, int rim_rows, int tread_rows);
 

@@ -1,7 +1,10 @@
 #include "cut/measure.h"
 
+#include <limits>
+
 #include "cut/cell_quadrature.h"
 #include "geometry/cell_map.h"
+#include "geometry/finite.h"
 
 namespace wheelwright {
 namespace {
@@ -31,6 +34,8 @@ void for_each_cell(const LevelSet<dim>& psi, Visit visit) {
 
 template <int dim>
 double material_measure(const LevelSet<dim>& psi) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  if (check_finite<dim>(psi.lattice, psi.values, "")) return unknown;
   const PolarGrid<dim>& grid = psi.lattice.grid();
   const int degree = psi.lattice.degree();
   std::vector<double> full_cell(grid.cells[0]);
@@ -42,6 +47,7 @@ double material_measure(const LevelSet<dim>& psi) {
   for_each_cell(psi, [&](int cell, CellKind kind, const std::optional<CutCell<dim>>& split) {
     const auto position = grid.cell_position(cell);
     if (kind == CellKind::inside) sum += full_cell[position[0]];
+    if (kind == CellKind::cut && !split) sum = unknown;
     if (split) sum += cell_measure<dim>(CellMap<dim>(grid, degree, position), degree, split->material);
   });
   return sum;

@@ -7,7 +7,7 @@
 namespace wheelwright {
 
 /// Measure of {psi < 0} in one sector [m^2, or m^3 when dim = 3], by cut quadrature on the isoparametric
-/// cells of the level set's own degree.
+/// cells of the level set's own degree. NaN where psi is not finite or the quadrature of a cell fails.
 template <int dim>
 double material_measure(const LevelSet<dim>& psi);
 

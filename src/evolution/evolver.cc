@@ -1,11 +1,25 @@
 #include "evolution/evolver.h"
 
+#include <numeric>
+
 #include "evolution/cell_scale.h"
+#include "evolution/multilinear.h"
 #include "evolution/redistance.h"
 #include "evolution/transport.h"
 #include "evolution/volume.h"
+#include "geometry/finite.h"
 
 namespace wheelwright {
+
+namespace {
+
+double largest_magnitude(std::span<const double> values) {
+  double largest = 0;
+  for (double v : values) largest = std::max(largest, std::abs(v));
+  return largest;
+}
+
+}  // namespace
 
 template <int dim>
 Evolver<dim>::Evolver(const Lattice<dim>& lattice, const EvolutionOptions& options)
@@ -17,39 +31,63 @@ Evolver<dim>::Evolver(const Lattice<dim>& lattice, const EvolutionOptions& optio
 }
 
 template <int dim>
-std::vector<double> Evolver<dim>::velocity(std::span<const SurfaceSample<dim>> gradient) const {
-  auto velocity = (*extension_)(gradient);
-  const auto movable = movable_samples<dim>(lattice_, bands_, gradient, velocity);
-  return movable.size() == gradient.size() ? velocity : (*extension_)(movable);
+template <class Extend>
+Expected<std::vector<double>> Evolver<dim>::movable_velocity(std::span<const SurfaceSample<dim>> gradient,
+                                                             Extend extend) const {
+  auto velocity = extend(gradient);
+  if (!velocity) return velocity;
+  const auto movable = movable_samples<dim>(lattice_, bands_, gradient, *velocity);
+  return movable.size() == gradient.size() ? velocity : extend(movable);
 }
 
 template <int dim>
-std::vector<double> Evolver<dim>::measure_preserving_velocity(
+Expected<std::vector<double>> Evolver<dim>::velocity(std::span<const SurfaceSample<dim>> gradient) const {
+  return movable_velocity(
+      gradient, [&](std::span<const SurfaceSample<dim>> samples) { return (*extension_)(samples); });
+}
+
+template <int dim>
+Expected<std::vector<double>> Evolver<dim>::measure_preserving_velocity(
     std::span<const SurfaceSample<dim>> gradient) const {
-  const auto preserving = [&](std::span<const SurfaceSample<dim>> samples) {
+  return movable_velocity(gradient, [&](std::span<const SurfaceSample<dim>> samples) {
     return wheelwright::measure_preserving_velocity<dim>(lattice_, *extension_, samples);
-  };
-  auto velocity = preserving(gradient);
-  const auto movable = movable_samples<dim>(lattice_, bands_, gradient, velocity);
-  return movable.size() == gradient.size() ? velocity : preserving(movable);
+  });
+}
+
+/// What a stage made of a shape, on the cell scale and cut off at the bands: which would hide an infinity.
+template <int dim>
+Expected<LevelSet<dim>> Evolver<dim>::kept(const LevelSet<dim>& psi, const char* what) const {
+  if (auto failure = check_finite<dim>(lattice_, psi.values, what)) return *failure;
+  return bands_.keep(on_cell_scale(psi));
 }
 
 template <int dim>
-LevelSet<dim> Evolver<dim>::move(const LevelSet<dim>& psi, std::span<const double> velocity,
-                                 double distance) const {
-  double fastest = 0;
-  for (double v : velocity) fastest = std::max(fastest, std::abs(v));
-  return bands_.keep(on_cell_scale(transport<dim>(psi, velocity, distance / fastest)));
+Expected<LevelSet<dim>> Evolver<dim>::move(const LevelSet<dim>& psi, std::span<const double> velocity,
+                                           double distance) const {
+  if (auto failure = check_finite<dim>(psi.lattice, velocity, "the velocity")) return *failure;
+  const double time = distance / largest_magnitude(velocity);
+  if (!std::isfinite(time)) return Failure{FailureReason::not_finite, "the velocity vanishes"};
+  return kept(transport<dim>(psi, velocity, time), "the level set after transport");
 }
 
 template <int dim>
-LevelSet<dim> Evolver<dim>::redistance(const LevelSet<dim>& psi) const {
-  return bands_.keep(on_cell_scale(wheelwright::redistance<dim>(psi)));
+double Evolver<dim>::first_order_change(std::span<const SurfaceSample<dim>> gradient,
+                                        std::span<const double> velocity, double distance) const {
+  const auto load = boundary_load<dim>(lattice_, gradient);
+  return std::inner_product(load.begin(), load.end(), velocity.begin(), 0.0) * distance /
+         largest_magnitude(velocity);
 }
 
 template <int dim>
-LevelSet<dim> Evolver<dim>::smooth(const LevelSet<dim>& psi) const {
-  return smoother_ ? bands_.keep(on_cell_scale((*smoother_)(psi))) : psi;
+Expected<LevelSet<dim>> Evolver<dim>::redistance(const LevelSet<dim>& psi) const {
+  if (auto failure = check_finite<dim>(psi.lattice, psi.values, "the level set")) return *failure;
+  return kept(wheelwright::redistance<dim>(psi), "the level set after redistancing");
+}
+
+template <int dim>
+Expected<LevelSet<dim>> Evolver<dim>::smooth(const LevelSet<dim>& psi) const {
+  if (!smoother_) return psi;
+  return kept((*smoother_)(psi), "the level set after smoothing");
 }
 
 template <int dim>
@@ -61,6 +99,22 @@ template <int dim>
 Expected<LevelSet<dim>> Evolver<dim>::with_measure(const LevelSet<dim>& psi, double target,
                                                    double boundary_measure) const {
   return wheelwright::with_measure<dim>(psi, bands_, target, boundary_measure);
+}
+
+template <int dim>
+Expected<AttachedShape<dim>> Evolver<dim>::without_islands(const LevelSet<dim>& psi, double largest) const {
+  auto attached = wheelwright::without_islands<dim>(psi, largest);
+  if (attached) attached->psi = bands_.keep(std::move(attached->psi));
+  return attached;
+}
+
+template <int dim>
+std::vector<ShapeEvent<dim>> Evolver<dim>::changes(const LevelSet<dim>& before,
+                                                   const LevelSet<dim>& after) const {
+  const auto old = components(before), now = components(after);
+  auto events = topology_changes(old, now);
+  for (auto& event : bands_.contacts(old, now)) events.push_back(event);
+  return events;
 }
 
 template class Evolver<2>;

@@ -43,6 +43,28 @@ LevelSet<dim> ProtectedBands<dim>::keep(LevelSet<dim> psi) const {
   return psi;
 }
 
+template <int dim>
+std::vector<ShapeEvent<dim>> ProtectedBands<dim>::contacts(const Components<dim>& before,
+                                                           const Components<dim>& after) const {
+  const double reach = 2 * margin * grid_.resolution() + after.samples.spacing()[0];
+  const auto at_rim = [&](const Component<dim>& hole) { return hole.innermost[0] - inner_edge_ < reach; };
+  const auto at_tread = [&](const Component<dim>& hole) { return outer_edge_ - hole.outermost[0] < reach; };
+  const auto were = overlapping_holes(after, before);
+  std::vector<ShapeEvent<dim>> events;
+  for (std::size_t k = 0; k < after.all.size(); ++k) {
+    const Component<dim>& hole = after.all[k];
+    if (hole.is_material) continue;
+    const auto was = [&](const auto& there) {
+      return std::any_of(were[k].begin(), were[k].end(), [&](int old) { return there(before.all[old]); });
+    };
+    if (at_rim(hole) && !was(at_rim))
+      events.push_back({ShapeEventKind::hole_at_rim_band, hole.innermost, hole.measure});
+    if (at_tread(hole) && !was(at_tread))
+      events.push_back({ShapeEventKind::hole_at_tread_band, hole.outermost, hole.measure});
+  }
+  return events;
+}
+
 template class ProtectedBands<2>;
 template class ProtectedBands<3>;
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "geometry/level_set.h"
+#include "geometry/topology.h"
 
 namespace wheelwright {
 
@@ -20,6 +20,10 @@ class ProtectedBands {
   /// nearest band, less a tenth of the resolution, so that quadratic cells between an edge node and the next
   /// do not overshoot into the band.
   LevelSet<dim> keep(LevelSet<dim> psi) const;
+
+  /// The holes of `after` that lie at a band, to within a sample, where none of the holes of `before` that
+  /// they overlap did; the place is the one at the band.
+  std::vector<ShapeEvent<dim>> contacts(const Components<dim>& before, const Components<dim>& after) const;
 
   /// Whether a boundary point lies on the edge of a band, where keep() stops it.
   bool touches(const SurfaceSample<dim>& sample) const;

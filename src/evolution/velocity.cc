@@ -1,6 +1,7 @@
 #include "evolution/velocity.h"
 
 #include "evolution/multilinear.h"
+#include "geometry/finite.h"
 
 namespace wheelwright {
 
@@ -17,6 +18,12 @@ void clear_fixed(std::vector<double>& v, const std::vector<bool>& fixed) {
 }
 
 template <int dim>
+Expected<std::vector<double>> finite(const Lattice<dim>& lattice, std::vector<double> velocity) {
+  if (auto failure = check_finite<dim>(lattice, velocity, "the velocity")) return *failure;
+  return velocity;
+}
+
+template <int dim>
 class H1Extension final : public VelocityExtension<dim> {
  public:
   H1Extension(const Lattice<dim>& lattice, const ProtectedBands<dim>& bands, double length)
@@ -26,10 +33,10 @@ class H1Extension final : public VelocityExtension<dim> {
             lattice.n_nodes(),
             with_fixed_nodes(multilinear_form<dim>(lattice, 1, length * length), bands.nodes()))) {}
 
-  std::vector<double> operator()(std::span<const SurfaceSample<dim>> gradient) const override {
+  Expected<std::vector<double>> operator()(std::span<const SurfaceSample<dim>> gradient) const override {
     auto load = negated(boundary_load<dim>(lattice_, gradient));
     clear_fixed(load, fixed_);
-    return factor_.solve(load);
+    return finite(lattice_, factor_.solve(load));
   }
 
  private:
@@ -44,7 +51,7 @@ class HarmonicExtension final : public VelocityExtension<dim> {
   HarmonicExtension(const Lattice<dim>& lattice, const ProtectedBands<dim>& bands)
       : lattice_(lattice), fixed_(bands.nodes()), laplacian_(regularized_laplacian(lattice)) {}
 
-  std::vector<double> operator()(std::span<const SurfaceSample<dim>> gradient) const override {
+  Expected<std::vector<double>> operator()(std::span<const SurfaceSample<dim>> gradient) const override {
     const double penalty = 10 / lattice_.grid().resolution();
     auto matrix = laplacian_;
     for (const auto& sample : gradient) add_penalty(matrix, sample, penalty);
@@ -52,7 +59,8 @@ class HarmonicExtension final : public VelocityExtension<dim> {
     for (double& x : load) x *= penalty;
     clear_fixed(load, fixed_);
     const auto factor = SparseSpd::factor(lattice_.n_nodes(), with_fixed_nodes(matrix, fixed_));
-    return factor->solve(load);
+    if (!factor) return factor.failure();
+    return finite(lattice_, factor->solve(load));
   }
 
  private:
@@ -89,18 +97,21 @@ std::unique_ptr<VelocityExtension<dim>> make_velocity_extension(const Lattice<di
 }
 
 template <int dim>
-std::vector<double> measure_preserving_velocity(const Lattice<dim>& lattice,
-                                                const VelocityExtension<dim>& extension,
-                                                std::span<const SurfaceSample<dim>> gradient) {
+Expected<std::vector<double>> measure_preserving_velocity(const Lattice<dim>& lattice,
+                                                          const VelocityExtension<dim>& extension,
+                                                          std::span<const SurfaceSample<dim>> gradient) {
   std::vector<SurfaceSample<dim>> ones(gradient.begin(), gradient.end());
   for (auto& sample : ones) sample.value = 1;
   auto velocity = extension(gradient);
+  if (!velocity) return velocity;
   const auto shrinking = extension(ones);
-  const double rate = boundary_integral<dim>(lattice, ones, shrinking);
+  if (!shrinking) return shrinking;
+  const double rate = boundary_integral<dim>(lattice, ones, *shrinking);
   if (rate == 0) return velocity;
-  const double multiplier = boundary_integral<dim>(lattice, ones, velocity) / rate;
-  for (std::size_t node = 0; node < velocity.size(); ++node) velocity[node] -= multiplier * shrinking[node];
-  return velocity;
+  const double multiplier = boundary_integral<dim>(lattice, ones, *velocity) / rate;
+  for (std::size_t node = 0; node < velocity->size(); ++node)
+    (*velocity)[node] -= multiplier * (*shrinking)[node];
+  return finite(lattice, *std::move(velocity));
 }
 
 template <int dim>
@@ -122,10 +133,12 @@ template std::unique_ptr<VelocityExtension<2>> make_velocity_extension<2>(const 
 template std::unique_ptr<VelocityExtension<3>> make_velocity_extension<3>(const Lattice<3>&,
                                                                           const ProtectedBands<3>&,
                                                                           const VelocityOptions&);
-template std::vector<double> measure_preserving_velocity<2>(const Lattice<2>&, const VelocityExtension<2>&,
-                                                            std::span<const SurfaceSample<2>>);
-template std::vector<double> measure_preserving_velocity<3>(const Lattice<3>&, const VelocityExtension<3>&,
-                                                            std::span<const SurfaceSample<3>>);
+template Expected<std::vector<double>> measure_preserving_velocity<2>(const Lattice<2>&,
+                                                                      const VelocityExtension<2>&,
+                                                                      std::span<const SurfaceSample<2>>);
+template Expected<std::vector<double>> measure_preserving_velocity<3>(const Lattice<3>&,
+                                                                      const VelocityExtension<3>&,
+                                                                      std::span<const SurfaceSample<3>>);
 template std::vector<SurfaceSample<2>> movable_samples<2>(const Lattice<2>&, const ProtectedBands<2>&,
                                                           std::span<const SurfaceSample<2>>,
                                                           std::span<const double>);

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "base/expected.h"
 #include "evolution/protected_bands.h"
 
 namespace wheelwright {
@@ -21,12 +22,12 @@ struct VelocityOptions {
 
 /// Takes the density G of a shape derivative, given on the boundary, to a descent velocity V along the
 /// outward normal at all lattice nodes (V > 0: the material grows). Linear in G; V = 0 in the protected
-/// bands.
+/// bands. Fails with not_positive_definite or not_finite where G is not finite.
 template <int dim>
 class VelocityExtension {
  public:
   virtual ~VelocityExtension() = default;
-  virtual std::vector<double> operator()(std::span<const SurfaceSample<dim>> gradient) const = 0;
+  virtual Expected<std::vector<double>> operator()(std::span<const SurfaceSample<dim>> gradient) const = 0;
 };
 
 /// h1: int length^2 grad V . grad w + V w = - int_boundary G w for all w that vanish in the bands.
@@ -39,9 +40,9 @@ std::unique_ptr<VelocityExtension<dim>> make_velocity_extension(const Lattice<di
 /// V_J - mu V_1, with V_1 the velocity of G = 1 (the measure's own gradient) and mu such that the measure of
 /// the material stays the same to first order: int_boundary V = 0.
 template <int dim>
-std::vector<double> measure_preserving_velocity(const Lattice<dim>& lattice,
-                                                const VelocityExtension<dim>& extension,
-                                                std::span<const SurfaceSample<dim>> gradient);
+Expected<std::vector<double>> measure_preserving_velocity(const Lattice<dim>& lattice,
+                                                          const VelocityExtension<dim>& extension,
+                                                          std::span<const SurfaceSample<dim>> gradient);
 
 /// The samples of a gradient that can follow a velocity: without those on the edge of a band that it would
 /// push into the band.

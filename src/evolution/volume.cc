@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "cut/measure.h"
+#include "geometry/finite.h"
 
 namespace wheelwright {
 
@@ -30,6 +31,7 @@ struct Bracket {
 template <int dim>
 Expected<LevelSet<dim>> with_measure(const LevelSet<dim>& psi, const ProtectedBands<dim>& bands,
                                      double target, double boundary_measure) {
+  if (auto failure = check_finite<dim>(psi.lattice, psi.values, "the level set")) return *failure;
   const auto& grid = psi.lattice.grid();
   const double reach = grid.outer_radius - grid.inner_radius;
   Bracket bracket{-reach, reach};
@@ -37,7 +39,7 @@ Expected<LevelSet<dim>> with_measure(const LevelSet<dim>& psi, const ProtectedBa
   for (int k = 0; k < max_evaluations; ++k) {
     LevelSet<dim> candidate = shifted(psi, bands, shift);
     const double error = material_measure(candidate) - target;
-    if (!std::isfinite(error)) return Failure{FailureReason::not_finite, "the measure of the material"};
+    if (!std::isfinite(error)) return Failure{FailureReason::cut_quadrature, "the measure of the material"};
     if (std::abs(error) <= relative_tolerance * target) return candidate;
     (error > 0 ? bracket.too_small : bracket.too_large) = shift;
     if (k > 0) slope = (error - last_error) / (shift - last_shift);

@@ -13,14 +13,15 @@ namespace wheelwright {
 /// How the measure of the material is held.
 enum class MeasureControl {
   exact,         ///< measure-preserving velocity, then a shift of the level set to the target
-  proportional,  ///< the paper's multiplier lambda_k and fixed step: every shape that can be evaluated is
-                 ///< accepted
+  proportional,  ///< the paper's multiplier lambda_k and fixed step: every shape that can be evaluated, and
+                 ///< whose objective does not jump, is accepted
 };
 
 struct OptimizerOptions {
   int iterations = 100;
   double step = 0.5;                ///< farthest that the boundary travels in one shape [cells]
   int max_halvings = 6;             ///< of the step, for one shape
+  double largest_island = 0.01;     ///< share of the sector; smaller ones are removed, larger ones a failure
   double accepted_increase = 1e-4;  ///< of the objective over the best shape so far, relative
   double tolerance = 1e-5;  ///< converged when the objective falls by less over 10 shapes, relative; 0: never
   int redistance_every = 5;  ///< accepted shapes; 0: never
@@ -46,7 +47,7 @@ struct OptimizationState {
 
 enum class Verdict {
   accepted,
-  failed,          ///< the shape could not be built or evaluated
+  failed,          ///< the shape could not be built or evaluated, or the objective jumped
   objective_rose,  ///< by more than accepted_increase
 };
 
@@ -70,17 +71,20 @@ struct Trial {
   double step;          ///< [cells]; 0 for the initial shape
   double max_velocity;  ///< fastest node, in units of the gradient density; 0 for the initial shape
   double evolution_seconds;
-  LevelSet<dim> shape;
-  double measure;  ///< of the material, one sector; NaN when it was not reached
+  LevelSet<dim> shape;  ///< as far as it could be built; at worst the last accepted one
+  double measure;       ///< of the material, one sector; NaN when it was not reached
   Verdict verdict;
-  std::optional<Evaluation<dim>> evaluation;  ///< empty when failed
+  std::optional<Evaluation<dim>> evaluation;  ///< empty when there is none
   std::optional<Failure> failure;             ///< set when failed
+  std::vector<ShapeEvent<dim>> events;  ///< islands removed; when accepted, also what became of the holes of
+                                        ///< the shape before: the given one for the initial shape
 };
 
 enum class StopReason {
   iterations,      ///< the number asked for is done
   converged,       ///< the objective hardly falls any more
-  no_descent,      ///< no step, halved max_halvings times, gave an acceptable shape
+  no_descent,      ///< shapes were evaluated, but none, with the step halved max_halvings times, is better
+  gave_up,         ///< no step, halved max_halvings times, gave a shape that could be evaluated
   failed_start,    ///< the initial shape could not be evaluated
   stop_requested,  ///< by the caller
 };
@@ -93,6 +97,8 @@ constexpr const char* to_string(StopReason reason) {
       return "converged";
     case StopReason::no_descent:
       return "no_descent";
+    case StopReason::gave_up:
+      return "gave_up";
     case StopReason::failed_start:
       return "failed_start";
     case StopReason::stop_requested:
@@ -107,7 +113,8 @@ template <int dim>
 std::optional<StopReason> reason_to_stop(const OptimizerOptions& options,
                                          const OptimizationState<dim>& state);
 
-/// Gradient descent on shapes: velocity, transport, redistancing and smoothing when due, measure, evaluation.
+/// Gradient descent on shapes: velocity, transport, redistancing and smoothing when due, measure, removal of
+/// islands, evaluation.
 /// The step is halved when a trial is rejected, and for the next shape when the objective rose within bounds;
 /// it grows back by half after a fall. Redistancing and smoothing wait for the next shape when a trial with
 /// them is rejected.
@@ -126,7 +133,8 @@ class ShapeOptimizer {
   Expected<OptimizationState<dim>> start(const LevelSet<dim>& initial, const Observer& observer) const;
 
   /// Goes on to the next accepted shape; a reason when there is none, the state then stays as it is.
-  /// `stop_requested` is asked before every trial.
+  /// `stop_requested` is asked before every trial. The observer sees a failure of the velocity as a trial
+  /// without a shape of its own.
   std::optional<StopReason> advance(OptimizationState<dim>& state, const Observer& observer,
                                     const std::function<bool()>& stop_requested) const;
 
@@ -135,11 +143,12 @@ class ShapeOptimizer {
                  const std::function<bool()>& stop_requested) const;
 
  private:
-  std::vector<double> descent_velocity(const OptimizationState<dim>& state) const;
+  Expected<std::vector<double>> descent_velocity(const OptimizationState<dim>& state) const;
   Trial<dim> attempt(const OptimizationState<dim>& state, std::span<const double> velocity,
                      int halvings) const;
-  Expected<LevelSet<dim>> evolve(const OptimizationState<dim>& state, std::span<const double> velocity,
-                                 double step, int halvings) const;
+  void evolve(const OptimizationState<dim>& state, std::span<const double> velocity, Trial<dim>& trial) const;
+  void finish(Trial<dim>& trial, std::optional<double> target, double boundary_measure) const;
+  void add_changes(const LevelSet<dim>& before, Trial<dim>& trial) const;
   void evaluate(Trial<dim>& trial) const;
   bool is_due(int every, int since, int halvings) const;
   double next_step(const OptimizationState<dim>& state, const Trial<dim>& trial) const;

@@ -1,5 +1,6 @@
 #include "output/history.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -40,7 +41,7 @@ History::History(std::filesystem::path path, HistoryColumns columns)
   for (const char* name : {"volume fraction [-]", "step [m]", "max velocity [Pa]", "max newton iterations"})
     header.push_back(name);
   for (const auto& phase : columns_.phases) header.push_back(phase + " [s]");
-  for (const char* name : {"trial [s]", "elapsed [s]"}) header.push_back(name);
+  for (const char* name : {"trial [s]", "elapsed [s]", "events"}) header.push_back(name);
   write_line(header);
 }
 
@@ -74,6 +75,7 @@ void History::add(const HistoryRow& row) {
   cells.push_back(std::to_string(row.max_newton_iterations));
   for (const auto& phase : columns_.phases) cells.push_back(phase_cell(row.phases, phase));
   for (const double value : {row.trial_seconds, row.elapsed_seconds}) cells.push_back(csv_number(value));
+  cells.push_back(fmt::format("{}", fmt::join(row.events, "; ")));
   write_line(cells);
 }
 

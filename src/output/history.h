@@ -38,8 +38,9 @@ struct HistoryRow {
   double max_velocity;        ///< largest normal velocity, in units of the gradient density [Pa]
   int max_newton_iterations;  ///< over the load positions
   std::vector<PhaseTime> phases;
-  double trial_seconds;    ///< wall time of this trial
-  double elapsed_seconds;  ///< wall time since the run began
+  double trial_seconds;                  ///< wall time of this trial
+  double elapsed_seconds;                ///< wall time since the run began
+  std::vector<std::string> events = {};  ///< what happened to the shape besides the motion of its boundary
 };
 
 /// A place in a history file: behind its first bytes, known by their checksum.

@@ -168,9 +168,14 @@ std::string comparison_svg(const PolarGrid<2>& grid, const Comparison& compariso
   const std::string former =
       fmt::format("<path class=\"former\" d=\"{}\"/>\n", outline_path(thinned(before.contours, scale)));
   const auto objective = [&](double value) {
+    if (!std::isfinite(value)) return fmt::format("{}: not computed", comparison.objective_name);
     return fmt::format("{}: {:.5g} {}", comparison.objective_name, value, comparison.objective_unit);
   };
-  const auto volume = [](double fraction) { return "volume: " + percentage(fraction) + " of the ring"; };
+  const double change = after.objective / before.objective - 1;
+  const auto volume = [](double fraction) {
+    return std::isfinite(fraction) ? fmt::format("volume: {} of the ring", percentage(fraction))
+                                   : "volume: not computed";
+  };
 
   std::string svg = fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
@@ -183,9 +188,8 @@ std::string comparison_svg(const PolarGrid<2>& grid, const Comparison& compariso
   svg += wheel_panel(grid, after, right, former);
   svg += text(left, first_line, "fact", objective(before.objective));
   svg += text(left, second_line, "fact", volume(before.volume_fraction));
-  svg += text(
-      right, first_line, "fact",
-      objective(after.objective) + "  (" + signed_percentage(after.objective / before.objective - 1) + ")");
+  const std::string percent = std::isfinite(change) ? fmt::format("  ({})", signed_percentage(change)) : "";
+  svg += text(right, first_line, "fact", objective(after.objective) + percent);
   svg += text(right, second_line, "fact", volume(after.volume_fraction));
   svg += text(0.5 * picture_width, picture_height - 18, "caption", comparison.caption);
   return svg + "</svg>\n";

@@ -8,8 +8,8 @@
 
 namespace wheelwright {
 
-/// Text as XML 1.0 takes it, on one line: & < > " ' as entities, tabs and line ends as spaces, and '?' for what
-/// XML excludes or controls a terminal.
+/// Text as XML 1.0 takes it, on one line: & < > " ' as entities, tabs and line ends as spaces, and '?' for
+/// what XML excludes or controls a terminal.
 std::string escape_xml(std::string_view text);
 
 /// The `d` attribute of a path along the material's boundary, to be filled with the even-odd rule: exact arcs
@@ -26,8 +26,8 @@ std::string shape_svg(const PolarGrid<2>& grid, std::span<const Contour> contour
 struct WheelState {
   std::string heading;  ///< e.g. "initial"
   std::vector<Contour> contours;
-  double objective;
-  double volume_fraction;  ///< material area over the area of the full ring
+  double objective;        ///< NaN: not computed
+  double volume_fraction;  ///< material area over the area of the full ring; NaN: not computed
 };
 
 /// Two wheels side by side, with their numbers; the holes of the first are outlined in the second.

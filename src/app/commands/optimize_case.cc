@@ -6,6 +6,7 @@
 #include <csignal>
 
 #include "app/commands/checkpointer.h"
+#include "app/commands/failure_report.h"
 #include "app/exit_code.h"
 #include "output/folder_lock.h"
 
@@ -14,6 +15,11 @@ namespace {
 
 int give_up(const Failure& failure) {
   fmt::print(stderr, "wheelwright: {}: {}\n", to_string(failure.reason), failure.detail);
+  return exit_no_solution;
+}
+
+int give_up(const std::filesystem::path& folder, const Case& c, const GivenUp& failure) {
+  fmt::print(stderr, "wheelwright: {}", write_failure(folder, c, failure));
   return exit_no_solution;
 }
 
@@ -137,7 +143,10 @@ int optimize_case(const Case& c, const RunStart& start) {
       initial.lattice, evolution_options(c), optimizer_options(c),
       [&](const LevelSet<2>& psi) { return evaluate<2>(*problem, *objective, psi, mean.get()); });
   auto state = first_state(optimizer, initial, observer, checkpoint);
-  if (!state) return give_up(state.failure());
+  if (!state) {
+    const Trial<2> first{0, 0, 0, 0, 0, initial, 0, Verdict::failed, {}, state.failure(), {}};
+    return give_up(start.folder, c, {{}, {&first, 1}});
+  }
   const StopReason reason = optimizer.run(*state, observer, stop_requested);
   checkpointer.save(*state);
   stop_requested.remove_file();
@@ -148,8 +157,9 @@ int optimize_case(const Case& c, const RunStart& start) {
     return stop_requested.exit_code();
   }
   folder.write_result(*problem, *recorder.initial(), *state);
-  checkpointer.save_finished(*state, reason);
+  if (reason != StopReason::gave_up) checkpointer.save_finished(*state, reason);
   print_summary(*recorder.initial(), *state, reason, recorder.elapsed(), start.folder);
+  if (reason == StopReason::gave_up) return give_up(start.folder, c, {*state, recorder.failed()});
   return report_findings(recorder.expectations().findings(*problem, *state));
 }
 

@@ -68,11 +68,12 @@ void RunFolder::write_shape(const RollingProblem<2>& problem, const Optimization
   const auto solution = problem.solve(state.shape);
   if (!solution) return;  // accepted shapes were solved before; nothing to draw otherwise
   auto fields = position_fields(problem, *solution, worst_position(*solution));
-  LevelSet<2> gradient{
-      state.shape.lattice,
-      Evolver<2>(state.shape.lattice, evolution_options(case_)).velocity(state.evaluation.gradient)};
-  for (double& value : gradient.values) value = -value;
-  fields.push_back({"shape_gradient", "Pa", repeated_field(problem, gradient)});
+  if (auto velocity =
+          Evolver<2>(state.shape.lattice, evolution_options(case_)).velocity(state.evaluation.gradient)) {
+    for (double& value : *velocity) value = -value;
+    const LevelSet<2> gradient{state.shape.lattice, *std::move(velocity)};
+    fields.push_back({"shape_gradient", "Pa", repeated_field(problem, gradient)});
+  }
 
   const std::string file = shape_file(state.iteration);
   make_folder(folder_ / "shapes");

@@ -54,11 +54,15 @@ void RunRecorder::operator()(const Trial<2>& trial, const OptimizationState<2>& 
   const double seconds = watch_.lap();
   elapsed_ += seconds;
   record(trial, seconds);
+  if (trial.verdict == Verdict::failed) failed_.push_back(trial);
   if (trial.verdict != Verdict::accepted) {
     progress_.note(fmt::format("shape {}: {}, step {:.3g} cells halved", trial.iteration, reason(trial, true),
                                trial.step));
     return;
   }
+  failed_.clear();
+  for (const auto& event : trial.events)
+    progress_.note(fmt::format("shape {}: {}", trial.iteration, text(event)));
   if (state.iteration == 0)
     initial_ = InitialShape<2>{state.shape, state.evaluation.objective, state.measure};
   const PolarGrid<2>& grid = problem_.model().grid;
@@ -90,6 +94,7 @@ void RunRecorder::record(const Trial<2>& trial, double seconds) {
                  {},
                  seconds,
                  elapsed_};
+  for (const auto& event : trial.events) row.events.push_back(text(event));
   if (trial.evaluation) {
     const auto& newton = trial.evaluation->newton_iterations;
     row.objective = trial.evaluation->objective;

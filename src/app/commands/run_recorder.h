@@ -29,6 +29,8 @@ class RunRecorder {
   const ExpectationWatch& expectations() const { return expectations_; }
   const std::optional<InitialShape<2>>& initial() const { return initial_; }
   double elapsed() const { return elapsed_; }
+  /// The failed trials since the last accepted shape.
+  const std::vector<Trial<2>>& failed() const { return failed_; }
 
  private:
   void record(const Trial<2>& trial, double seconds);
@@ -42,6 +44,7 @@ class RunRecorder {
   Stopwatch watch_;
   double elapsed_ = 0;
   std::optional<InitialShape<2>> initial_;
+  std::vector<Trial<2>> failed_;
 };
 
 }  // namespace wheelwright
