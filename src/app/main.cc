@@ -146,10 +146,10 @@ CLI::App* add_case_command(CLI::App& app, CommandLine& line, const std::string& 
   return command;
 }
 
+std::string not_empty(const std::string& text) { return text.empty() ? "must not be empty" : ""; }
+
 void add_output_option(CLI::App& command, CommandLine& line, const std::string& meaning) {
-  command.add_option("--output", line.output_folder, meaning)
-      ->type_name("DIR")
-      ->check([](const std::string& text) { return text.empty() ? "must not be empty" : ""; });
+  command.add_option("--output", line.output_folder, meaning)->type_name("DIR")->check(not_empty);
 }
 
 void declare_analyze(CLI::App& app, CommandLine& line) {
@@ -187,7 +187,7 @@ void declare_commands(CLI::App& app, CommandLine& line) {
   add_output_option(*run, line, "Folder to write instead of the case's output.folder");
   add_iterations_option(*run, line);
   CLI::App* resume = app.add_subcommand("resume", "Go on with a run that was stopped");
-  resume->add_option("DIR", line.run_folder, "folder of the run")->required();
+  resume->add_option("DIR", line.run_folder, "folder of the run")->required()->check(not_empty);
   add_iterations_option(*resume, line);
   declare_analyze(app, line);
   add_case_command(app, line, "verify", "Test the solver's shape gradient on a case");
