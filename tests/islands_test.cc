@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/commands/model.h"
 #include "cut/measure.h"
 #include "evolution/evolver.h"
 #include "geometry/shapes.h"
@@ -106,6 +107,26 @@ TEST(Islands, InThreeDimensions) {
   ASSERT_TRUE(attached);
   ASSERT_EQ(attached->removed.size(), 1u);
   EXPECT_NEAR(material_measure(attached->psi), empty, 1e-3 * empty);
+}
+
+// Holes of 0.3 cells in radius, in the middle of cells.
+TEST(Changes, NameWhatTheGridOfACaseCannotHold) {
+  Case c;
+  c.wheel.inner_radius = grid.inner_radius;
+  c.wheel.outer_radius = grid.outer_radius;
+  c.wheel.sectors = grid.n_sectors;
+  c.grid.radial_cells = 28;
+  c.grid.angular_cells = 384;
+  c.grid.level_set_degree = 1;
+  const double off_the_nodes = grid.inner_radius + 14.5 * grid.cell_size()[0];
+  c.holes.rings = {{.count = 16, .center_radius = off_the_nodes, .radius = 0.03, .phase = {}}};
+  EXPECT_TRUE(lost_on_the_grid(c).empty());
+  c.holes.rings = {
+      {.count = 16, .center_radius = off_the_nodes, .radius = 0.3 * h, .phase = 12.5 / 24 * sector}};
+  const auto tiny = lost_on_the_grid(c);
+  ASSERT_EQ(tiny.size(), 1u);
+  EXPECT_EQ(tiny[0].kind, ShapeEventKind::hole_vanished);
+  EXPECT_NEAR(tiny[0].place[0], off_the_nodes, 0.3 * h);
 }
 
 TEST(Changes, NameTheHoleThatComesToABand) {

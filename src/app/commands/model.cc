@@ -91,6 +91,13 @@ LevelSet<2> initial_shape(const Case& c) {
   return make_level_set(Lattice<2>(polar_grid(c), c.grid.level_set_degree), sector_holes(c));
 }
 
+std::vector<ShapeEvent<2>> lost_on_the_grid(const Case& c) {
+  PolarGrid<2> fine = polar_grid(c);
+  for (int& cells : fine.cells) cells *= component_samples;
+  const auto given = make_level_set(Lattice<2>(fine, 1), sector_holes(c));
+  return topology_changes(components(given, 1), components(initial_shape(c)));
+}
+
 EvolutionOptions evolution_options(const Case& c) {
   EvolutionOptions options;
   options.velocity.kind =

@@ -15,6 +15,11 @@ RollingModel<2> rolling_model(const Case& c);
 Expected<Criteria<2>> criteria(const Case& c, const RollingProblem<2>& problem);
 
 LevelSet<2> initial_shape(const Case& c);
+
+/// What the nodes of the initial shape cannot hold of the case's holes: those that vanish between nodes, and
+/// those that merge for the material between them is thinner than the nodes' distance.
+std::vector<ShapeEvent<2>> lost_on_the_grid(const Case& c);
+
 EvolutionOptions evolution_options(const Case& c);
 OptimizerOptions optimizer_options(const Case& c);
 

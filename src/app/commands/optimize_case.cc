@@ -138,6 +138,9 @@ int optimize_case(const Case& c, const RunStart& start) {
   };
   const StopRequest stop_requested(signals, start.folder);
 
+  if (!checkpoint)
+    for (const auto& event : lost_on_the_grid(c))
+      recorder.note("warning: the grid is too coarse for the case's holes: " + text(event));
   const LevelSet<2> initial = initial_shape(c);
   const ShapeOptimizer<2> optimizer(
       initial.lattice, evolution_options(c), optimizer_options(c),
