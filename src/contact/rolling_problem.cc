@@ -244,7 +244,7 @@ Matrix RollingProblem<dim>::preload(RollingSolution<dim>& s) const {
   s.displacement = applied.core;
   s.core_loads = std::move(applied.core);
   s.tread_loads = std::move(applied.tread);
-  const Matrix core_boundary = s.ring.condense(s.displacement);
+  Matrix core_boundary = s.ring.condense(s.displacement);
   Matrix boundary = core_boundary;
   add_outer_rows(s.ring, base_loads(tread_, s.tread_loads), boundary);
   const Matrix outer = outer_rows(s.ring, s.ring.solve_boundary(boundary), tread_.base_per_column());

@@ -227,7 +227,8 @@ std::vector<Contour> material_contours(const LevelSet<2>& psi, int subdivisions)
     for (int s = first; !used[s]; s = segment_from.at(number(segments[s % n].end, s / n))) {
       used[s] = true;
       contour.kind = joined(contour.kind, segments[s % n].kind);
-      contour.points.push_back(rotated<2>(segments[s % n].start_point, (s / n) * grid.sector_angle()));
+      const int sector = s / n;
+      contour.points.push_back(rotated<2>(segments[s % n].start_point, sector * grid.sector_angle()));
     }
     contours.push_back(std::move(contour));
   }
