@@ -36,7 +36,7 @@ double work_on(const RollingSolution<2>& s, const std::function<Vec<2>(double, d
     for (int node = 0; node < space.n_nodes(); ++node) {
       const Vec<2> p = lattice.polar_point(space.position(node));
       const Vec<2> w = displacement(p[0], p[1] + sector * space.grid().sector_angle());
-      for (int c = 0; c < 2; ++c) work += s.core_loads(s.ring.row(2 * node + c), sector) * w[c];
+      for (int c = 0; c < 2; ++c) work += s.core_loads.value(sector, s.ring.row(2 * node + c)) * w[c];
     }
   return work;
 }

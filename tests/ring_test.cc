@@ -100,20 +100,6 @@ TEST(Ring, ErrorsOfNitscheAndPenaltyAreTheListedOnes) {
   }
 }
 
-/// The core's rows of the ghost penalty applied to a displacement.
-Matrix apply_ghost(const CyclicStiffness<2>& ring, const Matrix& displacement) {
-  Matrix result(displacement.rows(), displacement.columns());
-  for (const auto& ghost : ring.sector().ghosts) {
-    Matrix local(ghost.stiffness->rows(), displacement.columns());
-    gather<2>(ring, ghost.nodes, displacement, local);
-    const Matrix applied = product(*ghost.stiffness, Op::none, local, Op::none);
-    for (int i = 0; i < local.rows(); ++i)
-      if (const int node = ghost.nodes[i / 2]; node >= 0)
-        for (int j = 0; j < local.columns(); ++j) result(ring.row(2 * node + i % 2), j) += applied(i, j);
-  }
-  return result;
-}
-
 double inner_product(const Matrix& a, const Matrix& b) {
   return std::inner_product(a.entries().begin(), a.entries().end(), b.entries().begin(), 0.0);
 }
@@ -128,8 +114,7 @@ class PressedRing {
       : problem_(*RollingProblem<2>::create(model)),
         domain_(*cut_domain(psi, model.degree + 2)),
         ring_(*factor()),
-        displacement_(ring_.sector_factor().size(), ring_.n_sectors()),
-        ghost_loads_() {
+        sweep_(ring_.sector_factor().full_sweep()) {
     const Tread<2>& tread = problem_.tread();
     Matrix loads(tread.n_observations(), model.grid.ring_columns());
     for (int c = 0; c < loads.columns(); ++c)
@@ -139,11 +124,12 @@ class PressedRing {
     Matrix boundary(ring_.n_boundary(), ring_.n_sectors());
     add_outer_rows(ring_, base_loads(tread, loads), boundary);
     boundary = ring_.solve_boundary(boundary);
-    ring_.recover(boundary, displacement_);
+    displacement_ = displacement_fields(ring_, sweep_, boundary, {});
     observations_ =
         tread_field(tread, outer_rows(ring_, boundary, tread.base_per_column()), loads).observations;
-    ghost_loads_ = apply_ghost(ring_, displacement_);
-    strain_energy_ = 0.5 * (inner_product(loads, observations_) - inner_product(ghost_loads_, displacement_));
+    ghost_loads_ = {ghost_loads<2>(ring_, displacement_.modes), displacement_.weights};
+    strain_energy_ = 0.5 * inner_product(loads, observations_);
+    for (const double work : work_by_case(ghost_loads_, displacement_)) strain_energy_ -= 0.5 * work;
   }
 
   double strain_energy() const { return strain_energy_; }
@@ -159,13 +145,13 @@ class PressedRing {
   }
 
   /// Strain of a field in sector 0.
-  Voigt<2> strain(const Matrix& field, int cell, const ElasticElement<2>::Point& at) const {
+  Voigt<2> strain(const SectorFields& field, int cell, const ElasticElement<2>::Point& at) const {
     const auto nodes = ring_.sector().space.cell_nodes(cell);
-    Matrix local(2 * static_cast<int>(nodes.size()), field.columns());
-    gather<2>(ring_, nodes, field, local);
     Voigt<2> result{};
-    for (int k = 0; k < 3; ++k)
-      for (int i = 0; i < local.rows(); ++i) result[k] += at.strain[k][i] * local(i, 0);
+    for (size_t a = 0; a < nodes.size(); ++a)
+      for (int c = 0; c < 2 && nodes[a] >= 0; ++c)
+        for (int k = 0; k < 3; ++k)
+          result[k] += at.strain[k][2 * a + c] * field.value(0, ring_.row(2 * nodes[a] + c));
     return result;
   }
 
@@ -180,16 +166,16 @@ class PressedRing {
   /// dW/dR of the inner edge's radius R by the boundary density of the shape derivative: with a fixed load
   /// the adjoint of W solves K p = -A u, A the bulk stiffness.
   double derivative_to_inner_radius() const {
-    Matrix adjoint = ghost_loads_;
-    const Matrix boundary = ring_.condense(adjoint);
-    ring_.recover(ring_.solve_boundary(boundary), adjoint);
-    for (size_t k = 0; k < adjoint.entries().size(); ++k) adjoint.entries()[k] -= displacement_.entries()[k];
+    SectorFields eliminated = ghost_loads_;
+    const Matrix boundary = condense(ring_, sweep_, eliminated);
+    const SectorFields without_bulk =
+        displacement_fields(ring_, sweep_, ring_.solve_boundary(boundary), eliminated);
     double sum = 0;
     visit_inner_edge([&](int cell, const ElasticElement<2>::Point& at, const Vec<2>& normal, double weight) {
-      const Voigt<2> e = strain(displacement_, cell, at), adjoint_strain = strain(adjoint, cell, at);
+      const Voigt<2> e = strain(displacement_, cell, at), ghost_strain = strain(without_bulk, cell, at);
       const Voigt<2> sigma = stress<2>(problem_.model().material, e);
       double density = 0;
-      for (int k = 0; k < 3; ++k) density += sigma[k] * (0.5 * e[k] + adjoint_strain[k]);
+      for (int k = 0; k < 3; ++k) density += sigma[k] * (0.5 * e[k] + ghost_strain[k] - e[k]);
       // Outwards, along the normal, is towards a smaller radius.
       sum += weight * density * dot<2>(normal, at.position) / norm<2>(at.position);
     });
@@ -239,7 +225,9 @@ class PressedRing {
   RollingProblem<2> problem_;
   CutDomain<2> domain_;
   CyclicStiffness<2> ring_;
-  Matrix displacement_, observations_, ghost_loads_;
+  PartialCholesky::Sweep sweep_;
+  SectorFields displacement_, ghost_loads_;
+  Matrix observations_;
   double strain_energy_;
 };
 

@@ -7,8 +7,7 @@ namespace {
 /// at azimuth 0.
 template <int dim>
 struct SectorIntegrals {
-  Matrix body;      ///< int phi.e_k dx, rows in elimination order, one column an axis k
-  Matrix pressure;  ///< int_Gamma_m -phi.n dS
+  Matrix loads;  ///< int phi.e_k dx, one row an axis k; last int_Gamma_m -phi.n dS; in elimination order
   double volume = 0;
   Vec<dim> moment{};          ///< int x dx
   RimForce pressure_force{};  ///< int_Gamma_m -n dS and its moment about the axle
@@ -38,14 +37,15 @@ CellIntegrals<dim> integrate(const ElasticElement<dim>& element,
   return result;
 }
 
-/// Adds value(d, dof) of a cell's dofs, d an axis of the cell's frame, against the vector `along`.
+/// Adds rows[d][dof] of a cell's dofs, d an axis of the cell's frame, against the vector `along`.
 template <int dim, class Rows>
 void add_load(const CyclicStiffness<dim>& ring, std::span<const int> nodes, const Rows& rows,
-              const Vec<dim>& along, double* load) {
+              const Vec<dim>& along, int load, Matrix& loads) {
   for (size_t a = 0; a < nodes.size(); ++a) {
     if (nodes[a] < 0) continue;
     for (int c = 0; c < dim; ++c)
-      for (int d = 0; d < dim; ++d) load[ring.row(dim * nodes[a] + c)] += rows[d][dim * a + c] * along[d];
+      for (int d = 0; d < dim; ++d)
+        loads(load, ring.row(dim * nodes[a] + c)) += rows[d][dim * a + c] * along[d];
   }
 }
 
@@ -54,15 +54,14 @@ SectorIntegrals<dim> sector_integrals(const CutDomain<dim>& domain, const Elemen
                                       const CyclicStiffness<dim>& ring) {
   const PolarGrid<dim>& grid = domain.grid;
   const SectorSpace<dim>& space = ring.sector().space;
-  const int n_rows = ring.sector_factor().size();
-  SectorIntegrals<dim> sector{Matrix(n_rows, dim), Matrix(n_rows, 1)};
+  SectorIntegrals<dim> sector{Matrix(dim + 1, ring.sector_factor().size())};
   const auto add_cell = [&](int cell, const CellIntegrals<dim>& integrals) {
     const double angle = grid.cell_position(cell)[1] * grid.cell_size()[1];
     const auto nodes = space.cell_nodes(cell);
     for (int k = 0; k < dim; ++k) {
       Vec<dim> axis{};
       axis[k] = 1;
-      add_load<dim>(ring, nodes, integrals.displacement, rotated<dim>(axis, -angle), sector.body.column(k));
+      add_load<dim>(ring, nodes, integrals.displacement, rotated<dim>(axis, -angle), k, sector.loads);
     }
     sector.volume += integrals.volume;
     const Vec<dim> moment = rotated<dim>(integrals.moment, angle);
@@ -86,7 +85,7 @@ SectorIntegrals<dim> sector_integrals(const CutDomain<dim>& domain, const Elemen
       const auto surface = map_surface<dim>(at.jacobian, q.normal);
       Vec<dim> force = surface.normal;
       for (double& x : force) x *= -q.weight * surface.scale;
-      add_load<dim>(ring, nodes, at.displacement, force, sector.pressure.column(0));
+      add_load<dim>(ring, nodes, at.displacement, force, dim, sector.loads);
       const double angle = position[1] * grid.cell_size()[1];
       sector.pressure_force = sum(sector.pressure_force, resultant<dim>(rotated<dim>(force, angle),
                                                                         rotated<dim>(at.position, angle)));
@@ -117,9 +116,9 @@ AppliedLoads applied_loads(const DistributedLoads<dim>& loads, const CutDomain<d
   AppliedLoads applied{{}, {}, std::vector<RimForce>(grounds.size())};
   if (!loads.any()) return applied;
   const PolarGrid<dim>& grid = domain.grid;
-  const SectorIntegrals<dim> sector = sector_integrals(domain, elements, ring);
+  SectorIntegrals<dim> sector = sector_integrals(domain, elements, ring);
   const int n_positions = static_cast<int>(grounds.size()), n_columns = tread.n_columns();
-  applied.core = Matrix(sector.body.rows(), n_positions * grid.n_sectors);
+  applied.core = {std::move(sector.loads), Matrix(n_positions * grid.n_sectors, dim + 1)};
   applied.tread = Matrix(tread.n_observations(), n_positions * n_columns);
   for (int i = 0; i < n_positions; ++i) {
     const double ground = grounds[i].azimuth(grid);
@@ -127,11 +126,8 @@ AppliedLoads applied_loads(const DistributedLoads<dim>& loads, const CutDomain<d
     for (int s = 0; s < grid.n_sectors; ++s) {
       const double to_sector = ground - s * grid.sector_angle();
       const Vec<dim> force = rotated<dim>(loads.body_force, to_sector);
-      double* core = applied.core.column(i * grid.n_sectors + s);
-      for (int row = 0; row < applied.core.rows(); ++row) {
-        core[row] = loads.hole_pressure * sector.pressure(row, 0);
-        for (int k = 0; k < dim; ++k) core[row] += force[k] * sector.body(row, k);
-      }
+      for (int k = 0; k < dim; ++k) applied.core.weights(i * grid.n_sectors + s, k) = force[k];
+      applied.core.weights(i * grid.n_sectors + s, dim) = loads.hole_pressure;
       on_the_rim = sum(on_the_rim, body_resultant<dim>(loads.body_force, sector.volume,
                                                        rotated<dim>(sector.moment, -to_sector)));
       on_the_rim =

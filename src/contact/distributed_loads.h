@@ -1,6 +1,7 @@
 #pragma once
 
 #include "contact/reduced_contact.h"
+#include "cyclic/sector_fields.h"
 
 namespace wheelwright {
 
@@ -13,9 +14,10 @@ struct DistributedLoads {
   bool any() const { return norm<dim>(body_force) > 0 || hole_pressure != 0; }
 };
 
-/// Those loads at all load positions. Columns as in RollingSolution; empty matrices when there are none.
+/// Those loads at all load positions. Load cases and columns as in RollingSolution; empty when there are
+/// none.
 struct AppliedLoads {
-  Matrix core;                       ///< in elimination order
+  SectorFields core;                 ///< modes: unit forces along a sector's axes, unit pressure
   Matrix tread;                      ///< on the tread's observations
   std::vector<RimForce> on_the_rim;  ///< their work on the rim's motions, one a position
 };

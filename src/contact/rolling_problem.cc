@@ -25,14 +25,10 @@ RimControl rim_control(const RollingModel<dim>& model) {
 }
 
 template <int dim>
-void gather(const CyclicStiffness<dim>& ring, std::span<const int> nodes, const Matrix& field,
-            Matrix& local) {
-  for (size_t a = 0; a < nodes.size(); ++a)
-    for (int c = 0; c < dim; ++c) {
-      const int row = nodes[a] < 0 ? -1 : ring.row(dim * nodes[a] + c);
-      for (int j = 0; j < field.columns(); ++j)
-        local(dim * static_cast<int>(a) + c, j) = row < 0 ? 0.0 : field(row, j);
-    }
+SectorFields complete_displacement(const RollingSolution<dim>& solution) {
+  // Loads in the core stand on all of it: then the sweep has visited all unknowns.
+  return solution.core_loads.empty() ? completed(solution.ring, solution.displacement)
+                                     : solution.displacement;
 }
 
 template <int dim>
@@ -53,46 +49,6 @@ void add_outer_rows(const CyclicStiffness<dim>& ring, const Matrix& outer, Matri
 
 namespace {
 
-/// The ghost penalty applied to a core field.
-template <int dim>
-Matrix apply_ghost(const CyclicStiffness<dim>& ring, const Matrix& field) {
-  Matrix result(field.rows(), field.columns());
-  Matrix local, applied;
-  for (const auto& ghost : ring.sector().ghosts) {
-    const int n = dim * static_cast<int>(ghost.nodes.size());
-    if (local.rows() != n) local = applied = Matrix(n, field.columns());
-    gather(ring, ghost.nodes, field, local);
-    multiply(1, *ghost.stiffness, Op::none, local, Op::none, 0, applied);
-    for (int j = 0; j < field.columns(); ++j)
-      for (int i = 0; i < n; ++i)
-        if (const int node = ghost.nodes[i / dim]; node >= 0)
-          result(ring.row(dim * node + i % dim), j) += applied(i, j);
-  }
-  return result;
-}
-
-/// How far the interior equations of one sector are from K v = loads (empty: zero), relative to their largest
-/// terms.
-template <int dim>
-double interior_residual(const CyclicStiffness<dim>& ring, const Matrix& field, const Matrix& loads,
-                         int column) {
-  const SparseSymmetric& k = ring.sector().matrix;
-  const int n_interior = ring.sector_factor().size() - ring.sector_factor().n_trailing();
-  std::vector<double> x(k.size), force(k.size, 0.0);
-  double largest_displacement = 0, largest_stiffness = 0, largest_force = 0;
-  for (int dof = 0; dof < k.size; ++dof) {
-    x[dof] = field(ring.row(dof), column);
-    largest_displacement = std::max(largest_displacement, std::abs(x[dof]));
-    largest_stiffness = std::max(largest_stiffness, k.values[k.column_start[dof]]);
-  }
-  k.add_product(x.data(), force.data());
-  if (loads.rows() > 0)
-    for (int dof = 0; dof < k.size; ++dof) force[dof] -= loads(ring.row(dof), column);
-  for (int dof = 0; dof < k.size; ++dof)
-    if (ring.row(dof) < n_interior) largest_force = std::max(largest_force, std::abs(force[dof]));
-  return largest_force / (largest_stiffness * largest_displacement);
-}
-
 /// Of interior_residual(): rounding leaves about 1e-15.
 constexpr double largest_residual = 1e-10;
 
@@ -103,19 +59,21 @@ double column_dot(const Matrix& a, const Matrix& b, int column) {
   return sum;
 }
 
-/// J_e (3) of one position: half the work of all loads, less the ghost penalty's and Nitsche's share of it.
+/// J_e (3) of every position: half the work of all loads, less the ghost penalty's and Nitsche's share of it.
 template <int dim>
-double bulk_energy(const RollingSolution<dim>& s, const Matrix& nitsche_loads, int position) {
+std::vector<double> bulk_energies(const RollingSolution<dim>& s, const Matrix& nitsche_loads) {
   const int n_positions = static_cast<int>(s.grounds.size()), n_sectors = s.ring.n_sectors();
   const int n_columns = s.observations.columns() / n_positions;
-  double work = 0;
-  for (int c = position * n_columns; c < (position + 1) * n_columns; ++c)
-    work += column_dot(s.tread_loads, s.observations, c) - column_dot(nitsche_loads, s.observations, c);
-  for (int c = position * n_sectors; c < (position + 1) * n_sectors; ++c) {
-    if (s.core_loads.rows() > 0) work += column_dot(s.core_loads, s.displacement, c);
-    work -= column_dot(s.ghost_loads, s.displacement, c);
-  }
-  return 0.5 * work;
+  std::vector<double> energy(n_positions, 0.0);
+  for (int c = 0; c < s.observations.columns(); ++c)
+    energy[c / n_columns] +=
+        0.5 * (column_dot(s.tread_loads, s.observations, c) - column_dot(nitsche_loads, s.observations, c));
+  const auto ghost_work = work_by_case({s.ghost_loads, s.displacement.weights}, s.displacement);
+  for (size_t c = 0; c < ghost_work.size(); ++c) energy[c / n_sectors] -= 0.5 * ghost_work[c];
+  if (s.core_loads.empty()) return energy;
+  const auto core_work = work_by_case(s.core_loads, s.displacement);
+  for (size_t c = 0; c < core_work.size(); ++c) energy[c / n_sectors] += 0.5 * core_work[c];
+  return energy;
 }
 
 /// P per metre of width.
@@ -233,19 +191,18 @@ Matrix RollingProblem<dim>::nitsche_loads(const Matrix& observations) const {
   return loads;
 }
 
-/// Applies the loads that are not the ground's: fills the solution's core_loads, tread_loads and preloads,
-/// leaves condense()'s interior rows in its displacement and returns the condensed boundary loads.
+/// Applies the loads that are not the ground's: fills the solution's core_loads, tread_loads and preloads.
 template <int dim>
-Matrix RollingProblem<dim>::preload(RollingSolution<dim>& s) const {
+typename RollingProblem<dim>::CondensedLoads RollingProblem<dim>::preload(RollingSolution<dim>& s) const {
   const int n_positions = static_cast<int>(s.grounds.size()), n_columns = tread_.n_columns();
   s.preloads.resize(n_positions);
-  if (!model_.distributed.any()) return Matrix(s.ring.n_boundary(), s.displacement.columns());
+  if (!model_.distributed.any()) return {{}, Matrix(s.ring.n_boundary(), n_positions * s.ring.n_sectors())};
   auto applied = applied_loads<dim>(model_.distributed, s.domain, *elements_, s.ring, tread_, s.grounds);
-  s.displacement = applied.core;
   s.core_loads = std::move(applied.core);
   s.tread_loads = std::move(applied.tread);
-  Matrix core_boundary = s.ring.condense(s.displacement);
-  Matrix boundary = core_boundary;
+  CondensedLoads condensed{s.core_loads, {}};
+  condensed.boundary = condense<dim>(s.ring, s.ring.sector_factor().full_sweep(), condensed.core);
+  Matrix boundary = condensed.boundary;
   add_outer_rows(s.ring, base_loads(tread_, s.tread_loads), boundary);
   const Matrix outer = outer_rows(s.ring, s.ring.solve_boundary(boundary), tread_.base_per_column());
   const Matrix observed = tread_field(tread_, outer, s.tread_loads).observations;
@@ -254,13 +211,13 @@ Matrix RollingProblem<dim>::preload(RollingSolution<dim>& s) const {
     std::copy_n(observed.column(i * n_columns), s.preloads[i].observations.entries().size(),
                 s.preloads[i].observations.data());
   }
-  return core_boundary;
+  return condensed;
 }
 
 template <int dim>
 Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& psi) const {
   const PolarGrid<dim>& grid = model_.grid;
-  const int n_sectors = grid.n_sectors, n_positions = model_.n_positions, n_columns = grid.ring_columns();
+  const int n_positions = model_.n_positions, n_columns = grid.ring_columns();
   std::vector<PhaseTime> phases;
   Stopwatch watch;
 
@@ -276,13 +233,12 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& p
   phases.push_back({"factorization", watch.lap()});
 
   RollingSolution<dim> s{
-      *std::move(domain), *std::move(factored), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+      *std::move(domain), *std::move(factored), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
   for (int i = 0; i < n_positions; ++i)
     s.grounds.push_back(
         {i * grid.columns() / n_positions, double(i * grid.columns() % n_positions) / n_positions});
-  s.displacement = Matrix(s.ring.sector_factor().size(), n_positions * n_sectors);
   s.tread_loads = Matrix(tread_.n_observations(), n_positions * n_columns);
-  const Matrix core_boundary = preload(s);
+  const CondensedLoads preloaded = preload(s);
   std::optional<ContactState<dim>> neighbour;
   for (int i = 0; i < n_positions; ++i) {
     auto rolled = roll_to(model_, tread_, s.ring, s.grounds[i], s.preloads[i], neighbour);
@@ -298,27 +254,26 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& p
   }
   phases.push_back({"contact", watch.lap()});
 
-  Matrix boundary = core_boundary;
+  Matrix boundary = preloaded.boundary;
   add_outer_rows(s.ring, base_loads(tread_, s.tread_loads), boundary);
   boundary = s.ring.solve_boundary(boundary);
-  s.ring.recover(boundary, s.displacement);
+  s.sweep = boundary_sweep(s.ring, s.domain, s.core_loads);
+  s.displacement = displacement_fields(s.ring, s.sweep, boundary, preloaded.core);
   s.outer_line = outer_rows(s.ring, boundary, tread_.base_per_column());
   s.observations = tread_field(tread_, s.outer_line, s.tread_loads).observations;
-  s.ghost_loads = apply_ghost(s.ring, s.displacement);
-  if (!all_finite(s.displacement) || !all_finite(s.observations))
+  s.ghost_loads = ghost_loads(s.ring, s.displacement.modes);
+  if (!all_finite(s.displacement.modes) || !all_finite(s.observations))
     return Failure{FailureReason::not_finite, "the displacement is not finite"};
-  if (const double residual = interior_residual(s.ring, s.displacement, s.core_loads, 0);
+  if (const double residual = interior_residual(s.ring, s.sweep, s.displacement, s.core_loads, 0);
       residual > largest_residual)
     return Failure{FailureReason::inaccurate_solution,
                    fmt::format("the equations of a sector are off by {:.2g} of their terms", residual)};
 
-  const Matrix nitsche = nitsche_loads(s.observations);
-  for (int i = 0; i < n_positions; ++i) {
-    s.strain_energy.push_back(bulk_energy(s, nitsche, i));
+  s.strain_energy = bulk_energies(s, nitsche_loads(s.observations));
+  for (int i = 0; i < n_positions; ++i)
     if (!(s.strain_energy[i] > 0))
       return Failure{FailureReason::negative_energy,
                      fmt::format("the strain energy of position {} is {:.4g} J/m", i, s.strain_energy[i])};
-  }
   phases.push_back({"recovery", watch.lap()});
   s.phases = std::move(phases);
   return s;
@@ -328,9 +283,9 @@ template class RollingProblem<2>;
 template class RollingProblem<3>;
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                         \
   template RimControl rim_control(const RollingModel<dim>&);                                                 \
+  template SectorFields complete_displacement(const RollingSolution<dim>&);                                  \
   template Matrix outer_rows(const CyclicStiffness<dim>&, const Matrix&, int);                               \
   template void add_outer_rows(const CyclicStiffness<dim>&, const Matrix&, Matrix&);                         \
-  template void gather(const CyclicStiffness<dim>&, std::span<const int>, const Matrix&, Matrix&);           \
   template Expected<RolledContact<dim>> roll_to(const RollingModel<dim>&, const Tread<dim>&,                 \
                                                 const CyclicStiffness<dim>&, GroundPosition, const Preload&, \
                                                 const std::optional<ContactState<dim>>&);                    \

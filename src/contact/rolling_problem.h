@@ -28,9 +28,8 @@ struct RollingModel {
 template <int dim>
 RimControl rim_control(const RollingModel<dim>& model);
 
-/// The direct problems of all load positions for one shape. Fields of the core are matrices with one column
-/// for every (position, sector), column = position * n_sectors + sector, rows in elimination order
-/// (CyclicStiffness::row); those of the tread have one column for every (position, ring column). Position i
+/// The direct problems of all load positions for one shape. Load cases of the core are numbered position *
+/// n_sectors + sector; matrices of the tread have one column for every (position, ring column). Position i
 /// is solved with the ground turned to it, in the body frame; the field in sector s is also the field in
 /// sector 0 for the load position that lies s sectors back. The rim's motion is left out: u = v +
 /// motion.
@@ -41,16 +40,21 @@ struct RollingSolution {
   std::vector<GroundPosition> grounds;
   std::vector<ReducedContact<dim>> contacts;
   std::vector<ContactState<dim>> states;
-  Matrix displacement;                ///< v in the core
+  PartialCholesky::Sweep sweep;       ///< through the unknowns of the core that the gradient needs
+  SectorFields displacement;          ///< v in those unknowns; complete_displacement() finds the others
   Matrix outer_line;                  ///< v on the core's outer line
-  Matrix core_loads;                  ///< of body force and pressure, in the core; empty: none
+  SectorFields core_loads;            ///< of body force and pressure, in the core; empty: none
   Matrix tread_loads;                 ///< of ground and body force, on the tread's observations
   std::vector<Preload> preloads;      ///< of every position
   Matrix observations;                ///< of v on the tread
-  Matrix ghost_loads;                 ///< ghost penalty applied to v, in the core
+  Matrix ghost_loads;                 ///< ghost penalty applied to the modes of v
   std::vector<double> strain_energy;  ///< J_e (3) of every position
   std::vector<PhaseTime> phases;
 };
+
+/// v in all unknowns of the core.
+template <int dim>
+SectorFields complete_displacement(const RollingSolution<dim>& solution);
 
 /// The rolling problem of one run: what no shape changes is built once; every shape is then one call.
 template <int dim>
@@ -77,7 +81,13 @@ class RollingProblem {
  private:
   RollingProblem(const RollingModel<dim>& model, std::unique_ptr<ElementTable<dim>> elements,
                  Tread<dim> tread);
-  Matrix preload(RollingSolution<dim>& s) const;
+
+  /// Loads in the core: their modes after elimination, and what they are on the boundary.
+  struct CondensedLoads {
+    SectorFields core;
+    Matrix boundary;
+  };
+  CondensedLoads preload(RollingSolution<dim>& s) const;
 
   RollingModel<dim> model_;
   std::unique_ptr<ElementTable<dim>> elements_;
@@ -118,9 +128,5 @@ Matrix outer_rows(const CyclicStiffness<dim>& ring, const Matrix& boundary, int 
 /// Adds loads on the outer line (one column an angular cell) to boundary vectors.
 template <int dim>
 void add_outer_rows(const CyclicStiffness<dim>& ring, const Matrix& outer, Matrix& boundary);
-
-/// Rows of a few nodes (zero for fixed ones) of a core field, `local` has dim rows a node.
-template <int dim>
-void gather(const CyclicStiffness<dim>& ring, std::span<const int> nodes, const Matrix& field, Matrix& local);
 
 }  // namespace wheelwright

@@ -10,11 +10,11 @@ namespace wheelwright {
 
 /// The derivative of a criterion with respect to the displacements v of all positions, as loads: with K the
 /// ring's stiffness and T the tread's observations (RollingSolution's columns and rows),
-///   -dJ/dv = -state_weight K v + core + T^T observations.
+///   -dJ/dv = -state_weight K v + ghost_weight G v + T^T observations, G the ghost penalty.
 /// An empty matrix is zero.
 struct AdjointLoads {
   double state_weight = 0;
-  Matrix core;
+  double ghost_weight = 0;
   Matrix observations;
 };
 
@@ -41,7 +41,8 @@ class Criterion {
   virtual CriterionTerm evaluate(const RollingProblem<dim>& problem, const RollingSolution<dim>& solution,
                                  const Matrix& mean) const = 0;
 
-  /// M(u, x) of (36) at a point of the moving boundary, per unit volume; zero for what lives at the tread.
+  /// M(u, x) of (36) at a point of the moving boundary, per unit volume; zero for what lives at the tread. A
+  /// quadratic form of the strain: only so is its sum over the load cases that over their modes.
   virtual double boundary_density(const Voigt<dim>&, const Voigt<dim>&) const { return 0; }
 };
 

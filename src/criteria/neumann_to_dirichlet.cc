@@ -56,8 +56,7 @@ std::vector<double> NeumannToDirichlet<dim>::energies(const Matrix& tractions) c
   const int n_columns = tread_.n_columns(), n_sectors = ring_.n_sectors();
   const Matrix observation_loads = loads(tractions);
   const Matrix boundary = boundary_displacements(observation_loads);
-  Matrix core(ring_.sector_factor().size(), boundary.columns());
-  ring_.recover(boundary, core);
+  const SectorFields core = displacement_fields(ring_, ring_.sector_factor().full_sweep(), boundary, {});
   const TreadField field =
       tread_field(tread_, outer_rows(ring_, boundary, tread_.base_per_column()), observation_loads);
   const TreadColumn<dim>& column = tread_.column();
@@ -65,8 +64,8 @@ std::vector<double> NeumannToDirichlet<dim>::energies(const Matrix& tractions) c
   std::vector<double> result(tractions.columns() / n_columns, 0.0);
   const SparseSymmetric& k = ring_.sector().matrix;
   std::vector<double> x(k.size), product_x(k.size);
-  for (int j = 0; j < core.columns(); ++j) {
-    for (int dof = 0; dof < k.size; ++dof) x[dof] = core(ring_.row(dof), j);
+  for (int j = 0; j < boundary.columns(); ++j) {
+    for (int dof = 0; dof < k.size; ++dof) x[dof] = core.value(j, ring_.row(dof));
     std::fill(product_x.begin(), product_x.end(), 0.0);
     k.add_product(x.data(), product_x.data());
     for (int dof = 0; dof < k.size; ++dof) result[j / n_sectors] += 0.5 * x[dof] * product_x[dof];

@@ -43,6 +43,7 @@ template <int dim>
 void raise_peaks_in_core(const RollingProblem<dim>& problem, const RollingSolution<dim>& s,
                          std::vector<double>& peaks) {
   const auto full = unit_cell_rule<dim>(problem.model().degree + 1);
+  const SectorFields v = complete_displacement(s);
   auto cut = s.domain.cut.begin();
   for (int cell = 0; cell < s.domain.grid.n_cells(); ++cell) {
     const bool is_cut = cut != s.domain.cut.end() && cut->cell == cell;
@@ -50,9 +51,9 @@ void raise_peaks_in_core(const RollingProblem<dim>& problem, const RollingSoluti
     const int radial = s.domain.grid.cell_position(cell)[0];
     if (!s.domain.active(cell) || radial >= problem.core_rows() || points.empty()) continue;
     const auto& element = problem.elements().element(radial);
-    Matrix dofs(element.n_dofs(), s.displacement.columns());
-    gather(s.ring, s.ring.sector().space.cell_nodes(cell), s.displacement, dofs);
-    raise_peaks<dim>(element, points, dofs, peaks);
+    Matrix modes(v.modes.rows(), element.n_dofs());
+    gather(s.ring, s.ring.sector().space.cell_nodes(cell), v.modes, modes);
+    raise_peaks<dim>(element, points, product(modes, Op::transpose, v.weights, Op::transpose), peaks);
   }
 }
 

@@ -13,7 +13,7 @@ CriterionTerm UniformityAnnulus<dim>::evaluate(const RollingProblem<dim>& proble
   const Matrix deviation = deviation_from_mean(problem, solution, mean);
   const double epsilon = tread.rows() * problem.model().grid.cell_size()[0];
   const double scale = length_ / (problem.model().material.youngs_modulus * epsilon);
-  CriterionTerm term{0, {0, {}, Matrix(deviation.rows(), deviation.columns())}};
+  CriterionTerm term{0, {0, 0, Matrix(deviation.rows(), deviation.columns())}};
   for (int j = 0; j < deviation.columns(); ++j)
     for (size_t q = 0; q < points.size(); ++q)
       for (int d = 0; d < dim; ++d) {

@@ -20,7 +20,7 @@ CriterionTerm UniformityDual<dim>::evaluate(const RollingProblem<dim>& problem,
                                             const RollingSolution<dim>& solution, const Matrix& mean) const {
   const Matrix tractions = traction_deviation(problem, solution, mean);
   const Matrix image = (*image_)(tractions);
-  CriterionTerm term{0, {0, {}, Matrix(solution.observations.rows(), tractions.columns())}};
+  CriterionTerm term{0, {0, 0, Matrix(solution.observations.rows(), tractions.columns())}};
   for (int j = 0; j < tractions.columns(); ++j)
     for (int i = 0; i < tractions.rows(); ++i) {
       const double weight = problem.tread().points()[i / dim].weight;

@@ -10,7 +10,7 @@ CriterionTerm UniformityL2<dim>::evaluate(const RollingProblem<dim>& problem,
   const auto& points = problem.tread().points();
   const Matrix deviation = deviation_from_mean(problem, solution, mean);
   const double scale = length_ / problem.model().material.youngs_modulus;
-  CriterionTerm term{0, {0, {}, Matrix(deviation.rows(), deviation.columns())}};
+  CriterionTerm term{0, {0, 0, Matrix(deviation.rows(), deviation.columns())}};
   for (int j = 0; j < deviation.columns(); ++j)
     for (size_t q = 0; q < points.size(); ++q)
       for (int d = 0; d < dim; ++d) {

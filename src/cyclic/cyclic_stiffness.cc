@@ -93,28 +93,19 @@ Expected<CyclicStiffness<dim>> CyclicStiffness<dim>::factor(SectorStiffness<dim>
     for (int c = 0; c < dim; ++c) ring.trailing_.push_back({first + c, shift});
   }
 
-  const Matrix& schur = ring.sector_factor_.schur();
+  const CoupledSectors coupled = ring.couple_sectors();
   ComplexMatrix outer_inverse(ring.n_outer_ * ring.n_outer_, harmonics.n_harmonics());
   for (int h = 0; h < harmonics.n_harmonics(); ++h) {
-    ComplexMatrix k(ring.n_boundary_, ring.n_boundary_);
-    std::vector<std::complex<double>> phase;
-    for (const Trailing& t : ring.trailing_) phase.push_back(harmonics.phase(h, t.shift));
-    for (int j = 0; j < n_trailing; ++j) {
-      std::complex<double>* column = k.column(ring.trailing_[j].boundary);
-      for (int i = 0; i < n_trailing; ++i)
-        column[ring.trailing_[i].boundary] += schur(i, j) * (phase[j] * std::conj(phase[i]));
-    }
+    ComplexMatrix k = coupled.of_harmonic(harmonics, h);
     for (int j = 0; j < ring.n_outer_; ++j)
-      for (int i = 0; i < ring.n_outer_; ++i) k(n_interface + i, n_interface + j) += outer_stiffness[h](i, j);
+      for (int i = j; i < ring.n_outer_; ++i) k(n_interface + i, n_interface + j) += outer_stiffness[h](i, j);
     if (!cholesky(k))
       return Failure{FailureReason::not_positive_definite,
                      fmt::format("the ring's stiffness is not positive definite for harmonic {}", h)};
-    ComplexMatrix block(ring.n_outer_, ring.n_outer_), inverse(ring.n_outer_, ring.n_outer_);
-    for (int j = 0; j < ring.n_outer_; ++j) {
-      inverse(j, j) = 1;
-      for (int i = j; i < ring.n_outer_; ++i) block(i, j) = k(n_interface + i, n_interface + j);
-    }
-    cholesky_solve(block, inverse);
+    ComplexMatrix inverse(ring.n_outer_, ring.n_outer_);
+    for (int j = 0; j < ring.n_outer_; ++j)
+      for (int i = j; i < ring.n_outer_; ++i) inverse(i, j) = k(n_interface + i, n_interface + j);
+    cholesky_invert(inverse);
     std::copy(inverse.entries().begin(), inverse.entries().end(), outer_inverse.column(h));
     ring.harmonic_factors_.push_back(std::move(k));
   }
@@ -128,6 +119,35 @@ Expected<CyclicStiffness<dim>> CyclicStiffness<dim>::factor(SectorStiffness<dim>
   return ring;
 }
 
+/// The condensed stiffness of a sector by how many sectors its second unknown is ahead of its first.
+template <int dim>
+typename CyclicStiffness<dim>::CoupledSectors CyclicStiffness<dim>::couple_sectors() const {
+  int farthest = 0;
+  for (const Trailing& t : trailing_) farthest = std::max(farthest, t.shift);
+  CoupledSectors coupled{farthest, std::vector<Matrix>(2 * farthest + 1, Matrix(n_boundary_, n_boundary_))};
+  const Matrix& schur = sector_factor_.schur();
+  for (int j = 0; j < schur.columns(); ++j)
+    for (int i = 0; i < schur.rows(); ++i)
+      coupled.by_difference[trailing_[j].shift - trailing_[i].shift + farthest](
+          trailing_[i].boundary, trailing_[j].boundary) += schur(i, j);
+  return coupled;
+}
+
+/// The lower triangle of the ring's stiffness for one harmonic.
+template <int dim>
+ComplexMatrix CyclicStiffness<dim>::CoupledSectors::of_harmonic(const SectorHarmonics& harmonics,
+                                                                int harmonic) const {
+  const int n = by_difference.front().rows();
+  ComplexMatrix k(n, n);
+  for (int d = -farthest; d <= farthest; ++d) {
+    const std::complex<double> phase = harmonics.phase(harmonic, d);
+    const Matrix& real = by_difference[d + farthest];
+    for (int j = 0; j < n; ++j)
+      for (int i = j; i < n; ++i) k(i, j) += phase * real(i, j);
+  }
+  return k;
+}
+
 template <int dim>
 const Matrix& CyclicStiffness<dim>::outer_compliance(int difference) const {
   const int n = n_sectors();
@@ -135,15 +155,12 @@ const Matrix& CyclicStiffness<dim>::outer_compliance(int difference) const {
 }
 
 template <int dim>
-Matrix CyclicStiffness<dim>::condense(Matrix& loads) const {
-  sector_factor_.eliminate(loads);
-  const int n = n_sectors(), interior = sector_factor_.size() - sector_factor_.n_trailing();
-  Matrix boundary(n_boundary_, loads.columns());
-  for (int column = 0; column < loads.columns(); ++column) {
-    const int sector = column % n, first = column - sector;
-    for (size_t t = 0; t < trailing_.size(); ++t)
-      boundary(trailing_[t].boundary, first + (sector + trailing_[t].shift) % n) +=
-          loads(interior + static_cast<int>(t), column);
+Matrix CyclicStiffness<dim>::boundary_loads(const Matrix& trailing_loads) const {
+  Matrix boundary(n_boundary_, trailing_loads.rows());
+  for (size_t t = 0; t < trailing_.size(); ++t) {
+    const double* load = trailing_loads.column(static_cast<int>(t));
+    for (int load_case = 0; load_case < boundary.columns(); ++load_case)
+      boundary(trailing_[t].boundary, case_ahead(load_case, trailing_[t].shift)) += load[load_case];
   }
   return boundary;
 }
@@ -172,15 +189,14 @@ Matrix CyclicStiffness<dim>::solve_boundary(const Matrix& loads) const {
 }
 
 template <int dim>
-void CyclicStiffness<dim>::recover(const Matrix& boundary, Matrix& x) const {
-  const int n = n_sectors(), interior = sector_factor_.size() - sector_factor_.n_trailing();
-  for (int column = 0; column < x.columns(); ++column) {
-    const int sector = column % n, first = column - sector;
-    for (size_t t = 0; t < trailing_.size(); ++t)
-      x(interior + static_cast<int>(t), column) =
-          boundary(trailing_[t].boundary, first + (sector + trailing_[t].shift) % n);
+Matrix CyclicStiffness<dim>::trailing_displacements(const Matrix& boundary) const {
+  Matrix trailing(boundary.columns(), static_cast<int>(trailing_.size()));
+  for (size_t t = 0; t < trailing_.size(); ++t) {
+    double* displacement = trailing.column(static_cast<int>(t));
+    for (int load_case = 0; load_case < boundary.columns(); ++load_case)
+      displacement[load_case] = boundary(trailing_[t].boundary, case_ahead(load_case, trailing_[t].shift));
   }
-  sector_factor_.substitute(x);
+  return trailing;
 }
 
 template class CyclicStiffness<2>;

@@ -15,8 +15,8 @@ namespace wheelwright {
 ///
 /// The boundary unknowns of a sector are those that it shares with its neighbours or with the tread: first
 /// the interface ones, then those of the outer line (azimuth line major, then axial node, then component).
-/// Vectors of the ring are matrices with one column for every (right-hand side, sector): column =
-/// rhs * n_sectors + sector. Components are polar, body frame.
+/// Boundary vectors of the ring are matrices with one column for every (right-hand side, sector): column =
+/// rhs * n_sectors + sector, its load case. Components are polar, body frame.
 template <int dim>
 class CyclicStiffness {
  public:
@@ -40,20 +40,32 @@ class CyclicStiffness {
   /// in sector s and j in sector s - difference.
   const Matrix& outer_compliance(int difference) const;
 
-  /// Loads of the ring in elimination order (n_dofs x columns; a node shared by sectors may carry its load in
-  /// any of them) to the condensed boundary loads (n_boundary x columns). The interior rows of `loads` are
-  /// left as PartialCholesky::eliminate leaves them.
-  Matrix condense(Matrix& loads) const;
+  /// Loads on a sector's trailing unknowns (one row a load case) to boundary loads of the ring: a node shared
+  /// by sectors may carry its load in any of them.
+  Matrix boundary_loads(const Matrix& trailing_loads) const;
 
-  /// Boundary displacements (n_boundary x columns) for boundary loads.
+  /// Boundary displacements (n_boundary x load cases) for boundary loads.
   Matrix solve_boundary(const Matrix& loads) const;
 
-  /// Displacements of all sectors in elimination order; `x` comes with condense()'s interior rows, or zero.
-  void recover(const Matrix& boundary, Matrix& x) const;
+  /// Displacements of every sector's trailing unknowns, one row a load case.
+  Matrix trailing_displacements(const Matrix& boundary) const;
 
  private:
   CyclicStiffness(SectorStiffness<dim> sector, PartialCholesky sector_factor,
                   const SectorHarmonics& harmonics);
+
+  /// The same load's case in a sector ahead.
+  int case_ahead(int load_case, int sectors) const {
+    const int sector = load_case % n_sectors();
+    return load_case - sector + (sector + sectors) % n_sectors();
+  }
+
+  struct CoupledSectors {
+    int farthest;                       ///< sectors ahead
+    std::vector<Matrix> by_difference;  ///< from -farthest to farthest
+    ComplexMatrix of_harmonic(const SectorHarmonics& harmonics, int harmonic) const;
+  };
+  CoupledSectors couple_sectors() const;
 
   SectorStiffness<dim> sector_;
   PartialCholesky sector_factor_;

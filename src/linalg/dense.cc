@@ -14,6 +14,7 @@ void zpotrf_(const char*, const int*, std::complex<double>*, const int*, int*);
 void dpotrs_(const char*, const int*, const int*, const double*, const int*, double*, const int*, int*);
 void zpotrs_(const char*, const int*, const int*, const std::complex<double>*, const int*,
              std::complex<double>*, const int*, int*);
+void zpotri_(const char*, const int*, std::complex<double>*, const int*, int*);
 void dgesv_(const int*, const int*, double*, const int*, int*, double*, const int*, int*);
 }
 
@@ -76,6 +77,14 @@ void cholesky_solve(const ComplexMatrix& factor, ComplexMatrix& b) {
   const int n = factor.rows(), m = b.columns();
   int info = 0;
   if (n > 0 && m > 0) zpotrs_("L", &n, &m, factor.data(), &n, b.data(), &n, &info);
+}
+
+void cholesky_invert(ComplexMatrix& factor) {
+  const int n = factor.rows();
+  int info = 0;
+  if (n > 0) zpotri_("L", &n, factor.data(), &n, &info);
+  for (int j = 0; j < n; ++j)
+    for (int i = j + 1; i < n; ++i) factor(j, i) = std::conj(factor(i, j));
 }
 
 bool lu_solve(Matrix& a, Matrix& b) {

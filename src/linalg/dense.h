@@ -50,6 +50,9 @@ Matrix product(const Matrix& a, Op op_a, const Matrix& b, Op op_b);
 void cholesky_solve(const Matrix& factor, Matrix& b);
 void cholesky_solve(const ComplexMatrix& factor, ComplexMatrix& b);
 
+/// The inverse, both triangles, of a Hermitian positive definite matrix from cholesky()'s factor, in place.
+void cholesky_invert(ComplexMatrix& factor);
+
 /// Solves a x = b by LU with partial pivoting; a is destroyed, b becomes x. False when a is singular.
 [[nodiscard]] bool lu_solve(Matrix& a, Matrix& b);
 

@@ -6,13 +6,19 @@
 #include <algorithm>
 #include <cmath>
 
-extern "C" void dtrmm_(const char*, const char*, const char*, const char*, const int*, const int*,
-                       const double*, const double*, const int*, double*, const int*);
+extern "C" {
+void dtrmm_(const char*, const char*, const char*, const char*, const int*, const int*, const double*,
+            const double*, const int*, double*, const int*);
+void dtrsm_(const char*, const char*, const char*, const char*, const int*, const int*, const double*,
+            const double*, const int*, double*, const int*);
+void dgemm_(const char*, const char*, const int*, const int*, const int*, const double*, const double*,
+            const int*, const double*, const int*, const double*, double*, const int*);
+}
 
 namespace wheelwright {
 
 struct PartialCholesky::Factor {
-  mutable cholmod_common common;
+  cholmod_common common;
   cholmod_factor* factor = nullptr;
   double flops = 0;
 
@@ -106,61 +112,102 @@ Expected<PartialCholesky> PartialCholesky::factor(const SparseSymmetric& matrix,
   Matrix schur = schur_complement(l, shift);
   for (double x : schur.entries())
     if (!std::isfinite(x)) return Failure{FailureReason::not_finite, "the condensed stiffness is not finite"};
-  return PartialCholesky(std::move(f), std::move(schur), std::move(l));
+  return PartialCholesky(std::move(f), std::move(schur));
 }
 
-PartialCholesky::PartialCholesky(std::unique_ptr<Factor> factor, Matrix schur, Matrix trailing_factor)
-    : factor_(std::move(factor)), schur_(std::move(schur)), trailing_factor_(std::move(trailing_factor)) {}
+/// The interior columns of a supernode: L's diagonal block and the rows below it.
+struct PartialCholesky::Supernode {
+  int first, n_columns;  ///< unknowns
+  const int* below;      ///< unknowns of the rows below
+  int n_below;
+  const double* values;  ///< column-major, the diagonal block on top
+  int stride;            ///< between columns
+};
+
+PartialCholesky::Supernode PartialCholesky::supernode(int s) const {
+  const cholmod_factor& factor = *factor_->factor;
+  const int* super = static_cast<const int*>(factor.super);
+  const int* row_start = static_cast<const int*>(factor.pi);
+  const int n_rows = row_start[s + 1] - row_start[s];
+  const int n_columns = std::max(0, std::min(super[s + 1], n_interior()) - super[s]);
+  return {super[s],
+          n_columns,
+          static_cast<const int*>(factor.s) + row_start[s] + n_columns,
+          n_rows - n_columns,
+          static_cast<const double*>(factor.x) + static_cast<const int*>(factor.px)[s],
+          n_rows};
+}
+
+PartialCholesky::PartialCholesky(std::unique_ptr<Factor> factor, Matrix schur)
+    : factor_(std::move(factor)), schur_(std::move(schur)), supernode_of_(factor_->factor->n) {
+  const int* super = static_cast<const int*>(factor_->factor->super);
+  for (int s = 0; s < static_cast<int>(factor_->factor->nsuper); ++s) {
+    std::fill(supernode_of_.begin() + super[s], supernode_of_.begin() + super[s + 1], s);
+    largest_supernode_ = std::max(largest_supernode_, supernode(s).stride);
+  }
+}
 PartialCholesky::PartialCholesky(PartialCholesky&&) noexcept = default;
 PartialCholesky& PartialCholesky::operator=(PartialCholesky&&) noexcept = default;
 PartialCholesky::~PartialCholesky() = default;
 
-int PartialCholesky::size() const { return static_cast<int>(factor_->factor->n); }
 double PartialCholesky::factor_entries() const { return static_cast<double>(factor_->factor->xsize); }
 double PartialCholesky::factor_flops() const { return factor_->flops; }
 
-namespace {
-
-cholmod_dense view(Matrix& x) {
-  cholmod_dense d{};
-  d.nrow = d.d = x.rows();
-  d.ncol = x.columns();
-  d.nzmax = d.nrow * d.ncol;
-  d.x = x.data();
-  d.xtype = CHOLMOD_REAL;
-  d.dtype = CHOLMOD_DOUBLE;
-  return d;
+PartialCholesky::Sweep PartialCholesky::sweep_through(const std::vector<char>& marked) const {
+  const int n_supernodes = static_cast<int>(factor_->factor->nsuper);
+  std::vector<char> needed(n_supernodes, 0);
+  for (int i = 0; i < n_interior(); ++i)
+    if (marked[i]) needed[supernode_of_[i]] = 1;
+  Sweep sweep{{}, std::vector<char>(size(), 0)};
+  std::fill(sweep.visited.begin() + n_interior(), sweep.visited.end(), 1);
+  for (int s = 0; s < n_supernodes; ++s) {
+    if (!needed[s]) continue;
+    const Supernode node = supernode(s);
+    sweep.supernodes.push_back(s);
+    std::fill_n(sweep.visited.begin() + node.first, node.n_columns, 1);
+    if (node.n_below > 0 && node.below[0] < n_interior()) needed[supernode_of_[node.below[0]]] = 1;
+  }
+  return sweep;
 }
 
-cholmod_dense view_workspace(Matrix& workspace) {
-  cholmod_dense d = view(workspace);
-  d.d = d.nrow = std::max<size_t>(1, d.nrow);
-  return d;
+PartialCholesky::Sweep PartialCholesky::full_sweep() const {
+  return sweep_through(std::vector<char>(size(), 1));
 }
 
-}  // namespace
-
-/// x_t <- L_tt x_t or L_tt^T x_t.
-void PartialCholesky::apply_trailing(Op op, Matrix& x) const {
-  const int m = n_trailing(), columns = x.columns(), leading = x.rows();
-  if (m == 0 || columns == 0) return;
-  const double one = 1;
-  dtrmm_("L", "L", op == Op::none ? "N" : "T", "N", &m, &columns, &one, trailing_factor_.data(), &m,
-         x.data() + (size() - m), &leading);
+void PartialCholesky::eliminate(const Sweep& sweep, Matrix& loads) const {
+  const int n = loads.rows();
+  if (n == 0) return;
+  const double one = 1, zero = 0;
+  std::vector<double> passed_on(size_t(n) * largest_supernode_);
+  for (const int s : sweep.supernodes) {
+    const Supernode node = supernode(s);
+    double* own = loads.column(node.first);
+    dtrsm_("R", "L", "T", "N", &n, &node.n_columns, &one, node.values, &node.stride, own, &n);
+    if (node.n_below == 0) continue;
+    dgemm_("N", "T", &n, &node.n_below, &node.n_columns, &one, own, &n, node.values + node.n_columns,
+           &node.stride, &zero, passed_on.data(), &n);
+    for (int k = 0; k < node.n_below; ++k) {
+      double* to = loads.column(node.below[k]);
+      const double* from = &passed_on[size_t(k) * n];
+      for (int i = 0; i < n; ++i) to[i] -= from[i];
+    }
+  }
 }
 
-void PartialCholesky::eliminate(Matrix& loads) const {
-  Matrix workspace(loads.columns(), static_cast<int>(factor_->factor->maxesize));
-  cholmod_dense x = view(loads), e = view_workspace(workspace);
-  cholmod_super_lsolve(factor_->factor, &x, &e, &factor_->common);
-  apply_trailing(Op::none, loads);
-}
-
-void PartialCholesky::substitute(Matrix& x) const {
-  apply_trailing(Op::transpose, x);
-  Matrix workspace(x.columns(), static_cast<int>(factor_->factor->maxesize));
-  cholmod_dense d = view(x), e = view_workspace(workspace);
-  cholmod_super_ltsolve(factor_->factor, &d, &e, &factor_->common);
+void PartialCholesky::substitute(const Sweep& sweep, Matrix& x) const {
+  const int n = x.rows();
+  if (n == 0) return;
+  const double one = 1, minus_one = -1;
+  std::vector<double> known(size_t(n) * largest_supernode_);
+  for (auto s = sweep.supernodes.rbegin(); s != sweep.supernodes.rend(); ++s) {
+    const Supernode node = supernode(*s);
+    double* own = x.column(node.first);
+    for (int k = 0; k < node.n_below; ++k) std::copy_n(x.column(node.below[k]), n, &known[size_t(k) * n]);
+    if (node.n_below > 0)
+      dgemm_("N", "N", &n, &node.n_columns, &node.n_below, &minus_one, known.data(), &n,
+             node.values + node.n_columns, &node.stride, &one, own, &n);
+    dtrsm_("R", "L", "N", "N", &n, &node.n_columns, &one, node.values, &node.stride, own, &n);
+  }
 }
 
 }  // namespace wheelwright

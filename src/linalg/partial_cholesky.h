@@ -12,7 +12,8 @@ namespace wheelwright {
 /// Static condensation of a sparse symmetric matrix onto its trailing unknowns t, by one supernodal Cholesky
 /// factorization (CHOLMOD) of the whole: with i the interior unknowns, schur = K_tt - K_ti K_ii^-1 K_it.
 /// K_ii must be positive definite; K_tt need not be (empty rows are fine).
-/// Vectors "in elimination order" hold the interior unknowns first, the trailing ones last.
+/// "Elimination order" has the interior unknowns first, the trailing ones last. Vectors are matrices with one
+/// row a vector and one column an unknown in elimination order, so that sweeps move contiguous numbers.
 class PartialCholesky {
  public:
   /// `order[k]` is the unknown eliminated k-th; its last n_trailing ones are the trailing unknowns, in the
@@ -20,19 +21,29 @@ class PartialCholesky {
   static Expected<PartialCholesky> factor(const SparseSymmetric& matrix, std::span<const int> order,
                                           int n_trailing);
 
-  int size() const;
+  int size() const { return static_cast<int>(supernode_of_.size()); }
   int n_trailing() const { return schur_.rows(); }
+  int n_interior() const { return size() - n_trailing(); }
   const Matrix& schur() const { return schur_; }  ///< full symmetric
   double factor_entries() const;                  ///< nonzeros of the factor
   double factor_flops() const;                    ///< of the numerical factorization
 
-  /// Forward elimination of loads f (elimination order, one a column), in place: the interior rows become
-  /// L_ii^-1 f_i, the trailing rows the condensed loads f_t - K_ti K_ii^-1 f_i.
-  void eliminate(Matrix& loads) const;
+  /// What sweeps visit of the factor: supernodes, ascending, each with all that it depends on.
+  struct Sweep {
+    std::vector<int> supernodes;
+    std::vector<char> visited;  ///< of every unknown; trailing ones always are
+  };
+  /// The least sweep that visits the unknowns with a mark (one mark an unknown in elimination order).
+  Sweep sweep_through(const std::vector<char>& marked) const;
+  Sweep full_sweep() const;
 
-  /// Back substitution in place: takes eliminate()'s interior rows (zero for no interior load) and the
-  /// trailing displacements; the interior rows become the interior displacements.
-  void substitute(Matrix& x) const;
+  /// Forward elimination of loads f in place: the interior unknowns become L_ii^-1 f_i, the trailing ones the
+  /// condensed loads f_t - K_ti K_ii^-1 f_i. Loads on unknowns that the sweep does not visit must be zero.
+  void eliminate(const Sweep& sweep, Matrix& loads) const;
+
+  /// Back substitution in place: takes what eliminate() makes of the interior loads (zero without any) and
+  /// the trailing displacements; the interior unknowns that the sweep visits become displacements.
+  void substitute(const Sweep& sweep, Matrix& x) const;
 
   PartialCholesky(PartialCholesky&&) noexcept;
   PartialCholesky& operator=(PartialCholesky&&) noexcept;
@@ -40,12 +51,14 @@ class PartialCholesky {
 
  private:
   struct Factor;
-  PartialCholesky(std::unique_ptr<Factor> factor, Matrix schur, Matrix trailing_factor);
-  void apply_trailing(Op op, Matrix& x) const;
+  struct Supernode;
+  PartialCholesky(std::unique_ptr<Factor> factor, Matrix schur);
+  Supernode supernode(int s) const;
 
   std::unique_ptr<Factor> factor_;
   Matrix schur_;
-  Matrix trailing_factor_;  ///< L_tt, lower triangular
+  std::vector<int> supernode_of_;  ///< of every unknown
+  int largest_supernode_ = 0;      ///< rows
 };
 
 }  // namespace wheelwright

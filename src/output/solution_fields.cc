@@ -28,6 +28,7 @@ RingField displacement_field(const RollingProblem<2>& problem, const RollingSolu
       nodal_displacements(problem.tread(), tread_field(problem.tread(), outer, loads), loads);
   const int upper_rows = degree * problem.tread().rows();
 
+  const SectorFields core = complete_displacement(s);
   const double ground_azimuth = s.grounds[position].azimuth(grid);
   RingField field{2, std::vector<double>(2 * size_t(lattice.n_nodes()) * n_sectors, no_material)};
   for (int sector = 0; sector < n_sectors; ++sector) {
@@ -46,9 +47,9 @@ RingField displacement_field(const RollingProblem<2>& problem, const RollingSolu
           from = (sector + n_sectors - 1) % n_sectors;
         }
         if (number < 0) continue;
-        const int column = position * n_sectors + from;
-        polar = {s.displacement(s.ring.row(2 * number), column),
-                 s.displacement(s.ring.row(2 * number + 1), column)};
+        const int load_case = position * n_sectors + from;
+        polar = {core.value(load_case, s.ring.row(2 * number)),
+                 core.value(load_case, s.ring.row(2 * number + 1))};
       }
       const Vec<2> at = lattice.polar_point(p);
       const double azimuth = at[1] + sector * grid.sector_angle();

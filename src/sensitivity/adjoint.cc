@@ -36,26 +36,32 @@ Expected<Adjoint> solve_adjoint(const RollingProblem<dim>& problem, const Rollin
                                 const AdjointLoads& loads) {
   const Tread<dim>& tread = problem.tread();
   const int n_columns = tread.n_columns(), per_column = tread.base_per_column();
-  // p = q - state_weight v with K q = core + T^T observations - S^T m.
-  Matrix core = loads.core.rows() > 0 ? loads.core : Matrix(s.displacement.rows(), s.displacement.columns());
+  const CyclicStiffness<dim>& ring = s.ring;
+  // p = q - state_weight v with K q = ghost_weight G v + T^T observations - S^T m.
+  SectorFields core{s.ghost_loads, s.displacement.weights};
+  for (double& x : core.modes.entries()) x *= loads.ghost_weight;
   const Matrix observation_loads = loads.observations.rows() > 0
                                        ? loads.observations
                                        : Matrix(s.observations.rows(), s.observations.columns());
-  Matrix boundary = s.ring.condense(core);
-  add_outer_rows(s.ring, base_loads(tread, observation_loads), boundary);
-  const Matrix without_contact = s.ring.solve_boundary(boundary);
+  Matrix boundary = condense(ring, s.sweep, core);
+  add_outer_rows(ring, base_loads(tread, observation_loads), boundary);
+  const Matrix without_contact = ring.solve_boundary(boundary);
   Matrix observed =
-      tread_field(tread, outer_rows(s.ring, without_contact, per_column), observation_loads).observations;
+      tread_field(tread, outer_rows(ring, without_contact, per_column), observation_loads).observations;
   for (size_t k = 0; k < observed.entries().size(); ++k)
     observed.entries()[k] -= loads.state_weight * s.observations.entries()[k];
   auto contact = contact_adjoints(s, observed, n_columns);
   if (!contact) return contact.failure();
 
-  add_outer_rows(s.ring, base_loads(tread, contact->first), boundary);
-  s.ring.recover(s.ring.solve_boundary(boundary), core);
-  for (size_t k = 0; k < core.entries().size(); ++k)
-    core.entries()[k] -= loads.state_weight * s.displacement.entries()[k];
-  return Adjoint{std::move(core), std::move(contact->second)};
+  add_outer_rows(ring, base_loads(tread, contact->first), boundary);
+  const Matrix trailing = product(core.weights, Op::transpose,
+                                  ring.trailing_displacements(ring.solve_boundary(boundary)), Op::none);
+  std::copy(trailing.entries().begin(), trailing.entries().end(),
+            core.modes.column(ring.sector_factor().n_interior()));
+  ring.sector_factor().substitute(s.sweep, core.modes);
+  for (size_t k = 0; k < core.modes.entries().size(); ++k)
+    core.modes.entries()[k] -= loads.state_weight * s.displacement.modes.entries()[k];
+  return Adjoint{std::move(core.modes), std::move(contact->second)};
 }
 
 template Expected<Adjoint> solve_adjoint(const RollingProblem<2>&, const RollingSolution<2>&,

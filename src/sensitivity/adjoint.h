@@ -6,7 +6,9 @@ namespace wheelwright {
 
 /// The adjoint problems (79) of all positions.
 struct Adjoint {
-  Matrix displacement;         ///< p in the core without the rim's motion, as RollingSolution::displacement
+  /// p in the core without the rim's motion: its components along the load cases of the displacement's modes,
+  /// sum_j weights(j, k) p_j, as RollingSolution::displacement.
+  Matrix modes;
   std::vector<RimMotion> rim;  ///< of every position
 };
 

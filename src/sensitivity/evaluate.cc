@@ -46,7 +46,7 @@ Expected<Evaluation<dim>> differentiate(const RollingProblem<dim>& problem, cons
     evaluation.criteria.push_back({criterion->name(), term.value});
     evaluation.objective += weight * term.value;
     loads.state_weight += weight * term.loads.state_weight;
-    accumulate(weight, term.loads.core, loads.core);
+    loads.ghost_weight += weight * term.loads.ghost_weight;
     accumulate(weight, term.loads.observations, loads.observations);
   }
   for (const auto& state : solution.states) evaluation.newton_iterations.push_back(state.newton_iterations);

@@ -1,0 +1,185 @@
+#include "cyclic/sector_fields.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "linalg/column_basis.h"
+
+namespace wheelwright {
+namespace {
+
+double largest_entry(const Matrix& a) {
+  double largest = 0;
+  for (double x : a.entries()) largest = std::max(largest, std::abs(x));
+  return largest;
+}
+
+/// (a, scale b), side by side.
+Matrix side_by_side(const Matrix& a, double scale, const Matrix& b) {
+  Matrix result(a.rows(), a.columns() + b.columns());
+  std::copy(a.entries().begin(), a.entries().end(), result.data());
+  std::transform(b.entries().begin(), b.entries().end(), result.column(a.columns()),
+                 [&](double x) { return scale * x; });
+  return result;
+}
+
+Matrix columns(const Matrix& a, int first, int n) {
+  Matrix result(a.rows(), n);
+  std::copy_n(a.column(first), result.entries().size(), result.data());
+  return result;
+}
+
+/// One load case of some fields, by unknowns.
+std::vector<double> field_of_case(const SectorFields& fields, int load_case) {
+  std::vector<double> field(fields.modes.columns());
+  for (size_t i = 0; i < field.size(); ++i) field[i] = fields.value(load_case, static_cast<int>(i));
+  return field;
+}
+
+}  // namespace
+
+template <int dim>
+Matrix condense(const CyclicStiffness<dim>& ring, const PartialCholesky::Sweep& sweep, SectorFields& loads) {
+  const PartialCholesky& factor = ring.sector_factor();
+  factor.eliminate(sweep, loads.modes);
+  const Matrix trailing = columns(loads.modes, factor.n_interior(), factor.n_trailing());
+  return ring.boundary_loads(product(loads.weights, Op::none, trailing, Op::none));
+}
+
+template <int dim>
+SectorFields displacement_fields(const CyclicStiffness<dim>& ring, const PartialCholesky::Sweep& sweep,
+                                 const Matrix& boundary, const SectorFields& eliminated_loads) {
+  const PartialCholesky& factor = ring.sector_factor();
+  const int n_interior = factor.n_interior(), n_trailing = factor.n_trailing();
+  const Matrix trailing = ring.trailing_displacements(boundary);
+  const Matrix& load_weights = eliminated_loads.weights;
+  const double scale = eliminated_loads.empty() ? 1 : largest_entry(trailing) / largest_entry(load_weights);
+  ColumnBasis basis = column_basis(
+      eliminated_loads.empty() ? trailing : side_by_side(trailing, scale, load_weights), mode_tolerance);
+
+  SectorFields fields{Matrix(basis.coordinates.rows(), factor.size()), std::move(basis.basis)};
+  if (!eliminated_loads.empty()) {
+    Matrix coordinates = columns(basis.coordinates, n_trailing, load_weights.columns());
+    multiply(1 / scale, coordinates, Op::none, eliminated_loads.modes, Op::none, 0, fields.modes);
+  }
+  std::copy_n(basis.coordinates.data(), size_t(fields.modes.rows()) * n_trailing,
+              fields.modes.column(n_interior));
+  factor.substitute(sweep, fields.modes);
+  return fields;
+}
+
+template <int dim>
+SectorFields completed(const CyclicStiffness<dim>& ring, SectorFields displacements) {
+  const PartialCholesky& factor = ring.sector_factor();
+  Matrix& modes = displacements.modes;
+  std::fill_n(modes.data(), size_t(modes.rows()) * factor.n_interior(), 0.0);
+  factor.substitute(factor.full_sweep(), modes);
+  return displacements;
+}
+
+template <int dim>
+PartialCholesky::Sweep boundary_sweep(const CyclicStiffness<dim>& ring, const CutDomain<dim>& domain,
+                                      const SectorFields& loads) {
+  std::vector<char> marked(ring.sector_factor().size(), 0);
+  const auto mark = [&](std::span<const int> nodes) {
+    for (const int node : nodes)
+      for (int c = 0; c < dim && node >= 0; ++c) marked[ring.row(dim * node + c)] = 1;
+  };
+  for (const CutCell<dim>& cut : domain.cut) mark(ring.sector().space.cell_nodes(cut.cell));
+  for (const auto& ghost : ring.sector().ghosts) mark(ghost.nodes);
+  for (int i = 0; i < loads.modes.columns(); ++i)
+    for (int k = 0; k < loads.modes.rows(); ++k)
+      if (loads.modes(k, i) != 0) marked[i] = 1;
+  return ring.sector_factor().sweep_through(marked);
+}
+
+template <int dim>
+void gather(const CyclicStiffness<dim>& ring, std::span<const int> nodes, const Matrix& fields,
+            Matrix& local) {
+  for (size_t a = 0; a < nodes.size(); ++a)
+    for (int c = 0; c < dim; ++c) {
+      double* to = local.column(dim * static_cast<int>(a) + c);
+      if (nodes[a] < 0)
+        std::fill_n(to, fields.rows(), 0.0);
+      else
+        std::copy_n(fields.column(ring.row(dim * nodes[a] + c)), fields.rows(), to);
+    }
+}
+
+template <int dim>
+Matrix ghost_loads(const CyclicStiffness<dim>& ring, const Matrix& displacements) {
+  const int n = displacements.rows();
+  Matrix result(n, displacements.columns());
+  Matrix local, applied;
+  for (const auto& ghost : ring.sector().ghosts) {
+    const int n_local = dim * static_cast<int>(ghost.nodes.size());
+    if (local.columns() != n_local) local = applied = Matrix(n, n_local);
+    gather(ring, ghost.nodes, displacements, local);
+    multiply(1, local, Op::none, *ghost.stiffness, Op::none, 0, applied);
+    for (int i = 0; i < n_local; ++i) {
+      const int node = ghost.nodes[i / dim];
+      if (node < 0) continue;
+      double* to = result.column(ring.row(dim * node + i % dim));
+      const double* from = applied.column(i);
+      for (int k = 0; k < n; ++k) to[k] += from[k];
+    }
+  }
+  return result;
+}
+
+std::vector<double> work_by_case(const SectorFields& loads, const SectorFields& displacements) {
+  const Matrix work_of_modes = product(loads.modes, Op::none, displacements.modes, Op::transpose);
+  const Matrix on_modes = product(loads.weights, Op::none, work_of_modes, Op::none);
+  std::vector<double> work(on_modes.rows(), 0.0);
+  for (int k = 0; k < on_modes.columns(); ++k)
+    for (int j = 0; j < on_modes.rows(); ++j) work[j] += on_modes(j, k) * displacements.weights(j, k);
+  return work;
+}
+
+template <int dim>
+double interior_residual(const CyclicStiffness<dim>& ring, const PartialCholesky::Sweep& sweep,
+                         const SectorFields& displacements, const SectorFields& loads, int load_case) {
+  const SparseSymmetric& k = ring.sector().matrix;
+  const std::vector<double> field = field_of_case(displacements, load_case);
+  std::vector<double> x(k.size), force(k.size, 0.0);
+  std::vector<char> is_known(k.size);
+  double largest_displacement = 0, largest_stiffness = 0;
+  for (int dof = 0; dof < k.size; ++dof) {
+    const int row = ring.row(dof);
+    x[dof] = field[row];
+    is_known[dof] = row < ring.sector_factor().n_interior() && sweep.visited[row];
+    largest_displacement = std::max(largest_displacement, std::abs(x[dof]));
+    largest_stiffness = std::max(largest_stiffness, k.values[k.column_start[dof]]);
+  }
+  for (int j = 0; j < k.size; ++j)
+    for (int e = k.column_start[j]; e < k.column_start[j + 1]; ++e) {
+      const int i = k.rows[e];
+      if (!sweep.visited[ring.row(i)]) is_known[j] = 0;
+      if (!sweep.visited[ring.row(j)]) is_known[i] = 0;
+    }
+  k.add_product(x.data(), force.data());
+  double largest_force = 0;
+  for (int dof = 0; dof < k.size; ++dof) {
+    if (!is_known[dof]) continue;
+    if (!loads.empty()) force[dof] -= loads.value(load_case, ring.row(dof));
+    largest_force = std::max(largest_force, std::abs(force[dof]));
+  }
+  return largest_force / (largest_stiffness * largest_displacement);
+}
+
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                                    \
+  template Matrix condense(const CyclicStiffness<dim>&, const PartialCholesky::Sweep&, SectorFields&);  \
+  template SectorFields displacement_fields(const CyclicStiffness<dim>&, const PartialCholesky::Sweep&, \
+                                            const Matrix&, const SectorFields&);                        \
+  template SectorFields completed(const CyclicStiffness<dim>&, SectorFields);                           \
+  template PartialCholesky::Sweep boundary_sweep(const CyclicStiffness<dim>&, const CutDomain<dim>&,    \
+                                                 const SectorFields&);                                  \
+  template void gather(const CyclicStiffness<dim>&, std::span<const int>, const Matrix&, Matrix&);      \
+  template Matrix ghost_loads(const CyclicStiffness<dim>&, const Matrix&);                              \
+  template double interior_residual(const CyclicStiffness<dim>&, const PartialCholesky::Sweep&,         \
+                                    const SectorFields&, const SectorFields&, int);
+WHEELWRIGHT_INSTANTIATE(2)
+WHEELWRIGHT_INSTANTIATE(3)
+#undef WHEELWRIGHT_INSTANTIATE
+
+}  // namespace wheelwright

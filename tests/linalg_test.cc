@@ -1,0 +1,165 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "linalg/column_basis.h"
+#include "linalg/partial_cholesky.h"
+
+namespace wheelwright {
+namespace {
+
+Matrix random_matrix(int rows, int columns, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  Matrix a(rows, columns);
+  for (double& x : a.entries()) x = uniform(random);
+  return a;
+}
+
+double largest_difference(const Matrix& a, const Matrix& b) {
+  double largest = 0;
+  for (size_t k = 0; k < a.entries().size(); ++k)
+    largest = std::max(largest, std::abs(a.entries()[k] - b.entries()[k]));
+  return largest;
+}
+
+/// The five-point Laplacian of an n x n square with zero values outside, as a dense and as a sparse matrix.
+struct Laplacian {
+  explicit Laplacian(int n) : dense(n * n, n * n) {
+    const auto number = [n](int i, int j) { return i + n * j; };
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) {
+        dense(number(i, j), number(i, j)) = 4;
+        if (i + 1 < n) couple(number(i, j), number(i + 1, j));
+        if (j + 1 < n) couple(number(i, j), number(i, j + 1));
+      }
+    sparse.size = n * n;
+    sparse.column_start.push_back(0);
+    for (int j = 0; j < n * n; ++j) {
+      for (int i = j; i < n * n; ++i)
+        if (dense(i, j) != 0) {
+          sparse.rows.push_back(i);
+          sparse.values.push_back(dense(i, j));
+        }
+      sparse.column_start.push_back(static_cast<int>(sparse.rows.size()));
+    }
+  }
+  Matrix dense;
+  SparseSymmetric sparse;
+
+ private:
+  void couple(int a, int b) { dense(a, b) = dense(b, a) = -1; }
+};
+
+/// The square in nested dissection by one line: left, right, the line, which with the last row is trailing.
+class CondensedSquare : public ::testing::Test {
+ protected:
+  static constexpr int n = 9;
+  CondensedSquare() {
+    for (int half = 0; half < 2; ++half)
+      for (int j = 0; j + 1 < n; ++j)
+        for (int i = half == 0 ? 0 : 5; i < (half == 0 ? 4 : n); ++i) order_.push_back(i + n * j);
+    for (int j = 0; j + 1 < n; ++j) order_.push_back(4 + n * j);
+    for (int i = 0; i < n; ++i) order_.push_back(i + n * (n - 1));
+  }
+  Laplacian laplacian_{n};
+  std::vector<int> order_;
+};
+
+TEST_F(CondensedSquare, SolvesAsADenseCholesky) {
+  const auto factor = PartialCholesky::factor(laplacian_.sparse, order_, n);
+  ASSERT_TRUE(factor);
+  const Matrix loads = random_matrix(3, n * n, 1);
+  Matrix x(3, n * n);
+  for (int k = 0; k < n * n; ++k)
+    for (int i = 0; i < 3; ++i) x(i, k) = loads(i, order_[k]);
+  factor->eliminate(factor->full_sweep(), x);
+  Matrix schur = factor->schur(), trailing(n, 3);
+  ASSERT_TRUE(cholesky(schur));
+  for (int i = 0; i < 3; ++i)
+    for (int t = 0; t < n; ++t) trailing(t, i) = x(i, factor->n_interior() + t);
+  cholesky_solve(schur, trailing);
+  for (int i = 0; i < 3; ++i)
+    for (int t = 0; t < n; ++t) x(i, factor->n_interior() + t) = trailing(t, i);
+  factor->substitute(factor->full_sweep(), x);
+
+  Matrix dense = laplacian_.dense, expected(n * n, 3);
+  ASSERT_TRUE(cholesky(dense));
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < n * n; ++k) expected(k, i) = loads(i, k);
+  cholesky_solve(dense, expected);
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < n * n; ++k) EXPECT_NEAR(x(i, k), expected(order_[k], i), 1e-13);
+}
+
+TEST_F(CondensedSquare, APartialSweepIsTheFullOneWhereItGoes) {
+  const auto factor = PartialCholesky::factor(laplacian_.sparse, order_, n);
+  ASSERT_TRUE(factor);
+  std::vector<char> marked(n * n, 0);
+  marked[0] = 1;  // in the left half
+  const auto part = factor->sweep_through(marked), full = factor->full_sweep();
+  ASSERT_LT(part.supernodes.size(), full.supernodes.size());
+
+  Matrix loads(2, n * n);
+  loads(0, 0) = 1;
+  loads(1, n * n - 1) = 1;
+  Matrix by_part = loads, by_full = loads;
+  factor->eliminate(part, by_part);
+  factor->eliminate(full, by_full);
+  EXPECT_EQ(largest_difference(by_part, by_full), 0);
+  factor->substitute(part, by_part);
+  factor->substitute(full, by_full);
+  int n_visited = 0;
+  for (int k = 0; k < n * n; ++k) {
+    if (!part.visited[k]) continue;
+    ++n_visited;
+    for (int i = 0; i < 2; ++i) EXPECT_EQ(by_part(i, k), by_full(i, k));
+  }
+  EXPECT_TRUE(part.visited[0]);
+  EXPECT_LT(n_visited, n * n);
+}
+
+TEST(ColumnBasis, FindsTheRankAndKeepsTheMatrix) {
+  const int rank = 21;
+  const Matrix a = product(random_matrix(70, rank, 2), Op::none, random_matrix(rank, 90, 3), Op::none);
+  const ColumnBasis found = column_basis(a, 1e-12);
+  EXPECT_EQ(found.basis.columns(), rank);
+  EXPECT_LT(largest_difference(product(found.basis, Op::none, found.coordinates, Op::none), a), 1e-12);
+  Matrix identity(rank, rank);
+  for (int i = 0; i < rank; ++i) identity(i, i) = 1;
+  EXPECT_LT(largest_difference(product(found.basis, Op::transpose, found.basis, Op::none), identity), 1e-14);
+}
+
+/// Hilbert's matrix: singular values that fall by an order of magnitude each.
+TEST(ColumnBasis, LeavesOutNoMoreThanTheTolerance) {
+  const int n = 40;
+  Matrix a(n, n);
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) a(i, j) = 1.0 / (i + j + 1);
+  double longest = 0;
+  for (int i = 0; i < n; ++i) longest += 1.0 / ((i + 1) * (i + 1));
+  longest = std::sqrt(longest);
+  for (const double tolerance : {1e-3, 1e-6, 1e-9, 1e-12}) {
+    const ColumnBasis found = column_basis(a, tolerance);
+    EXPECT_LT(found.basis.columns(), n);
+    const Matrix kept = product(found.basis, Op::none, found.coordinates, Op::none);
+    for (int j = 0; j < n; ++j) {
+      double rest = 0;
+      for (int i = 0; i < n; ++i) rest += std::pow(a(i, j) - kept(i, j), 2);
+      EXPECT_LE(std::sqrt(rest), tolerance * longest * (1 + 1e-3));
+    }
+    Matrix gram = product(found.basis, Op::transpose, found.basis, Op::none);
+    for (int i = 0; i < gram.rows(); ++i) gram(i, i) -= 1;
+    EXPECT_LT(largest_difference(gram, Matrix(gram.rows(), gram.rows())), 1e-14);
+  }
+}
+
+TEST(ColumnBasis, OfZero) {
+  const ColumnBasis found = column_basis(Matrix(5, 7), 1e-12);
+  EXPECT_EQ(found.basis.columns(), 0);
+  EXPECT_EQ(found.coordinates.rows(), 0);
+}
+
+}  // namespace
+}  // namespace wheelwright
