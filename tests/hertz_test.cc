@@ -30,7 +30,8 @@ HertzContact squeeze_disc(double load, const Material& material, int radial_cell
                                  nested_dissection<2>(grid, 2, radial_cells - refinement.rows),
                                  tread->outer_stiffness(half_turn), half_turn);
   EXPECT_TRUE(ring);
-  const ReducedContact<2> contact(*ring, *tread, grid, {0}, {-2, 4}, {{}, {{{.towards_ground = 1}, load}}});
+  const ReducedContact<2> contact({*ring, *tread, 3}, *tread, grid, {0}, {-2, 4},
+                                  {{}, {{{.towards_ground = 1}, load}}});
   const auto state = solve_contact<2>(
       contact,
       [&](double fraction) {

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "linalg/column_basis.h"
+#include "linalg/cyclic_chain.h"
 #include "linalg/partial_cholesky.h"
 
 namespace wheelwright {
@@ -159,6 +160,54 @@ TEST(ColumnBasis, OfZero) {
   const ColumnBasis found = column_basis(Matrix(5, 7), 1e-12);
   EXPECT_EQ(found.basis.columns(), 0);
   EXPECT_EQ(found.coordinates.rows(), 0);
+}
+
+/// A chain of links with random coupling, as one dense matrix.
+struct Chain {
+  Chain(int n_links_, double coupling) : n_links(n_links_), diagonal(n, n), next(random_matrix(n, n, 5)) {
+    const Matrix root = random_matrix(n, n, 4);
+    multiply(1, root, Op::none, root, Op::transpose, 0, diagonal);
+    for (int i = 0; i < n; ++i) diagonal(i, i) += 2;
+    for (double& x : next.entries()) x *= coupling;
+    dense = Matrix(n * n_links, n * n_links);
+    for (int c = 0; c < n_links; ++c)
+      for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) {
+          const int after = (c + 1) % n_links;
+          dense(n * c + i, n * c + j) += diagonal(i, j);
+          dense(n * c + i, n * after + j) += next(i, j);
+          dense(n * after + j, n * c + i) += next(i, j);
+        }
+  }
+  static constexpr int n = 3;
+  int n_links;
+  Matrix diagonal, next, dense;
+};
+
+TEST(CyclicChain, SolvesAsADenseCholesky) {
+  for (const double coupling : {0.1, 0.8})
+    for (const int n_links : {2, 3, 7, 40}) {
+      const Chain chain(n_links, coupling);
+      const auto factor = CyclicChain::factor(chain.diagonal, chain.next, n_links);
+      ASSERT_TRUE(factor);
+      const Matrix loads = random_matrix(chain.n, 2 * n_links, 6);
+      const Matrix x = factor->solve(loads);
+      Matrix dense = chain.dense, expected(chain.n * n_links, 2);
+      std::copy_n(loads.data(), loads.entries().size(), expected.data());
+      ASSERT_TRUE(cholesky(dense));
+      cholesky_solve(dense, expected);
+      for (size_t k = 0; k < x.entries().size(); ++k)
+        EXPECT_NEAR(x.entries()[k], expected.entries()[k], 1e-12);
+    }
+}
+
+TEST(CyclicChain, RefusesAnIndefiniteChain) {
+  const Chain chain(8, 5.0);
+  Matrix dense = chain.dense;
+  ASSERT_FALSE(cholesky(dense));
+  const auto factor = CyclicChain::factor(chain.diagonal, chain.next, chain.n_links);
+  ASSERT_FALSE(factor);
+  EXPECT_EQ(factor.failure().reason, FailureReason::not_positive_definite);
 }
 
 }  // namespace

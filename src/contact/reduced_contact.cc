@@ -10,35 +10,22 @@
 namespace wheelwright {
 namespace {
 
-/// The core's compliance between the outer-line unknowns of `n_lines` columns from `first_column` on.
+/// The ground frame's axes in a column's frame, which `angle` turns into the ground frame.
 template <int dim>
-Matrix outer_compliance(const CyclicStiffness<dim>& ring, int per_column, int columns_per_sector,
-                        int first_column, int n_columns) {
-  const int ring_columns = columns_per_sector * ring.n_sectors();
-  Matrix g(per_column * n_columns, per_column * n_columns);
-  for (int b = 0; b < n_columns; ++b) {
-    const int cb = wrap(first_column + b, ring_columns);
-    for (int a = 0; a < n_columns; ++a) {
-      const int ca = wrap(first_column + a, ring_columns);
-      const Matrix& kernel = ring.outer_compliance(ca / columns_per_sector - cb / columns_per_sector);
-      const int i0 = per_column * (ca % columns_per_sector), j0 = per_column * (cb % columns_per_sector);
-      for (int j = 0; j < per_column; ++j)
-        std::copy_n(kernel.column(j0 + j) + i0, per_column, g.column(per_column * b + j) + per_column * a);
-    }
+std::array<Vec<dim>, dim> ground_axes(double angle) {
+  std::array<Vec<dim>, dim> axes;
+  for (int k = 0; k < dim; ++k) {
+    Vec<dim> unit{};
+    unit[k] = 1;
+    axes[k] = rotated<dim>(unit, -angle);
   }
-  return g;
-}
-
-/// result += block, at a place of it.
-void add_block(const Matrix& block, int first_row, int first_column, Matrix& result) {
-  for (int j = 0; j < block.columns(); ++j)
-    for (int i = 0; i < block.rows(); ++i) result(first_row + i, first_column + j) += block(i, j);
+  return axes;
 }
 
 }  // namespace
 
 template <int dim>
-ReducedContact<dim>::ReducedContact(const CyclicStiffness<dim>& ring, const Tread<dim>& tread,
+ReducedContact<dim>::ReducedContact(const SurfaceCompliance<dim>& surface, const Tread<dim>& tread,
                                     const PolarGrid<dim>& grid, GroundPosition ground, ContactZone zone,
                                     RimControl rim, const Preload& preload)
     : zone_(zone),
@@ -48,7 +35,7 @@ ReducedContact<dim>::ReducedContact(const CyclicStiffness<dim>& ring, const Trea
       theta_(tread.form().theta()),
       preload_resultant_(preload.resultant) {
   const double column_angle = grid.cell_size()[1];
-  const int per_zone_column = static_cast<int>(tread.points().size()), n_components = components();
+  const int per_zone_column = static_cast<int>(tread.points().size());
   for (int c = 0; c < zone.n_columns; ++c) {
     const double angle = (zone.first_column + c - ground.column - ground.offset) * column_angle;
     for (const auto& point : tread.points()) {
@@ -57,43 +44,6 @@ ReducedContact<dim>::ReducedContact(const CyclicStiffness<dim>& ring, const Trea
     }
   }
 
-  // What samples z and what tests, on a column's observations: S = tau T - gamma U, Te = theta/gamma T - U.
-  const int block = per_zone_column * n_components, n = zone.n_columns * block;
-  const auto ground_rows = [&](int c, auto of_traction, auto of_displacement) {
-    Matrix rows(block, tread.n_contact());
-    for (int q = 0; q < per_zone_column; ++q) {
-      const Point& point = points_[c * per_zone_column + q];
-      for (int d = 0; d < dim; ++d) {
-        Vec<dim> unit{};
-        unit[d] = 1;
-        const Vec<dim> in_ground = rotated<dim>(unit, point.angle);
-        for (int k = 0; k < n_components; ++k) {
-          rows(q * n_components + k, 2 * dim * q + d) = -of_displacement(point) * in_ground[k];
-          rows(q * n_components + k, 2 * dim * q + dim + d) = of_traction(point) * in_ground[k];
-        }
-      }
-    }
-    return rows;
-  };
-  std::vector<Matrix> sampling, testing;
-  for (int c = 0; c < zone.n_columns; ++c) {
-    sampling.push_back(ground_rows(
-        c, [&](const Point&) { return tau_; }, [](const Point& point) { return point.gamma; }));
-    testing.push_back(ground_rows(
-        c, [&](const Point& point) { return theta_ / point.gamma; }, [](const Point&) { return 1.0; }));
-  }
-
-  // F = -S (C + T G T^T) Te^T with the tread's compliance C and transfer T and the core's compliance G.
-  const int reach = tread.reach(), per_column = tread.base_per_column();
-  const int first_base = zone.first_column - reach, n_base_columns = zone.n_columns + 2 * reach + 1;
-  Matrix sample(n, per_column * n_base_columns), test(n, per_column * n_base_columns);
-  for (int c = 0; c < zone.n_columns; ++c) {
-    for (int d = -reach; d <= reach; ++d) {
-      const int first = per_column * (zone.first_column + c - d - first_base);
-      add_block(product(sampling[c], Op::none, tread.transfer(d), Op::none), c * block, first, sample);
-      add_block(product(testing[c], Op::none, tread.transfer(d), Op::none), c * block, first, test);
-    }
-  }
   if (preload.observations.rows() > 0)
     for (int c = 0; c < zone.n_columns; ++c) {
       const double* observed =
@@ -107,19 +57,25 @@ ReducedContact<dim>::ReducedContact(const CyclicStiffness<dim>& ring, const Trea
       }
     }
 
-  const Matrix g = outer_compliance(ring, per_column, grid.columns(), first_base, n_base_columns);
-  const Matrix through_core = product(g, Op::none, test, Op::transpose);
+  std::vector<std::array<Vec<dim>, dim>> axes;
+  for (const Point& point : points_) axes.push_back(ground_axes<dim>(point.angle));
+  const int n_components = components(), n = n_points() * n_components;
   flexibility_ = Matrix(n, n);
-  multiply(-1, sample, Op::none, through_core, Op::none, 0, flexibility_);
-  for (int from = 0; from < zone.n_columns; ++from) {
-    for (int to = 0; to < zone.n_columns; ++to) {
-      if (std::abs(to - from) > reach) continue;
-      const Matrix tested = product(tread.compliance(to - from), Op::none, testing[from], Op::transpose);
-      Matrix local(block, block);
-      multiply(-1, sampling[to], Op::none, tested, Op::none, 0, local);
-      add_block(local, to * block, from * block, flexibility_);
+  for (int from = 0; from < n_points(); ++from)
+    for (int to = 0; to < n_points(); ++to) {
+      const int column = from / per_zone_column;
+      const Matrix& block =
+          surface.block(wrap(zone.first_column + column, tread.n_columns()), to / per_zone_column - column);
+      for (int j = 0; j < n_components; ++j) {
+        Vec<dim> sample{};
+        for (int k = 0; k < dim; ++k)
+          for (int i = 0; i < dim; ++i)
+            sample[i] += block(dim * (to % per_zone_column) + i, dim * (from % per_zone_column) + k) *
+                         axes[from][j][k];
+        for (int i = 0; i < n_components; ++i)
+          flexibility_(n_components * to + i, n_components * from + j) = dot<dim>(axes[to][i], sample);
+      }
     }
-  }
 }
 
 template <int dim>

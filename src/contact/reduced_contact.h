@@ -3,8 +3,7 @@
 #include <optional>
 
 #include "contact/rim.h"
-#include "contact/tread.h"
-#include "cyclic/cyclic_stiffness.h"
+#include "contact/surface_compliance.h"
 
 namespace wheelwright {
 
@@ -65,7 +64,8 @@ struct ContactAdjoint {
 template <int dim>
 class ReducedContact {
  public:
-  ReducedContact(const CyclicStiffness<dim>& ring, const Tread<dim>& tread, const PolarGrid<dim>& grid,
+  /// `surface` must be as wide as the zone: columns up to zone.n_columns - 1 apart.
+  ReducedContact(const SurfaceCompliance<dim>& surface, const Tread<dim>& tread, const PolarGrid<dim>& grid,
                  GroundPosition ground, ContactZone zone, RimControl rim, const Preload& preload = {});
 
   /// The same zone with another control of the rim.

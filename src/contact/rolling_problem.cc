@@ -147,17 +147,20 @@ Expected<ContactState<dim>> solve_in_zone(const RollingModel<dim>& model, const 
 
 template <int dim>
 Expected<RolledContact<dim>> roll_to(const RollingModel<dim>& model, const Tread<dim>& tread,
-                                     const CyclicStiffness<dim>& ring, GroundPosition ground,
-                                     const Preload& preload,
+                                     const CyclicStiffness<dim>& ring, const SurfaceCompliance<dim>& surface,
+                                     GroundPosition ground, const Preload& preload,
                                      const std::optional<ContactState<dim>>& neighbour) {
   const PolarGrid<dim>& grid = model.grid;
   int half = std::max(columns_in_contact(model), neighbour ? neighbour->zone.n_columns / 2 : 0);
   const int largest_half = (grid.ring_columns() / 2 - 1) / 2;
   std::optional<ContactState<dim>> known = neighbour;
+  std::optional<SurfaceCompliance<dim>> wider;
   while (true) {
     half = std::min(half, (grid.ring_columns() - 1) / 2);
-    ReducedContact<dim> contact(ring, tread, grid, ground, {ground.column - half, 2 * half},
-                                rim_control(model), preload);
+    const int width = 2 * half - 1;
+    if (width > (wider ? *wider : surface).width()) wider.emplace(ring, tread, width);
+    ReducedContact<dim> contact(wider ? *wider : surface, tread, grid, ground,
+                                {ground.column - half, 2 * half}, rim_control(model), preload);
     auto state = solve_in_zone(model, contact, known);
     if (!state) return state.failure();
     if (!touches_edge(*state) || half >= largest_half)
@@ -169,12 +172,13 @@ Expected<RolledContact<dim>> roll_to(const RollingModel<dim>& model, const Tread
 
 template <int dim>
 Expected<RolledContact<dim>> reload(const RollingModel<dim>& model, const Tread<dim>& tread,
-                                    const CyclicStiffness<dim>& ring, GroundPosition ground,
-                                    const Preload& preload, const RolledContact<dim>& before) {
+                                    const CyclicStiffness<dim>& ring, const SurfaceCompliance<dim>& surface,
+                                    GroundPosition ground, const Preload& preload,
+                                    const RolledContact<dim>& before) {
   ReducedContact<dim> contact = before.contact.under(rim_control(model));
   auto state = solve_in_zone<dim>(model, contact, before.state);
   if (!state) return state.failure();
-  if (touches_edge(*state)) return roll_to<dim>(model, tread, ring, ground, preload, *state);
+  if (touches_edge(*state)) return roll_to<dim>(model, tread, ring, surface, ground, preload, *state);
   return RolledContact<dim>{std::move(contact), *std::move(state)};
 }
 
@@ -232,8 +236,24 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& p
   if (!factored) return factored.failure();
   phases.push_back({"factorization", watch.lap()});
 
-  RollingSolution<dim> s{
-      *std::move(domain), *std::move(factored), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+  const int likely_width = 2 * std::min(columns_in_contact(model_), (n_columns - 1) / 2) - 1;
+  SurfaceCompliance<dim> surface(*factored, tread_, likely_width);
+  RollingSolution<dim> s{*std::move(domain),
+                         *std::move(factored),
+                         std::move(surface),
+                         {},
+                         {},
+                         {},
+                         {},
+                         {},
+                         {},
+                         {},
+                         {},
+                         {},
+                         {},
+                         {},
+                         {},
+                         {}};
   for (int i = 0; i < n_positions; ++i)
     s.grounds.push_back(
         {i * grid.columns() / n_positions, double(i * grid.columns() % n_positions) / n_positions});
@@ -241,10 +261,12 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& p
   const CondensedLoads preloaded = preload(s);
   std::optional<ContactState<dim>> neighbour;
   for (int i = 0; i < n_positions; ++i) {
-    auto rolled = roll_to(model_, tread_, s.ring, s.grounds[i], s.preloads[i], neighbour);
+    auto rolled = roll_to(model_, tread_, s.ring, s.surface, s.grounds[i], s.preloads[i], neighbour);
     if (!rolled) return rolled.failure();
     neighbour = rolled->state;
     const ContactZone& zone = rolled->contact.zone();
+    if (zone.n_columns > s.surface.width() + 1)
+      s.surface = SurfaceCompliance<dim>(s.ring, tread_, zone.n_columns - 1);
     const Matrix loads = rolled->contact.contact_loads(rolled->state);
     for (int c = 0; c < zone.n_columns; ++c)
       std::copy_n(loads.column(c), loads.rows(),
@@ -281,17 +303,18 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& p
 
 template class RollingProblem<2>;
 template class RollingProblem<3>;
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                         \
-  template RimControl rim_control(const RollingModel<dim>&);                                                 \
-  template SectorFields complete_displacement(const RollingSolution<dim>&);                                  \
-  template Matrix outer_rows(const CyclicStiffness<dim>&, const Matrix&, int);                               \
-  template void add_outer_rows(const CyclicStiffness<dim>&, const Matrix&, Matrix&);                         \
-  template Expected<RolledContact<dim>> roll_to(const RollingModel<dim>&, const Tread<dim>&,                 \
-                                                const CyclicStiffness<dim>&, GroundPosition, const Preload&, \
-                                                const std::optional<ContactState<dim>>&);                    \
-  template Expected<RolledContact<dim>> reload(const RollingModel<dim>&, const Tread<dim>&,                  \
-                                               const CyclicStiffness<dim>&, GroundPosition, const Preload&,  \
-                                               const RolledContact<dim>&);
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                                        \
+  template RimControl rim_control(const RollingModel<dim>&);                                                \
+  template SectorFields complete_displacement(const RollingSolution<dim>&);                                 \
+  template Matrix outer_rows(const CyclicStiffness<dim>&, const Matrix&, int);                              \
+  template void add_outer_rows(const CyclicStiffness<dim>&, const Matrix&, Matrix&);                        \
+  template Expected<RolledContact<dim>> roll_to(const RollingModel<dim>&, const Tread<dim>&,                \
+                                                const CyclicStiffness<dim>&, const SurfaceCompliance<dim>&, \
+                                                GroundPosition, const Preload&,                             \
+                                                const std::optional<ContactState<dim>>&);                   \
+  template Expected<RolledContact<dim>> reload(const RollingModel<dim>&, const Tread<dim>&,                 \
+                                               const CyclicStiffness<dim>&, const SurfaceCompliance<dim>&,  \
+                                               GroundPosition, const Preload&, const RolledContact<dim>&);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)
 #undef WHEELWRIGHT_INSTANTIATE

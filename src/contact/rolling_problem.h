@@ -37,6 +37,7 @@ template <int dim>
 struct RollingSolution {
   CutDomain<dim> domain;
   CyclicStiffness<dim> ring;
+  SurfaceCompliance<dim> surface;  ///< of the ring; as wide as the widest contact zone
   std::vector<GroundPosition> grounds;
   std::vector<ReducedContact<dim>> contacts;
   std::vector<ContactState<dim>> states;
@@ -109,16 +110,17 @@ struct RolledContact {
 /// do.
 template <int dim>
 Expected<RolledContact<dim>> roll_to(const RollingModel<dim>& model, const Tread<dim>& tread,
-                                     const CyclicStiffness<dim>& ring, GroundPosition ground,
-                                     const Preload& preload,
+                                     const CyclicStiffness<dim>& ring, const SurfaceCompliance<dim>& surface,
+                                     GroundPosition ground, const Preload& preload,
                                      const std::optional<ContactState<dim>>& neighbour);
 
 /// The same position under the loads or the travel of `model`, which differs in nothing else: next to free as
 /// long as the contact stays in the zone of `before`.
 template <int dim>
 Expected<RolledContact<dim>> reload(const RollingModel<dim>& model, const Tread<dim>& tread,
-                                    const CyclicStiffness<dim>& ring, GroundPosition ground,
-                                    const Preload& preload, const RolledContact<dim>& before);
+                                    const CyclicStiffness<dim>& ring, const SurfaceCompliance<dim>& surface,
+                                    GroundPosition ground, const Preload& preload,
+                                    const RolledContact<dim>& before);
 
 /// The rows of boundary vectors (CyclicStiffness) on the core's outer line, one column an angular cell of the
 /// ring, `per_column` rows.

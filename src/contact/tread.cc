@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/periodic.h"
-#include "linalg/sparse_spd.h"
 
 namespace wheelwright {
 namespace {
@@ -33,31 +32,52 @@ Matrix leading_block(const Matrix& a, int rows, int columns) {
   return result;
 }
 
-/// Responses of all lines to unit loads on line 0, base fixed.
+/// A block of a column's stiffness: rows of its first (0) or last (1) line, columns of one of them.
 template <int dim>
-Expected<std::vector<Matrix>> line_responses(const TreadColumn<dim>& column, int n_columns) {
-  const int n_line = column.n_line;
-  const auto dof = [&](int c, int local) {  // local: first line, then last line
-    return ((c + local / n_line) % n_columns) * n_line + local % n_line;
-  };
-  std::vector<SparseSpd::Entry> entries;
-  entries.reserve(size_t(n_columns) * 4 * n_line * n_line);
-  for (int c = 0; c < n_columns; ++c)
-    for (int j = 0; j < 2 * n_line; ++j)
-      for (int i = 0; i < 2 * n_line; ++i)
-        if (const int row = dof(c, i), col = dof(c, j); row >= col)
-          entries.push_back({row, col, column.stiffness(column.n_base + i, column.n_base + j)});
-  auto factor = SparseSpd::factor(n_columns * n_line, entries);
-  if (!factor) return factor.failure();
-  std::vector<Matrix> responses(n_columns, Matrix(n_line, n_line));
-  for (int load = 0; load < n_line; ++load) {
-    std::vector<double> rhs(size_t(n_columns) * n_line, 0.0);
-    rhs[load] = 1;
-    const auto x = factor->solve(rhs);
-    for (int c = 0; c < n_columns; ++c)
-      std::copy_n(x.begin() + size_t(c) * n_line, n_line, responses[c].column(load));
-  }
+Matrix line_stiffness(const TreadColumn<dim>& column, int row_side, int column_side) {
+  const int n = column.n_line;
+  Matrix block(n, n);
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i)
+      block(i, j) = column.stiffness(column.n_base + row_side * n + i, column.n_base + column_side * n + j);
+  return block;
+}
+
+/// The lines of the ring, base held fixed: a line is the last of one column and the first of the next.
+template <int dim>
+Expected<CyclicChain> line_chain(const TreadColumn<dim>& column, int n_columns) {
+  Matrix diagonal = line_stiffness(column, 0, 0);
+  const Matrix last = line_stiffness(column, 1, 1);
+  for (size_t k = 0; k < last.entries().size(); ++k) diagonal.entries()[k] += last.entries()[k];
+  return CyclicChain::factor(diagonal, line_stiffness(column, 0, 1), n_columns);
+}
+
+/// Responses of all lines to unit loads on line 0, base fixed.
+std::vector<Matrix> line_responses(const CyclicChain& lines, int n_line) {
+  Matrix loads(n_line, n_line * lines.n_links());
+  for (int load = 0; load < n_line; ++load) loads(load, load * lines.n_links()) = 1;
+  const Matrix x = lines.solve(loads);
+  std::vector<Matrix> responses(lines.n_links(), Matrix(n_line, n_line));
+  for (int c = 0; c < lines.n_links(); ++c)
+    for (int load = 0; load < n_line; ++load)
+      std::copy_n(x.column(load * lines.n_links() + c), n_line, responses[c].column(load));
   return responses;
+}
+
+/// Rows that make samples z = tau sigma(u)n - gamma u, or tests theta/gamma sigma(u)n - u, of observations on
+/// Gamma_C.
+template <int dim, class OfTraction, class OfDisplacement>
+Matrix contact_rows(const std::vector<TreadPoint<dim>>& points, OfTraction of_traction,
+                    OfDisplacement of_displacement) {
+  const int n = dim * static_cast<int>(points.size());
+  Matrix rows(n, 2 * n);
+  for (int i = 0; i < n; ++i) {
+    const TreadPoint<dim>& point = points[i / dim];
+    const int observed = 2 * dim * (i / dim) + i % dim;
+    rows(i, observed) = -of_displacement(point);
+    rows(i, observed + dim) = of_traction(point);
+  }
+  return rows;
 }
 
 }  // namespace
@@ -75,9 +95,11 @@ Expected<Tread<dim>> Tread<dim>::condense(const ElementTable<dim>& table, const 
   tread.n_columns_ = table.grid().ring_columns();
   tread.columns_per_sector_ = table.grid().columns();
   const int n = tread.n_columns_;
-  const auto responses = line_responses(tread.column_, n);
-  if (!responses) return responses.failure();
-  const auto response = [&](int difference) -> const Matrix& { return (*responses)[wrap(difference, n)]; };
+  auto lines = line_chain(tread.column_, n);
+  if (!lines) return lines.failure();
+  const auto responses = line_responses(*lines, tread.n_line());
+  tread.lines_ = *std::move(lines);
+  const auto response = [&](int difference) -> const Matrix& { return responses[wrap(difference, n)]; };
 
   const int farthest = (n - 1) / 2 - 1;
   int reach = farthest;
@@ -85,13 +107,17 @@ Expected<Tread<dim>> Tread<dim>::condense(const ElementTable<dim>& table, const 
          std::max(largest(response(reach)), largest(response(-reach))) < negligible * largest(response(0)))
     --reach;
   tread.reach_ = reach;
-  for (int d = -reach - 1; d <= reach + 1; ++d) tread.line_compliance_.push_back(response(d));
 
   // What a column sees of another's lines, and how it loads them: through its own first and last line.
   const TreadColumn<dim>& own = tread.column_;
   const int n_base = own.n_base, n_line = own.n_line, n_contact = tread.n_contact();
   const Matrix stiffness_on_base = leading_block(own.stiffness, own.stiffness.rows(), n_base);
-  const Matrix contact_rows = leading_block(own.observation, n_contact, own.observation.columns());
+  const Matrix observed = leading_block(own.observation, n_contact, own.observation.columns());
+  const Matrix sampling = contact_rows<dim>(
+      own.points, [&](const auto&) { return form.tau(); }, [](const auto& point) { return point.gamma; });
+  const Matrix testing = contact_rows<dim>(
+      own.points, [&](const auto& point) { return form.theta() / point.gamma; },
+      [](const auto&) { return 1.0; });
   Matrix line_load_of_base[2], base_rows[2], observation_rows[2];
   for (int side = 0; side < 2; ++side) {
     line_load_of_base[side] = Matrix(n_line, n_base);
@@ -101,7 +127,7 @@ Expected<Tread<dim>> Tread<dim>::condense(const ElementTable<dim>& table, const 
     base_rows[side] = Matrix(n_base, n_line);
     for (int j = 0; j < n_line; ++j)
       for (int i = 0; i < n_base; ++i) base_rows[side](i, j) = -line_load_of_base[side](j, i);
-    observation_rows[side] = on_line(own, contact_rows, side);
+    observation_rows[side] = on_line(own, observed, side);
   }
   for (int d = -reach; d <= reach; ++d) {
     Matrix base(n_base, n_base), transfer(n_contact, n_base), compliance(n_contact, n_contact);
@@ -113,17 +139,19 @@ Expected<Tread<dim>> Tread<dim>::condense(const ElementTable<dim>& table, const 
     for (int seen = 0; seen < 2; ++seen) {
       Matrix of_base(n_line, n_base), of_observations(n_line, n_contact);
       for (int loaded = 0; loaded < 2; ++loaded) {
-        const Matrix& lines = response(d + seen - loaded);
-        multiply(1, lines, Op::none, line_load_of_base[loaded], Op::none, 1, of_base);
-        multiply(1, lines, Op::none, observation_rows[loaded], Op::transpose, 1, of_observations);
+        const Matrix& seen_lines = response(d + seen - loaded);
+        multiply(1, seen_lines, Op::none, line_load_of_base[loaded], Op::none, 1, of_base);
+        multiply(1, seen_lines, Op::none, observation_rows[loaded], Op::transpose, 1, of_observations);
       }
       multiply(1, base_rows[seen], Op::none, of_base, Op::none, 1, base);
       multiply(1, observation_rows[seen], Op::none, of_base, Op::none, 1, transfer);
       multiply(1, observation_rows[seen], Op::none, of_observations, Op::none, 1, compliance);
     }
     tread.base_stiffness_.push_back(std::move(base));
-    tread.transfer_.push_back(std::move(transfer));
-    tread.compliance_.push_back(std::move(compliance));
+    tread.samples_.push_back(product(sampling, Op::none, transfer, Op::none));
+    tread.tests_.push_back(product(testing, Op::none, transfer, Op::none));
+    const Matrix tested = product(compliance, Op::none, testing, Op::transpose);
+    tread.compliance_.push_back(product(sampling, Op::none, tested, Op::none));
   }
   return tread;
 }

@@ -2,6 +2,7 @@
 
 #include "contact/tread_column.h"
 #include "cyclic/harmonics.h"
+#include "linalg/cyclic_chain.h"
 
 namespace wheelwright {
 
@@ -27,23 +28,25 @@ class Tread {
     return degree_ * column_.n_base / (degree_ + 1);
   }  ///< not shared with the next
   int n_columns() const { return n_columns_; }
+  int columns_per_sector() const { return columns_per_sector_; }
   int rows() const { return grid_.rows; }  ///< radial cells of the level set's grid
   const ContactForm& form() const { return form_; }
 
   /// Columns farther apart than this do not feel each other through the tread, to rounding.
   int reach() const { return reach_; }
 
-  /// Line c + difference for a unit load on line c, base held fixed; |difference| <= reach() + 1.
-  const Matrix& line_compliance(int difference) const { return line_compliance_[difference + reach_ + 1]; }
+  /// The equations of the lines above a base that is held fixed.
+  const CyclicChain& lines() const { return *lines_; }
 
-  /// Observations on Gamma_C in column c + difference for a unit load on one of column c, base held fixed;
-  /// |difference| <= reach().
+  /// Contact samples z = tau sigma(u)n - gamma u and tests it with theta/gamma sigma(v)n - v (dim rows a
+  /// point, column frame). Samples, tests of column c + difference for a unit displacement of the base of
+  /// column c; |difference| <= reach(). Tests transposed: the load that reaches the base of column c from a
+  /// unit traction (times dS) on column c + difference.
+  const Matrix& samples(int difference) const { return samples_[difference + reach_]; }
+  const Matrix& tests(int difference) const { return tests_[difference + reach_]; }
+
+  /// Samples of column c + difference for a unit test of column c, base held fixed; |difference| <= reach().
   const Matrix& compliance(int difference) const { return compliance_[difference + reach_]; }
-
-  /// Observations on Gamma_C in column c + difference for a unit displacement of the base of column c;
-  /// |difference| <= reach(). Transposed: the load that reaches the base of column c from a load on column c
-  /// + difference.
-  const Matrix& transfer(int difference) const { return transfer_[difference + reach_]; }
 
   /// The tread's stiffness on the core's outer line for every harmonic of the sectors, in the order of
   /// CyclicStiffness.
@@ -54,7 +57,8 @@ class Tread {
   ContactForm form_;
   TreadColumn<dim> column_;
   int degree_ = 0, n_columns_ = 0, columns_per_sector_ = 0, reach_ = 0;
-  std::vector<Matrix> line_compliance_, compliance_, transfer_, base_stiffness_;
+  std::optional<CyclicChain> lines_;
+  std::vector<Matrix> compliance_, samples_, tests_, base_stiffness_;
 };
 
 }  // namespace wheelwright

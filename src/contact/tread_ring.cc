@@ -7,38 +7,6 @@
 namespace wheelwright {
 namespace {
 
-/// The columns of `field` that hold something, for one right-hand side.
-std::vector<int> loaded_columns(const Matrix& field, int first, int n_columns) {
-  std::vector<int> loaded;
-  for (int c = 0; c < n_columns; ++c) {
-    const double* x = field.column(first + c);
-    if (std::any_of(x, x + field.rows(), [](double v) { return v != 0; })) loaded.push_back(c);
-  }
-  return loaded;
-}
-
-/// Lines for loads on lines, base held fixed.
-template <int dim>
-Matrix respond(const Tread<dim>& tread, const Matrix& line_loads) {
-  const int n = tread.n_columns(), n_line = tread.n_line(), reach = tread.reach() + 1;
-  Matrix lines(n_line, line_loads.columns());
-  for (int first = 0; first < lines.columns(); first += n) {
-    const auto loaded = loaded_columns(line_loads, first, n);
-    if (loaded.empty()) continue;
-    Matrix source(n_line, static_cast<int>(loaded.size())), target = source;
-    for (int k = 0; k < source.columns(); ++k)
-      std::copy_n(line_loads.column(first + loaded[k]), n_line, source.column(k));
-    for (int d = -reach; d <= reach; ++d) {
-      multiply(1, tread.line_compliance(d), Op::none, source, Op::none, 0, target);
-      for (int k = 0; k < target.columns(); ++k) {
-        double* to = lines.column(first + wrap(loaded[k] + d, n));
-        for (int i = 0; i < n_line; ++i) to[i] += target(i, k);
-      }
-    }
-  }
-  return lines;
-}
-
 /// Rows of a column's retained unknowns: its base, its first line, its last line, by ring column.
 Matrix retained(const Matrix& base, const Matrix& lines, int n_columns) {
   const int n_base = base.rows(), n_line = lines.rows();
@@ -73,7 +41,7 @@ Matrix base_loads(const Tread<dim>& tread, const Matrix& observation_loads) {
   const int n = tread.n_columns(), n_base = tread.n_base(), per_column = tread.base_per_column();
   const TreadColumn<dim>& column = tread.column();
   Matrix loads = product(column.observation, Op::transpose, observation_loads, Op::none);
-  const Matrix lines = respond(tread, collect_line_loads(tread, loads));
+  const Matrix lines = tread.lines().solve(collect_line_loads(tread, loads));
   // The base feels its own loads less what it takes to hold it while the lines move.
   const Matrix moved = retained(Matrix(n_base, loads.columns()), lines, n);
   multiply(-1, column.stiffness, Op::none, moved, Op::none, 1, loads);
@@ -98,7 +66,7 @@ TreadField tread_field(const Tread<dim>& tread, const Matrix& outer_line, const 
   Matrix loads = product(column.observation, Op::transpose, observation_loads, Op::none);
   const Matrix held = retained(field.base, Matrix(tread.n_line(), outer_line.columns()), n);
   multiply(-1, column.stiffness, Op::none, held, Op::none, 1, loads);
-  field.lines = respond(tread, collect_line_loads(tread, loads));
+  field.lines = tread.lines().solve(collect_line_loads(tread, loads));
   field.observations = product(column.observation, Op::none, retained(field.base, field.lines, n), Op::none);
   multiply(1, column.compliance, Op::none, observation_loads, Op::none, 1, field.observations);
   return field;

@@ -25,8 +25,8 @@ Expected<std::vector<ContactSummary>> reload_all(const RollingModel<dim>& model,
                                                  std::vector<RolledContact<dim>>& positions) {
   std::vector<ContactSummary> result;
   for (size_t i = 0; i < positions.size(); ++i) {
-    auto rolled = reload(model, problem.tread(), solution.ring, solution.grounds[i], solution.preloads[i],
-                         positions[i]);
+    auto rolled = reload(model, problem.tread(), solution.ring, solution.surface, solution.grounds[i],
+                         solution.preloads[i], positions[i]);
     if (!rolled) return rolled.failure();
     positions[i] = *std::move(rolled);
     result.push_back(contact_summary(positions[i].contact, positions[i].state));

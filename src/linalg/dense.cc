@@ -47,6 +47,15 @@ void multiply(std::complex<double> alpha, const ComplexMatrix& a, Op op_a, const
   multiply_with(zgemm_, alpha, a, op_a, b, op_b, beta, c);
 }
 
+void multiply_columns(double alpha, const Matrix& a, Op op, const double* b, int columns, double beta,
+                      double* c) {
+  const int m = op == Op::none ? a.rows() : a.columns(), k = op == Op::none ? a.columns() : a.rows();
+  if (m == 0 || columns == 0) return;
+  const char ta = letter(op), none = 'N';
+  const int lda = std::max(1, a.rows()), ldb = std::max(1, k);
+  dgemm_(&ta, &none, &m, &columns, &k, &alpha, a.data(), &lda, b, &ldb, &beta, c, &m);
+}
+
 Matrix product(const Matrix& a, Op op_a, const Matrix& b, Op op_b) {
   Matrix c(op_a == Op::none ? a.rows() : a.columns(), op_b == Op::none ? b.columns() : b.rows());
   multiply(1, a, op_a, b, op_b, 0, c);

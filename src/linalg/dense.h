@@ -38,6 +38,10 @@ void multiply(double alpha, const Matrix& a, Op op_a, const Matrix& b, Op op_b, 
 void multiply(std::complex<double> alpha, const ComplexMatrix& a, Op op_a, const ComplexMatrix& b, Op op_b,
               std::complex<double> beta, ComplexMatrix& c);
 
+/// c = alpha op(a) b + beta c on the first columns of b and c, which have no gaps between them.
+void multiply_columns(double alpha, const Matrix& a, Op op, const double* b, int columns, double beta,
+                      double* c);
+
 /// op_a(a) op_b(b).
 Matrix product(const Matrix& a, Op op_a, const Matrix& b, Op op_b);
 
