@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 
+#include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "cut/measure.h"
 #include "evolution/evolver.h"
@@ -125,10 +126,11 @@ void shape(benchmark::State& state, const Wheel& wheel, GridTimes& times) {
 /// The sparse factorization within the phase "factorization"; what remains of it are the harmonics.
 void sector_cholesky(benchmark::State& state, const RollingSolution<2>& solution, Samples& samples) {
   const auto& ring = solution.ring;
-  std::vector<int> order(ring.sector().space.n_dofs());
-  for (int dof = 0; dof < static_cast<int>(order.size()); ++dof) order[ring.row(dof)] = dof;
+  std::vector<int> order(ring.sector().space.n_nodes());
+  for (int node = 0; node < static_cast<int>(order.size()); ++node) order[ring.row(2 * node) / 2] = node;
   measure(state, samples, [&] {
-    return value_of(PartialCholesky::factor(ring.sector().matrix, order, ring.sector_factor().n_trailing()));
+    return value_of(
+        PartialCholesky::factor(ring.sector().matrix, 2, order, ring.sector_factor().n_trailing() / 2));
   });
 }
 
@@ -262,6 +264,7 @@ void add_benchmarks(Workshop& shop, Measurements& m) {
 int main(int count, char** arguments) {
   using namespace wheelwright::bench;
   restart_single_threaded(arguments);
+  const wheelwright::ThreadLimit one_thread(1);
   benchmark::Initialize(&count, arguments);
   if (benchmark::ReportUnrecognizedArguments(count, arguments)) return 2;
   Workshop shop;

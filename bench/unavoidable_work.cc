@@ -19,16 +19,15 @@ std::vector<KernelWork> unavoidable_work(const RollingProblem<2>& problem,
   const auto& tread = problem.tread();
   const double harmonics = real_harmonics(ring.n_sectors()), boundary = ring.n_boundary(),
                outer = ring.n_outer();
-  const double positions = solution.states.size(), fields = positions * ring.n_sectors();
-  const double trailing = ring.sector_factor().n_trailing(),
-               interior_entries = ring.sector_factor().factor_entries() - trailing * trailing;
+  const double positions = solution.states.size();
+  const double modes = solution.displacement.modes.rows(),
+               swept_entries = ring.sector_factor().sweep_entries(solution.sweep);
 
-  double contact_operator = 0;
-  for (const auto& contact : solution.contacts) {
-    const double points = contact.n_points(),
-                 base = tread.base_per_column() * (contact.zone().n_columns + 2.0 * tread.reach() + 1);
-    contact_operator += 2 * base * base * points + 2 * points * points * base;
-  }
+  const double width = solution.surface.width(), per_column = tread.base_per_column(),
+               base = per_column * (2.0 * tread.reach() + 2), samples = tread.compliance(0).rows(),
+               sampled_base = base + per_column * 2 * width;
+  const double contact_operator =
+      tread.columns_per_sector() * 2 * samples * (base * sampled_base + base * samples * (2 * width + 1));
   double boundary_points = 0;
   for (const auto& cell : solution.domain.cut) boundary_points += cell.boundary.size();
   const double cell_dofs = problem.elements().element(0).n_dofs();
@@ -38,9 +37,9 @@ std::vector<KernelWork> unavoidable_work(const RollingProblem<2>& problem,
           {"Cholesky of the harmonics", harmonics * cube(boundary) / 3},
           {"compliance of the outer line", harmonics * 2 * cube(outer) / 3},
           {"contact operators", contact_operator},
-          {"backward sweep, direct", 2 * interior_entries * fields + boundary_solve},
-          {"both sweeps, adjoint", 4 * interior_entries * fields + 2 * boundary_solve},
-          {"strains on the boundary", boundary_points * 2 * n_strains<2> * cell_dofs * 2 * fields}};
+          {"backward sweep, direct", 2 * swept_entries * modes + boundary_solve},
+          {"both sweeps, adjoint", 4 * swept_entries * modes + 2 * boundary_solve},
+          {"strains on the boundary", boundary_points * 2 * n_strains<2> * cell_dofs * 2 * modes}};
 }
 
 int ring_unknowns(const RollingProblem<2>& problem, const RollingSolution<2>& solution) {

@@ -69,7 +69,7 @@ class CondensedSquare : public ::testing::Test {
 };
 
 TEST_F(CondensedSquare, SolvesAsADenseCholesky) {
-  const auto factor = PartialCholesky::factor(laplacian_.sparse, order_, n);
+  const auto factor = PartialCholesky::factor(laplacian_.sparse, 1, order_, n);
   ASSERT_TRUE(factor);
   const Matrix loads = random_matrix(3, n * n, 1);
   Matrix x(3, n * n);
@@ -95,7 +95,7 @@ TEST_F(CondensedSquare, SolvesAsADenseCholesky) {
 }
 
 TEST_F(CondensedSquare, APartialSweepIsTheFullOneWhereItGoes) {
-  const auto factor = PartialCholesky::factor(laplacian_.sparse, order_, n);
+  const auto factor = PartialCholesky::factor(laplacian_.sparse, 1, order_, n);
   ASSERT_TRUE(factor);
   std::vector<char> marked(n * n, 0);
   marked[0] = 1;  // in the left half

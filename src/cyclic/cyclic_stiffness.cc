@@ -54,18 +54,15 @@ Expected<CyclicStiffness<dim>> CyclicStiffness<dim>::factor(SectorStiffness<dim>
                                                             const SectorHarmonics& harmonics) {
   const SectorSpace<dim>& space = sector.space;
   const BoundaryLayout<dim> layout = boundary_layout<dim>(space, order);
-  const int n_trailing = dim * static_cast<int>(layout.trailing_nodes.size());
-  std::vector<int> dof_order;
-  dof_order.reserve(space.n_dofs());
-  for (const auto* nodes : {&layout.interior_nodes, &layout.trailing_nodes})
-    for (int node : *nodes)
-      for (int c = 0; c < dim; ++c) dof_order.push_back(dim * node + c);
-
-  auto factored = PartialCholesky::factor(sector.matrix, dof_order, n_trailing);
+  std::vector<int> nodes = layout.interior_nodes;
+  nodes.insert(nodes.end(), layout.trailing_nodes.begin(), layout.trailing_nodes.end());
+  auto factored =
+      PartialCholesky::factor(sector.matrix, dim, nodes, static_cast<int>(layout.trailing_nodes.size()));
   if (!factored) return factored.failure();
   CyclicStiffness ring(std::move(sector), *std::move(factored), harmonics);
-  ring.row_.resize(dof_order.size());
-  for (int k = 0; k < static_cast<int>(dof_order.size()); ++k) ring.row_[dof_order[k]] = k;
+  ring.row_.resize(dim * nodes.size());
+  for (int k = 0; k < static_cast<int>(nodes.size()); ++k)
+    for (int c = 0; c < dim; ++c) ring.row_[dim * nodes[k] + c] = dim * k + c;
 
   const SectorSpace<dim>& own_space = ring.sector_.space;
   const PolarGrid<dim>& grid = own_space.grid();

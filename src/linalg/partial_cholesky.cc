@@ -1,171 +1,298 @@
 #include "linalg/partial_cholesky.h"
 
 #include <cholmod.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
+
+#include "base/parallel.h"
 
 extern "C" {
-void dtrmm_(const char*, const char*, const char*, const char*, const int*, const int*, const double*,
-            const double*, const int*, double*, const int*);
+void dpotrf_(const char*, const int*, double*, const int*, int*);
 void dtrsm_(const char*, const char*, const char*, const char*, const int*, const int*, const double*,
             const double*, const int*, double*, const int*);
+void dsyrk_(const char*, const char*, const int*, const int*, const double*, const double*, const int*,
+            const double*, double*, const int*);
 void dgemm_(const char*, const char*, const int*, const int*, const int*, const double*, const double*,
             const int*, const double*, const int*, const double*, double*, const int*);
 }
 
 namespace wheelwright {
-
-struct PartialCholesky::Factor {
-  cholmod_common common;
-  cholmod_factor* factor = nullptr;
-  double flops = 0;
-
-  Factor() {
-    cholmod_start(&common);
-    common.supernodal = CHOLMOD_SUPERNODAL;
-    common.final_ll = true;
-    common.nmethods = 1;
-    common.method[0].ordering = CHOLMOD_GIVEN;
-    common.postorder = false;
-    common.print = 0;
-  }
-  Factor(const Factor&) = delete;
-  Factor& operator=(const Factor&) = delete;
-  ~Factor() {
-    cholmod_free_factor(&factor, &common);
-    cholmod_finish(&common);
-  }
-};
-
 namespace {
 
-/// Columns first_column.. of a supernodal factor, as a dense lower triangle.
-Matrix trailing_block(const cholmod_factor& factor, int first_column) {
-  const int n = static_cast<int>(factor.n);
-  Matrix block(n - first_column, n - first_column);
-  const int* super = static_cast<const int*>(factor.super);
-  const int* row_start = static_cast<const int*>(factor.pi);
-  const int* value_start = static_cast<const int*>(factor.px);
-  const int* row = static_cast<const int*>(factor.s);
-  const double* values = static_cast<const double*>(factor.x);
-  for (size_t s = 0; s < factor.nsuper; ++s) {
-    const int n_rows = row_start[s + 1] - row_start[s];
-    for (int j = std::max(super[s], first_column); j < super[s + 1]; ++j) {
-      const int local = j - super[s];
-      const double* column = values + value_start[s] + size_t(local) * n_rows;
-      for (int r = local; r < n_rows; ++r)
-        block(row[row_start[s] + r] - first_column, j - first_column) = column[r];
-    }
-  }
-  return block;
-}
+/// CHOLMOD's symbolic analysis of a node graph in a given order.
+class SymbolicFactor {
+ public:
+  SymbolicFactor(const SparseSymmetric& matrix, int block, std::span<const int> order) {
+    cholmod_start(&common_);
+    common_.supernodal = CHOLMOD_SUPERNODAL;
+    common_.nmethods = 1;
+    common_.method[0].ordering = CHOLMOD_GIVEN;
+    common_.postorder = false;
+    common_.print = 0;
+    for (size_t& columns : common_.nrelax) columns = std::max<size_t>(1, columns / block);
 
-/// l l^T - shift on the diagonal, full symmetric.
-Matrix schur_complement(const Matrix& l, double shift) {
-  const int n = l.rows();
-  Matrix s = l;
-  const double one = 1;
-  if (n > 0) dtrmm_("R", "L", "T", "N", &n, &n, &one, l.data(), &n, s.data(), &n);
-  for (int j = 0; j < n; ++j) {
-    s(j, j) -= shift;
-    for (int i = 0; i < j; ++i) s(i, j) = s(j, i);
+    std::vector<int> column_start{0}, rows;
+    for (int node = 0; node < matrix.size / block; ++node) {
+      for (int k = matrix.column_start[block * node]; k < matrix.column_start[block * node + 1]; ++k)
+        if (const int row = matrix.rows[k] / block;
+            static_cast<int>(rows.size()) == column_start.back() || rows.back() != row)
+          rows.push_back(row);
+      column_start.push_back(static_cast<int>(rows.size()));
+    }
+    cholmod_sparse graph{};
+    graph.nrow = graph.ncol = order.size();
+    graph.nzmax = rows.size();
+    graph.p = column_start.data();
+    graph.i = rows.data();
+    graph.stype = -1;
+    graph.itype = CHOLMOD_INT;
+    graph.xtype = CHOLMOD_PATTERN;
+    graph.sorted = graph.packed = true;
+    factor_ = cholmod_analyze_p(&graph, const_cast<int*>(order.data()), nullptr, 0, &common_);
+    if (factor_ && !std::equal(order.begin(), order.end(), static_cast<const int*>(factor_->Perm)))
+      cholmod_free_factor(&factor_, &common_);
   }
-  return s;
+  SymbolicFactor(const SymbolicFactor&) = delete;
+  SymbolicFactor& operator=(const SymbolicFactor&) = delete;
+  ~SymbolicFactor() {
+    cholmod_free_factor(&factor_, &common_);
+    cholmod_finish(&common_);
+  }
+
+  bool kept_order() const { return factor_ != nullptr; }
+  int n_supernodes() const { return static_cast<int>(factor_->nsuper); }
+  int first(int supernode) const { return static_cast<const int*>(factor_->super)[supernode]; }
+  /// Nodes of a supernode's rows, its own first.
+  std::span<const int> rows(int supernode) const {
+    const int* start = static_cast<const int*>(factor_->pi);
+    return {static_cast<const int*>(factor_->s) + start[supernode],
+            size_t(start[supernode + 1] - start[supernode])};
+  }
+
+ private:
+  cholmod_common common_;
+  cholmod_factor* factor_ = nullptr;
+};
+
+/// Vectors that sweeps take together.
+constexpr int sweep_block = 24;
+
+/// Calls f(first, n) for blocks of n of `size` vectors, whatever the number of threads.
+void for_blocks(int size, const std::function<void(int, int)>& f) {
+  const int n_blocks = (size + sweep_block - 1) / sweep_block;
+  parallel_for(n_blocks, [&](int block) {
+    const int first = size * block / n_blocks, last = size * (block + 1) / n_blocks;
+    f(first, last - first);
+  });
 }
 
 }  // namespace
 
-Expected<PartialCholesky> PartialCholesky::factor(const SparseSymmetric& matrix, std::span<const int> order,
-                                                  int n_trailing) {
-  const int n = matrix.size;
-  // Trailing rows may be empty before the neighbouring sectors add theirs: shift them here, subtract below.
-  double shift = 0;
-  for (int j = 0; j < n; ++j) shift = std::max(shift, matrix.values[matrix.column_start[j]]);
-  std::vector<double> values = matrix.values;
-  for (int k = n - n_trailing; k < n; ++k) values[matrix.column_start[order[k]]] += shift;
-
-  cholmod_sparse a{};
-  a.nrow = a.ncol = n;
-  a.nzmax = matrix.rows.size();
-  a.p = const_cast<int*>(matrix.column_start.data());
-  a.i = const_cast<int*>(matrix.rows.data());
-  a.x = values.data();
-  a.stype = -1;
-  a.itype = CHOLMOD_INT;
-  a.xtype = CHOLMOD_REAL;
-  a.dtype = CHOLMOD_DOUBLE;
-  a.sorted = a.packed = true;
-
-  auto f = std::make_unique<Factor>();
-  f->factor = cholmod_analyze_p(&a, const_cast<int*>(order.data()), nullptr, 0, &f->common);
-  if (!f->factor || !std::equal(order.begin(), order.end(), static_cast<const int*>(f->factor->Perm)))
+Expected<PartialCholesky> PartialCholesky::analyze(const SparseSymmetric& matrix, int block,
+                                                   std::span<const int> order, int n_trailing) {
+  const SymbolicFactor symbolic(matrix, block, order);
+  if (!symbolic.kept_order())
     return Failure{FailureReason::not_positive_definite, "CHOLMOD did not keep the elimination order"};
-  f->flops = f->common.fl;
-  cholmod_factorize(&a, f->factor, &f->common);
-  if (f->common.status != CHOLMOD_OK || f->factor->minor < f->factor->n || !f->factor->is_super)
-    return Failure{FailureReason::not_positive_definite,
-                   fmt::format("the stiffness of a sector is not positive definite at unknown {} of {}",
-                               f->factor->minor, n)};
-  Matrix l = trailing_block(*f->factor, n - n_trailing);
-  Matrix schur = schur_complement(l, shift);
-  for (double x : schur.entries())
-    if (!std::isfinite(x)) return Failure{FailureReason::not_finite, "the condensed stiffness is not finite"};
-  return PartialCholesky(std::move(f), std::move(schur));
+  const int n_interior = static_cast<int>(order.size()) - n_trailing;
+  PartialCholesky result;
+  result.supernode_of_.assign(matrix.size, -1);
+  result.schur_ = Matrix(block * n_trailing, block * n_trailing);
+  size_t n_values = 0;
+  for (int s = 0; s < symbolic.n_supernodes() && symbolic.first(s) < n_interior; ++s) {
+    const auto rows = symbolic.rows(s);
+    const auto below = std::upper_bound(
+        rows.begin(), rows.end(),
+        std::min(n_interior, s + 1 < symbolic.n_supernodes() ? symbolic.first(s + 1) : n_interior) - 1);
+    Supernode node{block * symbolic.first(s),
+                   block * static_cast<int>(below - rows.begin()),
+                   block * static_cast<int>(rows.end() - below),
+                   result.below_.size(),
+                   n_values,
+                   -1};
+    for (auto row = below; row != rows.end(); ++row)
+      for (int c = 0; c < block; ++c) result.below_.push_back(block * *row + c);
+    n_values += size_t(node.stride()) * node.n_columns;
+    std::fill_n(result.supernode_of_.begin() + node.first, node.n_columns, s);
+    result.supernodes_.push_back(node);
+  }
+  result.values_.assign(n_values, 0.0);
+  for (Supernode& node : result.supernodes_)
+    if (node.n_below > 0) node.parent = result.supernode_of_[result.below_[node.below]];
+  return result;
 }
 
-/// The interior columns of a supernode: L's diagonal block and the rows below it.
-struct PartialCholesky::Supernode {
-  int first, n_columns;  ///< unknowns
-  const int* below;      ///< unknowns of the rows below
-  int n_below;
-  const double* values;  ///< column-major, the diagonal block on top
-  int stride;            ///< between columns
+/// The numerical factorization: fills values_ and schur_.
+class PartialCholesky::Numbers {
+ public:
+  Numbers(PartialCholesky& factor, const SparseSymmetric& matrix, int block, std::span<const int> order)
+      : factor_(factor), children_(factor.supernodes_.size()), updates_(factor.supernodes_.size()) {
+    for (size_t s = 0; s < children_.size(); ++s)
+      if (const int parent = factor.supernodes_[s].parent; parent >= 0)
+        children_[parent].push_back(static_cast<int>(s));
+    sort_entries(matrix, block, order);
+  }
+
+  /// Supernodes in this order; false when one is not positive definite.
+  bool eliminate(const std::vector<int>& supernodes) {
+    std::vector<int> place(factor_.size());
+    return std::all_of(supernodes.begin(), supernodes.end(), [&](int s) { return eliminate(s, place); });
+  }
+
+  void finish_schur() {
+    Matrix& schur = factor_.schur_;
+    const int first = factor_.n_interior();
+    for (int j = first; j < factor_.size(); ++j)
+      for (int k = column_start_[j]; k < column_start_[j + 1]; ++k)
+        schur(entries_[k].row - first, j - first) += entries_[k].value;
+    for (size_t s = 0; s < updates_.size(); ++s) {
+      const Supernode& node = factor_.supernodes_[s];
+      if (node.parent >= 0) continue;
+      const int* rows = &factor_.below_[node.below];
+      for (int j = 0; j < node.n_below; ++j)
+        for (int i = j; i < node.n_below; ++i) schur(rows[i] - first, rows[j] - first) += updates_[s](i, j);
+    }
+    for (int j = 0; j < schur.columns(); ++j)
+      for (int i = 0; i < j; ++i) schur(i, j) = schur(j, i);
+  }
+
+ private:
+  struct Entry {
+    int row;
+    double value;
+  };
+
+  /// The matrix's lower triangle in elimination order, by columns.
+  void sort_entries(const SparseSymmetric& matrix, int block, std::span<const int> order) {
+    std::vector<int> place(matrix.size);
+    for (size_t k = 0; k < order.size(); ++k)
+      for (int c = 0; c < block; ++c) place[block * order[k] + c] = block * static_cast<int>(k) + c;
+    column_start_.assign(matrix.size + 1, 0);
+    for (int j = 0; j < matrix.size; ++j)
+      for (int k = matrix.column_start[j]; k < matrix.column_start[j + 1]; ++k)
+        ++column_start_[std::min(place[j], place[matrix.rows[k]]) + 1];
+    std::partial_sum(column_start_.begin(), column_start_.end(), column_start_.begin());
+    entries_.resize(matrix.rows.size());
+    std::vector<int> next(column_start_.begin(), column_start_.end() - 1);
+    for (int j = 0; j < matrix.size; ++j)
+      for (int k = matrix.column_start[j]; k < matrix.column_start[j + 1]; ++k) {
+        const auto [column, row] = std::minmax(place[j], place[matrix.rows[k]]);
+        entries_[next[column]++] = {row, matrix.values[k]};
+      }
+  }
+
+  /// `place`: room for one number an unknown.
+  bool eliminate(int s, std::vector<int>& place) {
+    const Supernode& node = factor_.supernodes_[s];
+    const int stride = node.stride(), n = node.n_columns, m = node.n_below;
+    const int* below = &factor_.below_[node.below];
+    double* l = &factor_.values_[node.values];
+    std::iota(place.begin() + node.first, place.begin() + node.first + n, 0);
+    for (int k = 0; k < m; ++k) place[below[k]] = n + k;
+    Matrix& update = updates_[s] = Matrix(m, m);
+
+    for (int j = 0; j < n; ++j)
+      for (int k = column_start_[node.first + j]; k < column_start_[node.first + j + 1]; ++k)
+        l[size_t(j) * stride + place[entries_[k].row]] += entries_[k].value;
+    for (const int child : children_[s]) {
+      const int n_rows = factor_.supernodes_[child].n_below;
+      const int* rows = &factor_.below_[factor_.supernodes_[child].below];
+      for (int j = 0; j < n_rows; ++j) {
+        const int column = place[rows[j]];
+        double* to = column < n ? l + size_t(column) * stride : update.column(column - n) - n;
+        const double* from = updates_[child].column(j);
+        for (int i = j; i < n_rows; ++i) to[place[rows[i]]] += from[i];
+      }
+      updates_[child] = {};
+    }
+    int info = 0;
+    const double one = 1, minus_one = -1;
+    dpotrf_("L", &n, l, &stride, &info);
+    if (info != 0) return false;
+    if (m == 0) return true;
+    dtrsm_("R", "L", "T", "N", &m, &n, &one, l, &stride, l + n, &stride);
+    dsyrk_("L", "N", &m, &n, &minus_one, l + n, &stride, &one, update.data(), &m);
+    return true;
+  }
+
+  PartialCholesky& factor_;
+  std::vector<std::vector<int>> children_;
+  std::vector<Matrix>
+      updates_;  ///< what a supernode passes on to its parent: lower triangle on its rows below
+  std::vector<int> column_start_;
+  std::vector<Entry> entries_;
 };
 
-PartialCholesky::Supernode PartialCholesky::supernode(int s) const {
-  const cholmod_factor& factor = *factor_->factor;
-  const int* super = static_cast<const int*>(factor.super);
-  const int* row_start = static_cast<const int*>(factor.pi);
-  const int n_rows = row_start[s + 1] - row_start[s];
-  const int n_columns = std::max(0, std::min(super[s + 1], n_interior()) - super[s]);
-  return {super[s],
-          n_columns,
-          static_cast<const int*>(factor.s) + row_start[s] + n_columns,
-          n_rows - n_columns,
-          static_cast<const double*>(factor.x) + static_cast<const int*>(factor.px)[s],
-          n_rows};
-}
-
-PartialCholesky::PartialCholesky(std::unique_ptr<Factor> factor, Matrix schur)
-    : factor_(std::move(factor)), schur_(std::move(schur)), supernode_of_(factor_->factor->n) {
-  const int* super = static_cast<const int*>(factor_->factor->super);
-  for (int s = 0; s < static_cast<int>(factor_->factor->nsuper); ++s) {
-    std::fill(supernode_of_.begin() + super[s], supernode_of_.begin() + super[s + 1], s);
-    largest_supernode_ = std::max(largest_supernode_, supernode(s).stride);
+/// Disjoint subtrees of like work, then the supernodes above them: each a list in elimination order.
+std::vector<std::vector<int>> PartialCholesky::independent_subtrees() const {
+  constexpr double largest_share = 1.0 / 6;
+  const int n = static_cast<int>(supernodes_.size());
+  std::vector<double> work(n, 0.0);
+  double total = 0;
+  for (int s = 0; s < n; ++s) {
+    const double own = double(supernodes_[s].n_columns) * supernodes_[s].stride() * supernodes_[s].stride();
+    total += own;
+    work[s] += own;
+    if (supernodes_[s].parent >= 0) work[supernodes_[s].parent] += work[s];
   }
+  // From the roots down: -1 above the subtrees, else the subtree's number.
+  std::vector<int> subtree(n);
+  int n_subtrees = 0;
+  for (int s = n - 1; s >= 0; --s) {
+    const int parent = supernodes_[s].parent;
+    if (parent >= 0 && subtree[parent] >= 0)
+      subtree[s] = subtree[parent];
+    else
+      subtree[s] = work[s] > largest_share * total ? -1 : n_subtrees++;
+  }
+  std::vector<std::vector<int>> lists(n_subtrees + 1);
+  for (int s = 0; s < n; ++s) lists[subtree[s] >= 0 ? subtree[s] : n_subtrees].push_back(s);
+  return lists;
 }
-PartialCholesky::PartialCholesky(PartialCholesky&&) noexcept = default;
-PartialCholesky& PartialCholesky::operator=(PartialCholesky&&) noexcept = default;
-PartialCholesky::~PartialCholesky() = default;
 
-double PartialCholesky::factor_entries() const { return static_cast<double>(factor_->factor->xsize); }
-double PartialCholesky::factor_flops() const { return factor_->flops; }
+Expected<PartialCholesky> PartialCholesky::factor(const SparseSymmetric& matrix, int block,
+                                                  std::span<const int> order, int n_trailing) {
+  auto factor = analyze(matrix, block, order, n_trailing);
+  if (!factor) return factor;
+  Numbers numbers(*factor, matrix, block, order);
+  const auto lists = factor->independent_subtrees();
+  std::vector<char> is_definite(lists.size());
+  parallel_for(static_cast<int>(lists.size()) - 1,
+               [&](int subtree) { is_definite[subtree] = numbers.eliminate(lists[subtree]); });
+  is_definite.back() = std::all_of(is_definite.begin(), is_definite.end() - 1, [](char d) { return d; }) &&
+                       numbers.eliminate(lists.back());
+  if (!is_definite.back())
+    return Failure{FailureReason::not_positive_definite,
+                   "the stiffness of a sector is not positive definite"};
+  numbers.finish_schur();
+  for (double x : factor->schur_.entries())
+    if (!std::isfinite(x)) return Failure{FailureReason::not_finite, "the condensed stiffness is not finite"};
+  return factor;
+}
+
+double PartialCholesky::factor_flops() const {
+  double flops = 0;
+  for (const Supernode& node : supernodes_) {
+    const double n = node.n_columns, m = node.n_below;
+    flops += n * n * n / 3 + m * n * n + m * m * n;
+  }
+  return flops;
+}
 
 PartialCholesky::Sweep PartialCholesky::sweep_through(const std::vector<char>& marked) const {
-  const int n_supernodes = static_cast<int>(factor_->factor->nsuper);
-  std::vector<char> needed(n_supernodes, 0);
+  std::vector<char> needed(supernodes_.size(), 0);
   for (int i = 0; i < n_interior(); ++i)
     if (marked[i]) needed[supernode_of_[i]] = 1;
   Sweep sweep{{}, std::vector<char>(size(), 0)};
   std::fill(sweep.visited.begin() + n_interior(), sweep.visited.end(), 1);
-  for (int s = 0; s < n_supernodes; ++s) {
+  for (size_t s = 0; s < supernodes_.size(); ++s) {
     if (!needed[s]) continue;
-    const Supernode node = supernode(s);
-    sweep.supernodes.push_back(s);
+    const Supernode& node = supernodes_[s];
+    sweep.supernodes.push_back(static_cast<int>(s));
     std::fill_n(sweep.visited.begin() + node.first, node.n_columns, 1);
-    if (node.n_below > 0 && node.below[0] < n_interior()) needed[supernode_of_[node.below[0]]] = 1;
+    if (node.parent >= 0) needed[node.parent] = 1;
   }
   return sweep;
 }
@@ -174,40 +301,56 @@ PartialCholesky::Sweep PartialCholesky::full_sweep() const {
   return sweep_through(std::vector<char>(size(), 1));
 }
 
+double PartialCholesky::sweep_entries(const Sweep& sweep) const {
+  double entries = 0;
+  for (const int s : sweep.supernodes)
+    entries += double(supernodes_[s].n_columns) * (supernodes_[s].n_below + 0.5 * supernodes_[s].n_columns);
+  return entries;
+}
+
 void PartialCholesky::eliminate(const Sweep& sweep, Matrix& loads) const {
-  const int n = loads.rows();
-  if (n == 0) return;
   const double one = 1, zero = 0;
-  std::vector<double> passed_on(size_t(n) * largest_supernode_);
-  for (const int s : sweep.supernodes) {
-    const Supernode node = supernode(s);
-    double* own = loads.column(node.first);
-    dtrsm_("R", "L", "T", "N", &n, &node.n_columns, &one, node.values, &node.stride, own, &n);
-    if (node.n_below == 0) continue;
-    dgemm_("N", "T", &n, &node.n_below, &node.n_columns, &one, own, &n, node.values + node.n_columns,
-           &node.stride, &zero, passed_on.data(), &n);
-    for (int k = 0; k < node.n_below; ++k) {
-      double* to = loads.column(node.below[k]);
-      const double* from = &passed_on[size_t(k) * n];
-      for (int i = 0; i < n; ++i) to[i] -= from[i];
+  const int leading = loads.rows();
+  for_blocks(leading, [&](int first, int n) {
+    std::vector<double> passed_on;
+    for (const int s : sweep.supernodes) {
+      const Supernode& node = supernodes_[s];
+      const int stride = node.stride(), *below = &below_[node.below];
+      const double* l = &values_[node.values];
+      double* own = loads.column(node.first) + first;
+      dtrsm_("R", "L", "T", "N", &n, &node.n_columns, &one, l, &stride, own, &leading);
+      if (node.n_below == 0) continue;
+      passed_on.resize(size_t(n) * node.n_below);
+      dgemm_("N", "T", &n, &node.n_below, &node.n_columns, &one, own, &leading, l + node.n_columns, &stride,
+             &zero, passed_on.data(), &n);
+      for (int k = 0; k < node.n_below; ++k) {
+        double* to = loads.column(below[k]) + first;
+        const double* from = &passed_on[size_t(k) * n];
+        for (int i = 0; i < n; ++i) to[i] -= from[i];
+      }
     }
-  }
+  });
 }
 
 void PartialCholesky::substitute(const Sweep& sweep, Matrix& x) const {
-  const int n = x.rows();
-  if (n == 0) return;
   const double one = 1, minus_one = -1;
-  std::vector<double> known(size_t(n) * largest_supernode_);
-  for (auto s = sweep.supernodes.rbegin(); s != sweep.supernodes.rend(); ++s) {
-    const Supernode node = supernode(*s);
-    double* own = x.column(node.first);
-    for (int k = 0; k < node.n_below; ++k) std::copy_n(x.column(node.below[k]), n, &known[size_t(k) * n]);
-    if (node.n_below > 0)
-      dgemm_("N", "N", &n, &node.n_columns, &node.n_below, &minus_one, known.data(), &n,
-             node.values + node.n_columns, &node.stride, &one, own, &n);
-    dtrsm_("R", "L", "N", "N", &n, &node.n_columns, &one, node.values, &node.stride, own, &n);
-  }
+  const int leading = x.rows();
+  for_blocks(leading, [&](int first, int n) {
+    std::vector<double> known;
+    for (auto s = sweep.supernodes.rbegin(); s != sweep.supernodes.rend(); ++s) {
+      const Supernode& node = supernodes_[*s];
+      const int stride = node.stride(), *below = &below_[node.below];
+      const double* l = &values_[node.values];
+      double* own = x.column(node.first) + first;
+      known.resize(size_t(n) * node.n_below);
+      for (int k = 0; k < node.n_below; ++k)
+        std::copy_n(x.column(below[k]) + first, n, &known[size_t(k) * n]);
+      if (node.n_below > 0)
+        dgemm_("N", "N", &n, &node.n_columns, &node.n_below, &minus_one, known.data(), &n, l + node.n_columns,
+               &stride, &one, own, &leading);
+      dtrsm_("R", "L", "N", "N", &n, &node.n_columns, &one, l, &stride, own, &leading);
+    }
+  });
 }
 
 }  // namespace wheelwright
