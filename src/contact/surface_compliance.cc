@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "base/parallel.h"
 #include "base/periodic.h"
 
 namespace wheelwright {
@@ -60,7 +61,9 @@ SurfaceCompliance<dim>::SurfaceCompliance(const CyclicStiffness<dim>& ring, cons
   const Matrix sample =
       on_base_columns(tread, n_sampled, [&](int d) -> const Matrix& { return tread.samples(d); });
   blocks_.resize(size_t(2 * width + 1) * columns_per_sector_, Matrix(block, block));
-  for (int first = 0; first < columns_per_sector_; first += n_together) {
+  const int n_groups = (columns_per_sector_ + n_together - 1) / n_together;
+  parallel_for(n_groups, [&](int group) {
+    const int first = group * n_together;
     const Matrix g = outer_compliance(ring, tread, first - width - reach, n_sampled + 2 * reach + 1,
                                       first - reach, n_together + 2 * reach + 1);
     const Matrix sampled = product(sample, Op::none, product(g, Op::none, test, Op::transpose), Op::none);
@@ -73,7 +76,7 @@ SurfaceCompliance<dim>::SurfaceCompliance(const CyclicStiffness<dim>& ring, cons
             if (std::abs(d) <= reach) result(i, j) -= tread.compliance(d)(i, j);
           }
       }
-  }
+  });
 }
 
 template class SurfaceCompliance<2>;

@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "base/parallel.h"
 #include "base/periodic.h"
 
 namespace wheelwright {
@@ -92,20 +93,24 @@ Expected<CyclicStiffness<dim>> CyclicStiffness<dim>::factor(SectorStiffness<dim>
 
   const CoupledSectors coupled = ring.couple_sectors();
   ComplexMatrix outer_inverse(ring.n_outer_ * ring.n_outer_, harmonics.n_harmonics());
-  for (int h = 0; h < harmonics.n_harmonics(); ++h) {
-    ComplexMatrix k = coupled.of_harmonic(harmonics, h);
+  ring.harmonic_factors_.resize(harmonics.n_harmonics());
+  std::vector<char> is_definite(harmonics.n_harmonics());
+  parallel_for(harmonics.n_harmonics(), [&](int h) {
+    ComplexMatrix& k = ring.harmonic_factors_[h] = coupled.of_harmonic(harmonics, h);
     for (int j = 0; j < ring.n_outer_; ++j)
       for (int i = j; i < ring.n_outer_; ++i) k(n_interface + i, n_interface + j) += outer_stiffness[h](i, j);
-    if (!cholesky(k))
-      return Failure{FailureReason::not_positive_definite,
-                     fmt::format("the ring's stiffness is not positive definite for harmonic {}", h)};
+    is_definite[h] = cholesky(k);
+    if (!is_definite[h]) return;
     ComplexMatrix inverse(ring.n_outer_, ring.n_outer_);
     for (int j = 0; j < ring.n_outer_; ++j)
       for (int i = j; i < ring.n_outer_; ++i) inverse(i, j) = k(n_interface + i, n_interface + j);
     cholesky_invert(inverse);
     std::copy(inverse.entries().begin(), inverse.entries().end(), outer_inverse.column(h));
-    ring.harmonic_factors_.push_back(std::move(k));
-  }
+  });
+  for (int h = 0; h < harmonics.n_harmonics(); ++h)
+    if (!is_definite[h])
+      return Failure{FailureReason::not_positive_definite,
+                     fmt::format("the ring's stiffness is not positive definite for harmonic {}", h)};
   for (auto& x : outer_inverse.entries()) x /= harmonics.n_sectors();
   const Matrix by_difference = harmonics.backward(outer_inverse);
   for (int d = 0; d < harmonics.n_sectors(); ++d) {
@@ -166,22 +171,23 @@ template <int dim>
 Matrix CyclicStiffness<dim>::solve_boundary(const Matrix& loads) const {
   const int n = n_sectors(), rhs = loads.columns() / n;
   std::vector<ComplexMatrix> by_harmonic(harmonics_.n_harmonics(), ComplexMatrix(n_boundary_, rhs));
-  Matrix one(n_boundary_, n);
-  for (int r = 0; r < rhs; ++r) {
+  parallel_for(rhs, [&](int r) {
+    Matrix one(n_boundary_, n);
     std::copy_n(loads.column(r * n), one.entries().size(), one.data());
     const ComplexMatrix transformed = harmonics_.forward(one);
     for (int h = 0; h < harmonics_.n_harmonics(); ++h)
       std::copy_n(transformed.column(h), n_boundary_, by_harmonic[h].column(r));
-  }
-  for (int h = 0; h < harmonics_.n_harmonics(); ++h) cholesky_solve(harmonic_factors_[h], by_harmonic[h]);
+  });
+  parallel_for(harmonics_.n_harmonics(),
+               [&](int h) { cholesky_solve(harmonic_factors_[h], by_harmonic[h]); });
   Matrix result(n_boundary_, loads.columns());
-  ComplexMatrix transformed(n_boundary_, harmonics_.n_harmonics());
-  for (int r = 0; r < rhs; ++r) {
+  parallel_for(rhs, [&](int r) {
+    ComplexMatrix transformed(n_boundary_, harmonics_.n_harmonics());
     for (int h = 0; h < harmonics_.n_harmonics(); ++h)
       std::copy_n(by_harmonic[h].column(r), n_boundary_, transformed.column(h));
-    one = harmonics_.backward(transformed);
+    const Matrix one = harmonics_.backward(transformed);
     std::copy_n(one.data(), one.entries().size(), result.column(r * n));
-  }
+  });
   return result;
 }
 

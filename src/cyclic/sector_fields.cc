@@ -30,10 +30,26 @@ Matrix columns(const Matrix& a, int first, int n) {
 }
 
 /// One load case of some fields, by unknowns.
-std::vector<double> field_of_case(const SectorFields& fields, int load_case) {
-  std::vector<double> field(fields.modes.columns());
-  for (size_t i = 0; i < field.size(); ++i) field[i] = fields.value(load_case, static_cast<int>(i));
-  return field;
+Matrix field_of_case(const SectorFields& fields, int load_case) {
+  Matrix weights(fields.modes.rows(), 1);
+  for (int k = 0; k < weights.rows(); ++k) weights(k, 0) = fields.weights(load_case, k);
+  return product(fields.modes, Op::transpose, weights, Op::none);
+}
+
+/// The unknowns in which some field differs from zero.
+std::vector<int> support(const Matrix& fields) {
+  std::vector<int> unknowns;
+  for (int i = 0; i < fields.columns(); ++i)
+    if (std::any_of(fields.column(i), fields.column(i) + fields.rows(), [](double x) { return x != 0; }))
+      unknowns.push_back(i);
+  return unknowns;
+}
+
+Matrix restricted(const Matrix& fields, const std::vector<int>& unknowns) {
+  Matrix result(fields.rows(), static_cast<int>(unknowns.size()));
+  for (int i = 0; i < result.columns(); ++i)
+    std::copy_n(fields.column(unknowns[i]), fields.rows(), result.column(i));
+  return result;
 }
 
 }  // namespace
@@ -87,9 +103,7 @@ PartialCholesky::Sweep boundary_sweep(const CyclicStiffness<dim>& ring, const Cu
   };
   for (const CutCell<dim>& cut : domain.cut) mark(ring.sector().space.cell_nodes(cut.cell));
   for (const auto& ghost : ring.sector().ghosts) mark(ghost.nodes);
-  for (int i = 0; i < loads.modes.columns(); ++i)
-    for (int k = 0; k < loads.modes.rows(); ++k)
-      if (loads.modes(k, i) != 0) marked[i] = 1;
+  for (const int loaded : support(loads.modes)) marked[loaded] = 1;
   return ring.sector_factor().sweep_through(marked);
 }
 
@@ -128,7 +142,9 @@ Matrix ghost_loads(const CyclicStiffness<dim>& ring, const Matrix& displacements
 }
 
 std::vector<double> work_by_case(const SectorFields& loads, const SectorFields& displacements) {
-  const Matrix work_of_modes = product(loads.modes, Op::none, displacements.modes, Op::transpose);
+  const auto loaded = support(loads.modes);
+  const Matrix work_of_modes = product(restricted(loads.modes, loaded), Op::none,
+                                       restricted(displacements.modes, loaded), Op::transpose);
   const Matrix on_modes = product(loads.weights, Op::none, work_of_modes, Op::none);
   std::vector<double> work(on_modes.rows(), 0.0);
   for (int k = 0; k < on_modes.columns(); ++k)
@@ -140,13 +156,14 @@ template <int dim>
 double interior_residual(const CyclicStiffness<dim>& ring, const PartialCholesky::Sweep& sweep,
                          const SectorFields& displacements, const SectorFields& loads, int load_case) {
   const SparseSymmetric& k = ring.sector().matrix;
-  const std::vector<double> field = field_of_case(displacements, load_case);
+  const Matrix field = field_of_case(displacements, load_case);
+  const Matrix load = loads.empty() ? Matrix(field.rows(), 1) : field_of_case(loads, load_case);
   std::vector<double> x(k.size), force(k.size, 0.0);
   std::vector<char> is_known(k.size);
   double largest_displacement = 0, largest_stiffness = 0;
   for (int dof = 0; dof < k.size; ++dof) {
     const int row = ring.row(dof);
-    x[dof] = field[row];
+    x[dof] = field(row, 0);
     is_known[dof] = row < ring.sector_factor().n_interior() && sweep.visited[row];
     largest_displacement = std::max(largest_displacement, std::abs(x[dof]));
     largest_stiffness = std::max(largest_stiffness, k.values[k.column_start[dof]]);
@@ -161,8 +178,7 @@ double interior_residual(const CyclicStiffness<dim>& ring, const PartialCholesky
   double largest_force = 0;
   for (int dof = 0; dof < k.size; ++dof) {
     if (!is_known[dof]) continue;
-    if (!loads.empty()) force[dof] -= loads.value(load_case, ring.row(dof));
-    largest_force = std::max(largest_force, std::abs(force[dof]));
+    largest_force = std::max(largest_force, std::abs(force[dof] - load(ring.row(dof), 0)));
   }
   return largest_force / (largest_stiffness * largest_displacement);
 }

@@ -25,7 +25,7 @@ Matrix condense(const CyclicStiffness<dim>& ring, const PartialCholesky::Sweep& 
 
 /// What bounds the remainder of a displacement on the sector's boundary that is left out of the modes,
 /// relative to the largest.
-constexpr double mode_tolerance = 1e-13;
+constexpr double mode_tolerance = 1e-10;
 
 /// The displacements for boundary displacements (n_boundary x load cases) and loads as condense() leaves them
 /// (may be empty). Right in the unknowns that the sweep visits; zero in

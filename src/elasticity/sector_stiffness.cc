@@ -1,5 +1,7 @@
 #include "elasticity/sector_stiffness.h"
 
+#include "base/parallel.h"
+
 namespace wheelwright {
 
 template <int dim>
@@ -49,9 +51,13 @@ SectorStiffness<dim> sector_stiffness(const CutDomain<dim>& domain, const Elemen
   for (int cell = 0; cell < grid.n_cells(); ++cell)
     if (domain.kinds[cell] == CellKind::inside && !cell_nodes[cell].empty())
       matrix.add(cell_nodes[cell], table.full_cell_stiffness(grid.cell_position(cell)[0]));
-  for (const CutCell<dim>& cut : domain.cut)
-    matrix.add(cell_nodes[cut.cell], cell_stiffness<dim>(table.element(grid.cell_position(cut.cell)[0]),
-                                                         table.material(), cut.material));
+  std::vector<Matrix> cut_stiffness(domain.cut.size());
+  parallel_for(static_cast<int>(domain.cut.size()), [&](int i) {
+    const CutCell<dim>& cut = domain.cut[i];
+    cut_stiffness[i] =
+        cell_stiffness<dim>(table.element(grid.cell_position(cut.cell)[0]), table.material(), cut.material);
+  });
+  for (size_t i = 0; i < domain.cut.size(); ++i) matrix.add(cell_nodes[domain.cut[i].cell], cut_stiffness[i]);
   for (const auto& ghost : sector.ghosts) matrix.add(ghost.nodes, *ghost.stiffness);
   sector.matrix = std::move(matrix).release();
   return sector;

@@ -1,19 +1,31 @@
 #include "linalg/column_basis.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
+
+extern "C" {
+void dgeqp3_(const int*, const int*, double*, const int*, int*, double*, double*, const int*, int*);
+void dorgqr_(const int*, const int*, const int*, double*, const int*, const double*, double*, const int*,
+             int*);
+}
 
 namespace wheelwright {
 namespace {
 
 /// Columns that are made orthogonal together.
-constexpr int block_size = 16;
+constexpr int block_size = 32;
 
 double length(const Matrix& a, int column) {
   const double* x = a.column(column);
-  double sum = 0;
-  for (int i = 0; i < a.rows(); ++i) sum += x[i] * x[i];
-  return std::sqrt(sum);
+  // Four sums, so that they go through vector registers.
+  std::array<double, 4> sums{};
+  int i = 0;
+  for (; i + 4 <= a.rows(); i += 4)
+    for (int k = 0; k < 4; ++k) sums[k] += x[i + k] * x[i + k];
+  for (; i < a.rows(); ++i) sums[0] += x[i] * x[i];
+  return std::sqrt(sums[0] + sums[1] + (sums[2] + sums[3]));
 }
 
 /// Takes the components along the basis out of x.
@@ -27,6 +39,15 @@ Matrix first_columns(const Matrix& a, int n) {
   return result;
 }
 
+/// The columns that are longer than `shortest`.
+Matrix long_columns(const Matrix& a, double shortest) {
+  Matrix result(a.rows(), a.columns());
+  int n = 0;
+  for (int j = 0; j < a.columns(); ++j)
+    if (length(a, j) > shortest) std::copy_n(a.column(j), a.rows(), result.column(n++));
+  return first_columns(result, n);
+}
+
 /// The basis with more columns.
 Matrix extended(const Matrix& basis, const Matrix& more) {
   Matrix result(basis.rows(), basis.columns() + more.columns());
@@ -35,26 +56,18 @@ Matrix extended(const Matrix& basis, const Matrix& more) {
   return result;
 }
 
-/// Gram and Schmidt's orthonormal basis of x's columns, the longest remainder first, until none is longer
-/// than `shortest`.
+/// An orthonormal basis of x's columns, the longest remainder first, until none is longer than `shortest`: QR
+/// with column pivoting.
 Matrix orthonormal(Matrix x, double shortest) {
-  int rank = 0;
-  for (; rank < x.columns(); ++rank) {
-    int longest = rank;
-    for (int j = rank + 1; j < x.columns(); ++j)
-      if (length(x, j) > length(x, longest)) longest = j;
-    const double size = length(x, longest);
-    if (!(size > shortest)) break;
-    std::swap_ranges(x.column(rank), x.column(rank) + x.rows(), x.column(longest));
-    double* q = x.column(rank);
-    for (int i = 0; i < x.rows(); ++i) q[i] /= size;
-    for (int j = rank + 1; j < x.columns(); ++j) {
-      double* y = x.column(j);
-      double along = 0;
-      for (int i = 0; i < x.rows(); ++i) along += q[i] * y[i];
-      for (int i = 0; i < x.rows(); ++i) y[i] -= along * q[i];
-    }
-  }
+  const int m = x.rows(), n = x.columns();
+  std::vector<int> pivots(n, 0);
+  std::vector<double> reflectors(n), workspace(size_t(64) * (n + 1));
+  const int workspace_size = static_cast<int>(workspace.size());
+  if (n == 0) return x;
+  int info = 0, rank = 0;
+  dgeqp3_(&m, &n, x.data(), &m, pivots.data(), reflectors.data(), workspace.data(), &workspace_size, &info);
+  while (rank < std::min(m, n) && std::abs(x(rank, rank)) > shortest) ++rank;
+  dorgqr_(&m, &rank, &rank, x.data(), &m, reflectors.data(), workspace.data(), &workspace_size, &info);
   return first_columns(x, rank);
 }
 
@@ -72,7 +85,7 @@ ColumnBasis column_basis(const Matrix& a, double tolerance) {
     Matrix x(a.rows(), (a.columns() - block + n_blocks - 1) / n_blocks);
     for (int k = 0; k < x.columns(); ++k) std::copy_n(a.column(block + k * n_blocks), a.rows(), x.column(k));
     project_out(basis, x);
-    Matrix more = orthonormal(std::move(x), shortest);
+    Matrix more = orthonormal(long_columns(x, shortest), shortest);
     if (more.columns() == 0) continue;
     // What rounding left of the basis weighs more in a short remainder: once again.
     project_out(basis, more);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <numeric>
 
 #include "base/parallel.h"
@@ -128,10 +129,15 @@ Expected<PartialCholesky> PartialCholesky::analyze(const SparseSymmetric& matrix
 class PartialCholesky::Numbers {
  public:
   Numbers(PartialCholesky& factor, const SparseSymmetric& matrix, int block, std::span<const int> order)
-      : factor_(factor), children_(factor.supernodes_.size()), updates_(factor.supernodes_.size()) {
-    for (size_t s = 0; s < children_.size(); ++s)
-      if (const int parent = factor.supernodes_[s].parent; parent >= 0)
-        children_[parent].push_back(static_cast<int>(s));
+      : factor_(factor), children_(factor.supernodes_.size()) {
+    size_t n_updates = 0;
+    for (size_t s = 0; s < children_.size(); ++s) {
+      const Supernode& node = factor.supernodes_[s];
+      if (node.parent >= 0) children_[node.parent].push_back(static_cast<int>(s));
+      update_start_.push_back(n_updates);
+      n_updates += size_t(node.n_below) * node.n_below;
+    }
+    updates_.reset(new double[n_updates]);
     sort_entries(matrix, block, order);
   }
 
@@ -147,12 +153,13 @@ class PartialCholesky::Numbers {
     for (int j = first; j < factor_.size(); ++j)
       for (int k = column_start_[j]; k < column_start_[j + 1]; ++k)
         schur(entries_[k].row - first, j - first) += entries_[k].value;
-    for (size_t s = 0; s < updates_.size(); ++s) {
+    for (size_t s = 0; s < children_.size(); ++s) {
       const Supernode& node = factor_.supernodes_[s];
       if (node.parent >= 0) continue;
       const int* rows = &factor_.below_[node.below];
       for (int j = 0; j < node.n_below; ++j)
-        for (int i = j; i < node.n_below; ++i) schur(rows[i] - first, rows[j] - first) += updates_[s](i, j);
+        for (int i = j; i < node.n_below; ++i)
+          schur(rows[i] - first, rows[j] - first) += update(s)[size_t(j) * node.n_below + i];
     }
     for (int j = 0; j < schur.columns(); ++j)
       for (int i = 0; i < j; ++i) schur(i, j) = schur(j, i);
@@ -163,6 +170,9 @@ class PartialCholesky::Numbers {
     int row;
     double value;
   };
+
+  /// What a supernode passes on to its parent: the lower triangle on its rows below.
+  double* update(size_t s) const { return updates_.get() + update_start_[s]; }
 
   /// The matrix's lower triangle in elimination order, by columns.
   void sort_entries(const SparseSymmetric& matrix, int block, std::span<const int> order) {
@@ -191,7 +201,8 @@ class PartialCholesky::Numbers {
     double* l = &factor_.values_[node.values];
     std::iota(place.begin() + node.first, place.begin() + node.first + n, 0);
     for (int k = 0; k < m; ++k) place[below[k]] = n + k;
-    Matrix& update = updates_[s] = Matrix(m, m);
+    double* own_update = update(s);
+    std::fill_n(own_update, size_t(m) * m, 0.0);
 
     for (int j = 0; j < n; ++j)
       for (int k = column_start_[node.first + j]; k < column_start_[node.first + j + 1]; ++k)
@@ -201,11 +212,10 @@ class PartialCholesky::Numbers {
       const int* rows = &factor_.below_[factor_.supernodes_[child].below];
       for (int j = 0; j < n_rows; ++j) {
         const int column = place[rows[j]];
-        double* to = column < n ? l + size_t(column) * stride : update.column(column - n) - n;
-        const double* from = updates_[child].column(j);
+        double* to = column < n ? l + size_t(column) * stride : own_update + size_t(column - n) * m - n;
+        const double* from = update(child) + size_t(j) * n_rows;
         for (int i = j; i < n_rows; ++i) to[place[rows[i]]] += from[i];
       }
-      updates_[child] = {};
     }
     int info = 0;
     const double one = 1, minus_one = -1;
@@ -213,14 +223,14 @@ class PartialCholesky::Numbers {
     if (info != 0) return false;
     if (m == 0) return true;
     dtrsm_("R", "L", "T", "N", &m, &n, &one, l, &stride, l + n, &stride);
-    dsyrk_("L", "N", &m, &n, &minus_one, l + n, &stride, &one, update.data(), &m);
+    dsyrk_("L", "N", &m, &n, &minus_one, l + n, &stride, &one, own_update, &m);
     return true;
   }
 
   PartialCholesky& factor_;
   std::vector<std::vector<int>> children_;
-  std::vector<Matrix>
-      updates_;  ///< what a supernode passes on to its parent: lower triangle on its rows below
+  std::vector<size_t> update_start_;
+  std::unique_ptr<double[]> updates_;
   std::vector<int> column_start_;
   std::vector<Entry> entries_;
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/parallel.h"
+
 namespace wheelwright {
 
 namespace {
@@ -76,8 +78,9 @@ std::vector<SurfaceSample<dim>> shape_gradient(const RollingProblem<dim>& proble
   const Material& material = problem.model().material;
   const int n_modes = s.displacement.modes.rows();
   const WorkOfLoads<dim> loads(problem.model(), s, adjoint);
-  std::vector<SurfaceSample<dim>> gradient;
-  for (const CutCell<dim>& cut : s.domain.cut) {
+  std::vector<std::vector<SurfaceSample<dim>>> of_cell(s.domain.cut.size());
+  parallel_for(static_cast<int>(s.domain.cut.size()), [&](int c) {
+    const CutCell<dim>& cut = s.domain.cut[c];
     const auto position = grid.cell_position(cut.cell);
     const double angle = position[1] * grid.cell_size()[1];
     const auto& element = problem.elements().element(position[0]);
@@ -102,10 +105,12 @@ std::vector<SurfaceSample<dim>> shape_gradient(const RollingProblem<dim>& proble
           density += weight * criterion->boundary_density(e, sigma);
       }
       const auto surface = map_surface<dim>(points[q].jacobian, cut.boundary[q].normal);
-      gradient.push_back({cut.cell, cut.boundary[q].xi, rotated<dim>(surface.normal, angle),
-                          cut.boundary[q].weight * surface.scale, density});
+      of_cell[c].push_back({cut.cell, cut.boundary[q].xi, rotated<dim>(surface.normal, angle),
+                            cut.boundary[q].weight * surface.scale, density});
     }
-  }
+  });
+  std::vector<SurfaceSample<dim>> gradient;
+  for (const auto& samples : of_cell) gradient.insert(gradient.end(), samples.begin(), samples.end());
   return gradient;
 }
 
