@@ -327,8 +327,11 @@ strain_energy = 1
 uniformity_dual = 100
 )");
   const fs::path expected = straight(text), place = workplace("threads", text);
-  ASSERT_EQ(Program(place, {"run", "case.toml", "--iterations", "1"}, {.threads = "2"}).wait(), exit_done);
-  ASSERT_EQ(Program(place, {"resume", "run", "--iterations", "2"}, {.threads = "4"}).wait(), exit_done);
+  ASSERT_EQ(
+      Program(place, {"run", "case.toml", "--iterations", "1", "--threads", "1"}, {.threads = "2"}).wait(),
+      exit_done);
+  ASSERT_EQ(Program(place, {"resume", "run", "--iterations", "2", "--threads", "3"}, {.threads = "4"}).wait(),
+            exit_done);
   expect_equal_results(expected / "run", place / "run");
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/parallel.h"
 #include "sensitivity/taylor_test.h"
 #include "tests/support.h"
 
@@ -55,6 +56,21 @@ TEST(Rolling, ShapeGradientPassesTheTaylorTest) {
     ASSERT_TRUE(test) << test.failure().detail;
     for (double order : test->orders) EXPECT_GT(order, 1.95) << theta;
   }
+}
+
+TEST(Rolling, TheSameBytesOnOneAndOnManyThreads) {
+  const auto model = paper_model(14, 192);
+  const auto problem = RollingProblem<2>::create(model);
+  ASSERT_TRUE(problem);
+  const auto psi = testing::paper_holes(model.grid);
+  const auto evaluate_on = [&](int n_threads) {
+    const ThreadLimit limit(n_threads);
+    return *evaluate(*problem, testing::strain_energy_alone(), psi);
+  };
+  const auto one = evaluate_on(1), many = evaluate_on(4);
+  EXPECT_EQ(one.objective, many.objective);
+  ASSERT_EQ(one.gradient.size(), many.gradient.size());
+  for (size_t i = 0; i < one.gradient.size(); ++i) EXPECT_EQ(one.gradient[i].value, many.gradient[i].value);
 }
 
 }  // namespace

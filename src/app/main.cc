@@ -33,6 +33,7 @@ struct CommandLine {
   std::string template_file = "case.toml";
   std::optional<std::string> output_folder;
   std::optional<int> iterations;
+  std::optional<int> threads;
   int analyzed_positions = 64;
   std::string loads;
   bool json = false;
@@ -103,7 +104,7 @@ int compute(const std::string& command, const CommandLine& line) {
   Case& c = *result.value;
   if (line.iterations) c = with_iterations(std::move(c), *line.iterations);
   print_warnings(stderr, c);
-  RunOptions options{.case_file = line.case_file};
+  RunOptions options{.case_file = line.case_file, .threads = line.threads};
   if (line.output_folder) options.output = *line.output_folder;
   return load_and_run_command(command, c, options);
 }
@@ -119,7 +120,8 @@ int resume(const CommandLine& line) {
   Case& c = *result.value;
   if (line.iterations) c = with_iterations(std::move(c), *line.iterations);
   print_warnings(stderr, c);
-  return load_and_run_command("resume", c, {.case_file = case_file, .run_folder = line.run_folder});
+  return load_and_run_command(
+      "resume", c, {.case_file = case_file, .run_folder = line.run_folder, .threads = line.threads});
 }
 
 int analyze(const CommandLine& line) {
@@ -128,7 +130,7 @@ int analyze(const CommandLine& line) {
   Case& c = *result.value;
   c.load.positions = line.analyzed_positions;
   print_warnings(stderr, c);
-  RunOptions options{.case_file = line.case_file, .json = line.json};
+  RunOptions options{.case_file = line.case_file, .threads = line.threads, .json = line.json};
   if (line.output_folder) options.output = *line.output_folder;
   if (!line.loads.empty()) options.loads = *parse_loads(line.loads);
   return load_and_run_command("analyze", c, options);
@@ -179,6 +181,17 @@ void add_iterations_option(CLI::App& command, CommandLine& line) {
       ->check(CLI::Range(static_cast<int>(range.low), static_cast<int>(range.high)));
 }
 
+void add_threads_option(CLI::App& command, CommandLine& line) {
+  constexpr int most_threads = 1024;
+  command
+      .add_option(
+          "--threads", line.threads,
+          "Threads to use, at most as many as there are processors; all of them without it. The results "
+          "are the same")
+      ->type_name("N")
+      ->check(CLI::Range(1, most_threads));
+}
+
 void declare_commands(CLI::App& app, CommandLine& line) {
   app.require_subcommand(1);
   app.set_version_flag("--version", fmt::format("wheelwright {}", version()));
@@ -190,7 +203,9 @@ void declare_commands(CLI::App& app, CommandLine& line) {
   resume->add_option("DIR", line.run_folder, "folder of the run")->required()->check(not_empty);
   add_iterations_option(*resume, line);
   declare_analyze(app, line);
-  add_case_command(app, line, "verify", "Test the solver's shape gradient on a case");
+  CLI::App* verify = add_case_command(app, line, "verify", "Test the solver's shape gradient on a case");
+  for (CLI::App* command : {run, resume, app.get_subcommand("analyze"), verify})
+    add_threads_option(*command, line);
   add_case_command(app, line, "check", "Report every problem of a case and the numbers that follow from it");
   app.add_subcommand("init", "Write a commented case file to start from")
       ->add_option("FILE", line.template_file, "File to write; never overwritten")

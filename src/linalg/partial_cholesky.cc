@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <memory>
 #include <numeric>
 
 #include "base/parallel.h"
@@ -129,23 +128,21 @@ Expected<PartialCholesky> PartialCholesky::analyze(const SparseSymmetric& matrix
 class PartialCholesky::Numbers {
  public:
   Numbers(PartialCholesky& factor, const SparseSymmetric& matrix, int block, std::span<const int> order)
-      : factor_(factor), children_(factor.supernodes_.size()) {
-    size_t n_updates = 0;
+      : factor_(factor),
+        children_(factor.supernodes_.size()),
+        work_(factor.supernodes_.size()),
+        updates_(factor.supernodes_.size()) {
     for (size_t s = 0; s < children_.size(); ++s) {
       const Supernode& node = factor.supernodes_[s];
-      if (node.parent >= 0) children_[node.parent].push_back(static_cast<int>(s));
-      update_start_.push_back(n_updates);
-      n_updates += size_t(node.n_below) * node.n_below;
+      work_[s] += double(node.n_columns) * node.stride() * node.stride();
+      (node.parent < 0 ? roots_ : children_[node.parent]).push_back(static_cast<int>(s));
+      (node.parent < 0 ? total_work_ : work_[node.parent]) += work_[s];
     }
-    updates_.reset(new double[n_updates]);
     sort_entries(matrix, block, order);
   }
 
-  /// Supernodes in this order; false when one is not positive definite.
-  bool eliminate(const std::vector<int>& supernodes) {
-    std::vector<int> place(factor_.size());
-    return std::all_of(supernodes.begin(), supernodes.end(), [&](int s) { return eliminate(s, place); });
-  }
+  /// False when a supernode is not positive definite.
+  bool eliminate() { return eliminate_in_parallel(roots_); }
 
   void finish_schur() {
     Matrix& schur = factor_.schur_;
@@ -153,13 +150,12 @@ class PartialCholesky::Numbers {
     for (int j = first; j < factor_.size(); ++j)
       for (int k = column_start_[j]; k < column_start_[j + 1]; ++k)
         schur(entries_[k].row - first, j - first) += entries_[k].value;
-    for (size_t s = 0; s < children_.size(); ++s) {
+    for (size_t s = 0; s < updates_.size(); ++s) {
       const Supernode& node = factor_.supernodes_[s];
       if (node.parent >= 0) continue;
       const int* rows = &factor_.below_[node.below];
       for (int j = 0; j < node.n_below; ++j)
-        for (int i = j; i < node.n_below; ++i)
-          schur(rows[i] - first, rows[j] - first) += update(s)[size_t(j) * node.n_below + i];
+        for (int i = j; i < node.n_below; ++i) schur(rows[i] - first, rows[j] - first) += updates_[s](i, j);
     }
     for (int j = 0; j < schur.columns(); ++j)
       for (int i = 0; i < j; ++i) schur(i, j) = schur(j, i);
@@ -170,9 +166,6 @@ class PartialCholesky::Numbers {
     int row;
     double value;
   };
-
-  /// What a supernode passes on to its parent: the lower triangle on its rows below.
-  double* update(size_t s) const { return updates_.get() + update_start_[s]; }
 
   /// The matrix's lower triangle in elimination order, by columns.
   void sort_entries(const SparseSymmetric& matrix, int block, std::span<const int> order) {
@@ -193,6 +186,25 @@ class PartialCholesky::Numbers {
       }
   }
 
+  bool eliminate_in_parallel(const std::vector<int>& subtrees) {
+    std::vector<char> is_definite(subtrees.size());
+    parallel_for(static_cast<int>(subtrees.size()), [&](int i) {
+      constexpr double worth_sharing = 0.02;
+      const int s = subtrees[i];
+      std::vector<int> place(factor_.size());
+      is_definite[i] = work_[s] < worth_sharing * total_work_
+                           ? eliminate_subtree(s, place)
+                           : eliminate_in_parallel(children_[s]) && eliminate(s, place);
+    });
+    return std::all_of(is_definite.begin(), is_definite.end(), [](char d) { return d; });
+  }
+
+  bool eliminate_subtree(int root, std::vector<int>& place) {
+    return std::all_of(children_[root].begin(), children_[root].end(),
+                       [&](int child) { return eliminate_subtree(child, place); }) &&
+           eliminate(root, place);
+  }
+
   /// `place`: room for one number an unknown.
   bool eliminate(int s, std::vector<int>& place) {
     const Supernode& node = factor_.supernodes_[s];
@@ -201,8 +213,7 @@ class PartialCholesky::Numbers {
     double* l = &factor_.values_[node.values];
     std::iota(place.begin() + node.first, place.begin() + node.first + n, 0);
     for (int k = 0; k < m; ++k) place[below[k]] = n + k;
-    double* own_update = update(s);
-    std::fill_n(own_update, size_t(m) * m, 0.0);
+    Matrix& update = updates_[s] = Matrix(m, m);
 
     for (int j = 0; j < n; ++j)
       for (int k = column_start_[node.first + j]; k < column_start_[node.first + j + 1]; ++k)
@@ -212,10 +223,11 @@ class PartialCholesky::Numbers {
       const int* rows = &factor_.below_[factor_.supernodes_[child].below];
       for (int j = 0; j < n_rows; ++j) {
         const int column = place[rows[j]];
-        double* to = column < n ? l + size_t(column) * stride : own_update + size_t(column - n) * m - n;
-        const double* from = update(child) + size_t(j) * n_rows;
+        double* to = column < n ? l + size_t(column) * stride : update.column(column - n) - n;
+        const double* from = updates_[child].column(j);
         for (int i = j; i < n_rows; ++i) to[place[rows[i]]] += from[i];
       }
+      updates_[child] = {};
     }
     int info = 0;
     const double one = 1, minus_one = -1;
@@ -223,57 +235,27 @@ class PartialCholesky::Numbers {
     if (info != 0) return false;
     if (m == 0) return true;
     dtrsm_("R", "L", "T", "N", &m, &n, &one, l, &stride, l + n, &stride);
-    dsyrk_("L", "N", &m, &n, &minus_one, l + n, &stride, &one, own_update, &m);
+    dsyrk_("L", "N", &m, &n, &minus_one, l + n, &stride, &one, update.data(), &m);
     return true;
   }
 
   PartialCholesky& factor_;
+  std::vector<int> roots_;
   std::vector<std::vector<int>> children_;
-  std::vector<size_t> update_start_;
-  std::unique_ptr<double[]> updates_;
+  std::vector<double> work_;  ///< of every subtree
+  double total_work_ = 0;
+  std::vector<Matrix>
+      updates_;  ///< what a supernode passes on to its parent: lower triangle on its rows below
   std::vector<int> column_start_;
   std::vector<Entry> entries_;
 };
-
-/// Disjoint subtrees of like work, then the supernodes above them: each a list in elimination order.
-std::vector<std::vector<int>> PartialCholesky::independent_subtrees() const {
-  constexpr double largest_share = 1.0 / 6;
-  const int n = static_cast<int>(supernodes_.size());
-  std::vector<double> work(n, 0.0);
-  double total = 0;
-  for (int s = 0; s < n; ++s) {
-    const double own = double(supernodes_[s].n_columns) * supernodes_[s].stride() * supernodes_[s].stride();
-    total += own;
-    work[s] += own;
-    if (supernodes_[s].parent >= 0) work[supernodes_[s].parent] += work[s];
-  }
-  // From the roots down: -1 above the subtrees, else the subtree's number.
-  std::vector<int> subtree(n);
-  int n_subtrees = 0;
-  for (int s = n - 1; s >= 0; --s) {
-    const int parent = supernodes_[s].parent;
-    if (parent >= 0 && subtree[parent] >= 0)
-      subtree[s] = subtree[parent];
-    else
-      subtree[s] = work[s] > largest_share * total ? -1 : n_subtrees++;
-  }
-  std::vector<std::vector<int>> lists(n_subtrees + 1);
-  for (int s = 0; s < n; ++s) lists[subtree[s] >= 0 ? subtree[s] : n_subtrees].push_back(s);
-  return lists;
-}
 
 Expected<PartialCholesky> PartialCholesky::factor(const SparseSymmetric& matrix, int block,
                                                   std::span<const int> order, int n_trailing) {
   auto factor = analyze(matrix, block, order, n_trailing);
   if (!factor) return factor;
   Numbers numbers(*factor, matrix, block, order);
-  const auto lists = factor->independent_subtrees();
-  std::vector<char> is_definite(lists.size());
-  parallel_for(static_cast<int>(lists.size()) - 1,
-               [&](int subtree) { is_definite[subtree] = numbers.eliminate(lists[subtree]); });
-  is_definite.back() = std::all_of(is_definite.begin(), is_definite.end() - 1, [](char d) { return d; }) &&
-                       numbers.eliminate(lists.back());
-  if (!is_definite.back())
+  if (!numbers.eliminate())
     return Failure{FailureReason::not_positive_definite,
                    "the stiffness of a sector is not positive definite"};
   numbers.finish_schur();

@@ -62,7 +62,6 @@ class PartialCholesky {
   PartialCholesky() = default;
   static Expected<PartialCholesky> analyze(const SparseSymmetric& matrix, int block,
                                            std::span<const int> order, int n_trailing);
-  std::vector<std::vector<int>> independent_subtrees() const;
 
   std::vector<Supernode> supernodes_;  ///< children before parents
   std::vector<int> supernode_of_;      ///< of every unknown; -1 for trailing ones

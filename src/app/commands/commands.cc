@@ -4,6 +4,7 @@
 
 #include <exception>
 #include <new>
+#include <optional>
 #include <string_view>
 
 #include "app/commands/analyze.h"
@@ -11,12 +12,15 @@
 #include "app/commands/run.h"
 #include "app/commands/verify.h"
 #include "app/exit_code.h"
+#include "base/parallel.h"
 #include "output/output_error.h"
 
 using namespace wheelwright;
 
 extern "C" int wheelwright_command(const char* name, const Case* c, const RunOptions* options) {
   try {
+    std::optional<ThreadLimit> limit;
+    if (options->threads) limit.emplace(*options->threads);
     if (std::string_view(name) == "run") return run_command(*c, *options);
     if (std::string_view(name) == "resume") return resume_command(*c, *options);
     if (std::string_view(name) == "analyze") return analyze_command(*c, *options);

@@ -6,7 +6,8 @@
 namespace wheelwright {
 
 /// Goes on with the run in options.run_folder from its newest checkpoint that can be used, or from the
-/// beginning when it was killed before its first; `c` is that folder's case. Returns an ExitCode; throws OutputError.
+/// beginning when it was killed before its first; `c` is that folder's case. Returns an ExitCode; throws
+/// OutputError.
 int resume_command(const Case& c, const RunOptions& options);
 
 }  // namespace wheelwright

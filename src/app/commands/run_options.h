@@ -11,9 +11,10 @@ struct RunOptions {
   std::filesystem::path case_file;
   std::filesystem::path run_folder = {};  ///< resume
   std::optional<std::filesystem::path> output =
-      {};                          ///< run: instead of the case's folder; analyze: folder for its files
-  std::vector<double> loads = {};  ///< analyze: on the whole width [N], ascending
-  bool json = false;               ///< analyze: JSON instead of the table
+      {};                           ///< run: instead of the case's folder; analyze: folder for its files
+  std::vector<double> loads = {};   ///< analyze: on the whole width [N], ascending
+  std::optional<int> threads = {};  ///< at most; as many as there are processors without it
+  bool json = false;                ///< analyze: JSON instead of the table
 };
 
 }  // namespace wheelwright
