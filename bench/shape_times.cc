@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/parallel.h"
 #include "single_thread.h"
 #include "tests/support.h"
 #include "unavoidable_work.h"
@@ -65,6 +66,7 @@ int run(int radial_cells, int angular_cells, int n_positions, int repetitions) {
 
 int main(int count, char** arguments) {
   wheelwright::bench::restart_single_threaded(arguments);
+  const wheelwright::ThreadLimit one_thread(1);
   if (count != 5) {
     fmt::print(stderr, "usage: {} RADIAL_CELLS ANGULAR_CELLS POSITIONS REPETITIONS\n", arguments[0]);
     return 2;
