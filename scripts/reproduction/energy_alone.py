@@ -62,7 +62,7 @@ def energy_alone(r: Runs, album: Album) -> str:
             ),
         ),
         f"Of the fall of {percent(rules.change('objective'))} by the paper's rules, {percent(added)} comes with the "
-        f"material alone: round holes of 33.4 mm, with {more.last['volume fraction']:.4f} of the ring as material like "
+        f"material alone: round holes of 33.4 mm, with {more.last['volume fraction']:.4f} of the ring as material near "
         f"the end of that run ({rules.last['volume fraction']:.4f}), have J_e = {more.first['objective']:.2f} J/m. "
         f"Against those the shape gains {percent(same_volume)}; the best shape of that volume gains "
         f"{percent(more.change('objective'))} ({more.last['objective']:.2f} J/m against "

@@ -155,11 +155,14 @@ def execute(program: str, name: str, folder: Path, options: list[str]) -> Run:
         text=True,
     )
     run = Run(name, folder, time.monotonic() - start)
-    complaints = [line.removeprefix("wheelwright: ") for line in result.stderr.strip().splitlines()]
+    said_by = "wheelwright: "
+    complaints = [
+        line.removeprefix(said_by) for line in result.stderr.splitlines() if line.startswith(said_by)
+    ]
     if result.returncode == expectations_unmet:
         run.unmet = [line for line in complaints if ", expected " in line]
     elif result.returncode != 0:
-        run.failure = complaints[-1]
+        run.failure = complaints[-1] if complaints else f"exit code {result.returncode}"
     found = re.search(r"^expected +(\d+) of (\d+) values", result.stdout, re.MULTILINE)
     if found:
         run.expected = int(found[2])
