@@ -58,6 +58,43 @@ TEST(Rolling, ShapeGradientPassesTheTaylorTest) {
   }
 }
 
+// Rounding leaves 1e-15 or so; wrong numbers of one load case out of many, or of the harmonics, are found.
+TEST(Rolling, TheEquationsOfASectorAreMetAndWrongNumbersInAnyLoadCaseAreFound) {
+  const auto model = paper_model(14, 192);
+  const auto problem = RollingProblem<2>::create(model);
+  ASSERT_TRUE(problem);
+  const auto s = problem->solve(paper_holes(model.grid));
+  ASSERT_TRUE(s) << s.failure().detail;
+  const auto residual = [&](const SectorFields& displacement) {
+    return interior_residual(s->ring, s->sweep, displacement, s->core_loads);
+  };
+  EXPECT_LT(residual(s->displacement), 1e-13);
+
+  const SectorFields& good = s->displacement;
+  const int n_modes = good.modes.rows(), n_cases = good.weights.rows();
+  // One field more, which meets no equations: a displacement of single unknowns.
+  SectorFields bad{Matrix(n_modes + 1, good.modes.columns()), Matrix(n_cases, n_modes + 1)};
+  std::copy(good.weights.entries().begin(), good.weights.entries().end(), bad.weights.data());
+  for (int i = 0; i < good.modes.columns(); ++i) {
+    std::copy_n(good.modes.column(i), n_modes, bad.modes.column(i));
+    if (s->sweep.visited[i]) bad.modes(n_modes, i) = i % 2 ? good.modes(0, i) : 0;
+  }
+  EXPECT_LT(residual(bad), 1e-13);
+  for (const int wrong_case : {0, 1, n_cases / 2, n_cases - 1}) {
+    bad.weights(wrong_case, n_modes) = 1e-6;
+    EXPECT_GT(residual(bad), 1e-10) << wrong_case;
+    bad.weights(wrong_case, n_modes) = NAN;
+    EXPECT_TRUE(std::isnan(residual(bad))) << wrong_case;
+    bad.weights(wrong_case, n_modes) = 0;
+  }
+  for (int j = 0; j < n_cases; ++j) bad.weights(j, n_modes) = 1e-6 * (j % 2 ? 1 : -1);
+  EXPECT_GT(residual(bad), 1e-10) << "a harmonic whose sum over the sectors is zero";
+
+  SectorFields loads{Matrix(1, good.modes.columns()), Matrix(n_cases, 1)};
+  std::fill_n(loads.modes.data(), loads.modes.entries().size(), NAN);
+  EXPECT_TRUE(std::isnan(interior_residual(s->ring, s->sweep, good, loads)));
+}
+
 TEST(Rolling, TheSameBytesOnOneAndOnManyThreads) {
   const auto model = paper_model(14, 192);
   const auto problem = RollingProblem<2>::create(model);

@@ -286,8 +286,8 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& p
   s.ghost_loads = ghost_loads(s.ring, s.displacement.modes);
   if (!all_finite(s.displacement.modes) || !all_finite(s.observations))
     return Failure{FailureReason::not_finite, "the displacement is not finite"};
-  if (const double residual = interior_residual(s.ring, s.sweep, s.displacement, s.core_loads, 0);
-      residual > largest_residual)
+  if (const double residual = interior_residual(s.ring, s.sweep, s.displacement, s.core_loads);
+      !(residual <= largest_residual))
     return Failure{FailureReason::inaccurate_solution,
                    fmt::format("the equations of a sector are off by {:.2g} of their terms", residual)};
 

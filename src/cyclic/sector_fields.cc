@@ -29,12 +29,17 @@ Matrix columns(const Matrix& a, int first, int n) {
   return result;
 }
 
-/// One load case of some fields, by unknowns.
-Matrix field_of_case(const SectorFields& fields, int load_case) {
-  Matrix weights(fields.modes.rows(), 1);
-  for (int k = 0; k < weights.rows(); ++k) weights(k, 0) = fields.weights(load_case, k);
+/// One combination of all load cases, by unknowns. An error of one case, or of one harmonic of the sectors,
+/// does not cancel in it, as it would in their sum.
+Matrix combined(const SectorFields& fields) {
+  Matrix combination(fields.weights.rows(), 1);
+  for (int j = 0; j < combination.rows(); ++j) combination(j, 0) = std::cos(j);
+  const Matrix weights = product(fields.weights, Op::transpose, combination, Op::none);
   return product(fields.modes, Op::transpose, weights, Op::none);
 }
+
+/// The larger of two numbers; NaN if one of them is.
+double larger(double a, double b) { return a >= b || std::isnan(a) ? a : b; }
 
 /// The unknowns in which some field differs from zero.
 std::vector<int> support(const Matrix& fields) {
@@ -154,10 +159,10 @@ std::vector<double> work_by_case(const SectorFields& loads, const SectorFields& 
 
 template <int dim>
 double interior_residual(const CyclicStiffness<dim>& ring, const PartialCholesky::Sweep& sweep,
-                         const SectorFields& displacements, const SectorFields& loads, int load_case) {
+                         const SectorFields& displacements, const SectorFields& loads) {
   const SparseSymmetric& k = ring.sector().matrix;
-  const Matrix field = field_of_case(displacements, load_case);
-  const Matrix load = loads.empty() ? Matrix(field.rows(), 1) : field_of_case(loads, load_case);
+  const Matrix field = combined(displacements);
+  const Matrix load = loads.empty() ? Matrix(field.rows(), 1) : combined(loads);
   std::vector<double> x(k.size), force(k.size, 0.0);
   std::vector<char> is_known(k.size);
   double largest_displacement = 0, largest_stiffness = 0;
@@ -165,8 +170,8 @@ double interior_residual(const CyclicStiffness<dim>& ring, const PartialCholesky
     const int row = ring.row(dof);
     x[dof] = field(row, 0);
     is_known[dof] = row < ring.sector_factor().n_interior() && sweep.visited[row];
-    largest_displacement = std::max(largest_displacement, std::abs(x[dof]));
-    largest_stiffness = std::max(largest_stiffness, k.values[k.column_start[dof]]);
+    largest_displacement = larger(largest_displacement, std::abs(x[dof]));
+    largest_stiffness = larger(largest_stiffness, k.values[k.column_start[dof]]);
   }
   for (int j = 0; j < k.size; ++j)
     for (int e = k.column_start[j]; e < k.column_start[j + 1]; ++e) {
@@ -178,7 +183,7 @@ double interior_residual(const CyclicStiffness<dim>& ring, const PartialCholesky
   double largest_force = 0;
   for (int dof = 0; dof < k.size; ++dof) {
     if (!is_known[dof]) continue;
-    largest_force = std::max(largest_force, std::abs(force[dof] - load(ring.row(dof), 0)));
+    largest_force = larger(largest_force, std::abs(force[dof] - load(ring.row(dof), 0)));
   }
   return largest_force / (largest_stiffness * largest_displacement);
 }
@@ -193,7 +198,7 @@ double interior_residual(const CyclicStiffness<dim>& ring, const PartialCholesky
   template void gather(const CyclicStiffness<dim>&, std::span<const int>, const Matrix&, Matrix&);      \
   template Matrix ghost_loads(const CyclicStiffness<dim>&, const Matrix&);                              \
   template double interior_residual(const CyclicStiffness<dim>&, const PartialCholesky::Sweep&,         \
-                                    const SectorFields&, const SectorFields&, int);
+                                    const SectorFields&, const SectorFields&);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)
 #undef WHEELWRIGHT_INSTANTIATE

@@ -58,10 +58,11 @@ Matrix ghost_loads(const CyclicStiffness<dim>& ring, const Matrix& displacements
 /// The work of loads on displacements in every load case.
 std::vector<double> work_by_case(const SectorFields& loads, const SectorFields& displacements);
 
-/// How far the interior equations K v = loads of one load case are from equality, relative to their largest
-/// terms: those of them that know only unknowns of the sweep.
+/// How far the interior equations K v = loads are from equality, relative to their largest terms: those of
+/// them that know only unknowns of the sweep, for one combination of all load cases. NaN if one of their
+/// numbers is.
 template <int dim>
 double interior_residual(const CyclicStiffness<dim>& ring, const PartialCholesky::Sweep& sweep,
-                         const SectorFields& displacements, const SectorFields& loads, int load_case);
+                         const SectorFields& displacements, const SectorFields& loads);
 
 }  // namespace wheelwright
