@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <random>
 
+#include "cyclic/nested_dissection.h"
 #include "linalg/sparse_spd.h"
 #include "tests/support.h"
 
@@ -164,8 +166,7 @@ TEST(Cyclic, AgreesWithAPlainSolveOfTheWholeRing) {
     const SectorHarmonics harmonics(n_sectors);
     const int n_outer = 2 * degree * model.grid.columns();
     const std::vector<ComplexMatrix> no_tread(harmonics.n_harmonics(), ComplexMatrix(n_outer, n_outer));
-    const auto ring = CyclicStiffness<2>::factor(
-        std::move(sector), nested_dissection<2>(model.grid, degree, core_rows), no_tread, harmonics);
+    const auto ring = CyclicStiffness<2>::factor(std::move(sector), no_tread, harmonics);
     ASSERT_TRUE(ring) << ring.failure().detail;
 
     std::mt19937 random(7);
@@ -191,6 +192,54 @@ TEST(Cyclic, AgreesWithAPlainSolveOfTheWholeRing) {
     EXPECT_LT(relative_difference(displacement, expected), 1e-9);
     EXPECT_LT(relative_difference(through_compliance, expected), 1e-9);
   }
+}
+
+/// The stiffness of a sector with a hole, on square cells.
+SectorStiffness<2> stiffness_with_a_hole(const ElementTable<2>& table) {
+  const auto domain = cut_domain(testing::paper_holes(table.grid()), 4);
+  EXPECT_TRUE(domain && !domain->ghost_faces.empty());
+  return sector_stiffness(*domain, table, table.grid().cells[0]);
+}
+
+// Nested dissection of a plane grid of n nodes takes O(n^1.5) flops (George 1973), line after line O(n^2).
+TEST(NestedDissection, TakesTheWorkThatTheoryPromises) {
+  std::vector<double> flops, flops_by_line, nodes;
+  for (int cells : {24, 48, 96}) {
+    auto model = paper_model();
+    model.grid.cells = {cells, cells};
+    const ElementTable<2> table(model.grid, model.degree, model.material, model.ghost);
+    const auto sector = stiffness_with_a_hole(table);
+    std::vector<int> by_line(sector.space.n_nodes());
+    std::iota(by_line.begin(), by_line.end(), 0);
+    const auto order = nested_dissection(sector, by_line);
+    auto sorted = order;
+    std::sort(sorted.begin(), sorted.end());
+    ASSERT_EQ(sorted, by_line);
+    nodes.push_back(double(by_line.size()));
+    flops.push_back(PartialCholesky::factor(sector.matrix, 2, order, 0)->factor_flops());
+    flops_by_line.push_back(PartialCholesky::factor(sector.matrix, 2, by_line, 0)->factor_flops());
+  }
+  const auto exponent = [&](const std::vector<double>& work) {
+    return std::log(work.back() / work.front()) / std::log(nodes.back() / nodes.front());
+  };
+  RecordProperty("exponent", std::to_string(exponent(flops)));
+  EXPECT_LT(exponent(flops), 1.5);
+  EXPECT_GT(exponent(flops_by_line), 1.8);
+}
+
+TEST(NestedDissection, SeparatesWhatGhostFacesCouple) {
+  auto model = paper_model();
+  model.grid.cells = {48, 48};
+  const ElementTable<2> table(model.grid, model.degree, model.material, model.ghost);
+  const auto sector = stiffness_with_a_hole(table);
+  auto without_ghosts = sector;
+  without_ghosts.ghosts.clear();
+  std::vector<int> nodes(sector.space.n_nodes());
+  std::iota(nodes.begin(), nodes.end(), 0);
+  const auto flops = [&](const SectorStiffness<2>& known) {
+    return PartialCholesky::factor(sector.matrix, 2, nested_dissection(known, nodes), 0)->factor_flops();
+  };
+  EXPECT_LT(flops(sector), 0.6 * flops(without_ghosts));
 }
 
 }  // namespace

@@ -27,7 +27,6 @@ HertzContact squeeze_disc(double load, const Material& material, int radial_cell
   const CutDomain<2> full{grid, std::vector<CellKind>(grid.n_cells(), CellKind::inside), {}, {}};
   const auto ring =
       CyclicStiffness<2>::factor(sector_stiffness<2>(full, table, radial_cells - refinement.rows),
-                                 nested_dissection<2>(grid, 2, radial_cells - refinement.rows),
                                  tread->outer_stiffness(half_turn), half_turn);
   EXPECT_TRUE(ring);
   const ReducedContact<2> contact({*ring, *tread, 3}, *tread, grid, {0}, {-2, 4},

@@ -201,7 +201,6 @@ class PressedRing {
     for (ComplexMatrix& k : outer_stiffness)
       for (int azimuthal = 1; azimuthal < k.rows(); azimuthal += 2) k(azimuthal, azimuthal) += 1e8;
     return CyclicStiffness<2>::factor(sector_stiffness(domain_, problem_.elements(), problem_.core_rows()),
-                                      nested_dissection<2>(model.grid, model.degree, problem_.core_rows()),
                                       outer_stiffness, harmonics);
   }
 

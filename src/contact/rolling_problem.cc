@@ -117,7 +117,6 @@ RollingProblem<dim>::RollingProblem(const RollingModel<dim>& model,
       elements_(std::move(elements)),
       harmonics_(model.grid.n_sectors),
       tread_(std::move(tread)),
-      elimination_order_(nested_dissection<dim>(model.grid, model.degree, core_rows())),
       outer_stiffness_(tread_.outer_stiffness(harmonics_)) {}
 
 template <int dim>
@@ -231,8 +230,7 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& p
   phases.push_back({"cut", watch.lap()});
   auto sector = sector_stiffness(*domain, *elements_, core_rows());
   phases.push_back({"assembly", watch.lap()});
-  auto factored =
-      CyclicStiffness<dim>::factor(std::move(sector), elimination_order_, outer_stiffness_, harmonics_);
+  auto factored = CyclicStiffness<dim>::factor(std::move(sector), outer_stiffness_, harmonics_);
   if (!factored) return factored.failure();
   phases.push_back({"factorization", watch.lap()});
 

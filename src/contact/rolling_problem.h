@@ -94,7 +94,6 @@ class RollingProblem {
   std::unique_ptr<ElementTable<dim>> elements_;
   SectorHarmonics harmonics_;
   Tread<dim> tread_;
-  std::vector<std::array<int, dim>> elimination_order_;
   std::vector<ComplexMatrix> outer_stiffness_;
 };
 

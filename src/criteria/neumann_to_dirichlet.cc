@@ -14,7 +14,6 @@ Expected<NeumannToDirichlet<dim>> NeumannToDirichlet<dim>::create(const RollingM
   const int core_rows = model.grid.cells[0] - model.tread.rows;
   const SectorHarmonics harmonics(model.grid.n_sectors);
   auto ring = CyclicStiffness<dim>::factor(sector_stiffness<dim>(full, *elements, core_rows),
-                                           nested_dissection<dim>(model.grid, model.degree, core_rows),
                                            tread->outer_stiffness(harmonics), harmonics);
   if (!ring) return ring.failure();
   return NeumannToDirichlet(std::move(elements), *std::move(tread), *std::move(ring));

@@ -6,21 +6,20 @@
 
 #include "base/parallel.h"
 #include "base/periodic.h"
+#include "cyclic/nested_dissection.h"
 
 namespace wheelwright {
 namespace {
 
-/// The boundary nodes of a sector, at their positions in the sector's own period, and the elimination order.
+/// The boundary nodes of a sector, at their positions in the sector's own period, and its interior nodes.
 template <int dim>
 struct BoundaryLayout {
   std::vector<std::array<int, dim>> interface_nodes;  ///< not on the outer line
-  std::vector<int> interior_nodes;                    ///< node numbers in elimination order
-  std::vector<int> trailing_nodes;                    ///< node numbers
+  std::vector<int> interior_nodes, trailing_nodes;    ///< node numbers
 };
 
 template <int dim>
-BoundaryLayout<dim> boundary_layout(const SectorSpace<dim>& space,
-                                    std::span<const std::array<int, dim>> order) {
+BoundaryLayout<dim> boundary_layout(const SectorSpace<dim>& space) {
   const int period = space.degree() * space.grid().cells[1], outer = space.degree() * space.core_rows();
   std::vector<char> trailing(space.n_nodes(), 0);
   BoundaryLayout<dim> layout;
@@ -34,10 +33,8 @@ BoundaryLayout<dim> boundary_layout(const SectorSpace<dim>& space,
     layout.interface_nodes.push_back(p);
     if (const int own = space.number(p); own >= 0) trailing[own] = 1;
   }
-  for (const auto& p : order)
-    if (const int node = space.number(p); node >= 0 && !trailing[node]) layout.interior_nodes.push_back(node);
   for (int node = 0; node < space.n_nodes(); ++node)
-    if (trailing[node]) layout.trailing_nodes.push_back(node);
+    (trailing[node] ? layout.trailing_nodes : layout.interior_nodes).push_back(node);
   return layout;
 }
 
@@ -50,12 +47,10 @@ CyclicStiffness<dim>::CyclicStiffness(SectorStiffness<dim> sector, PartialCholes
 
 template <int dim>
 Expected<CyclicStiffness<dim>> CyclicStiffness<dim>::factor(SectorStiffness<dim> sector,
-                                                            std::span<const std::array<int, dim>> order,
                                                             std::span<const ComplexMatrix> outer_stiffness,
                                                             const SectorHarmonics& harmonics) {
-  const SectorSpace<dim>& space = sector.space;
-  const BoundaryLayout<dim> layout = boundary_layout<dim>(space, order);
-  std::vector<int> nodes = layout.interior_nodes;
+  const BoundaryLayout<dim> layout = boundary_layout(sector.space);
+  std::vector<int> nodes = nested_dissection(sector, layout.interior_nodes);
   nodes.insert(nodes.end(), layout.trailing_nodes.begin(), layout.trailing_nodes.end());
   auto factored =
       PartialCholesky::factor(sector.matrix, dim, nodes, static_cast<int>(layout.trailing_nodes.size()));

@@ -20,10 +20,9 @@ namespace wheelwright {
 template <int dim>
 class CyclicStiffness {
  public:
-  /// `order` from nested_dissection(); `outer_stiffness[h]` is the tread's contribution on the outer line for
-  /// harmonic h. Fails with not_positive_definite or not_finite.
+  /// `outer_stiffness[h]` is the tread's contribution on the outer line for harmonic h. Fails with
+  /// not_positive_definite or not_finite.
   static Expected<CyclicStiffness> factor(SectorStiffness<dim> sector,
-                                          std::span<const std::array<int, dim>> order,
                                           std::span<const ComplexMatrix> outer_stiffness,
                                           const SectorHarmonics& harmonics);
 

@@ -62,67 +62,7 @@ std::vector<int> SectorSpace<dim>::cell_nodes(int cell, int sectors_ahead) const
   return nodes;
 }
 
-namespace {
-
-/// Lattice positions first <= p < last along each axis.
-template <int dim>
-struct Box {
-  std::array<int, dim> first, last;
-};
-
-template <int dim>
-void append_all(const Box<dim>& box, std::vector<std::array<int, dim>>& order) {
-  std::array<int, dim> p = box.first;
-  for (int d = 0; d < dim; ++d)
-    if (box.first[d] >= box.last[d]) return;
-  while (true) {
-    order.push_back(p);
-    int d = 0;
-    while (d < dim && ++p[d] == box.last[d]) {
-      p[d] = box.first[d];
-      ++d;
-    }
-    if (d == dim) return;
-  }
-}
-
-template <int dim>
-void dissect(const Box<dim>& box, int degree, std::vector<std::array<int, dim>>& order) {
-  int axis = 0;
-  for (int d = 1; d < dim; ++d)
-    if (box.last[d] - box.first[d] > box.last[axis] - box.first[axis]) axis = d;
-  const int length = box.last[axis] - box.first[axis];
-  if (length <= 3 * degree) return append_all<dim>(box, order);
-  // Separators on cell boundaries split the cells' couplings.
-  const int middle = (box.first[axis] + length / 2) / degree * degree;
-  Box<dim> before = box, separator = box, after = box;
-  before.last[axis] = separator.first[axis] = middle;
-  separator.last[axis] = after.first[axis] = middle + 1;
-  dissect<dim>(before, degree, order);
-  dissect<dim>(after, degree, order);
-  append_all<dim>(separator, order);
-}
-
-}  // namespace
-
-template <int dim>
-std::vector<std::array<int, dim>> nested_dissection(const PolarGrid<dim>& grid, int degree, int core_rows) {
-  Box<dim> box;
-  for (int d = 0; d < dim; ++d) {
-    box.first[d] = 0;
-    box.last[d] = degree * grid.cells[d] + 1;
-  }
-  box.first[0] = 1;
-  box.last[0] = degree * core_rows + 1;
-  box.last[1] = degree * grid.cells[1] + degree + 1;
-  std::vector<std::array<int, dim>> order;
-  dissect<dim>(box, degree, order);
-  return order;
-}
-
 template class SectorSpace<2>;
 template class SectorSpace<3>;
-template std::vector<std::array<int, 2>> nested_dissection<2>(const PolarGrid<2>&, int, int);
-template std::vector<std::array<int, 3>> nested_dissection<3>(const PolarGrid<3>&, int, int);
 
 }  // namespace wheelwright

@@ -49,9 +49,4 @@ class SectorSpace {
   std::vector<std::array<int, dim>> positions_;
 };
 
-/// An order of elimination by nested dissection of the extended lattice of one sector: nodes as lattice
-/// positions. It depends on the grid alone.
-template <int dim>
-std::vector<std::array<int, dim>> nested_dissection(const PolarGrid<dim>& grid, int degree, int core_rows);
-
 }  // namespace wheelwright
