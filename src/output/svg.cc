@@ -81,11 +81,14 @@ std::string circle_paths(const PolarGrid<2>& grid, const std::vector<Contour>& c
 }
 
 /// Without U+FFFE and U+FFFF, which XML 1.0 excludes.
-std::string without_noncharacters(std::string text) {
-  for (const std::string_view excluded : {"\xef\xbf\xbe", "\xef\xbf\xbf"})
-    for (std::size_t at = 0; (at = text.find(excluded, at)) != std::string::npos;)
-      text.replace(at, excluded.size(), "?");
-  return text;
+std::string without_noncharacters(std::string_view text) {
+  std::string result;
+  while (!text.empty()) {
+    const bool excluded = text.starts_with("\xef\xbf\xbe") || text.starts_with("\xef\xbf\xbf");
+    result += excluded ? '?' : text[0];
+    text.remove_prefix(excluded ? 3 : 1);
+  }
+  return result;
 }
 
 constexpr std::string_view comparison_style = R"(<style>
