@@ -57,31 +57,35 @@ ReducedContact<dim>::ReducedContact(const SurfaceCompliance<dim>& surface, const
       }
     }
 
-  std::vector<std::array<Vec<dim>, dim>> axes;
-  for (const Point& point : points_) axes.push_back(ground_axes<dim>(point.angle));
-  const int n_components = components(), n = n_points() * n_components;
+  const int n = n_points() * components();
   flexibility_ = Matrix(n, n);
-  for (int from = 0; from < n_points(); ++from)
-    for (int to = 0; to < n_points(); ++to) {
-      const int column = from / per_zone_column;
-      const Matrix& block =
-          surface.block(wrap(zone.first_column + column, tread.n_columns()), to / per_zone_column - column);
-      for (int j = 0; j < n_components; ++j) {
-        Vec<dim> sample{};
-        for (int k = 0; k < dim; ++k)
-          for (int i = 0; i < dim; ++i)
-            sample[i] += block(dim * (to % per_zone_column) + i, dim * (from % per_zone_column) + k) *
-                         axes[from][j][k];
-        for (int i = 0; i < n_components; ++i)
-          flexibility_(n_components * to + i, n_components * from + j) = dot<dim>(axes[to][i], sample);
-      }
-    }
+  for (int from = 0; from < zone.n_columns; ++from)
+    for (int to = 0; to < zone.n_columns; ++to)
+      set_flexibility(to, from, surface.block(wrap(zone.first_column + from, tread.n_columns()), to - from));
 }
 
 template <int dim>
-ReducedContact<dim> ReducedContact<dim>::under(RimControl rim) const {
+void ReducedContact<dim>::set_flexibility(int to_column, int from_column, const Matrix& block) {
+  const int per_column = n_points() / zone_.n_columns, n_components = components();
+  const int first_to = per_column * to_column, first_from = per_column * from_column;
+  const auto to_axes = ground_axes<dim>(points_[first_to].angle);
+  const auto from_axes = ground_axes<dim>(points_[first_from].angle);
+  for (int from = 0; from < per_column; ++from)
+    for (int to = 0; to < per_column; ++to)
+      for (int j = 0; j < n_components; ++j) {
+        Vec<dim> sample{};
+        for (int k = 0; k < dim; ++k)
+          for (int i = 0; i < dim; ++i) sample[i] += block(dim * to + i, dim * from + k) * from_axes[j][k];
+        for (int i = 0; i < n_components; ++i)
+          flexibility_(n_components * (first_to + to) + i, n_components * (first_from + from) + j) =
+              dot<dim>(to_axes[i], sample);
+      }
+}
+
+template <int dim>
+ReducedContact<dim> ReducedContact<dim>::under(const RimControl& rim) const {
   ReducedContact contact = *this;
-  contact.rim_ = std::move(rim);
+  contact.rim_ = rim;
   return contact;
 }
 

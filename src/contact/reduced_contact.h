@@ -69,7 +69,7 @@ class ReducedContact {
                  GroundPosition ground, ContactZone zone, RimControl rim, const Preload& preload = {});
 
   /// The same zone with another control of the rim.
-  ReducedContact under(RimControl rim) const;
+  ReducedContact under(const RimControl& rim) const;
 
   const ContactZone& zone() const { return zone_; }
   const RimControl& rim() const { return rim_; }
@@ -120,6 +120,8 @@ class ReducedContact {
  private:
   int components() const { return friction_ > 0 ? dim : 1; }
   int n_free() const { return static_cast<int>(rim_.free.size()); }
+  /// The part of the flexibility between two of the zone's columns; `block` is in the columns' frames.
+  void set_flexibility(int to_column, int from_column, const Matrix& block);
   RimMotion rim_motion(const std::vector<double>& free, double fraction) const;
   std::vector<int> active_rows(const std::vector<Vec<dim>>& z) const;
   Matrix response_tangent(const std::vector<Vec<dim>>& z, const std::vector<int>& active) const;

@@ -182,114 +182,156 @@ struct FreeColumn {
   Matrix stiffness, observation, nodal;
 };
 
+/// Picks the nodes of the level set's grid above the base out of the free ones: TreadColumn::nodal before
+/// condensation.
 template <int dim>
-FreeColumn<dim> assemble(const ElementTable<dim>& table, const ColumnNodes<dim>& nodes,
-                         const TreadGrid& tread, const ContactForm& form, int points_per_direction) {
-  const PolarGrid<dim>& grid = table.grid();
-  const Material& material = table.material();
-  const int degree = table.degree();
-  int axial_cells = 1;
-  if constexpr (dim == 3) axial_cells = grid.cells[2];
-  const auto volume_rule = unit_cell_rule<dim>(degree + 2);
-  const auto face_rule = unit_cell_rule<dim - 1>(points_per_direction);
-  const auto annulus_rule = unit_cell_rule<dim>(tread.annulus_points);
-  const int n_contact =
-      2 * dim * (1 << nodes.all_layers().back().level) * axial_cells * static_cast<int>(face_rule.size());
-  int n_cells = 0;
-  for (const Layer& layer : nodes.all_layers()) n_cells += layer.rows * (1 << layer.level) * axial_cells;
-
-  FreeColumn<dim> column{
-      {},
-      {},
-      0,
-      {},
-      Matrix(nodes.n_dofs(), nodes.n_dofs()),
-      Matrix(n_contact + dim * n_cells * static_cast<int>(annulus_rule.size()) + dim, nodes.n_dofs()),
-      {}};
-  for (size_t l = 0; l < nodes.all_layers().size(); ++l) {
-    const Layer& layer = nodes.all_layers()[l];
-    PolarGrid<dim> fine = grid;
-    fine.inner_radius = layer.inner_radius;
-    fine.outer_radius = layer.outer_radius;
-    fine.cells[0] = layer.rows;
-    fine.cells[1] <<= layer.level;
-    const double cell_angle = fine.cell_size()[1];
-    for (int row = 0; row < layer.rows; ++row) {
-      const ElasticElement<dim> element(fine, degree, {row});
-      const Matrix stiffness = cell_stiffness<dim>(element, material, volume_rule);
-      const bool at_tread = l + 1 == nodes.all_layers().size() && row + 1 == layer.rows;
-      const double gamma = form.gamma_0 * material.youngs_modulus / element.diameter();
-      for (int axial = 0; axial < axial_cells; ++axial) {
-        for (int across = 0; across < (1 << layer.level); ++across) {
-          std::vector<NodeMap<dim>> cell;
-          for (int a = 0; a < element.n_nodes(); ++a) {
-            const auto p = local_node_position<dim>(degree, a);
-            int axial_node = 0;
-            if constexpr (dim == 3) axial_node = degree * axial + p[2];
-            cell.push_back(
-                nodes.node(static_cast<int>(l), degree * row + p[0], degree * across + p[1], axial_node));
-          }
-          Matrix k = stiffness;
-          if (at_tread) {
-            for (const auto& q : face_rule) {
-              Vec<dim> xi{}, outward{};
-              xi[0] = outward[0] = 1;
-              for (int d = 1; d < dim; ++d) xi[d] = q.xi[d - 1];
-              const auto at = element.at(xi);
-              const auto surface = map_surface<dim>(at.jacobian, outward);
-              const auto traction = traction_map<dim>(element, material, at, surface.normal);
-              const double angle = across * cell_angle, weight = q.weight * surface.scale;
-              const int first = 2 * dim * static_cast<int>(column.points.size());
-              add_rows<dim>(at.displacement, cell, first, angle, column.observation);
-              add_rows<dim>(traction, cell, first + dim, angle, column.observation);
-              const double nitsche = -form.theta() / gamma * weight;
-              for (int j = 0; j < element.n_dofs(); ++j)
-                for (int i = 0; i < element.n_dofs(); ++i)
-                  for (int d = 0; d < dim; ++d) k(i, j) += nitsche * traction[d][i] * traction[d][j];
-              Vec<dim> position = rotated<dim>(at.position, angle);
-              if constexpr (dim == 3) position[2] += axial * grid.cell_size()[2];
-              column.points.push_back({position, weight, gamma});
-            }
-          }
-          for (const auto& q : annulus_rule) {
-            const auto at = element.at(q.xi);
-            Vec<dim> radial{at.position[0], at.position[1]};
-            const double radius = norm<dim>(radial);
-            for (double& x : radial) x /= radius;
-            add_rows<dim>(traction_map<dim>(element, material, at, radial), cell,
-                          n_contact + dim * static_cast<int>(column.annulus.size()), across * cell_angle,
-                          column.observation);
-            column.annulus.push_back({q.weight * at.determinant});
-          }
-          for (const auto& q : volume_rule) {
-            auto at = element.at(q.xi);
-            const double weight = q.weight * at.determinant;
-            for (auto& component : at.displacement)
-              for (double& value : component) value *= weight;
-            add_rows<dim>(at.displacement, cell, column.observation.rows() - dim, across * cell_angle,
-                          column.observation);
-            column.volume += weight;
-            const Vec<dim> position = rotated<dim>(at.position, across * cell_angle);
-            for (int d = 0; d < dim; ++d) column.moment[d] += weight * position[d];
-          }
-          add_stiffness<dim>(k, cell, column.stiffness);
-        }
-      }
-    }
-  }
-
-  int axial_nodes = 1;
-  if constexpr (dim == 3) axial_nodes = degree * grid.cells[2] + 1;
-  const int height = degree * tread.rows;
-  column.nodal = Matrix(dim * degree * axial_nodes * height, nodes.n_dofs());
+Matrix grid_nodes(const ColumnNodes<dim>& nodes, int degree, int rows, int axial_cells) {
+  const int axial_nodes = dim == 3 ? degree * axial_cells + 1 : 1, height = degree * rows;
+  Matrix result(dim * degree * axial_nodes * height, nodes.n_dofs());
   for (int across = 0; across < degree; ++across)
     for (int axial = 0; axial < axial_nodes; ++axial)
       for (int line = 1; line <= height; ++line)
         for (int c = 0; c < dim; ++c)
-          column.nodal(dim * ((across * axial_nodes + axial) * height + line - 1) + c,
-                       dim * nodes.grid_node(line, across, axial) + c) = 1;
-  return column;
+          result(dim * ((across * axial_nodes + axial) * height + line - 1) + c,
+                 dim * nodes.grid_node(line, across, axial) + c) = 1;
+  return result;
 }
+
+/// A cell of a column.
+template <int dim>
+struct ColumnCell {
+  const ElasticElement<dim>& element;
+  std::vector<NodeMap<dim>> nodes;
+  double angle;      ///< of its frame in the column's
+  int axial;         ///< cell along the axle
+  Matrix stiffness;  ///< on its own dofs
+};
+
+/// Adds up a column cell by cell.
+template <int dim>
+class ColumnAssembly {
+ public:
+  ColumnAssembly(const ElementTable<dim>& table, const ColumnNodes<dim>& nodes, const TreadGrid& tread,
+                 const ContactForm& form, int points_per_direction)
+      : grid_(table.grid()),
+        material_(table.material()),
+        nodes_(nodes),
+        form_(form),
+        degree_(table.degree()),
+        volume_rule_(unit_cell_rule<dim>(degree_ + 2)),
+        face_rule_(unit_cell_rule<dim - 1>(points_per_direction)),
+        annulus_rule_(unit_cell_rule<dim>(tread.annulus_points)) {
+    if constexpr (dim == 3) axial_cells_ = grid_.cells[2];
+    n_contact_ =
+        2 * dim * (1 << nodes.all_layers().back().level) * axial_cells_ * static_cast<int>(face_rule_.size());
+    int n_cells = 0;
+    for (const Layer& layer : nodes.all_layers()) n_cells += layer.rows * (1 << layer.level) * axial_cells_;
+    const int n_observations = n_contact_ + dim * n_cells * static_cast<int>(annulus_rule_.size()) + dim;
+    column_.stiffness = Matrix(nodes.n_dofs(), nodes.n_dofs());
+    column_.observation = Matrix(n_observations, nodes.n_dofs());
+    column_.nodal = grid_nodes<dim>(nodes, degree_, tread.rows, axial_cells_);
+  }
+
+  FreeColumn<dim> run() && {
+    const int n_layers = static_cast<int>(nodes_.all_layers().size());
+    for (int layer = 0; layer < n_layers; ++layer)
+      for (int row = 0; row < nodes_.all_layers()[layer].rows; ++row) add_row(layer, row);
+    return std::move(column_);
+  }
+
+ private:
+  void add_row(int layer_index, int row) {
+    const Layer& layer = nodes_.all_layers()[layer_index];
+    PolarGrid<dim> fine = grid_;
+    fine.inner_radius = layer.inner_radius;
+    fine.outer_radius = layer.outer_radius;
+    fine.cells[0] = layer.rows;
+    fine.cells[1] <<= layer.level;
+    const ElasticElement<dim> element(fine, degree_, {row});
+    const Matrix stiffness = cell_stiffness<dim>(element, material_, volume_rule_);
+    const bool at_tread = &layer == &nodes_.all_layers().back() && row + 1 == layer.rows;
+    for (int axial = 0; axial < axial_cells_; ++axial)
+      for (int across = 0; across < (1 << layer.level); ++across) {
+        ColumnCell<dim> cell{element, cell_nodes(layer_index, row, across, axial),
+                             across * fine.cell_size()[1], axial, stiffness};
+        if (at_tread) add_contact_face(cell);
+        add_annulus(cell);
+        add_volume(cell);
+        add_stiffness<dim>(cell.stiffness, cell.nodes, column_.stiffness);
+      }
+  }
+
+  std::vector<NodeMap<dim>> cell_nodes(int layer, int row, int across, int axial) const {
+    std::vector<NodeMap<dim>> result;
+    for (int a = 0; a < nodes_per_cell<dim>(degree_); ++a) {
+      const auto p = local_node_position<dim>(degree_, a);
+      int axial_node = 0;
+      if constexpr (dim == 3) axial_node = degree_ * axial + p[2];
+      result.push_back(nodes_.node(layer, degree_ * row + p[0], degree_ * across + p[1], axial_node));
+    }
+    return result;
+  }
+
+  void add_contact_face(ColumnCell<dim>& cell) {
+    const double gamma = form_.gamma_0 * material_.youngs_modulus / cell.element.diameter();
+    for (const auto& q : face_rule_) {
+      Vec<dim> xi{}, outward{};
+      xi[0] = outward[0] = 1;
+      for (int d = 1; d < dim; ++d) xi[d] = q.xi[d - 1];
+      const auto at = cell.element.at(xi);
+      const auto surface = map_surface<dim>(at.jacobian, outward);
+      const auto traction = traction_map<dim>(cell.element, material_, at, surface.normal);
+      const double weight = q.weight * surface.scale;
+      const int first = 2 * dim * static_cast<int>(column_.points.size());
+      add_rows<dim>(at.displacement, cell.nodes, first, cell.angle, column_.observation);
+      add_rows<dim>(traction, cell.nodes, first + dim, cell.angle, column_.observation);
+      const double nitsche = -form_.theta() / gamma * weight;
+      for (int j = 0; j < cell.element.n_dofs(); ++j)
+        for (int i = 0; i < cell.element.n_dofs(); ++i)
+          for (int d = 0; d < dim; ++d) cell.stiffness(i, j) += nitsche * traction[d][i] * traction[d][j];
+      Vec<dim> position = rotated<dim>(at.position, cell.angle);
+      if constexpr (dim == 3) position[2] += cell.axial * grid_.cell_size()[2];
+      column_.points.push_back({position, weight, gamma});
+    }
+  }
+
+  void add_annulus(const ColumnCell<dim>& cell) {
+    for (const auto& q : annulus_rule_) {
+      const auto at = cell.element.at(q.xi);
+      Vec<dim> radial{at.position[0], at.position[1]};
+      const double radius = norm<dim>(radial);
+      for (double& x : radial) x /= radius;
+      add_rows<dim>(traction_map<dim>(cell.element, material_, at, radial), cell.nodes,
+                    n_contact_ + dim * static_cast<int>(column_.annulus.size()), cell.angle,
+                    column_.observation);
+      column_.annulus.push_back({q.weight * at.determinant});
+    }
+  }
+
+  void add_volume(const ColumnCell<dim>& cell) {
+    for (const auto& q : volume_rule_) {
+      auto at = cell.element.at(q.xi);
+      const double weight = q.weight * at.determinant;
+      for (auto& component : at.displacement)
+        for (double& value : component) value *= weight;
+      add_rows<dim>(at.displacement, cell.nodes, column_.observation.rows() - dim, cell.angle,
+                    column_.observation);
+      column_.volume += weight;
+      const Vec<dim> position = rotated<dim>(at.position, cell.angle);
+      for (int d = 0; d < dim; ++d) column_.moment[d] += weight * position[d];
+    }
+  }
+
+  const PolarGrid<dim>& grid_;
+  const Material& material_;
+  const ColumnNodes<dim>& nodes_;
+  const ContactForm& form_;
+  int degree_, axial_cells_ = 1, n_contact_;
+  std::vector<ReferencePoint<dim>> volume_rule_;
+  std::vector<ReferencePoint<dim - 1>> face_rule_;
+  std::vector<ReferencePoint<dim>> annulus_rule_;
+  FreeColumn<dim> column_{};
+};
 
 }  // namespace
 
@@ -297,7 +339,7 @@ template <int dim>
 Expected<TreadColumn<dim>> tread_column(const ElementTable<dim>& table, const TreadGrid& tread,
                                         const ContactForm& form, int points_per_direction) {
   const ColumnNodes<dim> nodes(table.grid(), table.degree(), tread);
-  FreeColumn<dim> free = assemble<dim>(table, nodes, tread, form, points_per_direction);
+  FreeColumn<dim> free = ColumnAssembly<dim>(table, nodes, tread, form, points_per_direction).run();
   const int n = nodes.n_dofs(), n_retained = nodes.n_base() + 2 * nodes.n_line(), n_inner = n - n_retained;
   const int n_observations = free.observation.rows(), n_nodal = free.nodal.rows();
 

@@ -104,7 +104,7 @@ Expected<std::vector<double>> measure_preserving_velocity(const Lattice<dim>& la
   for (auto& sample : ones) sample.value = 1;
   auto velocity = extension(gradient);
   if (!velocity) return velocity;
-  const auto shrinking = extension(ones);
+  auto shrinking = extension(ones);
   if (!shrinking) return shrinking;
   const double rate = boundary_integral<dim>(lattice, ones, *shrinking);
   if (rate == 0) return velocity;
