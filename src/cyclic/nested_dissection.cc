@@ -1,6 +1,7 @@
 #include "cyclic/nested_dissection.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <span>
@@ -43,7 +44,13 @@ class Dissection {
  public:
   explicit Dissection(const SectorStiffness<dim>& sector)
       : space_(sector.space), beyond_line_(sector.space.n_nodes(), 0) {
-    for (const auto& ghost : sector.ghosts) couplings_.push_back({ghost.nodes, box_around(ghost.nodes)});
+    for (const auto& ghost : sector.ghosts) {
+      std::vector<int> nodes;
+      std::copy_if(ghost.nodes.begin(), ghost.nodes.end(), std::back_inserter(nodes),
+                   [](int node) { return node >= 0; });
+      const Box<dim> box = box_around(nodes);
+      couplings_.push_back({std::move(nodes), box});
+    }
   }
 
   /// Puts the nodes into their order of elimination.
@@ -117,7 +124,7 @@ class Dissection {
 
   /// The nodes of two cells with ghost penalty on their face.
   struct Coupling {
-    std::span<const int> nodes;
+    std::vector<int> nodes;  ///< but fixed ones
     Box<dim> box;
   };
 

@@ -38,7 +38,8 @@ struct SectorStiffness {
   SectorSpace<dim> space;
   SparseSymmetric matrix;
 
-  /// A face that carries ghost penalty: its matrix on the dofs of `nodes` (minus cell, plus cell).
+  /// A face that carries ghost penalty: its matrix on the dofs of `nodes` (minus cell, plus cell; -1 for fixed
+  /// nodes).
   struct Ghost {
     std::vector<int> nodes;
     const Matrix* stiffness;
