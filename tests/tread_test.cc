@@ -28,9 +28,13 @@ TEST(TreadRefinement, PressuresConvergeOnTheBaseGrid) {
   }
 }
 
+// Inner unknowns come from a Cholesky solve, whose rounding is at most n eps kappa of them: n = 4, 24, 160
+// inner unknowns, and kappa = 2.9e2, 2.2e3, 2.0e4 the condition of their stiffness, scaled to a unit
+// diagonal. Without a defect about eps kappa is left, 4e-12 for the last. A weight of a hanging node that is
+// wrong by 1e-6 changes displacements by 1e-7.
 TEST(TreadRefinement, HangingNodesKeepRigidMotionsFreeOfForce) {
   auto model = paper_model(7, 96);
-  for (int levels : {0, 1, 3}) {
+  for (const auto& [levels, rounding] : {std::pair{0, 2.5e-13}, {1, 1.2e-11}, {3, 7e-10}}) {
     const ElementTable<2> table(model.grid, 2, model.material, model.ghost);
     const auto column = tread_column<2>(table, {1, levels, 0}, model.contact, 5);
     ASSERT_TRUE(column);
@@ -61,13 +65,13 @@ TEST(TreadRefinement, HangingNodesKeepRigidMotionsFreeOfForce) {
       double integral = 0;
       for (size_t j = 0; j < u.size(); ++j)
         integral += column->observation(body_row + c, static_cast<int>(j)) * u[j];
-      EXPECT_NEAR(integral, c == 0 ? column->volume : 0, 1e-12 * column->volume);
+      EXPECT_NEAR(integral, c == 0 ? column->volume : 0, rounding * column->volume);
     }
     for (int q = 0; q < body_row; ++q) {
       double observed = 0;
       for (size_t j = 0; j < u.size(); ++j) observed += column->observation(q, static_cast<int>(j)) * u[j];
       const double expected = q % 4 == 0 ? 1 : 0;
-      EXPECT_NEAR(observed, expected, q % 4 < 2 ? 1e-12 : 1e-12 * scale / model.grid.resolution());
+      EXPECT_NEAR(observed, expected, q % 4 < 2 ? rounding : rounding * scale / model.grid.resolution());
     }
   }
 }
