@@ -19,8 +19,9 @@
 #include "case/read.h"
 #include "geometry/topology.h"
 #include "output/level_set_file.h"
+#include "tests/run_support.h"
 
-namespace wheelwright {
+namespace wheelwright::testing {
 namespace {
 
 const std::filesystem::path source(WHEELWRIGHT_SOURCE_DIR);
@@ -45,18 +46,11 @@ Outcome wheelwright(const std::string& arguments, const std::filesystem::path& f
 
 std::string path_of_case(const std::string& name) { return fmt::format("'{}'", (source / name).string()); }
 
-class CommandLine : public testing::Test {
+class CommandLine : public TemporaryFolder {
  protected:
-  CommandLine() {
-    std::string name = (std::filesystem::temp_directory_path() / "wheelwright-XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-  }
-  ~CommandLine() override { std::filesystem::remove_all(folder_); }
   std::string in_folder(const std::string& name) const {
-    return fmt::format("'{}'", (folder_ / name).string());
+    return fmt::format("'{}'", (folder() / name).string());
   }
-
-  std::filesystem::path folder_;
 };
 
 TEST_F(CommandLine, HelpAndVersionSucceed) {
@@ -165,10 +159,10 @@ TEST_F(CommandLine, WrongUsageIsTwoSaysSoAndLeavesNothing) {
   for (const std::string line : wrong_command_lines) {
     const std::string arguments =
         std::regex_replace(line, std::regex("CASE"), path_of_case("cases/holes16.toml"));
-    const Outcome outcome = wheelwright(arguments, folder_);
+    const Outcome outcome = wheelwright(arguments, folder());
     EXPECT_EQ(outcome.code, exit_usage) << line << '\n' << outcome.output;
     EXPECT_FALSE(outcome.output.empty()) << line;
-    EXPECT_TRUE(std::filesystem::is_empty(folder_)) << line;
+    EXPECT_TRUE(std::filesystem::is_empty(folder())) << line;
   }
 }
 
@@ -185,9 +179,9 @@ TEST_F(CommandLine, CheckAcceptsAGoodCaseAndRefusesABadOne) {
 TEST_F(CommandLine, NoBadCaseLeavesAnything) {
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(source / "tests" / "bad_cases")) {
-    const Outcome outcome = wheelwright(fmt::format("run '{}'", entry.path().string()), folder_);
+    const Outcome outcome = wheelwright(fmt::format("run '{}'", entry.path().string()), folder());
     EXPECT_EQ(outcome.code, exit_usage) << entry.path() << outcome.output;
-    EXPECT_TRUE(std::filesystem::is_empty(folder_)) << entry.path();
+    EXPECT_TRUE(std::filesystem::is_empty(folder())) << entry.path();
     ++files;
   }
   EXPECT_GE(files, 100);
@@ -197,14 +191,19 @@ TEST_F(CommandLine, CasesThatCannotBeReadAreTwo) {
   for (const char* command : {"check ", "run ", "verify ", "analyze "})
     for (const std::string& file :
          {in_folder("none.toml"), in_folder(""), std::string("''"), std::string("/dev/null")})
-      EXPECT_EQ(wheelwright(command + file, folder_).code, exit_usage) << command << file;
-  EXPECT_TRUE(std::filesystem::is_empty(folder_));
+      EXPECT_EQ(wheelwright(command + file, folder()).code, exit_usage) << command << file;
+  EXPECT_TRUE(std::filesystem::is_empty(folder()));
 }
 
 TEST_F(CommandLine, FilesThatCannotBeWrittenAreFive) {
   EXPECT_EQ(wheelwright("init " + in_folder("no/folder.toml")).code, exit_input_output);
   EXPECT_EQ(wheelwright("reference > /dev/full").code, exit_input_output);
   EXPECT_EQ(wheelwright("check " + path_of_case("cases/holes16.toml") + " > /dev/full").code,
+            exit_input_output);
+  // More than fits a buffer.
+  EXPECT_EQ(wheelwright("analyze " + path_of_case("cases/holes16.toml") +
+                        " --positions 1 --loads 1000:3000:100 --json > /dev/full")
+                .code,
             exit_input_output);
 }
 
@@ -229,9 +228,9 @@ angular_cells = 96
 )";
 
 TEST_F(CommandLine, AShapeThatCannotBeSolvedIsThree) {
-  std::ofstream(folder_ / "cut.toml") << unsolvable_case;
+  std::ofstream(folder() / "cut.toml") << unsolvable_case;
   for (const char* command : {"run cut.toml --output cut", "resume cut", "analyze cut.toml"})
-    EXPECT_EQ(wheelwright(command, folder_).code, exit_no_solution) << command;
+    EXPECT_EQ(wheelwright(command, folder()).code, exit_no_solution) << command;
 }
 
 TEST_F(CommandLine, ABugIsOne) {
@@ -255,13 +254,13 @@ angular_cells = 10000
 )";
 
 TEST_F(CommandLine, WhatDoesNotFitTheMemoryIsRefusedBeforeAnythingIsWritten) {
-  std::ofstream(folder_ / "huge.toml") << case_beyond_any_memory;
-  EXPECT_EQ(wheelwright("check huge.toml", folder_).code, exit_done);
+  std::ofstream(folder() / "huge.toml") << case_beyond_any_memory;
+  EXPECT_EQ(wheelwright("check huge.toml", folder()).code, exit_done);
   for (const char* command : {"run huge.toml", "analyze huge.toml --output out --positions 1000",
                               "verify huge.toml", "run huge.toml --output out"})
-    EXPECT_EQ(wheelwright(command, folder_).code, exit_refused) << command;
-  std::filesystem::remove(folder_ / "huge.toml");
-  EXPECT_TRUE(std::filesystem::is_empty(folder_));
+    EXPECT_EQ(wheelwright(command, folder()).code, exit_refused) << command;
+  std::filesystem::remove(folder() / "huge.toml");
+  EXPECT_TRUE(std::filesystem::is_empty(folder()));
 }
 
 /// Peak memory of the largest program that this test has run so far [bytes].
@@ -274,13 +273,13 @@ double peak_of_children() {
 
 TEST_F(CommandLine, TheEstimateOfTheMemoryIsRightToAFactorOfAThird) {
   for (const int refined : {1, 2}) {
-    std::ofstream(folder_ / "case.toml") << fmt::format(
+    std::ofstream(folder() / "case.toml") << fmt::format(
         "[grid]\nradial_cells = {}\nangular_cells = {}\n[[holes.ring]]\ncount = 16\ncenter_radius = 0.27\n"
         "radius = 0.04\n",
         28 * refined, 384 * refined);
-    const double estimate = estimated_memory(*read_case(folder_ / "case.toml").value);
+    const double estimate = estimated_memory(*read_case(folder() / "case.toml").value);
     const Outcome run =
-        wheelwright(fmt::format("run case.toml --iterations 0 --output {}", refined), folder_);
+        wheelwright(fmt::format("run case.toml --iterations 0 --output {}", refined), folder());
     ASSERT_EQ(run.code, exit_done) << run.output;
     EXPECT_GT(estimate / peak_of_children(), 1 / 1.35);
     EXPECT_LT(estimate / peak_of_children(), 1.35);
@@ -291,9 +290,9 @@ TEST_F(CommandLine, InitWritesACaseThatChecksAndNeverOverwrites) {
   const std::string file = in_folder("new.toml");
   EXPECT_EQ(wheelwright("init " + file).code, exit_done);
   EXPECT_EQ(wheelwright("check " + file).code, exit_done);
-  std::ofstream(folder_ / "new.toml") << "mine";
+  std::ofstream(folder() / "new.toml") << "mine";
   EXPECT_EQ(wheelwright("init " + file).code, exit_refused);
-  std::ifstream in(folder_ / "new.toml");
+  std::ifstream in(folder() / "new.toml");
   std::string text;
   std::getline(in, text);
   EXPECT_EQ(text, "mine");
@@ -312,12 +311,12 @@ std::string case_that_expects(double energy, const char* margin) {
 
 TEST_F(CommandLine, ARunThatDiffersFromWhatItsCaseExpectsIsSeven) {
   const auto run = [&](const std::string& name, const std::string& text, const std::string& options) {
-    std::ofstream(folder_ / (name + ".toml")) << text;
+    std::ofstream(folder() / (name + ".toml")) << text;
     return wheelwright(
         fmt::format("run {} --output {} {}", in_folder(name + ".toml"), in_folder(name), options));
   };
   ASSERT_EQ(run("any", case_that_expects(1, "0.5"), "").code, exit_unexpected);
-  std::ifstream history(folder_ / "any/history.csv");
+  std::ifstream history(folder() / "any/history.csv");
   std::string header, first;
   std::getline(history, header);
   std::getline(history, first);
@@ -329,7 +328,13 @@ TEST_F(CommandLine, ARunThatDiffersFromWhatItsCaseExpectsIsSeven) {
   EXPECT_EQ(run("first", case_that_expects(energy, "1e-9"), "--iterations 0").code, exit_done);
   EXPECT_EQ(run("wrong", case_that_expects(1.001 * energy, "1e-4"), "--iterations 0").code, exit_unexpected);
   for (const char* file : {"comparison.svg", "rolling.pvd"})
-    EXPECT_TRUE(std::filesystem::exists(folder_ / "wrong" / file)) << file;
+    EXPECT_TRUE(std::filesystem::exists(folder() / "wrong" / file)) << file;
+
+  const auto resume = [&](const char* name) { return wheelwright("resume " + in_folder(name)).code; };
+  EXPECT_EQ(resume("wide"), exit_done);
+  EXPECT_EQ(resume("narrow"), exit_unexpected) << "the last shape";
+  EXPECT_EQ(resume("first"), exit_done);
+  EXPECT_EQ(resume("wrong"), exit_unexpected);
 }
 
 /// Two rings of holes with thin spokes between them, on a coarse grid.
@@ -342,11 +347,6 @@ std::string case_with_thin_spokes(const char* volume, double step) {
       volume, step);
 }
 
-std::string content(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 /// The pieces of material of a level set file; 0 when it cannot be read.
 std::size_t n_pieces(const std::filesystem::path& file) {
   const auto psi = parse_level_set_file<2>(content(file));
@@ -357,33 +357,46 @@ std::size_t n_pieces(const std::filesystem::path& file) {
 
 // Far too little material is asked for: the holes grow until there is nothing left that holds the tread.
 TEST_F(CommandLine, ARunThatGivesUpIsThreeAndLeavesWhatIsNeededToSeeWhy) {
-  std::ofstream(folder_ / "c.toml") << case_with_thin_spokes("control = \"paper\"\ntarget = 0.2", 1);
+  std::ofstream(folder() / "c.toml") << case_with_thin_spokes("control = \"paper\"\ntarget = 0.2", 1);
   const Outcome run = wheelwright(fmt::format("run {} --output {}", in_folder("c.toml"), in_folder("run")));
   EXPECT_EQ(run.code, exit_no_solution);
-  EXPECT_NE(run.output.find((folder_ / "run/failure/report.txt").string()), std::string::npos) << run.output;
+  EXPECT_NE(run.output.find((folder() / "run/failure/report.txt").string()), std::string::npos) << run.output;
   for (const char* file : {"report.txt", "rejected.svg", "case.toml"})
-    EXPECT_FALSE(content(folder_ / "run/failure" / file).empty()) << file;
-  EXPECT_EQ(n_pieces(folder_ / "run/failure/accepted.levelset"), 1u);
-  EXPECT_GT(n_pieces(folder_ / "run/failure/rejected.levelset"), 1u);
-  EXPECT_NE(content(folder_ / "run/history.csv").find("tread_cut_off"), std::string::npos);
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "run/comparison.svg"));
+    EXPECT_FALSE(content(folder() / "run/failure" / file).empty()) << file;
+  EXPECT_EQ(n_pieces(folder() / "run/failure/accepted.levelset"), 1u);
+  EXPECT_GT(n_pieces(folder() / "run/failure/rejected.levelset"), 1u);
+  EXPECT_NE(content(folder() / "run/history.csv").find("tread_cut_off"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(folder() / "run/comparison.svg"));
   EXPECT_EQ(wheelwright(fmt::format("check {}", in_folder("run/failure/case.toml"))).code, exit_done);
 }
 
+// It goes on from the last accepted shape, tries the next as before and fails as before.
+TEST_F(CommandLine, ResumeOfARunThatGaveUpGivesUpTheSame) {
+  std::ofstream(folder() / "c.toml") << case_with_thin_spokes("control = \"paper\"\ntarget = 0.2", 1);
+  ASSERT_EQ(wheelwright("run c.toml --output run", folder()).code, exit_no_solution);
+  const auto before = results(folder() / "run");
+  ASSERT_TRUE(before.contains("failure/report.txt"));
+  std::filesystem::remove_all(folder() / "run/failure");
+  const Outcome again = wheelwright("resume run", folder());
+  EXPECT_EQ(again.code, exit_no_solution);
+  EXPECT_NE(again.output.find("run/failure/report.txt"), std::string::npos) << again.output;
+  EXPECT_EQ(results(folder() / "run"), before);
+}
+
 TEST_F(CommandLine, AnInitialShapeThatFallsApartIsThreeAndIsDrawn) {
-  std::ofstream(folder_ / "c.toml") << case_with_thin_spokes("target = 0.3", 1);
+  std::ofstream(folder() / "c.toml") << case_with_thin_spokes("target = 0.3", 1);
   const Outcome run = wheelwright(fmt::format("run {} --output {}", in_folder("c.toml"), in_folder("run")));
   EXPECT_EQ(run.code, exit_no_solution);
   for (const char* file : {"report.txt", "rejected.svg", "rejected.levelset"})
-    EXPECT_FALSE(content(folder_ / "run/failure" / file).empty()) << file;
+    EXPECT_FALSE(content(folder() / "run/failure" / file).empty()) << file;
 }
 
 // With large steps every pair of holes joins, and reaches the band at the rim.
 TEST_F(CommandLine, ARunTellsOfHolesThatJoinOnTheTerminalAndInItsHistory) {
-  std::ofstream(folder_ / "c.toml") << case_with_thin_spokes("control = \"exact\"", 2);
+  std::ofstream(folder() / "c.toml") << case_with_thin_spokes("control = \"exact\"", 2);
   const Outcome run = wheelwright(fmt::format("run {} --output {}", in_folder("c.toml"), in_folder("run")));
   EXPECT_EQ(run.code, exit_done);
-  const std::string history = content(folder_ / "run/history.csv");
+  const std::string history = content(folder() / "run/history.csv");
   for (const ShapeEventKind kind : {ShapeEventKind::holes_merged, ShapeEventKind::hole_at_rim_band})
     for (const std::string* text : {&run.output, &history})
       EXPECT_NE(text->find(to_string(kind)), std::string::npos) << *text;
@@ -393,15 +406,15 @@ TEST_F(CommandLine, AnalyzeWritesItsFolderOnceAndNothingWithoutOne) {
   const std::string analyze =
       "analyze " + path_of_case("cases/holes16.toml") + " --positions 3 --loads 3000,1000,1000";
   EXPECT_EQ(wheelwright(analyze).code, exit_done);
-  EXPECT_TRUE(std::filesystem::is_empty(folder_));
+  EXPECT_TRUE(std::filesystem::is_empty(folder()));
   const std::string with_output = analyze + " --output " + in_folder("a/b");
   EXPECT_EQ(wheelwright(with_output).code, exit_done);
   EXPECT_EQ(wheelwright(with_output).code, exit_refused);
   const Outcome json = wheelwright(analyze + " --json");
-  std::ifstream file(folder_ / "a/b/analysis.json");
+  std::ifstream file(folder() / "a/b/analysis.json");
   EXPECT_TRUE(json.output.ends_with(std::string(std::istreambuf_iterator<char>(file), {}))) << json.output;
   for (const char* plot : {"travel.svg", "force.svg", "peak_pressure.svg", "pressures.svg", "loads.svg"})
-    EXPECT_TRUE(std::filesystem::exists(folder_ / "a/b" / plot)) << plot;
+    EXPECT_TRUE(std::filesystem::exists(folder() / "a/b" / plot)) << plot;
   EXPECT_EQ(wheelwright(analyze + " --output /proc/none").code, exit_input_output);
 }
 
@@ -419,4 +432,4 @@ TEST_F(CommandLine, TheProgramItselfDoesNotLoadTheSolversLibraries) {
 }
 
 }  // namespace
-}  // namespace wheelwright
+}  // namespace wheelwright::testing

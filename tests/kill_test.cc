@@ -29,6 +29,29 @@ struct Surroundings {
   std::string fault = {};            ///< for the library fault_injection
   rlim_t file_size = RLIM_INFINITY;  ///< largest file that it may write [bytes]
   std::string threads = "1";         ///< that the environment wants
+  std::string messages = {};         ///< instead of "printed", where standard error goes
+  std::string terminal = {};         ///< that it runs on, and prints to
+};
+
+/// A terminal without a window: what is printed to it is lost.
+class Terminal {
+ public:
+  Terminal() : end_(posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)) {
+    if (grantpt(end_) == 0 && unlockpt(end_) == 0) path_ = ptsname(end_);
+  }
+  Terminal(const Terminal&) = delete;
+  Terminal& operator=(const Terminal&) = delete;
+  ~Terminal() { close(); }
+
+  const std::string& path() const { return path_; }
+  void close() {
+    if (end_ >= 0) ::close(end_);
+    end_ = -1;
+  }
+
+ private:
+  int end_;
+  std::string path_;
 };
 
 /// The program, running in a folder. What it prints goes to the file "printed" there.
@@ -64,10 +87,9 @@ class Program {
   [[noreturn]] void become(const fs::path& where, const std::vector<std::string>& arguments,
                            const Surroundings& surroundings) const {
     fs::current_path(where);
-    for (const int number : {SIGINT, SIGTERM, SIGUSR1}) ::signal(number, SIG_DFL);  // a shell may ignore them
-    const int out = open(printed_.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0666);
-    dup2(out, STDOUT_FILENO);
-    dup2(out, STDERR_FILENO);
+    for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGUSR1})
+      ::signal(number, SIG_DFL);  // a shell may ignore them
+    print_to(surroundings);
     const std::string program = folder_of_programs() / "wheelwright";
     if (!surroundings.fault.empty()) {
       setenv("WHEELWRIGHT_FAULT", surroundings.fault.c_str(), 1);
@@ -84,7 +106,15 @@ class Program {
     _exit(127);
   }
 
-  fs::path printed_;
+  void print_to(const Surroundings& surroundings) const {
+    if (!surroundings.terminal.empty()) setsid();  // makes the terminal that is opened next its own
+    const std::string& path = surroundings.terminal.empty() ? printed_ : surroundings.terminal;
+    const int out = open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0666);
+    dup2(out, STDOUT_FILENO);
+    dup2(surroundings.messages.empty() ? out : open(surroundings.messages.c_str(), O_WRONLY), STDERR_FILENO);
+  }
+
+  std::string printed_;
   pid_t pid_;
 };
 
@@ -280,7 +310,8 @@ TEST_F(Killed, InAReadOnlyFolderItIsFiveAndTouchesNothing) {
 }
 
 TEST_F(Killed, SignalsSaveAndStop) {
-  for (const auto& [signal, code] : {std::pair{SIGINT, exit_interrupted}, {SIGTERM, exit_terminated}}) {
+  for (const auto& [signal, code] :
+       {std::pair{SIGINT, exit_interrupted}, {SIGTERM, exit_terminated}, {SIGHUP, exit_hung_up}}) {
     const fs::path place = workplace(std::to_string(signal), endless);
     Program program(place, begin);
     wait_for_shape(place, 4);
@@ -302,6 +333,38 @@ TEST_F(Killed, ASecondSignalEndsItAtOnce) {
   EXPECT_EQ(program.printed().find("saved"), std::string::npos);
   EXPECT_LE(last_accepted(place / "run") - newest_good(place / "run"), every);
   expect_goes_on_as_if_never_stopped(place);
+}
+
+// The kernel sends SIGHUP, and nothing can be printed any more. A shell sends it once more.
+TEST_F(Killed, AClosedTerminalSavesAndStops) {
+  const fs::path place = workplace("terminal", endless);
+  Terminal terminal;
+  Program program(place, begin, {.terminal = terminal.path()});
+  wait_for_shape(place, 4);
+  terminal.close();
+  program.send(SIGHUP);
+  ASSERT_EQ(program.wait(), exit_hung_up);
+  EXPECT_EQ(newest_good(place / "run"), last_accepted(place / "run"));
+  expect_goes_on_as_if_never_stopped(place);
+}
+
+TEST_F(Killed, AHangUpDoesNotCountWhenASecondSignalEndsIt) {
+  const fs::path place = workplace("hung-up", endless);
+  Program program(place, begin);
+  wait_for_shape(place, 4);
+  for (const int signal : {SIGSTOP, SIGHUP, SIGTERM, SIGCONT}) program.send(signal);
+  EXPECT_EQ(program.wait(), exit_terminated);
+  EXPECT_EQ(newest_good(place / "run"), last_accepted(place / "run"));
+  expect_goes_on_as_if_never_stopped(place);
+}
+
+TEST_F(Killed, MessagesThatCannotBeWrittenEndNothing) {
+  const std::string text = small_case(4);
+  const fs::path expected = straight(text), place = workplace("silent", text);
+  const Surroundings mute{.messages = "/dev/full"};
+  ASSERT_EQ(Program(place, {"run", "case.toml", "--iterations", "2"}, mute).wait(), exit_done);
+  ASSERT_EQ(Program(place, {"resume", "run", "--iterations", "4"}, mute).wait(), exit_done);
+  expect_equal_results(expected / "run", place / "run");
 }
 
 TEST_F(Killed, Usr1SavesAndGoesOn) {

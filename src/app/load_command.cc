@@ -8,6 +8,7 @@
 #include "app/commands/commands.h"
 #include "app/exit_code.h"
 #include "app/memory.h"
+#include "app/terminal.h"
 
 namespace wheelwright {
 
@@ -32,14 +33,14 @@ void prepare_blas() {
 
 int load_and_run_command(const std::string& name, const Case& c, const RunOptions& options) {
   if (const auto lack = lack_of_memory(c, available_memory())) {
-    fmt::print(stderr, "wheelwright {}: {}: {}\n", name, options.case_file.string(), *lack);
+    tell("wheelwright {}: {}: {}\n", name, options.case_file.string(), *lack);
     return exit_refused;
   }
   prepare_blas();
   void* library = dlopen("libwheelwright_commands.so", RTLD_NOW);
   void* symbol = library ? dlsym(library, "wheelwright_command") : nullptr;
   if (!symbol) {
-    fmt::print(stderr, "wheelwright: cannot load the solver: {}\n", dlerror());
+    tell("wheelwright: cannot load the solver: {}\n", dlerror());
     return exit_input_output;
   }
   return reinterpret_cast<decltype(&wheelwright_command)>(symbol)(name.c_str(), &c, &options);

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <new>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -45,24 +46,24 @@ constexpr const char* exit_codes =
     "  1    a bug of the program\n"
     "  2    wrong command line, or a case that is wrong or cannot be read\n"
     "  3    the solver gave up\n"
-    "  4    refused: would overwrite, or another run is writing to the folder\n"
+    "  4    refused: would overwrite, another run is writing to the folder, or the memory does not suffice\n"
     "  5    a file could not be written\n"
     "  6    no checkpoint can be used\n"
     "  7    done, but without what the case expects of it\n"
+    "  129  stopped by SIGHUP (the terminal was closed) and saved\n"
     "  130  stopped by SIGINT (Ctrl-C) and saved\n"
     "  143  stopped by SIGTERM or by a file STOP in the run's folder, and saved";
 
 std::string count_of_problems(std::size_t n) { return fmt::format("{} problem{}", n, n == 1 ? "" : "s"); }
 
 int report_problems(const std::string& file, const std::vector<Diagnostic>& problems) {
-  for (const Diagnostic& problem : problems) fmt::print(stderr, "{}\n", problem.text());
-  fmt::print(stderr, "{}\n",
-             styled(stderr, Style::red, fmt::format("{}: {}", file, count_of_problems(problems.size()))));
+  for (const Diagnostic& problem : problems) tell("{}\n", problem.text());
+  tell("{}\n", styled(stderr, Style::red, fmt::format("{}: {}", file, count_of_problems(problems.size()))));
   return exit_usage;
 }
 
 void print_warning(std::FILE* stream, const std::string& text) {
-  fmt::print(stream, "{} {}\n", styled(stream, Style::yellow, "warning:"), text);
+  std::fputs(fmt::format("{} {}\n", styled(stream, Style::yellow, "warning:"), text).c_str(), stream);
 }
 
 void print_warnings(std::FILE* stream, const Case& c) {
@@ -84,14 +85,14 @@ int init(const CommandLine& line) {
   const int file = open(line.template_file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (file < 0) {
     const int reason = errno;
-    fmt::print(stderr, "{}: {}\n", line.template_file, std::strerror(reason));
+    tell("{}: {}\n", line.template_file, std::strerror(reason));
     return reason == EEXIST ? exit_refused : exit_input_output;
   }
   std::FILE* stream = fdopen(file, "w");
   const std::string text = case_template();
   const bool written = std::fwrite(text.data(), 1, text.size(), stream) == text.size();
   if (std::fclose(stream) != 0 || !written) {
-    fmt::print(stderr, "{}: cannot be written\n", line.template_file);
+    tell("{}: cannot be written\n", line.template_file);
     return exit_input_output;
   }
   fmt::print("wrote {0}; next: wheelwright check {0}\n", line.template_file);
@@ -112,7 +113,7 @@ int compute(const std::string& command, const CommandLine& line) {
 int resume(const CommandLine& line) {
   const std::filesystem::path case_file = std::filesystem::path(line.run_folder) / "case.toml";
   if (!std::filesystem::exists(case_file)) {
-    fmt::print(stderr, "{}: holds no run; there is no {}\n", line.run_folder, case_file.string());
+    tell("{}: holds no run; there is no {}\n", line.run_folder, case_file.string());
     return exit_usage;
   }
   CaseResult result = read_case(case_file);
@@ -241,7 +242,7 @@ int parse_and_dispatch(int argc, char** argv) {
 int after_flushing(int code) {
   const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout);
   if (!lost) return code;
-  fmt::print(stderr, "wheelwright: standard output cannot be written\n");
+  tell("wheelwright: standard output cannot be written\n");
   return code == exit_done ? exit_input_output : code;
 }
 
@@ -253,10 +254,13 @@ int main(int argc, char** argv) {
   try {
     return wheelwright::after_flushing(wheelwright::parse_and_dispatch(argc, argv));
   } catch (const std::system_error& error) {
-    std::fprintf(stderr, "wheelwright: %s\n", error.what());
+    wheelwright::tell("wheelwright: {}\n", error.what());
     return wheelwright::exit_input_output;
+  } catch (const std::bad_alloc&) {
+    wheelwright::tell("wheelwright: the memory is used up\n");
+    return wheelwright::exit_refused;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "wheelwright: bug: {}\n", error.what());
+    wheelwright::tell("wheelwright: bug: {}\n", error.what());
     return wheelwright::exit_bug;
   }
 }

@@ -5,6 +5,7 @@
 #include "app/commands/model.h"
 #include "app/commands/wheel_pictures.h"
 #include "app/exit_code.h"
+#include "app/terminal.h"
 #include "base/text.h"
 #include "output/atomic_file.h"
 #include "output/pressure_plot.h"
@@ -17,7 +18,7 @@ namespace {
 constexpr const char* result_file = "analysis.json";
 
 int give_up(const Failure& failure) {
-  fmt::print(stderr, "wheelwright analyze: {}: {}\n", to_string(failure.reason), failure.detail);
+  tell("wheelwright analyze: {}: {}\n", to_string(failure.reason), failure.detail);
   return exit_no_solution;
 }
 
@@ -54,8 +55,7 @@ void write_folder(const std::filesystem::path& folder, const RollingReport& repo
 
 int analyze_command(const Case& c, const RunOptions& options) {
   if (options.output && std::filesystem::exists(*options.output / result_file)) {
-    fmt::print(stderr, "{}: holds an analysis already; choose another folder, or remove it\n",
-               options.output->string());
+    tell("{}: holds an analysis already; choose another folder, or remove it\n", options.output->string());
     return exit_refused;
   }
   const auto problem = RollingProblem<2>::create(rolling_model(c));

@@ -6,12 +6,14 @@
 #include <new>
 #include <optional>
 #include <string_view>
+#include <system_error>
 
 #include "app/commands/analyze.h"
 #include "app/commands/resume.h"
 #include "app/commands/run.h"
 #include "app/commands/verify.h"
 #include "app/exit_code.h"
+#include "app/terminal.h"
 #include "base/parallel.h"
 #include "output/output_error.h"
 
@@ -25,15 +27,18 @@ extern "C" int wheelwright_command(const char* name, const Case* c, const RunOpt
     if (std::string_view(name) == "resume") return resume_command(*c, *options);
     if (std::string_view(name) == "analyze") return analyze_command(*c, *options);
     if (std::string_view(name) == "verify") return verify_command(*c, *options);
-    fmt::print(stderr, "wheelwright: no command {}\n", name);
+    tell("wheelwright: no command {}\n", name);
   } catch (const OutputError& error) {
-    fmt::print(stderr, "wheelwright {}: {}\n", name, error.what());
+    tell("wheelwright {}: {}\n", name, error.what());
     return exit_input_output;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "wheelwright {}: the memory is used up; take fewer cells or load positions\n", name);
+    tell("wheelwright {}: the memory is used up; take fewer cells or load positions\n", name);
     return exit_refused;
+  } catch (const std::system_error& error) {
+    tell("wheelwright {}: {}\n", name, error.what());
+    return exit_input_output;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "wheelwright {}: bug: {}\n", name, error.what());
+    tell("wheelwright {}: bug: {}\n", name, error.what());
   }
   return exit_bug;
 }

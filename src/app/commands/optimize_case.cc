@@ -8,24 +8,25 @@
 #include "app/commands/checkpointer.h"
 #include "app/commands/failure_report.h"
 #include "app/exit_code.h"
+#include "app/terminal.h"
 #include "output/folder_lock.h"
 
 namespace wheelwright {
 namespace {
 
 int give_up(const Failure& failure) {
-  fmt::print(stderr, "wheelwright: {}: {}\n", to_string(failure.reason), failure.detail);
+  tell("wheelwright: {}: {}\n", to_string(failure.reason), failure.detail);
   return exit_no_solution;
 }
 
 int give_up(const std::filesystem::path& folder, const Case& c, const GivenUp& failure) {
-  fmt::print(stderr, "wheelwright: {}", write_failure(folder, c, failure));
+  tell("wheelwright: {}", write_failure(folder, c, failure));
   return exit_no_solution;
 }
 
 void print_weights(const Criteria<2>& objective) {
   for (const auto& [weight, criterion] : objective)
-    if (objective.size() > 1) fmt::print(stderr, "objective: {:.6g} * {}\n", weight, criterion->name());
+    if (objective.size() > 1) tell("objective: {:.6g} * {}\n", weight, criterion->name());
 }
 
 void print_summary(const InitialShape<2>& first, const OptimizationState<2>& last, StopReason reason,
@@ -55,7 +56,7 @@ int report_findings(const std::vector<Finding>& findings) {
   if (!findings.empty())
     fmt::print("expected   {} of {} values found\n", findings.size() - unmet, findings.size());
   for (const Finding& finding : findings)
-    if (!finding.met()) fmt::print(stderr, "wheelwright: {}\n", finding.text());
+    if (!finding.met()) tell("wheelwright: {}\n", finding.text());
   return unmet > 0 ? exit_unexpected : exit_done;
 }
 
@@ -73,7 +74,10 @@ class StopRequest {
     std::error_code ignored;
     std::filesystem::remove(file_, ignored);
   }
-  ExitCode exit_code() const { return signals_.stop() == SIGINT ? exit_interrupted : exit_terminated; }
+  ExitCode exit_code() const {
+    const auto signal = signals_.stop();
+    return signal == SIGINT ? exit_interrupted : signal == SIGHUP ? exit_hung_up : exit_terminated;
+  }
 
  private:
   const Signals& signals_;
@@ -121,8 +125,7 @@ int optimize_case(const Case& c, const RunStart& start) {
   print_weights(*objective);
   const auto& checkpoint = start.checkpoint;
   if (checkpoint && !fits(checkpoint->state, *problem)) {
-    fmt::print(stderr, "{}: the checkpoint's mean contact stress does not fit the tread\n",
-               start.folder.string());
+    tell("{}: the checkpoint's mean contact stress does not fit the tread\n", start.folder.string());
     return exit_checkpoint;
   }
 
@@ -155,8 +158,8 @@ int optimize_case(const Case& c, const RunStart& start) {
   stop_requested.remove_file();
   recorder.end_progress();
   if (reason == StopReason::stop_requested) {
-    fmt::print(stderr, "stopped after {} shapes, saved; to go on: wheelwright resume {}\n", state->iteration,
-               start.folder.string());
+    tell("stopped after {} shapes, saved; to go on: wheelwright resume {}\n", state->iteration,
+         start.folder.string());
     return stop_requested.exit_code();
   }
   folder.write_result(*problem, *recorder.initial(), *state);
@@ -166,10 +169,17 @@ int optimize_case(const Case& c, const RunStart& start) {
   return report_findings(recorder.expectations().findings(*problem, *state));
 }
 
+int report_expectations(const Case& c, const Checkpoint<2>& end) {
+  if (c.expectations.empty()) return exit_done;
+  const auto problem = RollingProblem<2>::create(rolling_model(c));
+  if (!problem) return give_up(problem.failure());
+  return report_findings(ExpectationWatch(c.expectations, end.found).findings(*problem, end.state));
+}
+
 int in_locked_folder(const std::filesystem::path& folder, const std::function<int()>& work) {
   const auto lock = FolderLock::acquire(folder);
   if (lock) return work();
-  fmt::print(stderr, "{}: another run is writing to this folder\n", folder.string());
+  tell("{}: another run is writing to this folder\n", folder.string());
   return exit_refused;
 }
 

@@ -16,9 +16,12 @@ struct RunStart {
   std::optional<Checkpoint<2>> checkpoint = {};  ///< to go on from; without it the run begins
 };
 
-/// Optimizes the case and writes its output folder, until the run ends or is told to stop by SIGINT, SIGTERM
-/// or a file STOP in its folder; returns an ExitCode. Throws OutputError.
+/// Optimizes the case and writes its output folder, until the run ends or is told to stop by SIGINT, SIGTERM,
+/// SIGHUP or a file STOP in its folder; returns an ExitCode. Throws OutputError.
 int optimize_case(const Case& c, const RunStart& start);
+
+/// Tells what the case expected of a run that ended there, and how it turned out; returns an ExitCode.
+int report_expectations(const Case& c, const Checkpoint<2>& end);
 
 /// Does the work, which returns an ExitCode, while no other run may write to the folder; refuses when one
 /// does. Throws OutputError.

@@ -10,6 +10,7 @@
 #include "app/commands/optimize_case.h"
 #include "app/commands/provenance.h"
 #include "app/exit_code.h"
+#include "app/terminal.h"
 
 namespace wheelwright {
 namespace {
@@ -70,8 +71,7 @@ std::optional<Checkpoint<2>> newest_usable(CheckpointFolder& folder, const Case&
       folder.keep(file);
       return *std::move(checkpoint);
     }
-    fmt::print(stderr, "{}: cannot be used, trying the one before it: {}\n", file.string(),
-               checkpoint.failure().reason);
+    tell("{}: cannot be used, trying the one before it: {}\n", file.string(), checkpoint.failure().reason);
   }
   return {};
 }
@@ -82,12 +82,12 @@ bool is_finished(const Checkpoint<2>& checkpoint, const Case& c) {
          reason_to_stop(optimizer_options(c), checkpoint.state);
 }
 
-int tell_finished(const Checkpoint<2>& checkpoint, const fs::path& folder) {
+int tell_finished(const Checkpoint<2>& checkpoint, const Case& c, const fs::path& folder) {
   fmt::print("{}: finished: {} shapes ({})\n", folder.string(), checkpoint.state.iteration,
              to_string(*checkpoint.finished));
   if (checkpoint.finished == StopReason::iterations)
     fmt::print("to go further: wheelwright resume {} --iterations N\n", folder.string());
-  return exit_done;
+  return report_expectations(c, checkpoint);
 }
 
 /// Whether the history tells of trials after the initial shape, which is saved before them.
@@ -100,10 +100,10 @@ bool has_trials(const fs::path& history) {
 /// For a run without any checkpoint: it was killed before the first, or its checkpoints were removed.
 int begin_again(const Case& c, const fs::path& folder, const fs::path& history) {
   if (has_trials(history)) {
-    fmt::print(stderr, "{}: its checkpoints are gone; it cannot go on\n", folder.string());
+    tell("{}: its checkpoints are gone; it cannot go on\n", folder.string());
     return exit_checkpoint;
   }
-  fmt::print(stderr, "{}: no checkpoint yet; the run begins\n", folder.string());
+  tell("{}: no checkpoint yet; the run begins\n", folder.string());
   return optimize_case(c, {folder, CheckpointFolder(folder)});
 }
 
@@ -113,14 +113,14 @@ int go_on(const Case& c, const fs::path& folder) {
   if (!checkpoints.exists()) return begin_again(c, folder, history);
   const auto checkpoint = newest_usable(checkpoints, c, history);
   if (!checkpoint) {
-    fmt::print(stderr, "{}: no checkpoint can be used\n", folder.string());
+    tell("{}: no checkpoint can be used\n", folder.string());
     return exit_checkpoint;
   }
-  if (is_finished(*checkpoint, c)) return tell_finished(*checkpoint, folder);
+  if (is_finished(*checkpoint, c)) return tell_finished(*checkpoint, c, folder);
   if (checkpoint->provenance.program != program_text())
-    fmt::print(stderr, "warning: saved by {}; the last digits may differ from a run without a stop\n",
-               checkpoint->provenance.program);
-  fmt::print(stderr, "{}: going on after shape {}\n", folder.string(), checkpoint->state.iteration);
+    tell("warning: saved by {}; the last digits may differ from a run without a stop\n",
+         checkpoint->provenance.program);
+  tell("{}: going on after shape {}\n", folder.string(), checkpoint->state.iteration);
   return optimize_case(c, {folder, checkpoints, checkpoint});
 }
 

@@ -4,6 +4,7 @@
 
 #include "app/commands/optimize_case.h"
 #include "app/exit_code.h"
+#include "app/terminal.h"
 
 namespace wheelwright {
 namespace {
@@ -12,8 +13,7 @@ int begin(const Case& c, const std::filesystem::path& folder) {
   const CheckpointFolder checkpoints(folder);
   if (!std::filesystem::exists(folder / "history.csv") && !checkpoints.exists())
     return optimize_case(c, {folder, checkpoints});
-  fmt::print(
-      stderr,
+  tell(
       "{0}: holds a run already; `wheelwright resume {0}` goes on with it; for a new one choose another "
       "folder with --output, or remove this one\n",
       folder.string());

@@ -12,8 +12,12 @@ volatile std::sig_atomic_t save_requested = 0;
 constexpr int exit_code_base = 128;
 
 void note_stop(int signal) {
-  if (noted_stop != 0) ::_exit(exit_code_base + signal);
+  if (noted_stop == SIGINT || noted_stop == SIGTERM) ::_exit(exit_code_base + signal);
   noted_stop = signal;
+}
+
+void note_hang_up(int) {
+  if (noted_stop == 0) noted_stop = SIGHUP;
 }
 
 void note_save_request(int) { save_requested = 1; }
@@ -35,6 +39,7 @@ Signals::Signals() {
   };
   handle(SIGINT, note_stop);
   handle(SIGTERM, note_stop);
+  handle(SIGHUP, note_hang_up);
   handle(SIGUSR1, note_save_request);
   handle(SIGXFSZ, SIG_IGN);
 }

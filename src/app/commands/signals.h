@@ -6,9 +6,10 @@
 
 namespace wheelwright {
 
-/// While one lives, SIGINT and SIGTERM no longer end the program: the first is noted, the second ends it at
-/// once. SIGUSR1 asks for a checkpoint. A write beyond a limit on file sizes fails like any other instead of
-/// ending the program by SIGXFSZ. Signals that were ignored stay so. One at a time.
+/// While one lives, SIGINT, SIGTERM and SIGHUP no longer end the program: they are noted. A second one of
+/// SIGINT and SIGTERM ends it at once; SIGHUP never does, for the kernel and a shell both send it when a
+/// terminal is closed. SIGUSR1 asks for a checkpoint. A write beyond a limit on file sizes fails like any
+/// other instead of ending the program by SIGXFSZ. Signals that were ignored stay so. One at a time.
 class Signals {
  public:
   Signals();
@@ -16,7 +17,7 @@ class Signals {
   Signals& operator=(const Signals&) = delete;
   ~Signals();
 
-  /// SIGINT or SIGTERM, when one came.
+  /// SIGINT, SIGTERM or SIGHUP, when one came.
   std::optional<int> stop() const;
 
   /// Whether SIGUSR1 came since the last call.

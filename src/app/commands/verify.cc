@@ -86,7 +86,7 @@ bool report_balance(const RollingSolution<2>& solution, const RimControl& rim) {
 }
 
 int give_up(const Failure& failure) {
-  fmt::print(stderr, "wheelwright verify: {}: {}\n", to_string(failure.reason), failure.detail);
+  tell("wheelwright verify: {}: {}\n", to_string(failure.reason), failure.detail);
   return exit_no_solution;
 }
 
