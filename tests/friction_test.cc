@@ -235,5 +235,15 @@ TEST(Friction, ShapeGradientPassesTheTaylorTest) {
   }
 }
 
+TEST(Friction, ShapeGradientOfThePapersWheelPassesTheTaylorTest) {
+  auto model = with_friction(paper_model());
+  model.torque = 100 / model.grid.width;
+  const auto problem = RollingProblem<2>::create(model);
+  ASSERT_TRUE(problem);
+  const auto test = generic_taylor_test(*problem, strain_energy_alone());
+  ASSERT_TRUE(test) << test.failure().detail;
+  for (double order : test->orders) EXPECT_GT(order, 1.9);
+}
+
 }  // namespace
 }  // namespace wheelwright
