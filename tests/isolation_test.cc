@@ -8,14 +8,13 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <regex>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "app/exit_code.h"
+#include "tests/run_support.h"
 
 // What a run takes from its surroundings, and what it leaves there: it writes into its folder alone, shows a
 // title as text, and knows no locale.
@@ -24,21 +23,19 @@ namespace wheelwright {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::content;
+using testing::results;
+using testing::small_wheel;
+using testing::TemporaryFolder;
 
 struct Outcome {
   int code;
   std::string output;
 };
 
-class Isolation : public testing::Test {
+class Isolation : public TemporaryFolder {
  protected:
-  Isolation() {
-    std::string name = (fs::temp_directory_path() / "wheelwright-XXXXXX").string();
-    top_ = mkdtemp(name.data());
-    folder_ = top_ / "here";
-    fs::create_directory(folder_);
-  }
-  ~Isolation() override { fs::remove_all(top_); }
+  Isolation() : top_(folder()), folder_(top_ / "here") { fs::create_directory(folder_); }
 
   /// Runs the program in folder_, with variables of the environment before its name.
   Outcome wheelwright(const std::string& arguments, const std::string& environment = "") const {
@@ -53,45 +50,18 @@ class Isolation : public testing::Test {
   }
 
   void write_case(const std::string& file, const std::string& first_lines) const {
-    std::ofstream(folder_ / file) << first_lines << R"(
-[wheel]
-sectors = 8
-[load]
-positions = 2
-mass = 312.5
-[[holes.ring]]
-count = 16
-center_radius = 0.27
-radius = 0.03
-[grid]
-radial_cells = 8
-angular_cells = 96
-)";
+    std::ofstream(folder_ / file) << first_lines << small_wheel;
   }
 
-  /// Contents of all files below a folder, without those that hold times.
-  static std::map<std::string, std::string> files(const fs::path& folder) {
-    std::map<std::string, std::string> result;
-    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-      const bool times =
-          entry.path().filename() == "history.csv" || entry.path().extension() == ".checkpoint";
-      if (!entry.is_regular_file() || times) continue;
-      std::ostringstream text;
-      text << std::ifstream(entry.path(), std::ios::binary).rdbuf();
-      result[fs::relative(entry.path(), folder).string()] = text.str();
-    }
-    return result;
-  }
-
-  /// The names of the files that are not the same in two folders.
+  /// The names of the results that are not the same in two folders.
   static std::string differences(const fs::path& a, const fs::path& b) {
-    const auto in_a = files(a), in_b = files(b);
-    std::string result = in_a.empty() ? "no files" : "";
+    const auto in_a = results(a), in_b = results(b);
+    std::string names = in_a.empty() ? "no files" : "";
     for (const auto& [name, text] : in_a)
-      if (!in_b.contains(name) || in_b.at(name) != text) result += name + "\n";
+      if (!in_b.contains(name) || in_b.at(name) != text) names += name + "\n";
     for (const auto& [name, text] : in_b)
-      if (!in_a.contains(name)) result += name + "\n";
-    return result;
+      if (!in_a.contains(name)) names += name + "\n";
+    return names;
   }
 
   std::vector<std::string> names(const fs::path& folder) const {
@@ -102,7 +72,7 @@ angular_cells = 96
     return result;
   }
 
-  fs::path top_, folder_;
+  const fs::path top_, folder_;
 };
 
 TEST_F(Isolation, ARunWritesIntoItsFolderAlone) {
@@ -145,7 +115,7 @@ TEST_F(Isolation, ATitleIsTextWhereverItIsShown) {
   ASSERT_EQ(table.code, exit_done);
   EXPECT_EQ(table.output.find('\x1b'), std::string::npos);
   int titles = 0;
-  for (const auto& [name, text] : files(folder_)) {
+  for (const auto& [name, text] : results(folder_)) {
     if (!name.ends_with(".svg")) continue;
     EXPECT_EQ(text.find("<script"), std::string::npos) << name;
     EXPECT_EQ(text.find("]]>"), std::string::npos) << name;
@@ -190,10 +160,8 @@ TEST(Shell, TheSourcesCallNone) {
   const std::regex calls(R"(\b(system|popen|wordexp|execl|execv\w*|posix_spawn\w*|setlocale)\s*\()");
   for (const auto& entry : fs::recursive_directory_iterator(fs::path(WHEELWRIGHT_SOURCE_DIR) / "src")) {
     if (!entry.is_regular_file()) continue;
-    std::ostringstream text;
-    text << std::ifstream(entry.path()).rdbuf();
     std::smatch call;
-    const std::string source = text.str();
+    const std::string source = content(entry.path());
     EXPECT_FALSE(std::regex_search(source, call, calls)) << entry.path() << ": " << call.str();
   }
 }

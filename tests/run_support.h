@@ -16,10 +16,8 @@ namespace wheelwright::testing {
 
 namespace fs = std::filesystem;
 
-/// A case of `iterations` shapes, each solved within milliseconds, with redistancing, smoothing and rejected
-/// trials. `more` is appended and may open sections.
-inline std::string small_case(int iterations, const std::string& more = "") {
-  return fmt::format(R"(
+/// The sections of a wheel that is solved within milliseconds.
+inline const std::string small_wheel = R"(
 [wheel]
 sectors = 8
 [load]
@@ -31,7 +29,12 @@ radius = 0.03
 [grid]
 radial_cells = 8
 angular_cells = 96
-[optimizer]
+)";
+
+/// A case of `iterations` shapes of it, with redistancing, smoothing and rejected trials. `more` is appended
+/// and may open sections.
+inline std::string small_case(int iterations, const std::string& more = "") {
+  return small_wheel + fmt::format(R"([optimizer]
 iterations = {}
 tolerance = 0
 accepted_increase = 0
@@ -44,7 +47,7 @@ vtu_every = 7
 checkpoint_every = 3
 checkpoint_seconds = 0
 {})",
-                     iterations, more);
+                                   iterations, more);
 }
 
 inline std::string content(const fs::path& file) {
