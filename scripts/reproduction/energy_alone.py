@@ -24,7 +24,7 @@ def energy_alone(r: Runs, album: Album) -> str:
             percent(run.change("objective")),
             f"{100 * run.first['volume fraction']:.2f} %",
             f"{100 * run.last['volume fraction']:.2f} %",
-            f"{run.holes[0].length:.1f} x {run.holes[0].width:.1f} mm",
+            f"{run.holes[0]} mm",
         )
 
     return joined(

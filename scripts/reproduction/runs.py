@@ -25,6 +25,9 @@ class Hole:
     width: float  # azimuthal extent at mid-length [mm]
     outer_radius: float  # farthest from the axle [mm]
 
+    def __str__(self) -> str:
+        return f"{self.length:.1f} x {self.width:.1f}"
+
     def resembles(self, other: "Hole") -> bool:
         return abs(self.length - other.length) < 0.5 and abs(self.outer_radius - other.outer_radius) < 0.5
 
