@@ -1,6 +1,7 @@
 // A library to be preloaded into the program: lets one call that touches a checkpoint fail, or kills the
 // program inside it. WHEELWRIGHT_FAULT is "CALL:N:ACTION": in the Nth CALL (write, fsync or rename; from 1)
-// on a path with "/checkpoints", do ACTION: "kill", or the number of an error.
+// on a path with "/checkpoints", do ACTION: "kill", or the number of an error. "new:N:throw" lets the Nth
+// request for a large piece of memory fail, and all that come after it.
 
 #include <dlfcn.h>
 #include <signal.h>
@@ -10,6 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <new>
 #include <string>
 
 namespace {
@@ -27,11 +29,23 @@ Fault fault_asked_for() {
   return {fault.substr(0, first), fault.substr(second + 1), std::atoi(fault.c_str() + first + 1)};
 }
 
+const Fault& fault() {
+  static const Fault asked_for = fault_asked_for();
+  return asked_for;
+}
+
 /// Whether the fault is to happen now. Counts the calls.
 bool is_now(const char* call, const std::string& path) {
-  static const Fault fault = fault_asked_for();
   static int calls = 0;
-  return fault.call == call && path.find("/checkpoints") != std::string::npos && ++calls == fault.n;
+  return fault().call == call && path.find("/checkpoints") != std::string::npos && ++calls == fault().n;
+}
+
+constexpr std::size_t large_piece = 10000;
+
+/// Whether a request for a large piece of memory is to fail. Counts the requests.
+bool memory_is_used_up() {
+  static int requests = 0;
+  return fault().call == "new" && ++requests >= fault().n;
 }
 
 std::string path_of(int file) {
@@ -43,7 +57,7 @@ std::string path_of(int file) {
 
 /// Kills the program, or returns what the failing call returns.
 int happen() {
-  const std::string action = fault_asked_for().action;
+  const std::string& action = fault().action;
   if (action == "kill") kill(getpid(), SIGKILL);
   errno = std::atoi(action.c_str());
   return -1;
@@ -72,4 +86,10 @@ extern "C" int fsync(int file) {
 extern "C" int rename(const char* from, const char* to) noexcept {
   static const auto real = next<int(const char*, const char*)>("rename");
   return is_now("rename", to) ? happen() : real(from, to);
+}
+
+void* operator new(std::size_t size) {
+  static const auto real = next<void*(std::size_t)>("_Znwm");
+  if (size >= large_piece && memory_is_used_up()) throw std::bad_alloc();
+  return real(size);
 }

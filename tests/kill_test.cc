@@ -358,6 +358,23 @@ TEST_F(Killed, AHangUpDoesNotCountWhenASecondSignalEndsIt) {
   expect_goes_on_as_if_never_stopped(place);
 }
 
+TEST_F(Killed, WithoutMemoryItIsFourAndGoesOnLater) {
+  const std::string text = small_case(7);
+  const fs::path expected = straight(text);
+  int reached = -1;
+  for (const int request : {300, 1000, 2000}) {
+    const fs::path place = workplace(fmt::format("without-memory-{}", request), text);
+    Program program(place, {"run", "case.toml", "--threads", "1"},
+                    {.fault = fmt::format("new:{}:throw", request)});
+    ASSERT_EQ(program.wait(), exit_refused) << program.printed();
+    EXPECT_NE(program.printed().find("memory"), std::string::npos);
+    reached = last_accepted(place / "run");
+    EXPECT_LE(reached - newest_good(place / "run"), every);
+    expect_resumes_to(expected, place);
+  }
+  EXPECT_GE(reached, 3) << "the last fault comes in the middle of a run";
+}
+
 TEST_F(Killed, MessagesThatCannotBeWrittenEndNothing) {
   const std::string text = small_case(4);
   const fs::path expected = straight(text), place = workplace("silent", text);

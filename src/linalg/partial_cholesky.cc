@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <new>
 #include <numeric>
 
 #include "base/parallel.h"
@@ -62,6 +63,7 @@ class SymbolicFactor {
     cholmod_finish(&common_);
   }
 
+  bool lacked_memory() const { return common_.status == CHOLMOD_OUT_OF_MEMORY; }
   bool kept_order() const { return factor_ != nullptr; }
   int n_supernodes() const { return static_cast<int>(factor_->nsuper); }
   int first(int supernode) const { return static_cast<const int*>(factor_->super)[supernode]; }
@@ -94,6 +96,7 @@ void for_blocks(int size, const std::function<void(int, int)>& f) {
 Expected<PartialCholesky> PartialCholesky::analyze(const SparseSymmetric& matrix, int block,
                                                    std::span<const int> order, int n_trailing) {
   const SymbolicFactor symbolic(matrix, block, order);
+  if (symbolic.lacked_memory()) throw std::bad_alloc();
   if (!symbolic.kept_order())
     return Failure{FailureReason::not_positive_definite, "CHOLMOD did not keep the elimination order"};
   const int n_interior = static_cast<int>(order.size()) - n_trailing;

@@ -139,6 +139,7 @@ void write_vtu(const std::filesystem::path& path, const LevelSet<2>& psi, const 
   flags.compression_level = dealii::DataOutBase::VtkFlags::best_speed;
   flags.physical_units = rows.units;
   std::ostringstream content;
+  content.exceptions(std::ios::badbit);  // a stream hides std::bad_alloc otherwise
   dealii::DataOutBase::write_vtu(material_patches(writer, psi, cut_subdivisions), rows.names, rows.vectors,
                                  flags, content);
   write_atomically(path, content.str());

@@ -4,7 +4,6 @@
 
 #include <exception>
 #include <new>
-#include <optional>
 #include <string_view>
 #include <system_error>
 
@@ -19,10 +18,20 @@
 
 using namespace wheelwright;
 
+namespace {
+
+/// For the rest of the program: where a limit is lifted TBB starts threads, and ends the program when there
+/// is no memory for them.
+void limit_threads(int n_threads) {
+  static const auto* const limit = new ThreadLimit(n_threads);
+  static_cast<void>(limit);
+}
+
+}  // namespace
+
 extern "C" int wheelwright_command(const char* name, const Case* c, const RunOptions* options) {
   try {
-    std::optional<ThreadLimit> limit;
-    if (options->threads) limit.emplace(*options->threads);
+    if (options->threads) limit_threads(*options->threads);
     if (std::string_view(name) == "run") return run_command(*c, *options);
     if (std::string_view(name) == "resume") return resume_command(*c, *options);
     if (std::string_view(name) == "analyze") return analyze_command(*c, *options);
