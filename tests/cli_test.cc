@@ -233,6 +233,34 @@ TEST_F(CommandLine, AShapeThatCannotBeSolvedIsThree) {
     EXPECT_EQ(wheelwright(command, folder()).code, exit_no_solution) << command;
 }
 
+// A Taylor test finds order 2 for a hole; without one nothing can move.
+TEST_F(CommandLine, VerifyTestsTheGradientOfTheCasesShape) {
+  std::ofstream(folder() / "full.toml") << "[grid]\nradial_cells = 7\nangular_cells = 128\n";
+  EXPECT_EQ(wheelwright("verify full.toml", folder()).code, exit_no_solution);
+  const Outcome outcome = wheelwright("verify " + path_of_case("cases/holes16.toml"));
+  EXPECT_EQ(outcome.code, exit_done) << outcome.output;
+  int orders = 0;
+  const std::regex order("order +([0-9.]+)");
+  for (std::sregex_iterator found(outcome.output.begin(), outcome.output.end(), order), end; found != end;
+       ++found, ++orders)
+    EXPECT_NEAR(std::stod((*found)[1]), 2, 0.1);
+  EXPECT_GE(orders, 3);
+}
+
+TEST_F(CommandLine, WithoutTheSolversLibraryItIsFiveButForCommandsThatOnlyRead) {
+  const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "wheelwright";
+  std::filesystem::copy(program, folder() / "wheelwright");
+  const auto alone = [&](const std::string& arguments) {
+    const std::string command = fmt::format("cd '{}' && LD_LIBRARY_PATH= ./wheelwright {} >/dev/null 2>&1",
+                                            folder().string(), arguments);
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  };
+  EXPECT_EQ(alone("check " + path_of_case("cases/holes16.toml")), exit_done);
+  EXPECT_EQ(alone("run " + path_of_case("cases/holes16.toml") + " --output run"), exit_input_output);
+  EXPECT_FALSE(std::filesystem::exists(folder() / "run"));
+}
+
 TEST_F(CommandLine, ABugIsOne) {
   const auto library =
       std::filesystem::read_symlink("/proc/self/exe").parent_path() / "libwheelwright_commands.so";
