@@ -1,6 +1,7 @@
 """Tests of scripts/reproduction. usage: reproduction_test.py PROGRAM, from the repository's top folder."""
 
 import io
+import os
 import re
 import subprocess
 import sys
@@ -89,7 +90,7 @@ class Command(unittest.TestCase):
             [*command, "--page", str(folder / "page.md"), "--runs", str(folder / "runs")],
             check=True,
             capture_output=True,
-            env={"PYTHONPATH": "scripts", "PYTHONDONTWRITEBYTECODE": "1"},
+            env={**os.environ, "PYTHONPATH": "scripts", "PYTHONDONTWRITEBYTECODE": "1"},
         )
         files = {file.name: file.read_bytes() for file in (folder / "page").iterdir()}
         text = (folder / "page.md").read_text()

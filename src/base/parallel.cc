@@ -3,7 +3,7 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
-#ifdef __SANITIZE_THREAD__
+#ifdef WHEELWRIGHT_THREAD_SANITIZER
 #include <sanitizer/tsan_interface.h>
 #endif
 
@@ -11,10 +11,10 @@ namespace wheelwright {
 
 namespace {
 
-/// Tells the thread sanitizer, which does not see into TBB, that the calls of one parallel_for() come after
-/// what is before it and before what is after it; in no order among themselves.
+/// Tells the thread sanitizer, which sees neither this file nor TBB, that the calls of one parallel_for() come
+/// after what is before it and before what is after it; in no order among themselves.
 class ForkAndJoin {
-#ifdef __SANITIZE_THREAD__
+#ifdef WHEELWRIGHT_THREAD_SANITIZER
  public:
   ForkAndJoin() { __tsan_release(&fork_); }
   void call_begins() { __tsan_acquire(&fork_); }
