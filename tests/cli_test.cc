@@ -430,6 +430,16 @@ TEST_F(CommandLine, ARunTellsOfHolesThatJoinOnTheTerminalAndInItsHistory) {
       EXPECT_NE(text->find(to_string(kind)), std::string::npos) << *text;
 }
 
+TEST_F(CommandLine, ARunDrawsEverySoManyShapes) {
+  std::ofstream(folder() / "c.toml") << small_case(3, "pictures_every = 2\n");
+  ASSERT_EQ(wheelwright("run c.toml --output run", folder()).code, exit_done);
+  for (const int shape : {0, 1, 2, 3})
+    for (const char* picture : {"stress", "displacement", "mesh"}) {
+      const std::string file = fmt::format("run/shapes/shape_{:04}_{}.svg", shape, picture);
+      EXPECT_EQ(std::filesystem::exists(folder() / file), shape % 2 == 0) << file;
+    }
+}
+
 TEST_F(CommandLine, AnalyzeWritesItsFolderOnceAndNothingWithoutOne) {
   const std::string analyze =
       "analyze " + path_of_case("cases/holes16.toml") + " --positions 3 --loads 3000,1000,1000";
