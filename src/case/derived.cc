@@ -95,25 +95,29 @@ constexpr double square(double x) { return x * x; }
 double estimated_memory(const Case& c) {
   constexpr double number = sizeof(double), complex = 2 * number;
   const double sectors = c.wheel.sectors, positions = c.load.positions;
+  const double columns = c.grid.angular_cells, cells = columns * c.grid.radial_cells;
   const double dofs = static_cast<double>(dof_bound(c)), sector_dofs = dofs / sectors;
   const double radial_line = 2 * (c.grid.degree * c.grid.radial_cells + 1);
-  const double ring_line = 2.0 * c.grid.degree * c.grid.angular_cells, sector_line = ring_line / sectors;
-  const double observations = 4.0 * c.contact.quadrature_points * (1 << c.grid.tread_levels);
+  const double ring_line = 2 * c.grid.degree * columns, sector_line = ring_line / sectors;
+  const double tractions = 2.0 * c.contact.quadrature_points * (1 << c.grid.tread_levels);  // of a column
+  const double observations = 2 * tractions, zone_columns = contact_columns(c);
   double holes = 0;
   for (const HoleRing& ring : c.holes.rings) holes += ring.count / sectors;
 
   // What each number counts is known; how many of them there are at the peak is fitted to measurements.
-  const double libraries = 185e6;
-  const double fields = number * dofs * (10 + 3 * positions);
-  const double factor = number * 2.6 * sector_dofs * std::log2(std::max(sector_dofs, 2.0));
-  const double condensed = number * 10 * square(2 * radial_line + sector_line);
-  const double harmonics = complex * 1.25 * (sectors / 2 + 1) * square(radial_line + sector_line);
-  const double compliance = number * 4.7 * square(ring_line) / sectors;
-  const double tread = number * 80 * square(observations);
-  const double zones = number * 0.75 * positions * square(contact_columns(c) * observations / 2);
+  const double libraries = 190e6;
+  const double fields = number * (137 * cells + 0.6 * dofs * positions);
+  const double factor = number * sector_dofs * std::log2(std::max(sector_dofs, 2.0));
+  const double condensed = number * 3.5 * square(2 * radial_line + sector_line);
+  const double harmonics = complex * 1.6 * (sectors / 2 + 1) * square(radial_line + sector_line);
+  const double compliance = number * 8.3 * square(ring_line) / sectors;
+  const double surface = number * 1.05 * (2 * zone_columns - 1) * columns / sectors * square(tractions);
+  const double tread = number * (60 * square(observations) + 4.5 * observations * columns * positions);
+  const double zones = number * 0.6 * positions * square(zone_columns * tractions);
   const double shape = number * 10 * holes;
   const double rings = wants_dual(c) ? 2 : 1;  // the dual norm's is one more
-  return libraries + fields + rings * (factor + condensed + harmonics) + compliance + tread + zones + shape;
+  return libraries + fields + rings * (factor + condensed + harmonics) + compliance + surface + tread +
+         zones + shape;
 }
 
 double least_gamma_0(double theta, const Material& material) {

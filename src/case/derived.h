@@ -60,9 +60,9 @@ std::vector<Circle> sector_holes(const Case& c);
 /// Displacement unknowns of the full ring if every cell held material: an upper bound.
 long long dof_bound(const Case& c);
 
-/// Peak memory of a run [bytes], to a factor of 1.3 (docs/performance.md): the libraries,
-/// the fields of the full ring, the factor of one sector and its condensed stiffness, the harmonics of its
-/// interfaces, the compliances of the outer line, of the tread and of the contact zones.
+/// Peak memory of a run [bytes], to a factor of 1.25 (docs/performance.md): the libraries, the fields of the
+/// full ring, the factor of one sector and its condensed stiffness, the harmonics of its interfaces, the
+/// compliances of the outer line and of the surface, the tread's observations and the contact zones.
 double estimated_memory(const Case& c);
 
 /// The least gamma_0 for which Nitsche's method is safe with this theta and nu: 0 for theta = -1, about 10
