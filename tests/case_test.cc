@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
@@ -616,6 +617,66 @@ TEST(Conflicts, NitscheNeedsALargeGammaForThetaZeroAndOneOnly) {
     EXPECT_EQ(conflicts(c).size(), 1u);
     c.contact.method = ContactMethod::penalty;
     EXPECT_TRUE(conflicts(c).empty());
+  }
+}
+
+// Where the load is given, friction holds less than its share of it, and that at the tread's radius a torque;
+// where the travel is given, or a body force adds to the load, what it holds is not known beforehand.
+TEST(Conflicts, FrictionMustHoldWhatMovesTheRim) {
+  Case c;
+  c.load.force = 1000;
+  c.contact.friction = 0.5;
+  for (const double direction : {1, -1}) {
+    c.load.torque = 0;
+    for (const auto& [push, holds] : {std::pair{499.0, true}, {500.0, false}, {501.0, false}}) {
+      c.load.horizontal_force = direction * push;
+      EXPECT_EQ(conflicts(c).empty(), holds) << push;
+    }
+    c.load.horizontal_force = 0;
+    for (const auto& [share, holds] : {std::pair{0.99, true}, {1.01, false}}) {
+      c.load.torque = direction * share * 500 * c.wheel.outer_radius;
+      EXPECT_EQ(conflicts(c).empty(), holds) << share;
+    }
+  }
+  Case travels = c, heavy = c;
+  travels.load.travel = 1e-3;
+  heavy.load.body_force = {0, 1e4};
+  EXPECT_TRUE(conflicts(travels).empty());
+  EXPECT_TRUE(conflicts(heavy).empty());
+}
+
+// Neighbouring holes that touch all round cut the tread off; a single hole has no neighbour.
+TEST(Conflicts, HolesMustNotTouchAllRound) {
+  Case c;
+  const double centre = 0.25, touching = centre * std::sin(std::numbers::pi / 32);
+  c.wheel.sectors = 32;
+  c.load.positions = 4;
+  for (const auto& [radius, apart] : {std::pair{0.99 * touching, true}, {touching, false}}) {
+    c.holes.rings = {{.count = 32, .center_radius = centre, .radius = radius, .phase = {}}};
+    EXPECT_EQ(conflicts(c).empty(), apart) << radius;
+  }
+  c.wheel.sectors = 1;
+  c.holes.rings = {{.count = 1, .center_radius = centre, .radius = 0.02, .phase = {}}};
+  EXPECT_TRUE(conflicts(c).empty());
+}
+
+TEST(Conflicts, OneWeightIsEnoughForAnObjective) {
+  for (double Objective::*weight : {&Objective::strain_energy, &Objective::uniformity_annulus,
+                                    &Objective::uniformity_dual, &Objective::uniformity_l2}) {
+    Case c;
+    c.objective.strain_energy = 0;
+    EXPECT_EQ(conflicts(c).size(), 1u);
+    c.objective.*weight = 1;
+    EXPECT_TRUE(conflicts(c).empty());
+  }
+}
+
+TEST(Conflicts, ExpectationsReachToTheLastShape) {
+  Case c;
+  c.expectations.emplace_back();
+  for (const int behind : {0, 1}) {
+    c.expectations[0].iteration = c.optimizer.iterations + behind;
+    EXPECT_EQ(conflicts(c).size(), behind);
   }
 }
 
