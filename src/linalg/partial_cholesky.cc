@@ -156,7 +156,7 @@ class PartialCholesky::Numbers {
     for (size_t s = 0; s < updates_.size(); ++s) {
       const Supernode& node = factor_.supernodes_[s];
       if (node.parent >= 0) continue;
-      const int* rows = &factor_.below_[node.below];
+      const int* rows = factor_.below_.data() + node.below;
       for (int j = 0; j < node.n_below; ++j)
         for (int i = j; i < node.n_below; ++i) schur(rows[i] - first, rows[j] - first) += updates_[s](i, j);
     }
@@ -212,7 +212,7 @@ class PartialCholesky::Numbers {
   bool eliminate(int s, std::vector<int>& place) {
     const Supernode& node = factor_.supernodes_[s];
     const int stride = node.stride(), n = node.n_columns, m = node.n_below;
-    const int* below = &factor_.below_[node.below];
+    const int* below = factor_.below_.data() + node.below;
     double* l = &factor_.values_[node.values];
     std::iota(place.begin() + node.first, place.begin() + node.first + n, 0);
     for (int k = 0; k < m; ++k) place[below[k]] = n + k;
@@ -223,7 +223,7 @@ class PartialCholesky::Numbers {
         l[size_t(j) * stride + place[entries_[k].row]] += entries_[k].value;
     for (const int child : children_[s]) {
       const int n_rows = factor_.supernodes_[child].n_below;
-      const int* rows = &factor_.below_[factor_.supernodes_[child].below];
+      const int* rows = factor_.below_.data() + factor_.supernodes_[child].below;
       for (int j = 0; j < n_rows; ++j) {
         const int column = place[rows[j]];
         double* to = column < n ? l + size_t(column) * stride : update.column(column - n) - n;
@@ -310,7 +310,7 @@ void PartialCholesky::eliminate(const Sweep& sweep, Matrix& loads) const {
     std::vector<double> passed_on;
     for (const int s : sweep.supernodes) {
       const Supernode& node = supernodes_[s];
-      const int stride = node.stride(), *below = &below_[node.below];
+      const int stride = node.stride(), *below = below_.data() + node.below;
       const double* l = &values_[node.values];
       double* own = loads.column(node.first) + first;
       dtrsm_("R", "L", "T", "N", &n, &node.n_columns, &one, l, &stride, own, &leading);
@@ -334,7 +334,7 @@ void PartialCholesky::substitute(const Sweep& sweep, Matrix& x) const {
     std::vector<double> known;
     for (auto s = sweep.supernodes.rbegin(); s != sweep.supernodes.rend(); ++s) {
       const Supernode& node = supernodes_[*s];
-      const int stride = node.stride(), *below = &below_[node.below];
+      const int stride = node.stride(), *below = below_.data() + node.below;
       const double* l = &values_[node.values];
       double* own = x.column(node.first) + first;
       known.resize(size_t(n) * node.n_below);
