@@ -121,12 +121,9 @@ class PressedRing {
       for (size_t q = 0; q < tread.points().size(); ++q)
         for (int d = 0; d < 2; ++d)
           loads(4 * static_cast<int>(q) + d, c) = -pressure * tread.points()[q].weight * outward(q)[d];
-    Matrix boundary(ring_.n_boundary(), ring_.n_sectors());
-    add_outer_rows(ring_, base_loads(tread, loads), boundary);
-    boundary = ring_.solve_boundary(boundary);
-    displacement_ = displacement_fields(ring_, sweep_, boundary, {});
-    observations_ =
-        tread_field(tread, outer_rows(ring_, boundary, tread.base_per_column()), loads).observations;
+    const Matrix outer = ring_.outer_displacements(base_loads(tread, loads));
+    displacement_ = displacement_fields(ring_, sweep_, ring_.boundary_displacements(outer, {}), {});
+    observations_ = tread_field(tread, outer, loads).observations;
     ghost_loads_ = {ghost_loads<2>(ring_, displacement_.modes), displacement_.weights};
     strain_energy_ = 0.5 * inner_product(loads, observations_);
     for (const double work : work_by_case(ghost_loads_, displacement_)) strain_energy_ -= 0.5 * work;
@@ -167,9 +164,10 @@ class PressedRing {
   /// the adjoint of W solves K p = -A u, A the bulk stiffness.
   double derivative_to_inner_radius() const {
     SectorFields eliminated = ghost_loads_;
-    const Matrix boundary = condense(ring_, sweep_, eliminated);
-    const SectorFields without_bulk =
-        displacement_fields(ring_, sweep_, ring_.solve_boundary(boundary), eliminated);
+    const auto boundary = ring_.eliminate_interface(condense(ring_, sweep_, eliminated));
+    const Matrix displaced =
+        ring_.boundary_displacements(ring_.outer_displacements(boundary.outer), boundary.interface);
+    const SectorFields without_bulk = displacement_fields(ring_, sweep_, displaced, eliminated);
     double sum = 0;
     visit_inner_edge([&](int cell, const ElasticElement<2>::Point& at, const Vec<2>& normal, double weight) {
       const Voigt<2> e = strain(displacement_, cell, at), ghost_strain = strain(without_bulk, cell, at);

@@ -31,22 +31,6 @@ SectorFields complete_displacement(const RollingSolution<dim>& solution) {
                                      : solution.displacement;
 }
 
-template <int dim>
-Matrix outer_rows(const CyclicStiffness<dim>& ring, const Matrix& boundary, int per_column) {
-  const int n_outer = ring.n_outer(), first = ring.n_boundary() - n_outer;
-  Matrix result(per_column, boundary.columns() * (n_outer / per_column));
-  for (int j = 0; j < boundary.columns(); ++j)
-    std::copy_n(boundary.column(j) + first, n_outer, result.data() + size_t(j) * n_outer);
-  return result;
-}
-
-template <int dim>
-void add_outer_rows(const CyclicStiffness<dim>& ring, const Matrix& outer, Matrix& boundary) {
-  const int n_outer = ring.n_outer(), first = ring.n_boundary() - n_outer;
-  for (int j = 0; j < boundary.columns(); ++j)
-    for (int i = 0; i < n_outer; ++i) boundary(first + i, j) += outer.entries()[size_t(j) * n_outer + i];
-}
-
 namespace {
 
 /// Of interior_residual(): rounding leaves about 1e-15.
@@ -199,15 +183,16 @@ template <int dim>
 typename RollingProblem<dim>::CondensedLoads RollingProblem<dim>::preload(RollingSolution<dim>& s) const {
   const int n_positions = static_cast<int>(s.grounds.size()), n_columns = tread_.n_columns();
   s.preloads.resize(n_positions);
-  if (!model_.distributed.any()) return {{}, Matrix(s.ring.n_boundary(), n_positions * s.ring.n_sectors())};
+  if (!model_.distributed.any())
+    return {{}, {{}, Matrix(s.ring.n_outer(), n_positions * s.ring.n_sectors())}};
   auto applied = applied_loads<dim>(model_.distributed, s.domain, *elements_, s.ring, tread_, s.grounds);
   s.core_loads = std::move(applied.core);
   s.tread_loads = std::move(applied.tread);
   CondensedLoads condensed{s.core_loads, {}};
-  condensed.boundary = condense<dim>(s.ring, s.ring.sector_factor().full_sweep(), condensed.core);
-  Matrix boundary = condensed.boundary;
-  add_outer_rows(s.ring, base_loads(tread_, s.tread_loads), boundary);
-  const Matrix outer = outer_rows(s.ring, s.ring.solve_boundary(boundary), tread_.base_per_column());
+  condensed.boundary =
+      s.ring.eliminate_interface(condense<dim>(s.ring, s.ring.sector_factor().full_sweep(), condensed.core));
+  const Matrix outer =
+      s.ring.outer_displacements(sum(condensed.boundary.outer, base_loads(tread_, s.tread_loads)));
   const Matrix observed = tread_field(tread_, outer, s.tread_loads).observations;
   for (int i = 0; i < n_positions; ++i) {
     s.preloads[i] = {Matrix(observed.rows(), n_columns), applied.on_the_rim[i]};
@@ -274,12 +259,10 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& p
   }
   phases.push_back({"contact", watch.lap()});
 
-  Matrix boundary = preloaded.boundary;
-  add_outer_rows(s.ring, base_loads(tread_, s.tread_loads), boundary);
-  boundary = s.ring.solve_boundary(boundary);
+  s.outer_line = s.ring.outer_displacements(sum(preloaded.boundary.outer, base_loads(tread_, s.tread_loads)));
+  const Matrix boundary = s.ring.boundary_displacements(s.outer_line, preloaded.boundary.interface);
   s.sweep = boundary_sweep(s.ring, s.domain, s.core_loads);
   s.displacement = displacement_fields(s.ring, s.sweep, boundary, preloaded.core);
-  s.outer_line = outer_rows(s.ring, boundary, tread_.base_per_column());
   s.observations = tread_field(tread_, s.outer_line, s.tread_loads).observations;
   s.ghost_loads = ghost_loads(s.ring, s.displacement.modes);
   if (!all_finite(s.displacement.modes) || !all_finite(s.observations))
@@ -304,8 +287,6 @@ template class RollingProblem<3>;
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                        \
   template RimControl rim_control(const RollingModel<dim>&);                                                \
   template SectorFields complete_displacement(const RollingSolution<dim>&);                                 \
-  template Matrix outer_rows(const CyclicStiffness<dim>&, const Matrix&, int);                              \
-  template void add_outer_rows(const CyclicStiffness<dim>&, const Matrix&, Matrix&);                        \
   template Expected<RolledContact<dim>> roll_to(const RollingModel<dim>&, const Tread<dim>&,                \
                                                 const CyclicStiffness<dim>&, const SurfaceCompliance<dim>&, \
                                                 GroundPosition, const Preload&,                             \

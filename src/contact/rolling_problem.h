@@ -43,7 +43,7 @@ struct RollingSolution {
   std::vector<ContactState<dim>> states;
   PartialCholesky::Sweep sweep;       ///< through the unknowns of the core that the gradient needs
   SectorFields displacement;          ///< v in those unknowns; complete_displacement() finds the others
-  Matrix outer_line;                  ///< v on the core's outer line
+  Matrix outer_line;                  ///< v on the core's outer line (CyclicStiffness)
   SectorFields core_loads;            ///< of body force and pressure, in the core; empty: none
   Matrix tread_loads;                 ///< of ground and body force, on the tread's observations
   std::vector<Preload> preloads;      ///< of every position
@@ -83,10 +83,10 @@ class RollingProblem {
   RollingProblem(const RollingModel<dim>& model, std::unique_ptr<ElementTable<dim>> elements,
                  Tread<dim> tread);
 
-  /// Loads in the core: their modes after elimination, and what they are on the boundary.
+  /// Loads in the core after elimination: their modes, and what they are on the boundary.
   struct CondensedLoads {
     SectorFields core;
-    Matrix boundary;
+    typename CyclicStiffness<dim>::EliminatedInterface boundary;
   };
   CondensedLoads preload(RollingSolution<dim>& s) const;
 
@@ -120,14 +120,5 @@ Expected<RolledContact<dim>> reload(const RollingModel<dim>& model, const Tread<
                                     const CyclicStiffness<dim>& ring, const SurfaceCompliance<dim>& surface,
                                     GroundPosition ground, const Preload& preload,
                                     const RolledContact<dim>& before);
-
-/// The rows of boundary vectors (CyclicStiffness) on the core's outer line, one column an angular cell of the
-/// ring, `per_column` rows.
-template <int dim>
-Matrix outer_rows(const CyclicStiffness<dim>& ring, const Matrix& boundary, int per_column);
-
-/// Adds loads on the outer line (one column an angular cell) to boundary vectors.
-template <int dim>
-void add_outer_rows(const CyclicStiffness<dim>& ring, const Matrix& outer, Matrix& boundary);
 
 }  // namespace wheelwright

@@ -34,6 +34,13 @@ Matrix collect_line_loads(const Tread<dim>& tread, const Matrix& retained_loads)
   return result;
 }
 
+/// The part of vectors on the outer line that belongs to an angular cell: column = rhs * n_columns + ring
+/// column.
+template <class OuterLine>
+auto column_part(OuterLine& outer, int column, int per_column) {
+  return outer.data() + size_t(column) * per_column;
+}
+
 }  // namespace
 
 template <int dim>
@@ -45,26 +52,30 @@ Matrix base_loads(const Tread<dim>& tread, const Matrix& observation_loads) {
   // The base feels its own loads less what it takes to hold it while the lines move.
   const Matrix moved = retained(Matrix(n_base, loads.columns()), lines, n);
   multiply(-1, column.stiffness, Op::none, moved, Op::none, 1, loads);
-  Matrix result(per_column, loads.columns());
-  for (int first = 0; first < result.columns(); first += n)
+  const int period = tread.columns_per_sector();
+  Matrix result(period * per_column, loads.columns() / period);
+  for (int first = 0; first < loads.columns(); first += n)
     for (int c = 0; c < n; ++c)
       for (int i = 0; i < n_base; ++i)
-        result(i % per_column, first + wrap(c + i / per_column, n)) += loads(i, first + c);
+        column_part(result, first + wrap(c + i / per_column, n), per_column)[i % per_column] +=
+            loads(i, first + c);
   return result;
 }
 
 template <int dim>
-TreadField tread_field(const Tread<dim>& tread, const Matrix& outer_line, const Matrix& observation_loads) {
+TreadField tread_field(const Tread<dim>& tread, const Matrix& outer, const Matrix& observation_loads) {
   const int n = tread.n_columns(), n_base = tread.n_base(), per_column = tread.base_per_column();
   const TreadColumn<dim>& column = tread.column();
-  TreadField field{Matrix(n_base, outer_line.columns()), {}, {}};
-  for (int first = 0; first < outer_line.columns(); first += n)
+  const int n_fields = outer.columns() * tread.columns_per_sector();
+  TreadField field{Matrix(n_base, n_fields), {}, {}};
+  for (int first = 0; first < n_fields; first += n)
     for (int c = 0; c < n; ++c)
       for (int i = 0; i < n_base; ++i)
-        field.base(i, first + c) = outer_line(i % per_column, first + wrap(c + i / per_column, n));
+        field.base(i, first + c) =
+            column_part(outer, first + wrap(c + i / per_column, n), per_column)[i % per_column];
 
   Matrix loads = product(column.observation, Op::transpose, observation_loads, Op::none);
-  const Matrix held = retained(field.base, Matrix(tread.n_line(), outer_line.columns()), n);
+  const Matrix held = retained(field.base, Matrix(tread.n_line(), n_fields), n);
   multiply(-1, column.stiffness, Op::none, held, Op::none, 1, loads);
   field.lines = tread.lines().solve(collect_line_loads(tread, loads));
   field.observations = product(column.observation, Op::none, retained(field.base, field.lines, n), Op::none);

@@ -5,9 +5,9 @@
 namespace wheelwright {
 
 /// Fields of the whole tread for several right-hand sides: one column for every (right-hand side, ring
-/// column), column = rhs * n_columns + ring column. Observations have Tread::n_observations() rows; the outer
-/// line of the core has base_per_column() rows, its unknowns of one angular cell; lines (see Tread) have
-/// n_line() rows.
+/// column), column = rhs * n_columns + ring column. Observations have Tread::n_observations() rows; lines
+/// (see Tread) have n_line() rows. Those of the core's outer line are as in CyclicStiffness: one column for
+/// every (right-hand side, sector).
 
 /// Loads on the core's outer line that observation loads send through the tread.
 template <int dim>
@@ -20,7 +20,7 @@ struct TreadField {
   Matrix observations;  ///< what is observed
 };
 template <int dim>
-TreadField tread_field(const Tread<dim>& tread, const Matrix& outer_line, const Matrix& observation_loads);
+TreadField tread_field(const Tread<dim>& tread, const Matrix& outer, const Matrix& observation_loads);
 
 /// Displacements of the grid's nodes above the base, rows as TreadColumn::nodal.
 template <int dim>

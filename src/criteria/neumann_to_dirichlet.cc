@@ -33,16 +33,9 @@ Matrix NeumannToDirichlet<dim>::loads(const Matrix& tractions) const {
 }
 
 template <int dim>
-Matrix NeumannToDirichlet<dim>::boundary_displacements(const Matrix& observation_loads) const {
-  Matrix boundary(ring_.n_boundary(), observation_loads.columns() / tread_.n_columns() * ring_.n_sectors());
-  add_outer_rows(ring_, base_loads(tread_, observation_loads), boundary);
-  return ring_.solve_boundary(boundary);
-}
-
-template <int dim>
 Matrix NeumannToDirichlet<dim>::operator()(const Matrix& tractions) const {
   const Matrix observation_loads = loads(tractions);
-  const Matrix outer = outer_rows(ring_, boundary_displacements(observation_loads), tread_.base_per_column());
+  const Matrix outer = ring_.outer_displacements(base_loads(tread_, observation_loads));
   const Matrix observed = tread_field(tread_, outer, observation_loads).observations;
   Matrix w(tractions.rows(), tractions.columns());
   for (int j = 0; j < w.columns(); ++j)
@@ -54,10 +47,10 @@ template <int dim>
 std::vector<double> NeumannToDirichlet<dim>::energies(const Matrix& tractions) const {
   const int n_columns = tread_.n_columns(), n_sectors = ring_.n_sectors();
   const Matrix observation_loads = loads(tractions);
-  const Matrix boundary = boundary_displacements(observation_loads);
+  const Matrix outer = ring_.outer_displacements(base_loads(tread_, observation_loads));
+  const Matrix boundary = ring_.boundary_displacements(outer, {});
   const SectorFields core = displacement_fields(ring_, ring_.sector_factor().full_sweep(), boundary, {});
-  const TreadField field =
-      tread_field(tread_, outer_rows(ring_, boundary, tread_.base_per_column()), observation_loads);
+  const TreadField field = tread_field(tread_, outer, observation_loads);
   const TreadColumn<dim>& column = tread_.column();
 
   std::vector<double> result(tractions.columns() / n_columns, 0.0);

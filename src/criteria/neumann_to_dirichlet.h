@@ -24,7 +24,6 @@ class NeumannToDirichlet {
                      CyclicStiffness<dim> ring)
       : elements_(std::move(elements)), tread_(std::move(tread)), ring_(std::move(ring)) {}
   Matrix loads(const Matrix& tractions) const;
-  Matrix boundary_displacements(const Matrix& loads) const;
 
   std::shared_ptr<const ElementTable<dim>> elements_;
   Tread<dim> tread_;

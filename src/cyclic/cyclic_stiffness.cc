@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <optional>
 
 #include "base/parallel.h"
 #include "base/periodic.h"
@@ -36,6 +37,23 @@ BoundaryLayout<dim> boundary_layout(const SectorSpace<dim>& space) {
   for (int node = 0; node < space.n_nodes(); ++node)
     (trailing[node] ? layout.trailing_nodes : layout.interior_nodes).push_back(node);
   return layout;
+}
+
+template <class Scalar>
+DenseMatrix<Scalar> row_block(const DenseMatrix<Scalar>& a, int first, int n) {
+  DenseMatrix<Scalar> result(n, a.columns());
+  for (int j = 0; j < a.columns(); ++j) std::copy_n(a.column(j) + first, n, result.column(j));
+  return result;
+}
+
+template <class Scalar>
+DenseMatrix<Scalar> stacked(const DenseMatrix<Scalar>& top, const DenseMatrix<Scalar>& bottom) {
+  DenseMatrix<Scalar> result(top.rows() + bottom.rows(), top.columns());
+  for (int j = 0; j < top.columns(); ++j) {
+    std::copy_n(top.column(j), top.rows(), result.column(j));
+    std::copy_n(bottom.column(j), bottom.rows(), result.column(j) + top.rows());
+  }
+  return result;
 }
 
 }  // namespace
@@ -88,24 +106,22 @@ Expected<CyclicStiffness<dim>> CyclicStiffness<dim>::factor(SectorStiffness<dim>
 
   const CoupledSectors coupled = ring.couple_sectors();
   ComplexMatrix outer_inverse(ring.n_outer_ * ring.n_outer_, harmonics.n_harmonics());
-  ring.harmonic_factors_.resize(harmonics.n_harmonics());
-  std::vector<char> is_definite(harmonics.n_harmonics());
+  std::vector<std::optional<TwoBlockCholesky>> factors(harmonics.n_harmonics());
   parallel_for(harmonics.n_harmonics(), [&](int h) {
-    ComplexMatrix& k = ring.harmonic_factors_[h] = coupled.of_harmonic(harmonics, h);
+    ComplexMatrix k = coupled.of_harmonic(harmonics, h);
     for (int j = 0; j < ring.n_outer_; ++j)
       for (int i = j; i < ring.n_outer_; ++i) k(n_interface + i, n_interface + j) += outer_stiffness[h](i, j);
-    is_definite[h] = cholesky(k);
-    if (!is_definite[h]) return;
-    ComplexMatrix inverse(ring.n_outer_, ring.n_outer_);
-    for (int j = 0; j < ring.n_outer_; ++j)
-      for (int i = j; i < ring.n_outer_; ++i) inverse(i, j) = k(n_interface + i, n_interface + j);
-    cholesky_invert(inverse);
+    factors[h] = TwoBlockCholesky::factor(std::move(k), n_interface);
+    if (!factors[h]) return;
+    const ComplexMatrix inverse = factors[h]->last_block_of_inverse();
     std::copy(inverse.entries().begin(), inverse.entries().end(), outer_inverse.column(h));
   });
-  for (int h = 0; h < harmonics.n_harmonics(); ++h)
-    if (!is_definite[h])
+  for (int h = 0; h < harmonics.n_harmonics(); ++h) {
+    if (!factors[h])
       return Failure{FailureReason::not_positive_definite,
                      fmt::format("the ring's stiffness is not positive definite for harmonic {}", h)};
+    ring.harmonic_factors_.push_back(*std::move(factors[h]));
+  }
   for (auto& x : outer_inverse.entries()) x /= harmonics.n_sectors();
   const Matrix by_difference = harmonics.backward(outer_inverse);
   for (int d = 0; d < harmonics.n_sectors(); ++d) {
@@ -163,27 +179,37 @@ Matrix CyclicStiffness<dim>::boundary_loads(const Matrix& trailing_loads) const 
 }
 
 template <int dim>
-Matrix CyclicStiffness<dim>::solve_boundary(const Matrix& loads) const {
-  const int n = n_sectors(), rhs = loads.columns() / n;
-  std::vector<ComplexMatrix> by_harmonic(harmonics_.n_harmonics(), ComplexMatrix(n_boundary_, rhs));
-  parallel_for(rhs, [&](int r) {
-    Matrix one(n_boundary_, n);
-    std::copy_n(loads.column(r * n), one.entries().size(), one.data());
-    const ComplexMatrix transformed = harmonics_.forward(one);
-    for (int h = 0; h < harmonics_.n_harmonics(); ++h)
-      std::copy_n(transformed.column(h), n_boundary_, by_harmonic[h].column(r));
+typename CyclicStiffness<dim>::EliminatedInterface CyclicStiffness<dim>::eliminate_interface(
+    const Matrix& boundary_loads) const {
+  EliminatedInterface result{harmonics_.forward_each(boundary_loads), {}};
+  std::vector<ComplexMatrix> outer(harmonics_.n_harmonics());
+  parallel_for(harmonics_.n_harmonics(), [&](int h) {
+    harmonic_factors_[h].eliminate(result.interface[h]);
+    outer[h] = row_block(result.interface[h], n_boundary_ - n_outer_, n_outer_);
+    result.interface[h] = row_block(result.interface[h], 0, n_boundary_ - n_outer_);
   });
-  parallel_for(harmonics_.n_harmonics(),
-               [&](int h) { cholesky_solve(harmonic_factors_[h], by_harmonic[h]); });
-  Matrix result(n_boundary_, loads.columns());
-  parallel_for(rhs, [&](int r) {
-    ComplexMatrix transformed(n_boundary_, harmonics_.n_harmonics());
-    for (int h = 0; h < harmonics_.n_harmonics(); ++h)
-      std::copy_n(by_harmonic[h].column(r), n_boundary_, transformed.column(h));
-    const Matrix one = harmonics_.backward(transformed);
-    std::copy_n(one.data(), one.entries().size(), result.column(r * n));
-  });
+  result.outer = harmonics_.backward_each(outer);
   return result;
+}
+
+template <int dim>
+Matrix CyclicStiffness<dim>::outer_displacements(const Matrix& condensed_loads) const {
+  std::vector<ComplexMatrix> outer = harmonics_.forward_each(condensed_loads);
+  parallel_for(harmonics_.n_harmonics(), [&](int h) { harmonic_factors_[h].solve_last(outer[h]); });
+  return harmonics_.backward_each(outer);
+}
+
+template <int dim>
+Matrix CyclicStiffness<dim>::boundary_displacements(const Matrix& outer,
+                                                    const std::vector<ComplexMatrix>& interface) const {
+  const int n_interface = n_boundary_ - n_outer_;
+  std::vector<ComplexMatrix> x = harmonics_.forward_each(outer);
+  parallel_for(harmonics_.n_harmonics(), [&](int h) {
+    x[h] = stacked(interface.empty() ? ComplexMatrix(n_interface, x[h].columns()) : interface[h], x[h]);
+    harmonic_factors_[h].substitute(x[h]);
+    x[h] = row_block(x[h], 0, n_interface);
+  });
+  return stacked(harmonics_.backward_each(x), outer);
 }
 
 template <int dim>

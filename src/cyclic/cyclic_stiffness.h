@@ -6,6 +6,7 @@
 #include "cyclic/harmonics.h"
 #include "elasticity/sector_stiffness.h"
 #include "linalg/partial_cholesky.h"
+#include "linalg/two_block_cholesky.h"
 
 namespace wheelwright {
 
@@ -43,8 +44,19 @@ class CyclicStiffness {
   /// by sectors may carry its load in any of them.
   Matrix boundary_loads(const Matrix& trailing_loads) const;
 
-  /// Boundary displacements (n_boundary x load cases) for boundary loads.
-  Matrix solve_boundary(const Matrix& loads) const;
+  /// What eliminating the interface unknowns makes of boundary loads.
+  struct EliminatedInterface {
+    std::vector<ComplexMatrix> interface;  ///< one a harmonic; none without loads on the interface
+    Matrix outer;                          ///< condensed loads on the outer line, n_outer x load cases
+  };
+  EliminatedInterface eliminate_interface(const Matrix& boundary_loads) const;
+
+  /// Displacements of the outer line for condensed loads on it, both n_outer x load cases.
+  Matrix outer_displacements(const Matrix& condensed_loads) const;
+
+  /// Boundary displacements (n_boundary x load cases) from those of the outer line and what
+  /// eliminate_interface() left of loads on the interface.
+  Matrix boundary_displacements(const Matrix& outer, const std::vector<ComplexMatrix>& interface) const;
 
   /// Displacements of every sector's trailing unknowns, one row a load case.
   Matrix trailing_displacements(const Matrix& boundary) const;
@@ -76,7 +88,7 @@ class CyclicStiffness {
   };
   std::vector<Trailing> trailing_;
   int n_boundary_ = 0, n_outer_ = 0;
-  std::vector<ComplexMatrix> harmonic_factors_;
+  std::vector<TwoBlockCholesky> harmonic_factors_;  ///< interface first, outer line last
   std::vector<Matrix> outer_compliance_;
 };
 

@@ -1,7 +1,10 @@
 #include "cyclic/harmonics.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "base/parallel.h"
 
 namespace wheelwright {
 
@@ -46,6 +49,32 @@ Matrix SectorHarmonics::backward(const ComplexMatrix& by_harmonic) const {
   Matrix result = product(real, Op::none, backward_real_, Op::none);
   multiply(1, imaginary, Op::none, backward_imaginary_, Op::none, 1, result);
   return result;
+}
+
+std::vector<ComplexMatrix> SectorHarmonics::forward_each(const Matrix& by_sector) const {
+  const int rows = by_sector.rows(), n_vectors = by_sector.columns() / n_sectors_;
+  std::vector<ComplexMatrix> by_harmonic(n_harmonics(), ComplexMatrix(rows, n_vectors));
+  parallel_for(n_vectors, [&](int v) {
+    Matrix one(rows, n_sectors_);
+    std::copy_n(by_sector.column(v * n_sectors_), one.entries().size(), one.data());
+    const ComplexMatrix transformed = forward(one);
+    for (int h = 0; h < n_harmonics(); ++h)
+      std::copy_n(transformed.column(h), rows, by_harmonic[h].column(v));
+  });
+  return by_harmonic;
+}
+
+Matrix SectorHarmonics::backward_each(const std::vector<ComplexMatrix>& by_harmonic) const {
+  const int rows = by_harmonic.front().rows(), n_vectors = by_harmonic.front().columns();
+  Matrix by_sector(rows, n_vectors * n_sectors_);
+  parallel_for(n_vectors, [&](int v) {
+    ComplexMatrix transformed(rows, n_harmonics());
+    for (int h = 0; h < n_harmonics(); ++h)
+      std::copy_n(by_harmonic[h].column(v), rows, transformed.column(h));
+    const Matrix one = backward(transformed);
+    std::copy_n(one.data(), one.entries().size(), by_sector.column(v * n_sectors_));
+  });
+  return by_sector;
 }
 
 }  // namespace wheelwright

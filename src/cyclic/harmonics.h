@@ -23,6 +23,11 @@ class SectorHarmonics {
   /// rows x n_harmonics to rows x n_sectors.
   Matrix backward(const ComplexMatrix& by_harmonic) const;
 
+  /// The transforms of several vectors: column = vector * n_sectors + sector by sectors, one matrix with one
+  /// column a vector for each harmonic.
+  std::vector<ComplexMatrix> forward_each(const Matrix& by_sector) const;
+  Matrix backward_each(const std::vector<ComplexMatrix>& by_harmonic) const;
+
  private:
   int n_sectors_;
   Matrix forward_real_, forward_imaginary_;    // n_sectors x n_harmonics

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <functional>
 
 extern "C" {
 void dgemm_(const char*, const char*, const int*, const int*, const int*, const double*, const double*,
@@ -54,6 +55,13 @@ void multiply_columns(double alpha, const Matrix& a, Op op, const double* b, int
   const char ta = letter(op), none = 'N';
   const int lda = std::max(1, a.rows()), ldb = std::max(1, k);
   dgemm_(&ta, &none, &m, &columns, &k, &alpha, a.data(), &lda, b, &ldb, &beta, c, &m);
+}
+
+Matrix sum(Matrix a, const Matrix& b) {
+  assert(a.rows() == b.rows() && a.columns() == b.columns());
+  std::transform(a.entries().begin(), a.entries().end(), b.entries().begin(), a.entries().begin(),
+                 std::plus());
+  return a;
 }
 
 Matrix product(const Matrix& a, Op op_a, const Matrix& b, Op op_b) {

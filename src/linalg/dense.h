@@ -42,6 +42,8 @@ void multiply(std::complex<double> alpha, const ComplexMatrix& a, Op op_a, const
 void multiply_columns(double alpha, const Matrix& a, Op op, const double* b, int columns, double beta,
                       double* c);
 
+Matrix sum(Matrix a, const Matrix& b);
+
 /// op_a(a) op_b(b).
 Matrix product(const Matrix& a, Op op_a, const Matrix& b, Op op_b);
 

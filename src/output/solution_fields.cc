@@ -21,8 +21,8 @@ RingField displacement_field(const RollingProblem<2>& problem, const RollingSolu
   const int n_sectors = grid.n_sectors, n_columns = grid.ring_columns(), degree = lattice.degree();
   const int base_row = degree * problem.core_rows();
 
-  Matrix outer(s.outer_line.rows(), n_columns), loads(s.tread_loads.rows(), n_columns);
-  std::copy_n(s.outer_line.column(position * n_columns), outer.entries().size(), outer.data());
+  Matrix outer(s.outer_line.rows(), n_sectors), loads(s.tread_loads.rows(), n_columns);
+  std::copy_n(s.outer_line.column(position * n_sectors), outer.entries().size(), outer.data());
   std::copy_n(s.tread_loads.column(position * n_columns), loads.entries().size(), loads.data());
   const Matrix tread =
       nodal_displacements(problem.tread(), tread_field(problem.tread(), outer, loads), loads);

@@ -35,7 +35,6 @@ template <int dim>
 Expected<Adjoint> solve_adjoint(const RollingProblem<dim>& problem, const RollingSolution<dim>& s,
                                 const AdjointLoads& loads) {
   const Tread<dim>& tread = problem.tread();
-  const int n_columns = tread.n_columns(), per_column = tread.base_per_column();
   const CyclicStiffness<dim>& ring = s.ring;
   // p = q - state_weight v with K q = ghost_weight G v + T^T observations - S^T m.
   SectorFields core{s.ghost_loads, s.displacement.weights};
@@ -43,19 +42,19 @@ Expected<Adjoint> solve_adjoint(const RollingProblem<dim>& problem, const Rollin
   const Matrix observation_loads = loads.observations.rows() > 0
                                        ? loads.observations
                                        : Matrix(s.observations.rows(), s.observations.columns());
-  Matrix boundary = condense(ring, s.sweep, core);
-  add_outer_rows(ring, base_loads(tread, observation_loads), boundary);
-  const Matrix without_contact = ring.solve_boundary(boundary);
-  Matrix observed =
-      tread_field(tread, outer_rows(ring, without_contact, per_column), observation_loads).observations;
+  const auto [interface, condensed_loads] = ring.eliminate_interface(condense(ring, s.sweep, core));
+  const Matrix without_contact =
+      ring.outer_displacements(sum(condensed_loads, base_loads(tread, observation_loads)));
+  Matrix observed = tread_field(tread, without_contact, observation_loads).observations;
   for (size_t k = 0; k < observed.entries().size(); ++k)
     observed.entries()[k] -= loads.state_weight * s.observations.entries()[k];
-  auto contact = contact_adjoints(s, observed, n_columns);
+  auto contact = contact_adjoints(s, observed, tread.n_columns());
   if (!contact) return contact.failure();
 
-  add_outer_rows(ring, base_loads(tread, contact->first), boundary);
-  const Matrix trailing = product(core.weights, Op::transpose,
-                                  ring.trailing_displacements(ring.solve_boundary(boundary)), Op::none);
+  const Matrix outer = sum(without_contact, ring.outer_displacements(base_loads(tread, contact->first)));
+  const Matrix trailing =
+      product(core.weights, Op::transpose,
+              ring.trailing_displacements(ring.boundary_displacements(outer, interface)), Op::none);
   std::copy(trailing.entries().begin(), trailing.entries().end(),
             core.modes.column(ring.sector_factor().n_interior()));
   ring.sector_factor().substitute(s.sweep, core.modes);
