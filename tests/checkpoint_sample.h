@@ -45,7 +45,7 @@ Checkpoint<dim> some_checkpoint() {
     return x;
   };
   Matrix mean(3, 4);
-  mean.entries() = random.numbers(12);
+  std::ranges::copy(random.numbers(12), mean.data());
   Evaluation<dim> evaluation{
       random.number(),
       {{"strain_energy", random.number()}, {"uniformity_dual", random.number()}},

@@ -121,9 +121,10 @@ class PressedRing {
       for (size_t q = 0; q < tread.points().size(); ++q)
         for (int d = 0; d < 2; ++d)
           loads(4 * static_cast<int>(q) + d, c) = -pressure * tread.points()[q].weight * outward(q)[d];
-    const Matrix outer = ring_.outer_displacements(base_loads(tread, loads));
+    const TreadLoads on_tread = tread_loads(tread, loads);
+    const Matrix outer = ring_.outer_displacements(base_loads(tread, on_tread));
     displacement_ = displacement_fields(ring_, sweep_, ring_.boundary_displacements(outer, {}), {});
-    observations_ = tread_field(tread, outer, loads).observations;
+    observations_ = observations(tread, tread_field(tread, outer, on_tread), on_tread);
     ghost_loads_ = {ghost_loads<2>(ring_, displacement_.modes), displacement_.weights};
     strain_energy_ = 0.5 * inner_product(loads, observations_);
     for (const double work : work_by_case(ghost_loads_, displacement_)) strain_energy_ -= 0.5 * work;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "base/periodic.h"
 #include "base/stopwatch.h"
@@ -36,6 +37,16 @@ namespace {
 /// Of interior_residual(): rounding leaves about 1e-15.
 constexpr double largest_residual = 1e-10;
 
+/// sum_i factors_i x_i^2 over some columns of x.
+double weighted_square(const std::vector<double>& factors, const Matrix& x, int first_column, int n) {
+  std::vector<double> sums(factors.size(), 0.0);
+  for (int j = first_column; j < first_column + n; ++j) {
+    const double* column = x.column(j);
+    for (size_t i = 0; i < sums.size(); ++i) sums[i] += factors[i] * column[i] * column[i];
+  }
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
+}
+
 double column_dot(const Matrix& a, const Matrix& b, int column) {
   const double *x = a.column(column), *y = b.column(column);
   double sum = 0;
@@ -44,14 +55,16 @@ double column_dot(const Matrix& a, const Matrix& b, int column) {
 }
 
 /// J_e (3) of every position: half the work of all loads, less the ghost penalty's and Nitsche's share of it.
+/// `loaded`: columns with loads on the tread.
 template <int dim>
-std::vector<double> bulk_energies(const RollingSolution<dim>& s, const Matrix& nitsche_loads) {
+std::vector<double> bulk_energies(const RollingSolution<dim>& s, const std::vector<int>& loaded,
+                                  const std::vector<double>& nitsche_factors) {
   const int n_positions = static_cast<int>(s.grounds.size()), n_sectors = s.ring.n_sectors();
   const int n_columns = s.observations.columns() / n_positions;
-  std::vector<double> energy(n_positions, 0.0);
-  for (int c = 0; c < s.observations.columns(); ++c)
-    energy[c / n_columns] +=
-        0.5 * (column_dot(s.tread_loads, s.observations, c) - column_dot(nitsche_loads, s.observations, c));
+  std::vector<double> energy(n_positions);
+  for (int i = 0; i < n_positions; ++i)
+    energy[i] = -0.5 * weighted_square(nitsche_factors, s.observations, i * n_columns, n_columns);
+  for (const int c : loaded) energy[c / n_columns] += 0.5 * column_dot(s.tread_loads, s.observations, c);
   const auto ghost_work = work_by_case({s.ghost_loads, s.displacement.weights}, s.displacement);
   for (size_t c = 0; c < ghost_work.size(); ++c) energy[c / n_sectors] -= 0.5 * ghost_work[c];
   if (s.core_loads.empty()) return energy;
@@ -166,15 +179,23 @@ Expected<RolledContact<dim>> reload(const RollingModel<dim>& model, const Tread<
 }
 
 template <int dim>
+std::vector<double> RollingProblem<dim>::nitsche_factors() const {
+  std::vector<double> factors(tread_.n_observations(), 0.0);
+  for (size_t q = 0; q < tread_.points().size(); ++q)
+    for (int d = 0; d < dim; ++d)
+      factors[2 * dim * q + dim + d] =
+          -tread_.form().theta() / tread_.points()[q].gamma * tread_.points()[q].weight;
+  return factors;
+}
+
+template <int dim>
 Matrix RollingProblem<dim>::nitsche_loads(const Matrix& observations) const {
-  Matrix loads(observations.rows(), observations.columns());
-  for (int j = 0; j < loads.columns(); ++j)
-    for (size_t q = 0; q < tread_.points().size(); ++q)
-      for (int d = 0; d < dim; ++d) {
-        const int row = 2 * dim * static_cast<int>(q) + dim + d;
-        loads(row, j) = -tread_.form().theta() / tread_.points()[q].gamma * tread_.points()[q].weight *
-                        observations(row, j);
-      }
+  const std::vector<double> factors = nitsche_factors();
+  Matrix loads = observations;
+  for (int j = 0; j < loads.columns(); ++j) {
+    double* load = loads.column(j);
+    for (int i = 0; i < loads.rows(); ++i) load[i] *= factors[i];
+  }
   return loads;
 }
 
@@ -191,9 +212,9 @@ typename RollingProblem<dim>::CondensedLoads RollingProblem<dim>::preload(Rollin
   CondensedLoads condensed{s.core_loads, {}};
   condensed.boundary =
       s.ring.eliminate_interface(condense<dim>(s.ring, s.ring.sector_factor().full_sweep(), condensed.core));
-  const Matrix outer =
-      s.ring.outer_displacements(sum(condensed.boundary.outer, base_loads(tread_, s.tread_loads)));
-  const Matrix observed = tread_field(tread_, outer, s.tread_loads).observations;
+  const TreadLoads loads = tread_loads(tread_, s.tread_loads);
+  const Matrix outer = s.ring.outer_displacements(sum(condensed.boundary.outer, base_loads(tread_, loads)));
+  const Matrix observed = observations(tread_, tread_field(tread_, outer, loads), loads);
   for (int i = 0; i < n_positions; ++i) {
     s.preloads[i] = {Matrix(observed.rows(), n_columns), applied.on_the_rim[i]};
     std::copy_n(observed.column(i * n_columns), s.preloads[i].observations.entries().size(),
@@ -259,11 +280,12 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& p
   }
   phases.push_back({"contact", watch.lap()});
 
-  s.outer_line = s.ring.outer_displacements(sum(preloaded.boundary.outer, base_loads(tread_, s.tread_loads)));
+  const TreadLoads loads = tread_loads(tread_, s.tread_loads);
+  s.outer_line = s.ring.outer_displacements(sum(preloaded.boundary.outer, base_loads(tread_, loads)));
   const Matrix boundary = s.ring.boundary_displacements(s.outer_line, preloaded.boundary.interface);
   s.sweep = boundary_sweep(s.ring, s.domain, s.core_loads);
   s.displacement = displacement_fields(s.ring, s.sweep, boundary, preloaded.core);
-  s.observations = tread_field(tread_, s.outer_line, s.tread_loads).observations;
+  s.observations = observations(tread_, tread_field(tread_, s.outer_line, loads), loads);
   s.ghost_loads = ghost_loads(s.ring, s.displacement.modes);
   if (!all_finite(s.displacement.modes) || !all_finite(s.observations))
     return Failure{FailureReason::not_finite, "the displacement is not finite"};
@@ -272,7 +294,7 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& p
     return Failure{FailureReason::inaccurate_solution,
                    fmt::format("the equations of a sector are off by {:.2g} of their terms", residual)};
 
-  s.strain_energy = bulk_energies(s, nitsche_loads(s.observations));
+  s.strain_energy = bulk_energies(s, loads.columns, nitsche_factors());
   for (int i = 0; i < n_positions; ++i)
     if (!(s.strain_energy[i] > 0))
       return Failure{FailureReason::negative_energy,

@@ -79,6 +79,9 @@ class RollingProblem {
   /// Nitsche's symmetric term of the tread applied to what is observed: loads on the tractions.
   Matrix nitsche_loads(const Matrix& observations) const;
 
+  /// The factors -theta/gamma dS of that term, one an observation: zero but for tractions.
+  std::vector<double> nitsche_factors() const;
+
  private:
   RollingProblem(const RollingModel<dim>& model, std::unique_ptr<ElementTable<dim>> elements,
                  Tread<dim> tread);

@@ -11,36 +11,17 @@ namespace {
 /// Couplings below this fraction of a column's own are dropped.
 constexpr double negligible = 1e-14;
 
-double largest(const Matrix& a) {
-  double result = 0;
-  for (double x : a.entries()) result = std::max(result, std::abs(x));
-  return result;
-}
-
 /// The columns of a map on retained unknowns that belong to the column's first (0) or last (1) line.
 template <int dim>
 Matrix on_line(const TreadColumn<dim>& column, const Matrix& map, int side) {
-  Matrix result(map.rows(), column.n_line);
-  for (int j = 0; j < column.n_line; ++j)
-    std::copy_n(map.column(column.n_base + side * column.n_line + j), map.rows(), result.column(j));
-  return result;
-}
-
-Matrix leading_block(const Matrix& a, int rows, int columns) {
-  Matrix result(rows, columns);
-  for (int j = 0; j < columns; ++j) std::copy_n(a.column(j), rows, result.column(j));
-  return result;
+  return block(map, 0, column.n_base + side * column.n_line, map.rows(), column.n_line);
 }
 
 /// A block of a column's stiffness: rows of its first (0) or last (1) line, columns of one of them.
 template <int dim>
 Matrix line_stiffness(const TreadColumn<dim>& column, int row_side, int column_side) {
   const int n = column.n_line;
-  Matrix block(n, n);
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i)
-      block(i, j) = column.stiffness(column.n_base + row_side * n + i, column.n_base + column_side * n + j);
-  return block;
+  return block(column.stiffness, column.n_base + row_side * n, column.n_base + column_side * n, n, n);
 }
 
 /// The lines of the ring, base held fixed: a line is the last of one column and the first of the next.
@@ -103,16 +84,16 @@ Expected<Tread<dim>> Tread<dim>::condense(const ElementTable<dim>& table, const 
 
   const int farthest = (n - 1) / 2 - 1;
   int reach = farthest;
-  while (reach > 1 &&
-         std::max(largest(response(reach)), largest(response(-reach))) < negligible * largest(response(0)))
+  while (reach > 1 && std::max(largest_entry(response(reach)), largest_entry(response(-reach))) <
+                          negligible * largest_entry(response(0)))
     --reach;
   tread.reach_ = reach;
 
   // What a column sees of another's lines, and how it loads them: through its own first and last line.
   const TreadColumn<dim>& own = tread.column_;
   const int n_base = own.n_base, n_line = own.n_line, n_contact = tread.n_contact();
-  const Matrix stiffness_on_base = leading_block(own.stiffness, own.stiffness.rows(), n_base);
-  const Matrix observed = leading_block(own.observation, n_contact, own.observation.columns());
+  const Matrix stiffness_on_base = block(own.stiffness, 0, 0, own.stiffness.rows(), n_base);
+  const Matrix observed = block(own.observation, 0, 0, n_contact, own.observation.columns());
   const Matrix sampling = contact_rows<dim>(
       own.points, [&](const auto&) { return form.tau(); }, [](const auto& point) { return point.gamma; });
   const Matrix testing = contact_rows<dim>(
@@ -132,9 +113,9 @@ Expected<Tread<dim>> Tread<dim>::condense(const ElementTable<dim>& table, const 
   for (int d = -reach; d <= reach; ++d) {
     Matrix base(n_base, n_base), transfer(n_contact, n_base), compliance(n_contact, n_contact);
     if (d == 0) {
-      base = leading_block(own.stiffness, n_base, n_base);
-      transfer = leading_block(own.observation, n_contact, n_base);
-      compliance = leading_block(own.compliance, n_contact, n_contact);
+      base = block(own.stiffness, 0, 0, n_base, n_base);
+      transfer = block(own.observation, 0, 0, n_contact, n_base);
+      compliance = block(own.compliance, 0, 0, n_contact, n_contact);
     }
     for (int seen = 0; seen < 2; ++seen) {
       Matrix of_base(n_line, n_base), of_observations(n_line, n_contact);

@@ -159,12 +159,6 @@ void add_stiffness(const Matrix& k, std::span<const NodeMap<dim>> nodes, Matrix&
     for (int i = 0; i < free.rows(); ++i) result(dofs[i], dofs[j]) += free(i, j);
 }
 
-Matrix block(const Matrix& a, int first_row, int rows, int first_column, int columns) {
-  Matrix b(rows, columns);
-  for (int j = 0; j < columns; ++j) std::copy_n(a.column(first_column + j) + first_row, rows, b.column(j));
-  return b;
-}
-
 Matrix transposed(const Matrix& a) {
   Matrix result(a.columns(), a.rows());
   for (int j = 0; j < a.columns(); ++j)
@@ -349,14 +343,14 @@ Expected<TreadColumn<dim>> tread_column(const ElementTable<dim>& table, const Tr
                           free.moment,
                           nodes.n_base(),
                           nodes.n_line(),
-                          block(free.stiffness, 0, n_retained, 0, n_retained),
-                          block(free.observation, 0, n_observations, 0, n_retained),
+                          block(free.stiffness, 0, 0, n_retained, n_retained),
+                          block(free.observation, 0, 0, n_observations, n_retained),
                           Matrix(n_observations, n_observations),
-                          block(free.nodal, 0, n_nodal, 0, n_retained),
+                          block(free.nodal, 0, 0, n_nodal, n_retained),
                           Matrix(n_nodal, n_observations)};
   if (n_inner == 0) return column;
 
-  Matrix inner = block(free.stiffness, n_retained, n_inner, n_retained, n_inner);
+  Matrix inner = block(free.stiffness, n_retained, n_retained, n_inner, n_inner);
   if (!cholesky(inner))
     return Failure{
         FailureReason::not_positive_definite,
@@ -364,8 +358,8 @@ Expected<TreadColumn<dim>> tread_column(const ElementTable<dim>& table, const Tr
                     "term makes the tread's stiffness indefinite",
                     form.theta(), form.gamma_0)};
   const Matrix coupling = block(free.stiffness, 0, n_retained, n_retained, n_inner);
-  const Matrix observed = block(free.observation, 0, n_observations, n_retained, n_inner);
-  const Matrix nodal = block(free.nodal, 0, n_nodal, n_retained, n_inner);
+  const Matrix observed = block(free.observation, 0, n_retained, n_observations, n_inner);
+  const Matrix nodal = block(free.nodal, 0, n_retained, n_nodal, n_inner);
   Matrix from_retained = transposed(coupling), from_observed = transposed(observed);
   cholesky_solve(inner, from_retained);
   cholesky_solve(inner, from_observed);

@@ -34,9 +34,9 @@ Matrix NeumannToDirichlet<dim>::loads(const Matrix& tractions) const {
 
 template <int dim>
 Matrix NeumannToDirichlet<dim>::operator()(const Matrix& tractions) const {
-  const Matrix observation_loads = loads(tractions);
-  const Matrix outer = ring_.outer_displacements(base_loads(tread_, observation_loads));
-  const Matrix observed = tread_field(tread_, outer, observation_loads).observations;
+  const TreadLoads on_tread = tread_loads(tread_, loads(tractions));
+  const Matrix outer = ring_.outer_displacements(base_loads(tread_, on_tread));
+  const Matrix observed = observations(tread_, tread_field(tread_, outer, on_tread), on_tread);
   Matrix w(tractions.rows(), tractions.columns());
   for (int j = 0; j < w.columns(); ++j)
     for (int i = 0; i < w.rows(); ++i) w(i, j) = observed(2 * dim * (i / dim) + i % dim, j);
@@ -47,10 +47,11 @@ template <int dim>
 std::vector<double> NeumannToDirichlet<dim>::energies(const Matrix& tractions) const {
   const int n_columns = tread_.n_columns(), n_sectors = ring_.n_sectors();
   const Matrix observation_loads = loads(tractions);
-  const Matrix outer = ring_.outer_displacements(base_loads(tread_, observation_loads));
+  const TreadLoads on_tread = tread_loads(tread_, observation_loads);
+  const Matrix outer = ring_.outer_displacements(base_loads(tread_, on_tread));
   const Matrix boundary = ring_.boundary_displacements(outer, {});
   const SectorFields core = displacement_fields(ring_, ring_.sector_factor().full_sweep(), boundary, {});
-  const TreadField field = tread_field(tread_, outer, observation_loads);
+  const TreadField field = tread_field(tread_, outer, on_tread);
   const TreadColumn<dim>& column = tread_.column();
 
   std::vector<double> result(tractions.columns() / n_columns, 0.0);

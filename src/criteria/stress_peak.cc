@@ -63,8 +63,9 @@ class TreadCells {
  public:
   TreadCells(const RollingProblem<dim>& problem, const RollingSolution<dim>& s)
       : problem_(problem),
-        field_(tread_field(problem.tread(), s.outer_line, s.tread_loads)),
-        nodal_(nodal_displacements(problem.tread(), field_, s.tread_loads)) {}
+        loads_(tread_loads(problem.tread(), s.tread_loads)),
+        field_(tread_field(problem.tread(), s.outer_line, loads_)),
+        nodal_(nodal_displacements(problem.tread(), field_, loads_)) {}
 
   /// One column for every (position, ring column). `row` and `axial` are the cell's, the first row lowest.
   Matrix dofs(int row, int axial) const {
@@ -92,6 +93,7 @@ class TreadCells {
 
  private:
   const RollingProblem<dim>& problem_;
+  TreadLoads loads_;
   TreadField field_;
   Matrix nodal_;
 };

@@ -40,15 +40,8 @@ BoundaryLayout<dim> boundary_layout(const SectorSpace<dim>& space) {
 }
 
 template <class Scalar>
-DenseMatrix<Scalar> row_block(const DenseMatrix<Scalar>& a, int first, int n) {
-  DenseMatrix<Scalar> result(n, a.columns());
-  for (int j = 0; j < a.columns(); ++j) std::copy_n(a.column(j) + first, n, result.column(j));
-  return result;
-}
-
-template <class Scalar>
 DenseMatrix<Scalar> stacked(const DenseMatrix<Scalar>& top, const DenseMatrix<Scalar>& bottom) {
-  DenseMatrix<Scalar> result(top.rows() + bottom.rows(), top.columns());
+  auto result = DenseMatrix<Scalar>::unfilled(top.rows() + bottom.rows(), top.columns());
   for (int j = 0; j < top.columns(); ++j) {
     std::copy_n(top.column(j), top.rows(), result.column(j));
     std::copy_n(bottom.column(j), bottom.rows(), result.column(j) + top.rows());
@@ -169,24 +162,29 @@ const Matrix& CyclicStiffness<dim>::outer_compliance(int difference) const {
 
 template <int dim>
 Matrix CyclicStiffness<dim>::boundary_loads(const Matrix& trailing_loads) const {
+  const int n = n_sectors();
   Matrix boundary(n_boundary_, trailing_loads.rows());
-  for (size_t t = 0; t < trailing_.size(); ++t) {
-    const double* load = trailing_loads.column(static_cast<int>(t));
-    for (int load_case = 0; load_case < boundary.columns(); ++load_case)
-      boundary(trailing_[t].boundary, case_ahead(load_case, trailing_[t].shift)) += load[load_case];
-  }
+  parallel_for(boundary.columns() / n, [&](int rhs) {
+    for (size_t t = 0; t < trailing_.size(); ++t) {
+      const double* load = trailing_loads.column(static_cast<int>(t)) + rhs * n;
+      for (int s = 0; s < n; ++s)
+        boundary(trailing_[t].boundary, rhs * n + (s + trailing_[t].shift) % n) += load[s];
+    }
+  });
   return boundary;
 }
 
 template <int dim>
 typename CyclicStiffness<dim>::EliminatedInterface CyclicStiffness<dim>::eliminate_interface(
     const Matrix& boundary_loads) const {
+  const int n_interface = n_boundary_ - n_outer_;
   EliminatedInterface result{harmonics_.forward_each(boundary_loads), {}};
   std::vector<ComplexMatrix> outer(harmonics_.n_harmonics());
   parallel_for(harmonics_.n_harmonics(), [&](int h) {
-    harmonic_factors_[h].eliminate(result.interface[h]);
-    outer[h] = row_block(result.interface[h], n_boundary_ - n_outer_, n_outer_);
-    result.interface[h] = row_block(result.interface[h], 0, n_boundary_ - n_outer_);
+    ComplexMatrix& loads = result.interface[h];
+    harmonic_factors_[h].eliminate(loads);
+    outer[h] = block(loads, n_interface, 0, n_outer_, loads.columns());
+    loads = block(loads, 0, 0, n_interface, loads.columns());
   });
   result.outer = harmonics_.backward_each(outer);
   return result;
@@ -207,19 +205,22 @@ Matrix CyclicStiffness<dim>::boundary_displacements(const Matrix& outer,
   parallel_for(harmonics_.n_harmonics(), [&](int h) {
     x[h] = stacked(interface.empty() ? ComplexMatrix(n_interface, x[h].columns()) : interface[h], x[h]);
     harmonic_factors_[h].substitute(x[h]);
-    x[h] = row_block(x[h], 0, n_interface);
+    x[h] = block(x[h], 0, 0, n_interface, x[h].columns());
   });
   return stacked(harmonics_.backward_each(x), outer);
 }
 
 template <int dim>
 Matrix CyclicStiffness<dim>::trailing_displacements(const Matrix& boundary) const {
-  Matrix trailing(boundary.columns(), static_cast<int>(trailing_.size()));
-  for (size_t t = 0; t < trailing_.size(); ++t) {
-    double* displacement = trailing.column(static_cast<int>(t));
-    for (int load_case = 0; load_case < boundary.columns(); ++load_case)
-      displacement[load_case] = boundary(trailing_[t].boundary, case_ahead(load_case, trailing_[t].shift));
-  }
+  const int n = n_sectors();
+  auto trailing = Matrix::unfilled(boundary.columns(), static_cast<int>(trailing_.size()));
+  parallel_for(boundary.columns() / n, [&](int rhs) {
+    for (size_t t = 0; t < trailing_.size(); ++t) {
+      double* displacement = trailing.column(static_cast<int>(t)) + rhs * n;
+      for (int s = 0; s < n; ++s)
+        displacement[s] = boundary(trailing_[t].boundary, rhs * n + (s + trailing_[t].shift) % n);
+    }
+  });
   return trailing;
 }
 

@@ -65,12 +65,6 @@ class CyclicStiffness {
   CyclicStiffness(SectorStiffness<dim> sector, PartialCholesky sector_factor,
                   const SectorHarmonics& harmonics);
 
-  /// The same load's case in a sector ahead.
-  int case_ahead(int load_case, int sectors) const {
-    const int sector = load_case % n_sectors();
-    return load_case - sector + (sector + sectors) % n_sectors();
-  }
-
   struct CoupledSectors {
     int farthest;                       ///< sectors ahead
     std::vector<Matrix> by_difference;  ///< from -farthest to farthest

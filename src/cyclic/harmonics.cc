@@ -34,14 +34,15 @@ std::complex<double> SectorHarmonics::phase(int harmonic, int shift) const {
 ComplexMatrix SectorHarmonics::forward(const Matrix& by_sector) const {
   const Matrix real = product(by_sector, Op::none, forward_real_, Op::none);
   const Matrix imaginary = product(by_sector, Op::none, forward_imaginary_, Op::none);
-  ComplexMatrix result(by_sector.rows(), n_harmonics());
+  auto result = ComplexMatrix::unfilled(by_sector.rows(), n_harmonics());
   for (size_t k = 0; k < result.entries().size(); ++k)
     result.entries()[k] = {real.entries()[k], imaginary.entries()[k]};
   return result;
 }
 
 Matrix SectorHarmonics::backward(const ComplexMatrix& by_harmonic) const {
-  Matrix real(by_harmonic.rows(), n_harmonics()), imaginary(by_harmonic.rows(), n_harmonics());
+  auto real = Matrix::unfilled(by_harmonic.rows(), n_harmonics());
+  auto imaginary = real;
   for (size_t k = 0; k < by_harmonic.entries().size(); ++k) {
     real.entries()[k] = by_harmonic.entries()[k].real();
     imaginary.entries()[k] = by_harmonic.entries()[k].imag();
@@ -53,9 +54,10 @@ Matrix SectorHarmonics::backward(const ComplexMatrix& by_harmonic) const {
 
 std::vector<ComplexMatrix> SectorHarmonics::forward_each(const Matrix& by_sector) const {
   const int rows = by_sector.rows(), n_vectors = by_sector.columns() / n_sectors_;
-  std::vector<ComplexMatrix> by_harmonic(n_harmonics(), ComplexMatrix(rows, n_vectors));
+  std::vector<ComplexMatrix> by_harmonic;
+  for (int h = 0; h < n_harmonics(); ++h) by_harmonic.push_back(ComplexMatrix::unfilled(rows, n_vectors));
   parallel_for(n_vectors, [&](int v) {
-    Matrix one(rows, n_sectors_);
+    auto one = Matrix::unfilled(rows, n_sectors_);
     std::copy_n(by_sector.column(v * n_sectors_), one.entries().size(), one.data());
     const ComplexMatrix transformed = forward(one);
     for (int h = 0; h < n_harmonics(); ++h)
@@ -66,9 +68,9 @@ std::vector<ComplexMatrix> SectorHarmonics::forward_each(const Matrix& by_sector
 
 Matrix SectorHarmonics::backward_each(const std::vector<ComplexMatrix>& by_harmonic) const {
   const int rows = by_harmonic.front().rows(), n_vectors = by_harmonic.front().columns();
-  Matrix by_sector(rows, n_vectors * n_sectors_);
+  auto by_sector = Matrix::unfilled(rows, n_vectors * n_sectors_);
   parallel_for(n_vectors, [&](int v) {
-    ComplexMatrix transformed(rows, n_harmonics());
+    auto transformed = ComplexMatrix::unfilled(rows, n_harmonics());
     for (int h = 0; h < n_harmonics(); ++h)
       std::copy_n(by_harmonic[h].column(v), rows, transformed.column(h));
     const Matrix one = backward(transformed);

@@ -8,24 +8,12 @@
 namespace wheelwright {
 namespace {
 
-double largest_entry(const Matrix& a) {
-  double largest = 0;
-  for (double x : a.entries()) largest = std::max(largest, std::abs(x));
-  return largest;
-}
-
 /// (a, scale b), side by side.
 Matrix side_by_side(const Matrix& a, double scale, const Matrix& b) {
   Matrix result(a.rows(), a.columns() + b.columns());
   std::copy(a.entries().begin(), a.entries().end(), result.data());
   std::transform(b.entries().begin(), b.entries().end(), result.column(a.columns()),
                  [&](double x) { return scale * x; });
-  return result;
-}
-
-Matrix columns(const Matrix& a, int first, int n) {
-  Matrix result(a.rows(), n);
-  std::copy_n(a.column(first), result.entries().size(), result.data());
   return result;
 }
 
@@ -41,29 +29,13 @@ Matrix combined(const SectorFields& fields) {
 /// The larger of two numbers; NaN if one of them is.
 double larger(double a, double b) { return a >= b || std::isnan(a) ? a : b; }
 
-/// The unknowns in which some field differs from zero.
-std::vector<int> support(const Matrix& fields) {
-  std::vector<int> unknowns;
-  for (int i = 0; i < fields.columns(); ++i)
-    if (std::any_of(fields.column(i), fields.column(i) + fields.rows(), [](double x) { return x != 0; }))
-      unknowns.push_back(i);
-  return unknowns;
-}
-
-Matrix restricted(const Matrix& fields, const std::vector<int>& unknowns) {
-  Matrix result(fields.rows(), static_cast<int>(unknowns.size()));
-  for (int i = 0; i < result.columns(); ++i)
-    std::copy_n(fields.column(unknowns[i]), fields.rows(), result.column(i));
-  return result;
-}
-
 }  // namespace
 
 template <int dim>
 Matrix condense(const CyclicStiffness<dim>& ring, const PartialCholesky::Sweep& sweep, SectorFields& loads) {
   const PartialCholesky& factor = ring.sector_factor();
   factor.eliminate(sweep, loads.modes);
-  const Matrix trailing = columns(loads.modes, factor.n_interior(), factor.n_trailing());
+  const Matrix trailing = block(loads.modes, 0, factor.n_interior(), loads.modes.rows(), factor.n_trailing());
   return ring.boundary_loads(product(loads.weights, Op::none, trailing, Op::none));
 }
 
@@ -80,7 +52,8 @@ SectorFields displacement_fields(const CyclicStiffness<dim>& ring, const Partial
 
   SectorFields fields{Matrix(basis.coordinates.rows(), factor.size()), std::move(basis.basis)};
   if (!eliminated_loads.empty()) {
-    Matrix coordinates = columns(basis.coordinates, n_trailing, load_weights.columns());
+    Matrix coordinates =
+        block(basis.coordinates, 0, n_trailing, basis.coordinates.rows(), load_weights.columns());
     multiply(1 / scale, coordinates, Op::none, eliminated_loads.modes, Op::none, 0, fields.modes);
   }
   std::copy_n(basis.coordinates.data(), size_t(fields.modes.rows()) * n_trailing,
@@ -108,7 +81,7 @@ PartialCholesky::Sweep boundary_sweep(const CyclicStiffness<dim>& ring, const Cu
   };
   for (const CutCell<dim>& cut : domain.cut) mark(ring.sector().space.cell_nodes(cut.cell));
   for (const auto& ghost : ring.sector().ghosts) mark(ghost.nodes);
-  for (const int loaded : support(loads.modes)) marked[loaded] = 1;
+  for (const int loaded : nonzero_columns(loads.modes)) marked[loaded] = 1;
   return ring.sector_factor().sweep_through(marked);
 }
 
@@ -147,9 +120,9 @@ Matrix ghost_loads(const CyclicStiffness<dim>& ring, const Matrix& displacements
 }
 
 std::vector<double> work_by_case(const SectorFields& loads, const SectorFields& displacements) {
-  const auto loaded = support(loads.modes);
-  const Matrix work_of_modes = product(restricted(loads.modes, loaded), Op::none,
-                                       restricted(displacements.modes, loaded), Op::transpose);
+  const auto loaded = nonzero_columns(loads.modes);
+  const Matrix work_of_modes = product(selected_columns(loads.modes, loaded), Op::none,
+                                       selected_columns(displacements.modes, loaded), Op::transpose);
   const Matrix on_modes = product(loads.weights, Op::none, work_of_modes, Op::none);
   std::vector<double> work(on_modes.rows(), 0.0);
   for (int k = 0; k < on_modes.columns(); ++k)

@@ -7,6 +7,8 @@
 
 extern "C" {
 void dgeqp3_(const int*, const int*, double*, const int*, int*, double*, double*, const int*, int*);
+void dtrsm_(const char*, const char*, const char*, const char*, const int*, const int*, const double*,
+            const double*, const int*, double*, const int*);
 void dorgqr_(const int*, const int*, const int*, double*, const int*, const double*, double*, const int*,
              int*);
 }
@@ -33,24 +35,18 @@ void project_out(const Matrix& basis, Matrix& x) {
   multiply(-1, basis, Op::none, product(basis, Op::transpose, x, Op::none), Op::none, 1, x);
 }
 
-Matrix first_columns(const Matrix& a, int n) {
-  Matrix result(a.rows(), n);
-  std::copy_n(a.data(), result.entries().size(), result.data());
-  return result;
-}
-
 /// The columns that are longer than `shortest`.
 Matrix long_columns(const Matrix& a, double shortest) {
-  Matrix result(a.rows(), a.columns());
+  auto result = Matrix::unfilled(a.rows(), a.columns());
   int n = 0;
   for (int j = 0; j < a.columns(); ++j)
     if (length(a, j) > shortest) std::copy_n(a.column(j), a.rows(), result.column(n++));
-  return first_columns(result, n);
+  return block(result, 0, 0, a.rows(), n);
 }
 
 /// The basis with more columns.
 Matrix extended(const Matrix& basis, const Matrix& more) {
-  Matrix result(basis.rows(), basis.columns() + more.columns());
+  auto result = Matrix::unfilled(basis.rows(), basis.columns() + more.columns());
   std::copy_n(basis.data(), basis.entries().size(), result.data());
   std::copy_n(more.data(), more.entries().size(), result.column(basis.columns()));
   return result;
@@ -68,7 +64,15 @@ Matrix orthonormal(Matrix x, double shortest) {
   dgeqp3_(&m, &n, x.data(), &m, pivots.data(), reflectors.data(), workspace.data(), &workspace_size, &info);
   while (rank < std::min(m, n) && std::abs(x(rank, rank)) > shortest) ++rank;
   dorgqr_(&m, &rank, &rank, x.data(), &m, reflectors.data(), workspace.data(), &workspace_size, &info);
-  return first_columns(x, rank);
+  return block(x, 0, 0, m, rank);
+}
+
+/// Makes columns orthonormal that almost are: Cholesky QR.
+void orthonormalize(Matrix& x) {
+  Matrix gram = product(x, Op::transpose, x, Op::none);
+  const int m = x.rows(), n = x.columns();
+  const double one = 1;
+  if (cholesky(gram)) dtrsm_("R", "L", "T", "N", &m, &n, &one, gram.data(), &n, x.data(), &m);
 }
 
 }  // namespace
@@ -82,14 +86,15 @@ ColumnBasis column_basis(const Matrix& a, double tolerance) {
   const int n_blocks = (a.columns() + block_size - 1) / block_size;
   for (int block = 0; block < n_blocks && longest > 0; ++block) {
     // Neighbouring columns are often alike: a block takes them from all over a.
-    Matrix x(a.rows(), (a.columns() - block + n_blocks - 1) / n_blocks);
+    auto x = Matrix::unfilled(a.rows(), (a.columns() - block + n_blocks - 1) / n_blocks);
     for (int k = 0; k < x.columns(); ++k) std::copy_n(a.column(block + k * n_blocks), a.rows(), x.column(k));
     project_out(basis, x);
     Matrix more = orthonormal(long_columns(x, shortest), shortest);
     if (more.columns() == 0) continue;
     // What rounding left of the basis weighs more in a short remainder: once again.
     project_out(basis, more);
-    basis = extended(basis, orthonormal(std::move(more), 0));
+    orthonormalize(more);
+    basis = extended(basis, more);
   }
   Matrix coordinates = product(basis, Op::transpose, a, Op::none);
   return {std::move(basis), std::move(coordinates)};

@@ -3,14 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/parallel.h"
+
 namespace wheelwright {
 namespace {
-
-double largest(const Matrix& a) {
-  double result = 0;
-  for (double x : a.entries()) result = std::max(result, std::abs(x));
-  return result;
-}
 
 Matrix identity(int n) {
   Matrix one(n, n);
@@ -45,7 +41,7 @@ Expected<CyclicChain> CyclicChain::factor(const Matrix& diagonal, const Matrix& 
     double change = 0;
     for (size_t i = 0; i < pivot.entries().size(); ++i)
       change = std::max(change, std::abs(following.entries()[i] - pivot.entries()[i]));
-    if (change <= 1e-16 * largest(diagonal)) break;
+    if (change <= 1e-16 * largest_entry(diagonal)) break;
     pivot = std::move(following);
   }
   chain.step_ = Matrix(n, n);
@@ -54,7 +50,7 @@ Expected<CyclicChain> CyclicChain::factor(const Matrix& diagonal, const Matrix& 
 
   Matrix power = identity(n), closing = identity(n);
   for (int c = 0; c < n_links; ++c) {
-    if (largest(power) > negligible) chain.memory_ = c + 1;
+    if (largest_entry(power) > negligible) chain.memory_ = c + 1;
     power = product(chain.step_, Op::none, power, Op::none);
   }
   for (size_t i = 0; i < power.entries().size(); ++i) closing.entries()[i] -= power.entries()[i];
@@ -64,15 +60,27 @@ Expected<CyclicChain> CyclicChain::factor(const Matrix& diagonal, const Matrix& 
 }
 
 Matrix CyclicChain::solve(const Matrix& loads) const {
-  const int n = loads.rows(), n_rhs = loads.columns() / n_links_;
+  constexpr int together = 32;
+  const int n_rhs = loads.columns() / n_links_;
+  auto x = Matrix::unfilled(loads.rows(), loads.columns());
+  parallel_for((n_rhs + together - 1) / together, [&](int group) {
+    const int first = group * together;
+    solve_some(loads, first, std::min(together, n_rhs - first), x);
+  });
+  return x;
+}
+
+/// Solves for n_rhs right-hand sides from `first` on.
+void CyclicChain::solve_some(const Matrix& loads, int first, int n_rhs, Matrix& result) const {
+  const int n = loads.rows();
   const auto copy = [&](const Matrix& from, auto place_from, Matrix& to, auto place_to) {
     for (int rhs = 0; rhs < n_rhs; ++rhs)
       for (int c = 0; c < n_links_; ++c)
         std::copy_n(from.column(place_from(rhs, c)), n, to.column(place_to(rhs, c)));
   };
-  const auto by_rhs = [&](int rhs, int c) { return rhs * n_links_ + c; };
+  const auto by_rhs = [&](int rhs, int c) { return (first + rhs) * n_links_ + c; };
   const auto by_link = [&](int rhs, int c) { return c * n_rhs + rhs; };
-  Matrix x(n, loads.columns());
+  auto x = Matrix::unfilled(n, n_rhs * n_links_);
   copy(loads, by_rhs, x, by_link);
   const auto link = [&](int c) { return x.column(c * n_rhs); };
 
@@ -94,9 +102,7 @@ Matrix CyclicChain::solve(const Matrix& loads) const {
     std::swap(passed, closed);
     std::transform(passed.data(), passed.data() + passed.entries().size(), link(c), link(c), std::plus());
   }
-  Matrix result(n, loads.columns());
   copy(x, by_link, result, by_rhs);
-  return result;
 }
 
 }  // namespace wheelwright

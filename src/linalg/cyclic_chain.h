@@ -21,6 +21,7 @@ class CyclicChain {
 
  private:
   CyclicChain() = default;
+  void solve_some(const Matrix& loads, int first, int n_rhs, Matrix& result) const;
 
   int n_links_ = 0;
   Matrix pivot_factor_;  ///< Cholesky's of the pivot X = diagonal - next^T X^-1 next

@@ -1,7 +1,10 @@
 #include "linalg/dense.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
+#include <cmath>
+#include <cstdint>
 #include <functional>
 
 extern "C" {
@@ -57,6 +60,33 @@ void multiply_columns(double alpha, const Matrix& a, Op op, const double* b, int
   dgemm_(&ta, &none, &m, &columns, &k, &alpha, a.data(), &lda, b, &ldb, &beta, c, &m);
 }
 
+Matrix selected_columns(const Matrix& a, std::span<const int> columns) {
+  auto result = Matrix::unfilled(a.rows(), static_cast<int>(columns.size()));
+  for (int j = 0; j < result.columns(); ++j) std::copy_n(a.column(columns[j]), a.rows(), result.column(j));
+  return result;
+}
+
+std::vector<int> nonzero_columns(const Matrix& a) { return nonzero_columns(a, 0, a.columns()); }
+
+std::vector<int> nonzero_columns(const Matrix& a, int first, int n) {
+  std::vector<int> columns;
+  for (int j = first; j < first + n; ++j) {
+    const double* x = a.column(j);
+    // Bits without that of the sign, so that the loop goes through vector registers.
+    std::uint64_t bits = 0;
+    for (int i = 0; i < a.rows(); ++i) bits |= std::bit_cast<std::uint64_t>(x[i]) << 1;
+    if (bits != 0) columns.push_back(j);
+  }
+  return columns;
+}
+
+double largest_entry(const Matrix& a) {
+  double largest = 0;
+  for (const double x : a.entries())
+    if (!(std::abs(x) <= largest)) largest = std::abs(x);
+  return largest;
+}
+
 Matrix sum(Matrix a, const Matrix& b) {
   assert(a.rows() == b.rows() && a.columns() == b.columns());
   std::transform(a.entries().begin(), a.entries().end(), b.entries().begin(), a.entries().begin(),
@@ -65,7 +95,8 @@ Matrix sum(Matrix a, const Matrix& b) {
 }
 
 Matrix product(const Matrix& a, Op op_a, const Matrix& b, Op op_b) {
-  Matrix c(op_a == Op::none ? a.rows() : a.columns(), op_b == Op::none ? b.columns() : b.rows());
+  auto c =
+      Matrix::unfilled(op_a == Op::none ? a.rows() : a.columns(), op_b == Op::none ? b.columns() : b.rows());
   multiply(1, a, op_a, b, op_b, 0, c);
   return c;
 }

@@ -1,16 +1,47 @@
 #pragma once
 
+#include <algorithm>
 #include <complex>
+#include <memory>
+#include <new>
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace wheelwright {
+
+/// Leaves new entries without a value where std::allocator would set them to zero.
+template <class T>
+struct NoInitialization : std::allocator<T> {
+  template <class U>
+  struct rebind {
+    using other = NoInitialization<U>;
+  };
+  template <class U>
+  void construct(U*) noexcept {}
+  template <class U, class... Arguments>
+  void construct(U* place, Arguments&&... arguments) {
+    ::new (place) U(std::forward<Arguments>(arguments)...);
+  }
+};
 
 /// A dense column-major matrix that owns its entries.
 template <class Scalar>
 class DenseMatrix {
  public:
   DenseMatrix() = default;
-  DenseMatrix(int rows, int columns) : rows_(rows), columns_(columns), entries_(size_t(rows) * columns) {}
+  /// Of zeros.
+  DenseMatrix(int rows, int columns)
+      : rows_(rows), columns_(columns), entries_(size_t(rows) * columns, Scalar(0)) {}
+
+  /// To be filled: its entries have no value yet.
+  static DenseMatrix unfilled(int rows, int columns) {
+    DenseMatrix result;
+    result.rows_ = rows;
+    result.columns_ = columns;
+    result.entries_.resize(size_t(rows) * columns);
+    return result;
+  }
 
   int rows() const { return rows_; }
   int columns() const { return columns_; }
@@ -20,16 +51,35 @@ class DenseMatrix {
   const Scalar* data() const { return entries_.data(); }
   Scalar* column(int j) { return entries_.data() + size_t(j) * rows_; }
   const Scalar* column(int j) const { return entries_.data() + size_t(j) * rows_; }
-  std::vector<Scalar>& entries() { return entries_; }
-  const std::vector<Scalar>& entries() const { return entries_; }
+  using Entries = std::vector<Scalar, NoInitialization<Scalar>>;
+  Entries& entries() { return entries_; }
+  const Entries& entries() const { return entries_; }
 
  private:
   int rows_ = 0, columns_ = 0;
-  std::vector<Scalar> entries_;
+  Entries entries_;
 };
 
 using Matrix = DenseMatrix<double>;
 using ComplexMatrix = DenseMatrix<std::complex<double>>;
+
+/// The part of a with `rows` rows from `first_row` on and `columns` columns from `first_column` on.
+template <class Scalar>
+DenseMatrix<Scalar> block(const DenseMatrix<Scalar>& a, int first_row, int first_column, int rows,
+                          int columns) {
+  auto result = DenseMatrix<Scalar>::unfilled(rows, columns);
+  for (int j = 0; j < columns; ++j)
+    std::copy_n(a.column(first_column + j) + first_row, rows, result.column(j));
+  return result;
+}
+
+/// Some columns of a, and the numbers of those among the n from `first` on that are not all zeros.
+Matrix selected_columns(const Matrix& a, std::span<const int> columns);
+std::vector<int> nonzero_columns(const Matrix& a, int first, int n);
+std::vector<int> nonzero_columns(const Matrix& a);
+
+/// The largest absolute value of an entry; NaN if one is NaN.
+double largest_entry(const Matrix& a);
 
 enum class Op { none, transpose, adjoint };
 

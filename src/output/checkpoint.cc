@@ -49,7 +49,7 @@ Matrix read_matrix(ByteReader& reader) {
     reader.fail("a matrix does not have the entries for its rows and columns");
   if (!reader.ok()) return {};
   Matrix matrix(static_cast<int>(rows), static_cast<int>(columns));
-  matrix.entries() = std::move(entries);
+  matrix.entries().assign(entries.begin(), entries.end());
   return matrix;
 }
 

@@ -24,8 +24,9 @@ RingField displacement_field(const RollingProblem<2>& problem, const RollingSolu
   Matrix outer(s.outer_line.rows(), n_sectors), loads(s.tread_loads.rows(), n_columns);
   std::copy_n(s.outer_line.column(position * n_sectors), outer.entries().size(), outer.data());
   std::copy_n(s.tread_loads.column(position * n_columns), loads.entries().size(), loads.data());
+  const TreadLoads on_tread = tread_loads(problem.tread(), loads);
   const Matrix tread =
-      nodal_displacements(problem.tread(), tread_field(problem.tread(), outer, loads), loads);
+      nodal_displacements(problem.tread(), tread_field(problem.tread(), outer, on_tread), on_tread);
   const int upper_rows = degree * problem.tread().rows();
 
   const SectorFields core = complete_displacement(s);

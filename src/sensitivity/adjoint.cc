@@ -7,24 +7,35 @@
 namespace wheelwright {
 namespace {
 
-/// The multiplier loads -S^T m of all positions and the rim's motions, from what is observed of p without
-/// them.
+/// The columns of observations in the contact zones, one position after the other.
 template <int dim>
-Expected<std::pair<Matrix, std::vector<RimMotion>>> contact_adjoints(const RollingSolution<dim>& s,
-                                                                     const Matrix& observed, int n_columns) {
-  Matrix loads(observed.rows(), observed.columns());
-  std::vector<RimMotion> rim;
+std::vector<int> zone_columns(const RollingSolution<dim>& s, int n_columns) {
+  std::vector<int> columns;
   for (int i = 0; i < static_cast<int>(s.contacts.size()); ++i) {
     const ContactZone& zone = s.contacts[i].zone();
-    const auto column = [&](int c) { return i * n_columns + wrap(zone.first_column + c, n_columns); };
-    Matrix in_zone(observed.rows(), zone.n_columns);
     for (int c = 0; c < zone.n_columns; ++c)
-      std::copy_n(observed.column(column(c)), observed.rows(), in_zone.column(c));
-    const auto adjoint = s.contacts[i].adjoint(s.states[i], in_zone);
+      columns.push_back(i * n_columns + wrap(zone.first_column + c, n_columns));
+  }
+  return columns;
+}
+
+/// The multiplier loads -S^T m of all positions, all round, and the rim's motions, from what is observed of p
+/// without them in `columns`, those of zone_columns().
+template <int dim>
+Expected<std::pair<Matrix, std::vector<RimMotion>>> contact_adjoints(const RollingSolution<dim>& s,
+                                                                     const Matrix& observed,
+                                                                     std::span<const int> columns) {
+  Matrix loads(s.observations.rows(), s.observations.columns());
+  std::vector<RimMotion> rim;
+  int first = 0;
+  for (size_t i = 0; i < s.contacts.size(); ++i) {
+    const int n = s.contacts[i].zone().n_columns;
+    const auto adjoint = s.contacts[i].adjoint(s.states[i], block(observed, 0, first, observed.rows(), n));
     if (!adjoint) return adjoint.failure();
     rim.push_back(adjoint->rim);
-    for (int c = 0; c < zone.n_columns; ++c)
-      std::copy_n(adjoint->loads.column(c), adjoint->loads.rows(), loads.column(column(c)));
+    for (int c = 0; c < n; ++c)
+      std::copy_n(adjoint->loads.column(c), adjoint->loads.rows(), loads.column(columns[first + c]));
+    first += n;
   }
   return std::pair{std::move(loads), std::move(rim)};
 }
@@ -39,19 +50,21 @@ Expected<Adjoint> solve_adjoint(const RollingProblem<dim>& problem, const Rollin
   // p = q - state_weight v with K q = ghost_weight G v + T^T observations - S^T m.
   SectorFields core{s.ghost_loads, s.displacement.weights};
   for (double& x : core.modes.entries()) x *= loads.ghost_weight;
-  const Matrix observation_loads = loads.observations.rows() > 0
-                                       ? loads.observations
-                                       : Matrix(s.observations.rows(), s.observations.columns());
+  const TreadLoads on_tread = tread_loads(
+      tread, loads.observations.rows() > 0 ? loads.observations
+                                           : Matrix(s.observations.rows(), s.observations.columns()));
   const auto [interface, condensed_loads] = ring.eliminate_interface(condense(ring, s.sweep, core));
-  const Matrix without_contact =
-      ring.outer_displacements(sum(condensed_loads, base_loads(tread, observation_loads)));
-  Matrix observed = tread_field(tread, without_contact, observation_loads).observations;
+  const Matrix without_contact = ring.outer_displacements(sum(condensed_loads, base_loads(tread, on_tread)));
+  const auto columns = zone_columns(s, tread.n_columns());
+  Matrix observed = observations(tread, tread_field(tread, without_contact, on_tread), on_tread, columns);
+  const Matrix of_state = selected_columns(s.observations, columns);
   for (size_t k = 0; k < observed.entries().size(); ++k)
-    observed.entries()[k] -= loads.state_weight * s.observations.entries()[k];
-  auto contact = contact_adjoints(s, observed, tread.n_columns());
+    observed.entries()[k] -= loads.state_weight * of_state.entries()[k];
+  auto contact = contact_adjoints(s, observed, columns);
   if (!contact) return contact.failure();
 
-  const Matrix outer = sum(without_contact, ring.outer_displacements(base_loads(tread, contact->first)));
+  const Matrix outer =
+      sum(without_contact, ring.outer_displacements(base_loads(tread, tread_loads(tread, contact->first))));
   const Matrix trailing =
       product(core.weights, Op::transpose,
               ring.trailing_displacements(ring.boundary_displacements(outer, interface)), Op::none);
