@@ -1,11 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "linalg/column_basis.h"
 #include "linalg/cyclic_chain.h"
 #include "linalg/partial_cholesky.h"
+#include "linalg/two_block_cholesky.h"
 
 namespace wheelwright {
 namespace {
@@ -119,6 +121,77 @@ TEST_F(CondensedSquare, APartialSweepIsTheFullOneWhereItGoes) {
   }
   EXPECT_TRUE(part.visited[0]);
   EXPECT_LT(n_visited, n * n);
+}
+
+ComplexMatrix random_complex(int rows, int columns, unsigned seed) {
+  const Matrix real = random_matrix(rows, columns, seed), imaginary = random_matrix(rows, columns, seed + 1);
+  ComplexMatrix a(rows, columns);
+  for (size_t k = 0; k < a.entries().size(); ++k)
+    a.entries()[k] = {real.entries()[k], imaginary.entries()[k]};
+  return a;
+}
+
+double largest_difference(const ComplexMatrix& a, const ComplexMatrix& b) {
+  double largest = 0;
+  for (size_t k = 0; k < a.entries().size(); ++k)
+    largest = std::max(largest, std::abs(a.entries()[k] - b.entries()[k]));
+  return largest;
+}
+
+ComplexMatrix product(const ComplexMatrix& a, Op op_a, const ComplexMatrix& b) {
+  ComplexMatrix c(op_a == Op::none ? a.rows() : a.columns(), b.columns());
+  multiply(1, a, op_a, b, Op::none, 0, c);
+  return c;
+}
+
+TEST(TwoBlockCholesky, SolvesBlockByBlock) {
+  const int n = 23;
+  const ComplexMatrix root = random_complex(n, n, 5), x = random_complex(n, 4, 7);
+  ComplexMatrix a = product(root, Op::adjoint, root);
+  for (int i = 0; i < n; ++i) a(i, i) += 1;
+  const ComplexMatrix loads = product(a, Op::none, x);
+  ComplexMatrix inverse = a;
+  ASSERT_TRUE(cholesky(inverse));
+  cholesky_invert(inverse);
+  for (const int n_first : {0, 1, 9, n - 1, n}) {
+    const auto factor = TwoBlockCholesky::factor(a, n_first);
+    ASSERT_TRUE(factor);
+    ComplexMatrix solved = loads;
+    factor->eliminate(solved);
+    ComplexMatrix last = block(solved, n_first, 0, n - n_first, 4);
+    factor->solve_last(last);
+    EXPECT_LT(largest_difference(last, block(x, n_first, 0, n - n_first, 4)), 1e-12);
+    for (int j = 0; j < 4; ++j) std::copy_n(last.column(j), n - n_first, solved.column(j) + n_first);
+    factor->substitute(solved);
+    EXPECT_LT(largest_difference(solved, x), 1e-12);
+    EXPECT_LT(largest_difference(factor->last_block_of_inverse(),
+                                 block(inverse, n_first, n_first, n - n_first, n - n_first)),
+              1e-13);
+  }
+}
+
+TEST(TwoBlockCholesky, IsNothingForAnIndefiniteMatrix) {
+  ComplexMatrix a(2, 2);
+  a(0, 0) = 1;
+  a(1, 0) = {0, 2};
+  a(1, 1) = 1;
+  EXPECT_FALSE(TwoBlockCholesky::factor(a, 1));
+}
+
+TEST(Dense, AProductOverNothingIsZero) {
+  const Matrix c = product(Matrix(3, 0), Op::none, Matrix(0, 4), Op::none);
+  EXPECT_EQ(c.columns(), 4);
+  EXPECT_EQ(largest_entry(c), 0);
+}
+
+TEST(Dense, NonzeroColumnsSeeTheSmallestNumbersAndNoSignOfZero) {
+  Matrix a(3, 5);
+  a(0, 0) = -0.0;
+  a(2, 1) = std::numeric_limits<double>::denorm_min();
+  a(1, 3) = NAN;
+  a(0, 4) = -1;
+  EXPECT_EQ(nonzero_columns(a), (std::vector<int>{1, 3, 4}));
+  EXPECT_TRUE(std::isnan(largest_entry(a)));
 }
 
 TEST(ColumnBasis, FindsTheRankAndKeepsTheMatrix) {

@@ -128,6 +128,10 @@ struct Saddle {
   int diagonal;    ///< 1 or -1: along which the material lies
 };
 
+void PrintTo(const Saddle& saddle, std::ostream* out) {
+  *out << "azimuth " << saddle.azimuth << ", diagonal " << saddle.diagonal;
+}
+
 class OneSaddle : public ::testing::TestWithParam<Saddle> {};
 
 // psi at the saddle says which corners are joined there, and half a sector away the other two are: one piece

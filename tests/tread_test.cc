@@ -1,5 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <numeric>
+#include <random>
+
+#include "contact/tread_ring.h"
 #include "tests/support.h"
 
 namespace wheelwright {
@@ -74,6 +78,52 @@ TEST(TreadRefinement, HangingNodesKeepRigidMotionsFreeOfForce) {
       EXPECT_NEAR(observed, expected, q % 4 < 2 ? rounding : rounding * scale / model.grid.resolution());
     }
   }
+}
+
+Matrix random_matrix(int rows, int columns, std::mt19937& random) {
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  Matrix a(rows, columns);
+  for (double& x : a.entries()) x = uniform(random);
+  return a;
+}
+
+double inner_product(const Matrix& a, const Matrix& b) {
+  return std::inner_product(a.entries().begin(), a.entries().end(), b.entries().begin(), 0.0);
+}
+
+// Right-hand sides with loads on no, some and all columns, more columns than one range of those taken
+// together.
+TEST(TreadRing, IsReciprocalAndTheSameInSomeColumnsAsInAll) {
+  auto model = paper_model(7, 384);
+  const ElementTable<2> table(model.grid, 2, model.material, model.ghost);
+  const auto tread = Tread<2>::condense(table, model.tread, model.contact, 5);
+  ASSERT_TRUE(tread);
+  const int n_rhs = 40, n_columns = tread->n_columns(), n_sectors = model.grid.n_sectors;
+  std::mt19937 random(3);
+  const Matrix outer =
+      random_matrix(tread->columns_per_sector() * tread->base_per_column(), n_rhs * n_sectors, random);
+  Matrix observation_loads(tread->n_observations(), n_rhs * n_columns);
+  const auto load = [&](int column) {
+    const Matrix entries = random_matrix(observation_loads.rows(), 1, random);
+    std::copy_n(entries.data(), entries.rows(), observation_loads.column(column));
+  };
+  for (int c : {0, 5, n_columns - 1}) load(n_columns + c);
+  for (int c = 2 * n_columns; c < observation_loads.columns(); ++c) load(c);
+  const TreadLoads loads = tread_loads(*tread, observation_loads);
+  const TreadLoads none = tread_loads(*tread, Matrix(observation_loads.rows(), observation_loads.columns()));
+
+  // Betti: the loads do as much work on what the base makes of the tread as their reactions on the base.
+  const Matrix of_base = observations(*tread, tread_field(*tread, outer, none), none);
+  const double work = inner_product(observation_loads, of_base);
+  EXPECT_NEAR(inner_product(base_loads(*tread, loads), outer), work, 1e-11 * std::abs(work));
+
+  const TreadField field = tread_field(*tread, outer, loads);
+  const Matrix all = observations(*tread, field, loads);
+  const std::vector<int> columns{n_columns + 5, 7, 3 * n_columns, 2 * n_columns - 1, n_rhs * n_columns - 1};
+  const Matrix some = observations(*tread, field, loads, columns);
+  for (size_t k = 0; k < columns.size(); ++k)
+    for (int i = 0; i < all.rows(); ++i)
+      EXPECT_NEAR(some(i, static_cast<int>(k)), all(i, columns[k]), 1e-12 * largest_entry(all));
 }
 
 }  // namespace

@@ -66,11 +66,9 @@ Matrix selected_columns(const Matrix& a, std::span<const int> columns) {
   return result;
 }
 
-std::vector<int> nonzero_columns(const Matrix& a) { return nonzero_columns(a, 0, a.columns()); }
-
-std::vector<int> nonzero_columns(const Matrix& a, int first, int n) {
+std::vector<int> nonzero_columns(const Matrix& a) {
   std::vector<int> columns;
-  for (int j = first; j < first + n; ++j) {
+  for (int j = 0; j < a.columns(); ++j) {
     const double* x = a.column(j);
     // Bits without that of the sign, so that the loop goes through vector registers.
     std::uint64_t bits = 0;
@@ -82,8 +80,10 @@ std::vector<int> nonzero_columns(const Matrix& a, int first, int n) {
 
 double largest_entry(const Matrix& a) {
   double largest = 0;
-  for (const double x : a.entries())
-    if (!(std::abs(x) <= largest)) largest = std::abs(x);
+  for (const double x : a.entries()) {
+    if (std::isnan(x)) return x;
+    largest = std::max(largest, std::abs(x));
+  }
   return largest;
 }
 

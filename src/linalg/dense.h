@@ -73,9 +73,8 @@ DenseMatrix<Scalar> block(const DenseMatrix<Scalar>& a, int first_row, int first
   return result;
 }
 
-/// Some columns of a, and the numbers of those among the n from `first` on that are not all zeros.
+/// Some columns of a, and the numbers of those that are not all zeros.
 Matrix selected_columns(const Matrix& a, std::span<const int> columns);
-std::vector<int> nonzero_columns(const Matrix& a, int first, int n);
 std::vector<int> nonzero_columns(const Matrix& a);
 
 /// The largest absolute value of an entry; NaN if one is NaN.
