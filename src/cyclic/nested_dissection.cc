@@ -70,6 +70,7 @@ class Dissection {
   }
 
   std::optional<Line> best_line(std::span<const int> nodes) const {
+    if (nodes.empty()) return std::nullopt;
     const Box<dim> box = box_around(nodes);
     std::optional<Line> best;
     for (int axis = 0; axis < dim; ++axis)
