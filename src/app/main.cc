@@ -254,13 +254,13 @@ int main(int argc, char** argv) {
   try {
     return wheelwright::after_flushing(wheelwright::parse_and_dispatch(argc, argv));
   } catch (const std::system_error& error) {
-    wheelwright::tell("wheelwright: {}\n", error.what());
+    std::fprintf(stderr, "wheelwright: %s\n", error.what());
     return wheelwright::exit_input_output;
   } catch (const std::bad_alloc&) {
-    wheelwright::tell("wheelwright: the memory is used up\n");
+    std::fputs("wheelwright: the memory is used up\n", stderr);
     return wheelwright::exit_refused;
   } catch (const std::exception& error) {
-    wheelwright::tell("wheelwright: bug: {}\n", error.what());
+    std::fprintf(stderr, "wheelwright: bug: %s\n", error.what());
     return wheelwright::exit_bug;
   }
 }
