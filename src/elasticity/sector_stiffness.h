@@ -38,8 +38,8 @@ struct SectorStiffness {
   SectorSpace<dim> space;
   SparseSymmetric matrix;
 
-  /// A face that carries ghost penalty: its matrix on the dofs of `nodes` (minus cell, plus cell; -1 for fixed
-  /// nodes).
+  /// A face that carries ghost penalty: its matrix on the dofs of `nodes` (minus cell, plus cell; -1 for
+  /// fixed nodes).
   struct Ghost {
     std::vector<int> nodes;
     const Matrix* stiffness;
