@@ -16,8 +16,6 @@ void zgemm_(const char*, const char*, const int*, const int*, const int*, const 
 void dpotrf_(const char*, const int*, double*, const int*, int*);
 void zpotrf_(const char*, const int*, std::complex<double>*, const int*, int*);
 void dpotrs_(const char*, const int*, const int*, const double*, const int*, double*, const int*, int*);
-void zpotrs_(const char*, const int*, const int*, const std::complex<double>*, const int*,
-             std::complex<double>*, const int*, int*);
 void zpotri_(const char*, const int*, std::complex<double>*, const int*, int*);
 void dgesv_(const int*, const int*, double*, const int*, int*, double*, const int*, int*);
 }
@@ -119,12 +117,6 @@ void cholesky_solve(const Matrix& factor, Matrix& b) {
   const int n = factor.rows(), m = b.columns();
   int info = 0;
   if (n > 0 && m > 0) dpotrs_("L", &n, &m, factor.data(), &n, b.data(), &n, &info);
-}
-
-void cholesky_solve(const ComplexMatrix& factor, ComplexMatrix& b) {
-  const int n = factor.rows(), m = b.columns();
-  int info = 0;
-  if (n > 0 && m > 0) zpotrs_("L", &n, &m, factor.data(), &n, b.data(), &n, &info);
 }
 
 void cholesky_invert(ComplexMatrix& factor) {

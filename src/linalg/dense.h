@@ -103,7 +103,6 @@ Matrix product(const Matrix& a, Op op_a, const Matrix& b, Op op_b);
 
 /// Solves a x = b with cholesky()'s factor; b becomes x.
 void cholesky_solve(const Matrix& factor, Matrix& b);
-void cholesky_solve(const ComplexMatrix& factor, ComplexMatrix& b);
 
 /// The inverse, both triangles, of a Hermitian positive definite matrix from cholesky()'s factor, in place.
 void cholesky_invert(ComplexMatrix& factor);

@@ -13,7 +13,6 @@ class TwoBlockCholesky {
   /// `a`: its lower triangle. Nothing when it is not positive definite.
   static std::optional<TwoBlockCholesky> factor(ComplexMatrix a, int n_first);
 
-  int n_first() const { return n_first_; }
   int n_last() const { return l_.rows() - n_first_; }
 
   /// Elimination of the first block, in place: loads (f_1, f_2) become (L_11^-1 f_1, f_2 - A_21 A_11^-1 f_1).
