@@ -46,6 +46,9 @@ class Wheel {
   Evaluation<2> evaluate() const {
     return value_of(wheelwright::evaluate(problem_, testing::strain_energy_alone(), psi_));
   }
+  Evaluation<2> evaluate_all_positions() const {
+    return value_of(differentiate(problem_, testing::strain_energy_alone(), value_of(problem_.solve(psi_))));
+  }
 
  private:
   static RollingModel<2> model(const Size& size) {
@@ -73,7 +76,8 @@ class Workshop {
   const RollingSolution<2>& solution(const Size& size) {
     const Wheel& current = wheel(size);
     if (!solution_)
-      solution_ = std::make_unique<RollingSolution<2>>(value_of(current.problem().solve(current.psi())));
+      solution_ = std::make_unique<RollingSolution<2>>(value_of(
+          current.problem().solve(current.psi(), current.problem().distinct_positions(current.psi()))));
     return *solution_;
   }
 
@@ -141,7 +145,8 @@ void contact_operators(benchmark::State& state, const Wheel& wheel, const Rollin
     std::vector<ReducedContact<2>> contacts;
     for (size_t i = 0; i < solution.contacts.size(); ++i)
       contacts.emplace_back(surface, wheel.problem().tread(), wheel.problem().model().grid,
-                            solution.grounds[i], solution.contacts[i].zone(), solution.contacts[i].rim());
+                            solution.positions.grounds[i], solution.contacts[i].zone(),
+                            solution.contacts[i].rim());
     return contacts;
   });
 }
@@ -222,6 +227,10 @@ void add_benchmarks(Workshop& shop, Measurements& m) {
     add(fmt::format("shape/{}/positions:{}", size.grid(), n_positions), [&, size](auto& state) {
       const Wheel& wheel = shop.wheel(size);
       measure(state, m.positions[size.n_positions], [&] { return wheel.evaluate(); });
+    });
+    add(fmt::format("shape/{}/all positions:{}", size.grid(), n_positions), [&, size](auto& state) {
+      const Wheel& wheel = shop.wheel(size);
+      measure(state, m.all_positions[size.n_positions], [&] { return wheel.evaluate_all_positions(); });
     });
   }
   for (size_t g = 0; g < grids.size(); ++g) {

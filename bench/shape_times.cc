@@ -1,6 +1,6 @@
-/// Solves one shape of the paper's 16-hole wheel, with the paper's ghost penalty (81) and xi = 1e-3, and
-/// prints answers and times as JSON: strain energy and rim displacement of every load position, and the
-/// phases of the fastest repetition.
+/// Solves one shape of the paper's 16-hole wheel, with the paper's ghost penalty (81) and xi = 1e-3, in all
+/// load positions, mirror images too, and prints answers and times as JSON: strain energy and rim
+/// displacement of every load position, and the phases of the fastest repetition.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -48,16 +48,18 @@ int run(int radial_cells, int angular_cells, int n_positions, int repetitions) {
   }
   const auto psi = testing::paper_holes(model.grid);
   std::vector<PhaseTime> fastest;
+  std::optional<Expected<RollingSolution<2>>> solution;
   for (int i = 0; i < repetitions; ++i) {
-    const auto evaluation = evaluate(*problem, testing::strain_energy_alone(), psi);
+    solution.emplace(problem->solve(psi));
+    const auto evaluation = *solution ? differentiate(*problem, testing::strain_energy_alone(), **solution)
+                                      : Expected<Evaluation<2>>(solution->failure());
     if (!evaluation) {
       fmt::print(stderr, "{}\n", evaluation.failure().detail);
       return 1;
     }
     if (fastest.empty() || total(evaluation->phases) < total(fastest)) fastest = evaluation->phases;
   }
-  const auto solution = problem->solve(psi);
-  fmt::print("{}", to_json(*problem, *solution, fastest));
+  fmt::print("{}", to_json(*problem, **solution, fastest));
   return 0;
 }
 

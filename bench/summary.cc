@@ -121,19 +121,27 @@ std::string work_table(const Measurements& m) {
 
 }  // namespace
 
+namespace {
+
+std::string positions_line(const std::string& what, const std::map<int, Samples>& positions) {
+  if (positions.size() < 2) return "";
+  const auto& [few, few_samples] = *positions.begin();
+  const auto& [many, many_samples] = *positions.rbegin();
+  return fmt::format("{}: {} load positions: {} ms; {}: {} ms; {:.2f} times.\n\n", what, few,
+                     milliseconds(few_samples), many, milliseconds(many_samples),
+                     many_samples.fastest() / few_samples.fastest());
+}
+
+}  // namespace
+
 std::string summary(const Measurements& m, const std::string& exponents_from) {
   std::string text = times_table(m, exponents_from) + "\n";
   text += fmt::format("Dense product (dgemm, 512 x 512): {:.1f} Gflop/s at best, {:.1f} in the median.\n\n",
                       1e-9 * m.dense_product_flops / m.dense_product.fastest(),
                       1e-9 * m.dense_product_flops / m.dense_product.median());
   text += work_table(m) + "\n";
-  if (m.positions.size() > 1) {
-    const auto& [few, few_samples] = *m.positions.begin();
-    const auto& [many, many_samples] = *m.positions.rbegin();
-    text +=
-        fmt::format("{} load positions: {} ms; {}: {} ms; {:.2f} times.\n\n", few, milliseconds(few_samples),
-                    many, milliseconds(many_samples), many_samples.fastest() / few_samples.fastest());
-  }
+  text += positions_line("Mirror images left out", m.positions);
+  text += positions_line("All positions solved", m.all_positions);
   text += heading("MB", m.grids);
   text += row("peak memory", m.grids,
               [](const GridTimes& grid) { return fmt::format("{:.0f}", 1e-6 * grid.peak_memory); }) +

@@ -37,8 +37,10 @@ struct GridTimes {
 struct Measurements {
   Samples dense_product;
   double dense_product_flops = 0;
-  std::vector<GridTimes> grids;      ///< from coarse to fine
-  std::map<int, Samples> positions;  ///< whole shapes by number of load positions, on one grid
+  std::vector<GridTimes> grids;  ///< from coarse to fine
+  /// Whole shapes by number of load positions, on one grid: mirror images left out, as they are in a run of a
+  /// wheel that is its own, and all solved.
+  std::map<int, Samples> positions, all_positions;
 };
 
 /// Tables in Markdown: times and growth exponents, unavoidable work and the rate it is done at, load

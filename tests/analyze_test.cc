@@ -127,8 +127,9 @@ TEST(Analysis, TravelThatCameFromALoadTakesThatForce) {
     EXPECT_NEAR(a.positions[i].radial_force / model.load, 1, 1e-9);
     RollingModel<2> held = model;
     held.travel = a.positions[i].travel;
-    const auto rolled = reload<2>(held, problem.tread(), solution.ring, solution.surface, solution.grounds[i],
-                                  solution.preloads[i], {solution.contacts[i], solution.states[i]});
+    const auto rolled =
+        reload<2>(held, problem.tread(), solution.ring, solution.surface, solution.positions.grounds[i],
+                  solution.preloads[i], {solution.contacts[i], solution.states[i]});
     ASSERT_TRUE(rolled);
     EXPECT_NEAR(contact_summary(rolled->contact, rolled->state).radial_force / model.load, 1, 1e-9);
   }

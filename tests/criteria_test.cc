@@ -70,8 +70,10 @@ TEST(Uniformity, AUniformRingIsUniform) {
   const auto holed = problem->solve(paper_holes(model.grid));
   ASSERT_TRUE(holed);
   for (const auto& criterion : uniformity_criteria(model)) {
-    const double uniform = criterion->evaluate(*problem, *s, mean_observations(*problem, *s)).value;
-    const double uneven = criterion->evaluate(*problem, *holed, mean_observations(*problem, *holed)).value;
+    const double uniform =
+        criterion->evaluate(*problem, *s, mean_observations(*problem, *s)).value(s->positions);
+    const double uneven =
+        criterion->evaluate(*problem, *holed, mean_observations(*problem, *holed)).value(holed->positions);
     EXPECT_GT(uneven, 0) << criterion->name();
     EXPECT_LT(std::abs(uniform), 1e-15 * uneven) << criterion->name();
   }
@@ -94,7 +96,7 @@ TEST(Uniformity, TheDualNormIsTheEnergyOfItsImage) {
     for (int j = 0; j < g.columns(); ++j)
       for (int i = 0; i < g.rows(); ++i)
         work += 0.5 * problem->tread().points()[i / 2].weight * g(i, j) * w(i, j);
-    const double value = UniformityDual<2>(image).evaluate(*problem, *s, mean).value;
+    const double value = UniformityDual<2>(image).evaluate(*problem, *s, mean).value(s->positions);
     EXPECT_NEAR(std::accumulate(energies.begin(), energies.end(), 0.0), value, 1e-9 * value);
     EXPECT_NEAR(work, value, 1e-12 * value);
   }

@@ -123,7 +123,8 @@ class PressedRing {
           loads(4 * static_cast<int>(q) + d, c) = -pressure * tread.points()[q].weight * outward(q)[d];
     const TreadLoads on_tread = tread_loads(tread, loads);
     const Matrix outer = ring_.outer_displacements(base_loads(tread, on_tread));
-    displacement_ = displacement_fields(ring_, sweep_, ring_.boundary_displacements(outer, {}), {});
+    displacement_ =
+        displacement_fields(ring_, sweep_, ring_.boundary_displacements(outer, {}), {}, one_each());
     observations_ = observations(tread, tread_field(tread, outer, on_tread), on_tread);
     ghost_loads_ = {ghost_loads<2>(ring_, displacement_.modes), displacement_.weights};
     strain_energy_ = 0.5 * inner_product(loads, observations_);
@@ -168,7 +169,7 @@ class PressedRing {
     const auto boundary = ring_.eliminate_interface(condense(ring_, sweep_, eliminated));
     const Matrix displaced =
         ring_.boundary_displacements(ring_.outer_displacements(boundary.outer), boundary.interface);
-    const SectorFields without_bulk = displacement_fields(ring_, sweep_, displaced, eliminated);
+    const SectorFields without_bulk = displacement_fields(ring_, sweep_, displaced, eliminated, one_each());
     double sum = 0;
     visit_inner_edge([&](int cell, const ElasticElement<2>::Point& at, const Vec<2>& normal, double weight) {
       const Voigt<2> e = strain(displacement_, cell, at), ghost_strain = strain(without_bulk, cell, at);
@@ -193,6 +194,9 @@ class PressedRing {
   }
 
  private:
+  /// Multiplicities of the load cases.
+  std::vector<double> one_each() const { return std::vector<double>(ring_.n_sectors(), 1.0); }
+
   Expected<CyclicStiffness<2>> factor() const {
     const RollingModel<2>& model = problem_.model();
     const SectorHarmonics harmonics(model.grid.n_sectors);

@@ -2,23 +2,11 @@
 
 #include <optional>
 
+#include "contact/load_positions.h"
 #include "contact/rim.h"
 #include "contact/surface_compliance.h"
 
 namespace wheelwright {
-
-/// The ground at one load position, in the body frame: flat, rigid, touching the undeformed tread's circle at
-/// ring column `column` (a fraction `offset` of it past its first azimuth); n_y points there from the axle.
-struct GroundPosition {
-  int column;
-  double offset = 0;  ///< 0 <= offset < 1
-
-  /// Of n_y [rad].
-  template <int dim>
-  double azimuth(const PolarGrid<dim>& grid) const {
-    return (column + offset) * grid.cell_size()[1];
-  }
-};
 
 /// Contact quadrature points near the ground position, in the order (column, point of the column).
 struct ContactZone {

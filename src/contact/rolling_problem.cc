@@ -10,6 +10,7 @@
 #include "base/periodic.h"
 #include "base/stopwatch.h"
 #include "contact/contact_solver.h"
+#include "geometry/mirror.h"
 
 namespace wheelwright {
 
@@ -23,6 +24,19 @@ RimControl rim_control(const RollingModel<dim>& model) {
   if (model.horizontal_force != 0) rim.free.push_back({{.along_ground = 1}, model.horizontal_force});
   if (model.torque != 0) rim.free.push_back({{.rotation = 1}, model.torque});
   return rim;
+}
+
+template <int dim>
+bool is_mirror_symmetric(const RollingModel<dim>& model) {
+  return model.horizontal_force == 0 && model.torque == 0 && model.distributed.body_force[1] == 0;
+}
+
+template <int dim>
+std::vector<double> case_multiplicities(const RollingSolution<dim>& solution) {
+  std::vector<double> multiplicities;
+  for (const double m : solution.positions.multiplicities)
+    multiplicities.insert(multiplicities.end(), solution.ring.n_sectors(), m);
+  return multiplicities;
 }
 
 template <int dim>
@@ -59,7 +73,7 @@ double column_dot(const Matrix& a, const Matrix& b, int column) {
 template <int dim>
 std::vector<double> bulk_energies(const RollingSolution<dim>& s, const std::vector<int>& loaded,
                                   const std::vector<double>& nitsche_factors) {
-  const int n_positions = static_cast<int>(s.grounds.size()), n_sectors = s.ring.n_sectors();
+  const int n_positions = s.positions.size(), n_sectors = s.ring.n_sectors();
   const int n_columns = s.observations.columns() / n_positions;
   std::vector<double> energy(n_positions);
   for (int i = 0; i < n_positions; ++i)
@@ -202,11 +216,12 @@ Matrix RollingProblem<dim>::nitsche_loads(const Matrix& observations) const {
 /// Applies the loads that are not the ground's: fills the solution's core_loads, tread_loads and preloads.
 template <int dim>
 typename RollingProblem<dim>::CondensedLoads RollingProblem<dim>::preload(RollingSolution<dim>& s) const {
-  const int n_positions = static_cast<int>(s.grounds.size()), n_columns = tread_.n_columns();
+  const int n_positions = s.positions.size(), n_columns = tread_.n_columns();
   s.preloads.resize(n_positions);
   if (!model_.distributed.any())
     return {{}, {{}, Matrix(s.ring.n_outer(), n_positions * s.ring.n_sectors())}};
-  auto applied = applied_loads<dim>(model_.distributed, s.domain, *elements_, s.ring, tread_, s.grounds);
+  auto applied =
+      applied_loads<dim>(model_.distributed, s.domain, *elements_, s.ring, tread_, s.positions.grounds);
   s.core_loads = std::move(applied.core);
   s.tread_loads = std::move(applied.tread);
   CondensedLoads condensed{s.core_loads, {}};
@@ -224,9 +239,21 @@ typename RollingProblem<dim>::CondensedLoads RollingProblem<dim>::preload(Rollin
 }
 
 template <int dim>
-Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& psi) const {
-  const PolarGrid<dim>& grid = model_.grid;
-  const int n_positions = model_.n_positions, n_columns = grid.ring_columns();
+LoadPositions RollingProblem<dim>::positions() const {
+  return load_positions(model_.grid, model_.n_positions);
+}
+
+template <int dim>
+LoadPositions RollingProblem<dim>::distinct_positions(const LevelSet<dim>& psi) const {
+  return is_mirror_symmetric(model_) && is_mirror_symmetric(psi)
+             ? load_positions_without_images(model_.grid, model_.n_positions)
+             : positions();
+}
+
+template <int dim>
+Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& psi,
+                                                          LoadPositions positions) const {
+  const int n_positions = positions.size(), n_columns = model_.grid.ring_columns();
   std::vector<PhaseTime> phases;
   Stopwatch watch;
 
@@ -245,7 +272,7 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& p
   RollingSolution<dim> s{*std::move(domain),
                          *std::move(factored),
                          std::move(surface),
-                         {},
+                         std::move(positions),
                          {},
                          {},
                          {},
@@ -258,14 +285,12 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& p
                          {},
                          {},
                          {}};
-  for (int i = 0; i < n_positions; ++i)
-    s.grounds.push_back(
-        {i * grid.columns() / n_positions, double(i * grid.columns() % n_positions) / n_positions});
   s.tread_loads = Matrix(tread_.n_observations(), n_positions * n_columns);
   const CondensedLoads preloaded = preload(s);
   std::optional<ContactState<dim>> neighbour;
   for (int i = 0; i < n_positions; ++i) {
-    auto rolled = roll_to(model_, tread_, s.ring, s.surface, s.grounds[i], s.preloads[i], neighbour);
+    auto rolled =
+        roll_to(model_, tread_, s.ring, s.surface, s.positions.grounds[i], s.preloads[i], neighbour);
     if (!rolled) return rolled.failure();
     neighbour = rolled->state;
     const ContactZone& zone = rolled->contact.zone();
@@ -284,7 +309,7 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& p
   s.outer_line = s.ring.outer_displacements(sum(preloaded.boundary.outer, base_loads(tread_, loads)));
   const Matrix boundary = s.ring.boundary_displacements(s.outer_line, preloaded.boundary.interface);
   s.sweep = boundary_sweep(s.ring, s.domain, s.core_loads);
-  s.displacement = displacement_fields(s.ring, s.sweep, boundary, preloaded.core);
+  s.displacement = displacement_fields(s.ring, s.sweep, boundary, preloaded.core, case_multiplicities(s));
   s.observations = observations(tread_, tread_field(tread_, s.outer_line, loads), loads);
   s.ghost_loads = ghost_loads(s.ring, s.displacement.modes);
   if (!all_finite(s.displacement.modes) || !all_finite(s.observations))
@@ -308,6 +333,8 @@ template class RollingProblem<2>;
 template class RollingProblem<3>;
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                        \
   template RimControl rim_control(const RollingModel<dim>&);                                                \
+  template bool is_mirror_symmetric(const RollingModel<dim>&);                                              \
+  template std::vector<double> case_multiplicities(const RollingSolution<dim>&);                            \
   template SectorFields complete_displacement(const RollingSolution<dim>&);                                 \
   template Expected<RolledContact<dim>> roll_to(const RollingModel<dim>&, const Tread<dim>&,                \
                                                 const CyclicStiffness<dim>&, const SurfaceCompliance<dim>&, \

@@ -28,7 +28,11 @@ struct RollingModel {
 template <int dim>
 RimControl rim_control(const RollingModel<dim>& model);
 
-/// The direct problems of all load positions for one shape. Load cases of the core are numbered position *
+/// Whether its loads are their own mirror image in the plane of a load position.
+template <int dim>
+bool is_mirror_symmetric(const RollingModel<dim>& model);
+
+/// The direct problems of some load positions for one shape. Load cases of the core are numbered position *
 /// n_sectors + sector; matrices of the tread have one column for every (position, ring column). Position i
 /// is solved with the ground turned to it, in the body frame; the field in sector s is also the field in
 /// sector 0 for the load position that lies s sectors back. The rim's motion is left out: u = v +
@@ -38,7 +42,7 @@ struct RollingSolution {
   CutDomain<dim> domain;
   CyclicStiffness<dim> ring;
   SurfaceCompliance<dim> surface;  ///< of the ring; as wide as the widest contact zone
-  std::vector<GroundPosition> grounds;
+  LoadPositions positions;
   std::vector<ReducedContact<dim>> contacts;
   std::vector<ContactState<dim>> states;
   PartialCholesky::Sweep sweep;       ///< through the unknowns of the core that the gradient needs
@@ -52,6 +56,10 @@ struct RollingSolution {
   std::vector<double> strain_energy;  ///< J_e (3) of every position
   std::vector<PhaseTime> phases;
 };
+
+/// How many of a sector's positions each load case stands for.
+template <int dim>
+std::vector<double> case_multiplicities(const RollingSolution<dim>& solution);
 
 /// v in all unknowns of the core.
 template <int dim>
@@ -73,8 +81,16 @@ class RollingProblem {
   int protected_rim_rows() const { return 1; }
   int protected_tread_rows() const { return model_.tread.rows + 1; }
 
-  /// Direct problems of all positions.
-  Expected<RollingSolution<dim>> solve(const LevelSet<dim>& psi) const;
+  /// All load positions of a sector.
+  LoadPositions positions() const;
+
+  /// Those that tell about all of them: only one of two mirror images if the shape and its loads are their
+  /// own.
+  LoadPositions distinct_positions(const LevelSet<dim>& psi) const;
+
+  /// Direct problems of all positions, or of some.
+  Expected<RollingSolution<dim>> solve(const LevelSet<dim>& psi) const { return solve(psi, positions()); }
+  Expected<RollingSolution<dim>> solve(const LevelSet<dim>& psi, LoadPositions positions) const;
 
   /// Nitsche's symmetric term of the tread applied to what is observed: loads on the tractions.
   Matrix nitsche_loads(const Matrix& observations) const;

@@ -171,6 +171,7 @@ template <int dim>
 struct FreeColumn {
   std::vector<TreadPoint<dim>> points;
   std::vector<AnnulusPoint> annulus;
+  std::vector<int> mirror_images;
   double volume;
   Vec<dim> moment;
   Matrix stiffness, observation, nodal;
@@ -191,12 +192,29 @@ Matrix grid_nodes(const ColumnNodes<dim>& nodes, int degree, int rows, int axial
   return result;
 }
 
+/// Of every point of a symmetric rule the one that is its mirror image along an axis.
+template <int dim>
+std::vector<int> mirror_images(const std::vector<ReferencePoint<dim>>& rule, int axis) {
+  std::vector<int> images;
+  for (const auto& point : rule) {
+    const auto distance = [&](const ReferencePoint<dim>& other) {
+      double sum = 0;
+      for (int d = 0; d < dim; ++d)
+        sum += std::abs(other.xi[d] - (d == axis ? 1 - point.xi[d] : point.xi[d]));
+      return sum;
+    };
+    images.push_back(static_cast<int>(std::ranges::min_element(rule, {}, distance) - rule.begin()));
+  }
+  return images;
+}
+
 /// A cell of a column.
 template <int dim>
 struct ColumnCell {
   const ElasticElement<dim>& element;
   std::vector<NodeMap<dim>> nodes;
   double angle;      ///< of its frame in the column's
+  int to_image;      ///< cells from here to the mirror image in the column
   int axial;         ///< cell along the axle
   Matrix stiffness;  ///< on its own dofs
 };
@@ -230,6 +248,7 @@ class ColumnAssembly {
     const int n_layers = static_cast<int>(nodes_.all_layers().size());
     for (int layer = 0; layer < n_layers; ++layer)
       for (int row = 0; row < nodes_.all_layers()[layer].rows; ++row) add_row(layer, row);
+    column_.mirror_images = all_mirror_images();
     return std::move(column_);
   }
 
@@ -246,8 +265,12 @@ class ColumnAssembly {
     const bool at_tread = &layer == &nodes_.all_layers().back() && row + 1 == layer.rows;
     for (int axial = 0; axial < axial_cells_; ++axial)
       for (int across = 0; across < (1 << layer.level); ++across) {
-        ColumnCell<dim> cell{element, cell_nodes(layer_index, row, across, axial),
-                             across * fine.cell_size()[1], axial, stiffness};
+        ColumnCell<dim> cell{element,
+                             cell_nodes(layer_index, row, across, axial),
+                             across * fine.cell_size()[1],
+                             (1 << layer.level) - 1 - 2 * across,
+                             axial,
+                             stiffness};
         if (at_tread) add_contact_face(cell);
         add_annulus(cell);
         add_volume(cell);
@@ -266,8 +289,21 @@ class ColumnAssembly {
     return result;
   }
 
+  /// TreadColumn::mirror_images from those of the points.
+  std::vector<int> all_mirror_images() const {
+    std::vector<int> images;
+    for (const int point : point_images_)
+      for (const int part : {0, 1}) images.push_back(2 * point + part);
+    for (const int point : annulus_images_) images.push_back(n_contact_ / dim + point);
+    images.push_back(static_cast<int>(images.size()));
+    return images;
+  }
+
   void add_contact_face(ColumnCell<dim>& cell) {
     const double gamma = form_.gamma_0 * material_.youngs_modulus / cell.element.diameter();
+    for (const int image : mirror_images(face_rule_, 0))
+      point_images_.push_back(static_cast<int>(column_.points.size() + face_rule_.size() * cell.to_image) +
+                              image);
     for (const auto& q : face_rule_) {
       Vec<dim> xi{}, outward{};
       xi[0] = outward[0] = 1;
@@ -290,6 +326,9 @@ class ColumnAssembly {
   }
 
   void add_annulus(const ColumnCell<dim>& cell) {
+    for (const int image : mirror_images(annulus_rule_, 1))
+      annulus_images_.push_back(
+          static_cast<int>(column_.annulus.size() + annulus_rule_.size() * cell.to_image) + image);
     for (const auto& q : annulus_rule_) {
       const auto at = cell.element.at(q.xi);
       Vec<dim> radial{at.position[0], at.position[1]};
@@ -324,6 +363,7 @@ class ColumnAssembly {
   std::vector<ReferencePoint<dim>> volume_rule_;
   std::vector<ReferencePoint<dim - 1>> face_rule_;
   std::vector<ReferencePoint<dim>> annulus_rule_;
+  std::vector<int> point_images_, annulus_images_;
   FreeColumn<dim> column_{};
 };
 
@@ -339,6 +379,7 @@ Expected<TreadColumn<dim>> tread_column(const ElementTable<dim>& table, const Tr
 
   TreadColumn<dim> column{std::move(free.points),
                           std::move(free.annulus),
+                          std::move(free.mirror_images),
                           free.volume,
                           free.moment,
                           nodes.n_base(),

@@ -40,6 +40,9 @@ template <int dim>
 struct TreadColumn {
   std::vector<TreadPoint<dim>> points;
   std::vector<AnnulusPoint> annulus;
+  /// Observations are vectors of dim rows each; of every one the one that is seen in its place in the
+  /// column's mirror image.
+  std::vector<int> mirror_images;
   double volume;    ///< int dx
   Vec<dim> moment;  ///< int x dx, in the column's frame
   int n_base, n_line;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -8,9 +9,9 @@
 
 namespace wheelwright {
 
-/// The derivative of a criterion with respect to the displacements v of all positions, as loads: with K the
-/// ring's stiffness and T the tread's observations (RollingSolution's columns and rows),
-///   -dJ/dv = -state_weight K v + ghost_weight G v + T^T observations, G the ghost penalty.
+/// The derivative of a criterion's share J_i of every position i with respect to its displacement v, as
+/// loads: with K the ring's stiffness and T the tread's observations (RollingSolution's columns and rows),
+///   -dJ_i/dv = -state_weight K v + ghost_weight G v + T^T observations, G the ghost penalty.
 /// An empty matrix is zero.
 struct AdjointLoads {
   double state_weight = 0;
@@ -20,8 +21,13 @@ struct AdjointLoads {
 
 /// A criterion at one shape.
 struct CriterionTerm {
-  double value;  ///< summed over the load positions of one sector
+  std::vector<double> values;  ///< J_i of every position that was solved for
   AdjointLoads loads;
+
+  /// Summed over the load positions of one sector.
+  double value(const LoadPositions& positions) const {
+    return std::inner_product(values.begin(), values.end(), positions.multiplicities.begin(), 0.0);
+  }
 };
 
 /// A criterion of the form (36), summed over the load positions. To add one: a file with a class like this, a

@@ -1,17 +1,52 @@
 #include "criteria/mean_contact_stress.h"
 
+#include <numbers>
+#include <numeric>
+
+#include "geometry/mirror.h"
+
 namespace wheelwright {
+
+namespace {
+
+/// The mirror image of what is observed all round at one load position, both counted as the mean.
+template <int dim>
+Matrix mirrored(const Tread<dim>& tread, const Matrix& observations) {
+  const TreadColumn<dim>& column = tread.column();
+  const double column_angle = 2 * std::numbers::pi / tread.n_columns();
+  auto image = Matrix::unfilled(observations.rows(), observations.columns());
+  for (int g = 0; g < image.columns(); ++g) {
+    const double* from = observations.column(image.columns() - 1 - g);
+    double* to = image.column(g);
+    for (size_t k = 0; k < column.mirror_images.size(); ++k) {
+      Vec<dim> v;
+      std::copy_n(from + dim * column.mirror_images[k], dim, v.begin());
+      v = rotated<dim>(mirror_image<dim>(v), column_angle);
+      std::copy_n(v.begin(), dim, to + dim * k);
+    }
+  }
+  return image;
+}
+
+}  // namespace
 
 template <int dim>
 Matrix mean_observations(const RollingProblem<dim>& problem, const RollingSolution<dim>& solution) {
-  const int n_columns = problem.tread().n_columns(), n_positions = static_cast<int>(solution.grounds.size());
+  const int n_columns = problem.tread().n_columns();
+  const LoadPositions& positions = solution.positions;
+  const double n_all = std::accumulate(positions.multiplicities.begin(), positions.multiplicities.end(), 0.0);
   Matrix mean(solution.observations.rows(), n_columns);
-  for (int i = 0; i < n_positions; ++i)
+  for (int i = 0; i < positions.size(); ++i) {
+    const double weight = positions.multiplicities[i] / n_all;
     for (int g = 0; g < n_columns; ++g) {
       const double* x =
-          solution.observations.column(i * n_columns + (g + solution.grounds[i].column) % n_columns);
-      for (int row = 0; row < mean.rows(); ++row) mean(row, g) += x[row] / n_positions;
+          solution.observations.column(i * n_columns + (g + positions.grounds[i].column) % n_columns);
+      for (int row = 0; row < mean.rows(); ++row) mean(row, g) += weight * x[row];
     }
+  }
+  if (!positions.stand_for_images()) return mean;
+  mean = sum(std::move(mean), mirrored(problem.tread(), mean));
+  for (double& x : mean.entries()) x /= 2;
   return mean;
 }
 
@@ -20,9 +55,9 @@ Matrix deviation_from_mean(const RollingProblem<dim>& problem, const RollingSolu
                            const Matrix& mean) {
   const int n_columns = problem.tread().n_columns();
   Matrix deviation = solution.observations;
-  for (int i = 0; i < static_cast<int>(solution.grounds.size()); ++i)
+  for (int i = 0; i < solution.positions.size(); ++i)
     for (int g = 0; g < n_columns; ++g) {
-      double* x = deviation.column(i * n_columns + (g + solution.grounds[i].column) % n_columns);
+      double* x = deviation.column(i * n_columns + (g + solution.positions.grounds[i].column) % n_columns);
       for (int row = 0; row < mean.rows(); ++row) x[row] -= mean(row, g);
     }
   return deviation;

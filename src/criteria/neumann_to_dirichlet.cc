@@ -50,7 +50,8 @@ std::vector<double> NeumannToDirichlet<dim>::energies(const Matrix& tractions) c
   const TreadLoads on_tread = tread_loads(tread_, observation_loads);
   const Matrix outer = ring_.outer_displacements(base_loads(tread_, on_tread));
   const Matrix boundary = ring_.boundary_displacements(outer, {});
-  const SectorFields core = displacement_fields(ring_, ring_.sector_factor().full_sweep(), boundary, {});
+  const SectorFields core = displacement_fields(ring_, ring_.sector_factor().full_sweep(), boundary, {},
+                                                std::vector<double>(boundary.columns(), 1.0));
   const TreadField field = tread_field(tread_, outer, on_tread);
   const TreadColumn<dim>& column = tread_.column();
 

@@ -25,8 +25,8 @@ Expected<std::vector<ContactSummary>> reload_all(const RollingModel<dim>& model,
                                                  std::vector<RolledContact<dim>>& positions) {
   std::vector<ContactSummary> result;
   for (size_t i = 0; i < positions.size(); ++i) {
-    auto rolled = reload(model, problem.tread(), solution.ring, solution.surface, solution.grounds[i],
-                         solution.preloads[i], positions[i]);
+    auto rolled = reload(model, problem.tread(), solution.ring, solution.surface,
+                         solution.positions.grounds[i], solution.preloads[i], positions[i]);
     if (!rolled) return rolled.failure();
     positions[i] = *std::move(rolled);
     result.push_back(contact_summary(positions[i].contact, positions[i].state));
@@ -55,7 +55,7 @@ Expected<RollingAnalysis> rolling_analysis(const RollingProblem<dim>& problem,
                                            const RollingSolution<dim>& solution) {
   RollingAnalysis analysis{};
   analysis.held = problem.model().travel ? Held::travel : Held::load;
-  for (const GroundPosition& ground : solution.grounds)
+  for (const GroundPosition& ground : solution.positions.grounds)
     analysis.azimuths.push_back(ground.azimuth(problem.model().grid));
   for (size_t i = 0; i < solution.contacts.size(); ++i)
     analysis.positions.push_back(contact_summary(solution.contacts[i], solution.states[i]));

@@ -115,7 +115,7 @@ void raise_peaks_in_tread(const RollingProblem<dim>& problem, const RollingSolut
 
 template <int dim>
 std::vector<double> peak_von_mises(const RollingProblem<dim>& problem, const RollingSolution<dim>& solution) {
-  std::vector<double> peaks(solution.grounds.size(), 0.0);
+  std::vector<double> peaks(solution.positions.grounds.size(), 0.0);
   raise_peaks_in_core(problem, solution, peaks);
   raise_peaks_in_tread(problem, solution, peaks);
   for (double& peak : peaks) peak = problem.model().material.mu() * std::sqrt(6 * peak);

@@ -20,13 +20,16 @@ CriterionTerm UniformityDual<dim>::evaluate(const RollingProblem<dim>& problem,
                                             const RollingSolution<dim>& solution, const Matrix& mean) const {
   const Matrix tractions = traction_deviation(problem, solution, mean);
   const Matrix image = (*image_)(tractions);
-  CriterionTerm term{0, {0, 0, Matrix(solution.observations.rows(), tractions.columns())}};
-  for (int j = 0; j < tractions.columns(); ++j)
+  CriterionTerm term{std::vector<double>(solution.positions.size()),
+                     {0, 0, Matrix(solution.observations.rows(), tractions.columns())}};
+  for (int j = 0; j < tractions.columns(); ++j) {
+    double& value = term.values[j / problem.tread().n_columns()];
     for (int i = 0; i < tractions.rows(); ++i) {
       const double weight = problem.tread().points()[i / dim].weight;
-      term.value += 0.5 * weight * tractions(i, j) * image(i, j);
+      value += 0.5 * weight * tractions(i, j) * image(i, j);
       term.loads.observations(2 * dim * (i / dim) + dim + i % dim, j) = -weight * image(i, j);  // (72)
     }
+  }
   return term;
 }
 

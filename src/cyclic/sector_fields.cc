@@ -41,16 +41,23 @@ Matrix condense(const CyclicStiffness<dim>& ring, const PartialCholesky::Sweep& 
 
 template <int dim>
 SectorFields displacement_fields(const CyclicStiffness<dim>& ring, const PartialCholesky::Sweep& sweep,
-                                 const Matrix& boundary, const SectorFields& eliminated_loads) {
+                                 const Matrix& boundary, const SectorFields& eliminated_loads,
+                                 std::span<const double> multiplicities) {
   const PartialCholesky& factor = ring.sector_factor();
   const int n_interior = factor.n_interior(), n_trailing = factor.n_trailing();
-  const Matrix trailing = ring.trailing_displacements(boundary);
-  const Matrix& load_weights = eliminated_loads.weights;
+  std::vector<double> roots, inverse_roots;
+  for (const double m : multiplicities) {
+    roots.push_back(std::sqrt(m));
+    inverse_roots.push_back(1 / roots.back());
+  }
+  const Matrix trailing = scaled_rows(roots, ring.trailing_displacements(boundary));
+  const Matrix load_weights = scaled_rows(roots, eliminated_loads.weights);
   const double scale = eliminated_loads.empty() ? 1 : largest_entry(trailing) / largest_entry(load_weights);
   ColumnBasis basis = column_basis(
       eliminated_loads.empty() ? trailing : side_by_side(trailing, scale, load_weights), mode_tolerance);
 
-  SectorFields fields{Matrix(basis.coordinates.rows(), factor.size()), std::move(basis.basis)};
+  SectorFields fields{Matrix(basis.coordinates.rows(), factor.size()),
+                      scaled_rows(inverse_roots, std::move(basis.basis))};
   if (!eliminated_loads.empty()) {
     Matrix coordinates =
         block(basis.coordinates, 0, n_trailing, basis.coordinates.rows(), load_weights.columns());
@@ -161,16 +168,16 @@ double interior_residual(const CyclicStiffness<dim>& ring, const PartialCholesky
   return largest_force / (largest_stiffness * largest_displacement);
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                    \
-  template Matrix condense(const CyclicStiffness<dim>&, const PartialCholesky::Sweep&, SectorFields&);  \
-  template SectorFields displacement_fields(const CyclicStiffness<dim>&, const PartialCholesky::Sweep&, \
-                                            const Matrix&, const SectorFields&);                        \
-  template SectorFields completed(const CyclicStiffness<dim>&, SectorFields);                           \
-  template PartialCholesky::Sweep boundary_sweep(const CyclicStiffness<dim>&, const CutDomain<dim>&,    \
-                                                 const SectorFields&);                                  \
-  template void gather(const CyclicStiffness<dim>&, std::span<const int>, const Matrix&, Matrix&);      \
-  template Matrix ghost_loads(const CyclicStiffness<dim>&, const Matrix&);                              \
-  template double interior_residual(const CyclicStiffness<dim>&, const PartialCholesky::Sweep&,         \
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                                      \
+  template Matrix condense(const CyclicStiffness<dim>&, const PartialCholesky::Sweep&, SectorFields&);    \
+  template SectorFields displacement_fields(const CyclicStiffness<dim>&, const PartialCholesky::Sweep&,   \
+                                            const Matrix&, const SectorFields&, std::span<const double>); \
+  template SectorFields completed(const CyclicStiffness<dim>&, SectorFields);                             \
+  template PartialCholesky::Sweep boundary_sweep(const CyclicStiffness<dim>&, const CutDomain<dim>&,      \
+                                                 const SectorFields&);                                    \
+  template void gather(const CyclicStiffness<dim>&, std::span<const int>, const Matrix&, Matrix&);        \
+  template Matrix ghost_loads(const CyclicStiffness<dim>&, const Matrix&);                                \
+  template double interior_residual(const CyclicStiffness<dim>&, const PartialCholesky::Sweep&,           \
                                     const SectorFields&, const SectorFields&);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)

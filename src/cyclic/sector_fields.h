@@ -28,12 +28,14 @@ Matrix condense(const CyclicStiffness<dim>& ring, const PartialCholesky::Sweep& 
 constexpr double mode_tolerance = 1e-10;
 
 /// The displacements for boundary displacements (n_boundary x load cases) and loads as condense() leaves them
-/// (may be empty). Right in the unknowns that the sweep visits; zero in
-/// the interior ones that it does not. The weights' columns are orthonormal, and those of the loads' weights
-/// are combinations of them.
+/// (may be empty). Right in the unknowns that the sweep visits; zero in the interior ones that it does not.
+/// With M the diagonal matrix of the load cases' multiplicities (> 0), the weights W are orthonormal, W^T M W
+/// = 1, so that a quadratic form's sum over the load cases, each as often as it counts, is its sum over the
+/// modes; and the columns of the loads' weights are combinations of those of W.
 template <int dim>
 SectorFields displacement_fields(const CyclicStiffness<dim>& ring, const PartialCholesky::Sweep& sweep,
-                                 const Matrix& boundary, const SectorFields& eliminated_loads);
+                                 const Matrix& boundary, const SectorFields& eliminated_loads,
+                                 std::span<const double> multiplicities);
 
 /// Displacements without loads in the core, in all unknowns.
 template <int dim>

@@ -8,6 +8,7 @@
 #include "evolution/transport.h"
 #include "evolution/volume.h"
 #include "geometry/finite.h"
+#include "geometry/mirror.h"
 
 namespace wheelwright {
 
@@ -17,6 +18,12 @@ double largest_magnitude(std::span<const double> values) {
   double largest = 0;
   for (double v : values) largest = std::max(largest, std::abs(v));
   return largest;
+}
+
+/// A stage's result: symmetric, not only to what the stage leaves of it, if all that it was made of is.
+template <int dim>
+LevelSet<dim> as_symmetric(bool made_of_symmetric, LevelSet<dim> psi) {
+  return made_of_symmetric ? mirror_symmetric_part(psi) : psi;
 }
 
 }  // namespace
@@ -67,7 +74,11 @@ Expected<LevelSet<dim>> Evolver<dim>::move(const LevelSet<dim>& psi, std::span<c
   if (auto failure = check_finite<dim>(psi.lattice, velocity, "the velocity")) return *failure;
   const double time = distance / largest_magnitude(velocity);
   if (!std::isfinite(time)) return Failure{FailureReason::not_finite, "the velocity vanishes"};
-  return kept(transport<dim>(psi, velocity, time), "the level set after transport");
+  const bool is_symmetric =
+      is_mirror_symmetric(psi) &&
+      is_mirror_symmetric<dim>(psi.lattice, velocity, 1e-9 * largest_magnitude(velocity));
+  return kept(as_symmetric(is_symmetric, transport<dim>(psi, velocity, time)),
+              "the level set after transport");
 }
 
 template <int dim>
@@ -81,13 +92,14 @@ double Evolver<dim>::first_order_change(std::span<const SurfaceSample<dim>> grad
 template <int dim>
 Expected<LevelSet<dim>> Evolver<dim>::redistance(const LevelSet<dim>& psi) const {
   if (auto failure = check_finite<dim>(psi.lattice, psi.values, "the level set")) return *failure;
-  return kept(wheelwright::redistance<dim>(psi), "the level set after redistancing");
+  return kept(as_symmetric(is_mirror_symmetric(psi), wheelwright::redistance<dim>(psi)),
+              "the level set after redistancing");
 }
 
 template <int dim>
 Expected<LevelSet<dim>> Evolver<dim>::smooth(const LevelSet<dim>& psi) const {
   if (!smoother_) return psi;
-  return kept((*smoother_)(psi), "the level set after smoothing");
+  return kept(as_symmetric(is_mirror_symmetric(psi), (*smoother_)(psi)), "the level set after smoothing");
 }
 
 template <int dim>

@@ -18,8 +18,9 @@ struct EvolutionOptions {
 };
 
 /// Everything that moves shapes of one lattice; factors what depends on the lattice alone once. All shapes it
-/// returns keep the protected bands; what it moved has no structure below the cells (cell_scale.h). A NaN or
-/// an infinity that comes in, or out of a stage, is the failure not_finite.
+/// returns keep the protected bands; what it moved has no structure below the cells (cell_scale.h), and is
+/// its own mirror image if the shape and its velocity were (geometry/mirror.h). A NaN or an infinity that
+/// comes in, or out of a stage, is the failure not_finite.
 template <int dim>
 class Evolver {
  public:

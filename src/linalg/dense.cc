@@ -76,6 +76,14 @@ std::vector<int> nonzero_columns(const Matrix& a) {
   return columns;
 }
 
+Matrix scaled_rows(std::span<const double> factors, Matrix a) {
+  for (int j = 0; j < a.columns(); ++j) {
+    double* column = a.column(j);
+    for (int i = 0; i < a.rows(); ++i) column[i] *= factors[i];
+  }
+  return a;
+}
+
 double largest_entry(const Matrix& a) {
   double largest = 0;
   for (const double x : a.entries()) {

@@ -77,6 +77,9 @@ DenseMatrix<Scalar> block(const DenseMatrix<Scalar>& a, int first_row, int first
 Matrix selected_columns(const Matrix& a, std::span<const int> columns);
 std::vector<int> nonzero_columns(const Matrix& a);
 
+/// diag(factors) a.
+Matrix scaled_rows(std::span<const double> factors, Matrix a);
+
 /// The largest absolute value of an entry; NaN if one is NaN.
 double largest_entry(const Matrix& a);
 

@@ -30,7 +30,7 @@ RingField displacement_field(const RollingProblem<2>& problem, const RollingSolu
   const int upper_rows = degree * problem.tread().rows();
 
   const SectorFields core = complete_displacement(s);
-  const double ground_azimuth = s.grounds[position].azimuth(grid);
+  const double ground_azimuth = s.positions.grounds[position].azimuth(grid);
   RingField field{2, std::vector<double>(2 * size_t(lattice.n_nodes()) * n_sectors, no_material)};
   for (int sector = 0; sector < n_sectors; ++sector) {
     for (int node = 0; node < lattice.n_nodes(); ++node) {

@@ -65,9 +65,9 @@ Expected<Adjoint> solve_adjoint(const RollingProblem<dim>& problem, const Rollin
 
   const Matrix outer =
       sum(without_contact, ring.outer_displacements(base_loads(tread, tread_loads(tread, contact->first))));
+  const Matrix of_cases = ring.trailing_displacements(ring.boundary_displacements(outer, interface));
   const Matrix trailing =
-      product(core.weights, Op::transpose,
-              ring.trailing_displacements(ring.boundary_displacements(outer, interface)), Op::none);
+      product(scaled_rows(case_multiplicities(s), core.weights), Op::transpose, of_cases, Op::none);
   std::copy(trailing.entries().begin(), trailing.entries().end(),
             core.modes.column(ring.sector_factor().n_interior()));
   ring.sector_factor().substitute(s.sweep, core.modes);

@@ -7,7 +7,7 @@ namespace wheelwright {
 /// The adjoint problems (79) of all positions.
 struct Adjoint {
   /// p in the core without the rim's motion: its components along the load cases of the displacement's modes,
-  /// sum_j weights(j, k) p_j, as RollingSolution::displacement.
+  /// sum_j multiplicity_j weights(j, k) p_j, as RollingSolution::displacement.
   Matrix modes;
   std::vector<RimMotion> rim;  ///< of every position
 };

@@ -23,7 +23,8 @@ template <int dim>
 std::vector<MeasureValue> measures(const RollingSolution<dim>& solution) {
   std::vector<ContactSummary> positions;
   for (size_t i = 0; i < solution.contacts.size(); ++i)
-    positions.push_back(contact_summary(solution.contacts[i], solution.states[i]));
+    positions.insert(positions.end(), static_cast<size_t>(solution.positions.multiplicities[i]),
+                     contact_summary(solution.contacts[i], solution.states[i]));
   const RollingMeasures m = rolling_measures(positions);
   return {{"mean_travel", m.mean_travel},
           {"run_out", m.run_out},
@@ -43,8 +44,8 @@ Expected<Evaluation<dim>> differentiate(const RollingProblem<dim>& problem, cons
   for (const auto& [weight, criterion] : criteria) {
     const CriterionTerm term =
         criterion->evaluate(problem, solution, held_mean ? *held_mean : evaluation.mean_observations);
-    evaluation.criteria.push_back({criterion->name(), term.value});
-    evaluation.objective += weight * term.value;
+    evaluation.criteria.push_back({criterion->name(), term.value(solution.positions)});
+    evaluation.objective += weight * evaluation.criteria.back().value;
     loads.state_weight += weight * term.loads.state_weight;
     loads.ghost_weight += weight * term.loads.ghost_weight;
     accumulate(weight, term.loads.observations, loads.observations);
@@ -67,7 +68,7 @@ Expected<Evaluation<dim>> differentiate(const RollingProblem<dim>& problem, cons
 template <int dim>
 Expected<Evaluation<dim>> evaluate(const RollingProblem<dim>& problem, const Criteria<dim>& criteria,
                                    const LevelSet<dim>& psi, const Matrix* held_mean) {
-  const auto solution = problem.solve(psi);
+  const auto solution = problem.solve(psi, problem.distinct_positions(psi));
   if (!solution) return solution.failure();
   return differentiate(problem, criteria, *solution, held_mean);
 }

@@ -13,7 +13,7 @@ Expected<Evaluation<dim>> differentiate(const RollingProblem<dim>& problem, cons
                                         const RollingSolution<dim>& solution,
                                         const Matrix* held_mean = nullptr);
 
-/// The same for a shape: all direct problems, then differentiate().
+/// The same for a shape: the direct problems of its distinct positions, then differentiate().
 template <int dim>
 Expected<Evaluation<dim>> evaluate(const RollingProblem<dim>& problem, const Criteria<dim>& criteria,
                                    const LevelSet<dim>& psi, const Matrix* held_mean = nullptr);

@@ -30,7 +30,7 @@ struct Evaluation {
   std::vector<CriterionValue> criteria;      ///< the terms of J
   std::vector<SurfaceSample<dim>> gradient;  ///< density G: DJ(Theta) = sum weight value Theta.n, for Theta
                                              ///< equal in all sectors
-  std::vector<int> newton_iterations;        ///< one a position of the sector
+  std::vector<int> newton_iterations;        ///< one a position that was solved for
   Matrix mean_observations;  ///< of the tread over the positions (criteria/mean_contact_stress.h)
   std::vector<PhaseTime> phases;
   std::vector<MeasureValue> measures;  ///< RollingMeasures, by its names

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/parallel.h"
+#include "geometry/mirror.h"
 
 namespace wheelwright {
 
@@ -28,7 +29,8 @@ class WorkOfLoads {
   WorkOfLoads(const RollingModel<dim>& model, const RollingSolution<dim>& s, const Adjoint& adjoint)
       : model_(model), s_(s), adjoint_(adjoint) {
     if (!s.core_loads.empty())
-      on_modes_ = product(s.displacement.weights, Op::transpose, s.core_loads.weights, Op::none);
+      on_modes_ = product(scaled_rows(case_multiplicities(s), s.displacement.weights), Op::transpose,
+                          s.core_loads.weights, Op::none);
   }
 
   /// p_0 div p - f.p; `p`: modes on the cell's dofs, `strain_p`: their strains at the point, `angle`: the
@@ -53,10 +55,11 @@ class WorkOfLoads {
   double work_on_rim(const Vec<dim>& position, double angle) const {
     const PolarGrid<dim>& grid = model_.grid;
     double work = 0;
-    for (size_t i = 0; i < s_.grounds.size(); ++i)
+    for (int i = 0; i < s_.positions.size(); ++i)
       for (int sector = 0; sector < grid.n_sectors; ++sector) {
-        const double to_ground = angle + sector * grid.sector_angle() - s_.grounds[i].azimuth(grid);
-        work += dot<dim>(model_.distributed.body_force,
+        const double to_ground = angle + sector * grid.sector_angle() - s_.positions.grounds[i].azimuth(grid);
+        work += s_.positions.multiplicities[i] *
+                dot<dim>(model_.distributed.body_force,
                          displacement<dim>(adjoint_.rim[i], rotated<dim>(position, to_ground)));
       }
     return work;
@@ -68,46 +71,109 @@ class WorkOfLoads {
   Matrix on_modes_;  ///< loads along a sector's axes, then pressure, by modes
 };
 
+template <int dim>
+using BoundaryRule = std::vector<ReferenceSurfacePoint<dim>>;
+
+template <int dim>
+BoundaryRule<dim> mirrored(BoundaryRule<dim> rule) {
+  for (auto& q : rule) {
+    q.xi[1] = 1 - q.xi[1];
+    q.normal = mirror_image<dim>(q.normal);
+  }
+  return rule;
+}
+
+/// The density of the positions that were solved for, each as often as it counts.
+template <int dim>
+class Density {
+ public:
+  Density(const RollingProblem<dim>& problem, const Criteria<dim>& criteria, const RollingSolution<dim>& s,
+          const Adjoint& adjoint)
+      : problem_(problem),
+        criteria_(criteria),
+        s_(s),
+        adjoint_(adjoint),
+        loads_(problem.model(), s, adjoint) {}
+
+  /// At the points of a cell's moving boundary.
+  std::vector<SurfaceSample<dim>> in_cell(int cell, const BoundaryRule<dim>& rule) const {
+    const PolarGrid<dim>& grid = problem_.model().grid;
+    const auto position = grid.cell_position(cell);
+    const double angle = position[1] * grid.cell_size()[1];
+    const auto& element = problem_.elements().element(position[0]);
+    const auto nodes = s_.ring.sector().space.cell_nodes(cell);
+    Matrix u(s_.displacement.modes.rows(), element.n_dofs()), p = u;
+    gather(s_.ring, nodes, s_.displacement.modes, u);
+    gather(s_.ring, nodes, adjoint_.modes, p);
+    std::vector<typename ElasticElement<dim>::Point> points;
+    for (const auto& q : rule) points.push_back(element.at(q.xi));
+    const Matrix strains = strain_columns<dim>(element, points);
+    const Matrix strain_u = product(u, Op::none, strains, Op::none),
+                 strain_p = product(p, Op::none, strains, Op::none);
+    std::vector<SurfaceSample<dim>> samples;
+    for (size_t q = 0; q < points.size(); ++q) {
+      const int first = n_strains<dim> * static_cast<int>(q);
+      const double density = loads_.density(points[q], angle, p, strain_p.column(first)) +
+                             of_strains(strain_u.column(first), strain_p.column(first));
+      const auto surface = map_surface<dim>(points[q].jacobian, rule[q].normal);
+      samples.push_back(
+          {cell, rule[q].xi, rotated<dim>(surface.normal, angle), rule[q].weight * surface.scale, density});
+    }
+    return samples;
+  }
+
+ private:
+  /// M(u) + sigma(u):eps(p) from the strains of the modes at a point, one component after the other.
+  double of_strains(const double* strain_u, const double* strain_p) const {
+    const int n_modes = s_.displacement.modes.rows();
+    double density = 0;
+    for (int mode = 0; mode < n_modes; ++mode) {
+      Voigt<dim> e;
+      for (int k = 0; k < n_strains<dim>; ++k) e[k] = strain_u[k * n_modes + mode];
+      const Voigt<dim> sigma = stress<dim>(problem_.model().material, e);
+      for (int k = 0; k < n_strains<dim>; ++k) density += sigma[k] * strain_p[k * n_modes + mode];
+      for (const auto& [weight, criterion] : criteria_)
+        density += weight * criterion->boundary_density(e, sigma);
+    }
+    return density;
+  }
+
+  const RollingProblem<dim>& problem_;
+  const Criteria<dim>& criteria_;
+  const RollingSolution<dim>& s_;
+  const Adjoint& adjoint_;
+  WorkOfLoads<dim> loads_;
+};
+
+/// The density of all positions in a cell and in its mirror image, when those solved for stand for their
+/// images too: the mean of what they give in the one and in the other.
+template <int dim>
+std::vector<SurfaceSample<dim>> in_cell_and_image(const Density<dim>& density, const PolarGrid<dim>& grid,
+                                                  const CutCell<dim>& cut) {
+  const int image = mirror_image(grid, cut.cell);
+  if (image < cut.cell) return {};
+  auto samples = density.in_cell(cut.cell, cut.boundary);
+  auto images = density.in_cell(image, mirrored<dim>(cut.boundary));
+  for (size_t q = 0; q < samples.size(); ++q) {
+    samples[q].value = images[q].value = (samples[q].value + images[q].value) / 2;
+    if (image == cut.cell) samples[q].weight = images[q].weight = samples[q].weight / 2;
+  }
+  samples.insert(samples.end(), images.begin(), images.end());
+  return samples;
+}
+
 }  // namespace
 
 template <int dim>
 std::vector<SurfaceSample<dim>> shape_gradient(const RollingProblem<dim>& problem,
                                                const Criteria<dim>& criteria, const RollingSolution<dim>& s,
                                                const Adjoint& adjoint) {
-  const PolarGrid<dim>& grid = problem.model().grid;
-  const Material& material = problem.model().material;
-  const int n_modes = s.displacement.modes.rows();
-  const WorkOfLoads<dim> loads(problem.model(), s, adjoint);
+  const Density<dim> density(problem, criteria, s, adjoint);
   std::vector<std::vector<SurfaceSample<dim>>> of_cell(s.domain.cut.size());
   parallel_for(static_cast<int>(s.domain.cut.size()), [&](int c) {
     const CutCell<dim>& cut = s.domain.cut[c];
-    const auto position = grid.cell_position(cut.cell);
-    const double angle = position[1] * grid.cell_size()[1];
-    const auto& element = problem.elements().element(position[0]);
-    const auto nodes = s.ring.sector().space.cell_nodes(cut.cell);
-    Matrix u(n_modes, element.n_dofs()), p = u;
-    gather(s.ring, nodes, s.displacement.modes, u);
-    gather(s.ring, nodes, adjoint.modes, p);
-    std::vector<typename ElasticElement<dim>::Point> points;
-    for (const auto& q : cut.boundary) points.push_back(element.at(q.xi));
-    const Matrix strains = strain_columns<dim>(element, points);
-    const Matrix strain_u = product(u, Op::none, strains, Op::none),
-                 strain_p = product(p, Op::none, strains, Op::none);
-    for (size_t q = 0; q < points.size(); ++q) {
-      const int first = n_strains<dim> * static_cast<int>(q);
-      double density = loads.density(points[q], angle, p, strain_p.column(first));
-      for (int mode = 0; mode < n_modes; ++mode) {
-        Voigt<dim> e;
-        for (int k = 0; k < n_strains<dim>; ++k) e[k] = strain_u(mode, first + k);
-        const Voigt<dim> sigma = stress<dim>(material, e);
-        for (int k = 0; k < n_strains<dim>; ++k) density += sigma[k] * strain_p(mode, first + k);
-        for (const auto& [weight, criterion] : criteria)
-          density += weight * criterion->boundary_density(e, sigma);
-      }
-      const auto surface = map_surface<dim>(points[q].jacobian, cut.boundary[q].normal);
-      of_cell[c].push_back({cut.cell, cut.boundary[q].xi, rotated<dim>(surface.normal, angle),
-                            cut.boundary[q].weight * surface.scale, density});
-    }
+    of_cell[c] = s.positions.stand_for_images() ? in_cell_and_image(density, s.domain.grid, cut)
+                                                : density.in_cell(cut.cell, cut.boundary);
   });
   std::vector<SurfaceSample<dim>> gradient;
   for (const auto& samples : of_cell) gradient.insert(gradient.end(), samples.begin(), samples.end());

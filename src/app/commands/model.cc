@@ -54,8 +54,9 @@ Expected<double> matching_weight(const Case& c, const RollingProblem<2>& problem
   const auto solution = problem.solve(initial_shape(c));
   if (!solution) return solution.failure();
   const Matrix mean = mean_observations(problem, *solution);
-  return *c.objective.annulus_matches_dual * dual.evaluate(problem, *solution, mean).value /
-         annulus.evaluate(problem, *solution, mean).value;
+  return *c.objective.annulus_matches_dual *
+         dual.evaluate(problem, *solution, mean).value(solution->positions) /
+         annulus.evaluate(problem, *solution, mean).value(solution->positions);
 }
 
 }  // namespace

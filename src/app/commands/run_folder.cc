@@ -97,7 +97,7 @@ void RunFolder::write_pressures(const RollingProblem<2>& problem, const RollingS
                                 const std::string& name) const {
   const auto points = contact_points(problem, solution);
   std::vector<double> azimuths;
-  for (const GroundPosition& ground : solution.grounds)
+  for (const GroundPosition& ground : solution.positions.grounds)
     azimuths.push_back(ground.azimuth(problem.model().grid));
   write_pressure_csv(folder_ / fmt::format("pressures_{}.csv", name), points);
   write_atomically(

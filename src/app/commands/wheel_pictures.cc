@@ -27,7 +27,7 @@ void write_wheel_pictures(const std::filesystem::path& folder, const std::string
   const PolarGrid<2>& grid = problem.model().grid;
   const Lattice<2> lattice(grid, problem.model().degree);
   const int worst = worst_position(solution);
-  const double azimuth = solution.grounds[worst].azimuth(grid);
+  const double azimuth = solution.positions.grounds[worst].azimuth(grid);
   const RingField displacement = displacement_field(problem, solution, worst);
   const NamedField stress{"von Mises stress", "Pa", von_mises_field(problem, solution, displacement)};
   const NamedField vertical{"displacement down", "m", vertical_field(displacement, azimuth)};
