@@ -21,7 +21,7 @@ struct AdjointLoads {
 
 /// A criterion at one shape.
 struct CriterionTerm {
-  std::vector<double> values;  ///< J_i of every position that was solved for
+  std::vector<double> values;  ///< J_i of every position that was solved for, the same as its mirror image's
   AdjointLoads loads;
 
   /// Summed over the load positions of one sector.

@@ -51,6 +51,14 @@ Matrix mean_observations(const RollingProblem<dim>& problem, const RollingSoluti
 }
 
 template <int dim>
+bool is_mirror_symmetric(const Tread<dim>& tread, const Matrix& mean) {
+  const Matrix image = mirrored(tread, mean);
+  const double tolerance = 1e-8 * largest_entry(mean);
+  return std::equal(mean.entries().begin(), mean.entries().end(), image.entries().begin(),
+                    [&](double a, double b) { return std::abs(a - b) <= tolerance; });
+}
+
+template <int dim>
 Matrix deviation_from_mean(const RollingProblem<dim>& problem, const RollingSolution<dim>& solution,
                            const Matrix& mean) {
   const int n_columns = problem.tread().n_columns();
@@ -65,6 +73,8 @@ Matrix deviation_from_mean(const RollingProblem<dim>& problem, const RollingSolu
 
 template Matrix mean_observations(const RollingProblem<2>&, const RollingSolution<2>&);
 template Matrix mean_observations(const RollingProblem<3>&, const RollingSolution<3>&);
+template bool is_mirror_symmetric(const Tread<2>&, const Matrix&);
+template bool is_mirror_symmetric(const Tread<3>&, const Matrix&);
 template Matrix deviation_from_mean(const RollingProblem<2>&, const RollingSolution<2>&, const Matrix&);
 template Matrix deviation_from_mean(const RollingProblem<3>&, const RollingSolution<3>&, const Matrix&);
 

@@ -11,6 +11,10 @@ namespace wheelwright {
 template <int dim>
 Matrix mean_observations(const RollingProblem<dim>& problem, const RollingSolution<dim>& solution);
 
+/// Whether a mean, of whatever shape, is its own mirror image, up to 1e-8 of its largest entry.
+template <int dim>
+bool is_mirror_symmetric(const Tread<dim>& tread, const Matrix& mean);
+
 /// What is observed less its mean, in the layout of RollingSolution::observations (body frame).
 template <int dim>
 Matrix deviation_from_mean(const RollingProblem<dim>& problem, const RollingSolution<dim>& solution,

@@ -68,7 +68,9 @@ Expected<Evaluation<dim>> differentiate(const RollingProblem<dim>& problem, cons
 template <int dim>
 Expected<Evaluation<dim>> evaluate(const RollingProblem<dim>& problem, const Criteria<dim>& criteria,
                                    const LevelSet<dim>& psi, const Matrix* held_mean) {
-  const auto solution = problem.solve(psi, problem.distinct_positions(psi));
+  const bool compares_images_alike = !held_mean || is_mirror_symmetric(problem.tread(), *held_mean);
+  const auto solution =
+      problem.solve(psi, compares_images_alike ? problem.distinct_positions(psi) : problem.positions());
   if (!solution) return solution.failure();
   return differentiate(problem, criteria, *solution, held_mean);
 }
