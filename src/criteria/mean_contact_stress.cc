@@ -45,7 +45,7 @@ Matrix mean_observations(const RollingProblem<dim>& problem, const RollingSoluti
     }
   }
   if (!positions.stand_for_images()) return mean;
-  mean = sum(std::move(mean), mirrored(problem.tread(), mean));
+  mean = sum(mirrored(problem.tread(), mean), mean);
   for (double& x : mean.entries()) x /= 2;
   return mean;
 }
