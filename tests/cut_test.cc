@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "cut/cell_quadrature.h"
 #include "cut/cut_domain.h"
 #include "cut/measure.h"
 
@@ -46,6 +47,35 @@ TEST(Cut, AreaAndPerimeterOfTheHoles) {
       EXPECT_LT(norm<2>(closed), 1e-6 * perimeter);
     }
   }
+}
+
+// Material below a parabola whose vertex lies outside the unit cell: on the edge there its zeros are close to
+// each other. The area is a sum of two integrals of a polynomial, which the rule knows exactly.
+TEST(Cut, BoundaryThatLeavesTheCellAndComesBackIsIntegratedExactly) {
+  const double curvature = 0.8;
+  for (const double vertex : {0.29, 0.5, 0.86})
+    for (const double half_gap : {0.12, 0.08, 0.03, 0.01}) {
+      const auto height = [&](double x) {
+        return curvature * ((x - vertex) * (x - vertex) - half_gap * half_gap);
+      };
+      const auto area_up_to = [&](double x) {  // from a zero
+        return curvature * (x * x * x / 3 - half_gap * half_gap * x + 2 * std::pow(half_gap, 3) / 3);
+      };
+      const double area = area_up_to(vertex) + area_up_to(1 - vertex);
+      for (const int axis : {0, 1}) {
+        std::vector<double> values;
+        for (int a = 0; a < 9; ++a) {
+          const auto node = local_node_position<2>(2, a);
+          values.push_back(node[1 - axis] / 2.0 - height(node[axis] / 2.0));
+        }
+        CellQuadrature<2> quadrature(2, 4);
+        const auto split = quadrature.split(0, values);
+        ASSERT_TRUE(split);
+        double sum = 0;
+        for (const auto& point : split->material) sum += point.weight;
+        EXPECT_NEAR(sum, area, 1e-12) << vertex << ' ' << half_gap << ' ' << axis;
+      }
+    }
 }
 
 TEST(Cut, IslandsAndNansAreFailures) {

@@ -89,6 +89,16 @@ Vec<dim> to_vec(const dealii::Tensor<1, dim>& x) {
 /// Steeper graphs are integrated too inaccurately.
 constexpr double max_slope = 4;
 
+/// deal.II halves an edge, or a part of it, at most this often to tell two zeros on it apart, and loses both
+/// if that does not: the boundary leaves the box there and comes back. Its default is 2.
+constexpr unsigned max_root_finder_splits = 8;
+
+dealii::NonMatching::AdditionalQGeneratorData generator_options() {
+  dealii::NonMatching::AdditionalQGeneratorData options;
+  options.max_root_finder_splits = max_root_finder_splits;
+  return options;
+}
+
 /// A polynomial in Bernstein form on a box: its coefficients bound it, their differences its derivatives.
 template <int dim>
 class BernsteinForm {
@@ -155,7 +165,7 @@ struct CellQuadrature<dim>::Implementation {
   Implementation(int level_set_degree, int points)
       : degree(level_set_degree),
         rules(dealii::QGauss<1>(points)),
-        generator(rules),
+        generator(rules, generator_options()),
         full_rule(unit_cell_rule<dim>(points)) {}
 
   /// Appends the quadrature of a box. False when the measures of both sides do not add up to the box's.
