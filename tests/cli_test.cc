@@ -247,6 +247,22 @@ TEST_F(CommandLine, VerifyTestsTheGradientOfTheCasesShape) {
   EXPECT_GE(orders, 3);
 }
 
+// Where the rule on cut cells is too coarse for the test, one that is not shows the gradient's order.
+TEST_F(CommandLine, VerifyTellsTheGradientFromTheQuadratureOfCutCells) {
+  std::ofstream(folder() / "coarse.toml") << R"([[holes.ring]]
+count = 16
+center_radius = 0.255
+radius = 0.03
+[grid]
+radial_cells = 7
+angular_cells = 112
+[load]
+positions = 1
+)";
+  const Outcome outcome = wheelwright("verify coarse.toml", folder());
+  EXPECT_EQ(outcome.code, exit_done) << outcome.output;
+}
+
 TEST_F(CommandLine, WithoutTheSolversLibraryItIsFiveButForCommandsThatOnlyRead) {
   const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "wheelwright";
   std::filesystem::copy(program, folder() / "wheelwright");
