@@ -6,6 +6,8 @@
 #include "cut/cell_quadrature.h"
 #include "cut/cut_domain.h"
 #include "cut/measure.h"
+#include "sensitivity/taylor_test.h"
+#include "tests/support.h"
 
 namespace wheelwright {
 namespace {
@@ -75,6 +77,28 @@ TEST(Cut, BoundaryThatLeavesTheCellAndComesBackIsIntegratedExactly) {
         for (const auto& point : split->material) sum += point.weight;
         EXPECT_NEAR(sum, area, 1e-12) << vertex << ' ' << half_gap << ' ' << axis;
       }
+    }
+}
+
+// Three cells across a hole: the rule must be so accurate on either side that the integral over the boundary
+// is the derivative of the sum over the material.
+TEST(Cut, BoundaryIntegralIsTheDerivativeOfTheMeasureOnCoarseGrids) {
+  const PolarGrid<2> grid = testing::paper_model(7, 128).grid;
+  for (const double centre : {0.26, 0.265, 0.27})
+    for (const double radius : {0.0215, 0.0259}) {
+      const auto psi = testing::holes(grid, 2, {{centre, 0.5 * grid.sector_angle(), radius}});
+      const auto direction = testing::smooth_direction(psi.lattice);
+      Evaluation<2> measure{};
+      measure.gradient = boundary_samples(psi);
+      const double derivative = directional_derivative<2>(measure, psi, direction, 2);
+      const auto moved = [&](double t) {
+        LevelSet<2> result = psi;
+        for (size_t i = 0; i < direction.size(); ++i) result.values[i] += t * direction[i];
+        return material_measure(result);
+      };
+      const double step = 1e-6;
+      EXPECT_NEAR((moved(step) - moved(-step)) / (2 * step), derivative, 1e-5 * std::abs(derivative))
+          << centre << ' ' << radius;
     }
 }
 
