@@ -257,7 +257,7 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& p
   std::vector<PhaseTime> phases;
   Stopwatch watch;
 
-  auto domain = cut_domain(psi, model_.cut_points > 0 ? model_.cut_points : model_.degree + 2);
+  auto domain = cut_domain(psi, model_.cut_points.value_or(model_.degree + 2));
   if (!domain) return domain.failure();
   if (auto failure = check_attached(*domain, protected_rim_rows(), protected_tread_rows())) return *failure;
   phases.push_back({"cut", watch.lap()});

@@ -10,8 +10,8 @@ namespace wheelwright {
 template <int dim>
 struct RollingModel {
   PolarGrid<dim> grid;
-  int degree = 2;      ///< of the displacement, 1 or 2
-  int cut_points = 0;  ///< Gauss points a direction on the smooth pieces of cut cells; 0: degree + 2
+  int degree = 2;                 ///< of the displacement, 1 or 2
+  std::optional<int> cut_points;  ///< Gauss points a direction on smooth pieces of cut cells, not degree + 2
   Material material;
   GhostPenalty ghost;
   ContactForm contact;
