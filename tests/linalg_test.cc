@@ -235,13 +235,25 @@ TEST(ColumnBasis, OfZero) {
   EXPECT_EQ(found.coordinates.rows(), 0);
 }
 
-/// A chain of links with random coupling, as one dense matrix.
+/// root root^T + shift.
+Matrix definite_matrix(int n, double shift, unsigned seed) {
+  const Matrix root = random_matrix(n, n, seed);
+  Matrix a = product(root, Op::none, root, Op::transpose);
+  for (int i = 0; i < n; ++i) a(i, i) += shift;
+  return a;
+}
+
+Matrix scaled(double factor, Matrix a) {
+  for (double& x : a.entries()) x *= factor;
+  return a;
+}
+
+/// A chain of links, as one dense matrix too.
 struct Chain {
-  Chain(int n_links_, double coupling) : n_links(n_links_), diagonal(n, n), next(random_matrix(n, n, 5)) {
-    const Matrix root = random_matrix(n, n, 4);
-    multiply(1, root, Op::none, root, Op::transpose, 0, diagonal);
-    for (int i = 0; i < n; ++i) diagonal(i, i) += 2;
-    for (double& x : next.entries()) x *= coupling;
+  Chain(int n_links_, double coupling)
+      : Chain(n_links_, definite_matrix(3, 2, 4), scaled(coupling, random_matrix(3, 3, 5))) {}
+  Chain(int n_links_, Matrix diagonal_, Matrix next_)
+      : n(next_.rows()), n_links(n_links_), diagonal(std::move(diagonal_)), next(std::move(next_)) {
     dense = Matrix(n * n_links, n * n_links);
     for (int c = 0; c < n_links; ++c)
       for (int j = 0; j < n; ++j)
@@ -252,8 +264,7 @@ struct Chain {
           dense(n * after + j, n * c + i) += next(i, j);
         }
   }
-  static constexpr int n = 3;
-  int n_links;
+  int n, n_links;
   Matrix diagonal, next, dense;
 };
 
@@ -272,6 +283,26 @@ TEST(CyclicChain, SolvesAsADenseCholesky) {
       for (size_t k = 0; k < x.entries().size(); ++k)
         EXPECT_NEAR(x.entries()[k], expected.entries()[k], 1e-12);
     }
+}
+
+// What is left of the pivots' changes in the end is rounding, whose size depends on the chain and on the
+// BLAS.
+TEST(CyclicChain, FactorsEveryDefiniteChain) {
+  for (const int n : {1, 2, 5, 12, 30, 60})
+    for (const double strength : {0.5, 0.95, 0.999})
+      for (unsigned seed = 0; seed < 10; ++seed) {
+        const Matrix diagonal = definite_matrix(n, 1e-2, seed);
+        const Chain chain(8, diagonal, scaled(-0.5 * strength, diagonal));
+        const auto factor = CyclicChain::factor(chain.diagonal, chain.next, chain.n_links);
+        ASSERT_TRUE(factor) << n << ' ' << strength << ' ' << seed;
+        const Matrix loads = random_matrix(n, chain.n_links, 6);
+        const Matrix x = factor->solve(loads);
+        Matrix residual(n * chain.n_links, 1), all = residual;
+        std::copy_n(loads.data(), loads.entries().size(), residual.data());
+        std::copy_n(x.data(), x.entries().size(), all.data());
+        multiply(-1, chain.dense, Op::none, all, Op::none, 1, residual);
+        EXPECT_LT(largest_entry(residual), 1e-12 * largest_entry(chain.dense) * largest_entry(x));
+      }
 }
 
 TEST(CyclicChain, RefusesAnIndefiniteChain) {

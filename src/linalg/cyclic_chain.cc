@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/parallel.h"
 
@@ -21,6 +22,9 @@ Failure not_positive_definite() {
 /// Pivots converge with the square of step's spectral radius; a chain that needs more is as good as singular.
 constexpr int most_pivots = 10000;
 
+/// Changes of a pivot that are smaller, as a fraction of the diagonal, are rounding when they no longer fall.
+constexpr double nearly_converged = 1e-12;
+
 /// Powers of step below this are left out.
 constexpr double negligible = 1e-17;
 
@@ -31,6 +35,8 @@ Expected<CyclicChain> CyclicChain::factor(const Matrix& diagonal, const Matrix& 
   CyclicChain chain;
   chain.n_links_ = n_links;
   Matrix pivot = diagonal, coupling;
+  const double largest_rounding = nearly_converged * largest_entry(diagonal);
+  double last_change = std::numeric_limits<double>::infinity();
   for (int k = 0;; ++k) {
     chain.pivot_factor_ = pivot;
     if (k == most_pivots || !cholesky(chain.pivot_factor_)) return not_positive_definite();
@@ -41,7 +47,8 @@ Expected<CyclicChain> CyclicChain::factor(const Matrix& diagonal, const Matrix& 
     double change = 0;
     for (size_t i = 0; i < pivot.entries().size(); ++i)
       change = std::max(change, std::abs(following.entries()[i] - pivot.entries()[i]));
-    if (change <= 1e-16 * largest_entry(diagonal)) break;
+    if (change >= last_change && change <= largest_rounding) break;
+    last_change = change;
     pivot = std::move(following);
   }
   chain.step_ = Matrix(n, n);
