@@ -568,6 +568,18 @@ TEST(Derived, ThePapersWheel) {
   EXPECT_DOUBLE_EQ(rim_band(c), 0.005);
 }
 
+TEST(Derived, TheSmallestHoleOfRingsAndCircles) {
+  Case c;  // cells of 5 by 4.42 mm
+  c.holes = {};
+  EXPECT_EQ(smallest_hole_in_cells(c), std::numeric_limits<double>::infinity());
+  c.holes.rings = {{.count = 16, .center_radius = 0.27, .radius = 0.04, .phase = {}}};
+  EXPECT_NEAR(smallest_hole_in_cells(c), 16, 1e-12);
+  c.holes.circles = {{.center = {0.26, 0.03}, .radius = 0.01}};
+  EXPECT_NEAR(smallest_hole_in_cells(c), 4, 1e-12);
+  c.grid.radial_cells *= 2;
+  EXPECT_NEAR(smallest_hole_in_cells(c), 0.02 * 384 / (2 * std::numbers::pi * 0.27), 1e-12);
+}
+
 TEST(Derived, TheHertzianPressureCarriesTheLoad) {
   Case c;
   c.wheel.outer_radius = 0.5;

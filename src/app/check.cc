@@ -65,6 +65,12 @@ std::vector<std::string> warnings(const Case& c) {
   }
   if (c.holes.rings.empty() && c.holes.circles.empty())
     result.push_back("there are no holes: the shape has no boundary that could move");
+  if (const double cells = smallest_hole_in_cells(c);
+      cells < least_cells_per_hole && c.optimizer.smoothing == 0)
+    result.push_back(
+        fmt::format("the smallest hole is {:.1f} cells wide: its edge may fray into fingers one cell wide; "
+                    "optimizer.smoothing = 0.1 or a finer grid prevents that",
+                    cells));
   if (c.ghost_penalty.kind == GhostPenaltyKind::paper && c.grid.degree == 2)
     result.push_back(
         "ghost_penalty.kind = \"paper\" does not keep the stiffness well conditioned for degree 2: some "

@@ -115,7 +115,7 @@ struct Optimizer {
   double accepted_increase = 1e-4;
   double tolerance = 1e-5;
   int redistance_every = 5;
-  double smoothing = 0.1;  ///< tau of (76) [cells^2]
+  double smoothing = 0;  ///< tau of (76) [cells^2]
   int smooth_every = 5;
   std::optional<double> rim_band;    ///< absent: one radial cell
   std::optional<double> tread_band;  ///< absent: one radial cell more than the annulus

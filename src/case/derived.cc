@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace wheelwright {
@@ -18,6 +19,15 @@ double hertz_peak_pressure(const Case& c) { return 2 * load_per_metre(c) / (pi *
 
 double tread_cell_width(const Case& c) {
   return 2 * pi * c.wheel.outer_radius / c.grid.angular_cells / (1 << c.grid.tread_levels);
+}
+
+double smallest_hole_in_cells(const Case& c) {
+  const double radial = (c.wheel.outer_radius - c.wheel.inner_radius) / c.grid.radial_cells,
+               azimuthal = pi * (c.wheel.outer_radius + c.wheel.inner_radius) / c.grid.angular_cells;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const HoleRing& ring : c.holes.rings) smallest = std::min(smallest, ring.radius);
+  for (const HoleCircle& circle : c.holes.circles) smallest = std::min(smallest, circle.radius);
+  return 2 * smallest / std::max(radial, azimuthal);
 }
 
 double cells_per_contact_patch(const Case& c) { return 2 * hertz_half_width(c) / tread_cell_width(c); }

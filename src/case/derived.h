@@ -28,6 +28,12 @@ double cells_per_contact_patch(const Case& c);
 /// Contact pressures are not resolved with fewer cells per patch.
 inline constexpr double least_cells_per_contact_patch = 6;
 
+/// Diameter of the smallest hole in the longer edges of the cells at mid-ring; infinite without holes.
+double smallest_hole_in_cells(const Case& c);
+
+/// Smaller holes fray in an optimization without smoothing.
+inline constexpr double least_cells_per_hole = 10;
+
 /// 2 pi / N_s [rad].
 double sector_angle(const Case& c);
 

@@ -364,7 +364,7 @@ const Section<Optimizer>& optimizer_section() {
           {.name = "smoothing",
            .unit = "cells^2",
            .field = NumberField<Optimizer>{&Optimizer::smoothing, between(0, 1000)},
-           .meaning = "tau of (76), which keeps small holes from fraying; 0 is none"},
+           .meaning = "tau of (76); 0 is none, with which small holes may fray"},
           {.name = "smooth_every",
            .unit = "shapes",
            .field = IntegerField<Optimizer>{&Optimizer::smooth_every, between(1, 1000000)},
