@@ -18,7 +18,7 @@ inline void restart_single_threaded(char** arguments) {
     setenv(variable, "1", 1);
     restart = true;
   }
-  // As the program does: OpenBLAS 0.3.21 does not know processors that are younger than it is.
+  // As the program does: OpenBLAS may not know processors that are younger than it is.
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
       __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
       !std::getenv("OPENBLAS_CORETYPE")) {

@@ -15,9 +15,9 @@ namespace wheelwright {
 namespace {
 
 /// BLAS gets one thread, whatever the environment says: the program shares work out itself, and sums of BLAS
-/// would be taken in an order that depends on the number of its threads. OpenBLAS 0.3.21 takes processors
-/// that are younger than it is for a Haswell, which costs a third of the speed where there is AVX-512. Read
-/// when the library is loaded.
+/// would be taken in an order that depends on the number of its threads. OpenBLAS may take a processor that
+/// is younger than it is for an older one without AVX-512, whose kernels cost a fifth of the speed: the same
+/// ones on all that have it. Read when the library is loaded.
 void prepare_blas() {
   constexpr int replace = 1, keep = 0;
   for (const char* name : {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "OMP_THREAD_LIMIT"})
