@@ -11,7 +11,7 @@ template <int dim>
 struct RollingModel {
   PolarGrid<dim> grid;
   int degree = 2;                 ///< of the displacement, 1 or 2
-  std::optional<int> cut_points;  ///< Gauss points a direction on smooth pieces of cut cells, not degree + 2
+  std::optional<int> cut_points;  ///< Gauss points a direction in cut cells; absent: degree + 2
   Material material;
   GhostPenalty ghost;
   ContactForm contact;

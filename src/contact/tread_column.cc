@@ -289,6 +289,13 @@ class ColumnAssembly {
     return result;
   }
 
+  /// The images of a cell's points, from those of its rule's.
+  static void append_images(const std::vector<int>& of_rule, const ColumnCell<dim>& cell,
+                            std::vector<int>& images) {
+    const int n = static_cast<int>(of_rule.size()), first = static_cast<int>(images.size());
+    for (const int image : of_rule) images.push_back(first + n * cell.to_image + image);
+  }
+
   /// TreadColumn::mirror_images from those of the points.
   std::vector<int> all_mirror_images() const {
     std::vector<int> images;
@@ -301,9 +308,7 @@ class ColumnAssembly {
 
   void add_contact_face(ColumnCell<dim>& cell) {
     const double gamma = form_.gamma_0 * material_.youngs_modulus / cell.element.diameter();
-    for (const int image : mirror_images(face_rule_, 0))
-      point_images_.push_back(static_cast<int>(column_.points.size() + face_rule_.size() * cell.to_image) +
-                              image);
+    append_images(mirror_images(face_rule_, 0), cell, point_images_);
     for (const auto& q : face_rule_) {
       Vec<dim> xi{}, outward{};
       xi[0] = outward[0] = 1;
@@ -326,9 +331,7 @@ class ColumnAssembly {
   }
 
   void add_annulus(const ColumnCell<dim>& cell) {
-    for (const int image : mirror_images(annulus_rule_, 1))
-      annulus_images_.push_back(
-          static_cast<int>(column_.annulus.size() + annulus_rule_.size() * cell.to_image) + image);
+    append_images(mirror_images(annulus_rule_, 1), cell, annulus_images_);
     for (const auto& q : annulus_rule_) {
       const auto at = cell.element.at(q.xi);
       Vec<dim> radial{at.position[0], at.position[1]};

@@ -1,9 +1,8 @@
 #include "criteria/mean_contact_stress.h"
 
+#include <cmath>
 #include <numbers>
 #include <numeric>
-
-#include "geometry/mirror.h"
 
 namespace wheelwright {
 
@@ -13,16 +12,19 @@ namespace {
 template <int dim>
 Matrix mirrored(const Tread<dim>& tread, const Matrix& observations) {
   const TreadColumn<dim>& column = tread.column();
+  // A column's image is seen in the frame of the one before its own: the reflection, turned by a column.
   const double column_angle = 2 * std::numbers::pi / tread.n_columns();
+  const double cosine = std::cos(column_angle), sine = std::sin(column_angle);
   auto image = Matrix::unfilled(observations.rows(), observations.columns());
   for (int g = 0; g < image.columns(); ++g) {
     const double* from = observations.column(image.columns() - 1 - g);
     double* to = image.column(g);
     for (size_t k = 0; k < column.mirror_images.size(); ++k) {
-      Vec<dim> v;
-      std::copy_n(from + dim * column.mirror_images[k], dim, v.begin());
-      v = rotated<dim>(mirror_image<dim>(v), column_angle);
-      std::copy_n(v.begin(), dim, to + dim * k);
+      const double* v = from + dim * column.mirror_images[k];
+      double* reflected = to + dim * k;
+      reflected[0] = cosine * v[0] + sine * v[1];
+      reflected[1] = sine * v[0] - cosine * v[1];
+      std::copy(v + 2, v + dim, reflected + 2);
     }
   }
   return image;

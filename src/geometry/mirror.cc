@@ -1,5 +1,7 @@
 #include "geometry/mirror.h"
 
+#include <cmath>
+
 namespace wheelwright {
 namespace {
 

@@ -2,7 +2,6 @@
 
 #include <span>
 
-#include "geometry/cell_map.h"
 #include "geometry/level_set.h"
 
 namespace wheelwright {
