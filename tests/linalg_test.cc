@@ -20,7 +20,8 @@ Matrix random_matrix(int rows, int columns, unsigned seed) {
   return a;
 }
 
-double largest_difference(const Matrix& a, const Matrix& b) {
+template <class Scalar>
+double largest_difference(const DenseMatrix<Scalar>& a, const DenseMatrix<Scalar>& b) {
   double largest = 0;
   for (size_t k = 0; k < a.entries().size(); ++k)
     largest = std::max(largest, std::abs(a.entries()[k] - b.entries()[k]));
@@ -129,13 +130,6 @@ ComplexMatrix random_complex(int rows, int columns, unsigned seed) {
   for (size_t k = 0; k < a.entries().size(); ++k)
     a.entries()[k] = {real.entries()[k], imaginary.entries()[k]};
   return a;
-}
-
-double largest_difference(const ComplexMatrix& a, const ComplexMatrix& b) {
-  double largest = 0;
-  for (size_t k = 0; k < a.entries().size(); ++k)
-    largest = std::max(largest, std::abs(a.entries()[k] - b.entries()[k]));
-  return largest;
 }
 
 ComplexMatrix product(const ComplexMatrix& a, Op op_a, const ComplexMatrix& b) {

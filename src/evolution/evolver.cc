@@ -20,12 +20,6 @@ double largest_magnitude(std::span<const double> values) {
   return largest;
 }
 
-/// A stage's result: symmetric, not only to what the stage leaves of it, if all that it was made of is.
-template <int dim>
-LevelSet<dim> as_symmetric(bool made_of_symmetric, LevelSet<dim> psi) {
-  return made_of_symmetric ? mirror_symmetric_part(psi) : psi;
-}
-
 }  // namespace
 
 template <int dim>
@@ -61,11 +55,14 @@ Expected<std::vector<double>> Evolver<dim>::measure_preserving_velocity(
   });
 }
 
-/// What a stage made of a shape, on the cell scale and cut off at the bands: which would hide an infinity.
+/// What a stage made of a shape, on the cell scale, its own mirror image if all that it was made of is, and
+/// cut off at the bands: which would hide an infinity.
 template <int dim>
-Expected<LevelSet<dim>> Evolver<dim>::kept(const LevelSet<dim>& psi, const char* what) const {
+Expected<LevelSet<dim>> Evolver<dim>::kept(const LevelSet<dim>& psi, bool is_symmetric,
+                                           const char* what) const {
   if (auto failure = check_finite<dim>(lattice_, psi.values, what)) return *failure;
-  return bands_.keep(on_cell_scale(psi));
+  LevelSet<dim> on_scale = on_cell_scale(psi);
+  return bands_.keep(is_symmetric ? mirror_symmetric_part(on_scale) : std::move(on_scale));
 }
 
 template <int dim>
@@ -77,8 +74,7 @@ Expected<LevelSet<dim>> Evolver<dim>::move(const LevelSet<dim>& psi, std::span<c
   const bool is_symmetric =
       is_mirror_symmetric(psi) &&
       is_mirror_symmetric<dim>(psi.lattice, velocity, 1e-9 * largest_magnitude(velocity));
-  return kept(as_symmetric(is_symmetric, transport<dim>(psi, velocity, time)),
-              "the level set after transport");
+  return kept(transport<dim>(psi, velocity, time), is_symmetric, "the level set after transport");
 }
 
 template <int dim>
@@ -92,14 +88,14 @@ double Evolver<dim>::first_order_change(std::span<const SurfaceSample<dim>> grad
 template <int dim>
 Expected<LevelSet<dim>> Evolver<dim>::redistance(const LevelSet<dim>& psi) const {
   if (auto failure = check_finite<dim>(psi.lattice, psi.values, "the level set")) return *failure;
-  return kept(as_symmetric(is_mirror_symmetric(psi), wheelwright::redistance<dim>(psi)),
+  return kept(wheelwright::redistance<dim>(psi), is_mirror_symmetric(psi),
               "the level set after redistancing");
 }
 
 template <int dim>
 Expected<LevelSet<dim>> Evolver<dim>::smooth(const LevelSet<dim>& psi) const {
   if (!smoother_) return psi;
-  return kept(as_symmetric(is_mirror_symmetric(psi), (*smoother_)(psi)), "the level set after smoothing");
+  return kept((*smoother_)(psi), is_mirror_symmetric(psi), "the level set after smoothing");
 }
 
 template <int dim>

@@ -57,7 +57,7 @@ class Evolver {
   Expected<std::vector<double>> movable_velocity(std::span<const SurfaceSample<dim>> gradient,
                                                  Extend extend) const;
 
-  Expected<LevelSet<dim>> kept(const LevelSet<dim>& psi, const char* what) const;
+  Expected<LevelSet<dim>> kept(const LevelSet<dim>& psi, bool is_symmetric, const char* what) const;
 
   Lattice<dim> lattice_;
   ProtectedBands<dim> bands_;

@@ -6,8 +6,8 @@
 
 namespace wheelwright {
 
-/// Mirror images in the plane of azimuth 0. A shape with sectors that is its own mirror image there is so in
-/// every sector's middle plane too: a sector's cells and nodes have theirs in the same sector.
+// Mirror images in the plane of azimuth 0. A shape with sectors that is its own mirror image there is so in
+// every sector's middle plane too: a sector's cells and nodes have theirs in the same sector.
 
 /// Whether values at the lattice's nodes are their own mirror image. False if one is NaN.
 template <int dim>
@@ -21,6 +21,7 @@ bool is_mirror_symmetric(const LevelSet<dim>& psi);
 template <int dim>
 LevelSet<dim> mirror_symmetric_part(const LevelSet<dim>& psi);
 
+/// The number of the cell where a cell of the sector's grid has its image.
 template <int dim>
 int mirror_image(const PolarGrid<dim>& grid, int cell) {
   auto position = grid.cell_position(cell);
@@ -28,7 +29,7 @@ int mirror_image(const PolarGrid<dim>& grid, int cell) {
   return grid.cell_index(position);
 }
 
-/// A vector of polar or Cartesian components, or a direction in the unit cell.
+/// The image of a vector, given by polar or Cartesian components, or of a direction in the unit cell.
 template <int dim>
 Vec<dim> mirror_image(Vec<dim> v) {
   v[1] = -v[1];

@@ -144,7 +144,7 @@ std::vector<ContactPoint> contact_points(const RollingProblem<2>& problem, const
   const int n_columns = problem.model().grid.ring_columns();
   const int per_column = static_cast<int>(problem.tread().points().size());
   std::vector<ContactPoint> result;
-  for (int position = 0; position < problem.model().n_positions; ++position) {
+  for (int position = 0; position < s.positions.size(); ++position) {
     const auto& contact = s.contacts[position];
     const auto& state = s.states[position];
     for (int i = 0; i < contact.n_points(); ++i) {

@@ -125,7 +125,7 @@ void RunFolder::write_result(const RollingProblem<2>& problem, const InitialShap
   write_pressures(problem, *solution, "final");
   make_folder(folder_ / "rolling");
   std::vector<PvdEntry> positions;
-  for (int i = 0; i < problem.model().n_positions; ++i) {
+  for (int i = 0; i < solution->positions.size(); ++i) {
     const std::string file = fmt::format("rolling/position_{:02d}.vtu", i);
     write_vtu(folder_ / file, final_state.shape, displacement_lattice(problem),
               position_fields(problem, *solution, i), cut_subdivisions);
