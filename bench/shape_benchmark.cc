@@ -8,10 +8,10 @@
 #include <numeric>
 #include <optional>
 
-#include "base/parallel.h"
-#include "base/stopwatch.h"
-#include "cut/measure.h"
-#include "evolution/evolver.h"
+#include "wheelwright/base/parallel.h"
+#include "wheelwright/base/stopwatch.h"
+#include "wheelwright/cut/measure.h"
+#include "wheelwright/evolution/evolver.h"
 #include "single_thread.h"
 #include "summary.h"
 #include "tests/support.h"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "base/parallel.h"
+#include "wheelwright/base/parallel.h"
 #include "single_thread.h"
 #include "tests/support.h"
 #include "unavoidable_work.h"

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "contact/rolling_problem.h"
+#include "wheelwright/rolling/rolling_problem.h"
 
 namespace wheelwright::bench {
 

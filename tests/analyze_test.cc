@@ -4,10 +4,10 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "criteria/rolling_analysis.h"
-#include "criteria/stress_peak.h"
-#include "output/rolling_report.h"
-#include "output/solution_fields.h"
+#include "wheelwright/analysis/rolling_analysis.h"
+#include "wheelwright/analysis/stress_peak.h"
+#include "wheelwright/report/rolling_report.h"
+#include "wheelwright/report/solution_fields.h"
 #include "tests/support.h"
 
 namespace wheelwright {

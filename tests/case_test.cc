@@ -1,4 +1,4 @@
-#include "case/case.h"
+#include "wheelwright/case/case.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -13,14 +13,14 @@
 #include <sstream>
 #include <tuple>
 
-#include "case/conflicts.h"
-#include "case/derived.h"
-#include "case/keys.h"
-#include "case/number_text.h"
-#include "case/read.h"
-#include "case/suggest.h"
-#include "case/toml_guard.h"
-#include "case/write.h"
+#include "wheelwright/case/conflicts.h"
+#include "wheelwright/case/derived.h"
+#include "wheelwright/case/keys.h"
+#include "wheelwright/case/number_text.h"
+#include "wheelwright/case/read.h"
+#include "wheelwright/case/suggest.h"
+#include "wheelwright/case/toml_guard.h"
+#include "wheelwright/case/write.h"
 
 namespace wheelwright {
 namespace {

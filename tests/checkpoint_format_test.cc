@@ -4,8 +4,8 @@
 #include <limits>
 #include <random>
 
-#include "output/checkpoint.h"
-#include "output/level_set_file.h"
+#include "wheelwright/run/checkpoint.h"
+#include "wheelwright/files/level_set_file.h"
 #include "tests/checkpoint_sample.h"
 
 namespace wheelwright {

@@ -4,7 +4,7 @@
 #include <limits>
 #include <random>
 
-#include "output/checkpoint.h"
+#include "wheelwright/run/checkpoint.h"
 
 /// A checkpoint with every part filled, for tests of its format.
 namespace wheelwright::testing {

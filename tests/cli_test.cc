@@ -13,12 +13,12 @@
 #include <sstream>
 #include <string>
 
-#include "app/commands/commands.h"
-#include "app/exit_code.h"
-#include "case/derived.h"
-#include "case/read.h"
-#include "geometry/topology.h"
-#include "output/level_set_file.h"
+#include "wheelwright/app/commands/commands.h"
+#include "wheelwright/app/exit_code.h"
+#include "wheelwright/case/derived.h"
+#include "wheelwright/case/read.h"
+#include "wheelwright/geometry/topology.h"
+#include "wheelwright/files/level_set_file.h"
 #include "tests/run_support.h"
 
 namespace wheelwright::testing {

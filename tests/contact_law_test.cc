@@ -1,4 +1,4 @@
-#include "contact/contact_law.h"
+#include "wheelwright/contact/contact_law.h"
 
 #include <gtest/gtest.h>
 

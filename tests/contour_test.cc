@@ -1,11 +1,11 @@
-#include "geometry/contour.h"
+#include "wheelwright/geometry/contour.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "geometry/cell_map.h"
+#include "wheelwright/geometry/cell_map.h"
 
 namespace wheelwright {
 namespace {

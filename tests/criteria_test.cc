@@ -2,12 +2,12 @@
 
 #include <numeric>
 
-#include "criteria/mean_contact_stress.h"
-#include "criteria/strain_energy.h"
-#include "criteria/uniformity_annulus.h"
-#include "criteria/uniformity_dual.h"
-#include "criteria/uniformity_l2.h"
-#include "sensitivity/taylor_test.h"
+#include "wheelwright/functionals/mean_contact_stress.h"
+#include "wheelwright/functionals/strain_energy.h"
+#include "wheelwright/functionals/uniformity_annulus.h"
+#include "wheelwright/functionals/uniformity_dual.h"
+#include "wheelwright/functionals/uniformity_l2.h"
+#include "wheelwright/sensitivity/taylor_test.h"
 #include "tests/support.h"
 
 namespace wheelwright {

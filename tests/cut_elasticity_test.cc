@@ -6,8 +6,8 @@
 #include <numeric>
 #include <random>
 
-#include "elasticity/sector_stiffness.h"
-#include "linalg/sparse_spd.h"
+#include "wheelwright/elasticity/sector_stiffness.h"
+#include "wheelwright/linalg/sparse_spd.h"
 
 extern "C" void dsyev_(const char*, const char*, const int*, double*, const int*, double*, double*,
                        const int*, int*);

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "cut/cell_quadrature.h"
-#include "cut/cut_domain.h"
-#include "cut/measure.h"
-#include "sensitivity/taylor_test.h"
+#include "wheelwright/cut/cell_quadrature.h"
+#include "wheelwright/cut/cut_domain.h"
+#include "wheelwright/cut/measure.h"
+#include "wheelwright/sensitivity/taylor_test.h"
 #include "tests/support.h"
 
 namespace wheelwright {

@@ -6,8 +6,8 @@
 #include <numeric>
 #include <random>
 
-#include "cyclic/nested_dissection.h"
-#include "linalg/sparse_spd.h"
+#include "wheelwright/ring/nested_dissection.h"
+#include "wheelwright/linalg/sparse_spd.h"
 #include "tests/support.h"
 
 namespace wheelwright {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <numbers>
 
-#include "elasticity/element.h"
+#include "wheelwright/elasticity/element.h"
 
 namespace wheelwright {
 namespace {

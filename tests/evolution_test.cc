@@ -3,17 +3,17 @@
 #include <numeric>
 #include <random>
 
-#include "cut/cut_domain.h"
-#include "cut/measure.h"
-#include "evolution/cell_scale.h"
-#include "evolution/closest_point.h"
-#include "evolution/evolver.h"
-#include "evolution/multilinear.h"
-#include "evolution/redistance.h"
-#include "evolution/seeds.h"
-#include "evolution/transport.h"
-#include "evolution/volume.h"
-#include "geometry/shapes.h"
+#include "wheelwright/cut/cut_domain.h"
+#include "wheelwright/cut/measure.h"
+#include "wheelwright/evolution/cell_scale.h"
+#include "wheelwright/evolution/closest_point.h"
+#include "wheelwright/evolution/evolver.h"
+#include "wheelwright/evolution/multilinear.h"
+#include "wheelwright/evolution/redistance.h"
+#include "wheelwright/evolution/seeds.h"
+#include "wheelwright/evolution/transport.h"
+#include "wheelwright/evolution/volume.h"
+#include "wheelwright/geometry/shapes.h"
 
 using namespace wheelwright;
 

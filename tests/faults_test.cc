@@ -2,9 +2,9 @@
 
 #include <limits>
 
-#include "cut/measure.h"
-#include "geometry/shapes.h"
-#include "optimize/optimizer.h"
+#include "wheelwright/cut/measure.h"
+#include "wheelwright/geometry/shapes.h"
+#include "wheelwright/optimize/optimizer.h"
 
 using namespace wheelwright;
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "sensitivity/adjoint.h"
-#include "sensitivity/taylor_test.h"
+#include "wheelwright/rolling/adjoint.h"
+#include "wheelwright/sensitivity/taylor_test.h"
 #include "tests/support.h"
 
 namespace wheelwright {

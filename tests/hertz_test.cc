@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "contact/contact_solver.h"
+#include "wheelwright/contact/contact_solver.h"
 #include "tests/support.h"
 
 namespace wheelwright {

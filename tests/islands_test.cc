@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "app/commands/model.h"
-#include "cut/measure.h"
-#include "evolution/evolver.h"
-#include "geometry/shapes.h"
+#include "wheelwright/run/model.h"
+#include "wheelwright/cut/measure.h"
+#include "wheelwright/evolution/evolver.h"
+#include "wheelwright/geometry/shapes.h"
 
 using namespace wheelwright;
 

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/exit_code.h"
+#include "wheelwright/app/exit_code.h"
 #include "tests/run_support.h"
 
 // What a run takes from its surroundings, and what it leaves there: it writes into its folder alone, shows a

@@ -4,10 +4,10 @@
 #include <limits>
 #include <random>
 
-#include "linalg/column_basis.h"
-#include "linalg/cyclic_chain.h"
-#include "linalg/partial_cholesky.h"
-#include "linalg/two_block_cholesky.h"
+#include "wheelwright/linalg/column_basis.h"
+#include "wheelwright/linalg/cyclic_chain.h"
+#include "wheelwright/linalg/partial_cholesky.h"
+#include "wheelwright/linalg/two_block_cholesky.h"
 
 namespace wheelwright {
 namespace {

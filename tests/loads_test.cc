@@ -4,8 +4,8 @@
 #include <numbers>
 #include <random>
 
-#include "cut/measure.h"
-#include "sensitivity/taylor_test.h"
+#include "wheelwright/cut/measure.h"
+#include "wheelwright/sensitivity/taylor_test.h"
 #include "tests/support.h"
 
 namespace wheelwright {

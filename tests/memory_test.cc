@@ -1,4 +1,4 @@
-#include "app/memory.h"
+#include "wheelwright/app/memory.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-#include "case/derived.h"
+#include "wheelwright/case/derived.h"
 
 namespace wheelwright {
 namespace {

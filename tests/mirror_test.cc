@@ -1,15 +1,15 @@
-#include "geometry/mirror.h"
+#include "wheelwright/geometry/mirror.h"
 
 #include <gtest/gtest.h>
 
 #include <numeric>
 
-#include "criteria/mean_contact_stress.h"
-#include "criteria/uniformity_annulus.h"
-#include "criteria/uniformity_dual.h"
-#include "criteria/uniformity_l2.h"
-#include "evolution/evolver.h"
-#include "geometry/shapes.h"
+#include "wheelwright/functionals/mean_contact_stress.h"
+#include "wheelwright/functionals/uniformity_annulus.h"
+#include "wheelwright/functionals/uniformity_dual.h"
+#include "wheelwright/functionals/uniformity_l2.h"
+#include "wheelwright/evolution/evolver.h"
+#include "wheelwright/geometry/shapes.h"
 #include "tests/support.h"
 
 namespace wheelwright {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "contact/contact_solver.h"
+#include "wheelwright/contact/contact_solver.h"
 #include "tests/support.h"
 
 namespace wheelwright {

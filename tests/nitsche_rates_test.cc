@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "output/solution_fields.h"
+#include "wheelwright/report/solution_fields.h"
 #include "tests/support.h"
 
 namespace wheelwright {

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "cut/measure.h"
-#include "geometry/cell_map.h"
-#include "geometry/shapes.h"
-#include "optimize/optimizer.h"
+#include "wheelwright/cut/measure.h"
+#include "wheelwright/geometry/cell_map.h"
+#include "wheelwright/geometry/shapes.h"
+#include "wheelwright/optimize/optimizer.h"
 
 using namespace wheelwright;
 

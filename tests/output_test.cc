@@ -12,20 +12,20 @@
 #include <regex>
 #include <sstream>
 
-#include "geometry/contour.h"
-#include "output/atomic_file.h"
-#include "output/colour_map.h"
-#include "output/csv.h"
-#include "output/deformed_svg.h"
-#include "output/history.h"
-#include "output/mesh_svg.h"
-#include "output/outline.h"
-#include "output/output_error.h"
-#include "output/pressure_csv.h"
-#include "output/progress.h"
-#include "output/solution_fields.h"
-#include "output/svg.h"
-#include "output/vtu.h"
+#include "wheelwright/geometry/contour.h"
+#include "wheelwright/files/atomic_file.h"
+#include "wheelwright/report/colour_map.h"
+#include "wheelwright/files/csv.h"
+#include "wheelwright/report/deformed_svg.h"
+#include "wheelwright/run/history.h"
+#include "wheelwright/report/mesh_svg.h"
+#include "wheelwright/report/outline.h"
+#include "wheelwright/files/output_error.h"
+#include "wheelwright/report/pressure_csv.h"
+#include "wheelwright/app/progress.h"
+#include "wheelwright/report/solution_fields.h"
+#include "wheelwright/report/svg.h"
+#include "wheelwright/report/vtu.h"
 
 namespace wheelwright {
 namespace {

@@ -79,7 +79,7 @@ TEST(MethodPage, EveryFileExistsAndHoldsTheNamesThatFollowIt) {
   int checked = 0;
   for (const auto& match : matches(text, place)) {
     const std::string path = match[1], names = match[2];
-    const auto file = source / (path.find('/') == std::string::npos ? "tests" : "src") / path;
+    const auto file = source / (path.find('/') == std::string::npos ? "tests" : "src/wheelwright") / path;
     EXPECT_TRUE(std::filesystem::exists(file)) << file;
     const std::string code = contents(file);
     for (const auto& found : matches(names, name)) {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "app/commands/expectations.h"
-#include "case/read.h"
-#include "case/shorten.h"
+#include "wheelwright/run/expectations.h"
+#include "wheelwright/case/read.h"
+#include "wheelwright/case/shorten.h"
 
 namespace wheelwright {
 namespace {

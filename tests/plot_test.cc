@@ -6,8 +6,8 @@
 #include <random>
 #include <regex>
 
-#include "output/plot_svg.h"
-#include "output/pressure_plot.h"
+#include "wheelwright/report/plot_svg.h"
+#include "wheelwright/report/pressure_plot.h"
 
 namespace wheelwright {
 namespace {

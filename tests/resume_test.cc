@@ -1,13 +1,13 @@
-#include "app/commands/resume.h"
+#include "wheelwright/app/commands/resume.h"
 
 #include <csignal>
 
-#include "app/commands/run.h"
-#include "app/exit_code.h"
-#include "case/read.h"
-#include "output/checkpoint.h"
-#include "output/checkpoint_folder.h"
-#include "output/folder_lock.h"
+#include "wheelwright/app/commands/run.h"
+#include "wheelwright/app/exit_code.h"
+#include "wheelwright/case/read.h"
+#include "wheelwright/run/checkpoint.h"
+#include "wheelwright/run/checkpoint_folder.h"
+#include "wheelwright/run/folder_lock.h"
 #include "tests/run_support.h"
 
 namespace wheelwright::testing {

@@ -5,7 +5,7 @@
 #include <random>
 #include <string>
 
-#include "cut/cell_quadrature.h"
+#include "wheelwright/cut/cell_quadrature.h"
 #include "tests/support.h"
 
 namespace wheelwright {

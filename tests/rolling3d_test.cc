@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "criteria/strain_energy.h"
-#include "geometry/shapes.h"
-#include "sensitivity/evaluate.h"
-#include "sensitivity/taylor_test.h"
+#include "wheelwright/functionals/strain_energy.h"
+#include "wheelwright/geometry/shapes.h"
+#include "wheelwright/sensitivity/evaluate.h"
+#include "wheelwright/sensitivity/taylor_test.h"
 
 namespace wheelwright {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/parallel.h"
-#include "sensitivity/taylor_test.h"
+#include "wheelwright/base/parallel.h"
+#include "wheelwright/sensitivity/taylor_test.h"
 #include "tests/support.h"
 
 namespace wheelwright {

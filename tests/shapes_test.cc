@@ -1,4 +1,4 @@
-#include "geometry/shapes.h"
+#include "wheelwright/geometry/shapes.h"
 
 #include <gtest/gtest.h>
 

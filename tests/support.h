@@ -3,9 +3,9 @@
 #include <cmath>
 #include <vector>
 
-#include "criteria/strain_energy.h"
-#include "sensitivity/evaluate.h"
-#include "sensitivity/taylor_test.h"
+#include "wheelwright/functionals/strain_energy.h"
+#include "wheelwright/sensitivity/evaluate.h"
+#include "wheelwright/sensitivity/taylor_test.h"
 
 /// Shapes and models that the tests share.
 namespace wheelwright::testing {

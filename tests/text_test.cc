@@ -1,10 +1,10 @@
-#include "base/text.h"
+#include "wheelwright/base/text.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "output/svg.h"
+#include "wheelwright/report/svg.h"
 
 namespace wheelwright {
 namespace {

@@ -1,11 +1,11 @@
-#include "geometry/topology.h"
+#include "wheelwright/geometry/topology.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-#include "geometry/contour.h"
+#include "wheelwright/geometry/contour.h"
 #include "tests/support.h"
 
 namespace wheelwright {

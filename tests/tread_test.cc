@@ -3,7 +3,7 @@
 #include <numeric>
 #include <random>
 
-#include "contact/tread_ring.h"
+#include "wheelwright/ring/tread_ring.h"
 #include "tests/support.h"
 
 namespace wheelwright {

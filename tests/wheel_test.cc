@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "app/commands/model.h"
-#include "case/read.h"
+#include "wheelwright/run/model.h"
+#include "wheelwright/case/read.h"
 
 namespace wheelwright {
 namespace {

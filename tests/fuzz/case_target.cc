@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/check.h"
-#include "base/text.h"
-#include "case/derived.h"
-#include "case/keys.h"
-#include "case/read.h"
-#include "case/write.h"
+#include "wheelwright/app/check.h"
+#include "wheelwright/base/text.h"
+#include "wheelwright/case/derived.h"
+#include "wheelwright/case/keys.h"
+#include "wheelwright/case/read.h"
+#include "wheelwright/case/write.h"
 #include "tests/fuzz/target.h"
 
 using namespace wheelwright;

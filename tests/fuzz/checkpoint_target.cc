@@ -1,9 +1,9 @@
 #include <algorithm>
 
-#include "output/checkpoint.h"
-#include "output/checksum.h"
-#include "output/level_set_file.h"
-#include "output/little_endian.h"
+#include "wheelwright/run/checkpoint.h"
+#include "wheelwright/files/checksum.h"
+#include "wheelwright/files/level_set_file.h"
+#include "wheelwright/files/little_endian.h"
 #include "tests/checkpoint_sample.h"
 #include "tests/fuzz/target.h"
 

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "wheelwright/rolling/rolling_problem.h"
+#include "wheelwright/analysis/rolling_measures.h"
+
+namespace wheelwright {
+
+/// What the model holds at every load position.
+enum class Held { load, travel };
+
+/// The load positions of one sector under the model's load or travel, and what varies with them at a fixed
+/// load and at a fixed travel. Forces are per metre of width when dim = 2.
+struct RollingAnalysis {
+  Held held;
+  std::vector<double> azimuths;           ///< of the ground positions, body frame [rad]
+  std::vector<ContactSummary> positions;  ///< under the model's load or travel
+  std::vector<double> strain_energy;      ///< J_e [J/m]
+  std::vector<double> peak_von_mises;     ///< [Pa]
+
+  double load;                          ///< the model's, or the mean of the forces at its travel
+  double travel;                        ///< the model's, or the mean of the travels under its load
+  std::vector<double> travel_at_load;   ///< the loaded radius runs out by them
+  std::vector<double> force_at_travel;  ///< radial force
+};
+
+/// Fails as the contact problem does.
+template <int dim>
+Expected<RollingAnalysis> rolling_analysis(const RollingProblem<dim>& problem,
+                                           const RollingSolution<dim>& solution);
+
+/// All positions under other loads, each started from the load before: [load][position].
+template <int dim>
+Expected<std::vector<std::vector<ContactSummary>>> under_loads(const RollingProblem<dim>& problem,
+                                                               const RollingSolution<dim>& solution,
+                                                               std::span<const double> loads);
+
+}  // namespace wheelwright

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "wheelwright/contact/reduced_contact.h"
+
+namespace wheelwright {
+
+/// One load position as seen from the rim and the ground. Forces are per metre of width when dim = 2.
+struct ContactSummary {
+  double travel;         ///< of the rim towards the ground [m]
+  double radial_force;   ///< of the ground on the tread [N/m]
+  double peak_pressure;  ///< largest contact pressure at the quadrature points [Pa]
+  double patch_length;   ///< from the first to the last point in contact, along the ground [m]
+};
+
+/// The patch ends where the augmented traction between the last point in contact and the next one is zero,
+/// interpolated linearly.
+template <int dim>
+ContactSummary contact_summary(const ReducedContact<dim>& contact, const ContactState<dim>& state);
+
+/// How a quantity varies while the wheel rolls.
+struct RollingVariation {
+  double mean, least, greatest;
+  std::vector<double> harmonics;  ///< amplitudes of N_s, 2 N_s, ... waves a revolution
+
+  double peak_to_peak() const { return greatest - least; }
+};
+
+/// From values at N load positions that divide one sector evenly: the harmonics below N / 2 are those that
+/// they tell apart.
+RollingVariation rolling_variation(std::span<const double> values);
+
+/// The evenness of rolling in single numbers.
+struct RollingMeasures {
+  double mean_travel;      ///< [m]
+  double run_out;          ///< peak to peak of the travel at fixed load [m]
+  double peak_pressure;    ///< greatest over the positions [Pa]
+  double pressure_spread;  ///< of the positions' peaks: greatest less least, over their mean
+};
+
+RollingMeasures rolling_measures(std::span<const ContactSummary> positions);
+
+}  // namespace wheelwright

@@ -1,0 +1,90 @@
+#include "wheelwright/app/check.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "wheelwright/case/derived.h"
+
+namespace wheelwright {
+
+namespace {
+
+std::string line(std::string_view name, std::string_view value) {
+  return fmt::format("  {:<22}{}\n", name, value);
+}
+
+std::string load_report(const Case& c) {
+  const std::string load = c.load.travel
+                               ? line("rim travel", fmt::format("{:.6g} mm", *c.load.travel * 1e3))
+                               : line("load", fmt::format("{:.6g} N on {:.6g} m = {:.6g} N/m", c.load.force,
+                                                          c.wheel.width, load_per_metre(c)));
+  return load + line("load positions", fmt::format("{} a sector, {} round the wheel", c.load.positions,
+                                                   total_load_positions(c)));
+}
+
+std::string material_report(const Case& c) {
+  return line("lambda", fmt::format("{:.6g} MPa", c.material.lambda() / 1e6)) +
+         line("mu", fmt::format("{:.6g} MPa", c.material.mu() / 1e6)) +
+         line("E / (1 - nu^2)", fmt::format("{:.6g} MPa", c.material.plane_strain_modulus() / 1e6));
+}
+
+/// Estimates for a given load.
+std::string contact_report(const Case& c) {
+  if (c.load.travel) return "";
+  return line("Hertz half-width", fmt::format("{:.4g} mm", hertz_half_width(c) * 1e3)) +
+         line("Hertz peak pressure", fmt::format("{:.4g} MPa", hertz_peak_pressure(c) / 1e6)) +
+         line("cells in the contact",
+              fmt::format("{:.1f} of {:.4g} mm", cells_per_contact_patch(c), tread_cell_width(c) * 1e3));
+}
+
+std::string size_report(const Case& c) {
+  return line("sector", fmt::format("{:.6g} deg, {} x {} cells", sector_angle(c) * 180 / std::numbers::pi,
+                                    c.grid.radial_cells, c.grid.angular_cells / c.wheel.sectors)) +
+         line("unknowns", fmt::format("at most {}, {} of them in a sector", dof_bound(c),
+                                      dof_bound(c) / c.wheel.sectors)) +
+         line("memory", fmt::format("about {:.0f} MB", std::ceil(estimated_memory(c) / 1e6)));
+}
+
+}  // namespace
+
+std::string derived_report(const Case& c) {
+  return load_report(c) + material_report(c) + contact_report(c) + size_report(c);
+}
+
+std::vector<std::string> warnings(const Case& c) {
+  std::vector<std::string> result;
+  if (const double cells = cells_per_contact_patch(c);
+      !c.load.travel && cells < least_cells_per_contact_patch) {
+    const int more = static_cast<int>(std::ceil(std::log2(least_cells_per_contact_patch / cells)));
+    result.push_back(fmt::format(
+        "the contact patch is {:.1f} cells wide: energies are good to about a percent, pressures are "
+        "not; grid.tread_levels = {} makes it {:.1f} cells",
+        cells, c.grid.tread_levels + more, cells * (1 << more)));
+  }
+  if (c.holes.rings.empty() && c.holes.circles.empty())
+    result.push_back("there are no holes: the shape has no boundary that could move");
+  if (const double cells = smallest_hole_in_cells(c);
+      cells < least_cells_per_hole && c.optimizer.smoothing == 0)
+    result.push_back(
+        fmt::format("the smallest hole is {:.1f} cells wide: its edge may fray into fingers one cell wide; "
+                    "optimizer.smoothing = 0.1 or a finer grid prevents that",
+                    cells));
+  if (c.ghost_penalty.kind == GhostPenaltyKind::paper && c.grid.degree == 2)
+    result.push_back(
+        "ghost_penalty.kind = \"paper\" does not keep the stiffness well conditioned for degree 2: some "
+        "shapes will "
+        "fail; \"full\" is safe");
+  if (c.ghost_penalty.xi == 0)
+    result.push_back("ghost_penalty.xi = 0: slivers of cut cells will spoil the solution");
+  if (c.optimizer.velocity == VelocityKind::harmonic && c.optimizer.smoothing == 0)
+    result.push_back(
+        "optimizer.velocity = \"harmonic\" without optimizer.smoothing lets fingers of one cell's width "
+        "grow; smoothing = 0.3 with smooth_every = 1, or velocity = \"h1\", prevents them");
+  if (c.volume.control == VolumeControl::paper)
+    result.push_back("volume.control = \"paper\" lets the volume drift; \"exact\" holds it");
+  return result;
+}
+
+}  // namespace wheelwright

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "wheelwright/case/case.h"
+
+namespace wheelwright {
+
+/// The numbers that follow from a case, one a line.
+std::string derived_report(const Case& c);
+
+/// What is allowed but doubtful about a case.
+std::vector<std::string> warnings(const Case& c);
+
+}  // namespace wheelwright

@@ -1,0 +1,96 @@
+#include "wheelwright/app/memory.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <string_view>
+
+#include "wheelwright/case/derived.h"
+
+namespace wheelwright {
+namespace {
+
+using Path = std::filesystem::path;
+
+/// The names of a control group's files, which hold bytes.
+struct GroupFiles {
+  const char *limit, *used, *reclaimable_name;  ///< the last is a line of memory.stat
+};
+constexpr GroupFiles version_1{"memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file"};
+constexpr GroupFiles version_2{"memory.max", "memory.current", "inactive_file"};
+
+/// The number that stands alone in a file; nothing for "max" or without file.
+std::optional<double> number_in(const Path& file) {
+  double value;
+  return std::ifstream(file) >> value ? std::optional(value) : std::nullopt;
+}
+
+/// The number behind a name at the beginning of a line.
+std::optional<double> number_of(const Path& file, std::string_view name) {
+  std::ifstream in(file);
+  std::string first;
+  double value;
+  for (std::string line; std::getline(in, line);)
+    if (std::istringstream words(line); words >> first && first == name && words >> value) return value;
+  return {};
+}
+
+void lower(std::optional<double>& least, std::optional<double> value) {
+  if (value) least = std::min(least.value_or(*value), *value);
+}
+
+/// What a control group and those that hold it leave. A container may see its own group as the top one, so
+/// folders that are not there are passed over.
+std::optional<double> left_by_groups(const Path& top, const Path& group, const GroupFiles& files) {
+  std::optional<double> least;
+  for (Path path = group.relative_path();; path = path.parent_path()) {
+    const Path folder = top / path;
+    if (const auto limit = number_in(folder / files.limit)) {
+      const double used = number_in(folder / files.used).value_or(0);
+      const double reclaimable = number_of(folder / "memory.stat", files.reclaimable_name).value_or(0);
+      lower(least, std::max(0.0, *limit - std::max(0.0, used - reclaimable)));
+    }
+    if (path.empty()) return least;
+  }
+}
+
+/// Whether a comma-separated list holds a word.
+bool lists(std::string_view list, std::string_view word) {
+  return fmt::format(",{},", list).find(fmt::format(",{},", word)) != std::string::npos;
+}
+
+}  // namespace
+
+std::optional<double> available_memory(const Path& root) {
+  constexpr double kibibyte = 1024;
+  std::optional<double> least = number_of(root / "proc/meminfo", "MemAvailable:");
+  if (least) *least *= kibibyte;
+  const Path top = root / "sys/fs/cgroup";
+  std::ifstream groups(root / "proc/self/cgroup");
+  for (std::string line; std::getline(groups, line);) {  // number:controllers:path
+    const std::size_t first = line.find(':'), second = line.find(':', first + 1);
+    if (first == std::string::npos || second == std::string::npos) continue;
+    const std::string controllers = line.substr(first + 1, second - first - 1),
+                      group = line.substr(second + 1);
+    if (controllers.empty())
+      lower(least, left_by_groups(top, group, version_2));
+    else if (lists(controllers, "memory"))
+      lower(least, left_by_groups(top / "memory", group, version_1));
+  }
+  return least;
+}
+
+std::optional<std::string> lack_of_memory(const Case& c, std::optional<double> available) {
+  const double needed = estimated_memory(c);
+  if (!available || needed <= *available) return {};
+  return fmt::format(
+      "it needs about {:.0f} MB of memory, and {:.0f} MB are available; take fewer cells or load positions, "
+      "or "
+      "more sectors",
+      needed / 1e6, *available / 1e6);
+}
+
+}  // namespace wheelwright

@@ -1,0 +1,38 @@
+#include "wheelwright/app/terminal.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdlib>
+
+namespace wheelwright {
+
+namespace {
+
+int escape_code(Style style) {
+  switch (style) {
+    case Style::bold:
+      return 1;
+    case Style::red:
+      return 31;
+    case Style::yellow:
+      return 33;
+    case Style::green:
+      return 32;
+  }
+  return 0;
+}
+
+}  // namespace
+
+bool has_colours(std::FILE* stream) {
+  const char* no_color = std::getenv("NO_COLOR");
+  return (!no_color || *no_color == '\0') && isatty(fileno(stream));
+}
+
+std::string styled(std::FILE* stream, Style style, std::string_view text) {
+  if (!has_colours(stream)) return std::string(text);
+  return fmt::format("\x1b[{}m{}\x1b[0m", escape_code(style), text);
+}
+
+}  // namespace wheelwright

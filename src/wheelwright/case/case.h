@@ -1,0 +1,182 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "wheelwright/elasticity/contact_form.h"
+#include "wheelwright/elasticity/ghost_penalty.h"
+#include "wheelwright/elasticity/material.h"
+
+namespace wheelwright {
+
+// A case: everything that defines one optimization, as plain data in SI units and radians. The initial values
+// here are the defaults of the case file; names, units, ranges and meanings are declared in case/keys.cc.
+
+struct Wheel {
+  double inner_radius = 0.20;  ///< R_i, the rim
+  double outer_radius = 0.34;  ///< R_e, the tread
+  double width = 0.12;         ///< w_r, along the axle
+  int sectors = 16;            ///< N_s
+  bool operator==(const Wheel&) const = default;
+};
+
+struct Load {
+  double force = 300 * 9.81;           ///< on the whole width [N]
+  std::optional<double> travel;        ///< of the rim towards the ground [m]; the force is then a result
+  double horizontal_force = 0;         ///< on the rim, towards larger azimuth, on the whole width [N]
+  double torque = 0;                   ///< on the rim, towards larger azimuth, on the whole width [N m]
+  std::array<double, 2> body_force{};  ///< along the ground towards larger azimuth, and down [N/m^3]
+  double hole_pressure = 0;            ///< in the holes [Pa]
+  int positions = 8;                   ///< N_d, load positions of one sector
+  bool operator==(const Load&) const = default;
+};
+
+struct Contact {
+  ContactMethod method = ContactMethod::nitsche;
+  double theta = -1;
+  double gamma_0 = 1;   ///< gamma = gamma_0 E / h_T [Pa/m]
+  double friction = 0;  ///< Coulomb's coefficient F
+  int quadrature_points = 5;
+  bool operator==(const Contact&) const = default;
+};
+
+/// Equal holes, evenly spaced on a circle about the axle.
+struct HoleRing {
+  int count = 0;
+  double center_radius = 0;
+  double radius = 0;
+  std::optional<double> phase;  ///< azimuth of the first hole's centre; absent: half the spacing
+  bool operator==(const HoleRing&) const = default;
+};
+
+/// A hole that is repeated in every sector.
+struct HoleCircle {
+  std::array<double, 2> center{};  ///< one of its centres: Cartesian, body frame
+  double radius = 0;
+  bool operator==(const HoleCircle&) const = default;
+};
+
+struct Holes {
+  std::vector<HoleRing> rings;
+  std::vector<HoleCircle> circles;
+  bool operator==(const Holes&) const = default;
+};
+
+struct Grid {
+  int radial_cells = 28;
+  int angular_cells = 384;  ///< round the full ring
+  int degree = 2;           ///< of the displacement
+  int level_set_degree = 2;
+  int tread_levels = 0;  ///< halvings of the cells at the tread
+  bool operator==(const Grid&) const = default;
+};
+
+/// The mean contact stress p_mean (73) that uniformity criteria compare with.
+enum class MeanStress {
+  exact,  ///< that of the shape itself
+  held,   ///< that of the last accepted shape, as the paper does
+};
+
+/// Weights of the criteria in J, and what the criteria need.
+struct Objective {
+  double strain_energy = 1;
+  double uniformity_annulus = 0;               ///< alpha_1 of J_p1
+  double uniformity_dual = 0;                  ///< alpha_2 of J_p2
+  double uniformity_l2 = 0;                    ///< of the naive criterion (4)
+  std::optional<double> annulus_matches_dual;  ///< alpha_2 from which (83) gives alpha_1
+  std::optional<double> annulus;               ///< epsilon; absent: one radial cell
+  std::optional<double> length;                ///< L; absent: epsilon
+  MeanStress mean = MeanStress::exact;
+  bool operator==(const Objective&) const = default;
+};
+
+enum class VolumeControl {
+  exact,  ///< the level set is shifted to the target volume
+  paper,  ///< the multiplier lambda_k of section 4.2
+};
+
+struct Volume {
+  VolumeControl control = VolumeControl::exact;
+  std::optional<double> target;  ///< material fraction of the ring; absent: the initial shape's
+  bool operator==(const Volume&) const = default;
+};
+
+enum class VelocityKind { h1, harmonic };
+
+struct Optimizer {
+  int iterations = 100;
+  VelocityKind velocity = VelocityKind::h1;
+  double velocity_length = 2;  ///< [cells]
+  double step = 0.5;           ///< largest move of the boundary a shape [cells]
+  int max_halvings = 6;
+  double accepted_increase = 1e-4;
+  double tolerance = 1e-5;
+  int redistance_every = 5;
+  double smoothing = 0;  ///< tau of (76) [cells^2]
+  int smooth_every = 5;
+  std::optional<double> rim_band;    ///< absent: one radial cell
+  std::optional<double> tread_band;  ///< absent: one radial cell more than the annulus
+  bool operator==(const Optimizer&) const = default;
+};
+
+struct Output {
+  std::string folder;  ///< never empty in a case that was read from a file
+  int vtu_every = 10;
+  int pictures_every = 0;
+  int checkpoint_every = 10;       ///< shapes; 0: not by their number
+  double checkpoint_seconds = 60;  ///< 0: not by the clock
+  bool operator==(const Output&) const = default;
+};
+
+/// What can be expected of a shape: the objective and its terms, what history.csv watches, and the stress.
+enum class Quantity {
+  objective,
+  strain_energy,
+  uniformity_annulus,
+  uniformity_dual,
+  uniformity_l2,
+  mean_travel,
+  run_out,
+  peak_pressure,
+  pressure_spread,
+  volume_fraction,
+  peak_von_mises,
+};
+
+/// The words for them, in the order of the enumerators: the names of the criteria and of history.csv.
+inline constexpr std::array<std::string_view, 11> quantity_names{
+    "objective", "strain_energy", "uniformity_annulus", "uniformity_dual", "uniformity_l2", "mean_travel",
+    "run_out",   "peak_pressure", "pressure_spread",    "volume_fraction", "peak_von_mises"};
+
+constexpr std::string_view name(Quantity quantity) { return quantity_names[static_cast<int>(quantity)]; }
+
+/// What a run is expected to find for one quantity of one accepted shape.
+struct Expectation {
+  Quantity quantity = Quantity::objective;
+  double value = 0;              ///< in the unit of history.csv
+  double margin = 0.01;          ///< relative to the value
+  std::optional<int> iteration;  ///< number of the accepted shape; absent: the last one
+  bool operator==(const Expectation&) const = default;
+};
+
+struct Case {
+  std::string title;
+  Wheel wheel;
+  Material material;
+  Load load;
+  Contact contact;
+  Holes holes;
+  Grid grid;
+  GhostPenalty ghost_penalty;
+  Objective objective;
+  Volume volume;
+  Optimizer optimizer;
+  Output output;
+  std::vector<Expectation> expectations;
+  bool operator==(const Case&) const = default;
+};
+
+}  // namespace wheelwright

@@ -1,0 +1,265 @@
+#include "wheelwright/case/conflicts.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <numeric>
+
+#include "wheelwright/case/derived.h"
+
+namespace wheelwright {
+
+namespace {
+
+using Conflicts = std::vector<Conflict>;
+
+const std::vector<std::string> ring_shape_keys{"wheel.inner_radius", "wheel.outer_radius",
+                                               "optimizer.rim_band", "optimizer.tread_band",
+                                               "grid.radial_cells",  "objective.annulus"};
+
+std::vector<std::string> with_ring_shape(std::vector<std::string> keys) {
+  keys.insert(keys.end(), ring_shape_keys.begin(), ring_shape_keys.end());
+  return keys;
+}
+
+/// A value rounded up to three digits, so that what a message advises is accepted.
+double rounded_up(double value) {
+  const double unit = std::pow(10, std::floor(std::log10(value)) - 2);
+  return std::ceil(value / unit) * unit;
+}
+
+void check_radii(const Case& c, Conflicts& found) {
+  const Wheel& w = c.wheel;
+  if (w.inner_radius >= w.outer_radius) {
+    found.push_back({{"wheel.outer_radius", "wheel.inner_radius"},
+                     fmt::format("must be larger than inner_radius = {} m", w.inner_radius),
+                     "give the rim's radius as inner_radius and the tread's as outer_radius"});
+    return;
+  }
+  constexpr double thinnest = 1e-4;
+  if (w.outer_radius - w.inner_radius < thinnest * w.outer_radius) {
+    found.push_back({{"wheel.outer_radius", "wheel.inner_radius"},
+                     fmt::format("the ring is thinner than {} of its radius", thinnest),
+                     fmt::format("take outer_radius >= {:.6g} m", w.inner_radius / (1 - 2 * thinnest))});
+    return;
+  }
+  const double rounding = 1e-9 * w.outer_radius;
+  if (rim_band(c) < least_rim_band(c) - rounding)
+    found.push_back({{"optimizer.rim_band", "grid.radial_cells"},
+                     "thinner than one radial cell",
+                     fmt::format("take at least {:.6g} m, or more grid.radial_cells", least_rim_band(c))});
+  if (tread_band(c) < least_tread_band(c) - rounding)
+    found.push_back({{"optimizer.tread_band", "grid.radial_cells", "objective.annulus"},
+                     fmt::format("thinner than {} radial cells", tread_rows(c) + 1),
+                     fmt::format("take at least {:.6g} m, or more grid.radial_cells", least_tread_band(c))});
+  if (rim_band(c) + tread_band(c) >= w.outer_radius - w.inner_radius) {
+    found.push_back(
+        {with_ring_shape({"optimizer.rim_band", "optimizer.tread_band"}),
+         fmt::format("the bands at rim and tread, {:.6g} m and {:.6g} m, fill the whole ring of {:.6g} m",
+                     rim_band(c), tread_band(c), w.outer_radius - w.inner_radius),
+         "make them thinner, or the grid finer"});
+  }
+}
+
+/// Numbers of nodes and unknowns are int.
+void check_size(const Case& c, Conflicts& found) {
+  constexpr long long most = 1'000'000'000;
+  if (dof_bound(c) <= most) return;
+  found.push_back({{"grid.radial_cells", "grid.angular_cells", "grid.degree"},
+                   fmt::format("the grid has up to {} unknowns", dof_bound(c)),
+                   fmt::format("take a grid with at most {}", most)});
+}
+
+void check_travel(const Case& c, Conflicts& found) {
+  const double thickness = c.wheel.outer_radius - c.wheel.inner_radius;
+  if (!c.load.travel || thickness <= 0 || *c.load.travel < thickness) return;
+  found.push_back({{"load.travel", "wheel.outer_radius", "wheel.inner_radius"},
+                   "the rim itself would be below the ground",
+                   fmt::format("take less than outer_radius - inner_radius = {:.6g} m", thickness)});
+}
+
+void check_angular_cells(const Case& c, Conflicts& found) {
+  const int cells = c.grid.angular_cells;
+  const int positions = total_load_positions(c);
+  if (cells % positions == 0) return;
+  const int below = cells / positions * positions;
+  const int above = below + positions;
+  const std::string fitting = below > 0 ? fmt::format("{} or {}", below, above) : fmt::format("{}", above);
+  found.push_back({{"grid.angular_cells", "wheel.sectors", "load.positions"},
+                   fmt::format("must be a multiple of sectors * positions = {} * {} = {}", c.wheel.sectors,
+                               c.load.positions, positions),
+                   fmt::format("the nearest that fit: {}", fitting)});
+}
+
+std::string ring_key(std::size_t i, std::string_view name) {
+  return fmt::format("holes.ring[{}].{}", i + 1, name);
+}
+std::string circle_key(std::size_t i, std::string_view name) {
+  return fmt::format("holes.circle[{}].{}", i + 1, name);
+}
+
+std::vector<int> divisors(int n) {
+  std::vector<int> result;
+  for (int d = 1; d <= n; ++d)
+    if (n % d == 0) result.push_back(d);
+  return result;
+}
+
+void check_ring_counts(const Case& c, Conflicts& found) {
+  int common = 0;
+  for (const HoleRing& ring : c.holes.rings) common = std::gcd(common, ring.count);
+  for (std::size_t i = 0; i < c.holes.rings.size(); ++i) {
+    if (c.holes.rings[i].count % c.wheel.sectors == 0) continue;
+    found.push_back({{ring_key(i, "count"), "wheel.sectors"},
+                     fmt::format("must be a multiple of wheel.sectors = {}", c.wheel.sectors),
+                     fmt::format("sectors that fit all rings: {}", fmt::join(divisors(common), ", "))});
+  }
+}
+
+void check_hole_inside(const Case& c, double center_radius, double radius, std::vector<std::string> keys,
+                       Conflicts& found) {
+  const double low = c.wheel.inner_radius + rim_band(c), high = c.wheel.outer_radius - tread_band(c);
+  const double rounding = 1e-9 * c.wheel.outer_radius;
+  const double lowest = center_radius - radius, highest = center_radius + radius;
+  if (low >= high || (lowest >= low - rounding && highest <= high + rounding)) return;
+  found.push_back(
+      {with_ring_shape(std::move(keys)),
+       fmt::format("the hole reaches from radius {:.6g} m to {:.6g} m, beyond what the bands at rim and "
+                   "tread leave: {:.6g} m to {:.6g} m",
+                   lowest, highest, low, high),
+       fmt::format("the largest hole at this place has radius {:.6g} m",
+                   std::max(0.0, std::min(center_radius - low, high - center_radius)))});
+}
+
+/// Equal holes that touch all round the wheel cut the tread off from the rim.
+void check_holes_apart(int count, double center_radius, double radius, std::vector<std::string> keys,
+                       Conflicts& found) {
+  const double half_distance = center_radius * std::sin(std::numbers::pi / count);
+  if (count == 1 || radius < half_distance) return;
+  found.push_back({std::move(keys), "neighbouring holes touch and cut the tread off from the rim",
+                   fmt::format("take a radius below {:.6g} m", half_distance)});
+}
+
+void check_holes(const Case& c, Conflicts& found) {
+  for (std::size_t i = 0; i < c.holes.rings.size(); ++i) {
+    const HoleRing& ring = c.holes.rings[i];
+    const std::vector<std::string> keys{ring_key(i, "radius"), ring_key(i, "center_radius")};
+    check_hole_inside(c, ring.center_radius, ring.radius, keys, found);
+    check_holes_apart(ring.count, ring.center_radius, ring.radius, {keys[0], keys[1], ring_key(i, "count")},
+                      found);
+  }
+  for (std::size_t i = 0; i < c.holes.circles.size(); ++i) {
+    const HoleCircle& circle = c.holes.circles[i];
+    const double center_radius = std::hypot(circle.center[0], circle.center[1]);
+    const std::vector<std::string> keys{circle_key(i, "radius"), circle_key(i, "center")};
+    check_hole_inside(c, center_radius, circle.radius, keys, found);
+    check_holes_apart(c.wheel.sectors, center_radius, circle.radius, {keys[0], keys[1], "wheel.sectors"},
+                      found);
+  }
+}
+
+void check_nitsche(const Case& c, Conflicts& found) {
+  if (c.contact.method != ContactMethod::nitsche) return;
+  const double least = least_gamma_0(c.contact.theta, c.material);
+  if (c.contact.gamma_0 >= least) return;
+  found.push_back(
+      {{"contact.gamma_0", "contact.theta", "contact.method", "material.poissons_ratio"},
+       fmt::format("too small for theta = {} at poissons_ratio = {}: the stiffness is not safely positive "
+                   "definite",
+                   c.contact.theta, c.material.poissons_ratio),
+       fmt::format("take gamma_0 >= {:.6g}, or theta = -1", rounded_up(least))});
+}
+
+/// What moves or turns the rim must be held by friction.
+void check_friction(const Case& c, Conflicts& found) {
+  const Load& load = c.load;
+  if (load.horizontal_force != 0 && load.torque != 0)
+    found.push_back(
+        {{"load.torque", "load.horizontal_force"},
+         "the wheel would roll away: the ground holds the rim along it or about the axle, not both",
+         "keep one of torque and horizontal_force"});
+  const double arm = c.wheel.outer_radius, held = c.contact.friction * load.force;
+  const auto check = [&](const char* key, double value, double limit, const char* unit) {
+    if (value == 0) return;
+    if (c.contact.friction == 0)
+      found.push_back({{key, "contact.friction"},
+                       "nothing holds the wheel without friction",
+                       "give contact.friction > 0"});
+    else if (!load.travel && load.body_force == std::array<double, 2>{} && std::abs(value) >= limit)
+      found.push_back({{key, "contact.friction", "load.force", "load.mass"},
+                       fmt::format("the wheel would slide: friction holds less than {:.6g} {}", limit, unit),
+                       "take less of it, or more contact.friction"});
+  };
+  check("load.horizontal_force", load.horizontal_force, held, "N");
+  check("load.torque", load.torque, held * arm, "N m");
+}
+
+void check_annulus(const Case& c, Conflicts& found) {
+  if (!wants_annulus(c)) return;
+  const double cell = (c.wheel.outer_radius - c.wheel.inner_radius) / c.grid.radial_cells;
+  if (std::abs(annulus_thickness(c) - tread_rows(c) * cell) < 1e-6 * cell) return;
+  found.push_back({{"objective.annulus", "grid.radial_cells"},
+                   fmt::format("must be a whole number of radial cells of {:.6g} m", cell),
+                   fmt::format("the nearest that fits: {:.6g} m", tread_rows(c) * cell)});
+}
+
+void check_objective(const Case& c, Conflicts& found) {
+  const Objective& o = c.objective;
+  if (o.annulus_matches_dual && o.uniformity_annulus > 0)
+    found.push_back({{"objective.annulus_matches_dual", "objective.uniformity_annulus"},
+                     "the weight of J_p1 is given twice",
+                     "keep one of annulus_matches_dual and uniformity_annulus"});
+  if (o.strain_energy > 0 || o.uniformity_annulus > 0 || o.uniformity_dual > 0 || o.uniformity_l2 > 0 ||
+      o.annulus_matches_dual)
+    return;
+  found.push_back(
+      {{"objective.strain_energy"}, "all weights are 0: nothing to minimize", "give one a weight > 0"});
+}
+
+/// A quantity that the run does not compute, or a shape that it does not reach.
+void check_expectations(const Case& c, Conflicts& found) {
+  const Objective& o = c.objective;
+  const std::map<Quantity, bool> computed{
+      {Quantity::strain_energy, o.strain_energy > 0},
+      {Quantity::uniformity_annulus, o.uniformity_annulus > 0 || o.annulus_matches_dual},
+      {Quantity::uniformity_dual, o.uniformity_dual > 0},
+      {Quantity::uniformity_l2, o.uniformity_l2 > 0}};
+  for (std::size_t i = 0; i < c.expectations.size(); ++i) {
+    const Expectation& expectation = c.expectations[i];
+    const auto key = [&](std::string_view name) { return fmt::format("expect[{}].{}", i + 1, name); };
+    const auto criterion = computed.find(expectation.quantity);
+    if (criterion != computed.end() && !criterion->second)
+      found.push_back({{key("quantity"), fmt::format("objective.{}", name(expectation.quantity))},
+                       "has no weight in the objective, so that it is not computed",
+                       "give it a weight, however small, or expect something else"});
+    if (expectation.iteration && *expectation.iteration > c.optimizer.iterations)
+      found.push_back({{key("iteration"), "optimizer.iterations"},
+                       fmt::format("the run ends at shape {} at the latest", c.optimizer.iterations),
+                       "expect it of an earlier shape, or of the last one by leaving the key out"});
+  }
+}
+
+}  // namespace
+
+std::vector<Conflict> conflicts(const Case& c) {
+  Conflicts found;
+  check_radii(c, found);
+  check_size(c, found);
+  check_travel(c, found);
+  check_angular_cells(c, found);
+  check_ring_counts(c, found);
+  check_holes(c, found);
+  check_nitsche(c, found);
+  check_friction(c, found);
+  check_annulus(c, found);
+  check_objective(c, found);
+  check_expectations(c, found);
+  return found;
+}
+
+}  // namespace wheelwright

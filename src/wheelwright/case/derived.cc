@@ -1,0 +1,139 @@
+#include "wheelwright/case/derived.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace wheelwright {
+
+using std::numbers::pi;
+
+double load_per_metre(const Case& c) { return c.load.force / c.wheel.width; }
+
+double hertz_half_width(const Case& c) {
+  return 2 * std::sqrt(load_per_metre(c) * c.wheel.outer_radius / (pi * c.material.plane_strain_modulus()));
+}
+
+double hertz_peak_pressure(const Case& c) { return 2 * load_per_metre(c) / (pi * hertz_half_width(c)); }
+
+double tread_cell_width(const Case& c) {
+  return 2 * pi * c.wheel.outer_radius / c.grid.angular_cells / (1 << c.grid.tread_levels);
+}
+
+double smallest_hole_in_cells(const Case& c) {
+  const double radial = (c.wheel.outer_radius - c.wheel.inner_radius) / c.grid.radial_cells,
+               azimuthal = pi * (c.wheel.outer_radius + c.wheel.inner_radius) / c.grid.angular_cells;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const HoleRing& ring : c.holes.rings) smallest = std::min(smallest, ring.radius);
+  for (const HoleCircle& circle : c.holes.circles) smallest = std::min(smallest, circle.radius);
+  return 2 * smallest / std::max(radial, azimuthal);
+}
+
+double cells_per_contact_patch(const Case& c) { return 2 * hertz_half_width(c) / tread_cell_width(c); }
+
+double sector_angle(const Case& c) { return 2 * pi / c.wheel.sectors; }
+
+int total_load_positions(const Case& c) { return c.wheel.sectors * c.load.positions; }
+
+namespace {
+double radial_cell(const Case& c) {
+  return (c.wheel.outer_radius - c.wheel.inner_radius) / c.grid.radial_cells;
+}
+}  // namespace
+
+double least_rim_band(const Case& c) { return radial_cell(c); }
+
+double least_tread_band(const Case& c) { return (tread_rows(c) + 1) * radial_cell(c); }
+
+bool wants_annulus(const Case& c) {
+  return c.objective.uniformity_annulus > 0 || c.objective.annulus_matches_dual.has_value();
+}
+
+double annulus_thickness(const Case& c) { return c.objective.annulus.value_or(radial_cell(c)); }
+
+double characteristic_length(const Case& c) { return c.objective.length.value_or(annulus_thickness(c)); }
+
+int tread_rows(const Case& c) {
+  if (!wants_annulus(c)) return 1;
+  return std::max(1, static_cast<int>(std::lround(annulus_thickness(c) / radial_cell(c))));
+}
+
+double rim_band(const Case& c) { return c.optimizer.rim_band.value_or(least_rim_band(c)); }
+
+double tread_band(const Case& c) { return c.optimizer.tread_band.value_or(least_tread_band(c)); }
+
+std::vector<Circle> sector_holes(const Case& c) {
+  std::vector<Circle> holes;
+  for (const HoleRing& ring : c.holes.rings) {
+    const double spacing = 2 * pi / ring.count, first = ring.phase.value_or(spacing / 2);
+    for (int i = 0; i < ring.count / c.wheel.sectors; ++i)
+      holes.push_back({ring.center_radius, first + i * spacing, ring.radius});
+  }
+  for (const HoleCircle& circle : c.holes.circles) {
+    const auto [x, y] = circle.center;
+    holes.push_back({std::hypot(x, y), std::atan2(y, x), circle.radius});
+  }
+  return holes;
+}
+
+long long dof_bound(const Case& c) {
+  const long long radial = static_cast<long long>(c.grid.degree) * c.grid.radial_cells + 1;
+  const long long angular = static_cast<long long>(c.grid.degree) * c.grid.angular_cells;
+  return 2 * radial * angular;
+}
+
+namespace {
+
+bool wants_dual(const Case& c) {
+  return c.objective.uniformity_dual > 0 || c.objective.annulus_matches_dual.has_value();
+}
+
+/// Columns of tread cells that contact may reach [cells of the tread, before they are halved].
+double contact_columns(const Case& c) {
+  const double cell = 2 * pi * c.wheel.outer_radius / c.grid.angular_cells;
+  const double half_width =
+      c.load.travel ? std::sqrt(2 * c.wheel.outer_radius * *c.load.travel) : hertz_half_width(c);
+  constexpr double margin = 4;
+  return std::min(2 * half_width / cell + margin, static_cast<double>(c.grid.angular_cells));
+}
+
+constexpr double square(double x) { return x * x; }
+
+}  // namespace
+
+double estimated_memory(const Case& c) {
+  constexpr double number = sizeof(double), complex = 2 * number;
+  const double sectors = c.wheel.sectors, positions = c.load.positions;
+  const double columns = c.grid.angular_cells, cells = columns * c.grid.radial_cells;
+  const double dofs = static_cast<double>(dof_bound(c)), sector_dofs = dofs / sectors;
+  const double radial_line = 2 * (c.grid.degree * c.grid.radial_cells + 1);
+  const double ring_line = 2 * c.grid.degree * columns, sector_line = ring_line / sectors;
+  const double tractions = 2.0 * c.contact.quadrature_points * (1 << c.grid.tread_levels);  // of a column
+  const double observations = 2 * tractions, zone_columns = contact_columns(c);
+  double holes = 0;
+  for (const HoleRing& ring : c.holes.rings) holes += ring.count / sectors;
+
+  // What each number counts is known; how many of them there are at the peak is fitted to measurements.
+  const double libraries = 190e6;
+  const double fields = number * (137 * cells + 0.6 * dofs * positions);
+  const double factor = number * sector_dofs * std::log2(std::max(sector_dofs, 2.0));
+  const double condensed = number * 3.5 * square(2 * radial_line + sector_line);
+  const double harmonics = complex * 1.6 * (sectors / 2 + 1) * square(radial_line + sector_line);
+  const double compliance = number * 8.3 * square(ring_line) / sectors;
+  const double surface = number * 1.05 * (2 * zone_columns - 1) * columns / sectors * square(tractions);
+  const double tread = number * (60 * square(observations) + 4.5 * observations * columns * positions);
+  const double zones = number * 0.6 * positions * square(zone_columns * tractions);
+  const double shape = number * 10 * holes;
+  const double rings = wants_dual(c) ? 2 : 1;  // the dual norm's is one more
+  return libraries + fields + rings * (factor + condensed + harmonics) + compliance + surface + tread +
+         zones + shape;
+}
+
+double least_gamma_0(double theta, const Material& material) {
+  constexpr double reference = 8.8;  // (lambda + 2 mu) / E at nu = 0.48, where 10 and 100 were found
+  const double stiffness = (material.lambda() + 2 * material.mu()) / material.youngs_modulus / reference;
+  return stiffness * (10 * (1 + theta) * (1 + theta) + 60 * std::max(theta, 0.0));
+}
+
+}  // namespace wheelwright

@@ -1,0 +1,19 @@
+#include "wheelwright/case/diagnostic.h"
+
+#include <fmt/format.h>
+
+#include "wheelwright/base/text.h"
+
+namespace wheelwright {
+
+std::string Diagnostic::text() const {
+  std::string result = without_control_characters(file);
+  if (line > 0) result += fmt::format(":{}:{}", line, column);
+  result += ": ";
+  if (!key.empty()) result += value.empty() ? key + ": " : fmt::format("{} = {}: ", key, value);
+  result += problem;
+  if (!remedy.empty()) result += "; " + remedy;
+  return result;
+}
+
+}  // namespace wheelwright

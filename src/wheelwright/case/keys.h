@@ -1,0 +1,207 @@
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "wheelwright/case/case.h"
+
+namespace wheelwright {
+
+// The declaration of the case file. Reading, checking, the template, the reference page and the resolved case
+// all derive from it. A key binds a name to a field of the struct that its section fills.
+
+/// The values that a key accepts, in the unit of the case file.
+struct Range {
+  enum class End { open, closed };
+
+  double low, high;
+  End low_end = End::closed, high_end = End::closed;
+
+  /// False for NaN and infinities.
+  bool contains(double value) const;
+  /// E.g. "0 < value <= 20".
+  std::string text() const;
+};
+
+constexpr Range any_number{-1e9, 1e9};
+constexpr Range between(double low, double high) { return {low, high}; }
+constexpr Range above(double low, double high) { return {low, high, Range::End::open}; }
+constexpr Range at_least_and_below(double low, double high) {
+  return {low, high, Range::End::closed, Range::End::open};
+}
+
+template <class Struct>
+struct NumberField {
+  double Struct::*member;
+  Range range;
+  double factor = 1;  ///< member = factor * value in the file
+};
+
+/// A number whose default depends on other keys.
+template <class Struct>
+struct OptionalNumberField {
+  std::optional<double> Struct::*member;
+  Range range;
+  std::string_view default_text;
+  double factor = 1;
+};
+
+template <class Struct>
+struct IntegerField {
+  int Struct::*member;
+  Range range;
+};
+
+/// A whole number whose default is described by a text.
+template <class Struct>
+struct OptionalIntegerField {
+  std::optional<int> Struct::*member;
+  Range range;
+  std::string_view default_text;
+};
+
+enum class TextRule {
+  any,
+  path_below,  ///< of a folder in or below the current one: relative, without ".."
+};
+
+/// Whether a text is what the rule asks for.
+bool keeps(TextRule rule, const std::string& text);
+/// The rule in words, e.g. "text".
+std::string_view rule_text(TextRule rule);
+
+template <class Struct>
+struct TextField {
+  std::string Struct::*member;
+  std::string_view default_text;  ///< what an absent key means, when that is not the empty text
+  TextRule rule = TextRule::any;
+};
+
+template <class Struct>
+struct PointField {
+  std::array<double, 2> Struct::*member;
+  Range range;
+};
+
+/// One of several words; the words stand in the order of the enumerators.
+template <class Struct>
+struct ChoiceField {
+  std::vector<std::string_view> words;
+  int (*get)(const Struct&);
+  void (*set)(Struct&, int);
+};
+
+template <class Member>
+struct MemberTraits;
+template <class Struct, class Value>
+struct MemberTraits<Value Struct::*> {
+  using struct_type = Struct;
+  using value_type = Value;
+};
+
+template <auto member>
+auto choice(std::vector<std::string_view> words) {
+  using Struct = typename MemberTraits<decltype(member)>::struct_type;
+  using Enum = typename MemberTraits<decltype(member)>::value_type;
+  return ChoiceField<Struct>{std::move(words), [](const Struct& s) { return static_cast<int>(s.*member); },
+                             [](Struct& s, int i) { s.*member = static_cast<Enum>(i); }};
+}
+
+enum class Presence { has_default, required };
+
+template <class Struct>
+struct Key {
+  std::string_view name;
+  std::string_view unit;  ///< empty for pure numbers and words
+  std::variant<NumberField<Struct>, OptionalNumberField<Struct>, IntegerField<Struct>,
+               OptionalIntegerField<Struct>, TextField<Struct>, PointField<Struct>, ChoiceField<Struct>>
+      field;
+  std::string_view meaning;
+  Presence presence = Presence::has_default;
+  std::string_view instead_of = {};  ///< the key of the same section that this one may replace
+};
+
+/// A table of the file, [name]; the empty name is the file's top level.
+template <class Struct>
+struct Section {
+  std::string_view name;
+  std::string_view meaning;
+  Struct& (*in)(Case&);
+  std::vector<Key<Struct>> keys;
+
+  const Struct& of(const Case& c) const { return in(const_cast<Case&>(c)); }
+};
+
+/// An array of tables of the file, [[parent.name]]; with an empty parent [[name]].
+template <class Struct>
+struct SectionArray {
+  std::string_view parent;
+  std::string_view name;
+  std::string_view meaning;
+  std::vector<Struct>& (*in)(Case&);
+  Struct example;
+  std::vector<Key<Struct>> keys;
+
+  std::string path() const {
+    return parent.empty() ? std::string(name) : std::string(parent) + "." + std::string(name);
+  }
+  const std::vector<Struct>& of(const Case& c) const { return in(const_cast<Case&>(c)); }
+};
+
+const Section<Case>& general_section();
+const Section<Wheel>& wheel_section();
+const Section<Material>& material_section();
+const Section<Load>& load_section();
+const Section<Contact>& contact_section();
+const SectionArray<HoleRing>& ring_sections();
+const SectionArray<HoleCircle>& circle_sections();
+const Section<Grid>& grid_section();
+const Section<GhostPenalty>& ghost_penalty_section();
+const Section<Objective>& objective_section();
+const Section<Volume>& volume_section();
+const Section<Optimizer>& optimizer_section();
+const Section<Output>& output_section();
+const SectionArray<Expectation>& expectation_sections();
+
+/// Calls visit(section) for every Section and SectionArray, in the order of the file.
+template <class Visitor>
+void for_each_section(Visitor&& visit) {
+  visit(general_section());
+  visit(wheel_section());
+  visit(material_section());
+  visit(load_section());
+  visit(contact_section());
+  visit(ring_sections());
+  visit(circle_sections());
+  visit(grid_section());
+  visit(ghost_penalty_section());
+  visit(objective_section());
+  visit(volume_section());
+  visit(optimizer_section());
+  visit(output_section());
+  visit(expectation_sections());
+}
+
+/// The key of that name, or null.
+template <class Struct>
+const Key<Struct>* find_key(const std::vector<Key<Struct>>& keys, std::string_view name) {
+  for (const auto& key : keys)
+    if (key.name == name) return &key;
+  return nullptr;
+}
+
+/// Whether only one of two different keys may be given.
+template <class Struct>
+bool are_alternatives(const Key<Struct>& a, const Key<Struct>& b) {
+  const auto group = [](const Key<Struct>& key) {
+    return key.instead_of.empty() ? key.name : key.instead_of;
+  };
+  return group(a) == group(b);
+}
+
+}  // namespace wheelwright

@@ -1,0 +1,420 @@
+#include "wheelwright/case/read.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cctype>
+#include <concepts>
+#include <cstdint>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+#include <tuple>
+
+#include "wheelwright/base/text.h"
+#include "wheelwright/case/conflicts.h"
+#include "wheelwright/case/keys.h"
+#include "wheelwright/case/suggest.h"
+#include "wheelwright/case/toml_guard.h"
+#include "wheelwright/case/toml_lines.h"
+
+namespace wheelwright {
+
+namespace {
+
+using Kind = Diagnostic::Kind;
+
+/// Where a key stands in the file and what it says there.
+struct Entry {
+  int line, column;
+  std::string value;
+};
+
+/// What is known while one file is read.
+struct Reading {
+  std::string file;
+  std::map<std::string, Entry> entries;  ///< by key path
+  std::set<std::string> faulty;          ///< paths of keys whose value could not be used
+  std::vector<Diagnostic> problems;
+};
+
+struct Complaint {
+  Kind kind;
+  std::string problem;
+  std::string remedy;
+};
+
+std::string join_path(std::string_view parent, std::string_view name) {
+  return parent.empty() ? std::string(name) : fmt::format("{}.{}", parent, name);
+}
+
+/// At most about 60 bytes, cut between characters of UTF-8.
+std::string shortened(const std::string& text) {
+  std::size_t length = 60;
+  if (text.size() <= length) return text;
+  const auto continues = [&](std::size_t i) { return (static_cast<unsigned char>(text[i]) & 0xc0) == 0x80; };
+  while (length > 0 && continues(length)) --length;
+  return text.substr(0, length) + "...";
+}
+
+std::string printable(const std::string& text) { return without_control_characters(shortened(text)); }
+
+/// A key as TOML writes it: in quotes unless it is a plain word.
+std::string key_text(std::string_view name) {
+  const bool plain = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return c < 0x80 && (std::isalnum(c) || c == '_' || c == '-');
+  });
+  const std::string text = printable(std::string(name));
+  return plain ? text : fmt::format("\"{}\"", text);
+}
+
+std::string value_text(const toml::node& node) {
+  if (node.is_table()) return "a table";
+  if (node.is_array_of_tables()) return "an array of tables";
+  std::ostringstream out;
+  node.visit([&](const auto& value) { out << value; });
+  return printable(out.str());
+}
+
+std::string quoted_list(const std::vector<std::string_view>& words) {
+  return fmt::format("\"{}\"", fmt::join(words, "\", \""));
+}
+
+void note(Reading& reading, const std::string& path, const toml::node& node) {
+  const auto begin = node.source().begin;
+  reading.entries[path] = {static_cast<int>(begin.line), static_cast<int>(begin.column), value_text(node)};
+}
+
+void complain(Reading& reading, const std::string& path, Entry at, Complaint complaint) {
+  reading.faulty.insert(path);
+  reading.problems.push_back({complaint.kind, reading.file, at.line, at.column, path, std::move(at.value),
+                              std::move(complaint.problem), std::move(complaint.remedy)});
+}
+
+void complain(Reading& reading, const std::string& path, Complaint complaint) {
+  complain(reading, path, reading.entries.at(path), std::move(complaint));
+}
+
+Complaint wrong_type(std::string_view wanted, std::string_view remedy) {
+  return {Kind::wrong_type, fmt::format("must be {}", wanted), std::string(remedy)};
+}
+
+// One function a field type: the value is stored, or the complaint returned.
+
+std::optional<Complaint> read_number(const toml::node& node, std::string_view unit, const Range& range,
+                                     double& out) {
+  std::optional<double> value = node.value_exact<double>();
+  if (const auto integer = node.value_exact<std::int64_t>()) value = static_cast<double>(*integer);
+  if (!value) {
+    const std::string in_unit = unit.empty() ? "" : fmt::format(", in {}", unit);
+    return wrong_type("a number", fmt::format("write it without quotes and unit{}", in_unit));
+  }
+  if (!range.contains(*value))
+    return Complaint{Kind::out_of_range, "out of range",
+                     fmt::format("{}{}{}", range.text(), unit.empty() ? "" : " ", unit)};
+  out = *value;
+  return {};
+}
+
+template <class Struct, class Field>
+requires std::same_as<Field, NumberField<Struct>> || std::same_as<Field, OptionalNumberField<Struct>>
+    std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>& key, const Field& field,
+                                        Struct& out) {
+  double value = 0;
+  auto complaint = read_number(node, key.unit, field.range, value);
+  if (!complaint) out.*field.member = value * field.factor;
+  return complaint;
+}
+
+template <class Struct, class Field>
+requires std::same_as<Field, IntegerField<Struct>> || std::same_as<Field, OptionalIntegerField<Struct>>
+    std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>& key, const Field& field,
+                                        Struct& out) {
+  if (!node.is_integer()) return wrong_type("a whole number", "write it without quotes and decimal point");
+  double value = 0;
+  auto complaint = read_number(node, key.unit, field.range, value);
+  if (!complaint) out.*field.member = static_cast<int>(value);
+  return complaint;
+}
+
+template <class Struct>
+std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>&,
+                                    const TextField<Struct>& field, Struct& out) {
+  const auto value = node.value<std::string>();
+  if (!value) return wrong_type("a text", "put it in quotes");
+  if (!keeps(field.rule, *value))
+    return Complaint{Kind::out_of_range, fmt::format("must be {}", rule_text(field.rule)), ""};
+  out.*field.member = *value;
+  return {};
+}
+
+template <class Struct>
+std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>& key,
+                                    const PointField<Struct>& field, Struct& out) {
+  const toml::array* array = node.as_array();
+  if (!array || array->size() != 2) return wrong_type("a point", "write it as [x, y]");
+  for (int d = 0; d < 2; ++d)
+    if (auto complaint = read_number((*array)[d], key.unit, field.range, (out.*field.member)[d]))
+      return complaint;
+  return {};
+}
+
+template <class Struct>
+std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>&,
+                                    const ChoiceField<Struct>& field, Struct& out) {
+  const auto value = node.value<std::string>();
+  const std::string choices = quoted_list(field.words);
+  if (!value) return wrong_type("a word in quotes", fmt::format("one of {}", choices));
+  const auto found = std::find(field.words.begin(), field.words.end(), *value);
+  if (found == field.words.end()) {
+    const auto near = did_you_mean(*value, field.words);
+    return Complaint{Kind::out_of_range, fmt::format("must be one of {}", choices),
+                     near ? fmt::format("did you mean \"{}\"?", *near) : ""};
+  }
+  field.set(out, static_cast<int>(found - field.words.begin()));
+  return {};
+}
+
+/// "wheel.sectors" when `name` is a key of another section, else nothing.
+std::optional<std::string> key_elsewhere(std::string_view name) {
+  std::optional<std::string> found;
+  for_each_section([&](const auto& section) {
+    if (found || !find_key(section.keys, name)) return;
+    if constexpr (requires { section.path(); })
+      found = fmt::format("[[{}]]", section.path());
+    else
+      found = section.name.empty() ? "the top of the file" : fmt::format("[{}]", section.name);
+  });
+  return found;
+}
+
+void complain_unknown(Reading& reading, std::string_view parent, const toml::key& name,
+                      const toml::node& node, const std::vector<std::string_view>& candidates) {
+  const auto begin = name.source().begin;
+  std::string remedy = fmt::format("known here: {}", fmt::join(candidates, ", "));
+  if (const auto elsewhere = key_elsewhere(name.str()))
+    remedy = fmt::format("it belongs in {}", *elsewhere);
+  else if (const auto near = did_you_mean(name.str(), candidates))
+    remedy = fmt::format("did you mean {}?", *near);
+  const Entry entry{static_cast<int>(begin.line), static_cast<int>(begin.column), value_text(node)};
+  complain(reading, join_path(parent, key_text(name.str())), entry,
+           {Kind::unknown_key, "unknown key", remedy});
+}
+
+template <class Struct>
+std::vector<std::string_view> key_names(const std::vector<Key<Struct>>& keys) {
+  std::vector<std::string_view> names;
+  for (const auto& key : keys) names.push_back(key.name);
+  return names;
+}
+
+template <class Struct>
+void read_value(Reading& reading, const std::string& path, const toml::node& node, const Key<Struct>& key,
+                Struct& out) {
+  note(reading, path, node);
+  const auto read = [&](const auto& field) { return read_field(node, key, field, out); };
+  if (auto complaint = std::visit(read, key.field)) complain(reading, path, std::move(*complaint));
+}
+
+/// Complains of a key that is given though an earlier one of the same alternatives is given too.
+template <class Struct>
+void check_alternatives(Reading& reading, const std::string& parent, const std::vector<Key<Struct>>& keys) {
+  for (const auto& key : keys) {
+    if (!reading.entries.contains(join_path(parent, key.name))) continue;
+    for (const auto& other : keys) {
+      if (&other == &key) break;
+      if (!are_alternatives(other, key) || !reading.entries.contains(join_path(parent, other.name))) continue;
+      complain(reading, join_path(parent, key.name),
+               {Kind::conflict, fmt::format("{} is given too", other.name), "remove one of the two"});
+      break;
+    }
+  }
+}
+
+template <class Struct>
+void check_presence(Reading& reading, const std::string& parent, const toml::table& table,
+                    const std::vector<Key<Struct>>& keys) {
+  const auto begin = table.source().begin;
+  for (const auto& key : keys) {
+    const std::string path = join_path(parent, key.name);
+    if (key.presence == Presence::required && !table.contains(key.name))
+      complain(reading, path, {static_cast<int>(begin.line), static_cast<int>(begin.column), ""},
+               {Kind::missing_key, "missing", fmt::format("give {}", key.meaning)});
+  }
+}
+
+/// The names of the tables under `parent`; the empty parent is the file's top level.
+std::vector<std::string_view> table_names(std::string_view parent) {
+  std::vector<std::string_view> names;
+  for_each_section([&](const auto& section) {
+    std::string_view name;
+    if constexpr (requires { section.parent; })
+      name = parent == section.parent ? section.name : parent.empty() ? section.parent : "";
+    else if (parent.empty())
+      name = section.name;
+    if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  });
+  return names;
+}
+
+/// Reads the keys of a table; the tables inside it are left to their own sections.
+template <class Struct>
+void read_table(Reading& reading, const std::string& parent, const toml::table& table,
+                const std::vector<Key<Struct>>& keys, Struct& out) {
+  const auto inner = table_names(parent);
+  for (const auto& [name, node] : table) {
+    if (std::find(inner.begin(), inner.end(), name.str()) != inner.end()) continue;
+    if (const auto* key = find_key(keys, name.str())) {
+      read_value(reading, join_path(parent, name.str()), node, *key, out);
+    } else {
+      auto candidates = key_names(keys);
+      candidates.insert(candidates.end(), inner.begin(), inner.end());
+      complain_unknown(reading, parent, name, node, candidates);
+    }
+  }
+  check_alternatives(reading, parent, keys);
+  check_presence(reading, parent, table, keys);
+}
+
+/// The top-level table of that name; null when it is absent or, after a complaint, not a table.
+const toml::table* find_table(Reading& reading, const toml::table& root, std::string_view name) {
+  const toml::node* node = root.get(name);
+  if (!node) return nullptr;
+  if (const toml::table* table = node->as_table()) return table;
+  const std::string path(name);
+  if (!reading.entries.contains(path)) {
+    note(reading, path, *node);
+    complain(reading, path, wrong_type("a table", fmt::format("begin it with a line [{}]", name)));
+  }
+  return nullptr;
+}
+
+template <class Struct>
+void read_section(Reading& reading, const toml::table& root, const Section<Struct>& section, Case& out) {
+  const toml::table* table = section.name.empty() ? &root : find_table(reading, root, section.name);
+  if (table) read_table(reading, std::string(section.name), *table, section.keys, section.in(out));
+}
+
+template <class Struct>
+void read_section(Reading& reading, const toml::table& root, const SectionArray<Struct>& section, Case& out) {
+  const toml::table* parent = section.parent.empty() ? &root : find_table(reading, root, section.parent);
+  const toml::node* node = parent ? parent->get(section.name) : nullptr;
+  if (!node) return;
+  const toml::array* array = node->as_array();
+  if (!array || (!array->empty() && !array->is_array_of_tables())) {
+    note(reading, section.path(), *node);
+    complain(reading, section.path(),
+             wrong_type("an array of tables", fmt::format("begin each with a line [[{}]]", section.path())));
+    return;
+  }
+  auto& list = section.in(out);
+  for (const toml::node& element : *array) {
+    list.emplace_back();
+    const std::string path = fmt::format("{}[{}]", section.path(), list.size());
+    read_table(reading, path, *element.as_table(), section.keys, list.back());
+  }
+}
+
+Case read_root(Reading& reading, const toml::table& root) {
+  Case result;
+  const std::string_view holes = ring_sections().parent;
+  if (const toml::table* table = find_table(reading, root, holes))
+    read_table(reading, std::string(holes), *table, std::vector<Key<Holes>>{}, result.holes);
+  for_each_section([&](const auto& section) { read_section(reading, root, section, result); });
+  return result;
+}
+
+/// Conflicts that involve a key with a problem of its own are left out: they may vanish with it.
+void check_conflicts(Reading& reading, const Case& c) {
+  for (const Conflict& conflict : conflicts(c)) {
+    const auto& keys = conflict.keys;
+    if (std::any_of(keys.begin(), keys.end(), [&](const auto& key) { return reading.faulty.contains(key); }))
+      continue;
+    const auto given = std::find_if(keys.begin(), keys.end(),
+                                    [&](const auto& key) { return reading.entries.contains(key); });
+    const Entry at = given == keys.end() ? Entry{0, 0, ""} : reading.entries.at(*given);
+    const bool blamed_is_given = given == keys.begin();
+    const std::string problem = blamed_is_given || given == keys.end()
+                                    ? conflict.problem
+                                    : fmt::format("{}: {}", keys.front(), conflict.problem);
+    reading.problems.push_back({Kind::conflict, reading.file, at.line, at.column,
+                                given == keys.end() ? keys.front() : *given, at.value, problem,
+                                conflict.remedy});
+  }
+}
+
+CaseResult failed(Diagnostic problem) { return {std::nullopt, {std::move(problem)}}; }
+
+Diagnostic diagnostic(const SyntaxError& error, const std::string& file) {
+  return {Kind::syntax,
+          file,
+          error.line,
+          error.column,
+          "",
+          "",
+          without_control_characters(error.problem),
+          "write KEY = VALUE, with words in quotes and numbers without unit, below a line [TABLE]"};
+}
+
+/// Leaves out what reading complains of on a line that is no TOML, and keys that are missing since such a
+/// line may hold them.
+std::vector<Diagnostic> merged(const std::vector<Diagnostic>& syntax,
+                               const std::vector<Diagnostic>& reading) {
+  std::vector<Diagnostic> result = syntax;
+  for (const Diagnostic& problem : reading) {
+    const bool said = std::any_of(syntax.begin(), syntax.end(),
+                                  [&](const auto& error) { return error.line == problem.line; });
+    const bool may_be_lost = !syntax.empty() && problem.kind == Kind::missing_key;
+    if (!said && !may_be_lost) result.push_back(problem);
+  }
+  return result;
+}
+
+/// runs/ and the name of the file; "...toml" has the name "..", which is no folder of its own.
+std::string default_folder(const std::filesystem::path& file) {
+  const std::string name = without_control_characters(file.stem().string());
+  return "runs/" + (name == "." || name == ".." ? "case" : name);
+}
+
+CaseResult interpret(const TomlLines& toml, const std::filesystem::path& file) {
+  Reading reading{.file = file.string(), .entries = {}, .faulty = {}, .problems = {}};
+  std::vector<Diagnostic> syntax;
+  for (const SyntaxError& error : toml.errors) syntax.push_back(diagnostic(error, reading.file));
+  Case result = read_root(reading, toml.root);
+  if (syntax.empty()) check_conflicts(reading, result);
+  if (syntax.empty() && toml.root.empty())
+    return failed({Kind::empty, reading.file, 1, 1, "", "", "the file holds no key",
+                   "wheelwright init writes a case to start from"});
+  std::vector<Diagnostic> problems = merged(syntax, reading.problems);
+  std::stable_sort(problems.begin(), problems.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.line, a.column) < std::tie(b.line, b.column);
+  });
+  if (!problems.empty()) return {std::nullopt, std::move(problems)};
+  if (result.output.folder.empty()) result.output.folder = default_folder(file);
+  return {std::move(result), {}};
+}
+
+}  // namespace
+
+CaseResult parse_case(std::string_view text, const std::filesystem::path& file) {
+  if (const auto exceeded = exceeded_parser_limit(text))
+    return failed({Kind::syntax, file.string(), exceeded->line, exceeded->column, "", "", exceeded->problem,
+                   "this is not a case file"});
+  return interpret(parse_toml_lines(text), file);
+}
+
+CaseResult read_case(const std::filesystem::path& file) {
+  std::string text(most_case_bytes + 1, '\0');  // one byte too many tells that there is more
+  std::ifstream in(file, std::ios::binary);
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (in.bad() || (in.fail() && !in.eof()) || std::filesystem::is_directory(file))
+    return failed(
+        {Kind::unreadable, file.string(), 0, 0, "", "", "cannot be read", "check its name and permissions"});
+  text.resize(in.gcount());
+  return parse_case(text, file);
+}
+
+}  // namespace wheelwright

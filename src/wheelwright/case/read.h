@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "wheelwright/case/case.h"
+#include "wheelwright/case/diagnostic.h"
+
+namespace wheelwright {
+
+/// A case, or everything that is wrong with its file, in the order of the file.
+struct CaseResult {
+  std::optional<Case> value;  ///< present if and only if there are no problems
+  std::vector<Diagnostic> problems;
+};
+
+/// Reads and checks a case file.
+CaseResult read_case(const std::filesystem::path& file);
+
+/// The same for a text; `file` names it in messages and gives output.folder its default.
+CaseResult parse_case(std::string_view text, const std::filesystem::path& file);
+
+}  // namespace wheelwright

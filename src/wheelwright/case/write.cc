@@ -1,0 +1,285 @@
+#include "wheelwright/case/write.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "wheelwright/case/keys.h"
+#include "wheelwright/case/number_text.h"
+
+namespace wheelwright {
+
+namespace {
+
+std::string quoted(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\')
+      result += fmt::format("\\{}", c);
+    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+      result += fmt::format("\\u{:04X}", static_cast<int>(c));
+    else
+      result += c;
+  }
+  return result + "\"";
+}
+
+/// The shortest decimal whose product with `factor` is `value`; if rounding leaves none, the nearest.
+std::string quotient_text(double value, double factor) {
+  const double quotient = value / factor;
+  std::string best = number_text(quotient);
+  bool exact = quotient * factor == value;
+  for (const double neighbour : {std::nextafter(quotient, -HUGE_VAL), std::nextafter(quotient, HUGE_VAL)}) {
+    const std::string text = number_text(neighbour);
+    if (neighbour * factor == value && (!exact || text.size() < best.size())) {
+      best = text;
+      exact = true;
+    }
+  }
+  return best;
+}
+
+// One function a field type: the value as TOML, empty when the field holds none.
+
+template <class Struct>
+std::string value_text(const NumberField<Struct>& field, const Struct& s) {
+  return quotient_text(s.*field.member, field.factor);
+}
+
+template <class Struct>
+std::string value_text(const OptionalNumberField<Struct>& field, const Struct& s) {
+  const auto& value = s.*field.member;
+  return value ? quotient_text(*value, field.factor) : "";
+}
+
+template <class Struct>
+std::string value_text(const IntegerField<Struct>& field, const Struct& s) {
+  return fmt::format("{}", s.*field.member);
+}
+
+template <class Struct>
+std::string value_text(const OptionalIntegerField<Struct>& field, const Struct& s) {
+  const auto& value = s.*field.member;
+  return value ? fmt::format("{}", *value) : "";
+}
+
+template <class Struct>
+std::string value_text(const TextField<Struct>& field, const Struct& s) {
+  const std::string& value = s.*field.member;
+  return value.empty() && !field.default_text.empty() ? "" : quoted(value);
+}
+
+template <class Struct>
+std::string value_text(const PointField<Struct>& field, const Struct& s) {
+  const auto [x, y] = s.*field.member;
+  return fmt::format("[{}, {}]", number_text(x), number_text(y));
+}
+
+template <class Struct>
+std::string value_text(const ChoiceField<Struct>& field, const Struct& s) {
+  return quoted(field.words[field.get(s)]);
+}
+
+template <class Struct>
+std::string value_text(const Key<Struct>& key, const Struct& s) {
+  return std::visit([&](const auto& field) { return value_text(field, s); }, key.field);
+}
+
+/// The values that a key accepts, in words.
+template <class Struct>
+std::string accepted_text(const Key<Struct>& key) {
+  return std::visit(
+      [](const auto& field) -> std::string {
+        if constexpr (requires { field.words; })
+          return fmt::format("\"{}\"", fmt::join(field.words, "\" or \""));
+        else if constexpr (requires { field.range; })
+          return field.range.text();
+        else
+          return std::string(rule_text(field.rule));
+      },
+      key.field);
+}
+
+/// What an absent key means when that is not a value; empty otherwise.
+template <class Struct>
+std::string default_text(const Key<Struct>& key) {
+  return std::visit(
+      [](const auto& field) -> std::string {
+        if constexpr (requires { field.default_text; })
+          return std::string(field.default_text);
+        else
+          return "";
+      },
+      key.field);
+}
+
+/// Whether the resolved case leaves the key out because a later one of its alternatives has a value.
+template <class Struct>
+bool is_superseded(const std::vector<Key<Struct>>& keys, const Key<Struct>& key, const Struct& s) {
+  return std::any_of(keys.begin(), keys.end(), [&](const auto& other) {
+    return &other > &key && are_alternatives(other, key) && !value_text(other, s).empty();
+  });
+}
+
+template <class Struct>
+std::string resolved_lines(const std::vector<Key<Struct>>& keys, const Struct& s) {
+  std::string result;
+  for (const auto& key : keys) {
+    if (is_superseded(keys, key, s)) continue;
+    const std::string value = value_text(key, s);
+    result += value.empty() ? fmt::format("# {}: {}\n", key.name, default_text(key))
+                            : fmt::format("{} = {}\n", key.name, value);
+  }
+  return result;
+}
+
+/// The comment above a key of the template, e.g. "E [Pa; 0 < value <= 10e12]".
+template <class Struct>
+std::string comment(const Key<Struct>& key) {
+  const std::string instead = key.instead_of.empty() ? "" : fmt::format(", instead of {}", key.instead_of);
+  const std::string unit = key.unit.empty() ? "" : fmt::format("{}; ", key.unit);
+  const std::string text = default_text(key);
+  const std::string absent = text.empty() ? "" : fmt::format("; default: {}", text);
+  return fmt::format("{}{} [{}{}{}]", key.meaning, instead, unit, accepted_text(key), absent);
+}
+
+template <class Struct>
+std::string template_lines(const std::vector<Key<Struct>>& keys, const Struct& s) {
+  std::string result;
+  for (const auto& key : keys) {
+    const std::string value = value_text(key, s);
+    const bool off = value.empty() || !key.instead_of.empty();
+    const std::string right_side = value.empty() ? "" : " " + value;
+    result += fmt::format("# {}\n{}{} ={}\n", comment(key), off ? "#" : "", key.name, right_side);
+  }
+  return result;
+}
+
+std::string commented_out(const std::string& lines) {
+  std::string result;
+  for (std::size_t begin = 0; begin < lines.size();) {
+    const std::size_t end = lines.find('\n', begin) + 1;
+    if (lines[begin] != '#') result += '#';
+    result += lines.substr(begin, end - begin);
+    begin = end;
+  }
+  return result;
+}
+
+template <class Struct>
+std::string resolved_text(const Section<Struct>& section, const Case& c) {
+  const std::string header = section.name.empty() ? "" : fmt::format("\n[{}]\n", section.name);
+  return header + resolved_lines(section.keys, section.of(c));
+}
+
+template <class Struct>
+std::string resolved_text(const SectionArray<Struct>& section, const Case& c) {
+  std::string result;
+  for (const Struct& element : section.of(c))
+    result += fmt::format("\n[[{}]]\n{}", section.path(), resolved_lines(section.keys, element));
+  return result;
+}
+
+template <class Struct>
+std::string template_text(const Section<Struct>& section, const Case& c) {
+  const std::string header =
+      section.name.empty() ? "" : fmt::format("\n# {}\n[{}]\n", section.meaning, section.name);
+  return header + template_lines(section.keys, section.of(c));
+}
+
+template <class Struct>
+std::string template_text(const SectionArray<Struct>& section, const Case& c) {
+  std::string result = fmt::format("\n# {}\n", section.meaning);
+  const auto block = [&](const Struct& s) {
+    return fmt::format("[[{}]]\n{}", section.path(), template_lines(section.keys, s));
+  };
+  for (const Struct& element : section.of(c)) result += block(element);
+  return section.of(c).empty() ? result + commented_out(block(section.example)) : result;
+}
+
+/// Vertical bars end a cell of a Markdown table.
+std::string markdown_cell(std::string_view text) {
+  std::string result;
+  for (const char c : text) result += c == '|' ? std::string("\\|") : std::string(1, c);
+  return result;
+}
+
+std::string capitalized(std::string_view text) {
+  std::string result(text);
+  result[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(result[0])));
+  return result;
+}
+
+template <class Struct>
+std::string default_cell(const Key<Struct>& key, const Struct& defaults) {
+  if (key.presence == Presence::required) return "required";
+  if (std::string text = default_text(key); !text.empty()) return text;
+  if (!key.instead_of.empty()) return fmt::format("`{}` counts", key.instead_of);
+  return fmt::format("`{}`", value_text(key, defaults));
+}
+
+template <class Struct>
+std::string reference_table(const std::vector<Key<Struct>>& keys, const Struct& defaults) {
+  std::string result = "| key | unit | accepted | default | meaning |\n|---|---|---|---|---|\n";
+  for (const auto& key : keys) {
+    const std::string instead =
+        key.instead_of.empty() ? "" : fmt::format("; instead of `{}`", key.instead_of);
+    result +=
+        fmt::format("| `{}` | {} | {} | {} | {}{} |\n", key.name, key.unit, markdown_cell(accepted_text(key)),
+                    markdown_cell(default_cell(key, defaults)), markdown_cell(key.meaning), instead);
+  }
+  return result;
+}
+
+template <class Struct>
+std::string reference_text(const Section<Struct>& section) {
+  const std::string header =
+      section.name.empty() ? std::string("## Top of the file\n\n")
+                           : fmt::format("\n## [{}]\n\n{}.\n\n", section.name, capitalized(section.meaning));
+  return header + reference_table(section.keys, section.of(Case{}));
+}
+
+template <class Struct>
+std::string reference_text(const SectionArray<Struct>& section) {
+  return fmt::format("\n## [[{0}]]\n\n{1}. For example:\n\n```toml\n[[{0}]]\n{2}```\n\n{3}", section.path(),
+                     capitalized(section.meaning), resolved_lines(section.keys, section.example),
+                     reference_table(section.keys, Struct{}));
+}
+
+}  // namespace
+
+std::string to_toml(const Case& c) {
+  std::string result;
+  for_each_section([&](const auto& section) { result += resolved_text(section, c); });
+  return result;
+}
+
+std::string case_template() {
+  Case c;
+  c.holes.rings = {ring_sections().example};
+  std::string result =
+      "# A case for wheelwright: check it with `wheelwright check FILE`, run it with `wheelwright run "
+      "FILE`.\n"
+      "# Keys that are left out take the value shown here; rings and circles of holes have no defaults.\n\n";
+  for_each_section([&](const auto& section) { result += template_text(section, c); });
+  return result;
+}
+
+std::string case_reference_markdown() {
+  std::string result =
+      "# The case file\n\n"
+      "<!-- Written by `wheelwright reference` from the declarations in src/case/keys.cc: do not edit. "
+      "-->\n\n"
+      "A case is a [TOML](https://toml.io) file. `wheelwright init` writes one with comments; `wheelwright "
+      "check` "
+      "reports\nevery problem of one, with its line, and prints the numbers that follow from it. Keys that "
+      "are left "
+      "out take their\ndefault. Equation numbers are those of the paper that the method comes from.\n\n";
+  for_each_section([&](const auto& section) { result += reference_text(section); });
+  return result;
+}
+
+}  // namespace wheelwright

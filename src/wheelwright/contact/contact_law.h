@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cmath>
+
+#include "wheelwright/base/vec.h"
+
+namespace wheelwright {
+
+/// [x]_- = max(-x, 0).
+inline double negative_part(double x) { return x < 0 ? -x : 0; }
+
+/// The product of two vectors' parts along the ground, and the length of one.
+template <int dim>
+double tangential_dot(const Vec<dim>& a, const Vec<dim>& b) {
+  double sum = 0;
+  for (int d = 1; d < dim; ++d) sum += a[d] * b[d];
+  return sum;
+}
+
+template <int dim>
+double tangential_norm(const Vec<dim>& z) {
+  return std::sqrt(tangential_dot<dim>(z, z));
+}
+
+/// The contact traction on the body and its tangent, in the ground frame: component 0 along n_y (into the
+/// ground), the others tangential.
+template <int dim>
+struct ContactResponse {
+  Vec<dim> traction;  ///< Phi(z)
+  Mat<dim>
+      tangent;  ///< d Phi_i / d z_j, the dependence of the friction threshold on z_0 included: (56), (57)
+};
+
+/// Phi(z) of (18), (23): Phi_n = -[z_n]_-, Phi_t = z_t projected on the ball of radius F [z_n]_- (19).
+template <int dim>
+ContactResponse<dim> contact_response(const Vec<dim>& z, double friction) {
+  ContactResponse<dim> r{};
+  const double pressure = negative_part(z[0]);
+  if (pressure <= 0) return r;
+  r.traction[0] = -pressure;
+  r.tangent[0][0] = 1;
+  if (friction <= 0) return r;
+
+  const double threshold = friction * pressure, tangential = tangential_norm<dim>(z);
+  const bool sticks = tangential <= threshold;
+  for (int i = 1; i < dim; ++i) {
+    if (sticks) {
+      r.traction[i] = z[i];
+      r.tangent[i][i] = 1;
+      continue;
+    }
+    const double direction = z[i] / tangential;
+    r.traction[i] = threshold * direction;
+    r.tangent[i][0] = -friction * direction;
+    for (int j = 1; j < dim; ++j)
+      r.tangent[i][j] = threshold / tangential * ((i == j) - direction * z[j] / tangential);
+  }
+  return r;
+}
+
+/// What a point does according to its augmented traction.
+enum class ContactStatus { open, sticks, slides };
+
+template <int dim>
+ContactStatus contact_status(const Vec<dim>& z, double friction) {
+  if (z[0] >= 0) return ContactStatus::open;
+  return tangential_norm<dim>(z) <= friction * negative_part(z[0]) ? ContactStatus::sticks
+                                                                   : ContactStatus::slides;
+}
+
+}  // namespace wheelwright

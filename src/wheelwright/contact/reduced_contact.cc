@@ -1,0 +1,339 @@
+#include "wheelwright/contact/reduced_contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "wheelwright/base/periodic.h"
+
+namespace wheelwright {
+namespace {
+
+/// The ground frame's axes in a column's frame, which `angle` turns into the ground frame.
+template <int dim>
+std::array<Vec<dim>, dim> ground_axes(double angle) {
+  std::array<Vec<dim>, dim> axes;
+  for (int k = 0; k < dim; ++k) {
+    Vec<dim> unit{};
+    unit[k] = 1;
+    axes[k] = rotated<dim>(unit, -angle);
+  }
+  return axes;
+}
+
+}  // namespace
+
+template <int dim>
+ReducedContact<dim>::ReducedContact(const SurfaceCompliance<dim>& surface, const Tread<dim>& tread,
+                                    const PolarGrid<dim>& grid, GroundPosition ground, ContactZone zone,
+                                    RimControl rim, const Preload& preload)
+    : zone_(zone),
+      rim_(std::move(rim)),
+      friction_(tread.form().friction),
+      tau_(tread.form().tau()),
+      theta_(tread.form().theta()),
+      preload_resultant_(preload.resultant) {
+  const double column_angle = grid.cell_size()[1];
+  const int per_zone_column = static_cast<int>(tread.points().size());
+  for (int c = 0; c < zone.n_columns; ++c) {
+    const double angle = (zone.first_column + c - ground.column - ground.offset) * column_angle;
+    for (const auto& point : tread.points()) {
+      const Vec<dim> x = rotated<dim>(point.position, angle);
+      points_.push_back({x, grid.outer_radius - x[0], point.weight, point.gamma, angle});
+    }
+  }
+
+  if (preload.observations.rows() > 0)
+    for (int c = 0; c < zone.n_columns; ++c) {
+      const double* observed =
+          preload.observations.column(wrap(zone.first_column + c, preload.observations.columns()));
+      for (int q = 0; q < per_zone_column; ++q) {
+        const Point& point = points_[c * per_zone_column + q];
+        Vec<dim> z;
+        for (int d = 0; d < dim; ++d)
+          z[d] = tau_ * observed[2 * dim * q + dim + d] - point.gamma * observed[2 * dim * q + d];
+        preload_.push_back(rotated<dim>(z, point.angle));
+      }
+    }
+
+  const int n = n_points() * components();
+  flexibility_ = Matrix(n, n);
+  for (int from = 0; from < zone.n_columns; ++from)
+    for (int to = 0; to < zone.n_columns; ++to)
+      set_flexibility(to, from, surface.block(wrap(zone.first_column + from, tread.n_columns()), to - from));
+}
+
+template <int dim>
+void ReducedContact<dim>::set_flexibility(int to_column, int from_column, const Matrix& block) {
+  const int per_column = n_points() / zone_.n_columns, n_components = components();
+  const int first_to = per_column * to_column, first_from = per_column * from_column;
+  const auto to_axes = ground_axes<dim>(points_[first_to].angle);
+  const auto from_axes = ground_axes<dim>(points_[first_from].angle);
+  for (int from = 0; from < per_column; ++from)
+    for (int to = 0; to < per_column; ++to)
+      for (int j = 0; j < n_components; ++j) {
+        Vec<dim> sample{};
+        for (int k = 0; k < dim; ++k)
+          for (int i = 0; i < dim; ++i) sample[i] += block(dim * to + i, dim * from + k) * from_axes[j][k];
+        for (int i = 0; i < n_components; ++i)
+          flexibility_(n_components * (first_to + to) + i, n_components * (first_from + from) + j) =
+              dot<dim>(to_axes[i], sample);
+      }
+}
+
+template <int dim>
+ReducedContact<dim> ReducedContact<dim>::under(const RimControl& rim) const {
+  ReducedContact contact = *this;
+  contact.rim_ = rim;
+  return contact;
+}
+
+template <int dim>
+ContactUnknowns<dim> ReducedContact<dim>::hertz_start(double load, double radius,
+                                                      double reduced_modulus) const {
+  const double half_width = 2 * std::sqrt(load * radius / (std::numbers::pi * reduced_modulus));
+  const double peak = 2 * load / (std::numbers::pi * half_width);
+  ContactUnknowns<dim> x{std::vector<Vec<dim>>(points_.size(), Vec<dim>{}), std::vector<double>(n_free())};
+  for (size_t i = 0; i < points_.size(); ++i) {
+    const double s = points_[i].position[1] / half_width;
+    x.augmented[i][0] = std::abs(s) < 1 ? -peak * std::sqrt(1 - s * s) : points_[i].gamma * points_[i].gap;
+  }
+  return x;
+}
+
+template <int dim>
+ContactUnknowns<dim> ReducedContact<dim>::undeformed_start(double fraction) const {
+  ContactUnknowns<dim> x{{}, std::vector<double>(n_free())};
+  const RimMotion rim = rim_motion(x.rim, fraction);
+  for (const Point& point : points_) {
+    Vec<dim> z = displacement<dim>(rim, point.position);
+    z[0] -= point.gap;
+    for (double& component : z) component *= -point.gamma;
+    x.augmented.push_back(z);
+  }
+  return x;
+}
+
+template <int dim>
+ContactUnknowns<dim> ReducedContact<dim>::start_from(const ContactState<dim>& other) const {
+  const int per_column = n_points() / zone_.n_columns;
+  const int shift = per_column * (other.zone.n_columns - zone_.n_columns) / 2;
+  const int n_other = static_cast<int>(other.augmented.size());
+  ContactUnknowns<dim> x{{}, std::vector<double>(n_free())};
+  for (int i = 0; i < n_points(); ++i) {
+    const Point& point = points_[i];
+    Vec<dim> open{};
+    open[0] = point.gamma * std::max(0.0, point.gap - displacement<dim>(other.rim, point.position)[0]);
+    const int j = i + shift;
+    x.augmented.push_back(j >= 0 && j < n_other ? other.augmented[j] : open);
+  }
+  return x;
+}
+
+template <int dim>
+RimMotion ReducedContact<dim>::rim_motion(const std::vector<double>& free, double fraction) const {
+  RimMotion motion = combined({}, fraction, rim_.prescribed);
+  for (int k = 0; k < n_free(); ++k) motion = combined(motion, free[k], rim_.free[k].direction);
+  return motion;
+}
+
+template <int dim>
+ContactUnknowns<dim> ReducedContact<dim>::residual(const ContactUnknowns<dim>& x, double fraction) const {
+  const int nc = components(), n = n_points() * nc;
+  Matrix force(n, 1), response(n, 1);
+  ContactUnknowns<dim> result{std::vector<Vec<dim>>(points_.size(), Vec<dim>{}), {}};
+  for (const FreeMotion& motion : rim_.free)
+    result.rim.push_back(-fraction * (motion.force + work(preload_resultant_, motion.direction)));
+  for (int i = 0; i < n_points(); ++i) {
+    const Vec<dim> traction = contact_response<dim>(x.augmented[i], friction_).traction;
+    if (traction[0] == 0) continue;
+    for (int d = 0; d < nc; ++d) force(nc * i + d, 0) = points_[i].weight * traction[d];
+    for (int k = 0; k < n_free(); ++k)
+      result.rim[k] -= points_[i].weight *
+                       dot<dim>(traction, displacement<dim>(rim_.free[k].direction, points_[i].position));
+  }
+  multiply(1, flexibility_, Op::none, force, Op::none, 0, response);
+  const RimMotion rim = rim_motion(x.rim, fraction);
+  for (int i = 0; i < n_points(); ++i) {
+    Vec<dim> approach = displacement<dim>(rim, points_[i].position);
+    approach[0] -= points_[i].gap;
+    for (int d = 0; d < nc; ++d)
+      result.augmented[i][d] = x.augmented[i][d] - response(nc * i + d, 0) + points_[i].gamma * approach[d] -
+                               (preload_.empty() ? 0.0 : fraction * preload_[i][d]);
+  }
+  return result;
+}
+
+/// The points that carry traction: the columns of all others are unit vectors in the Newton matrix.
+template <int dim>
+std::vector<int> ReducedContact<dim>::active_rows(const std::vector<Vec<dim>>& z) const {
+  const int nc = components();
+  std::vector<int> rows;
+  for (int i = 0; i < n_points(); ++i)
+    if (z[i][0] < 0)
+      for (int d = 0; d < nc; ++d) rows.push_back(nc * i + d);
+  return rows;
+}
+
+/// d(response)/dz, the columns of the active rows: F W Phi', all rows.
+template <int dim>
+Matrix ReducedContact<dim>::response_tangent(const std::vector<Vec<dim>>& z,
+                                             const std::vector<int>& active) const {
+  const int nc = components(), n = n_points() * nc;
+  Matrix tangent(n, static_cast<int>(active.size()));
+  for (int column = 0; column < tangent.columns(); ++column) {
+    const int point = active[column] / nc, component = active[column] % nc;
+    const auto r = contact_response<dim>(z[point], friction_);
+    for (int k = 0; k < nc; ++k) {
+      const double weight = points_[point].weight * r.tangent[k][component];
+      if (weight == 0) continue;
+      const double* f = flexibility_.column(nc * point + k);
+      double* t = tangent.column(column);
+      for (int i = 0; i < n; ++i) t[i] += weight * f[i];
+    }
+  }
+  return tangent;
+}
+
+/// The Newton system on the active rows and the rim's free motions.
+template <int dim>
+Matrix ReducedContact<dim>::active_system(const std::vector<Vec<dim>>& z, const std::vector<int>& active,
+                                          const Matrix& tangent) const {
+  const int nc = components(), n = static_cast<int>(active.size());
+  Matrix a(n + n_free(), n + n_free());
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < n; ++i) a(i, j) = (i == j) - tangent(active[i], j);
+    const int component = active[j] % nc;
+    const Point& point = points_[active[j] / nc];
+    const auto r = contact_response<dim>(z[active[j] / nc], friction_);
+    for (int k = 0; k < n_free(); ++k) {
+      const Vec<dim> motion = displacement<dim>(rim_.free[k].direction, point.position);
+      for (int d = 0; d < nc; ++d) a(n + k, j) -= point.weight * r.tangent[d][component] * motion[d];
+      a(j, n + k) = point.gamma * motion[component];
+    }
+  }
+  return a;
+}
+
+template <int dim>
+std::optional<ContactUnknowns<dim>> ReducedContact<dim>::newton_step(
+    const ContactUnknowns<dim>& x, const ContactUnknowns<dim>& residual) const {
+  const int nc = components();
+  const auto active = active_rows(x.augmented);
+  const int n_active = static_cast<int>(active.size());
+  const Matrix tangent = response_tangent(x.augmented, active);
+  Matrix a = active_system(x.augmented, active, tangent), solution(n_active + n_free(), 1);
+  for (int i = 0; i < n_active; ++i) solution(i, 0) = residual.augmented[active[i] / nc][active[i] % nc];
+  for (int k = 0; k < n_free(); ++k) solution(n_active + k, 0) = residual.rim[k];
+  if (!lu_solve(a, solution)) return {};
+
+  // Points without contact follow from the others: their columns are unit vectors.
+  ContactUnknowns<dim> step = residual;
+  const double longest = norm<dim>(points_.front().position);
+  for (int k = 0; k < n_free(); ++k) {
+    step.rim[k] = solution(n_active + k, 0);
+    if (!(std::abs(step.rim[k]) * amplitude(rim_.free[k].direction) < longest)) return {};
+  }
+  for (int i = 0; i < n_points(); ++i) {
+    for (int k = 0; k < n_free(); ++k) {
+      const Vec<dim> motion = displacement<dim>(rim_.free[k].direction, points_[i].position);
+      for (int d = 0; d < nc; ++d) step.augmented[i][d] -= points_[i].gamma * motion[d] * step.rim[k];
+    }
+    for (int d = 0; d < nc; ++d)
+      for (int j = 0; j < n_active; ++j) step.augmented[i][d] += tangent(nc * i + d, j) * solution(j, 0);
+  }
+  for (int i = 0; i < n_active; ++i) step.augmented[active[i] / nc][active[i] % nc] = solution(i, 0);
+  return step;
+}
+
+template <int dim>
+ContactState<dim> ReducedContact<dim>::state(const ContactUnknowns<dim>& x, int newton_iterations) const {
+  ContactState<dim> state{zone_, x.augmented, {}, rim_motion(x.rim, 1), {}, newton_iterations};
+  state.rim_force = scaled(-1, preload_resultant_);
+  for (int i = 0; i < n_points(); ++i) {
+    state.traction.push_back(contact_response<dim>(x.augmented[i], friction_).traction);
+    const RimForce force = resultant<dim>(state.traction.back(), points_[i].position);
+    state.rim_force = sum(state.rim_force, scaled(-points_[i].weight, force));
+  }
+  return state;
+}
+
+template <int dim>
+double ReducedContact<dim>::smallest_gap(const ContactUnknowns<dim>& x) const {
+  double gap = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < n_points(); ++i) gap = std::min(gap, x.augmented[i][0] / points_[i].gamma);
+  return gap;
+}
+
+template <int dim>
+double ReducedContact<dim>::amplitude(const RimMotion& motion) const {
+  double largest = 0;
+  for (const Point& point : points_)
+    largest = std::max(largest, norm<dim>(displacement<dim>(motion, point.position)));
+  return largest;
+}
+
+template <int dim>
+Matrix ReducedContact<dim>::contact_loads(const ContactState<dim>& state) const {
+  const int per_column = n_points() / zone_.n_columns;
+  Matrix loads(2 * dim * per_column, zone_.n_columns);
+  for (int i = 0; i < n_points(); ++i) {
+    const Point& point = points_[i];
+    const Vec<dim> traction = rotated<dim>(state.traction[i], -point.angle);
+    const int row = 2 * dim * (i % per_column), column = i / per_column;
+    for (int d = 0; d < dim; ++d) {
+      loads(row + d, column) = point.weight * traction[d];
+      loads(row + dim + d, column) = -theta_ / point.gamma * point.weight * traction[d];
+    }
+  }
+  return loads;
+}
+
+template <int dim>
+Expected<ContactAdjoint> ReducedContact<dim>::adjoint(const ContactState<dim>& state,
+                                                      const Matrix& observations) const {
+  // With Te p = h + F^T m: m - W Phi'^T F^T m + sum_k beta_k W Phi'^T m_k = W Phi'^T h and, for every free
+  // motion, sum gamma m.m_k = 0. m vanishes off the active points; on them the matrix is newton_step()'s,
+  // transposed.
+  const int nc = components(), per_column = n_points() / zone_.n_columns;
+  const auto active = active_rows(state.augmented);
+  const int n_active = static_cast<int>(active.size());
+  const Matrix forward = active_system(state.augmented, active, response_tangent(state.augmented, active));
+  Matrix a(forward.rows(), forward.rows()), m(forward.rows(), 1);
+  for (int j = 0; j < a.columns(); ++j)
+    for (int i = 0; i < a.rows(); ++i) a(i, j) = forward(j, i);
+  for (int k = 0; k < n_active; ++k) {
+    const int i = active[k] / nc, component = active[k] % nc;
+    const Point& point = points_[i];
+    const int row = 2 * dim * (i % per_column), column = i / per_column;
+    Vec<dim> tested;
+    for (int d = 0; d < dim; ++d)
+      tested[d] = theta_ / point.gamma * observations(row + dim + d, column) - observations(row + d, column);
+    tested = rotated<dim>(tested, point.angle);
+    const auto r = contact_response<dim>(state.augmented[i], friction_);
+    for (int d = 0; d < nc; ++d) m(k, 0) += point.weight * r.tangent[d][component] * tested[d];
+  }
+  if (!lu_solve(a, m)) return Failure{FailureReason::no_contact, "the adjoint contact system is singular"};
+
+  std::vector<Vec<dim>> multiplier(n_points(), Vec<dim>{});
+  for (int k = 0; k < n_active; ++k) multiplier[active[k] / nc][active[k] % nc] = m(k, 0);
+  Matrix loads(2 * dim * per_column, zone_.n_columns);
+  for (int i = 0; i < n_points(); ++i) {
+    const Point& point = points_[i];
+    const Vec<dim> value = rotated<dim>(multiplier[i], -point.angle);
+    const int row = 2 * dim * (i % per_column), column = i / per_column;
+    for (int d = 0; d < dim; ++d) {
+      loads(row + d, column) = point.gamma * value[d];
+      loads(row + dim + d, column) = -tau_ * value[d];
+    }
+  }
+  RimMotion rim;
+  for (int k = 0; k < n_free(); ++k) rim = combined(rim, -m(n_active + k, 0), rim_.free[k].direction);
+  return ContactAdjoint{std::move(loads), rim};
+}
+
+template class ReducedContact<2>;
+template class ReducedContact<3>;
+
+}  // namespace wheelwright

@@ -1,0 +1,129 @@
+#pragma once
+
+#include <optional>
+
+#include "wheelwright/state/load_positions.h"
+#include "wheelwright/state/rim.h"
+#include "wheelwright/contact/contact_law.h"
+#include "wheelwright/ring/surface_compliance.h"
+
+namespace wheelwright {
+
+/// Contact quadrature points near the ground position, in the order (column, point of the column).
+struct ContactZone {
+  int first_column;  ///< may be negative: columns are periodic
+  int n_columns;
+};
+
+/// What loads other than the ground's do at one load position before the ground does anything.
+struct Preload {
+  Matrix observations;  ///< of v on the tread, one column a ring column; empty: zero
+  RimForce resultant;
+};
+
+/// The unknowns of one load position's contact problem, or a change of them, or its residual.
+template <int dim>
+struct ContactUnknowns {
+  std::vector<Vec<dim>> augmented;  ///< z = tau sigma(u)n - gamma (u - g n_y), ground frame [Pa]
+  std::vector<double> rim;          ///< how far the rim goes along each of its free motions
+};
+
+/// The solution of one load position's contact problem, reduced to the zone.
+template <int dim>
+struct ContactState {
+  ContactZone zone;
+  std::vector<Vec<dim>> augmented;  ///< z
+  std::vector<Vec<dim>> traction;   ///< Phi(z) on the body, ground frame: component 0 along n_y [Pa]
+  RimMotion rim;
+  RimForce rim_force;     ///< on the rim: its load, and the reaction in motions that are not free
+  int newton_iterations;  ///< of all attempts
+};
+
+/// The contact's part of the adjoint problem (79) at one load position.
+struct ContactAdjoint {
+  Matrix loads;   ///< -S^T m on the zone's observations, m the multiplier
+  RimMotion rim;  ///< of the adjoint
+};
+
+/// The contact problem (27) with the rigid rim (4.3) of one load position, condensed onto its contact zone:
+///   z = z_0 + F W Phi(z) + gamma (g n_y - m),   sum w Phi(z).m_k + force_k = 0,
+/// W the weights, F the flexibility of the zone, m the rim's motion and m_k its free motions, z_0 what other
+/// loads make of tau sigma(v)n - gamma v. Only the
+/// components that can carry traction are kept: the normal one without friction.
+template <int dim>
+class ReducedContact {
+ public:
+  /// `surface` must be as wide as the zone: columns up to zone.n_columns - 1 apart.
+  ReducedContact(const SurfaceCompliance<dim>& surface, const Tread<dim>& tread, const PolarGrid<dim>& grid,
+                 GroundPosition ground, ContactZone zone, RimControl rim, const Preload& preload = {});
+
+  /// The same zone with another control of the rim.
+  ReducedContact under(const RimControl& rim) const;
+
+  const ContactZone& zone() const { return zone_; }
+  const RimControl& rim() const { return rim_; }
+  double friction() const { return friction_; }
+  int n_points() const { return static_cast<int>(points_.size()); }
+
+  /// A contact quadrature point in the ground frame.
+  struct Point {
+    Vec<dim> position;  ///< relative to the axle: component 0 towards the ground, 1 along it [m]
+    double gap;         ///< g (9) [m]
+    double weight;      ///< dS
+    double gamma;       ///< [Pa/m]
+    double angle;       ///< turns column-frame components into ground-frame ones
+  };
+  const std::vector<Point>& points() const { return points_; }
+
+  /// Starts for Newton's method: the pressure of the Hertz contact of a solid disc; the undeformed tread
+  /// under a fraction of the rim's prescribed motion; another zone's solution, both zones centred on their
+  /// ground position.
+  ContactUnknowns<dim> hertz_start(double load, double radius, double reduced_modulus) const;
+  ContactUnknowns<dim> undeformed_start(double fraction) const;
+  ContactUnknowns<dim> start_from(const ContactState<dim>& other) const;
+
+  /// The residual under a fraction of all loads and prescribed motions.
+  ContactUnknowns<dim> residual(const ContactUnknowns<dim>& x, double fraction) const;
+
+  /// Newton's step, to be subtracted. Nothing when the tangent is singular, or the rim would go farther than
+  /// the tread's radius.
+  std::optional<ContactUnknowns<dim>> newton_step(const ContactUnknowns<dim>& x,
+                                                  const ContactUnknowns<dim>& residual) const;
+
+  /// What a solution x under the full loads means.
+  ContactState<dim> state(const ContactUnknowns<dim>& x, int newton_iterations) const;
+
+  /// The least distance to the ground at x where nothing touches [m].
+  double smallest_gap(const ContactUnknowns<dim>& x) const;
+
+  /// The largest displacement of a point that moves with the rim.
+  double amplitude(const RimMotion& motion) const;
+
+  /// Loads on the zone's observations (rows as in Tread, one column a zone column): -Te^T W Phi.
+  Matrix contact_loads(const ContactState<dim>& state) const;
+
+  /// The multiplier of the adjoint problem (79): the transpose of Newton's last linear system.
+  /// `observations` of p without the contact part, in the zone.
+  Expected<ContactAdjoint> adjoint(const ContactState<dim>& state, const Matrix& observations) const;
+
+ private:
+  int components() const { return friction_ > 0 ? dim : 1; }
+  int n_free() const { return static_cast<int>(rim_.free.size()); }
+  /// The part of the flexibility between two of the zone's columns; `block` is in the columns' frames.
+  void set_flexibility(int to_column, int from_column, const Matrix& block);
+  RimMotion rim_motion(const std::vector<double>& free, double fraction) const;
+  std::vector<int> active_rows(const std::vector<Vec<dim>>& z) const;
+  Matrix response_tangent(const std::vector<Vec<dim>>& z, const std::vector<int>& active) const;
+  Matrix active_system(const std::vector<Vec<dim>>& z, const std::vector<int>& active,
+                       const Matrix& tangent) const;
+
+  ContactZone zone_;
+  RimControl rim_;
+  double friction_, tau_, theta_;
+  std::vector<Point> points_;
+  Matrix flexibility_;
+  std::vector<Vec<dim>> preload_;  ///< z_0; empty: zero
+  RimForce preload_resultant_;
+};
+
+}  // namespace wheelwright

@@ -1,0 +1,181 @@
+#include "wheelwright/cut/cut_domain.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wheelwright/cut/cell_quadrature.h"
+#include "wheelwright/geometry/finite.h"
+#include "wheelwright/geometry/place.h"
+
+namespace wheelwright {
+namespace {
+
+/// Moves nodal values off zero: a level set that vanishes on a cell face would count its boundary twice.
+template <int dim>
+LevelSet<dim> nudged(const LevelSet<dim>& psi) {
+  LevelSet<dim> result = psi;
+  const double smallest = 1e-9 * psi.lattice.grid().resolution();
+  for (double& value : result.values)
+    if (std::abs(value) < smallest) value = value < 0 ? -smallest : smallest;
+  return result;
+}
+
+/// Below this fraction of the cell a piece of material is not represented: its quadrature is not reliable.
+constexpr double smallest_fraction = 1e-13;
+
+template <int dim>
+double material_fraction(const CutCell<dim>& cell) {
+  double sum = 0;
+  for (const auto& point : cell.material) sum += point.weight;
+  return sum;
+}
+
+/// Calls visit(neighbour) for the active face neighbours of a cell, the neighbouring sectors' included.
+template <int dim, class Visit>
+void for_each_neighbour(const PolarGrid<dim>& grid, int cell, Visit visit) {
+  const auto position = grid.cell_position(cell);
+  for (int axis = 0; axis < dim; ++axis) {
+    for (int step : {-1, 1}) {
+      auto p = position;
+      p[axis] += step;
+      if (axis == 1) p[1] = (p[1] + grid.cells[1]) % grid.cells[1];
+      if (p[axis] >= 0 && p[axis] < grid.cells[axis]) visit(grid.cell_index(p));
+    }
+  }
+}
+
+template <int dim>
+std::string place(const PolarGrid<dim>& grid, int cell) {
+  const auto p = grid.cell_position(cell);
+  Vec<dim> centre;
+  for (int d = 0; d < dim; ++d) centre[d] = (p[d] + 0.5) * grid.cell_size()[d];
+  centre[0] += grid.inner_radius;
+  return place_text<dim>(centre);
+}
+
+template <int dim>
+std::optional<Failure> check_bands(const CutDomain<dim>& domain, int rim_rows, int tread_rows) {
+  const PolarGrid<dim>& grid = domain.grid;
+  for (int cell = 0; cell < grid.n_cells(); ++cell) {
+    const int row = grid.cell_position(cell)[0];
+    const bool at_rim = row < rim_rows, at_tread = row >= grid.cells[0] - tread_rows;
+    if ((at_rim || at_tread) && domain.kinds[cell] != CellKind::inside)
+      return Failure{FailureReason::protected_band,
+                     fmt::format("a hole reaches the protected band at the {}: {}", at_rim ? "rim" : "tread",
+                                 place(grid, cell))};
+  }
+  return {};
+}
+
+template <int dim>
+std::optional<Failure> check_connected(const CutDomain<dim>& domain) {
+  const PolarGrid<dim>& grid = domain.grid;
+  std::vector<char> reached(domain.kinds.size(), 0);
+  std::vector<int> front;
+  for (int cell = 0; cell < grid.n_cells(); ++cell) {
+    if (grid.cell_position(cell)[0] > 0 || !domain.active(cell)) continue;
+    reached[cell] = 1;
+    front.push_back(cell);
+  }
+  while (!front.empty()) {
+    const int cell = front.back();
+    front.pop_back();
+    for_each_neighbour(grid, cell, [&](int next) {
+      if (domain.active(next) && !reached[next]) {
+        reached[next] = 1;
+        front.push_back(next);
+      }
+    });
+  }
+  int islands = 0, first = -1;
+  for (int cell = 0; cell < grid.n_cells(); ++cell) {
+    if (!domain.active(cell) || reached[cell]) continue;
+    if (grid.cell_position(cell)[0] + 1 == grid.cells[0])
+      return Failure{FailureReason::tread_cut_off, "holes join all round and cut the tread off from the rim"};
+    if (islands++ == 0) first = cell;
+  }
+  if (islands == 0) return {};
+  return Failure{
+      FailureReason::disconnected_material,
+      fmt::format("{} cells of a sector hold material that is not attached to the rim, the first at {}",
+                  islands, place(grid, first))};
+}
+
+/// Whether the nodal values of psi change sign on the face of `cell` at the end of `axis`.
+template <int dim>
+bool face_is_crossed(const LevelSet<dim>& psi, int cell, int axis) {
+  const int degree = psi.lattice.degree();
+  const auto values = psi.cell_values(cell);
+  bool negative = false, positive = false;
+  for (int a = 0; a < static_cast<int>(values.size()); ++a) {
+    if (local_node_position<dim>(degree, a)[axis] != degree) continue;
+    (values[a] < 0 ? negative : positive) = true;
+  }
+  return negative && positive;
+}
+
+template <int dim>
+std::vector<GhostFace> find_ghost_faces(const LevelSet<dim>& psi, const CutDomain<dim>& domain) {
+  const PolarGrid<dim>& grid = domain.grid;
+  std::vector<GhostFace> faces;
+  for (int minus = 0; minus < grid.n_cells(); ++minus) {
+    if (!domain.active(minus)) continue;
+    for (int axis = 0; axis < dim; ++axis) {
+      auto p = grid.cell_position(minus);
+      p[axis] += 1;
+      if (axis == 1) p[1] %= grid.cells[1];
+      if (p[axis] >= grid.cells[axis]) continue;
+      const int plus = grid.cell_index(p);
+      if (!domain.active(plus)) continue;
+      if (domain.kinds[minus] == CellKind::cut || domain.kinds[plus] == CellKind::cut)
+        faces.push_back({minus, plus, axis, face_is_crossed(psi, minus, axis)});
+    }
+  }
+  return faces;
+}
+
+}  // namespace
+
+template <int dim>
+Expected<CutDomain<dim>> cut_domain(const LevelSet<dim>& given, int points) {
+  if (auto failure = check_finite<dim>(given.lattice, given.values, "the level set")) return *failure;
+  const LevelSet<dim> psi = nudged(given);
+  const PolarGrid<dim>& grid = psi.lattice.grid();
+  CutDomain<dim> domain{grid, std::vector<CellKind>(grid.n_cells()), {}, {}};
+  CellQuadrature<dim> quadrature(psi.lattice.degree(), points);
+  for (int cell = 0; cell < grid.n_cells(); ++cell) {
+    const auto values = psi.cell_values(cell);
+    domain.kinds[cell] = quadrature.classify(values);
+    if (domain.kinds[cell] != CellKind::cut) continue;
+    auto split = quadrature.split(cell, values);
+    if (!split)
+      return Failure{
+          FailureReason::cut_quadrature,
+          fmt::format("the quadrature of the cell at {} does not add up to the cell", place(grid, cell))};
+    const double fraction = material_fraction(*split);
+    if (fraction < smallest_fraction) {
+      domain.kinds[cell] = CellKind::outside;
+    } else if (split->boundary.empty() && fraction > 1 - 1e-9) {
+      domain.kinds[cell] = CellKind::inside;
+    } else {
+      domain.cut.push_back(*std::move(split));
+    }
+  }
+  domain.ghost_faces = find_ghost_faces(psi, domain);
+  return domain;
+}
+
+template <int dim>
+std::optional<Failure> check_attached(const CutDomain<dim>& domain, int rim_rows, int tread_rows) {
+  if (auto failure = check_bands(domain, rim_rows, tread_rows)) return failure;
+  return check_connected(domain);
+}
+
+template Expected<CutDomain<2>> cut_domain(const LevelSet<2>&, int);
+template Expected<CutDomain<3>> cut_domain(const LevelSet<3>&, int);
+template std::optional<Failure> check_attached(const CutDomain<2>&, int, int);
+template std::optional<Failure> check_attached(const CutDomain<3>&, int, int);
+
+}  // namespace wheelwright

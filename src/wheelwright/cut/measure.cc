@@ -1,0 +1,80 @@
+#include "wheelwright/cut/measure.h"
+
+#include <limits>
+
+#include "wheelwright/cut/cell_quadrature.h"
+#include "wheelwright/geometry/cell_map.h"
+#include "wheelwright/geometry/finite.h"
+
+namespace wheelwright {
+namespace {
+
+constexpr int gauss_points = 4;
+
+template <int dim>
+double cell_measure(const CellMap<dim>& map, int degree, const std::vector<ReferencePoint<dim>>& points) {
+  double sum = 0;
+  for (const auto& point : points)
+    sum += point.weight * determinant<dim>(map.jacobian(ShapeFunctions<dim>(degree, point.xi)));
+  return sum;
+}
+
+/// Calls visit(cell, kind, split) for every cell; split is set for cells that the boundary crosses.
+template <int dim, class Visit>
+void for_each_cell(const LevelSet<dim>& psi, Visit visit) {
+  CellQuadrature<dim> quadrature(psi.lattice.degree(), gauss_points);
+  for (int cell = 0; cell < psi.lattice.grid().n_cells(); ++cell) {
+    const auto values = psi.cell_values(cell);
+    const CellKind kind = quadrature.classify(values);
+    visit(cell, kind, kind == CellKind::cut ? quadrature.split(cell, values) : std::nullopt);
+  }
+}
+
+}  // namespace
+
+template <int dim>
+double material_measure(const LevelSet<dim>& psi) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  if (check_finite<dim>(psi.lattice, psi.values, "")) return unknown;
+  const PolarGrid<dim>& grid = psi.lattice.grid();
+  const int degree = psi.lattice.degree();
+  std::vector<double> full_cell(grid.cells[0]);
+  for (int radial = 0; radial < grid.cells[0]; ++radial) {
+    const CellMap<dim> map(grid, degree, {radial});
+    full_cell[radial] = cell_measure<dim>(map, degree, unit_cell_rule<dim>(gauss_points));
+  }
+  double sum = 0;
+  for_each_cell(psi, [&](int cell, CellKind kind, const std::optional<CutCell<dim>>& split) {
+    const auto position = grid.cell_position(cell);
+    if (kind == CellKind::inside) sum += full_cell[position[0]];
+    if (kind == CellKind::cut && !split) sum = unknown;
+    if (split) sum += cell_measure<dim>(CellMap<dim>(grid, degree, position), degree, split->material);
+  });
+  return sum;
+}
+
+template <int dim>
+std::vector<SurfaceSample<dim>> boundary_samples(const LevelSet<dim>& psi) {
+  const PolarGrid<dim>& grid = psi.lattice.grid();
+  const int degree = psi.lattice.degree();
+  std::vector<SurfaceSample<dim>> samples;
+  for_each_cell(psi, [&](int cell, CellKind, const std::optional<CutCell<dim>>& split) {
+    if (!split) return;
+    const auto position = grid.cell_position(cell);
+    const CellMap<dim> map(grid, degree, position);
+    for (const auto& point : split->boundary) {
+      const auto surface =
+          map_surface<dim>(map.jacobian(ShapeFunctions<dim>(degree, point.xi)), point.normal);
+      samples.push_back({cell, point.xi, rotated<dim>(surface.normal, position[1] * grid.cell_size()[1]),
+                         point.weight * surface.scale, 1});
+    }
+  });
+  return samples;
+}
+
+template double material_measure(const LevelSet<2>&);
+template double material_measure(const LevelSet<3>&);
+template std::vector<SurfaceSample<2>> boundary_samples(const LevelSet<2>&);
+template std::vector<SurfaceSample<3>> boundary_samples(const LevelSet<3>&);
+
+}  // namespace wheelwright

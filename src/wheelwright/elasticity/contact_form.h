@@ -1,0 +1,26 @@
+#pragma once
+
+namespace wheelwright {
+
+/// How the contact conditions (11), (16) enter the weak form.
+enum class ContactMethod {
+  nitsche,  ///< (28): I_N, with the parameter theta
+  penalty,  ///< (22): I_P
+};
+
+/// Both methods are one form. With the augmented traction
+///   z(u) = tau sigma(u)n - gamma (u - g n_y)
+/// and the contact traction Phi(z) of (18), (23),
+///   I(u, v) = int_Gamma_C -theta/gamma sigma(u)n . sigma(v)n + Phi(z(u)) . (theta/gamma sigma(v)n - v),
+/// where penalty is tau = theta = 0 and Nitsche's method tau = 1.
+struct ContactForm {
+  ContactMethod method = ContactMethod::nitsche;
+  double theta_nitsche = -1;  ///< theta; ignored by the penalty method
+  double gamma_0 = 1;         ///< gamma = gamma_0 E / h_T [Pa/m]
+  double friction = 0;        ///< Coulomb's coefficient F
+
+  double tau() const { return method == ContactMethod::nitsche ? 1 : 0; }
+  double theta() const { return method == ContactMethod::nitsche ? theta_nitsche : 0; }
+};
+
+}  // namespace wheelwright

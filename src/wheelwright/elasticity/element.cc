@@ -1,0 +1,232 @@
+#include "wheelwright/elasticity/element.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wheelwright {
+namespace {
+
+/// Tensor indices (i, j) of each Voigt component.
+template <int dim>
+constexpr std::array<std::array<int, 2>, n_strains<dim>> voigt_indices() {
+  if constexpr (dim == 2)
+    return {{{0, 0}, {1, 1}, {0, 1}}};
+  else
+    return {{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
+}
+
+}  // namespace
+
+template <int dim>
+Voigt<dim> stress(const Material& material, const Voigt<dim>& strain) {
+  const double lambda = material.lambda(), mu = material.mu();
+  double trace = 0;
+  for (int d = 0; d < dim; ++d) trace += strain[d];
+  Voigt<dim> result;
+  for (int s = 0; s < n_strains<dim>; ++s)
+    result[s] = s < dim ? lambda * trace + 2 * mu * strain[s] : mu * strain[s];
+  return result;
+}
+
+template <int dim>
+Vec<dim> traction(const Voigt<dim>& stress, const Vec<dim>& normal) {
+  Vec<dim> t{};
+  constexpr auto indices = voigt_indices<dim>();
+  for (int s = 0; s < n_strains<dim>; ++s) {
+    const auto [i, j] = indices[s];
+    t[i] += stress[s] * normal[j];
+    if (i != j) t[j] += stress[s] * normal[i];
+  }
+  return t;
+}
+
+template <int dim>
+double von_mises(const Material& material, const Voigt<dim>& s) {
+  double s11 = s[0], s22 = s[1], s33, shear = 0;
+  if constexpr (dim == 2)
+    s33 = material.poissons_ratio * (s11 + s22);
+  else
+    s33 = s[2];
+  for (int k = dim; k < n_strains<dim>; ++k) shear += s[k] * s[k];
+  const double a = s11 - s22, b = s22 - s33, c = s33 - s11;
+  return std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * shear);
+}
+
+template <int dim>
+ElasticElement<dim>::ElasticElement(const PolarGrid<dim>& grid, int degree, const std::array<int, dim>& cell)
+    : degree_(degree), map_(grid, degree, cell) {
+  const double spacing = grid.cell_size()[1] / degree;
+  for (int a = 0; a < n_nodes(); ++a) {
+    const double angle = local_node_position<dim>(degree, a)[1] * spacing;
+    frames_[a] = {};
+    for (int d = 0; d < dim; ++d) frames_[a][d][d] = 1;
+    frames_[a][0][0] = frames_[a][1][1] = std::cos(angle);
+    frames_[a][0][1] = -std::sin(angle);
+    frames_[a][1][0] = std::sin(angle);
+  }
+  std::array<Vec<dim>, power(2, dim)> corners;
+  for (int k = 0; k < power(2, dim); ++k) {
+    const auto p = local_node_position<dim>(1, k);
+    Vec<dim> xi;
+    std::copy(p.begin(), p.end(), xi.begin());
+    corners[k] = map_.position(ShapeFunctions<dim>(degree, xi));
+  }
+  diameter_ = 0;
+  for (const auto& a : corners) {
+    for (const auto& b : corners) {
+      Vec<dim> difference;
+      for (int d = 0; d < dim; ++d) difference[d] = a[d] - b[d];
+      diameter_ = std::max(diameter_, norm<dim>(difference));
+    }
+  }
+}
+
+template <int dim>
+auto ElasticElement<dim>::at(const Vec<dim>& xi) const -> Point {
+  const ShapeFunctions<dim> shape(degree_, xi);
+  Point point{map_.position(shape), map_.jacobian(shape), 0, {}, {}};
+  point.determinant = determinant<dim>(point.jacobian);
+  const Mat<dim> inverse_jacobian = inverse<dim>(point.jacobian);
+  constexpr auto indices = voigt_indices<dim>();
+  for (int a = 0; a < n_nodes(); ++a) {
+    const Vec<dim> gradient = transpose_times<dim>(inverse_jacobian, shape.gradient[a]);
+    for (int c = 0; c < dim; ++c) {
+      const int dof = dim * a + c;
+      for (int i = 0; i < dim; ++i) point.displacement[i][dof] = frames_[a][i][c] * shape.value[a];
+      for (int s = 0; s < n_strains<dim>; ++s) {
+        const auto [i, j] = indices[s];
+        point.strain[s][dof] = frames_[a][i][c] * gradient[j];
+        if (i != j) point.strain[s][dof] += frames_[a][j][c] * gradient[i];
+      }
+    }
+  }
+  return point;
+}
+
+template <int dim>
+auto ElasticElement<dim>::second_derivative(const Vec<dim>& xi, const Vec<dim>& n) const
+    -> std::array<std::array<double, max_dofs>, dim> {
+  const ShapeFunctions<dim> shape(degree_, xi);
+  const Mat<dim> inverse_jacobian = inverse<dim>(map_.jacobian(shape));
+  Vec<dim> m{};  // n in the unit cell's coordinates
+  for (int i = 0; i < dim; ++i)
+    for (int j = 0; j < dim; ++j) m[i] += inverse_jacobian[i][j] * n[j];
+  const auto curvature = map_.second_derivative(xi, m);  // d^2 x / dm^2
+
+  std::array<std::array<double, max_dofs>, dim> result{};
+  for (int a = 0; a < n_nodes(); ++a) {
+    const Vec<dim> gradient = transpose_times<dim>(inverse_jacobian, shape.gradient[a]);
+    const double value = shape_second_derivative<dim>(degree_, a, xi, m) - dot<dim>(gradient, curvature);
+    for (int c = 0; c < dim; ++c)
+      for (int i = 0; i < dim; ++i) result[i][dim * a + c] = frames_[a][i][c] * value;
+  }
+  return result;
+}
+
+template <int dim>
+std::array<std::array<double, ElasticElement<dim>::max_dofs>, dim> traction_map(
+    const ElasticElement<dim>& element, const Material& material,
+    const typename ElasticElement<dim>::Point& point, const Vec<dim>& normal) {
+  std::array<std::array<double, ElasticElement<dim>::max_dofs>, dim> result{};
+  for (int dof = 0; dof < element.n_dofs(); ++dof) {
+    Voigt<dim> strain;
+    for (int s = 0; s < n_strains<dim>; ++s) strain[s] = point.strain[s][dof];
+    const Vec<dim> t = traction<dim>(stress<dim>(material, strain), normal);
+    for (int d = 0; d < dim; ++d) result[d][dof] = t[d];
+  }
+  return result;
+}
+
+template <int dim>
+Matrix cell_stiffness(const ElasticElement<dim>& element, const Material& material,
+                      std::span<const ReferencePoint<dim>> points) {
+  const int n = element.n_dofs();
+  const double lambda = material.lambda(), mu = material.mu();
+  Matrix k(n, n);
+  std::array<std::array<double, ElasticElement<dim>::max_dofs>, n_strains<dim>> weighted_stress;
+  for (const auto& q : points) {
+    const auto point = element.at(q.xi);
+    const double weight = q.weight * point.determinant;
+    for (int dof = 0; dof < n; ++dof) {
+      double trace = 0;
+      for (int d = 0; d < dim; ++d) trace += point.strain[d][dof];
+      for (int s = 0; s < n_strains<dim>; ++s)
+        weighted_stress[s][dof] =
+            weight * (s < dim ? lambda * trace + 2 * mu * point.strain[s][dof] : mu * point.strain[s][dof]);
+    }
+    for (int j = 0; j < n; ++j)
+      for (int s = 0; s < n_strains<dim>; ++s) {
+        const double value = weighted_stress[s][j];
+        double* column = k.column(j);
+        for (int i = j; i < n; ++i) column[i] += point.strain[s][i] * value;
+      }
+  }
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < j; ++i) k(i, j) = k(j, i);
+  return k;
+}
+
+template <int dim>
+Matrix ghost_stiffness(const ElasticElement<dim>& minus, const ElasticElement<dim>& plus, int axis,
+                       double angle, const Material& material, const GhostPenalty& ghost) {
+  const int n_minus = minus.n_dofs(), n = n_minus + plus.n_dofs();
+  const double h = 0.5 * (minus.diameter() + plus.diameter()), modulus = material.youngs_modulus;
+  Matrix k(n, n);
+  std::array<std::vector<double>, dim> jump;
+  for (auto& row : jump) row.resize(n);
+  const auto set_jump = [&](const auto& minus_map, const auto& plus_map) {
+    for (int j = 0; j < n_minus; ++j)
+      for (int d = 0; d < dim; ++d) jump[d][j] = -minus_map[d][j];
+    for (int j = 0; j < plus.n_dofs(); ++j) {
+      Vec<dim> column;
+      for (int d = 0; d < dim; ++d) column[d] = plus_map[d][j];
+      column = rotated<dim>(column, angle);
+      for (int d = 0; d < dim; ++d) jump[d][n_minus + j] = column[d];
+    }
+  };
+  const auto add_jump = [&](double weight) {
+    for (int d = 0; d < dim; ++d)
+      for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) k(i, j) += weight * jump[d][i] * jump[d][j];
+  };
+
+  for (const auto& q : unit_cell_rule<dim - 1>(minus.degree() + 1)) {
+    Vec<dim> xi_minus, xi_plus, reference_normal{};
+    for (int d = 0, f = 0; d < dim; ++d) {
+      xi_minus[d] = d == axis ? 1 : q.xi[f];
+      xi_plus[d] = d == axis ? 0 : q.xi[f];
+      if (d != axis) ++f;
+    }
+    reference_normal[axis] = 1;
+    const auto at_minus = minus.at(xi_minus), at_plus = plus.at(xi_plus);
+    const auto surface = map_surface<dim>(at_minus.jacobian, reference_normal);
+    const Vec<dim> normal = surface.normal, plus_normal = rotated<dim>(normal, -angle);
+    const double weight = q.weight * surface.scale * 0.5 * ghost.xi;
+
+    set_jump(traction_map<dim>(minus, material, at_minus, normal),
+             traction_map<dim>(plus, material, at_plus, plus_normal));
+    add_jump(weight * h / modulus);
+    if (ghost.kind == GhostPenaltyKind::full && minus.degree() > 1) {
+      set_jump(minus.second_derivative(xi_minus, normal), plus.second_derivative(xi_plus, plus_normal));
+      add_jump(weight * h * h * h * modulus);
+    }
+  }
+  return k;
+}
+
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                                        \
+  template Voigt<dim> stress<dim>(const Material&, const Voigt<dim>&);                                      \
+  template Vec<dim> traction<dim>(const Voigt<dim>&, const Vec<dim>&);                                      \
+  template double von_mises<dim>(const Material&, const Voigt<dim>&);                                       \
+  template class ElasticElement<dim>;                                                                       \
+  template std::array<std::array<double, ElasticElement<dim>::max_dofs>, dim> traction_map<dim>(            \
+      const ElasticElement<dim>&, const Material&, const ElasticElement<dim>::Point&, const Vec<dim>&);     \
+  template Matrix cell_stiffness<dim>(const ElasticElement<dim>&, const Material&,                          \
+                                      std::span<const ReferencePoint<dim>>);                                \
+  template Matrix ghost_stiffness<dim>(const ElasticElement<dim>&, const ElasticElement<dim>&, int, double, \
+                                       const Material&, const GhostPenalty&);
+WHEELWRIGHT_INSTANTIATE(2)
+WHEELWRIGHT_INSTANTIATE(3)
+#undef WHEELWRIGHT_INSTANTIATE
+
+}  // namespace wheelwright

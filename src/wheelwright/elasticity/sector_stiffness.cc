@@ -1,0 +1,71 @@
+#include "wheelwright/elasticity/sector_stiffness.h"
+
+#include "wheelwright/base/parallel.h"
+
+namespace wheelwright {
+
+template <int dim>
+ElementTable<dim>::ElementTable(const PolarGrid<dim>& grid, int degree, const Material& material,
+                                const GhostPenalty& ghost)
+    : grid_(grid), degree_(degree), material_(material), ghost_(ghost) {
+  const auto rule = unit_cell_rule<dim>(degree + 2);
+  for (int radial = 0; radial < grid.cells[0]; ++radial) {
+    elements_.emplace_back(grid, degree, std::array<int, dim>{radial});
+    stiffness_.push_back(cell_stiffness<dim>(elements_.back(), material, rule));
+  }
+  const double column_angle = grid.cell_size()[1];
+  for (int radial = 0; radial < grid.cells[0]; ++radial) {
+    for (int axis = 0; axis < dim; ++axis) {
+      const int plus = axis == 0 ? std::min(radial + 1, grid.cells[0] - 1) : radial;
+      ghosts_.push_back(ghost_stiffness<dim>(elements_[radial], elements_[plus], axis,
+                                             axis == 1 ? column_angle : 0.0, material, ghost));
+    }
+  }
+}
+
+template <int dim>
+SectorStiffness<dim> sector_stiffness(const CutDomain<dim>& domain, const ElementTable<dim>& table,
+                                      int core_rows) {
+  const PolarGrid<dim>& grid = domain.grid;
+  SectorStiffness<dim> sector{SectorSpace<dim>(domain, table.degree(), core_rows), {}, {}};
+  const SectorSpace<dim>& space = sector.space;
+
+  typename StencilMatrix<dim>::Pattern pattern(space);
+  std::vector<std::vector<int>> cell_nodes(grid.n_cells());
+  for (int cell = 0; cell < grid.n_cells(); ++cell) {
+    if (!domain.active(cell) || grid.cell_position(cell)[0] >= core_rows) continue;
+    cell_nodes[cell] = space.cell_nodes(cell);
+    pattern.couple(cell_nodes[cell]);
+  }
+  for (const GhostFace& face : domain.ghost_faces) {
+    if (!space.holds(face) || (table.ghost().kind == GhostPenaltyKind::paper && !face.crossed)) continue;
+    auto nodes = space.cell_nodes(face.minus);
+    const auto plus = space.cell_nodes(face.plus, space.wraps(face) ? 1 : 0);
+    nodes.insert(nodes.end(), plus.begin(), plus.end());
+    pattern.couple(nodes);
+    sector.ghosts.push_back(
+        {std::move(nodes), &table.face_ghost(grid.cell_position(face.minus)[0], face.axis)});
+  }
+
+  StencilMatrix<dim> matrix(std::move(pattern));
+  for (int cell = 0; cell < grid.n_cells(); ++cell)
+    if (domain.kinds[cell] == CellKind::inside && !cell_nodes[cell].empty())
+      matrix.add(cell_nodes[cell], table.full_cell_stiffness(grid.cell_position(cell)[0]));
+  std::vector<Matrix> cut_stiffness(domain.cut.size());
+  parallel_for(static_cast<int>(domain.cut.size()), [&](int i) {
+    const CutCell<dim>& cut = domain.cut[i];
+    cut_stiffness[i] =
+        cell_stiffness<dim>(table.element(grid.cell_position(cut.cell)[0]), table.material(), cut.material);
+  });
+  for (size_t i = 0; i < domain.cut.size(); ++i) matrix.add(cell_nodes[domain.cut[i].cell], cut_stiffness[i]);
+  for (const auto& ghost : sector.ghosts) matrix.add(ghost.nodes, *ghost.stiffness);
+  sector.matrix = std::move(matrix).release();
+  return sector;
+}
+
+template class ElementTable<2>;
+template class ElementTable<3>;
+template SectorStiffness<2> sector_stiffness(const CutDomain<2>&, const ElementTable<2>&, int);
+template SectorStiffness<3> sector_stiffness(const CutDomain<3>&, const ElementTable<3>&, int);
+
+}  // namespace wheelwright

@@ -1,0 +1,74 @@
+#include "wheelwright/elasticity/stencil_matrix.h"
+
+namespace wheelwright {
+
+template <int dim>
+StencilMatrix<dim>::StencilMatrix(Pattern pattern) : pattern_(std::move(pattern)) {
+  const SectorSpace<dim>& space = *pattern_.space_;
+  matrix_.size = space.n_dofs();
+  matrix_.column_start.reserve(matrix_.size + 1);
+  matrix_.column_start.push_back(0);
+  for (int a = 0; a < space.n_nodes(); ++a) {
+    int neighbours = 0;
+    for (std::uint64_t word : pattern_.masks_[a]) neighbours += std::popcount(word);
+    for (int c = 0; c < dim; ++c)
+      matrix_.column_start.push_back(matrix_.column_start.back() + dim - c + dim * neighbours);
+  }
+  matrix_.rows.resize(matrix_.column_start.back());
+  matrix_.values.assign(matrix_.column_start.back(), 0.0);
+
+  const int reach = 2 * space.degree(), width = 2 * reach + 1;
+  for (int a = 0; a < space.n_nodes(); ++a) {
+    std::array<int, dim> next_entry;
+    for (int c = 0; c < dim; ++c) {
+      next_entry[c] = matrix_.column_start[dim * a + c];
+      for (int other = c; other < dim; ++other) matrix_.rows[next_entry[c]++] = dim * a + other;
+    }
+    for (int w = 0; w < static_cast<int>(pattern_.masks_[a].size()); ++w) {
+      for (std::uint64_t word = pattern_.masks_[a][w]; word != 0; word &= word - 1) {
+        int bit = 64 * w + std::countr_zero(word);
+        auto p = space.position(a);
+        p[0] += bit % width - reach;
+        bit /= width;
+        if constexpr (dim == 3) {
+          p[2] += bit % width - reach;
+          bit /= width;
+        }
+        p[1] += bit;
+        const int b = space.number(p);
+        for (int c = 0; c < dim; ++c)
+          for (int other = 0; other < dim; ++other) matrix_.rows[next_entry[c]++] = dim * b + other;
+      }
+    }
+  }
+}
+
+template <int dim>
+void StencilMatrix<dim>::add(std::span<const int> nodes, const Matrix& block) {
+  const int n = static_cast<int>(nodes.size());
+  for (int i = 0; i < n; ++i) {
+    const int a = nodes[i];
+    if (a < 0) continue;
+    for (int j = 0; j < n; ++j) {
+      const int b = nodes[j];
+      if (b < a) continue;
+      if (b == a) {
+        for (int c = 0; c < dim; ++c)
+          for (int other = c; other < dim; ++other)
+            matrix_.values[matrix_.column_start[dim * a + c] + other - c] +=
+                block(dim * j + other, dim * i + c);
+        continue;
+      }
+      const int before = dim * couplings_before(a, slot(*pattern_.space_, a, b));
+      for (int c = 0; c < dim; ++c) {
+        double* entry = &matrix_.values[matrix_.column_start[dim * a + c] + dim - c + before];
+        for (int other = 0; other < dim; ++other) entry[other] += block(dim * j + other, dim * i + c);
+      }
+    }
+  }
+}
+
+template class StencilMatrix<2>;
+template class StencilMatrix<3>;
+
+}  // namespace wheelwright

@@ -1,0 +1,131 @@
+#include "wheelwright/evolution/evolver.h"
+
+#include <numeric>
+
+#include "wheelwright/evolution/cell_scale.h"
+#include "wheelwright/evolution/multilinear.h"
+#include "wheelwright/evolution/redistance.h"
+#include "wheelwright/evolution/transport.h"
+#include "wheelwright/evolution/volume.h"
+#include "wheelwright/geometry/finite.h"
+#include "wheelwright/geometry/mirror.h"
+
+namespace wheelwright {
+
+namespace {
+
+double largest_magnitude(std::span<const double> values) {
+  double largest = 0;
+  for (double v : values) largest = std::max(largest, std::abs(v));
+  return largest;
+}
+
+}  // namespace
+
+template <int dim>
+Evolver<dim>::Evolver(const Lattice<dim>& lattice, const EvolutionOptions& options)
+    : lattice_(lattice),
+      bands_(lattice, options.rim_band, options.tread_band),
+      extension_(make_velocity_extension<dim>(lattice, bands_, options.velocity)) {
+  if (options.smoothing > 0)
+    smoother_.emplace(lattice, std::sqrt(options.smoothing) * lattice.grid().resolution());
+}
+
+template <int dim>
+template <class Extend>
+Expected<std::vector<double>> Evolver<dim>::movable_velocity(std::span<const SurfaceSample<dim>> gradient,
+                                                             Extend extend) const {
+  auto velocity = extend(gradient);
+  if (!velocity) return velocity;
+  const auto movable = movable_samples<dim>(lattice_, bands_, gradient, *velocity);
+  return movable.size() == gradient.size() ? velocity : extend(movable);
+}
+
+template <int dim>
+Expected<std::vector<double>> Evolver<dim>::velocity(std::span<const SurfaceSample<dim>> gradient) const {
+  return movable_velocity(
+      gradient, [&](std::span<const SurfaceSample<dim>> samples) { return (*extension_)(samples); });
+}
+
+template <int dim>
+Expected<std::vector<double>> Evolver<dim>::measure_preserving_velocity(
+    std::span<const SurfaceSample<dim>> gradient) const {
+  return movable_velocity(gradient, [&](std::span<const SurfaceSample<dim>> samples) {
+    return wheelwright::measure_preserving_velocity<dim>(lattice_, *extension_, samples);
+  });
+}
+
+/// What a stage made of a shape, on the cell scale, its own mirror image if all that it was made of is, and
+/// cut off at the bands: which would hide an infinity.
+template <int dim>
+Expected<LevelSet<dim>> Evolver<dim>::kept(const LevelSet<dim>& psi, bool is_symmetric,
+                                           const char* what) const {
+  if (auto failure = check_finite<dim>(lattice_, psi.values, what)) return *failure;
+  LevelSet<dim> on_scale = on_cell_scale(psi);
+  return bands_.keep(is_symmetric ? mirror_symmetric_part(on_scale) : std::move(on_scale));
+}
+
+template <int dim>
+Expected<LevelSet<dim>> Evolver<dim>::move(const LevelSet<dim>& psi, std::span<const double> velocity,
+                                           double distance) const {
+  if (auto failure = check_finite<dim>(psi.lattice, velocity, "the velocity")) return *failure;
+  const double time = distance / largest_magnitude(velocity);
+  if (!std::isfinite(time)) return Failure{FailureReason::not_finite, "the velocity vanishes"};
+  const bool is_symmetric =
+      is_mirror_symmetric(psi) &&
+      is_mirror_symmetric<dim>(psi.lattice, velocity, 1e-9 * largest_magnitude(velocity));
+  return kept(transport<dim>(psi, velocity, time), is_symmetric, "the level set after transport");
+}
+
+template <int dim>
+double Evolver<dim>::first_order_change(std::span<const SurfaceSample<dim>> gradient,
+                                        std::span<const double> velocity, double distance) const {
+  const auto load = boundary_load<dim>(lattice_, gradient);
+  return std::inner_product(load.begin(), load.end(), velocity.begin(), 0.0) * distance /
+         largest_magnitude(velocity);
+}
+
+template <int dim>
+Expected<LevelSet<dim>> Evolver<dim>::redistance(const LevelSet<dim>& psi) const {
+  if (auto failure = check_finite<dim>(psi.lattice, psi.values, "the level set")) return *failure;
+  return kept(wheelwright::redistance<dim>(psi), is_mirror_symmetric(psi),
+              "the level set after redistancing");
+}
+
+template <int dim>
+Expected<LevelSet<dim>> Evolver<dim>::smooth(const LevelSet<dim>& psi) const {
+  if (!smoother_) return psi;
+  return kept((*smoother_)(psi), is_mirror_symmetric(psi), "the level set after smoothing");
+}
+
+template <int dim>
+LevelSet<dim> Evolver<dim>::keep_bands(const LevelSet<dim>& psi) const {
+  return bands_.keep(psi);
+}
+
+template <int dim>
+Expected<LevelSet<dim>> Evolver<dim>::with_measure(const LevelSet<dim>& psi, double target,
+                                                   double boundary_measure) const {
+  return wheelwright::with_measure<dim>(psi, bands_, target, boundary_measure);
+}
+
+template <int dim>
+Expected<AttachedShape<dim>> Evolver<dim>::without_islands(const LevelSet<dim>& psi, double largest) const {
+  auto attached = wheelwright::without_islands<dim>(psi, largest);
+  if (attached) attached->psi = bands_.keep(std::move(attached->psi));
+  return attached;
+}
+
+template <int dim>
+std::vector<ShapeEvent<dim>> Evolver<dim>::changes(const LevelSet<dim>& before,
+                                                   const LevelSet<dim>& after) const {
+  const auto old = components(before), now = components(after);
+  auto events = topology_changes(old, now);
+  for (auto& event : bands_.contacts(old, now)) events.push_back(event);
+  return events;
+}
+
+template class Evolver<2>;
+template class Evolver<3>;
+
+}  // namespace wheelwright

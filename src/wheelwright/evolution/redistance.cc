@@ -1,0 +1,58 @@
+#include "wheelwright/evolution/redistance.h"
+
+#include "wheelwright/evolution/closest_point.h"
+#include "wheelwright/evolution/kd_tree.h"
+#include "wheelwright/evolution/seeds.h"
+
+namespace wheelwright {
+
+namespace {
+
+/// The points of one sector and their images in the two neighbouring ones.
+template <int dim>
+std::vector<Vec<dim>> with_images(const Lattice<dim>& lattice, const std::vector<Vec<dim>>& points) {
+  std::vector<Vec<dim>> result;
+  for (int sector = -1; sector <= 1; ++sector)
+    for (Vec<dim> point : points) {
+      point[1] += sector * lattice.nodes()[1];
+      result.push_back(point);
+    }
+  return result;
+}
+
+template <int dim>
+Vec<dim> cartesian_position(const Lattice<dim>& lattice, const Vec<dim>& point) {
+  Vec<dim> polar;
+  for (int d = 0; d < dim; ++d) polar[d] = point[d] * lattice.spacing()[d];
+  polar[0] += lattice.grid().inner_radius;
+  return cartesian<dim>(polar);
+}
+
+}  // namespace
+
+template <int dim>
+LevelSet<dim> redistance(const LevelSet<dim>& psi) {
+  const auto& lattice = psi.lattice;
+  const CubicInterpolant<dim> interpolant(psi);
+  const auto seeds = with_images<dim>(lattice, zero_seeds<dim>(interpolant));
+  if (seeds.empty()) return psi;
+  std::vector<Vec<dim>> positions;
+  for (const auto& seed : seeds) positions.push_back(cartesian_position<dim>(lattice, seed));
+  const KdTree<dim> tree(positions);
+  LevelSet<dim> result = psi;
+  for (int n = 0; n < lattice.n_nodes(); ++n) {
+    const auto position = lattice.node_position(n);
+    Vec<dim> node;
+    for (int d = 0; d < dim; ++d) node[d] = position[d];
+    const Vec<dim> seed = seeds[tree.nearest(cartesian_position<dim>(lattice, node))];
+    const Vec<dim> closest = closest_zero<dim>(interpolant, node, seed).value_or(seed);
+    const double distance = physical_distance<dim>(lattice, node, closest);
+    result.values[n] = psi.values[n] < 0 ? -distance : distance;
+  }
+  return result;
+}
+
+template LevelSet<2> redistance<2>(const LevelSet<2>&);
+template LevelSet<3> redistance<3>(const LevelSet<3>&);
+
+}  // namespace wheelwright

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "wheelwright/geometry/level_set.h"
+#include "wheelwright/linalg/sparse_spd.h"
+
+namespace wheelwright {
+
+/// The smoothing step (76): the minimum of int (phi - psi)^2 / 2 + tau |grad phi|^2 / 2 over the sector.
+template <int dim>
+class Smoother {
+ public:
+  /// `length` = sqrt(tau) [m]: what is shorter than it is damped.
+  Smoother(const Lattice<dim>& lattice, double length);
+
+  LevelSet<dim> operator()(const LevelSet<dim>& psi) const;
+
+ private:
+  std::vector<SparseSpd::Entry> mass_;
+  SparseSpd factor_;
+};
+
+}  // namespace wheelwright

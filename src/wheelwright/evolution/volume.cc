@@ -1,0 +1,82 @@
+#include "wheelwright/evolution/volume.h"
+
+#include <fmt/format.h>
+
+#include "wheelwright/cut/measure.h"
+#include "wheelwright/geometry/finite.h"
+
+namespace wheelwright {
+
+namespace {
+
+constexpr double relative_tolerance = 1e-6;
+constexpr int max_evaluations = 60;
+
+template <int dim>
+LevelSet<dim> shifted(LevelSet<dim> psi, const ProtectedBands<dim>& bands, double shift) {
+  for (std::size_t node = 0; node < psi.values.size(); ++node)
+    if (!bands.nodes()[node]) psi.values[node] += shift;
+  return bands.keep(std::move(psi));
+}
+
+/// Where the measure is above the target the shift is too small, and the other way round.
+struct Bracket {
+  double too_small, too_large;
+  bool contains(double shift) const { return shift > too_small && shift < too_large; }
+  double middle() const { return 0.5 * (too_small + too_large); }
+};
+
+}  // namespace
+
+template <int dim>
+Expected<LevelSet<dim>> with_measure(const LevelSet<dim>& psi, const ProtectedBands<dim>& bands,
+                                     double target, double boundary_measure) {
+  if (auto failure = check_finite<dim>(psi.lattice, psi.values, "the level set")) return *failure;
+  const auto& grid = psi.lattice.grid();
+  const double reach = grid.outer_radius - grid.inner_radius;
+  Bracket bracket{-reach, reach};
+  double shift = 0, slope = -boundary_measure, last_shift = 0, last_error = 0;
+  for (int k = 0; k < max_evaluations; ++k) {
+    LevelSet<dim> candidate = shifted(psi, bands, shift);
+    const double error = material_measure(candidate) - target;
+    if (!std::isfinite(error)) return Failure{FailureReason::cut_quadrature, "the measure of the material"};
+    if (std::abs(error) <= relative_tolerance * target) return candidate;
+    (error > 0 ? bracket.too_small : bracket.too_large) = shift;
+    if (k > 0) slope = (error - last_error) / (shift - last_shift);
+    last_shift = shift;
+    last_error = error;
+    shift -= error / slope;
+    if (!bracket.contains(shift)) shift = bracket.middle();
+    if (bracket.too_large - bracket.too_small < 1e-12 * reach) break;
+  }
+  const bool at_end = bracket.too_large == reach || bracket.too_small == -reach;
+  return Failure{
+      at_end ? FailureReason::empty_shape : FailureReason::cut_quadrature,
+      fmt::format("no shift of the level set gives the measure {:.6g}; the nearest is off by {:.2g}", target,
+                  last_error)};
+}
+
+template <int dim>
+double sector_measure(const PolarGrid<dim>& grid) {
+  const double area = 0.5 * grid.sector_angle() *
+                      (grid.outer_radius * grid.outer_radius - grid.inner_radius * grid.inner_radius);
+  return dim == 3 ? area * grid.width : area;
+}
+
+template <int dim>
+double proportional_multiplier(std::span<const SurfaceSample<dim>> gradient, double target_ratio,
+                               double ratio) {
+  if (gradient.empty()) return 0;
+  const auto by_value = [](const auto& a, const auto& b) { return a.value < b.value; };
+  const auto [low, high] = std::minmax_element(gradient.begin(), gradient.end(), by_value);
+  return 8 * (high->value - low->value) * (target_ratio - ratio);
+}
+
+template Expected<LevelSet<2>> with_measure<2>(const LevelSet<2>&, const ProtectedBands<2>&, double, double);
+template Expected<LevelSet<3>> with_measure<3>(const LevelSet<3>&, const ProtectedBands<3>&, double, double);
+template double sector_measure<2>(const PolarGrid<2>&);
+template double sector_measure<3>(const PolarGrid<3>&);
+template double proportional_multiplier<2>(std::span<const SurfaceSample<2>>, double, double);
+template double proportional_multiplier<3>(std::span<const SurfaceSample<3>>, double, double);
+
+}  // namespace wheelwright

@@ -1,0 +1,59 @@
+#include "wheelwright/files/atomic_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+
+#include "wheelwright/files/output_error.h"
+
+namespace wheelwright {
+namespace {
+
+int synchronize(int file) { return ::fsync(file) == 0 || errno == EINVAL ? 0 : errno; }
+
+/// Makes what was renamed or made in the folder last; returns 0 or the errno of the call that failed.
+int synchronize_folder(const std::filesystem::path& folder) {
+  const int file = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (file < 0) return errno;
+  const int error = synchronize(file);
+  ::close(file);
+  return error;
+}
+
+/// Writes everything and synchronizes; returns 0 or the errno of the call that failed.
+int write_and_sync(int file, std::string_view content) {
+  while (!content.empty()) {
+    const ssize_t written = ::write(file, content.data(), content.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return errno;
+    content.remove_prefix(written);
+  }
+  return synchronize(file);
+}
+
+}  // namespace
+
+void write_atomically(const std::filesystem::path& path, std::string_view content) {
+  const std::filesystem::path temporary = path.string() + ".tmp";
+  const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file < 0) throw OutputError(path, errno);
+  int error = write_and_sync(file, content);
+  if (::close(file) != 0 && error == 0) error = errno;
+  if (error == 0 && std::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
+  if (error == 0) error = synchronize_folder(path.parent_path());
+  if (error != 0) {
+    ::unlink(temporary.c_str());
+    throw OutputError(path, error);
+  }
+}
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  if (!std::filesystem::create_directories(folder, error) && !error) return;
+  const int failed = error ? error.value() : synchronize_folder(folder.parent_path());
+  if (failed != 0) throw OutputError(folder, failed);
+}
+
+}  // namespace wheelwright

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "wheelwright/geometry/level_set.h"
+#include "wheelwright/files/block_file.h"
+#include "wheelwright/files/byte_stream.h"
+
+namespace wheelwright {
+
+// A level set as bytes, with its grid and degree, exact to the last bit. To keep one in a file of its own:
+//
+//   write_atomically(path, level_set_file(psi));
+//   const auto psi = parse_level_set_file<2>(bytes);   // Expected: the level set, or what is wrong with it
+//
+// To make it part of a block of another file, append it to the block's ByteWriter.
+
+template <int dim>
+std::string level_set_file(const LevelSet<dim>& psi);
+
+/// From bytes that may hold anything.
+template <int dim>
+Expected<LevelSet<dim>, FormatError> parse_level_set_file(std::string_view bytes);
+
+template <int dim>
+void append(const LevelSet<dim>& psi, ByteWriter& writer);
+
+/// Empty if and only if the reader has a problem.
+template <int dim>
+std::optional<LevelSet<dim>> read_level_set(ByteReader& reader);
+
+}  // namespace wheelwright

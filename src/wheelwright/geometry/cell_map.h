@@ -1,0 +1,80 @@
+#pragma once
+
+#include "wheelwright/geometry/lagrange.h"
+#include "wheelwright/geometry/polar_grid.h"
+
+namespace wheelwright {
+
+/// Isoparametric map of degree 1 or 2 of one grid cell, in the Cartesian axes of the cell's own frame: the
+/// frame whose first axis is radial at the cell's first azimuth. Cells of one radial (and axial) row share
+/// it.
+template <int dim>
+class CellMap {
+ public:
+  CellMap(const PolarGrid<dim>& grid, int degree, std::array<int, dim> cell) : degree_(degree) {
+    cell[1] = 0;
+    const Lattice<dim> lattice(grid, degree);
+    for (int a = 0; a < nodes_per_cell<dim>(degree); ++a) {
+      auto p = local_node_position<dim>(degree, a);
+      for (int d = 0; d < dim; ++d) p[d] += degree * cell[d];
+      nodes_[a] = cartesian<dim>(lattice.polar_point(p));
+    }
+  }
+
+  /// Position of a point with these shape functions.
+  Vec<dim> position(const ShapeFunctions<dim>& shape) const {
+    Vec<dim> x{};
+    for (int a = 0; a < nodes_per_cell<dim>(degree_); ++a)
+      for (int d = 0; d < dim; ++d) x[d] += shape.value[a] * nodes_[a][d];
+    return x;
+  }
+
+  /// Jacobian dx_i / dxi_j.
+  Mat<dim> jacobian(const ShapeFunctions<dim>& shape) const {
+    Mat<dim> j{};
+    for (int a = 0; a < nodes_per_cell<dim>(degree_); ++a)
+      for (int i = 0; i < dim; ++i)
+        for (int k = 0; k < dim; ++k) j[i][k] += nodes_[a][i] * shape.gradient[a][k];
+    return j;
+  }
+
+  /// d^2 x / dm^2 at xi for a direction m in the unit cell's coordinates.
+  Vec<dim> second_derivative(const Vec<dim>& xi, const Vec<dim>& m) const {
+    Vec<dim> result{};
+    for (int a = 0; a < nodes_per_cell<dim>(degree_); ++a) {
+      const double value = shape_second_derivative<dim>(degree_, a, xi, m);
+      for (int d = 0; d < dim; ++d) result[d] += value * nodes_[a][d];
+    }
+    return result;
+  }
+
+ private:
+  int degree_;
+  std::array<Vec<dim>, power(3, dim)> nodes_;
+};
+
+/// Physical surface element of a reference surface point (Nanson): J cof(F) n_ref.
+template <int dim>
+struct SurfaceElement {
+  Vec<dim> normal;  ///< unit
+  double scale;     ///< dS / dS_ref
+};
+
+template <int dim>
+SurfaceElement<dim> map_surface(const Mat<dim>& jacobian, const Vec<dim>& reference_normal) {
+  Vec<dim> n = transpose_times<dim>(inverse<dim>(jacobian), reference_normal);
+  const double length = norm<dim>(n);
+  for (double& x : n) x /= length;
+  return {n, length * determinant<dim>(jacobian)};
+}
+
+/// v turned by an angle about the axle.
+template <int dim>
+Vec<dim> rotated(const Vec<dim>& v, double angle) {
+  Vec<dim> result = v;
+  result[0] = std::cos(angle) * v[0] - std::sin(angle) * v[1];
+  result[1] = std::sin(angle) * v[0] + std::cos(angle) * v[1];
+  return result;
+}
+
+}  // namespace wheelwright

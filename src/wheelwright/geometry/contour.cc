@@ -1,0 +1,292 @@
+#include "wheelwright/geometry/contour.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <unordered_map>
+
+#include "wheelwright/geometry/cell_map.h"
+
+namespace wheelwright {
+namespace {
+
+/// Crossings keep this distance, in edges of a sampling square, from the edge's ends: vertices stay distinct
+/// where psi vanishes at a sample.
+constexpr double end_margin = 1e-6;
+
+/// Where a polygon's vertex sits: at sample (i, j), or at the fraction t of the edge that leaves the sample
+/// along an axis.
+enum class Site { sample, radial_edge, azimuthal_edge };
+
+struct Vertex {
+  int i, j;
+  Site site;
+  double t;
+
+  Vec<2> position() const {
+    return {i + (site == Site::radial_edge ? t : 0), j + (site == Site::azimuthal_edge ? t : 0)};
+  }
+  bool on_circle(int row) const { return i == row && site != Site::radial_edge; }
+};
+
+using Polygon = std::vector<Vertex>;
+
+/// The zero in (0, 1) of the parabola through (0, start), (1/2, middle), (1, end); start and end differ in
+/// sign.
+double parabola_zero(double start, double middle, double end) {
+  const double a = 2 * (start + end) - 4 * middle;
+  const double b = 4 * middle - 3 * start - end;
+  const double q = -0.5 * (b + std::copysign(std::sqrt(std::max(0.0, b * b - 4 * a * start)), b));
+  const double near = start / q, far = q / a;
+  const double t = near >= 0 && near <= 1 ? near : far;
+  return std::clamp(t, end_margin, 1 - end_margin);
+}
+
+/// psi of one sector on a grid `n` times finer than its cells. Samples (i, j) count along radius and azimuth.
+class SampledLevelSet {
+ public:
+  SampledLevelSet(const LevelSet<2>& psi, int n)
+      : n_(n),
+        rows_(n * psi.lattice.grid().cells[0]),
+        columns_(n * psi.lattice.grid().cells[1]),
+        degree_(psi.lattice.degree()),
+        cells_(psi.lattice.grid()) {
+    for (int cell = 0; cell < cells_.n_cells(); ++cell) nodal_.push_back(psi.cell_values(cell));
+    samples_.resize((rows_ + 1) * columns_);
+    for (int j = 0; j < columns_; ++j)
+      for (int i = 0; i <= rows_; ++i) samples_[j * (rows_ + 1) + i] = polynomial({1.0 * i, 1.0 * j}, i, j);
+  }
+
+  int rows() const { return rows_; }
+  int columns() const { return columns_; }
+  double sample(int i, int j) const { return samples_[(j % columns_) * (rows_ + 1) + i]; }
+  bool material(int i, int j) const { return sample(i, j) < 0; }
+
+  /// Polygons of the material in the square whose first corner is sample (i, j).
+  std::vector<Polygon> square_polygons(int i, int j) const {
+    const auto crossings = square_crossings(i, j);
+    const auto corners = square_corners(i, j);
+    const int n_crossings =
+        std::count_if(crossings.begin(), crossings.end(), [](auto& c) { return c.t > 0; });
+    if (n_crossings == 4 && polynomial({i + 0.5, j + 0.5}, i, j) >= 0) {
+      const int k = material(i, j) ? 0 : 1;
+      return {{crossings[(k + 3) % 4], corners[k], crossings[k]},
+              {crossings[k + 1], corners[k + 2], crossings[k + 2]}};
+    }
+    Polygon polygon;
+    for (int k = 0; k < 4; ++k) {
+      if (material(corners[k].i, corners[k].j)) polygon.push_back(corners[k]);
+      if (crossings[k].t > 0) polygon.push_back(crossings[k]);
+    }
+    if (polygon.empty()) return {};
+    return {polygon};
+  }
+
+  /// The cell's samples all lie in the material.
+  bool full(int cell) const {
+    const auto c = cells_.cell_position(cell);
+    for (int j = n_ * c[1]; j <= n_ * (c[1] + 1); ++j)
+      for (int i = n_ * c[0]; i <= n_ * (c[0] + 1); ++i)
+        if (!material(i, j)) return false;
+    return true;
+  }
+
+  /// Number of the cell that holds the square (i, j).
+  int cell_of(int i, int j) const {
+    return cells_.cell_index({std::min(i, rows_ - 1) / n_, std::min(j, columns_ - 1) / n_});
+  }
+
+  /// A position in units of samples as a point of the unit cell.
+  Vec<2> unit_cell_point(const Vec<2>& position, int cell) const {
+    const auto c = cells_.cell_position(cell);
+    return {position[0] / n_ - c[0], position[1] / n_ - c[1]};
+  }
+
+ private:
+  static std::array<Vertex, 4> square_corners(int i, int j) {
+    return {{{i, j, Site::sample, 0},
+             {i + 1, j, Site::sample, 0},
+             {i + 1, j + 1, Site::sample, 0},
+             {i, j + 1, Site::sample, 0}}};
+  }
+
+  /// Zeros on the square's sides, side k from corner k to the next; t = 0 where a side has none.
+  std::array<Vertex, 4> square_crossings(int i, int j) const {
+    return {{crossing(i, j, Site::radial_edge, i, j), crossing(i + 1, j, Site::azimuthal_edge, i, j),
+             crossing(i, j + 1, Site::radial_edge, i, j), crossing(i, j, Site::azimuthal_edge, i, j)}};
+  }
+
+  /// Zero on the edge that leaves sample (i, j), by the polynomial of the square's cell.
+  Vertex crossing(int i, int j, Site site, int square_i, int square_j) const {
+    const int di = site == Site::radial_edge, dj = site == Site::azimuthal_edge;
+    const double start = sample(i, j), end = sample(i + di, j + dj);
+    if ((start < 0) == (end < 0)) return {i, j, site, 0};
+    const double middle = polynomial({i + 0.5 * di, j + 0.5 * dj}, square_i, square_j);
+    return {i, j, site, parabola_zero(start, middle, end)};
+  }
+
+  double polynomial(const Vec<2>& position, int square_i, int square_j) const {
+    const int cell = cell_of(square_i, square_j);
+    const ShapeFunctions<2> shape(degree_, unit_cell_point(position, cell));
+    double value = 0;
+    for (int a = 0; a < nodes_per_cell<2>(degree_); ++a) value += shape.value[a] * nodal_[cell][a];
+    return value;
+  }
+
+  int n_, rows_, columns_, degree_;
+  PolarGrid<2> cells_;
+  std::vector<std::vector<double>> nodal_;
+  std::vector<double> samples_;
+};
+
+/// A piece of the material's boundary in one sector, material on the left.
+struct Segment {
+  Vertex start, end;
+  ContourKind kind;
+  Vec<2> start_point;  ///< Cartesian, for the first sector
+};
+
+/// Whether the polygon's side from a to b bounds the material, and where.
+bool bounds_material(const Vertex& a, const Vertex& b, int rows, ContourKind& kind) {
+  if (a.on_circle(0) && b.on_circle(0)) {
+    kind = ContourKind::rim;
+    return true;
+  }
+  if (a.on_circle(rows) && b.on_circle(rows)) {
+    kind = ContourKind::tread;
+    return true;
+  }
+  kind = ContourKind::free;
+  return a.site != Site::sample && b.site != Site::sample;
+}
+
+std::vector<Segment> sector_segments(const LevelSet<2>& psi, int subdivisions) {
+  const SampledLevelSet samples(psi, subdivisions);
+  const PolarGrid<2>& grid = psi.lattice.grid();
+  const int degree = psi.lattice.degree();
+  const double column_angle = grid.cell_size()[1];
+  std::vector<CellMap<2>> maps;
+  for (int row = 0; row < grid.cells[0]; ++row) maps.emplace_back(grid, degree, std::array{row, 0});
+
+  std::vector<Segment> segments;
+  for (int j = 0; j < samples.columns(); ++j) {
+    for (int i = 0; i < samples.rows(); ++i) {
+      const int cell = samples.cell_of(i, j);
+      const auto c = grid.cell_position(cell);
+      for (const Polygon& polygon : samples.square_polygons(i, j)) {
+        for (std::size_t k = 0; k < polygon.size(); ++k) {
+          const Vertex &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
+          ContourKind kind;
+          if (!bounds_material(a, b, samples.rows(), kind)) continue;
+          const ShapeFunctions<2> shape(degree, samples.unit_cell_point(a.position(), cell));
+          segments.push_back({a, b, kind, rotated<2>(maps[c[0]].position(shape), c[1] * column_angle)});
+        }
+      }
+    }
+  }
+  return segments;
+}
+
+/// One number for one vertex of the full ring, whichever square it is seen from.
+class VertexNumbering {
+ public:
+  VertexNumbering(const PolarGrid<2>& grid, int subdivisions)
+      : samples_per_line_(subdivisions * grid.cells[0] + 1),
+        columns_(subdivisions * grid.cells[1]),
+        ring_columns_(columns_ * grid.n_sectors) {}
+
+  std::int64_t operator()(const Vertex& v, int sector) const {
+    const std::int64_t column = (v.j + columns_ * sector) % ring_columns_;
+    return 3 * (column * samples_per_line_ + v.i) + static_cast<int>(v.site);
+  }
+
+ private:
+  int samples_per_line_, columns_, ring_columns_;
+};
+
+/// The kind of a chain of segments: that of all of them, or free.
+ContourKind joined(ContourKind a, ContourKind b) { return a == b ? a : ContourKind::free; }
+
+}  // namespace
+
+std::vector<Contour> material_contours(const LevelSet<2>& psi, int subdivisions) {
+  const PolarGrid<2>& grid = psi.lattice.grid();
+  const std::vector<Segment> segments = sector_segments(psi, subdivisions);
+  const VertexNumbering number(grid, subdivisions);
+  const int n = segments.size(), n_ring = n * grid.n_sectors;
+
+  std::unordered_map<std::int64_t, int> segment_from;
+  for (int s = 0; s < n_ring; ++s) segment_from[number(segments[s % n].start, s / n)] = s;
+
+  std::vector<Contour> contours;
+  std::vector<bool> used(n_ring, false);
+  for (int first = 0; first < n_ring; ++first) {
+    if (used[first]) continue;
+    Contour contour{segments[first % n].kind, {}};
+    for (int s = first; !used[s]; s = segment_from.at(number(segments[s % n].end, s / n))) {
+      used[s] = true;
+      contour.kind = joined(contour.kind, segments[s % n].kind);
+      const int sector = s / n;
+      contour.points.push_back(rotated<2>(segments[s % n].start_point, sector * grid.sector_angle()));
+    }
+    contours.push_back(std::move(contour));
+  }
+  return contours;
+}
+
+double signed_area(const Contour& contour) {
+  double twice = 0;
+  Vec<2> a = contour.points.back();
+  for (const Vec<2>& b : contour.points) {
+    twice += a[0] * b[1] - a[1] * b[0];
+    a = b;
+  }
+  return 0.5 * twice;
+}
+
+double perimeter(const Contour& contour) {
+  double length = 0;
+  Vec<2> a = contour.points.back();
+  for (const Vec<2>& b : contour.points) {
+    length += std::hypot(b[0] - a[0], b[1] - a[1]);
+    a = b;
+  }
+  return length;
+}
+
+BoundingBox bounding_box(const Contour& contour) {
+  BoundingBox box{contour.points.front(), contour.points.front()};
+  for (const Vec<2>& p : contour.points) {
+    for (int d = 0; d < 2; ++d) {
+      box.lower[d] = std::min(box.lower[d], p[d]);
+      box.upper[d] = std::max(box.upper[d], p[d]);
+    }
+  }
+  return box;
+}
+
+std::vector<std::vector<MaterialPolygon>> material_polygons(const LevelSet<2>& psi, int subdivisions) {
+  const SampledLevelSet samples(psi, subdivisions);
+  const PolarGrid<2>& grid = psi.lattice.grid();
+  std::vector<std::vector<MaterialPolygon>> result(grid.n_cells());
+  for (int cell = 0; cell < grid.n_cells(); ++cell) {
+    if (samples.full(cell)) {
+      result[cell] = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+      continue;
+    }
+    const auto c = grid.cell_position(cell);
+    for (int j = subdivisions * c[1]; j < subdivisions * (c[1] + 1); ++j) {
+      for (int i = subdivisions * c[0]; i < subdivisions * (c[0] + 1); ++i) {
+        for (const Polygon& polygon : samples.square_polygons(i, j)) {
+          MaterialPolygon piece;
+          for (const Vertex& v : polygon) piece.push_back(samples.unit_cell_point(v.position(), cell));
+          result[cell].push_back(std::move(piece));
+        }
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace wheelwright

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include "wheelwright/geometry/lagrange.h"
+#include "wheelwright/geometry/polar_grid.h"
+
+namespace wheelwright {
+
+/// The level set psi (74) of one sector: negative in the material, positive in the holes. A piecewise
+/// polynomial of the lattice's degree (1 or 2), given by its nodal values [m], periodic in azimuth.
+template <int dim>
+struct LevelSet {
+  Lattice<dim> lattice;
+  std::vector<double> values;  ///< one value a lattice node
+
+  /// Nodal values of one cell, axis 0 fastest.
+  std::vector<double> cell_values(int cell) const {
+    const int degree = lattice.degree();
+    const auto c = lattice.grid().cell_position(cell);
+    std::vector<double> result(nodes_per_cell<dim>(degree));
+    for (int a = 0; a < static_cast<int>(result.size()); ++a) {
+      auto p = local_node_position<dim>(degree, a);
+      for (int d = 0; d < dim; ++d) p[d] += degree * c[d];
+      result[a] = values[lattice.node_index(p)];
+    }
+    return result;
+  }
+};
+
+/// A point on the moving boundary {psi = 0} of one sector, with a weight and a value: the carrier of surface
+/// integrals and of the shape gradient between the layers.
+template <int dim>
+struct SurfaceSample {
+  int cell;         ///< cell of the sector's grid
+  Vec<dim> xi;      ///< position in the unit cell
+  Vec<dim> normal;  ///< unit outward normal of the material, Cartesian, body frame
+  double weight;    ///< boundary measure dS [m, or m^2 when dim = 3]
+  double value;     ///< what is sampled, e.g. the density G of the shape derivative (42)
+};
+
+}  // namespace wheelwright

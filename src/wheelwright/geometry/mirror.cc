@@ -1,0 +1,45 @@
+#include "wheelwright/geometry/mirror.h"
+
+#include <cmath>
+
+namespace wheelwright {
+namespace {
+
+template <int dim>
+int image_of_node(const Lattice<dim>& lattice, int node) {
+  auto position = lattice.node_position(node);
+  position[1] = -position[1];
+  return lattice.node_index(position);
+}
+
+}  // namespace
+
+template <int dim>
+bool is_mirror_symmetric(const Lattice<dim>& lattice, std::span<const double> values, double tolerance) {
+  for (int i = 0; i < lattice.n_nodes(); ++i)
+    if (!(std::abs(values[image_of_node(lattice, i)] - values[i]) <= tolerance)) return false;
+  return true;
+}
+
+template <int dim>
+bool is_mirror_symmetric(const LevelSet<dim>& psi) {
+  return is_mirror_symmetric<dim>(psi.lattice, psi.values, 1e-9 * psi.lattice.grid().resolution());
+}
+
+template <int dim>
+LevelSet<dim> mirror_symmetric_part(const LevelSet<dim>& psi) {
+  LevelSet<dim> part = psi;
+  for (int i = 0; i < psi.lattice.n_nodes(); ++i)
+    part.values[i] = (psi.values[i] + psi.values[image_of_node(psi.lattice, i)]) / 2;
+  return part;
+}
+
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                       \
+  template bool is_mirror_symmetric(const Lattice<dim>&, std::span<const double>, double); \
+  template bool is_mirror_symmetric(const LevelSet<dim>&);                                 \
+  template LevelSet<dim> mirror_symmetric_part(const LevelSet<dim>&);
+WHEELWRIGHT_INSTANTIATE(2)
+WHEELWRIGHT_INSTANTIATE(3)
+#undef WHEELWRIGHT_INSTANTIATE
+
+}  // namespace wheelwright

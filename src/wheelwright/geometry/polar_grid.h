@@ -1,0 +1,143 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "wheelwright/base/vec.h"
+
+namespace wheelwright {
+
+/// A structured grid of one sector of a ring: axis 0 radial (inner to outer radius), axis 1 azimuthal (one
+/// sector, periodic), axis 2 axial (dim = 3). Cells are equal in (radius, azimuth, axial) coordinates.
+/// Lengths in metres, angles in radians; azimuth 0 is the sector's first face.
+template <int dim>
+struct PolarGrid {
+  double inner_radius;         ///< R_i, the rim
+  double outer_radius;         ///< R_e, the tread
+  double width;                ///< w_r, along the axle; the extent of axis 2 when dim = 3
+  int n_sectors;               ///< N_s
+  std::array<int, dim> cells;  ///< cells of one sector along each axis
+
+  bool operator==(const PolarGrid&) const = default;
+
+  double sector_angle() const { return 2 * std::numbers::pi / n_sectors; }
+  int columns() const { return cells[1]; }                   ///< angular cells of a sector
+  int ring_columns() const { return cells[1] * n_sectors; }  ///< angular cells of the full ring
+
+  /// Extent of a cell along each axis, in (m, rad, m).
+  Vec<dim> cell_size() const {
+    Vec<dim> size;
+    size[0] = (outer_radius - inner_radius) / cells[0];
+    size[1] = sector_angle() / cells[1];
+    if constexpr (dim == 3) size[2] = width / cells[2];
+    return size;
+  }
+
+  /// The shortest edge of a cell at mid-ring, in metres: the length h that steps and bands are measured in.
+  double resolution() const {
+    const Vec<dim> size = cell_size();
+    double h = std::min(size[0], size[1] * 0.5 * (inner_radius + outer_radius));
+    if constexpr (dim == 3) h = std::min(h, size[2]);
+    return h;
+  }
+
+  int n_cells() const {
+    int n = 1;
+    for (int c : cells) n *= c;
+    return n;
+  }
+
+  /// Cell number; radial fastest, azimuth slowest, so that one angular column is contiguous.
+  int cell_index(const std::array<int, dim>& c) const {
+    int index = c[1];
+    if constexpr (dim == 3) index = index * cells[2] + c[2];
+    return index * cells[0] + c[0];
+  }
+
+  std::array<int, dim> cell_position(int index) const {
+    std::array<int, dim> c;
+    c[0] = index % cells[0];
+    index /= cells[0];
+    if constexpr (dim == 3) {
+      c[2] = index % cells[2];
+      index /= cells[2];
+    }
+    c[1] = index;
+    return c;
+  }
+};
+
+/// Cartesian position of a point given as (radius, azimuth[, axial]).
+template <int dim>
+Vec<dim> cartesian(const Vec<dim>& polar) {
+  Vec<dim> x = polar;
+  x[0] = polar[0] * std::cos(polar[1]);
+  x[1] = polar[0] * std::sin(polar[1]);
+  return x;
+}
+
+/// The nodes of degree `degree` on a sector's grid. Periodic in azimuth: the nodes of the sector's last face
+/// are those of the next sector's first. Radial fastest, azimuth slowest.
+template <int dim>
+class Lattice {
+ public:
+  Lattice(const PolarGrid<dim>& grid, int degree) : grid_(grid), degree_(degree) {
+    for (int d = 0; d < dim; ++d) nodes_[d] = degree * grid.cells[d] + (d == 1 ? 0 : 1);
+  }
+
+  const PolarGrid<dim>& grid() const { return grid_; }
+  int degree() const { return degree_; }
+  const std::array<int, dim>& nodes() const { return nodes_; }  ///< nodes of one sector along each axis
+
+  int n_nodes() const {
+    int n = 1;
+    for (int k : nodes_) n *= k;
+    return n;
+  }
+  int nodes_per_line() const { return n_nodes() / nodes_[1]; }  ///< nodes of one azimuth
+
+  /// Node number; position[1] may lie outside [0, nodes()[1]): it is taken periodically.
+  int node_index(const std::array<int, dim>& position) const {
+    int index = (position[1] % nodes_[1] + nodes_[1]) % nodes_[1];
+    if constexpr (dim == 3) index = index * nodes_[2] + position[2];
+    return index * nodes_[0] + position[0];
+  }
+
+  std::array<int, dim> node_position(int index) const {
+    std::array<int, dim> p;
+    p[0] = index % nodes_[0];
+    index /= nodes_[0];
+    if constexpr (dim == 3) {
+      p[2] = index % nodes_[2];
+      index /= nodes_[2];
+    }
+    p[1] = index;
+    return p;
+  }
+
+  /// Distance of neighbouring nodes along each axis, in (m, rad, m).
+  Vec<dim> spacing() const {
+    Vec<dim> h = grid_.cell_size();
+    for (double& x : h) x /= degree_;
+    return h;
+  }
+
+  /// (radius, azimuth[, axial]) of a node; position[1] may lie outside the sector.
+  Vec<dim> polar_point(const std::array<int, dim>& position) const {
+    const Vec<dim> h = spacing();
+    Vec<dim> x;
+    for (int d = 0; d < dim; ++d) x[d] = position[d] * h[d];
+    x[0] += grid_.inner_radius;
+    return x;
+  }
+  Vec<dim> polar_point(int index) const { return polar_point(node_position(index)); }
+
+ private:
+  PolarGrid<dim> grid_;
+  int degree_;
+  std::array<int, dim> nodes_;
+};
+
+}  // namespace wheelwright

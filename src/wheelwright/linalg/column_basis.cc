@@ -1,0 +1,103 @@
+#include "wheelwright/linalg/column_basis.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+extern "C" {
+void dgeqp3_(const int*, const int*, double*, const int*, int*, double*, double*, const int*, int*);
+void dtrsm_(const char*, const char*, const char*, const char*, const int*, const int*, const double*,
+            const double*, const int*, double*, const int*);
+void dorgqr_(const int*, const int*, const int*, double*, const int*, const double*, double*, const int*,
+             int*);
+}
+
+namespace wheelwright {
+namespace {
+
+/// Columns that are made orthogonal together.
+constexpr int block_size = 32;
+
+double length(const Matrix& a, int column) {
+  const double* x = a.column(column);
+  // Four sums, so that they go through vector registers.
+  std::array<double, 4> sums{};
+  int i = 0;
+  for (; i + 4 <= a.rows(); i += 4)
+    for (int k = 0; k < 4; ++k) sums[k] += x[i + k] * x[i + k];
+  for (; i < a.rows(); ++i) sums[0] += x[i] * x[i];
+  return std::sqrt(sums[0] + sums[1] + (sums[2] + sums[3]));
+}
+
+/// Takes the components along the basis out of x.
+void project_out(const Matrix& basis, Matrix& x) {
+  multiply(-1, basis, Op::none, product(basis, Op::transpose, x, Op::none), Op::none, 1, x);
+}
+
+/// The columns that are longer than `shortest`.
+Matrix long_columns(const Matrix& a, double shortest) {
+  auto result = Matrix::unfilled(a.rows(), a.columns());
+  int n = 0;
+  for (int j = 0; j < a.columns(); ++j)
+    if (length(a, j) > shortest) std::copy_n(a.column(j), a.rows(), result.column(n++));
+  return block(result, 0, 0, a.rows(), n);
+}
+
+/// The basis with more columns.
+Matrix extended(const Matrix& basis, const Matrix& more) {
+  auto result = Matrix::unfilled(basis.rows(), basis.columns() + more.columns());
+  std::copy_n(basis.data(), basis.entries().size(), result.data());
+  std::copy_n(more.data(), more.entries().size(), result.column(basis.columns()));
+  return result;
+}
+
+/// An orthonormal basis of x's columns, the longest remainder first, until none is longer than `shortest`: QR
+/// with column pivoting.
+Matrix orthonormal(Matrix x, double shortest) {
+  const int m = x.rows(), n = x.columns();
+  std::vector<int> pivots(n, 0);
+  std::vector<double> reflectors(n), workspace(size_t(64) * (n + 1));
+  const int workspace_size = static_cast<int>(workspace.size());
+  if (n == 0) return x;
+  int info = 0, rank = 0;
+  dgeqp3_(&m, &n, x.data(), &m, pivots.data(), reflectors.data(), workspace.data(), &workspace_size, &info);
+  while (rank < std::min(m, n) && std::abs(x(rank, rank)) > shortest) ++rank;
+  dorgqr_(&m, &rank, &rank, x.data(), &m, reflectors.data(), workspace.data(), &workspace_size, &info);
+  return block(x, 0, 0, m, rank);
+}
+
+/// Makes columns orthonormal that almost are: Cholesky QR.
+void orthonormalize(Matrix& x) {
+  Matrix gram = product(x, Op::transpose, x, Op::none);
+  const int m = x.rows(), n = x.columns();
+  const double one = 1;
+  if (cholesky(gram)) dtrsm_("R", "L", "T", "N", &m, &n, &one, gram.data(), &n, x.data(), &m);
+}
+
+}  // namespace
+
+ColumnBasis column_basis(const Matrix& a, double tolerance) {
+  double longest = 0;
+  for (int j = 0; j < a.columns(); ++j) longest = std::max(longest, length(a, j));
+  const double shortest = tolerance * longest;
+
+  Matrix basis(a.rows(), 0);
+  const int n_blocks = (a.columns() + block_size - 1) / block_size;
+  for (int block = 0; block < n_blocks && longest > 0; ++block) {
+    // Neighbouring columns are often alike: a block takes them from all over a.
+    auto x = Matrix::unfilled(a.rows(), (a.columns() - block + n_blocks - 1) / n_blocks);
+    for (int k = 0; k < x.columns(); ++k) std::copy_n(a.column(block + k * n_blocks), a.rows(), x.column(k));
+    project_out(basis, x);
+    Matrix more = orthonormal(long_columns(x, shortest), shortest);
+    if (more.columns() == 0) continue;
+    // What rounding left of the basis weighs more in a short remainder: once again.
+    project_out(basis, more);
+    orthonormalize(more);
+    basis = extended(basis, more);
+  }
+  Matrix coordinates = product(basis, Op::transpose, a, Op::none);
+  return {std::move(basis), std::move(coordinates)};
+}
+
+}  // namespace wheelwright

@@ -1,0 +1,115 @@
+#include "wheelwright/linalg/cyclic_chain.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "wheelwright/base/parallel.h"
+
+namespace wheelwright {
+namespace {
+
+Matrix identity(int n) {
+  Matrix one(n, n);
+  for (int i = 0; i < n; ++i) one(i, i) = 1;
+  return one;
+}
+
+Failure not_positive_definite() {
+  return {FailureReason::not_positive_definite, "a chain of equal links is not positive definite"};
+}
+
+/// Pivots converge with the square of step's spectral radius; a chain that needs more is as good as singular.
+constexpr int most_pivots = 10000;
+
+/// Changes of a pivot that are smaller, as a fraction of the diagonal, are rounding when they no longer fall.
+constexpr double nearly_converged = 1e-12;
+
+/// Powers of step below this are left out.
+constexpr double negligible = 1e-17;
+
+}  // namespace
+
+Expected<CyclicChain> CyclicChain::factor(const Matrix& diagonal, const Matrix& next, int n_links) {
+  const int n = diagonal.rows();
+  CyclicChain chain;
+  chain.n_links_ = n_links;
+  Matrix pivot = diagonal, coupling;
+  const double largest_rounding = nearly_converged * largest_entry(diagonal);
+  double last_change = std::numeric_limits<double>::infinity();
+  for (int k = 0;; ++k) {
+    chain.pivot_factor_ = pivot;
+    if (k == most_pivots || !cholesky(chain.pivot_factor_)) return not_positive_definite();
+    coupling = next;
+    cholesky_solve(chain.pivot_factor_, coupling);
+    Matrix following = diagonal;
+    multiply(-1, next, Op::transpose, coupling, Op::none, 1, following);
+    double change = 0;
+    for (size_t i = 0; i < pivot.entries().size(); ++i)
+      change = std::max(change, std::abs(following.entries()[i] - pivot.entries()[i]));
+    if (change >= last_change && change <= largest_rounding) break;
+    last_change = change;
+    pivot = std::move(following);
+  }
+  chain.step_ = Matrix(n, n);
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) chain.step_(i, j) = -coupling(j, i);
+
+  Matrix power = identity(n), closing = identity(n);
+  for (int c = 0; c < n_links; ++c) {
+    if (largest_entry(power) > negligible) chain.memory_ = c + 1;
+    power = product(chain.step_, Op::none, power, Op::none);
+  }
+  for (size_t i = 0; i < power.entries().size(); ++i) closing.entries()[i] -= power.entries()[i];
+  chain.closing_ = identity(n);
+  if (!lu_solve(closing, chain.closing_)) return not_positive_definite();
+  return chain;
+}
+
+Matrix CyclicChain::solve(const Matrix& loads) const {
+  constexpr int together = 32;
+  const int n_rhs = loads.columns() / n_links_;
+  auto x = Matrix::unfilled(loads.rows(), loads.columns());
+  parallel_for((n_rhs + together - 1) / together, [&](int group) {
+    const int first = group * together;
+    solve_some(loads, first, std::min(together, n_rhs - first), x);
+  });
+  return x;
+}
+
+/// Solves for n_rhs right-hand sides from `first` on.
+void CyclicChain::solve_some(const Matrix& loads, int first, int n_rhs, Matrix& result) const {
+  const int n = loads.rows();
+  const auto copy = [&](const Matrix& from, auto place_from, Matrix& to, auto place_to) {
+    for (int rhs = 0; rhs < n_rhs; ++rhs)
+      for (int c = 0; c < n_links_; ++c)
+        std::copy_n(from.column(place_from(rhs, c)), n, to.column(place_to(rhs, c)));
+  };
+  const auto by_rhs = [&](int rhs, int c) { return (first + rhs) * n_links_ + c; };
+  const auto by_link = [&](int rhs, int c) { return c * n_rhs + rhs; };
+  auto x = Matrix::unfilled(n, n_rhs * n_links_);
+  copy(loads, by_rhs, x, by_link);
+  const auto link = [&](int c) { return x.column(c * n_rhs); };
+
+  // Forwards, the first link without its predecessor; then what that one passes on, once round the ring.
+  Matrix passed(n, n_rhs), closed(n, n_rhs);
+  for (int c = 1; c < n_links_; ++c) multiply_columns(1, step_, Op::none, link(c - 1), n_rhs, 1, link(c));
+  multiply_columns(1, closing_, Op::none, link(n_links_ - 1), n_rhs, 0, passed.data());
+  for (int c = 0; c < memory_; ++c) {
+    multiply_columns(1, step_, Op::none, passed.data(), n_rhs, 0, closed.data());
+    std::swap(passed, closed);
+    std::transform(passed.data(), passed.data() + passed.entries().size(), link(c), link(c), std::plus());
+  }
+  cholesky_solve(pivot_factor_, x);
+  for (int c = n_links_ - 1; c > 0; --c)
+    multiply_columns(1, step_, Op::transpose, link(c), n_rhs, 1, link(c - 1));
+  multiply_columns(1, closing_, Op::transpose, link(0), n_rhs, 0, passed.data());
+  for (int c = n_links_ - 1; c >= n_links_ - memory_; --c) {
+    multiply_columns(1, step_, Op::transpose, passed.data(), n_rhs, 0, closed.data());
+    std::swap(passed, closed);
+    std::transform(passed.data(), passed.data() + passed.entries().size(), link(c), link(c), std::plus());
+  }
+  copy(x, by_link, result, by_rhs);
+}
+
+}  // namespace wheelwright

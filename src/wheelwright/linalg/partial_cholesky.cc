@@ -1,0 +1,351 @@
+#include "wheelwright/linalg/partial_cholesky.h"
+
+#include <cholmod.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <new>
+#include <numeric>
+
+#include "wheelwright/base/parallel.h"
+
+extern "C" {
+void dpotrf_(const char*, const int*, double*, const int*, int*);
+void dtrsm_(const char*, const char*, const char*, const char*, const int*, const int*, const double*,
+            const double*, const int*, double*, const int*);
+void dsyrk_(const char*, const char*, const int*, const int*, const double*, const double*, const int*,
+            const double*, double*, const int*);
+void dgemm_(const char*, const char*, const int*, const int*, const int*, const double*, const double*,
+            const int*, const double*, const int*, const double*, double*, const int*);
+}
+
+namespace wheelwright {
+namespace {
+
+/// CHOLMOD's symbolic analysis of a node graph in a given order.
+class SymbolicFactor {
+ public:
+  SymbolicFactor(const SparseSymmetric& matrix, int block, std::span<const int> order) {
+    cholmod_start(&common_);
+    common_.supernodal = CHOLMOD_SUPERNODAL;
+    common_.nmethods = 1;
+    common_.method[0].ordering = CHOLMOD_GIVEN;
+    common_.postorder = false;
+    common_.print = 0;
+    for (size_t& columns : common_.nrelax) columns = std::max<size_t>(1, columns / block);
+
+    std::vector<int> column_start{0}, rows;
+    for (int node = 0; node < matrix.size / block; ++node) {
+      for (int k = matrix.column_start[block * node]; k < matrix.column_start[block * node + 1]; ++k)
+        if (const int row = matrix.rows[k] / block;
+            static_cast<int>(rows.size()) == column_start.back() || rows.back() != row)
+          rows.push_back(row);
+      column_start.push_back(static_cast<int>(rows.size()));
+    }
+    cholmod_sparse graph{};
+    graph.nrow = graph.ncol = order.size();
+    graph.nzmax = rows.size();
+    graph.p = column_start.data();
+    graph.i = rows.data();
+    graph.stype = -1;
+    graph.itype = CHOLMOD_INT;
+    graph.xtype = CHOLMOD_PATTERN;
+    graph.sorted = graph.packed = true;
+    factor_ = cholmod_analyze_p(&graph, const_cast<int*>(order.data()), nullptr, 0, &common_);
+    if (factor_ && !std::equal(order.begin(), order.end(), static_cast<const int*>(factor_->Perm)))
+      cholmod_free_factor(&factor_, &common_);
+  }
+  SymbolicFactor(const SymbolicFactor&) = delete;
+  SymbolicFactor& operator=(const SymbolicFactor&) = delete;
+  ~SymbolicFactor() {
+    cholmod_free_factor(&factor_, &common_);
+    cholmod_finish(&common_);
+  }
+
+  bool lacked_memory() const { return common_.status == CHOLMOD_OUT_OF_MEMORY; }
+  bool kept_order() const { return factor_ != nullptr; }
+  int n_supernodes() const { return static_cast<int>(factor_->nsuper); }
+  int first(int supernode) const { return static_cast<const int*>(factor_->super)[supernode]; }
+  /// Nodes of a supernode's rows, its own first.
+  std::span<const int> rows(int supernode) const {
+    const int* start = static_cast<const int*>(factor_->pi);
+    return {static_cast<const int*>(factor_->s) + start[supernode],
+            size_t(start[supernode + 1] - start[supernode])};
+  }
+
+ private:
+  cholmod_common common_;
+  cholmod_factor* factor_ = nullptr;
+};
+
+/// Vectors that sweeps take together.
+constexpr int sweep_block = 24;
+
+/// Calls f(first, n) for blocks of n of `size` vectors, whatever the number of threads.
+void for_blocks(int size, const std::function<void(int, int)>& f) {
+  const int n_blocks = (size + sweep_block - 1) / sweep_block;
+  parallel_for(n_blocks, [&](int block) {
+    const int first = size * block / n_blocks, last = size * (block + 1) / n_blocks;
+    f(first, last - first);
+  });
+}
+
+}  // namespace
+
+Expected<PartialCholesky> PartialCholesky::analyze(const SparseSymmetric& matrix, int block,
+                                                   std::span<const int> order, int n_trailing) {
+  const SymbolicFactor symbolic(matrix, block, order);
+  if (symbolic.lacked_memory()) throw std::bad_alloc();
+  if (!symbolic.kept_order())
+    return Failure{FailureReason::not_positive_definite, "CHOLMOD did not keep the elimination order"};
+  const int n_interior = static_cast<int>(order.size()) - n_trailing;
+  PartialCholesky result;
+  result.supernode_of_.assign(matrix.size, -1);
+  result.schur_ = Matrix(block * n_trailing, block * n_trailing);
+  size_t n_values = 0;
+  for (int s = 0; s < symbolic.n_supernodes() && symbolic.first(s) < n_interior; ++s) {
+    const auto rows = symbolic.rows(s);
+    const auto below = std::upper_bound(
+        rows.begin(), rows.end(),
+        std::min(n_interior, s + 1 < symbolic.n_supernodes() ? symbolic.first(s + 1) : n_interior) - 1);
+    Supernode node{block * symbolic.first(s),
+                   block * static_cast<int>(below - rows.begin()),
+                   block * static_cast<int>(rows.end() - below),
+                   result.below_.size(),
+                   n_values,
+                   -1};
+    for (auto row = below; row != rows.end(); ++row)
+      for (int c = 0; c < block; ++c) result.below_.push_back(block * *row + c);
+    n_values += size_t(node.stride()) * node.n_columns;
+    std::fill_n(result.supernode_of_.begin() + node.first, node.n_columns, s);
+    result.supernodes_.push_back(node);
+  }
+  result.values_.assign(n_values, 0.0);
+  for (Supernode& node : result.supernodes_)
+    if (node.n_below > 0) node.parent = result.supernode_of_[result.below_[node.below]];
+  return result;
+}
+
+/// The numerical factorization: fills values_ and schur_.
+class PartialCholesky::Numbers {
+ public:
+  Numbers(PartialCholesky& factor, const SparseSymmetric& matrix, int block, std::span<const int> order)
+      : factor_(factor),
+        children_(factor.supernodes_.size()),
+        work_(factor.supernodes_.size()),
+        updates_(factor.supernodes_.size()) {
+    for (size_t s = 0; s < children_.size(); ++s) {
+      const Supernode& node = factor.supernodes_[s];
+      work_[s] += double(node.n_columns) * node.stride() * node.stride();
+      (node.parent < 0 ? roots_ : children_[node.parent]).push_back(static_cast<int>(s));
+      (node.parent < 0 ? total_work_ : work_[node.parent]) += work_[s];
+    }
+    sort_entries(matrix, block, order);
+  }
+
+  /// False when a supernode is not positive definite.
+  bool eliminate() { return eliminate_in_parallel(roots_); }
+
+  void finish_schur() {
+    Matrix& schur = factor_.schur_;
+    const int first = factor_.n_interior();
+    for (int j = first; j < factor_.size(); ++j)
+      for (int k = column_start_[j]; k < column_start_[j + 1]; ++k)
+        schur(entries_[k].row - first, j - first) += entries_[k].value;
+    for (size_t s = 0; s < updates_.size(); ++s) {
+      const Supernode& node = factor_.supernodes_[s];
+      if (node.parent >= 0) continue;
+      const int* rows = factor_.below_.data() + node.below;
+      for (int j = 0; j < node.n_below; ++j)
+        for (int i = j; i < node.n_below; ++i) schur(rows[i] - first, rows[j] - first) += updates_[s](i, j);
+    }
+    for (int j = 0; j < schur.columns(); ++j)
+      for (int i = 0; i < j; ++i) schur(i, j) = schur(j, i);
+  }
+
+ private:
+  struct Entry {
+    int row;
+    double value;
+  };
+
+  /// The matrix's lower triangle in elimination order, by columns.
+  void sort_entries(const SparseSymmetric& matrix, int block, std::span<const int> order) {
+    std::vector<int> place(matrix.size);
+    for (size_t k = 0; k < order.size(); ++k)
+      for (int c = 0; c < block; ++c) place[block * order[k] + c] = block * static_cast<int>(k) + c;
+    column_start_.assign(matrix.size + 1, 0);
+    for (int j = 0; j < matrix.size; ++j)
+      for (int k = matrix.column_start[j]; k < matrix.column_start[j + 1]; ++k)
+        ++column_start_[std::min(place[j], place[matrix.rows[k]]) + 1];
+    std::partial_sum(column_start_.begin(), column_start_.end(), column_start_.begin());
+    entries_.resize(matrix.rows.size());
+    std::vector<int> next(column_start_.begin(), column_start_.end() - 1);
+    for (int j = 0; j < matrix.size; ++j)
+      for (int k = matrix.column_start[j]; k < matrix.column_start[j + 1]; ++k) {
+        const auto [column, row] = std::minmax(place[j], place[matrix.rows[k]]);
+        entries_[next[column]++] = {row, matrix.values[k]};
+      }
+  }
+
+  bool eliminate_in_parallel(const std::vector<int>& subtrees) {
+    std::vector<char> is_definite(subtrees.size());
+    parallel_for(static_cast<int>(subtrees.size()), [&](int i) {
+      constexpr double worth_sharing = 0.02;
+      const int s = subtrees[i];
+      std::vector<int> place(factor_.size());
+      is_definite[i] = work_[s] < worth_sharing * total_work_
+                           ? eliminate_subtree(s, place)
+                           : eliminate_in_parallel(children_[s]) && eliminate(s, place);
+    });
+    return std::all_of(is_definite.begin(), is_definite.end(), [](char d) { return d; });
+  }
+
+  bool eliminate_subtree(int root, std::vector<int>& place) {
+    return std::all_of(children_[root].begin(), children_[root].end(),
+                       [&](int child) { return eliminate_subtree(child, place); }) &&
+           eliminate(root, place);
+  }
+
+  /// `place`: room for one number an unknown.
+  bool eliminate(int s, std::vector<int>& place) {
+    const Supernode& node = factor_.supernodes_[s];
+    const int stride = node.stride(), n = node.n_columns, m = node.n_below;
+    const int* below = factor_.below_.data() + node.below;
+    double* l = &factor_.values_[node.values];
+    std::iota(place.begin() + node.first, place.begin() + node.first + n, 0);
+    for (int k = 0; k < m; ++k) place[below[k]] = n + k;
+    Matrix& update = updates_[s] = Matrix(m, m);
+
+    for (int j = 0; j < n; ++j)
+      for (int k = column_start_[node.first + j]; k < column_start_[node.first + j + 1]; ++k)
+        l[size_t(j) * stride + place[entries_[k].row]] += entries_[k].value;
+    for (const int child : children_[s]) {
+      const int n_rows = factor_.supernodes_[child].n_below;
+      const int* rows = factor_.below_.data() + factor_.supernodes_[child].below;
+      for (int j = 0; j < n_rows; ++j) {
+        const int column = place[rows[j]];
+        double* to = column < n ? l + size_t(column) * stride : update.column(column - n) - n;
+        const double* from = updates_[child].column(j);
+        for (int i = j; i < n_rows; ++i) to[place[rows[i]]] += from[i];
+      }
+      updates_[child] = {};
+    }
+    int info = 0;
+    const double one = 1, minus_one = -1;
+    dpotrf_("L", &n, l, &stride, &info);
+    if (info != 0) return false;
+    if (m == 0) return true;
+    dtrsm_("R", "L", "T", "N", &m, &n, &one, l, &stride, l + n, &stride);
+    dsyrk_("L", "N", &m, &n, &minus_one, l + n, &stride, &one, update.data(), &m);
+    return true;
+  }
+
+  PartialCholesky& factor_;
+  std::vector<int> roots_;
+  std::vector<std::vector<int>> children_;
+  std::vector<double> work_;  ///< of every subtree
+  double total_work_ = 0;
+  std::vector<Matrix>
+      updates_;  ///< what a supernode passes on to its parent: lower triangle on its rows below
+  std::vector<int> column_start_;
+  std::vector<Entry> entries_;
+};
+
+Expected<PartialCholesky> PartialCholesky::factor(const SparseSymmetric& matrix, int block,
+                                                  std::span<const int> order, int n_trailing) {
+  auto factor = analyze(matrix, block, order, n_trailing);
+  if (!factor) return factor;
+  Numbers numbers(*factor, matrix, block, order);
+  if (!numbers.eliminate())
+    return Failure{FailureReason::not_positive_definite,
+                   "the stiffness of a sector is not positive definite"};
+  numbers.finish_schur();
+  for (double x : factor->schur_.entries())
+    if (!std::isfinite(x)) return Failure{FailureReason::not_finite, "the condensed stiffness is not finite"};
+  return factor;
+}
+
+double PartialCholesky::factor_flops() const {
+  double flops = 0;
+  for (const Supernode& node : supernodes_) {
+    const double n = node.n_columns, m = node.n_below;
+    flops += n * n * n / 3 + m * n * n + m * m * n;
+  }
+  return flops;
+}
+
+PartialCholesky::Sweep PartialCholesky::sweep_through(const std::vector<char>& marked) const {
+  std::vector<char> needed(supernodes_.size(), 0);
+  for (int i = 0; i < n_interior(); ++i)
+    if (marked[i]) needed[supernode_of_[i]] = 1;
+  Sweep sweep{{}, std::vector<char>(size(), 0)};
+  std::fill(sweep.visited.begin() + n_interior(), sweep.visited.end(), 1);
+  for (size_t s = 0; s < supernodes_.size(); ++s) {
+    if (!needed[s]) continue;
+    const Supernode& node = supernodes_[s];
+    sweep.supernodes.push_back(static_cast<int>(s));
+    std::fill_n(sweep.visited.begin() + node.first, node.n_columns, 1);
+    if (node.parent >= 0) needed[node.parent] = 1;
+  }
+  return sweep;
+}
+
+PartialCholesky::Sweep PartialCholesky::full_sweep() const {
+  return sweep_through(std::vector<char>(size(), 1));
+}
+
+double PartialCholesky::sweep_entries(const Sweep& sweep) const {
+  double entries = 0;
+  for (const int s : sweep.supernodes)
+    entries += double(supernodes_[s].n_columns) * (supernodes_[s].n_below + 0.5 * supernodes_[s].n_columns);
+  return entries;
+}
+
+void PartialCholesky::eliminate(const Sweep& sweep, Matrix& loads) const {
+  const double one = 1, zero = 0;
+  const int leading = loads.rows();
+  for_blocks(leading, [&](int first, int n) {
+    std::vector<double> passed_on;
+    for (const int s : sweep.supernodes) {
+      const Supernode& node = supernodes_[s];
+      const int stride = node.stride(), *below = below_.data() + node.below;
+      const double* l = &values_[node.values];
+      double* own = loads.column(node.first) + first;
+      dtrsm_("R", "L", "T", "N", &n, &node.n_columns, &one, l, &stride, own, &leading);
+      if (node.n_below == 0) continue;
+      passed_on.resize(size_t(n) * node.n_below);
+      dgemm_("N", "T", &n, &node.n_below, &node.n_columns, &one, own, &leading, l + node.n_columns, &stride,
+             &zero, passed_on.data(), &n);
+      for (int k = 0; k < node.n_below; ++k) {
+        double* to = loads.column(below[k]) + first;
+        const double* from = &passed_on[size_t(k) * n];
+        for (int i = 0; i < n; ++i) to[i] -= from[i];
+      }
+    }
+  });
+}
+
+void PartialCholesky::substitute(const Sweep& sweep, Matrix& x) const {
+  const double one = 1, minus_one = -1;
+  const int leading = x.rows();
+  for_blocks(leading, [&](int first, int n) {
+    std::vector<double> known;
+    for (auto s = sweep.supernodes.rbegin(); s != sweep.supernodes.rend(); ++s) {
+      const Supernode& node = supernodes_[*s];
+      const int stride = node.stride(), *below = below_.data() + node.below;
+      const double* l = &values_[node.values];
+      double* own = x.column(node.first) + first;
+      known.resize(size_t(n) * node.n_below);
+      for (int k = 0; k < node.n_below; ++k)
+        std::copy_n(x.column(below[k]) + first, n, &known[size_t(k) * n]);
+      if (node.n_below > 0)
+        dgemm_("N", "N", &n, &node.n_columns, &node.n_below, &minus_one, known.data(), &n, l + node.n_columns,
+               &stride, &one, own, &leading);
+      dtrsm_("R", "L", "N", "N", &n, &node.n_columns, &one, l, &stride, own, &leading);
+    }
+  });
+}
+
+}  // namespace wheelwright

@@ -1,0 +1,305 @@
+#include "wheelwright/optimize/optimizer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+
+#include "wheelwright/cut/measure.h"
+#include "wheelwright/evolution/volume.h"
+#include "wheelwright/geometry/finite.h"
+#include "wheelwright/geometry/place.h"
+
+namespace wheelwright {
+
+namespace {
+
+constexpr double step_growth = 1.5;
+constexpr double step_reduction = 0.5;
+constexpr std::size_t convergence_window = 10;
+constexpr int max_removals = 4;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+template <int dim>
+double boundary_measure(std::span<const SurfaceSample<dim>> samples) {
+  double sum = 0;
+  for (const auto& sample : samples) sum += sample.weight;
+  return sum;
+}
+
+template <int dim>
+bool is_finite(const Evaluation<dim>& evaluation) {
+  double sum = evaluation.objective;
+  for (const auto& sample : evaluation.gradient) sum += sample.weight * sample.value;
+  return std::isfinite(sum);
+}
+
+double largest_magnitude(std::span<const double> values) {
+  double largest = 0;
+  for (double v : values) largest = std::max(largest, std::abs(v));
+  return largest;
+}
+
+bool is_converged(const OptimizerOptions& options, const std::vector<double>& history) {
+  if (options.tolerance <= 0 || history.size() <= convergence_window) return false;
+  const double before = history[history.size() - 1 - convergence_window];
+  double fall = before - history.back();
+  // The paper's rule lets the measure drift, and the objective rise with it.
+  if (options.measure_control == MeasureControl::proportional) fall = std::abs(fall);
+  return fall < options.tolerance * std::abs(before);
+}
+
+/// A change of the objective is a jump when it is more than this many times what the gradient foretells, and
+/// by more than this factor besides: near a minimum the gradient foretells nothing.
+constexpr double largest_surprise = 3, largest_factor = 4;
+
+std::optional<Failure> check_jump(double before, double after, double foretold) {
+  const auto [small, large] = std::minmax({std::abs(before), std::abs(after)});
+  if (std::abs(after - before) <= largest_surprise * std::abs(foretold) || large <= largest_factor * small)
+    return {};
+  return Failure{FailureReason::objective_jumped,
+                 fmt::format("the objective went from {:.6g} to {:.6g}, where its gradient foretold {:.6g}",
+                             before, after, before + foretold)};
+}
+
+/// A trial that has no shape of its own yet.
+template <int dim>
+Trial<dim> failed_trial(const OptimizationState<dim>& state, int halvings, double step,
+                        std::optional<Failure> failure) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  return {state.iteration + 1, halvings, step, unknown, 0, state.shape, unknown, Verdict::failed, {},
+          std::move(failure),  {}};
+}
+
+/// Makes a stage's result the trial's shape, or its failure the trial's; whether it is a shape.
+template <int dim>
+bool take(Expected<LevelSet<dim>> shape, Trial<dim>& trial) {
+  if (shape)
+    trial.shape = *std::move(shape);
+  else
+    trial.failure = shape.failure();
+  return !trial.failure;
+}
+
+}  // namespace
+
+template <int dim>
+std::optional<StopReason> reason_to_stop(const OptimizerOptions& options,
+                                         const OptimizationState<dim>& state) {
+  if (state.iteration >= options.iterations) return StopReason::iterations;
+  if (is_converged(options, state.history)) return StopReason::converged;
+  return {};
+}
+
+template <int dim>
+ShapeOptimizer<dim>::ShapeOptimizer(const Lattice<dim>& lattice, const EvolutionOptions& evolution,
+                                    const OptimizerOptions& options, Objective objective)
+    : lattice_(lattice), evolver_(lattice, evolution), options_(options), objective_(std::move(objective)) {}
+
+template <int dim>
+Expected<OptimizationState<dim>> ShapeOptimizer<dim>::start(const LevelSet<dim>& initial,
+                                                            const Observer& observer) const {
+  if (auto failure = check_finite<dim>(lattice_, initial.values, "the initial level set")) return *failure;
+  Trial<dim> trial{0, 0, 0, 0, 0, evolver_.keep_bands(initial), 0, Verdict::failed, {}, {}, {}};
+  finish(trial, options_.target_measure, boundary_measure<dim>(boundary_samples<dim>(trial.shape)));
+  if (!trial.failure) evaluate(trial);
+  if (trial.failure) return *trial.failure;
+  trial.verdict = Verdict::accepted;
+  add_changes(initial, trial);
+  OptimizationState<dim> state{trial.shape,
+                               *trial.evaluation,
+                               trial.measure,
+                               options_.target_measure.value_or(trial.measure),
+                               0,
+                               options_.step,
+                               0,
+                               0,
+                               {trial.evaluation->objective}};
+  observer(trial, state);
+  return state;
+}
+
+template <int dim>
+std::optional<StopReason> ShapeOptimizer<dim>::advance(OptimizationState<dim>& state,
+                                                       const Observer& observer,
+                                                       const std::function<bool()>& stop_requested) const {
+  if (const auto reason = reason_to_stop(options_, state)) return reason;
+  if (stop_requested()) return StopReason::stop_requested;
+  const auto velocity = descent_velocity(state);
+  if (!velocity) {
+    observer(failed_trial(state, 0, state.step, velocity.failure()), state);
+    return StopReason::gave_up;
+  }
+  if (largest_magnitude(*velocity) == 0) return StopReason::no_descent;
+  bool all_failed = true;
+  for (int halvings = 0; halvings <= options_.max_halvings; ++halvings) {
+    const Trial<dim> trial = attempt(state, *velocity, halvings);
+    if (trial.verdict == Verdict::accepted) state = successor(state, trial);
+    observer(trial, state);
+    if (trial.verdict == Verdict::accepted) return std::nullopt;
+    all_failed = all_failed && trial.verdict == Verdict::failed;
+    if (stop_requested()) return StopReason::stop_requested;
+  }
+  return all_failed ? StopReason::gave_up : StopReason::no_descent;
+}
+
+template <int dim>
+StopReason ShapeOptimizer<dim>::run(OptimizationState<dim>& state, const Observer& observer,
+                                    const std::function<bool()>& stop_requested) const {
+  while (true)
+    if (const auto reason = advance(state, observer, stop_requested)) return *reason;
+}
+
+template <int dim>
+Expected<std::vector<double>> ShapeOptimizer<dim>::descent_velocity(
+    const OptimizationState<dim>& state) const {
+  auto gradient = state.evaluation.gradient;
+  if (options_.measure_control == MeasureControl::exact)
+    return evolver_.measure_preserving_velocity(gradient);
+  const double whole = sector_measure<dim>(lattice_.grid());
+  const double multiplier =
+      proportional_multiplier<dim>(gradient, state.target_measure / whole, state.measure / whole);
+  for (auto& sample : gradient) sample.value -= multiplier;
+  return evolver_.velocity(gradient);
+}
+
+template <int dim>
+Trial<dim> ShapeOptimizer<dim>::attempt(const OptimizationState<dim>& state, std::span<const double> velocity,
+                                        int halvings) const {
+  const auto start = std::chrono::steady_clock::now();
+  const double step = state.step * std::pow(step_reduction, halvings);
+  Trial<dim> trial = failed_trial(state, halvings, step, {});
+  trial.max_velocity = largest_magnitude(velocity);
+  evolve(state, velocity, trial);
+  trial.evolution_seconds = seconds_since(start);
+  if (trial.failure) return trial;
+  evaluate(trial);
+  if (trial.failure) return trial;
+  const double foretold =
+      evolver_.first_order_change(state.evaluation.gradient, velocity, step * lattice_.grid().resolution());
+  trial.failure = check_jump(state.evaluation.objective, trial.evaluation->objective, foretold);
+  if (trial.failure) return trial;
+  const double best = *std::min_element(state.history.begin(), state.history.end());
+  const double bound = best + options_.accepted_increase * std::abs(best);
+  const bool accepted =
+      options_.measure_control == MeasureControl::proportional || trial.evaluation->objective <= bound;
+  trial.verdict = accepted ? Verdict::accepted : Verdict::objective_rose;
+  if (!accepted) return trial;
+  add_changes(state.shape, trial);
+  return trial;
+}
+
+/// Makes the trial's shape from the state's; where a stage fails, the shape stays what the stage before made.
+template <int dim>
+void ShapeOptimizer<dim>::evolve(const OptimizationState<dim>& state, std::span<const double> velocity,
+                                 Trial<dim>& trial) const {
+  const bool redistances = is_due(options_.redistance_every, state.since_redistance, trial.halvings),
+             smooths = is_due(options_.smooth_every, state.since_smoothing, trial.halvings);
+  if (take(evolver_.move(state.shape, velocity, trial.step * lattice_.grid().resolution()), trial) &&
+      (!redistances || take(evolver_.redistance(trial.shape), trial)) &&
+      (!smooths || take(evolver_.smooth(trial.shape), trial)))
+    finish(trial, state.target_measure, boundary_measure<dim>(state.evaluation.gradient));
+}
+
+/// Gives the trial's shape the target measure, if that is held exactly, and removes islands: one after the
+/// other, for the shift makes up for islands that were removed, and can make new ones.
+template <int dim>
+void ShapeOptimizer<dim>::finish(Trial<dim>& trial, std::optional<double> target,
+                                 double boundary_measure) const {
+  const double largest = options_.largest_island * sector_measure<dim>(lattice_.grid());
+  for (int k = 0; k < max_removals; ++k) {
+    if (target && options_.measure_control == MeasureControl::exact &&
+        !take(evolver_.with_measure(trial.shape, *target, boundary_measure), trial))
+      return;
+    auto attached = evolver_.without_islands(trial.shape, largest);
+    if (!attached) {
+      trial.failure = attached.failure();
+      return;
+    }
+    if (attached->removed.empty()) return;
+    trial.shape = std::move(attached->psi);
+    trial.events.insert(trial.events.end(), attached->removed.begin(), attached->removed.end());
+  }
+  trial.failure = Failure{FailureReason::disconnected_material,
+                          fmt::format("islands come back as often as they are removed, the last at {}",
+                                      place_text<dim>(trial.events.back().place))};
+}
+
+template <int dim>
+void ShapeOptimizer<dim>::add_changes(const LevelSet<dim>& before, Trial<dim>& trial) const {
+  for (const auto& event : evolver_.changes(before, trial.shape)) trial.events.push_back(event);
+}
+
+template <int dim>
+void ShapeOptimizer<dim>::evaluate(Trial<dim>& trial) const {
+  trial.measure = material_measure(trial.shape);
+  if (!std::isfinite(trial.measure)) {
+    trial.failure = Failure{FailureReason::cut_quadrature, "the measure of the material"};
+    return;
+  }
+  auto evaluation = objective_(trial.shape);
+  if (!evaluation)
+    trial.failure = evaluation.failure();
+  else if (!is_finite(*evaluation))
+    trial.failure = Failure{FailureReason::not_finite, "the objective or its shape gradient"};
+  else
+    trial.evaluation = *std::move(evaluation);
+}
+
+template <int dim>
+bool ShapeOptimizer<dim>::is_due(int every, int since, int halvings) const {
+  return every > 0 && since + 1 >= every && halvings == 0;
+}
+
+/// A step that raised the objective, if within bounds, went past the minimum along its direction.
+template <int dim>
+double ShapeOptimizer<dim>::next_step(const OptimizationState<dim>& state, const Trial<dim>& trial) const {
+  const bool overshot = options_.measure_control == MeasureControl::exact &&
+                        trial.evaluation->objective > state.evaluation.objective;
+  const double step = trial.step * (overshot ? step_reduction : step_growth);
+  return std::clamp(step, std::ldexp(options_.step, -options_.max_halvings), options_.step);
+}
+
+template <int dim>
+OptimizationState<dim> ShapeOptimizer<dim>::successor(const OptimizationState<dim>& state,
+                                                      const Trial<dim>& trial) const {
+  const auto count = [&](int every, int since) {
+    return is_due(every, since, trial.halvings) ? 0 : since + 1;
+  };
+  auto history = state.history;
+  history.push_back(trial.evaluation->objective);
+  return {trial.shape,
+          *trial.evaluation,
+          trial.measure,
+          state.target_measure,
+          trial.iteration,
+          next_step(state, trial),
+          count(options_.redistance_every, state.since_redistance),
+          count(options_.smooth_every, state.since_smoothing),
+          std::move(history)};
+}
+
+template <int dim>
+Outcome<dim> optimize(const ShapeOptimizer<dim>& optimizer, const LevelSet<dim>& initial,
+                      const typename ShapeOptimizer<dim>::Observer& observer,
+                      const std::function<bool()>& stop_requested) {
+  auto state = optimizer.start(initial, observer);
+  if (!state) return {StopReason::failed_start, {}, state.failure()};
+  const StopReason reason = optimizer.run(*state, observer, stop_requested);
+  return {reason, *std::move(state), {}};
+}
+
+template std::optional<StopReason> reason_to_stop(const OptimizerOptions&, const OptimizationState<2>&);
+template std::optional<StopReason> reason_to_stop(const OptimizerOptions&, const OptimizationState<3>&);
+template class ShapeOptimizer<2>;
+template class ShapeOptimizer<3>;
+template Outcome<2> optimize<2>(const ShapeOptimizer<2>&, const LevelSet<2>&,
+                                const ShapeOptimizer<2>::Observer&, const std::function<bool()>&);
+template Outcome<3> optimize<3>(const ShapeOptimizer<3>&, const LevelSet<3>&,
+                                const ShapeOptimizer<3>::Observer&, const std::function<bool()>&);
+
+}  // namespace wheelwright

@@ -1,0 +1,177 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "wheelwright/base/expected.h"
+#include "wheelwright/evolution/evolver.h"
+#include "wheelwright/sensitivity/evaluation.h"
+
+namespace wheelwright {
+
+/// How the measure of the material is held.
+enum class MeasureControl {
+  exact,         ///< measure-preserving velocity, then a shift of the level set to the target
+  proportional,  ///< the paper's multiplier lambda_k and fixed step: every shape that can be evaluated, and
+                 ///< whose objective does not jump, is accepted
+};
+
+struct OptimizerOptions {
+  int iterations = 100;
+  double step = 0.5;                ///< farthest that the boundary travels in one shape [cells]
+  int max_halvings = 6;             ///< of the step, for one shape
+  double largest_island = 0.01;     ///< share of the sector; smaller ones are removed, larger ones a failure
+  double accepted_increase = 1e-4;  ///< of the objective over the best shape so far, relative
+  double tolerance = 1e-5;  ///< converged when the objective falls by less over 10 shapes, relative; 0: never
+  int redistance_every = 5;  ///< accepted shapes; 0: never
+  int smooth_every = 0;      ///< accepted shapes; 0: never
+  MeasureControl measure_control = MeasureControl::exact;
+  std::optional<double> target_measure;  ///< of the material in one sector; absent: the initial shape's
+};
+
+/// The last accepted shape and all that the next one depends on: a run resumed from a copy goes on
+/// identically, provided that the objective depends on the shape alone.
+template <int dim>
+struct OptimizationState {
+  LevelSet<dim> shape;
+  Evaluation<dim> evaluation;  ///< of this shape
+  double measure;              ///< of this shape's material, one sector
+  double target_measure;
+  int iteration;         ///< 0 for the initial shape
+  double step;           ///< to be tried next [cells]
+  int since_redistance;  ///< accepted shapes since the last redistancing
+  int since_smoothing;
+  std::vector<double> history;  ///< the objective of every accepted shape, the initial one first
+};
+
+enum class Verdict {
+  accepted,
+  failed,          ///< the shape could not be built or evaluated, or the objective jumped
+  objective_rose,  ///< by more than accepted_increase
+};
+
+constexpr const char* to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::accepted:
+      return "accepted";
+    case Verdict::failed:
+      return "failed";
+    case Verdict::objective_rose:
+      return "objective_rose";
+  }
+  return "unknown";
+}
+
+/// One shape that was tried.
+template <int dim>
+struct Trial {
+  int iteration;        ///< number of the shape that it wants to become; 0 for the initial shape
+  int halvings;         ///< of the step, so far, for this iteration
+  double step;          ///< [cells]; 0 for the initial shape
+  double max_velocity;  ///< fastest node, in units of the gradient density; 0 for the initial shape
+  double evolution_seconds;
+  LevelSet<dim> shape;  ///< as far as it could be built; at worst the last accepted one
+  double measure;       ///< of the material, one sector; NaN when it was not reached
+  Verdict verdict;
+  std::optional<Evaluation<dim>> evaluation;  ///< empty when there is none
+  std::optional<Failure> failure;             ///< set when failed
+  std::vector<ShapeEvent<dim>> events;  ///< islands removed; when accepted, also what became of the holes of
+                                        ///< the shape before: the given one for the initial shape
+};
+
+enum class StopReason {
+  iterations,      ///< the number asked for is done
+  converged,       ///< the objective hardly falls any more
+  no_descent,      ///< shapes were evaluated, but none, with the step halved max_halvings times, is better
+  gave_up,         ///< no step, halved max_halvings times, gave a shape that could be evaluated
+  failed_start,    ///< the initial shape could not be evaluated
+  stop_requested,  ///< by the caller
+};
+
+constexpr const char* to_string(StopReason reason) {
+  switch (reason) {
+    case StopReason::iterations:
+      return "iterations";
+    case StopReason::converged:
+      return "converged";
+    case StopReason::no_descent:
+      return "no_descent";
+    case StopReason::gave_up:
+      return "gave_up";
+    case StopReason::failed_start:
+      return "failed_start";
+    case StopReason::stop_requested:
+      return "stop_requested";
+  }
+  return "unknown";
+}
+
+/// Why a run with these options goes no further than this state, if its number of shapes or its objectives
+/// tell.
+template <int dim>
+std::optional<StopReason> reason_to_stop(const OptimizerOptions& options,
+                                         const OptimizationState<dim>& state);
+
+/// Gradient descent on shapes: velocity, transport, redistancing and smoothing when due, measure, removal of
+/// islands, evaluation.
+/// The step is halved when a trial is rejected, and for the next shape when the objective rose within bounds;
+/// it grows back by half after a fall. Redistancing and smoothing wait for the next shape when a trial with
+/// them is rejected.
+template <int dim>
+class ShapeOptimizer {
+ public:
+  using Objective = std::function<Expected<Evaluation<dim>>(const LevelSet<dim>&)>;
+  /// Sees every trial, accepted or rejected, and the state after it.
+  using Observer = std::function<void(const Trial<dim>&, const OptimizationState<dim>&)>;
+
+  ShapeOptimizer(const Lattice<dim>& lattice, const EvolutionOptions& evolution,
+                 const OptimizerOptions& options, Objective objective);
+
+  /// Evaluates the initial shape, cut off at the protected bands and shifted to the target measure, if one is
+  /// given and held exactly. The observer sees it as iteration 0.
+  Expected<OptimizationState<dim>> start(const LevelSet<dim>& initial, const Observer& observer) const;
+
+  /// Goes on to the next accepted shape; a reason when there is none, the state then stays as it is.
+  /// `stop_requested` is asked before every trial. The observer sees a failure of the velocity as a trial
+  /// without a shape of its own.
+  std::optional<StopReason> advance(OptimizationState<dim>& state, const Observer& observer,
+                                    const std::function<bool()>& stop_requested) const;
+
+  /// Advances until there is a reason to stop.
+  StopReason run(OptimizationState<dim>& state, const Observer& observer,
+                 const std::function<bool()>& stop_requested) const;
+
+ private:
+  Expected<std::vector<double>> descent_velocity(const OptimizationState<dim>& state) const;
+  Trial<dim> attempt(const OptimizationState<dim>& state, std::span<const double> velocity,
+                     int halvings) const;
+  void evolve(const OptimizationState<dim>& state, std::span<const double> velocity, Trial<dim>& trial) const;
+  void finish(Trial<dim>& trial, std::optional<double> target, double boundary_measure) const;
+  void add_changes(const LevelSet<dim>& before, Trial<dim>& trial) const;
+  void evaluate(Trial<dim>& trial) const;
+  bool is_due(int every, int since, int halvings) const;
+  double next_step(const OptimizationState<dim>& state, const Trial<dim>& trial) const;
+  OptimizationState<dim> successor(const OptimizationState<dim>& state, const Trial<dim>& trial) const;
+
+  Lattice<dim> lattice_;
+  Evolver<dim> evolver_;
+  OptimizerOptions options_;
+  Objective objective_;
+};
+
+/// How a run ended: its last accepted shape, or why the initial shape failed.
+template <int dim>
+struct Outcome {
+  StopReason reason;
+  std::optional<OptimizationState<dim>> state;
+  std::optional<Failure> failure;
+};
+
+/// start() and run().
+template <int dim>
+Outcome<dim> optimize(const ShapeOptimizer<dim>& optimizer, const LevelSet<dim>& initial,
+                      const typename ShapeOptimizer<dim>::Observer& observer,
+                      const std::function<bool()>& stop_requested);
+
+}  // namespace wheelwright

@@ -1,0 +1,223 @@
+#include "wheelwright/report/rolling_report.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+namespace wheelwright {
+namespace {
+
+constexpr double mm = 1e3, MPa = 1e-6, N_per_mm = 1e-3, degree = 180 / std::numbers::pi;
+constexpr size_t most_harmonics_shown = 4;
+
+/// A quantity over the positions.
+struct Quantity {
+  std::string name;
+  std::string unit;  ///< for people
+  double factor;     ///< from SI to that unit
+  RollingVariation variation;
+};
+
+std::vector<double> peak_pressures(const std::vector<ContactSummary>& positions) {
+  std::vector<double> result;
+  for (const ContactSummary& position : positions) result.push_back(position.peak_pressure);
+  return result;
+}
+
+RollingVariation travel_variation(const std::vector<ContactSummary>& positions) {
+  std::vector<double> travel;
+  for (const ContactSummary& position : positions) travel.push_back(position.travel);
+  return rolling_variation(travel);
+}
+
+std::vector<Quantity> quantities(const RollingReport& report) {
+  const RollingAnalysis& a = report.analysis;
+  return {{"rim travel at fixed load", "mm", mm, rolling_variation(a.travel_at_load)},
+          {"radial force at fixed travel", "N", report.width, rolling_variation(a.force_at_travel)},
+          {"peak of the contact pressure", "MPa", MPa, rolling_variation(peak_pressures(a.positions))}};
+}
+
+std::string load_text(const RollingReport& report) {
+  return fmt::format("{:.6g} N", report.analysis.load * report.width);
+}
+
+std::string travel_text(const RollingReport& report) {
+  return fmt::format("{:.4g} mm", report.analysis.travel * mm);
+}
+
+std::string position_lines(const RollingReport& report) {
+  constexpr const char* words = "{:>9}{:>11}{:>11}{:>9}{:>11}{:>11}{:>13}{:>13}\n";
+  const RollingAnalysis& a = report.analysis;
+  std::string table = fmt::format(
+      "stiffness, contact, stress and strain energy at every position {}\n\n",
+      a.held == Held::load ? "under " + load_text(report) : "at a rim travel of " + travel_text(report));
+  table += fmt::format(words, "azimuth", "stiffness", "pressure", "patch", "von Mises", "energy", "travel at",
+                       "force at");
+  table += fmt::format(words, "", "", "peak", "length", "peak", "", load_text(report), travel_text(report));
+  table += fmt::format(words, "[deg]", "[N/mm]", "[MPa]", "[mm]", "[MPa]", "[J/m]", "[mm]", "[N]");
+  for (size_t i = 0; i < a.positions.size(); ++i) {
+    const ContactSummary& p = a.positions[i];
+    const double force = p.radial_force * report.width;
+    table += fmt::format("{:9.3f}{:11.2f}{:11.4f}{:9.3f}{:11.4f}{:11.5f}{:13.6f}{:13.2f}\n",
+                         a.azimuths[i] * degree, force / p.travel * N_per_mm, p.peak_pressure * MPa,
+                         p.patch_length * mm, a.peak_von_mises[i] * MPa, a.strain_energy[i],
+                         a.travel_at_load[i] * mm, a.force_at_travel[i] * report.width);
+  }
+  return table;
+}
+
+std::string variation_lines(const RollingReport& report) {
+  std::string waves;
+  const auto all = quantities(report);
+  const size_t shown = std::min(most_harmonics_shown, all[0].variation.harmonics.size());
+  for (size_t k = 0; k < shown; ++k)
+    waves += fmt::format("{:>11}", fmt::format("{} waves", (k + 1) * report.n_sectors));
+  std::string table =
+      fmt::format("{:<36}{:>11}{:>11}{:>13}{}\n", "in rolling", "mean", "pk to pk", "of the mean", waves);
+  for (const Quantity& q : all) {
+    const RollingVariation& v = q.variation;
+    table += fmt::format("{:<36}{:>11.5g}{:>11.4g}{:>11.3g} %", fmt::format("{} [{}]", q.name, q.unit),
+                         v.mean * q.factor, v.peak_to_peak() * q.factor, 100 * v.peak_to_peak() / v.mean);
+    for (size_t k = 0; k < shown; ++k) table += fmt::format("{:>11.3g}", v.harmonics[k] * q.factor);
+    table += '\n';
+  }
+  return table;
+}
+
+std::string load_lines(const RollingReport& report) {
+  std::string table =
+      fmt::format("{:>11}{:>12}{:>12}{:>12}{:>12}\n{:>11}{:>12}{:>12}{:>12}{:>12}\n", "load", "mean travel",
+                  "least", "greatest", "stiffness", "[N]", "[mm]", "[mm]", "[mm]", "[N/mm]");
+  for (size_t k = 0; k < report.loads.size(); ++k) {
+    const RollingVariation travel = travel_variation(report.under_loads[k]);
+    const double load = report.loads[k] * report.width;
+    table += fmt::format("{:11.2f}{:12.6f}{:12.6f}{:12.6f}{:12.2f}\n", load, travel.mean * mm,
+                         travel.least * mm, travel.greatest * mm, load / travel.mean * N_per_mm);
+  }
+  return table;
+}
+
+using Json = nlohmann::ordered_json;
+
+Json variation_json(const RollingVariation& v, double factor, int n_sectors) {
+  Json harmonics = Json::array();
+  for (size_t k = 0; k < v.harmonics.size(); ++k)
+    harmonics.push_back(
+        {{"waves_per_revolution", (k + 1) * n_sectors}, {"amplitude", v.harmonics[k] * factor}});
+  return {{"mean", v.mean * factor},
+          {"least", v.least * factor},
+          {"greatest", v.greatest * factor},
+          {"peak_to_peak", v.peak_to_peak() * factor},
+          {"harmonics", harmonics}};
+}
+
+Json positions_json(const RollingReport& report) {
+  const RollingAnalysis& a = report.analysis;
+  Json positions = Json::array();
+  for (size_t i = 0; i < a.positions.size(); ++i) {
+    const ContactSummary& p = a.positions[i];
+    positions.push_back({{"azimuth_rad", a.azimuths[i]},
+                         {"radial_force_N", p.radial_force * report.width},
+                         {"travel_m", p.travel},
+                         {"stiffness_N_per_m", p.radial_force * report.width / p.travel},
+                         {"peak_pressure_Pa", p.peak_pressure},
+                         {"patch_length_m", p.patch_length},
+                         {"peak_von_mises_Pa", a.peak_von_mises[i]},
+                         {"strain_energy_J_per_m", a.strain_energy[i]},
+                         {"travel_at_load_m", a.travel_at_load[i]},
+                         {"force_at_travel_N", a.force_at_travel[i] * report.width}});
+  }
+  return positions;
+}
+
+Json loads_json(const RollingReport& report) {
+  Json loads = Json::array();
+  for (size_t k = 0; k < report.loads.size(); ++k) {
+    const double load = report.loads[k] * report.width;
+    Json positions = Json::array();
+    for (const ContactSummary& p : report.under_loads[k])
+      positions.push_back({{"travel_m", p.travel},
+                           {"peak_pressure_Pa", p.peak_pressure},
+                           {"patch_length_m", p.patch_length}});
+    const double mean_travel = travel_variation(report.under_loads[k]).mean;
+    loads.push_back({{"load_N", load},
+                     {"mean_travel_m", mean_travel},
+                     {"stiffness_N_per_m", load / mean_travel},
+                     {"positions", positions}});
+  }
+  return loads;
+}
+
+/// One value a position over the angle, with the first repeated a sector later.
+LinePlot sector_plot(const RollingReport& report, const std::string& title, PlotAxis axis,
+                     const std::vector<double>& values, double factor) {
+  PlotCurve curve;
+  for (size_t i = 0; i < values.size(); ++i) {
+    curve.x.push_back(report.analysis.azimuths[i] * degree);
+    curve.y.push_back(values[i] * factor);
+  }
+  curve.x.push_back(curve.x.front() + 360.0 / report.n_sectors);
+  curve.y.push_back(curve.y.front());
+  return {title, {"azimuth of the contact", "deg"}, std::move(axis), {std::move(curve)}};
+}
+
+}  // namespace
+
+std::string rolling_table(const RollingReport& report) {
+  std::string table = position_lines(report) + '\n' + variation_lines(report);
+  if (!report.loads.empty()) table += '\n' + load_lines(report);
+  return table;
+}
+
+std::string rolling_json(const RollingReport& report) {
+  const RollingAnalysis& a = report.analysis;
+  const auto all = quantities(report);
+  const auto variation = [&](const Quantity& q, double factor) {
+    return variation_json(q.variation, factor, report.n_sectors);
+  };
+  Json json{{"title", report.title},
+            {"width_m", report.width},
+            {"sectors", report.n_sectors},
+            {"load_N", a.load * report.width},
+            {"travel_m", a.travel},
+            {"positions", positions_json(report)},
+            {"travel_at_load_m", variation(all[0], 1)},
+            {"force_at_travel_N", variation(all[1], report.width)},
+            {"peak_pressure_Pa", variation(all[2], 1)}};
+  if (!report.loads.empty()) json["loads"] = loads_json(report);
+  return json.dump(2) + '\n';
+}
+
+LinePlot travel_plot(const RollingReport& report) {
+  return sector_plot(report, "Rim travel under " + load_text(report), {"rim travel", "mm"},
+                     report.analysis.travel_at_load, mm);
+}
+
+LinePlot force_plot(const RollingReport& report) {
+  return sector_plot(report, "Radial force at a rim travel of " + travel_text(report), {"radial force", "N"},
+                     report.analysis.force_at_travel, report.width);
+}
+
+LinePlot peak_pressure_plot(const RollingReport& report) {
+  return sector_plot(report, "Peak of the contact pressure", {"peak pressure", "MPa"},
+                     peak_pressures(report.analysis.positions), MPa);
+}
+
+LinePlot load_plot(const RollingReport& report) {
+  LinePlot plot{"Deflection against load",
+                {"load", "N"},
+                {"rim travel", "mm"},
+                {{"softest", {0}, {0}}, {"mean", {0}, {0}}, {"stiffest", {0}, {0}}}};
+  for (size_t k = 0; k < report.loads.size(); ++k) {
+    const RollingVariation travel = travel_variation(report.under_loads[k]);
+    const double travels[] = {travel.greatest, travel.mean, travel.least};
+    for (size_t i = 0; i < plot.curves.size(); ++i) {
+      plot.curves[i].x.push_back(report.loads[k] * report.width);
+      plot.curves[i].y.push_back(travels[i] * mm);
+    }
+  }
+  return plot;
+}
+
+}  // namespace wheelwright

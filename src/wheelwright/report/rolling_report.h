@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "wheelwright/analysis/rolling_analysis.h"
+#include "wheelwright/report/plot_svg.h"
+
+namespace wheelwright {
+
+/// What is told about one shape of a 2D wheel. Forces are shown on the whole width.
+struct RollingReport {
+  std::string title;
+  double width;  ///< w_r [m]
+  int n_sectors;
+  RollingAnalysis analysis;
+  std::vector<double> loads;                             ///< [N/m], ascending; empty: none were asked for
+  std::vector<std::vector<ContactSummary>> under_loads;  ///< [load][position]
+};
+
+/// For people: one line a load position, what varies in rolling, and one line a load.
+std::string rolling_table(const RollingReport& report);
+
+/// For programs: the same in SI units, which the names of the keys end in. Numbers read back to the same
+/// double.
+std::string rolling_json(const RollingReport& report);
+
+/// One turn of the wheel by one sector, closed: travel of the rim at fixed load, force of the ground at fixed
+/// travel, and the peak of the contact pressure.
+LinePlot travel_plot(const RollingReport& report);
+LinePlot force_plot(const RollingReport& report);
+LinePlot peak_pressure_plot(const RollingReport& report);
+
+/// Travel against load, from zero: the softest position, the mean and the stiffest.
+LinePlot load_plot(const RollingReport& report);
+
+}  // namespace wheelwright

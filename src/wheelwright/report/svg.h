@@ -1,0 +1,45 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "wheelwright/geometry/contour.h"
+
+namespace wheelwright {
+
+/// Text as XML 1.0 takes it, on one line: & < > " ' as entities, tabs and line ends as spaces, and '?' for
+/// what XML excludes or controls a terminal.
+std::string escape_xml(std::string_view text);
+
+/// The `d` attribute of a path along the material's boundary, to be filled with the even-odd rule: exact arcs
+/// for rim and tread, polylines for the rest. y points down. Points nearer than `spacing` [m] to the last one
+/// drawn are left out.
+std::string material_path(const PolarGrid<2>& grid, std::span<const Contour> contours, double units_per_metre,
+                          int decimals, double spacing);
+
+/// The shape for cutting: an SVG document in true scale, one user unit = 1 mm, rounded to 0.1 micrometre,
+/// with the axle at the origin.
+std::string shape_svg(const PolarGrid<2>& grid, std::span<const Contour> contours, std::string_view title);
+
+/// One wheel of a comparison.
+struct WheelState {
+  std::string heading;  ///< e.g. "initial"
+  std::vector<Contour> contours;
+  double objective;        ///< NaN: not computed
+  double volume_fraction;  ///< material area over the area of the full ring; NaN: not computed
+};
+
+/// Two wheels side by side, with their numbers; the holes of the first are outlined in the second.
+struct Comparison {
+  std::string title;
+  std::string caption;         ///< below the wheels
+  std::string objective_name;  ///< e.g. "strain energy"
+  std::string objective_unit;  ///< e.g. "J/m"
+  WheelState before, after;
+};
+
+/// The comparison as an SVG document for pages and README files.
+std::string comparison_svg(const PolarGrid<2>& grid, const Comparison& comparison);
+
+}  // namespace wheelwright

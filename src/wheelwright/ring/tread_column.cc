@@ -1,0 +1,423 @@
+#include "wheelwright/ring/tread_column.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+namespace wheelwright {
+namespace {
+
+/// A layer of equal cells across the column.
+struct Layer {
+  double inner_radius, outer_radius;
+  int rows, level;
+};
+
+/// Lower half once, next quarter twice, ..., the last part `levels` times halved: two rows of its cells.
+std::vector<Layer> layers(double inner_radius, double outer_radius, const TreadGrid& tread) {
+  if (tread.levels == 0) return {{inner_radius, outer_radius, tread.rows, 0}};
+  std::vector<Layer> result;
+  double r = inner_radius, height = outer_radius - inner_radius;
+  for (int level = 1; level < tread.levels; ++level) {
+    height /= 2;
+    result.push_back({r, r + height, tread.rows, level});
+    r += height;
+  }
+  result.push_back({r, outer_radius, 2 * tread.rows, tread.levels});
+  return result;
+}
+
+/// A node's polar displacement as a combination of those of free nodes.
+template <int dim>
+using NodeMap = std::vector<std::pair<int, Mat<dim>>>;
+
+/// The nodes of a column: free ones are numbered base, first azimuth, last azimuth, inner.
+template <int dim>
+class ColumnNodes {
+ public:
+  ColumnNodes(const PolarGrid<dim>& grid, int degree, const TreadGrid& tread)
+      : degree_(degree), column_angle_(grid.cell_size()[1]), rows_(tread.rows) {
+    if constexpr (dim == 3) axial_nodes_ = degree * grid.cells[2] + 1;
+    const double row = grid.cell_size()[0];
+    layers_ = layers(grid.outer_radius - tread.rows * row, grid.outer_radius, tread);
+    // Free lines upward: the base, then every line of every layer but its lowest, which is the one below's
+    // top.
+    intervals_.push_back(degree);
+    for (const Layer& layer : layers_) {
+      first_line_.push_back(static_cast<int>(intervals_.size()) - 1);
+      for (int j = 1; j <= degree * layer.rows; ++j) intervals_.push_back(degree << layer.level);
+    }
+    int next = 0;
+    const auto number = [&](size_t line, int across, int axial) {
+      numbers_[{int(line), across, axial}] = next++;
+    };
+    for (int across = 0; across <= degree; ++across)
+      for (int axial = 0; axial < axial_nodes_; ++axial) number(0, across, axial);
+    for (int side = 0; side < 2; ++side)
+      for (int axial = 0; axial < axial_nodes_; ++axial)
+        for (size_t line = 1; line < intervals_.size(); ++line) number(line, side * intervals_[line], axial);
+    for (size_t line = 1; line < intervals_.size(); ++line)
+      for (int across = 1; across < intervals_[line]; ++across)
+        for (int axial = 0; axial < axial_nodes_; ++axial) number(line, across, axial);
+    n_nodes_ = next;
+  }
+
+  const std::vector<Layer>& all_layers() const { return layers_; }
+  int n_base() const { return dim * (degree_ + 1) * axial_nodes_; }
+  int n_line() const { return dim * (static_cast<int>(intervals_.size()) - 1) * axial_nodes_; }
+  int n_dofs() const { return dim * n_nodes_; }
+
+  /// The node of a layer at (line above the layer's bottom, node across the column, axial).
+  NodeMap<dim> node(int layer, int line, int across, int axial) const {
+    const int free_line = first_line_[layer] + line;
+    const int intervals = degree_ << layers_[layer].level;
+    if (intervals_[free_line] == intervals) return {{numbers_.at({free_line, across, axial}), turn(0)}};
+    // Hanging: interpolate the coarser cell's displacement along its edge.
+    const int coarse_intervals = intervals_[free_line];
+    const double position = static_cast<double>(across) * coarse_intervals / intervals;  // in coarse nodes
+    const int cell = std::min(static_cast<int>(position) / degree_, coarse_intervals / degree_ - 1);
+    const Lagrange1D basis(degree_, position / degree_ - cell);
+    NodeMap<dim> map;
+    for (int a = 0; a <= degree_; ++a) {
+      const int coarse = degree_ * cell + a;
+      if (basis.value[a] == 0) continue;
+      Mat<dim> weight = turn((coarse - position) * column_angle_ / coarse_intervals);
+      for (auto& weights : weight)
+        for (double& w : weights) w *= basis.value[a];
+      map.push_back({numbers_.at({free_line, coarse, axial}), weight});
+    }
+    return map;
+  }
+
+  /// The free node at a node of the level set's grid: `row_node` and `across` in units of its node spacing.
+  int grid_node(int row_node, int across, int axial) const {
+    const double height = static_cast<double>(row_node) / (degree_ * rows_);
+    const double r0 = layers_.front().inner_radius, r1 = layers_.back().outer_radius;
+    for (size_t i = 0; i < layers_.size(); ++i) {
+      const Layer& layer = layers_[i];
+      const double line = (r0 + height * (r1 - r0) - layer.inner_radius) /
+                          (layer.outer_radius - layer.inner_radius) * degree_ * layer.rows;
+      const int nearest = static_cast<int>(std::lround(line));
+      if (nearest < 1 || nearest > degree_ * layer.rows || std::abs(line - nearest) > 1e-6) continue;
+      return numbers_.at({first_line_[i] + nearest, across << layer.level, axial});
+    }
+    return -1;
+  }
+
+ private:
+  /// Polar components at one azimuth to those at another, `angle` further back.
+  static Mat<dim> turn(double angle) {
+    Mat<dim> m{};
+    for (int d = 0; d < dim; ++d) m[d][d] = 1;
+    m[0][0] = m[1][1] = std::cos(angle);
+    m[0][1] = -std::sin(angle);
+    m[1][0] = std::sin(angle);
+    return m;
+  }
+
+  int degree_, axial_nodes_ = 1, n_nodes_ = 0;
+  double column_angle_;
+  int rows_;
+  std::vector<Layer> layers_;
+  std::vector<int> intervals_;   ///< of each free line, across the column
+  std::vector<int> first_line_;  ///< of each layer: its lowest
+  std::map<std::array<int, 3>, int> numbers_;
+};
+
+/// Adds rows of a linear map of a cell's dofs to a matrix on the free dofs.
+template <int dim, class Map>
+void add_rows(const Map& map, std::span<const NodeMap<dim>> nodes, int first_row, double angle,
+              Matrix& result) {
+  for (size_t a = 0; a < nodes.size(); ++a)
+    for (const auto& [node, weight] : nodes[a])
+      for (int c = 0; c < dim; ++c) {
+        Vec<dim> value{};
+        for (int k = 0; k < dim; ++k)
+          for (int d = 0; d < dim; ++d) value[d] += map[d][dim * a + k] * weight[k][c];
+        value = rotated<dim>(value, angle);
+        for (int d = 0; d < dim; ++d) result(first_row + d, dim * node + c) += value[d];
+      }
+}
+
+/// Adds a cell's stiffness on its free dofs.
+template <int dim>
+void add_stiffness(const Matrix& k, std::span<const NodeMap<dim>> nodes, Matrix& result) {
+  std::vector<int> dofs;
+  std::map<int, int> position;
+  for (const auto& map : nodes)
+    for (const auto& entry : map)
+      if (position.emplace(entry.first, static_cast<int>(position.size())).second)
+        for (int c = 0; c < dim; ++c) dofs.push_back(dim * entry.first + c);
+  Matrix expand(k.rows(), static_cast<int>(dofs.size()));
+  for (size_t a = 0; a < nodes.size(); ++a)
+    for (const auto& [node, weight] : nodes[a])
+      for (int i = 0; i < dim; ++i)
+        for (int c = 0; c < dim; ++c)
+          expand(dim * static_cast<int>(a) + i, dim * position[node] + c) += weight[i][c];
+  const Matrix free = product(expand, Op::transpose, product(k, Op::none, expand, Op::none), Op::none);
+  for (int j = 0; j < free.columns(); ++j)
+    for (int i = 0; i < free.rows(); ++i) result(dofs[i], dofs[j]) += free(i, j);
+}
+
+Matrix transposed(const Matrix& a) {
+  Matrix result(a.columns(), a.rows());
+  for (int j = 0; j < a.columns(); ++j)
+    for (int i = 0; i < a.rows(); ++i) result(j, i) = a(i, j);
+  return result;
+}
+
+/// The uncondensed column.
+template <int dim>
+struct FreeColumn {
+  std::vector<TreadPoint<dim>> points;
+  std::vector<AnnulusPoint> annulus;
+  std::vector<int> mirror_images;
+  double volume;
+  Vec<dim> moment;
+  Matrix stiffness, observation, nodal;
+};
+
+/// Picks the nodes of the level set's grid above the base out of the free ones: TreadColumn::nodal before
+/// condensation.
+template <int dim>
+Matrix grid_nodes(const ColumnNodes<dim>& nodes, int degree, int rows, int axial_cells) {
+  const int axial_nodes = dim == 3 ? degree * axial_cells + 1 : 1, height = degree * rows;
+  Matrix result(dim * degree * axial_nodes * height, nodes.n_dofs());
+  for (int across = 0; across < degree; ++across)
+    for (int axial = 0; axial < axial_nodes; ++axial)
+      for (int line = 1; line <= height; ++line)
+        for (int c = 0; c < dim; ++c)
+          result(dim * ((across * axial_nodes + axial) * height + line - 1) + c,
+                 dim * nodes.grid_node(line, across, axial) + c) = 1;
+  return result;
+}
+
+/// Of every point of a symmetric rule the one that is its mirror image along an axis.
+template <int dim>
+std::vector<int> mirror_images(const std::vector<ReferencePoint<dim>>& rule, int axis) {
+  std::vector<int> images;
+  for (const auto& point : rule) {
+    const auto distance = [&](const ReferencePoint<dim>& other) {
+      double sum = 0;
+      for (int d = 0; d < dim; ++d)
+        sum += std::abs(other.xi[d] - (d == axis ? 1 - point.xi[d] : point.xi[d]));
+      return sum;
+    };
+    images.push_back(static_cast<int>(std::ranges::min_element(rule, {}, distance) - rule.begin()));
+  }
+  return images;
+}
+
+/// A cell of a column.
+template <int dim>
+struct ColumnCell {
+  const ElasticElement<dim>& element;
+  std::vector<NodeMap<dim>> nodes;
+  double angle;      ///< of its frame in the column's
+  int to_image;      ///< cells from here to the mirror image in the column
+  int axial;         ///< cell along the axle
+  Matrix stiffness;  ///< on its own dofs
+};
+
+/// Adds up a column cell by cell.
+template <int dim>
+class ColumnAssembly {
+ public:
+  ColumnAssembly(const ElementTable<dim>& table, const ColumnNodes<dim>& nodes, const TreadGrid& tread,
+                 const ContactForm& form, int points_per_direction)
+      : grid_(table.grid()),
+        material_(table.material()),
+        nodes_(nodes),
+        form_(form),
+        degree_(table.degree()),
+        volume_rule_(unit_cell_rule<dim>(degree_ + 2)),
+        face_rule_(unit_cell_rule<dim - 1>(points_per_direction)),
+        annulus_rule_(unit_cell_rule<dim>(tread.annulus_points)) {
+    if constexpr (dim == 3) axial_cells_ = grid_.cells[2];
+    n_contact_ =
+        2 * dim * (1 << nodes.all_layers().back().level) * axial_cells_ * static_cast<int>(face_rule_.size());
+    int n_cells = 0;
+    for (const Layer& layer : nodes.all_layers()) n_cells += layer.rows * (1 << layer.level) * axial_cells_;
+    const int n_observations = n_contact_ + dim * n_cells * static_cast<int>(annulus_rule_.size()) + dim;
+    column_.stiffness = Matrix(nodes.n_dofs(), nodes.n_dofs());
+    column_.observation = Matrix(n_observations, nodes.n_dofs());
+    column_.nodal = grid_nodes<dim>(nodes, degree_, tread.rows, axial_cells_);
+  }
+
+  FreeColumn<dim> run() && {
+    const int n_layers = static_cast<int>(nodes_.all_layers().size());
+    for (int layer = 0; layer < n_layers; ++layer)
+      for (int row = 0; row < nodes_.all_layers()[layer].rows; ++row) add_row(layer, row);
+    column_.mirror_images = all_mirror_images();
+    return std::move(column_);
+  }
+
+ private:
+  void add_row(int layer_index, int row) {
+    const Layer& layer = nodes_.all_layers()[layer_index];
+    PolarGrid<dim> fine = grid_;
+    fine.inner_radius = layer.inner_radius;
+    fine.outer_radius = layer.outer_radius;
+    fine.cells[0] = layer.rows;
+    fine.cells[1] <<= layer.level;
+    const ElasticElement<dim> element(fine, degree_, {row});
+    const Matrix stiffness = cell_stiffness<dim>(element, material_, volume_rule_);
+    const bool at_tread = &layer == &nodes_.all_layers().back() && row + 1 == layer.rows;
+    for (int axial = 0; axial < axial_cells_; ++axial)
+      for (int across = 0; across < (1 << layer.level); ++across) {
+        ColumnCell<dim> cell{element,
+                             cell_nodes(layer_index, row, across, axial),
+                             across * fine.cell_size()[1],
+                             (1 << layer.level) - 1 - 2 * across,
+                             axial,
+                             stiffness};
+        if (at_tread) add_contact_face(cell);
+        add_annulus(cell);
+        add_volume(cell);
+        add_stiffness<dim>(cell.stiffness, cell.nodes, column_.stiffness);
+      }
+  }
+
+  std::vector<NodeMap<dim>> cell_nodes(int layer, int row, int across, int axial) const {
+    std::vector<NodeMap<dim>> result;
+    for (int a = 0; a < nodes_per_cell<dim>(degree_); ++a) {
+      const auto p = local_node_position<dim>(degree_, a);
+      int axial_node = 0;
+      if constexpr (dim == 3) axial_node = degree_ * axial + p[2];
+      result.push_back(nodes_.node(layer, degree_ * row + p[0], degree_ * across + p[1], axial_node));
+    }
+    return result;
+  }
+
+  /// The images of a cell's points, from those of its rule's.
+  static void append_images(const std::vector<int>& of_rule, const ColumnCell<dim>& cell,
+                            std::vector<int>& images) {
+    const int n = static_cast<int>(of_rule.size()), first = static_cast<int>(images.size());
+    for (const int image : of_rule) images.push_back(first + n * cell.to_image + image);
+  }
+
+  /// TreadColumn::mirror_images from those of the points.
+  std::vector<int> all_mirror_images() const {
+    std::vector<int> images;
+    for (const int point : point_images_)
+      for (const int part : {0, 1}) images.push_back(2 * point + part);
+    for (const int point : annulus_images_) images.push_back(n_contact_ / dim + point);
+    images.push_back(static_cast<int>(images.size()));
+    return images;
+  }
+
+  void add_contact_face(ColumnCell<dim>& cell) {
+    const double gamma = form_.gamma_0 * material_.youngs_modulus / cell.element.diameter();
+    append_images(mirror_images(face_rule_, 0), cell, point_images_);
+    for (const auto& q : face_rule_) {
+      Vec<dim> xi{}, outward{};
+      xi[0] = outward[0] = 1;
+      for (int d = 1; d < dim; ++d) xi[d] = q.xi[d - 1];
+      const auto at = cell.element.at(xi);
+      const auto surface = map_surface<dim>(at.jacobian, outward);
+      const auto traction = traction_map<dim>(cell.element, material_, at, surface.normal);
+      const double weight = q.weight * surface.scale;
+      const int first = 2 * dim * static_cast<int>(column_.points.size());
+      add_rows<dim>(at.displacement, cell.nodes, first, cell.angle, column_.observation);
+      add_rows<dim>(traction, cell.nodes, first + dim, cell.angle, column_.observation);
+      const double nitsche = -form_.theta() / gamma * weight;
+      for (int j = 0; j < cell.element.n_dofs(); ++j)
+        for (int i = 0; i < cell.element.n_dofs(); ++i)
+          for (int d = 0; d < dim; ++d) cell.stiffness(i, j) += nitsche * traction[d][i] * traction[d][j];
+      Vec<dim> position = rotated<dim>(at.position, cell.angle);
+      if constexpr (dim == 3) position[2] += cell.axial * grid_.cell_size()[2];
+      column_.points.push_back({position, weight, gamma});
+    }
+  }
+
+  void add_annulus(const ColumnCell<dim>& cell) {
+    append_images(mirror_images(annulus_rule_, 1), cell, annulus_images_);
+    for (const auto& q : annulus_rule_) {
+      const auto at = cell.element.at(q.xi);
+      Vec<dim> radial{at.position[0], at.position[1]};
+      const double radius = norm<dim>(radial);
+      for (double& x : radial) x /= radius;
+      add_rows<dim>(traction_map<dim>(cell.element, material_, at, radial), cell.nodes,
+                    n_contact_ + dim * static_cast<int>(column_.annulus.size()), cell.angle,
+                    column_.observation);
+      column_.annulus.push_back({q.weight * at.determinant});
+    }
+  }
+
+  void add_volume(const ColumnCell<dim>& cell) {
+    for (const auto& q : volume_rule_) {
+      auto at = cell.element.at(q.xi);
+      const double weight = q.weight * at.determinant;
+      for (auto& component : at.displacement)
+        for (double& value : component) value *= weight;
+      add_rows<dim>(at.displacement, cell.nodes, column_.observation.rows() - dim, cell.angle,
+                    column_.observation);
+      column_.volume += weight;
+      const Vec<dim> position = rotated<dim>(at.position, cell.angle);
+      for (int d = 0; d < dim; ++d) column_.moment[d] += weight * position[d];
+    }
+  }
+
+  const PolarGrid<dim>& grid_;
+  const Material& material_;
+  const ColumnNodes<dim>& nodes_;
+  const ContactForm& form_;
+  int degree_, axial_cells_ = 1, n_contact_;
+  std::vector<ReferencePoint<dim>> volume_rule_;
+  std::vector<ReferencePoint<dim - 1>> face_rule_;
+  std::vector<ReferencePoint<dim>> annulus_rule_;
+  std::vector<int> point_images_, annulus_images_;
+  FreeColumn<dim> column_{};
+};
+
+}  // namespace
+
+template <int dim>
+Expected<TreadColumn<dim>> tread_column(const ElementTable<dim>& table, const TreadGrid& tread,
+                                        const ContactForm& form, int points_per_direction) {
+  const ColumnNodes<dim> nodes(table.grid(), table.degree(), tread);
+  FreeColumn<dim> free = ColumnAssembly<dim>(table, nodes, tread, form, points_per_direction).run();
+  const int n = nodes.n_dofs(), n_retained = nodes.n_base() + 2 * nodes.n_line(), n_inner = n - n_retained;
+  const int n_observations = free.observation.rows(), n_nodal = free.nodal.rows();
+
+  TreadColumn<dim> column{std::move(free.points),
+                          std::move(free.annulus),
+                          std::move(free.mirror_images),
+                          free.volume,
+                          free.moment,
+                          nodes.n_base(),
+                          nodes.n_line(),
+                          block(free.stiffness, 0, 0, n_retained, n_retained),
+                          block(free.observation, 0, 0, n_observations, n_retained),
+                          Matrix(n_observations, n_observations),
+                          block(free.nodal, 0, 0, n_nodal, n_retained),
+                          Matrix(n_nodal, n_observations)};
+  if (n_inner == 0) return column;
+
+  Matrix inner = block(free.stiffness, n_retained, n_retained, n_inner, n_inner);
+  if (!cholesky(inner))
+    return Failure{
+        FailureReason::not_positive_definite,
+        fmt::format("Nitsche's method with theta = {:g} needs a larger gamma_0 than {:g}: its contact "
+                    "term makes the tread's stiffness indefinite",
+                    form.theta(), form.gamma_0)};
+  const Matrix coupling = block(free.stiffness, 0, n_retained, n_retained, n_inner);
+  const Matrix observed = block(free.observation, 0, n_retained, n_observations, n_inner);
+  const Matrix nodal = block(free.nodal, 0, n_retained, n_nodal, n_inner);
+  Matrix from_retained = transposed(coupling), from_observed = transposed(observed);
+  cholesky_solve(inner, from_retained);
+  cholesky_solve(inner, from_observed);
+  multiply(-1, coupling, Op::none, from_retained, Op::none, 1, column.stiffness);
+  multiply(-1, observed, Op::none, from_retained, Op::none, 1, column.observation);
+  multiply(1, observed, Op::none, from_observed, Op::none, 0, column.compliance);
+  multiply(-1, nodal, Op::none, from_retained, Op::none, 1, column.nodal);
+  multiply(1, nodal, Op::none, from_observed, Op::none, 0, column.nodal_compliance);
+  return column;
+}
+
+template Expected<TreadColumn<2>> tread_column(const ElementTable<2>&, const TreadGrid&, const ContactForm&,
+                                               int);
+template Expected<TreadColumn<3>> tread_column(const ElementTable<3>&, const TreadGrid&, const ContactForm&,
+                                               int);
+
+}  // namespace wheelwright

@@ -1,0 +1,87 @@
+#include "wheelwright/rolling/neumann_to_dirichlet.h"
+
+namespace wheelwright {
+
+template <int dim>
+Expected<NeumannToDirichlet<dim>> NeumannToDirichlet<dim>::create(const RollingModel<dim>& model) {
+  auto elements =
+      std::make_shared<const ElementTable<dim>>(model.grid, model.degree, model.material, model.ghost);
+  // The penalty form has no term of its own in the stiffness.
+  auto tread = Tread<dim>::condense(*elements, {model.tread.rows, model.tread.levels, 0},
+                                    {.method = ContactMethod::penalty}, model.contact_points);
+  if (!tread) return tread.failure();
+  CutDomain<dim> full{model.grid, std::vector<CellKind>(model.grid.n_cells(), CellKind::inside), {}, {}};
+  const int core_rows = model.grid.cells[0] - model.tread.rows;
+  const SectorHarmonics harmonics(model.grid.n_sectors);
+  auto ring = CyclicStiffness<dim>::factor(sector_stiffness<dim>(full, *elements, core_rows),
+                                           tread->outer_stiffness(harmonics), harmonics);
+  if (!ring) return ring.failure();
+  return NeumannToDirichlet(std::move(elements), *std::move(tread), *std::move(ring));
+}
+
+/// int_Gamma_C g.z as loads on the observed displacements.
+template <int dim>
+Matrix NeumannToDirichlet<dim>::loads(const Matrix& tractions) const {
+  Matrix result(tread_.n_observations(), tractions.columns());
+  for (int j = 0; j < result.columns(); ++j)
+    for (size_t q = 0; q < tread_.points().size(); ++q)
+      for (int d = 0; d < dim; ++d) {
+        const int point = static_cast<int>(q);
+        result(2 * dim * point + d, j) = tread_.points()[q].weight * tractions(dim * point + d, j);
+      }
+  return result;
+}
+
+template <int dim>
+Matrix NeumannToDirichlet<dim>::operator()(const Matrix& tractions) const {
+  const TreadLoads on_tread = tread_loads(tread_, loads(tractions));
+  const Matrix outer = ring_.outer_displacements(base_loads(tread_, on_tread));
+  const Matrix observed = observations(tread_, tread_field(tread_, outer, on_tread), on_tread);
+  Matrix w(tractions.rows(), tractions.columns());
+  for (int j = 0; j < w.columns(); ++j)
+    for (int i = 0; i < w.rows(); ++i) w(i, j) = observed(2 * dim * (i / dim) + i % dim, j);
+  return w;
+}
+
+template <int dim>
+std::vector<double> NeumannToDirichlet<dim>::energies(const Matrix& tractions) const {
+  const int n_columns = tread_.n_columns(), n_sectors = ring_.n_sectors();
+  const Matrix observation_loads = loads(tractions);
+  const TreadLoads on_tread = tread_loads(tread_, observation_loads);
+  const Matrix outer = ring_.outer_displacements(base_loads(tread_, on_tread));
+  const Matrix boundary = ring_.boundary_displacements(outer, {});
+  const SectorFields core = displacement_fields(ring_, ring_.sector_factor().full_sweep(), boundary, {},
+                                                std::vector<double>(boundary.columns(), 1.0));
+  const TreadField field = tread_field(tread_, outer, on_tread);
+  const TreadColumn<dim>& column = tread_.column();
+
+  std::vector<double> result(tractions.columns() / n_columns, 0.0);
+  const SparseSymmetric& k = ring_.sector().matrix;
+  std::vector<double> x(k.size), product_x(k.size);
+  for (int j = 0; j < boundary.columns(); ++j) {
+    for (int dof = 0; dof < k.size; ++dof) x[dof] = core.value(j, ring_.row(dof));
+    std::fill(product_x.begin(), product_x.end(), 0.0);
+    k.add_product(x.data(), product_x.data());
+    for (int dof = 0; dof < k.size; ++dof) result[j / n_sectors] += 0.5 * x[dof] * product_x[dof];
+  }
+  // A column's energy: its retained unknowns', and what the loads put into the condensed ones.
+  for (int j = 0; j < tractions.columns(); ++j) {
+    const int first = j - j % n_columns;
+    Matrix u(column.stiffness.rows(), 1), load(observation_loads.rows(), 1);
+    std::copy_n(field.base.column(j), column.n_base, u.data());
+    std::copy_n(field.lines.column(j), column.n_line, u.data() + column.n_base);
+    std::copy_n(field.lines.column(first + (j + 1 - first) % n_columns), column.n_line,
+                u.data() + column.n_base + column.n_line);
+    std::copy_n(observation_loads.column(j), load.rows(), load.data());
+    const Matrix force = product(column.stiffness, Op::none, u, Op::none);
+    const Matrix inner = product(column.compliance, Op::none, load, Op::none);
+    for (int i = 0; i < u.rows(); ++i) result[j / n_columns] += 0.5 * u(i, 0) * force(i, 0);
+    for (int i = 0; i < load.rows(); ++i) result[j / n_columns] += 0.5 * load(i, 0) * inner(i, 0);
+  }
+  return result;
+}
+
+template class NeumannToDirichlet<2>;
+template class NeumannToDirichlet<3>;
+
+}  // namespace wheelwright

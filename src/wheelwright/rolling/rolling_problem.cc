@@ -1,0 +1,350 @@
+#include "wheelwright/rolling/rolling_problem.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "wheelwright/base/periodic.h"
+#include "wheelwright/base/stopwatch.h"
+#include "wheelwright/contact/contact_solver.h"
+#include "wheelwright/geometry/mirror.h"
+
+namespace wheelwright {
+
+template <int dim>
+RimControl rim_control(const RollingModel<dim>& model) {
+  RimControl rim;
+  if (model.travel)
+    rim.prescribed.towards_ground = *model.travel;
+  else
+    rim.free.push_back({{.towards_ground = 1}, model.load});
+  if (model.horizontal_force != 0) rim.free.push_back({{.along_ground = 1}, model.horizontal_force});
+  if (model.torque != 0) rim.free.push_back({{.rotation = 1}, model.torque});
+  return rim;
+}
+
+template <int dim>
+bool is_mirror_symmetric(const RollingModel<dim>& model) {
+  return model.horizontal_force == 0 && model.torque == 0 && model.distributed.body_force[1] == 0;
+}
+
+template <int dim>
+std::vector<double> case_multiplicities(const RollingSolution<dim>& solution) {
+  std::vector<double> multiplicities;
+  for (const double m : solution.positions.multiplicities)
+    multiplicities.insert(multiplicities.end(), solution.ring.n_sectors(), m);
+  return multiplicities;
+}
+
+template <int dim>
+SectorFields complete_displacement(const RollingSolution<dim>& solution) {
+  // Loads in the core stand on all of it: then the sweep has visited all unknowns.
+  return solution.core_loads.empty() ? completed(solution.ring, solution.displacement)
+                                     : solution.displacement;
+}
+
+namespace {
+
+/// Of interior_residual(): rounding leaves about 1e-15.
+constexpr double largest_residual = 1e-10;
+
+/// sum_i factors_i x_i^2 over some columns of x.
+double weighted_square(const std::vector<double>& factors, const Matrix& x, int first_column, int n) {
+  std::vector<double> sums(factors.size(), 0.0);
+  for (int j = first_column; j < first_column + n; ++j) {
+    const double* column = x.column(j);
+    for (size_t i = 0; i < sums.size(); ++i) sums[i] += factors[i] * column[i] * column[i];
+  }
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
+}
+
+double column_dot(const Matrix& a, const Matrix& b, int column) {
+  const double *x = a.column(column), *y = b.column(column);
+  double sum = 0;
+  for (int i = 0; i < a.rows(); ++i) sum += x[i] * y[i];
+  return sum;
+}
+
+/// J_e (3) of every position: half the work of all loads, less the ghost penalty's and Nitsche's share of it.
+/// `loaded`: columns with loads on the tread.
+template <int dim>
+std::vector<double> bulk_energies(const RollingSolution<dim>& s, const std::vector<int>& loaded,
+                                  const std::vector<double>& nitsche_factors) {
+  const int n_positions = s.positions.size(), n_sectors = s.ring.n_sectors();
+  const int n_columns = s.observations.columns() / n_positions;
+  std::vector<double> energy(n_positions);
+  for (int i = 0; i < n_positions; ++i)
+    energy[i] = -0.5 * weighted_square(nitsche_factors, s.observations, i * n_columns, n_columns);
+  for (const int c : loaded) energy[c / n_columns] += 0.5 * column_dot(s.tread_loads, s.observations, c);
+  const auto ghost_work = work_by_case({s.ghost_loads, s.displacement.weights}, s.displacement);
+  for (size_t c = 0; c < ghost_work.size(); ++c) energy[c / n_sectors] -= 0.5 * ghost_work[c];
+  if (s.core_loads.empty()) return energy;
+  const auto core_work = work_by_case(s.core_loads, s.displacement);
+  for (size_t c = 0; c < core_work.size(); ++c) energy[c / n_sectors] += 0.5 * core_work[c];
+  return energy;
+}
+
+/// P per metre of width.
+template <int dim>
+double line_load(const RollingModel<dim>& model) {
+  return dim == 2 ? model.load : model.load / model.grid.width;
+}
+
+/// Columns from the ground position to beyond the likely end of contact: from Hertz's theory for a load, for
+/// a prescribed travel from where the circle meets the ground.
+template <int dim>
+int columns_in_contact(const RollingModel<dim>& model) {
+  const PolarGrid<dim>& grid = model.grid;
+  const double half_width = model.travel
+                                ? 0.5 * std::sqrt(2 * grid.outer_radius * std::max(*model.travel, 0.0))
+                                : 2 * std::sqrt(line_load(model) * grid.outer_radius /
+                                                (std::numbers::pi * model.material.plane_strain_modulus()));
+  return static_cast<int>(std::ceil(half_width / (grid.outer_radius * grid.cell_size()[1]))) + 2;
+}
+
+template <int dim>
+bool touches_edge(const ContactState<dim>& state) {
+  const auto per_column = static_cast<long>(state.traction.size()) / state.zone.n_columns;
+  const auto touches = [](auto first, auto last) {
+    return std::any_of(first, last, [](const Vec<dim>& t) { return t[0] < 0; });
+  };
+  return touches(state.traction.begin(), state.traction.begin() + per_column) ||
+         touches(state.traction.end() - per_column, state.traction.end());
+}
+
+bool all_finite(const Matrix& a) {
+  return std::all_of(a.entries().begin(), a.entries().end(), [](double x) { return std::isfinite(x); });
+}
+
+}  // namespace
+
+template <int dim>
+RollingProblem<dim>::RollingProblem(const RollingModel<dim>& model,
+                                    std::unique_ptr<ElementTable<dim>> elements, Tread<dim> tread)
+    : model_(model),
+      elements_(std::move(elements)),
+      harmonics_(model.grid.n_sectors),
+      tread_(std::move(tread)),
+      outer_stiffness_(tread_.outer_stiffness(harmonics_)) {}
+
+template <int dim>
+Expected<RollingProblem<dim>> RollingProblem<dim>::create(const RollingModel<dim>& model) {
+  auto elements = std::make_unique<ElementTable<dim>>(model.grid, model.degree, model.material, model.ghost);
+  auto tread = Tread<dim>::condense(*elements, model.tread, model.contact, model.contact_points);
+  if (!tread) return tread.failure();
+  return RollingProblem(model, std::move(elements), *std::move(tread));
+}
+
+namespace {
+
+template <int dim>
+Expected<ContactState<dim>> solve_in_zone(const RollingModel<dim>& model, const ReducedContact<dim>& contact,
+                                          const std::optional<ContactState<dim>>& known) {
+  const auto cold_start = [&](double fraction) {
+    return model.travel ? contact.undeformed_start(fraction)
+                        : contact.hertz_start(fraction * line_load(model), model.grid.outer_radius,
+                                              model.material.plane_strain_modulus());
+  };
+  std::optional<ContactUnknowns<dim>> warm_start;
+  if (known) warm_start = contact.start_from(*known);
+  return solve_contact<dim>(contact, cold_start, warm_start);
+}
+
+}  // namespace
+
+template <int dim>
+Expected<RolledContact<dim>> roll_to(const RollingModel<dim>& model, const Tread<dim>& tread,
+                                     const CyclicStiffness<dim>& ring, const SurfaceCompliance<dim>& surface,
+                                     GroundPosition ground, const Preload& preload,
+                                     const std::optional<ContactState<dim>>& neighbour) {
+  const PolarGrid<dim>& grid = model.grid;
+  int half = std::max(columns_in_contact(model), neighbour ? neighbour->zone.n_columns / 2 : 0);
+  const int largest_half = (grid.ring_columns() / 2 - 1) / 2;
+  std::optional<ContactState<dim>> known = neighbour;
+  std::optional<SurfaceCompliance<dim>> wider;
+  while (true) {
+    half = std::min(half, (grid.ring_columns() - 1) / 2);
+    const int width = 2 * half - 1;
+    if (width > (wider ? *wider : surface).width()) wider.emplace(ring, tread, width);
+    ReducedContact<dim> contact(wider ? *wider : surface, tread, grid, ground,
+                                {ground.column - half, 2 * half}, rim_control(model), preload);
+    auto state = solve_in_zone(model, contact, known);
+    if (!state) return state.failure();
+    if (!touches_edge(*state) || half >= largest_half)
+      return RolledContact<dim>{std::move(contact), *std::move(state)};
+    known = *std::move(state);
+    half += 2;
+  }
+}
+
+template <int dim>
+Expected<RolledContact<dim>> reload(const RollingModel<dim>& model, const Tread<dim>& tread,
+                                    const CyclicStiffness<dim>& ring, const SurfaceCompliance<dim>& surface,
+                                    GroundPosition ground, const Preload& preload,
+                                    const RolledContact<dim>& before) {
+  ReducedContact<dim> contact = before.contact.under(rim_control(model));
+  auto state = solve_in_zone<dim>(model, contact, before.state);
+  if (!state) return state.failure();
+  if (touches_edge(*state)) return roll_to<dim>(model, tread, ring, surface, ground, preload, *state);
+  return RolledContact<dim>{std::move(contact), *std::move(state)};
+}
+
+template <int dim>
+std::vector<double> RollingProblem<dim>::nitsche_factors() const {
+  std::vector<double> factors(tread_.n_observations(), 0.0);
+  for (size_t q = 0; q < tread_.points().size(); ++q)
+    for (int d = 0; d < dim; ++d)
+      factors[2 * dim * q + dim + d] =
+          -tread_.form().theta() / tread_.points()[q].gamma * tread_.points()[q].weight;
+  return factors;
+}
+
+template <int dim>
+Matrix RollingProblem<dim>::nitsche_loads(const Matrix& observations) const {
+  const std::vector<double> factors = nitsche_factors();
+  Matrix loads = observations;
+  for (int j = 0; j < loads.columns(); ++j) {
+    double* load = loads.column(j);
+    for (int i = 0; i < loads.rows(); ++i) load[i] *= factors[i];
+  }
+  return loads;
+}
+
+/// Applies the loads that are not the ground's: fills the solution's core_loads, tread_loads and preloads.
+template <int dim>
+typename RollingProblem<dim>::CondensedLoads RollingProblem<dim>::preload(RollingSolution<dim>& s) const {
+  const int n_positions = s.positions.size(), n_columns = tread_.n_columns();
+  s.preloads.resize(n_positions);
+  if (!model_.distributed.any())
+    return {{}, {{}, Matrix(s.ring.n_outer(), n_positions * s.ring.n_sectors())}};
+  auto applied =
+      applied_loads<dim>(model_.distributed, s.domain, *elements_, s.ring, tread_, s.positions.grounds);
+  s.core_loads = std::move(applied.core);
+  s.tread_loads = std::move(applied.tread);
+  CondensedLoads condensed{s.core_loads, {}};
+  condensed.boundary =
+      s.ring.eliminate_interface(condense<dim>(s.ring, s.ring.sector_factor().full_sweep(), condensed.core));
+  const TreadLoads loads = tread_loads(tread_, s.tread_loads);
+  const Matrix outer = s.ring.outer_displacements(sum(condensed.boundary.outer, base_loads(tread_, loads)));
+  const Matrix observed = observations(tread_, tread_field(tread_, outer, loads), loads);
+  for (int i = 0; i < n_positions; ++i) {
+    s.preloads[i] = {Matrix(observed.rows(), n_columns), applied.on_the_rim[i]};
+    std::copy_n(observed.column(i * n_columns), s.preloads[i].observations.entries().size(),
+                s.preloads[i].observations.data());
+  }
+  return condensed;
+}
+
+template <int dim>
+LoadPositions RollingProblem<dim>::positions() const {
+  return load_positions(model_.grid, model_.n_positions);
+}
+
+template <int dim>
+LoadPositions RollingProblem<dim>::distinct_positions(const LevelSet<dim>& psi) const {
+  return is_mirror_symmetric(model_) && is_mirror_symmetric(psi)
+             ? load_positions_without_images(model_.grid, model_.n_positions)
+             : positions();
+}
+
+template <int dim>
+Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& psi,
+                                                          LoadPositions positions) const {
+  const int n_positions = positions.size(), n_columns = model_.grid.ring_columns();
+  std::vector<PhaseTime> phases;
+  Stopwatch watch;
+
+  auto domain = cut_domain(psi, model_.cut_points.value_or(model_.degree + 2));
+  if (!domain) return domain.failure();
+  if (auto failure = check_attached(*domain, protected_rim_rows(), protected_tread_rows())) return *failure;
+  phases.push_back({"cut", watch.lap()});
+  auto sector = sector_stiffness(*domain, *elements_, core_rows());
+  phases.push_back({"assembly", watch.lap()});
+  auto factored = CyclicStiffness<dim>::factor(std::move(sector), outer_stiffness_, harmonics_);
+  if (!factored) return factored.failure();
+  phases.push_back({"factorization", watch.lap()});
+
+  const int likely_width = 2 * std::min(columns_in_contact(model_), (n_columns - 1) / 2) - 1;
+  SurfaceCompliance<dim> surface(*factored, tread_, likely_width);
+  RollingSolution<dim> s{*std::move(domain),
+                         *std::move(factored),
+                         std::move(surface),
+                         std::move(positions),
+                         {},
+                         {},
+                         {},
+                         {},
+                         {},
+                         {},
+                         {},
+                         {},
+                         {},
+                         {},
+                         {},
+                         {}};
+  s.tread_loads = Matrix(tread_.n_observations(), n_positions * n_columns);
+  const CondensedLoads preloaded = preload(s);
+  std::optional<ContactState<dim>> neighbour;
+  for (int i = 0; i < n_positions; ++i) {
+    auto rolled =
+        roll_to(model_, tread_, s.ring, s.surface, s.positions.grounds[i], s.preloads[i], neighbour);
+    if (!rolled) return rolled.failure();
+    neighbour = rolled->state;
+    const ContactZone& zone = rolled->contact.zone();
+    if (zone.n_columns > s.surface.width() + 1)
+      s.surface = SurfaceCompliance<dim>(s.ring, tread_, zone.n_columns - 1);
+    const Matrix loads = rolled->contact.contact_loads(rolled->state);
+    for (int c = 0; c < zone.n_columns; ++c)
+      std::copy_n(loads.column(c), loads.rows(),
+                  s.tread_loads.column(i * n_columns + wrap(zone.first_column + c, n_columns)));
+    s.contacts.push_back(std::move(rolled->contact));
+    s.states.push_back(std::move(rolled->state));
+  }
+  phases.push_back({"contact", watch.lap()});
+
+  const TreadLoads loads = tread_loads(tread_, s.tread_loads);
+  s.outer_line = s.ring.outer_displacements(sum(preloaded.boundary.outer, base_loads(tread_, loads)));
+  const Matrix boundary = s.ring.boundary_displacements(s.outer_line, preloaded.boundary.interface);
+  s.sweep = boundary_sweep(s.ring, s.domain, s.core_loads);
+  s.displacement = displacement_fields(s.ring, s.sweep, boundary, preloaded.core, case_multiplicities(s));
+  s.observations = observations(tread_, tread_field(tread_, s.outer_line, loads), loads);
+  s.ghost_loads = ghost_loads(s.ring, s.displacement.modes);
+  if (!all_finite(s.displacement.modes) || !all_finite(s.observations))
+    return Failure{FailureReason::not_finite, "the displacement is not finite"};
+  if (const double residual = interior_residual(s.ring, s.sweep, s.displacement, s.core_loads);
+      !(residual <= largest_residual))
+    return Failure{FailureReason::inaccurate_solution,
+                   fmt::format("the equations of a sector are off by {:.2g} of their terms", residual)};
+
+  s.strain_energy = bulk_energies(s, loads.columns, nitsche_factors());
+  for (int i = 0; i < n_positions; ++i)
+    if (!(s.strain_energy[i] > 0))
+      return Failure{FailureReason::negative_energy,
+                     fmt::format("the strain energy of position {} is {:.4g} J/m", i, s.strain_energy[i])};
+  phases.push_back({"recovery", watch.lap()});
+  s.phases = std::move(phases);
+  return s;
+}
+
+template class RollingProblem<2>;
+template class RollingProblem<3>;
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                                        \
+  template RimControl rim_control(const RollingModel<dim>&);                                                \
+  template bool is_mirror_symmetric(const RollingModel<dim>&);                                              \
+  template std::vector<double> case_multiplicities(const RollingSolution<dim>&);                            \
+  template SectorFields complete_displacement(const RollingSolution<dim>&);                                 \
+  template Expected<RolledContact<dim>> roll_to(const RollingModel<dim>&, const Tread<dim>&,                \
+                                                const CyclicStiffness<dim>&, const SurfaceCompliance<dim>&, \
+                                                GroundPosition, const Preload&,                             \
+                                                const std::optional<ContactState<dim>>&);                   \
+  template Expected<RolledContact<dim>> reload(const RollingModel<dim>&, const Tread<dim>&,                 \
+                                               const CyclicStiffness<dim>&, const SurfaceCompliance<dim>&,  \
+                                               GroundPosition, const Preload&, const RolledContact<dim>&);
+WHEELWRIGHT_INSTANTIATE(2)
+WHEELWRIGHT_INSTANTIATE(3)
+#undef WHEELWRIGHT_INSTANTIATE
+
+}  // namespace wheelwright

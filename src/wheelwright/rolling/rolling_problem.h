@@ -1,0 +1,144 @@
+#pragma once
+
+#include "wheelwright/base/phase_time.h"
+#include "wheelwright/rolling/distributed_loads.h"
+#include "wheelwright/ring/tread_ring.h"
+
+namespace wheelwright {
+
+/// A rolling structure and its load, all but its shape.
+template <int dim>
+struct RollingModel {
+  PolarGrid<dim> grid;
+  int degree = 2;                 ///< of the displacement, 1 or 2
+  std::optional<int> cut_points;  ///< Gauss points a direction in cut cells; absent: degree + 2
+  Material material;
+  GhostPenalty ghost;
+  ContactForm contact;
+  int contact_points = 5;       ///< Gauss points a direction on each contact face
+  TreadGrid tread;              ///< rows that are condensed once a run, and their refinement
+  double load;                  ///< P [N/m when dim = 2, N when dim = 3]
+  double horizontal_force = 0;  ///< H on the rim, towards larger azimuth; if not 0, it moves along the ground
+  double torque = 0;            ///< M on the rim about the axle; if not 0, it turns
+  std::optional<double> travel;  ///< of the rim towards the ground [m], instead of the load
+  DistributedLoads<dim> distributed;
+  int n_positions = 8;  ///< N_d, load positions of one sector; means over them need a divisor of its columns
+};
+
+/// What a model does to its rim.
+template <int dim>
+RimControl rim_control(const RollingModel<dim>& model);
+
+/// Whether its loads are their own mirror image in the plane of a load position.
+template <int dim>
+bool is_mirror_symmetric(const RollingModel<dim>& model);
+
+/// The direct problems of some load positions for one shape. Load cases of the core are numbered position *
+/// n_sectors + sector; matrices of the tread have one column for every (position, ring column). Position i
+/// is solved with the ground turned to it, in the body frame; the field in sector s is also the field in
+/// sector 0 for the load position that lies s sectors back. The rim's motion is left out: u = v +
+/// motion.
+template <int dim>
+struct RollingSolution {
+  CutDomain<dim> domain;
+  CyclicStiffness<dim> ring;
+  SurfaceCompliance<dim> surface;  ///< of the ring; as wide as the widest contact zone
+  LoadPositions positions;
+  std::vector<ReducedContact<dim>> contacts;
+  std::vector<ContactState<dim>> states;
+  PartialCholesky::Sweep sweep;       ///< through the unknowns of the core that the gradient needs
+  SectorFields displacement;          ///< v in those unknowns; complete_displacement() finds the others
+  Matrix outer_line;                  ///< v on the core's outer line (CyclicStiffness)
+  SectorFields core_loads;            ///< of body force and pressure, in the core; empty: none
+  Matrix tread_loads;                 ///< of ground and body force, on the tread's observations
+  std::vector<Preload> preloads;      ///< of every position
+  Matrix observations;                ///< of v on the tread
+  Matrix ghost_loads;                 ///< ghost penalty applied to the modes of v
+  std::vector<double> strain_energy;  ///< J_e (3) of every position
+  std::vector<PhaseTime> phases;
+};
+
+/// How many of a sector's positions each load case stands for.
+template <int dim>
+std::vector<double> case_multiplicities(const RollingSolution<dim>& solution);
+
+/// v in all unknowns of the core.
+template <int dim>
+SectorFields complete_displacement(const RollingSolution<dim>& solution);
+
+/// The rolling problem of one run: what no shape changes is built once; every shape is then one call.
+template <int dim>
+class RollingProblem {
+ public:
+  /// Fails with not_positive_definite when theta and gamma_0 do not go together.
+  static Expected<RollingProblem> create(const RollingModel<dim>& model);
+
+  const RollingModel<dim>& model() const { return model_; }
+  const ElementTable<dim>& elements() const { return *elements_; }
+  const Tread<dim>& tread() const { return tread_; }
+  int core_rows() const { return model_.grid.cells[0] - model_.tread.rows; }
+
+  /// Rows of cells that must stay full at the rim and at the tread: the tread and one row below it.
+  int protected_rim_rows() const { return 1; }
+  int protected_tread_rows() const { return model_.tread.rows + 1; }
+
+  /// All load positions of a sector.
+  LoadPositions positions() const;
+
+  /// Those that tell about all of them: only one of two mirror images if the shape and its loads are their
+  /// own.
+  LoadPositions distinct_positions(const LevelSet<dim>& psi) const;
+
+  /// Direct problems of all positions, or of some.
+  Expected<RollingSolution<dim>> solve(const LevelSet<dim>& psi) const { return solve(psi, positions()); }
+  Expected<RollingSolution<dim>> solve(const LevelSet<dim>& psi, LoadPositions positions) const;
+
+  /// Nitsche's symmetric term of the tread applied to what is observed: loads on the tractions.
+  Matrix nitsche_loads(const Matrix& observations) const;
+
+  /// The factors -theta/gamma dS of that term, one an observation: zero but for tractions.
+  std::vector<double> nitsche_factors() const;
+
+ private:
+  RollingProblem(const RollingModel<dim>& model, std::unique_ptr<ElementTable<dim>> elements,
+                 Tread<dim> tread);
+
+  /// Loads in the core after elimination: their modes, and what they are on the boundary.
+  struct CondensedLoads {
+    SectorFields core;
+    typename CyclicStiffness<dim>::EliminatedInterface boundary;
+  };
+  CondensedLoads preload(RollingSolution<dim>& s) const;
+
+  RollingModel<dim> model_;
+  std::unique_ptr<ElementTable<dim>> elements_;
+  SectorHarmonics harmonics_;
+  Tread<dim> tread_;
+  std::vector<ComplexMatrix> outer_stiffness_;
+};
+
+/// One load position's contact problem and its solution.
+template <int dim>
+struct RolledContact {
+  ReducedContact<dim> contact;
+  ContactState<dim> state;
+};
+
+/// The contact of one load position alone, on a ring that solve() has factored. The zone is widened until it
+/// holds the contact. `neighbour`: a solution to start from; `preload`: what other loads than the ground's
+/// do.
+template <int dim>
+Expected<RolledContact<dim>> roll_to(const RollingModel<dim>& model, const Tread<dim>& tread,
+                                     const CyclicStiffness<dim>& ring, const SurfaceCompliance<dim>& surface,
+                                     GroundPosition ground, const Preload& preload,
+                                     const std::optional<ContactState<dim>>& neighbour);
+
+/// The same position under the loads or the travel of `model`, which differs in nothing else: next to free as
+/// long as the contact stays in the zone of `before`.
+template <int dim>
+Expected<RolledContact<dim>> reload(const RollingModel<dim>& model, const Tread<dim>& tread,
+                                    const CyclicStiffness<dim>& ring, const SurfaceCompliance<dim>& surface,
+                                    GroundPosition ground, const Preload& preload,
+                                    const RolledContact<dim>& before);
+
+}  // namespace wheelwright

@@ -1,0 +1,266 @@
+#include "wheelwright/run/checkpoint.h"
+
+#include <limits>
+
+#include "wheelwright/files/level_set_file.h"
+
+namespace wheelwright {
+namespace {
+
+constexpr std::string_view kind = "CKPT";
+constexpr std::uint32_t version = 1;
+
+constexpr int largest_int = std::numeric_limits<int>::max();
+
+// Every value is taken apart by a structured binding: a member that is added to one of these types and not
+// saved does not compile.
+
+template <class NamedValue>
+void append_named(const std::vector<NamedValue>& values, ByteWriter& writer) {
+  writer.integer(static_cast<std::int64_t>(values.size()));
+  for (const auto& [name, value] : values) {
+    writer.text(name);
+    writer.number(value);
+  }
+}
+
+template <class NamedValue>
+std::vector<NamedValue> read_named(ByteReader& reader) {
+  constexpr std::size_t bytes_each = sizeof(std::int64_t) + sizeof(double);
+  std::vector<NamedValue> values(reader.count(bytes_each));
+  for (auto& [name, value] : values) {
+    name = reader.text();
+    value = reader.number();
+  }
+  return values;
+}
+
+void append(const Matrix& matrix, ByteWriter& writer) {
+  writer.integer(matrix.rows());
+  writer.integer(matrix.columns());
+  writer.numbers(matrix.entries());
+}
+
+Matrix read_matrix(ByteReader& reader) {
+  const auto rows = reader.integer(0, largest_int, "the number of rows of a matrix");
+  const auto columns = reader.integer(0, largest_int, "the number of columns of a matrix");
+  auto entries = reader.finite_numbers("the entries of a matrix");
+  if (entries.size() != std::uint64_t(rows) * std::uint64_t(columns))
+    reader.fail("a matrix does not have the entries for its rows and columns");
+  if (!reader.ok()) return {};
+  Matrix matrix(static_cast<int>(rows), static_cast<int>(columns));
+  matrix.entries().assign(entries.begin(), entries.end());
+  return matrix;
+}
+
+template <int dim>
+void append(const std::vector<SurfaceSample<dim>>& samples, ByteWriter& writer) {
+  writer.integer(static_cast<std::int64_t>(samples.size()));
+  for (const auto& [cell, xi, normal, weight, value] : samples) {
+    writer.integer(cell);
+    for (const double x : xi) writer.number(x);
+    for (const double x : normal) writer.number(x);
+    writer.number(weight);
+    writer.number(value);
+  }
+}
+
+template <int dim>
+std::vector<SurfaceSample<dim>> read_samples(ByteReader& reader) {
+  constexpr std::size_t bytes_each = sizeof(std::int64_t) + (2 * dim + 2) * sizeof(double);
+  std::vector<SurfaceSample<dim>> samples(reader.count(bytes_each));
+  for (auto& [cell, xi, normal, weight, value] : samples) {
+    cell = static_cast<int>(reader.integer(0, largest_int, "the cell of a sample of the shape gradient"));
+    for (double& x : xi) x = reader.finite_number("a point of the shape gradient");
+    for (double& x : normal) x = reader.finite_number("a normal of the shape gradient");
+    weight = reader.finite_number("a weight of the shape gradient");
+    value = reader.finite_number("a value of the shape gradient");
+  }
+  return samples;
+}
+
+void append(const std::vector<int>& values, ByteWriter& writer) {
+  writer.integer(static_cast<std::int64_t>(values.size()));
+  for (const int value : values) writer.integer(value);
+}
+
+std::vector<int> read_integers(ByteReader& reader, std::string_view name) {
+  std::vector<int> values(reader.count(sizeof(std::int64_t)));
+  for (int& value : values) value = static_cast<int>(reader.integer(0, largest_int, name));
+  return values;
+}
+
+template <int dim>
+void append(const Evaluation<dim>& evaluation, ByteWriter& writer) {
+  const auto& [objective, criteria, gradient, newton_iterations, mean_observations, phases, measures] =
+      evaluation;
+  writer.number(objective);
+  append_named(criteria, writer);
+  append(gradient, writer);
+  append(newton_iterations, writer);
+  append(mean_observations, writer);
+  append_named(phases, writer);
+  append_named(measures, writer);
+}
+
+template <int dim>
+Evaluation<dim> read_evaluation(ByteReader& reader) {
+  Evaluation<dim> evaluation;
+  auto& [objective, criteria, gradient, newton_iterations, mean_observations, phases, measures] = evaluation;
+  objective = reader.finite_number("the objective");
+  criteria = read_named<CriterionValue>(reader);
+  gradient = read_samples<dim>(reader);
+  newton_iterations = read_integers(reader, "a number of Newton iterations");
+  mean_observations = read_matrix(reader);
+  phases = read_named<PhaseTime>(reader);
+  measures = read_named<MeasureValue>(reader);
+  return evaluation;
+}
+
+template <int dim>
+void append(const OptimizationState<dim>& state, ByteWriter& writer) {
+  const auto& [shape, evaluation, measure, target_measure, iteration, step, since_redistance, since_smoothing,
+               history] = state;
+  append(shape, writer);
+  append(evaluation, writer);
+  writer.number(measure);
+  writer.number(target_measure);
+  writer.integer(iteration);
+  writer.number(step);
+  writer.integer(since_redistance);
+  writer.integer(since_smoothing);
+  writer.numbers(history);
+}
+
+/// What is wrong with the parts of a state taken together; empty when they fit.
+template <int dim>
+std::string_view misfit(const OptimizationState<dim>& state) {
+  const int n_cells = state.shape.lattice.grid().n_cells();
+  for (const auto& sample : state.evaluation.gradient)
+    if (sample.cell >= n_cells) return "a sample of the shape gradient lies outside the grid";
+  if (state.history.size() != std::size_t(state.iteration) + 1)
+    return "there is not one objective for every shape";
+  if (!(state.step > 0)) return "the step is not positive";
+  return {};
+}
+
+template <int dim>
+std::optional<OptimizationState<dim>> read_state(ByteReader& reader) {
+  auto shape = read_level_set<dim>(reader);
+  auto evaluation = read_evaluation<dim>(reader);
+  const double measure = reader.finite_number("the measure of the material");
+  const double target_measure = reader.finite_number("the target measure");
+  const auto count = [&](std::string_view name) {
+    return static_cast<int>(reader.integer(0, largest_int - 1, name));
+  };
+  const int iteration = count("the number of the shape");
+  const double step = reader.finite_number("the step");
+  const int since_redistance = count("the number of shapes since the last redistancing");
+  const int since_smoothing = count("the number of shapes since the last smoothing");
+  auto history = reader.finite_numbers("the objectives so far");
+  if (!reader.ok()) return {};
+  OptimizationState<dim> state{
+      *std::move(shape), std::move(evaluation), measure,           target_measure, iteration, step,
+      since_redistance,  since_smoothing,       std::move(history)};
+  const std::string_view problem = misfit(state);
+  if (!problem.empty()) reader.fail(problem);
+  return state;
+}
+
+template <int dim>
+void append(const InitialShape<dim>& initial, ByteWriter& writer) {
+  const auto& [shape, objective, measure] = initial;
+  append(shape, writer);
+  writer.number(objective);
+  writer.number(measure);
+}
+
+template <int dim>
+std::optional<InitialShape<dim>> read_initial(ByteReader& reader) {
+  auto shape = read_level_set<dim>(reader);
+  const double objective = reader.finite_number("the initial objective");
+  const double measure = reader.finite_number("the initial measure");
+  if (!reader.ok()) return {};
+  return InitialShape<dim>{*std::move(shape), objective, measure};
+}
+
+void append(const std::vector<FoundQuantity>& found, ByteWriter& writer) {
+  writer.integer(static_cast<std::int64_t>(found.size()));
+  for (const auto& [iteration, quantity, value] : found) {
+    writer.integer(iteration);
+    writer.text(quantity);
+    writer.number(value);
+  }
+}
+
+std::vector<FoundQuantity> read_found(ByteReader& reader) {
+  constexpr std::size_t bytes_each = 2 * sizeof(std::int64_t) + sizeof(double);
+  std::vector<FoundQuantity> found(reader.count(bytes_each));
+  for (auto& [iteration, quantity, value] : found) {
+    iteration = static_cast<int>(reader.integer(0, largest_int, "the shape of a value that was found"));
+    quantity = reader.text();
+    value = reader.number();
+  }
+  return found;
+}
+
+}  // namespace
+
+template <int dim>
+std::string checkpoint_file(const Checkpoint<dim>& checkpoint) {
+  const auto& [provenance, state, initial, found, history, elapsed_seconds, finished] = checkpoint;
+  ByteWriter origin, current, first, run;
+  origin.text(provenance.resolved_case);
+  origin.text(provenance.program);
+  append(state, current);
+  append(initial, first);
+  run.integer(static_cast<std::int64_t>(history.bytes));
+  run.integer(history.checksum);
+  run.number(elapsed_seconds);
+  run.integer(finished ? static_cast<int>(*finished) : -1);
+  append(found, run);
+  return block_file(
+      kind, version,
+      {{"CASE", origin.bytes()}, {"STAT", current.bytes()}, {"INIT", first.bytes()}, {"RUN ", run.bytes()}});
+}
+
+template <int dim>
+Expected<Checkpoint<dim>, FormatError> parse_checkpoint_file(std::string_view bytes) {
+  const auto blocks = parse_block_file(bytes, kind, version, {"CASE", "STAT", "INIT", "RUN "});
+  if (!blocks) return blocks.failure();
+  ByteReader origin((*blocks)[0]), current((*blocks)[1]), first((*blocks)[2]), run((*blocks)[3]);
+  Provenance provenance{origin.text(), origin.text()};
+  auto state = read_state<dim>(current);
+  auto initial = read_initial<dim>(first);
+  const HistoryMark history{
+      static_cast<std::uint64_t>(
+          run.integer(0, std::numeric_limits<std::int64_t>::max(), "the length of history.csv")),
+      static_cast<std::uint32_t>(
+          run.integer(0, std::numeric_limits<std::uint32_t>::max(), "the checksum of history.csv"))};
+  const double elapsed_seconds = run.finite_number("the elapsed time");
+  const auto finished =
+      run.integer(-1, static_cast<int>(StopReason::stop_requested), "the reason why the run ended");
+  auto found = read_found(run);
+  for (ByteReader* reader : {&origin, &current, &first, &run}) {
+    reader->finish();
+    if (!reader->ok()) return FormatError{FormatFault::invalid_value, reader->problem()};
+  }
+  Checkpoint<dim> checkpoint{std::move(provenance),
+                             *std::move(state),
+                             *std::move(initial),
+                             std::move(found),
+                             history,
+                             elapsed_seconds,
+                             {}};
+  if (finished >= 0) checkpoint.finished = static_cast<StopReason>(finished);
+  return checkpoint;
+}
+
+#define WHEELWRIGHT_INSTANTIATE(dim)                            \
+  template std::string checkpoint_file(const Checkpoint<dim>&); \
+  template Expected<Checkpoint<dim>, FormatError> parse_checkpoint_file<dim>(std::string_view);
+WHEELWRIGHT_INSTANTIATE(2)
+WHEELWRIGHT_INSTANTIATE(3)
+#undef WHEELWRIGHT_INSTANTIATE
+
+}  // namespace wheelwright

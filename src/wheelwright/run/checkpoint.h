@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "wheelwright/optimize/optimizer.h"
+#include "wheelwright/files/block_file.h"
+#include "wheelwright/run/history.h"
+
+namespace wheelwright {
+
+/// The shape that a run began with: what its pictures and its summary compare with.
+template <int dim>
+struct InitialShape {
+  LevelSet<dim> shape;
+  double objective;
+  double measure;  ///< of the material, one sector
+};
+
+/// What the case expects a value of, as an earlier shape had it.
+struct FoundQuantity {
+  int iteration;
+  std::string quantity;
+  double value;
+};
+
+/// What a run depends on besides its state. A run may go on where the case is the same; on another program or
+/// machine its last digits may differ.
+struct Provenance {
+  std::string resolved_case;  ///< text of the keys that change what is computed
+  std::string program;        ///< version, compiler and libraries
+};
+
+/// A run after an accepted shape: all that it needs to go on as if it had never stopped.
+template <int dim>
+struct Checkpoint {
+  Provenance provenance;
+  OptimizationState<dim> state;
+  InitialShape<dim> initial;
+  std::vector<FoundQuantity> found;    ///< for the case's expectations
+  HistoryMark history;                 ///< the end of history.csv at this shape
+  double elapsed_seconds;              ///< computed so far
+  std::optional<StopReason> finished;  ///< set when the run ended by itself and its results are written
+};
+
+template <int dim>
+std::string checkpoint_file(const Checkpoint<dim>& checkpoint);
+
+/// From bytes that may hold anything. A pure function; it allocates no more than a small multiple of
+/// bytes.size().
+template <int dim>
+Expected<Checkpoint<dim>, FormatError> parse_checkpoint_file(std::string_view bytes);
+
+}  // namespace wheelwright

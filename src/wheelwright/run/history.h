@@ -1,0 +1,86 @@
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "wheelwright/sensitivity/evaluation.h"
+
+namespace wheelwright {
+
+/// The columns of a history file that depend on the case.
+struct HistoryColumns {
+  struct Quantity {
+    std::string name;
+    std::string unit;
+  };
+  std::string objective_unit;       ///< e.g. "J/m"
+  std::vector<Quantity> criteria;   ///< one column each, by the names of Evaluation::criteria
+  std::vector<Quantity> measures;   ///< one column each, by the names of Evaluation::measures
+  std::vector<std::string> phases;  ///< one column each, in seconds, by the names of Evaluation::phases
+};
+
+/// One trial shape, accepted or not. What is NaN, and what a failed evaluation did not reach, stays an empty
+/// cell.
+struct HistoryRow {
+  int iteration;  ///< number of the shape that this trial wants to become
+  int trial;      ///< counts the step halvings of one iteration
+  bool accepted;
+  std::string reason;  ///< why it was rejected, e.g. "newton_stalled"; empty when accepted
+  double objective;
+  std::vector<CriterionValue> criteria;
+  std::vector<MeasureValue> measures;
+  double volume_fraction;     ///< material area over the area of the full ring
+  double step;                ///< farthest that the boundary travelled [m]
+  double max_velocity;        ///< largest normal velocity, in units of the gradient density [Pa]
+  int max_newton_iterations;  ///< over the load positions
+  std::vector<PhaseTime> phases;
+  double trial_seconds;                  ///< wall time of this trial
+  double elapsed_seconds;                ///< wall time since the run began
+  std::vector<std::string> events = {};  ///< what happened to the shape besides the motion of its boundary
+};
+
+/// A place in a history file: behind its first bytes, known by their checksum.
+struct HistoryMark {
+  std::uint64_t bytes = 0;
+  std::uint32_t checksum = 0;
+};
+
+/// history.csv: a header that names the units, then one row a trial, on disk as soon as it is added. Numbers
+/// are the shortest that read back to the same double.
+class History {
+ public:
+  /// Replaces the file. Throws OutputError.
+  History(std::filesystem::path path, HistoryColumns columns);
+
+  /// Goes on at a place of the file, which must hold it, and drops the rows behind it. Throws OutputError.
+  History(std::filesystem::path path, HistoryColumns columns, const HistoryMark& end);
+
+  /// Whether the file begins with what the mark was taken of.
+  static bool holds(const std::filesystem::path& path, const HistoryMark& mark);
+
+  /// Throws OutputError.
+  void add(const HistoryRow& row);
+
+  /// The end of the file as it is now.
+  const HistoryMark& end() const { return end_; }
+
+  /// Returns when all rows are on the disk. Throws OutputError.
+  void synchronize();
+
+ private:
+  void write_line(const std::vector<std::string>& cells);
+
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  std::filesystem::path path_;
+  HistoryColumns columns_;
+  std::unique_ptr<std::FILE, Close> file_;
+  HistoryMark end_;
+};
+
+}  // namespace wheelwright

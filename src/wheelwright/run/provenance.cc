@@ -1,0 +1,24 @@
+#include "wheelwright/run/provenance.h"
+
+#include <fmt/format.h>
+
+#include "wheelwright/case/version.h"
+#include "wheelwright/case/write.h"
+
+namespace wheelwright {
+
+std::string program_text() {
+  return fmt::format("wheelwright {}, deal.II 9.4, compiled by {}", version(), __VERSION__);
+}
+
+Provenance provenance(const Case& c) {
+  Case computed = c;
+  computed.title = {};
+  computed.output = {};
+  computed.expectations = {};
+  computed.optimizer.iterations = {};
+  computed.optimizer.tolerance = {};
+  return {to_toml(computed), program_text()};
+}
+
+}  // namespace wheelwright

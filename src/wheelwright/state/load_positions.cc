@@ -1,0 +1,29 @@
+#include "wheelwright/state/load_positions.h"
+
+namespace wheelwright {
+
+template <int dim>
+LoadPositions load_positions(const PolarGrid<dim>& grid, int n) {
+  LoadPositions positions{{}, std::vector<double>(n, 1.0)};
+  for (int i = 0; i < n; ++i)
+    positions.grounds.push_back({i * grid.columns() / n, double(i * grid.columns() % n) / n});
+  return positions;
+}
+
+template <int dim>
+LoadPositions load_positions_without_images(const PolarGrid<dim>& grid, int n) {
+  // Position i's image is n - i: those at 0 and in the middle of the sector are their own.
+  LoadPositions positions = load_positions(grid, n);
+  positions.grounds.resize(n / 2 + 1);
+  positions.multiplicities.assign(n / 2 + 1, 2.0);
+  positions.multiplicities.front() = 1;
+  if (n % 2 == 0) positions.multiplicities.back() = 1;
+  return positions;
+}
+
+template LoadPositions load_positions(const PolarGrid<2>&, int);
+template LoadPositions load_positions(const PolarGrid<3>&, int);
+template LoadPositions load_positions_without_images(const PolarGrid<2>&, int);
+template LoadPositions load_positions_without_images(const PolarGrid<3>&, int);
+
+}  // namespace wheelwright

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "wheelwright/geometry/polar_grid.h"
+
+namespace wheelwright {
+
+/// The ground at one load position, in the body frame: flat, rigid, touching the undeformed tread's circle at
+/// ring column `column` (a fraction `offset` of it past its first azimuth); n_y points there from the axle.
+struct GroundPosition {
+  int column;
+  double offset = 0;  ///< 0 <= offset < 1
+
+  /// Of n_y [rad].
+  template <int dim>
+  double azimuth(const PolarGrid<dim>& grid) const {
+    return (column + offset) * grid.cell_size()[1];
+  }
+};
+
+/// Load positions that are solved for.
+struct LoadPositions {
+  std::vector<GroundPosition> grounds;
+  std::vector<double> multiplicities;  ///< how many of a sector's positions each stands for
+
+  int size() const { return static_cast<int>(grounds.size()); }
+  /// Whether some stand for their mirror image in the plane of azimuth 0 too.
+  bool stand_for_images() const {
+    return std::any_of(multiplicities.begin(), multiplicities.end(), [](double m) { return m > 1; });
+  }
+};
+
+/// n positions that divide one sector evenly, the first at azimuth 0.
+template <int dim>
+LoadPositions load_positions(const PolarGrid<dim>& grid, int n);
+
+/// Of those only the first of any two that are mirror images in the plane of azimuth 0; it stands for both.
+template <int dim>
+LoadPositions load_positions_without_images(const PolarGrid<dim>& grid, int n);
+
+}  // namespace wheelwright
