@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "wheelwright/elasticity/contact_form.h"
+
 #include <algorithm>
 #include <random>
 

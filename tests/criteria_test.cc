@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "wheelwright/functionals/mean_contact_stress.h"
+#include "wheelwright/rolling/neumann_to_dirichlet.h"
 #include "wheelwright/functionals/strain_energy.h"
 #include "wheelwright/functionals/uniformity_annulus.h"
 #include "wheelwright/functionals/uniformity_dual.h"
@@ -13,11 +14,14 @@
 namespace wheelwright {
 namespace {
 
+using testing::all_states;
+using testing::evaluate_objective;
 using testing::generic_hole;
 using testing::holes;
 using testing::paper_holes;
 using testing::paper_model;
 using testing::smooth_direction;
+using testing::value_of;
 
 RollingModel<2> annulus_model(int radial_cells, int angular_cells, int levels) {
   auto model = paper_model(radial_cells, angular_cells);
@@ -32,9 +36,9 @@ std::shared_ptr<const NeumannToDirichlet<2>> image_of(const RollingModel<2>& mod
   return std::make_shared<const NeumannToDirichlet<2>>(*std::move(created));
 }
 
-std::vector<std::shared_ptr<const Criterion<2>>> uniformity_criteria(const RollingModel<2>& model) {
+std::vector<std::shared_ptr<const Functional<2>>> uniformity_criteria(const RollingModel<2>& model) {
   return {std::make_shared<UniformityL2<2>>(0.01), std::make_shared<UniformityAnnulus<2>>(0.01),
-          std::make_shared<UniformityDual<2>>(image_of(model))};
+          std::make_shared<UniformityDual<2>>(*image_of(model))};
 }
 
 // p_mean of the shape itself, and held at an earlier shape's as the paper does.
@@ -43,15 +47,16 @@ TEST(Uniformity, GradientsPassTheTaylorTest) {
   const auto problem = RollingProblem<2>::create(model);
   ASSERT_TRUE(problem);
   const auto psi = generic_hole(model.grid);
-  const auto earlier = problem->solve(holes(model.grid, 2, {{0.27, 0.5 * model.grid.sector_angle(), 0.04}}));
+  const auto earlier =
+      all_states<2>(*problem, holes(model.grid, 2, {{0.27, 0.5 * model.grid.sector_angle(), 0.04}}));
   ASSERT_TRUE(earlier);
-  const Matrix held = mean_observations(*problem, *earlier);
+  const Matrix held = mean_observations(problem->tread_surface(), **earlier);
   const auto direction = smooth_direction(psi.lattice);
   for (const auto& criterion : uniformity_criteria(model)) {
     for (const Matrix* mean : {static_cast<const Matrix*>(nullptr), &held}) {
-      const Criteria<2> objective{{1, criterion}};
+      const WeightedSum<2> objective{{1, criterion}};
       const auto test = taylor_test<2>(
-          [&](const LevelSet<2>& shape) { return evaluate<2>(*problem, objective, shape, mean); }, psi,
+          [&](const LevelSet<2>& shape) { return evaluate_objective<2>(*problem, objective, shape, mean); }, psi,
           direction, model.degree, 2e-5, 3);
       ASSERT_TRUE(test) << test.failure().detail;
       for (double order : test->orders)
@@ -65,15 +70,14 @@ TEST(Uniformity, AUniformRingIsUniform) {
   const auto problem = RollingProblem<2>::create(model);
   LevelSet<2> solid{Lattice<2>(model.grid, 2), {}};
   solid.values.assign(solid.lattice.n_nodes(), -1.0);
-  const auto s = problem->solve(solid);
-  ASSERT_TRUE(s);
-  const auto holed = problem->solve(paper_holes(model.grid));
-  ASSERT_TRUE(holed);
+  const LevelSet<2> holed = paper_holes(model.grid);
+  const auto value = [&](const Functional<2>& criterion, const LevelSet<2>& psi) {
+    const auto s = all_states<2>(*problem, psi);
+    EXPECT_TRUE(s);
+    return value_of<2>(criterion, *problem, psi, **s, mean_observations(problem->tread_surface(), **s));
+  };
   for (const auto& criterion : uniformity_criteria(model)) {
-    const double uniform =
-        criterion->evaluate(*problem, *s, mean_observations(*problem, *s)).value(s->positions);
-    const double uneven =
-        criterion->evaluate(*problem, *holed, mean_observations(*problem, *holed)).value(holed->positions);
+    const double uniform = value(*criterion, solid), uneven = value(*criterion, holed);
     EXPECT_GT(uneven, 0) << criterion->name();
     EXPECT_LT(std::abs(uniform), 1e-15 * uneven) << criterion->name();
   }
@@ -85,18 +89,19 @@ TEST(Uniformity, TheDualNormIsTheEnergyOfItsImage) {
   for (int levels : {0, 2}) {
     const auto model = annulus_model(14, 192, levels);
     const auto problem = RollingProblem<2>::create(model);
-    const auto s = problem->solve(paper_holes(model.grid));
+    const LevelSet<2> psi = paper_holes(model.grid);
+    const auto s = all_states<2>(*problem, psi);
     ASSERT_TRUE(s);
-    const Matrix mean = mean_observations(*problem, *s);
+    const Matrix mean = mean_observations(problem->tread_surface(), **s);
     const auto image = image_of(model);
-    const Matrix g = traction_deviation(*problem, *s, mean);
+    const Matrix g = traction_deviation(problem->tread_surface(), **s, mean);
     const auto energies = image->energies(g);
     const Matrix w = (*image)(g);
     double work = 0;
     for (int j = 0; j < g.columns(); ++j)
       for (int i = 0; i < g.rows(); ++i)
         work += 0.5 * problem->tread().points()[i / 2].weight * g(i, j) * w(i, j);
-    const double value = UniformityDual<2>(image).evaluate(*problem, *s, mean).value(s->positions);
+    const double value = value_of<2>(UniformityDual<2>(*image), *problem, psi, **s, mean);
     EXPECT_NEAR(std::accumulate(energies.begin(), energies.end(), 0.0), value, 1e-9 * value);
     EXPECT_NEAR(work, value, 1e-12 * value);
   }
@@ -106,15 +111,14 @@ TEST(Uniformity, TheDualNormIsTheEnergyOfItsImage) {
 TEST(Uniformity, HoldingTheOwnMeanChangesNothing) {
   const auto model = annulus_model(14, 192, 0);
   const auto problem = RollingProblem<2>::create(model);
-  const Criteria<2> objective{{1, std::make_shared<UniformityAnnulus<2>>(0.01)}};
+  const WeightedSum<2> objective{{1, std::make_shared<UniformityAnnulus<2>>(0.01)}};
   const auto psi = paper_holes(model.grid);
-  const auto own = evaluate<2>(*problem, objective, psi);
+  const auto own = evaluate_objective<2>(*problem, objective, psi);
   ASSERT_TRUE(own);
-  const auto held = evaluate<2>(*problem, objective, psi, &own->mean_observations);
+  const auto held = evaluate_objective<2>(*problem, objective, psi, &own->mean_observations);
   ASSERT_TRUE(held);
-  EXPECT_EQ(own->objective, held->objective);
-  for (size_t i = 0; i < own->gradient.size(); ++i)
-    EXPECT_EQ(own->gradient[i].value, held->gradient[i].value);
+  EXPECT_EQ(own->function("objective").value, held->function("objective").value);
+  EXPECT_EQ(own->function("objective").gradient, held->function("objective").gradient);
 }
 
 }  // namespace

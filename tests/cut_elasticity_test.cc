@@ -156,7 +156,7 @@ class LoadedSector {
         const auto surface = map_surface<2>(at.jacobian, q.normal);
         const double angle = azimuth(cut.cell);
         const auto sigma =
-            stress<2>(table_.material(), strain_of(exact.gradient(rotated<2>(at.position, angle))));
+            stress<2>(table_.materials().at_tread(), strain_of(exact.gradient(rotated<2>(at.position, angle))));
         const Vec<2> t = traction<2>(sigma, rotated<2>(surface.normal, angle));
         add(cut.cell, at, scaled(rotated<2>(t, -angle), q.weight * surface.scale));
       }

@@ -70,7 +70,7 @@ TEST(Cyclic, SectorsAgreeWithTheWholeRing) {
         const int turned = (c + sectors_ahead * by_sector.grid.columns()) % ring_columns;
         for (int r = 0; r < a->observations.rows(); ++r) {
           // Displacements and tractions (in units of E) are of one size.
-          const double unit = r % 4 < 2 ? 1 : 1 / whole.material.youngs_modulus;
+          const double unit = r % 4 < 2 ? 1 : 1 / whole.materials.at_tread().youngs_modulus;
           observed_a.push_back(unit * a->observations(r, own * ring_columns + c));
           observed_b.push_back(unit * b->observations(r, i * ring_columns + turned));
         }
@@ -93,7 +93,7 @@ class PlainRing {
       const int row = grid.cell_position(cell)[0];
       if (row >= core_rows || !domain.active(cell)) continue;
       add(nodes(cell), cut[cell]
-                           ? cell_stiffness<2>(table.element(row), table.material(), cut[cell]->material)
+                           ? cell_stiffness<2>(table.element(row), table.materials().at_tread(), cut[cell]->material)
                            : table.full_cell_stiffness(row));
     }
     for (const GhostFace& face : domain.ghost_faces) {
@@ -157,8 +157,8 @@ TEST(Cyclic, AgreesWithAPlainSolveOfTheWholeRing) {
     const auto domain = cut_domain(psi, 4);
     const auto whole_domain = cut_domain(repeated(psi, whole.grid), 4);
     ASSERT_TRUE(domain && whole_domain);
-    const ElementTable<2> table(model.grid, degree, model.material, model.ghost);
-    const ElementTable<2> whole_table(whole.grid, degree, whole.material, whole.ghost);
+    const ElementTable<2> table(model.grid, degree, model.materials, model.ghost);
+    const ElementTable<2> whole_table(whole.grid, degree, whole.materials, whole.ghost);
     auto sector = sector_stiffness(*domain, table, core_rows);
     ASSERT_TRUE(std::any_of(domain->ghost_faces.begin(), domain->ghost_faces.end(),
                             [&](const GhostFace& face) { return sector.space.wraps(face); }));
@@ -205,7 +205,7 @@ TEST(NestedDissection, TakesTheWorkThatTheoryPromises) {
   for (int cells : {24, 48, 96}) {
     auto model = paper_model();
     model.grid.cells = {cells, cells};
-    const ElementTable<2> table(model.grid, model.degree, model.material, model.ghost);
+    const ElementTable<2> table(model.grid, model.degree, model.materials, model.ghost);
     const auto sector = stiffness_with_a_hole(table);
     std::vector<int> by_line(sector.space.n_nodes());
     std::iota(by_line.begin(), by_line.end(), 0);
@@ -228,7 +228,7 @@ TEST(NestedDissection, TakesTheWorkThatTheoryPromises) {
 TEST(NestedDissection, SeparatesWhatGhostFacesCouple) {
   auto model = paper_model();
   model.grid.cells = {48, 48};
-  const ElementTable<2> table(model.grid, model.degree, model.material, model.ghost);
+  const ElementTable<2> table(model.grid, model.degree, model.materials, model.ghost);
   const auto sector = stiffness_with_a_hole(table);
   auto without_ghosts = sector;
   without_ghosts.ghosts.clear();

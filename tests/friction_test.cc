@@ -169,7 +169,7 @@ TEST(Friction, TheAdjointIsTheTransposeOfTheTangent) {
     ASSERT_TRUE(problem);
     const auto s = problem->solve(paper_holes(model.grid));
     ASSERT_TRUE(s) << s.failure().detail;
-    const int n_rows = problem->tread().n_observations(), n_contact = problem->tread().n_contact();
+    const int n_rows = problem->tread().n_observations(), n_contact = problem->tread().observation_rows().n_contact();
     const int n_columns = model.grid.ring_columns();
     for (const int position : {1, 2, 4}) {
       const ReducedContact<2>& contact = s->contacts[position];
@@ -191,9 +191,9 @@ TEST(Friction, TheAdjointIsTheTransposeOfTheTangent) {
         for (size_t k = 0; k < loads.entries().size(); ++k)
           difference.entries()[k] += 0.5 * sign * loads.entries()[k];
       }
-      const auto adjoint = contact.adjoint(s->states[position], observed);
+      const auto adjoint = contact.adjoints(s->states[position], std::span(&observed, 1));
       ASSERT_TRUE(adjoint);
-      const double direct = product(observed, difference), transposed = product(adjoint->loads, change);
+      const double direct = product(observed, difference), transposed = product(adjoint->front().loads, change);
       EXPECT_NEAR(direct, transposed, 1e-10 * std::abs(direct));
     }
   }
@@ -208,11 +208,11 @@ TEST(Friction, TheAdjointPredictsTheEffectOfTheLoad) {
     const auto problem = RollingProblem<2>::create(model);
     const auto s = problem->solve(psi);
     ASSERT_TRUE(s) << s.failure().detail;
-    const auto energy = StrainEnergy<2>().evaluate(*problem, *s, Matrix());
-    const auto adjoint = solve_adjoint(*problem, *s, energy.loads);
-    ASSERT_TRUE(adjoint);
+    const FunctionalDerivative<2> energy{.energy = std::vector<double>(s->positions.size(), 1.0)};
+    const auto adjoints = solve_adjoints<2>(*problem, *s, std::span(&energy, 1));
+    ASSERT_TRUE(adjoints);
     double derivative = 0;
-    for (const RimMotion& rim : adjoint->rim) derivative -= rim.towards_ground;
+    for (const RimMotion& rim : adjoints->front().rim) derivative -= rim.towards_ground;
     const double change = 1e-4 * model.load;
     auto more = model, less = model;
     more.load += change;

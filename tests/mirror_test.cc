@@ -47,22 +47,28 @@ std::vector<double> derivatives(const PolarGrid<dim>& grid, const std::vector<Su
 /// Expects of a shape's distinct positions what all of them give. Not to rounding: the quadrature of a cut
 /// cell is not the mirror image of that of its image.
 template <int dim>
-void expect_the_same_of_all(const RollingModel<dim>& model, const Criteria<dim>& objective,
+void expect_the_same_of_all(const RollingModel<dim>& model, const WeightedSum<dim>& objective,
                             const LevelSet<dim>& psi, int n_distinct) {
   const auto problem = RollingProblem<dim>::create(model);
   ASSERT_TRUE(problem);
-  const auto all = problem->solve(psi);
+  const auto all = testing::all_states<dim>(*problem, psi);
   ASSERT_TRUE(all) << all.failure().detail;
-  const auto expected = differentiate(*problem, objective, *all);
-  const auto found = evaluate(*problem, objective, psi);
+  const ShapeFunction<dim> function = wheelwright::objective(objective);
+  const auto expected = differentiate<dim>(*problem, std::span(&function, 1), psi, **all);
+  const auto found = testing::evaluate_objective<dim>(*problem, objective, psi);
   ASSERT_TRUE(expected);
   ASSERT_TRUE(found);
   EXPECT_EQ(expected->newton_iterations.size(), model.n_positions);
   EXPECT_EQ(found->newton_iterations.size(), n_distinct);
-  EXPECT_NEAR(found->objective, expected->objective, 1e-8 * expected->objective);
+  const FunctionValue &found_value = found->function("objective"),
+                      &expected_value = expected->function("objective");
+  EXPECT_NEAR(found_value.value, expected_value.value, 1e-8 * expected_value.value);
+  ASSERT_EQ(found_value.by_position.size(), model.n_positions);
+  for (int i = 0; i < model.n_positions; ++i)
+    EXPECT_NEAR(found_value.by_position[i], expected_value.by_position[i], 1e-8 * expected_value.value);
   for (size_t k = 0; k < objective.size(); ++k)
-    EXPECT_NEAR(found->criteria[k].value, expected->criteria[k].value, 1e-8 * expected->criteria[k].value)
-        << found->criteria[k].name;
+    EXPECT_NEAR(found->terms[k].value, expected->terms[k].value, 1e-8 * expected->terms[k].value)
+        << found->terms[k].name;
   for (size_t k = 0; k < expected->measures.size(); ++k)
     EXPECT_NEAR(found->measures[k].value, expected->measures[k].value,
                 1e-7 * std::abs(expected->measures[0].value + expected->measures[k].value));
@@ -73,19 +79,18 @@ void expect_the_same_of_all(const RollingModel<dim>& model, const Criteria<dim>&
             {expected->mean_observations.entries().begin(), expected->mean_observations.entries().end()}),
         1e-7);
   }
-  EXPECT_LT(testing::relative_difference(derivatives<dim>(model.grid, found->gradient),
-                                         derivatives<dim>(model.grid, expected->gradient)),
+  EXPECT_LT(testing::relative_difference(derivatives<dim>(model.grid, found->gradient("objective")),
+                                         derivatives<dim>(model.grid, expected->gradient("objective"))),
             1e-6);
 }
 
-Criteria<2> all_criteria(const RollingModel<2>& model) {
-  auto image = NeumannToDirichlet<2>::create(model);
+WeightedSum<2> all_criteria(const RollingModel<2>& model) {
+  auto image = RollingProblem<2>::create(model)->neumann_to_dirichlet();
   EXPECT_TRUE(image);
   return {{1, std::make_shared<StrainEnergy<2>>()},
           {10, std::make_shared<UniformityL2<2>>(0.01)},
           {10, std::make_shared<UniformityAnnulus<2>>(0.01)},
-          {10, std::make_shared<UniformityDual<2>>(
-                   std::make_shared<const NeumannToDirichlet<2>>(*std::move(image)))}};
+          {10, std::make_shared<UniformityDual<2>>(*std::move(image))}};
 }
 
 TEST(MirrorSymmetry, AShapeIsItsOwnImageOrNot) {
@@ -161,7 +166,7 @@ TEST(MirrorSymmetry, In3D) {
   RollingModel<3> model;
   model.grid = {0.20, 0.34, 0.12, 16, {7, 6, 2}};
   model.degree = 1;
-  model.material = {200e6, 0.3};
+  model.materials = Material{200e6, 0.3};
   model.load = 2943;
   model.n_positions = 4;
   model.contact_points = 3;
@@ -182,7 +187,7 @@ TEST(MirrorSymmetry, GradientPassesTheTaylorTest) {
   const auto objective = all_criteria(model);
   const auto psi = holes(model.grid, 2, {{0.2681, 0.5 * model.grid.sector_angle(), 0.0373}});
   const auto test =
-      taylor_test<2>([&](const LevelSet<2>& shape) { return evaluate<2>(*problem, objective, shape); }, psi,
+      taylor_test<2>([&](const LevelSet<2>& shape) { return testing::evaluate_objective<2>(*problem, objective, shape); }, psi,
                      testing::smooth_direction(psi.lattice), model.degree, 2e-5, 3);
   ASSERT_TRUE(test) << test.failure().detail;
   for (const double order : test->orders) EXPECT_GT(order, 1.9);
@@ -197,10 +202,10 @@ TEST(MirrorSymmetry, EvolutionKeepsIt) {
   const Evolver<2> evolver(psi.lattice,
                            {.velocity = {}, .smoothing = 0.1, .rim_band = row, .tread_band = 2 * row});
   for (int shape = 0; shape < 5; ++shape) {
-    const auto evaluation = evaluate(*problem, testing::strain_energy_alone(), psi);
+    const auto evaluation = testing::evaluate_objective<2>(*problem, testing::strain_energy_alone(), psi);
     ASSERT_TRUE(evaluation);
     EXPECT_EQ(evaluation->newton_iterations.size(), 5);
-    auto velocity = *evolver.measure_preserving_velocity(evaluation->gradient);
+    auto velocity = *evolver.measure_preserving_velocity(evaluation->gradient("objective"));
     const auto moved = *evolver.move(psi, velocity, row / 2);
     EXPECT_TRUE(is_mirror_symmetric(moved));
     const auto redistanced = *evolver.redistance(moved);
@@ -234,10 +239,12 @@ TEST(MirrorSymmetry, LoadsOrShapesThatAreNotSymmetricNeedAllPositions) {
   auto on_columns = model;
   on_columns.n_positions = 4;
   const auto problem = RollingProblem<2>::create(on_columns);
-  const Matrix own = mean_observations(*problem, *problem->solve(psi)),
-               other = mean_observations(*problem, *problem->solve(generic_hole(model.grid)));
+  const auto mean_of = [&](const LevelSet<2>& shape) {
+    return mean_observations(problem->tread_surface(), **testing::all_states<2>(*problem, shape));
+  };
+  const Matrix own = mean_of(psi), other = mean_of(generic_hole(model.grid));
   for (const auto& [mean, n] : {std::pair{&own, 3}, {&other, 4}})
-    EXPECT_EQ(evaluate(*problem, testing::strain_energy_alone(), psi, mean)->newton_iterations.size(), n);
+    EXPECT_EQ(testing::evaluate_objective<2>(*problem, testing::strain_energy_alone(), psi, mean)->newton_iterations.size(), n);
   auto braking = model;
   braking.distributed.body_force = {0, 1e3};
   EXPECT_EQ(n_solved(braking, psi), 8);

@@ -17,7 +17,7 @@ Pressed press(int degree, int angular_cells, double theta, double gamma_0) {
   RollingModel<2> model;
   model.grid = {0.20, 0.34, 0.12, 48, {angular_cells / 12, angular_cells / 48}};
   model.degree = degree;
-  model.material = {200e6, 0.3};
+  model.materials = Material{200e6, 0.3};
   model.contact.theta_nitsche = theta;
   model.contact.gamma_0 = gamma_0;
   model.load = 2e6;

@@ -158,7 +158,7 @@ class PressedRing {
   double rim_stress() const {
     const auto at = problem_.elements().element(0).at({0, 0.5});
     const Vec<2> normal{at.position[0] / norm<2>(at.position), at.position[1] / norm<2>(at.position)};
-    const auto sigma = stress<2>(problem_.model().material, strain(displacement_, 0, at));
+    const auto sigma = stress<2>(problem_.model().materials.at_tread(), strain(displacement_, 0, at));
     return dot<2>(traction<2>(sigma, normal), normal);
   }
 
@@ -173,7 +173,7 @@ class PressedRing {
     double sum = 0;
     visit_inner_edge([&](int cell, const ElasticElement<2>::Point& at, const Vec<2>& normal, double weight) {
       const Voigt<2> e = strain(displacement_, cell, at), ghost_strain = strain(without_bulk, cell, at);
-      const Voigt<2> sigma = stress<2>(problem_.model().material, e);
+      const Voigt<2> sigma = stress<2>(problem_.model().materials.at_tread(), e);
       double density = 0;
       for (int k = 0; k < 3; ++k) density += sigma[k] * (0.5 * e[k] + ghost_strain[k] - e[k]);
       // Outwards, along the normal, is towards a smaller radius.
@@ -187,7 +187,7 @@ class PressedRing {
     double error = 0;
     visit_inner_edge([&](int cell, const ElasticElement<2>::Point& at, const Vec<2>& normal, double) {
       const Vec<2> tangent{-normal[1], normal[0]};
-      const auto sigma = stress<2>(problem_.model().material, strain(displacement_, cell, at));
+      const auto sigma = stress<2>(problem_.model().materials.at_tread(), strain(displacement_, cell, at));
       error = std::max(error, std::abs(dot<2>(traction<2>(sigma, tangent), tangent) - expected));
     });
     return error;

@@ -4,6 +4,7 @@
 #include "wheelwright/geometry/shapes.h"
 #include "wheelwright/sensitivity/evaluate.h"
 #include "wheelwright/sensitivity/taylor_test.h"
+#include "tests/support.h"
 
 namespace wheelwright {
 namespace {
@@ -12,14 +13,14 @@ RollingModel<3> small_wheel(int degree, int axial_cells) {
   RollingModel<3> model;
   model.grid = {0.20, 0.34, 0.12, 16, {7, 6, axial_cells}};
   model.degree = degree;
-  model.material = {200e6, 0.3};
+  model.materials = Material{200e6, 0.3};
   model.load = 2943;
   model.n_positions = 2;
   model.contact_points = 3;
   return model;
 }
 
-const Criteria<3> strain_energy{{1, std::make_shared<StrainEnergy<3>>()}};
+const WeightedSum<3> strain_energy{{1, std::make_shared<StrainEnergy<3>>()}};
 
 // The same program in a second instantiation: holes that vary along the axle, contact on faces.
 TEST(Rolling3D, ShapeGradientPassesTheTaylorTest) {
@@ -35,7 +36,7 @@ TEST(Rolling3D, ShapeGradientPassesTheTaylorTest) {
     direction.push_back(1 + 0.4 * std::cos(16 * p[1]) + 0.3 * std::sin(15 * p[2]));
   }
   const auto test =
-      taylor_test<3>([&](const LevelSet<3>& shape) { return evaluate<3>(*problem, strain_energy, shape); },
+      taylor_test<3>([&](const LevelSet<3>& shape) { return testing::evaluate_objective<3>(*problem, strain_energy, shape); },
                      psi, direction, model.degree, 2e-5, 3);
   ASSERT_TRUE(test) << test.failure().detail;
   for (double order : test->orders) EXPECT_GT(order, 1.9);

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "wheelwright/functionals/strain_energy.h"
+#include "wheelwright/rolling/rolling_problem.h"
 #include "wheelwright/sensitivity/evaluate.h"
 #include "wheelwright/sensitivity/taylor_test.h"
 
@@ -14,7 +16,7 @@ namespace wheelwright::testing {
 inline RollingModel<2> paper_model(int radial_cells = 28, int angular_cells = 384) {
   RollingModel<2> model;
   model.grid = {0.20, 0.34, 0.12, 16, {radial_cells, angular_cells / 16}};
-  model.material = {200e6, 0.48};
+  model.materials = Material{200e6, 0.48};
   model.load = 300 * 9.81 / 0.12;
   return model;
 }
@@ -61,7 +63,33 @@ inline double relative_difference(const std::vector<double>& a, const std::vecto
   return a.size() == b.size() ? std::sqrt(difference / size) : INFINITY;
 }
 
-inline Criteria<2> strain_energy_alone() { return {{1, std::make_shared<StrainEnergy<2>>()}}; }
+inline WeightedSum<2> strain_energy_alone() { return {{1, std::make_shared<StrainEnergy<2>>()}}; }
+
+/// The evaluation of one function, the objective.
+template <int dim>
+Expected<Evaluation<dim>> evaluate_objective(const StateSolver<dim>& solver, const WeightedSum<dim>& terms,
+                                             const LevelSet<dim>& psi, const Matrix* held_mean = nullptr) {
+  const ShapeFunction<dim> function = objective(terms);
+  auto evaluated = evaluate<dim>(solver, std::span(&function, 1), psi, held_mean);
+  if (!evaluated) return evaluated.failure();
+  return std::move(evaluated->evaluation);
+}
+
+/// The states at all load positions.
+template <int dim>
+Expected<std::shared_ptr<const State<dim>>> all_states(const StateSolver<dim>& solver,
+                                                       const LevelSet<dim>& psi) {
+  return solver.states(psi, solver.all_positions(), Interrupt());
+}
+
+/// A functional summed over the load positions of those states.
+template <int dim>
+double value_of(const Functional<dim>& functional, const StateSolver<dim>& solver, const LevelSet<dim>& psi,
+                const State<dim>& state, const Matrix& mean) {
+  const auto value = functional.evaluate(solver, psi, state, mean);
+  return std::inner_product(value.by_position.begin(), value.by_position.end(),
+                            state.positions().multiplicities.begin(), value.of_shape);
+}
 
 /// A hole whose boundary touches no grid line, and a direction with several wave lengths: where a Taylor test
 /// finds the same cells cut at all its steps.
@@ -79,9 +107,9 @@ inline std::vector<double> smooth_direction(const Lattice<2>& lattice) {
 
 /// The Taylor test of an objective there.
 inline Expected<TaylorTest> generic_taylor_test(const RollingProblem<2>& problem,
-                                                const Criteria<2>& objective) {
+                                                const WeightedSum<2>& terms) {
   const auto psi = generic_hole(problem.model().grid);
-  return taylor_test<2>([&](const LevelSet<2>& shape) { return evaluate<2>(problem, objective, shape); }, psi,
+  return taylor_test<2>([&](const LevelSet<2>& shape) { return evaluate_objective<2>(problem, terms, shape); }, psi,
                         smooth_direction(psi.lattice), problem.model().degree, 2e-5, 3);
 }
 

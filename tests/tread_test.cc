@@ -39,7 +39,7 @@ TEST(TreadRefinement, PressuresConvergeOnTheBaseGrid) {
 TEST(TreadRefinement, HangingNodesKeepRigidMotionsFreeOfForce) {
   auto model = paper_model(7, 96);
   for (const auto& [levels, rounding] : {std::pair{0, 2.5e-13}, {1, 1.2e-11}, {3, 7e-10}}) {
-    const ElementTable<2> table(model.grid, 2, model.material, model.ghost);
+    const ElementTable<2> table(model.grid, 2, model.materials, model.ghost);
     const auto column = tread_column<2>(table, {1, levels, 0}, model.contact, 5);
     ASSERT_TRUE(column);
     // A translation along the column's first radius: polar components turn with the node. The condensed
@@ -95,7 +95,7 @@ double inner_product(const Matrix& a, const Matrix& b) {
 // together.
 TEST(TreadRing, IsReciprocalAndTheSameInSomeColumnsAsInAll) {
   auto model = paper_model(7, 384);
-  const ElementTable<2> table(model.grid, 2, model.material, model.ghost);
+  const ElementTable<2> table(model.grid, 2, model.materials, model.ghost);
   const auto tread = Tread<2>::condense(table, model.tread, model.contact, 5);
   ASSERT_TRUE(tread);
   const int n_rhs = 40, n_columns = tread->n_columns(), n_sectors = model.grid.n_sectors;

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "wheelwright/rolling/rolling_problem.h"
 #include "wheelwright/analysis/rolling_measures.h"
+#include "wheelwright/state/state.h"
 
 namespace wheelwright {
 
@@ -25,13 +25,12 @@ struct RollingAnalysis {
 
 /// Fails as the contact problem does.
 template <int dim>
-Expected<RollingAnalysis> rolling_analysis(const RollingProblem<dim>& problem,
-                                           const RollingSolution<dim>& solution);
+Expected<RollingAnalysis> rolling_analysis(const StateSolver<dim>& solver, const State<dim>& state);
 
 /// All positions under other loads, each started from the load before: [load][position].
 template <int dim>
-Expected<std::vector<std::vector<ContactSummary>>> under_loads(const RollingProblem<dim>& problem,
-                                                               const RollingSolution<dim>& solution,
+Expected<std::vector<std::vector<ContactSummary>>> under_loads(const StateSolver<dim>& solver,
+                                                               const State<dim>& state,
                                                                std::span<const double> loads);
 
 }  // namespace wheelwright

@@ -38,15 +38,15 @@ double mean(std::span<const double> values) {
 }  // namespace
 
 template <int dim>
-ContactSummary contact_summary(const ReducedContact<dim>& contact, const ContactState<dim>& state) {
-  ContactSummary summary{state.rim.towards_ground, 0, 0, 0};
+ContactSummary contact_summary(const ContactPatch<dim>& contact) {
+  ContactSummary summary{
+      .travel = contact.rim.towards_ground, .radial_force = 0, .peak_pressure = 0, .patch_length = 0};
   std::vector<GroundPoint> points;
-  for (int i = 0; i < contact.n_points(); ++i) {
-    const auto& point = contact.points()[i];
-    const double pressure = -state.traction[i][0];
+  for (const auto& point : contact.points) {
+    const double pressure = -point.traction[0];
     summary.radial_force += point.weight * pressure;
     summary.peak_pressure = std::max(summary.peak_pressure, pressure);
-    points.push_back({point.position[1], state.augmented[i][0]});
+    points.push_back({point.position[1], point.augmented[0]});
   }
   summary.patch_length = patch_length(std::move(points));
   return summary;
@@ -77,7 +77,7 @@ RollingMeasures rolling_measures(std::span<const ContactSummary> positions) {
           (greatest_peak - least_peak) / mean(peak)};
 }
 
-template ContactSummary contact_summary(const ReducedContact<2>&, const ContactState<2>&);
-template ContactSummary contact_summary(const ReducedContact<3>&, const ContactState<3>&);
+template ContactSummary contact_summary(const ContactPatch<2>&);
+template ContactSummary contact_summary(const ContactPatch<3>&);
 
 }  // namespace wheelwright

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "wheelwright/contact/reduced_contact.h"
+#include "wheelwright/state/contact_patch.h"
 
 namespace wheelwright {
 
@@ -18,7 +18,7 @@ struct ContactSummary {
 /// The patch ends where the augmented traction between the last point in contact and the next one is zero,
 /// interpolated linearly.
 template <int dim>
-ContactSummary contact_summary(const ReducedContact<dim>& contact, const ContactState<dim>& state);
+ContactSummary contact_summary(const ContactPatch<dim>& contact);
 
 /// How a quantity varies while the wheel rolls.
 struct RollingVariation {

@@ -180,14 +180,14 @@ void stick_turned(const ContactUnknowns<dim>& before, double friction, ContactUn
 
 template <int dim>
 NewtonEnd<dim> newton(const ReducedContact<dim>& contact, ContactUnknowns<dim> start, double fraction,
-                      Damping damping) {
+                      Damping damping, const Interrupt& interrupt) {
   NewtonEnd<dim> end{std::move(start)};
   if (!touches(end.x)) return end;
   const ResidualNorm<dim> norm(contact, end.x);
   const int max_iterations = damping == Damping::residual ? 60 : 200;
   ContactUnknowns<dim> residual = contact.residual(end.x, fraction);
   end.residual = norm(residual);
-  while (end.iterations < max_iterations && std::isfinite(end.residual)) {
+  while (end.iterations < max_iterations && std::isfinite(end.residual) && !interrupt()) {
     auto step = contact.newton_step(end.x, residual);
     if (!step) {
       stick_all(end.x);
@@ -213,11 +213,12 @@ NewtonEnd<dim> newton(const ReducedContact<dim>& contact, ContactUnknowns<dim> s
 
 template <int dim>
 NewtonEnd<dim> newton_in_load_steps(const ReducedContact<dim>& contact, const ColdStart<dim>& cold_start,
-                                    int n_steps) {
+                                    int n_steps, const Interrupt& interrupt) {
   NewtonEnd<dim> end{cold_start(1.0 / n_steps)};
   int iterations = 0;
   for (int k = 1; k <= n_steps; ++k) {
-    end = newton(contact, std::move(end.x), static_cast<double>(k) / n_steps, Damping::residual);
+    end = newton(contact, std::move(end.x), static_cast<double>(k) / n_steps, Damping::residual,
+                 interrupt);
     iterations += end.iterations;
     if (!end.converged) break;
   }
@@ -236,26 +237,28 @@ Failure no_contact(const ReducedContact<dim>& contact, const ContactUnknowns<dim
 template <int dim>
 Expected<ContactState<dim>> solve_contact(const ReducedContact<dim>& contact,
                                           const ColdStart<dim>& cold_start,
-                                          const std::optional<ContactUnknowns<dim>>& warm_start) {
+                                          const std::optional<ContactUnknowns<dim>>& warm_start,
+                                          const Interrupt& interrupt) {
   if (const auto start = cold_start(1); !touches(start)) return no_contact(contact, start);
   NewtonEnd<dim> end;
   std::vector<std::string> tried;
   int iterations = 0;
   const auto attempt = [&](std::string name, const auto& solve) {
-    if (end.converged) return;
+    if (end.converged || interrupt()) return;
     end = solve();
     tried.push_back(std::move(name));
     iterations += end.iterations;
   };
   if (warm_start)
-    attempt("a neighbouring solution", [&] { return newton(contact, *warm_start, 1, Damping::residual); });
-  attempt("a cold start", [&] { return newton(contact, cold_start(1), 1, Damping::residual); });
-  attempt("a damped contact set", [&] { return newton(contact, cold_start(1), 1, Damping::contact_set); });
+    attempt("a neighbouring solution", [&] { return newton(contact, *warm_start, 1, Damping::residual, interrupt); });
+  attempt("a cold start", [&] { return newton(contact, cold_start(1), 1, Damping::residual, interrupt); });
+  attempt("a damped contact set", [&] { return newton(contact, cold_start(1), 1, Damping::contact_set, interrupt); });
   for (const int n_steps : {2, 4, 8})
     attempt(fmt::format("{} load steps", n_steps),
-            [&] { return newton_in_load_steps(contact, cold_start, n_steps); });
+            [&] { return newton_in_load_steps(contact, cold_start, n_steps, interrupt); });
 
   if (end.converged && touches(end.x)) return contact.state(end.x, iterations);
+  if (interrupt()) return Failure{FailureReason::interrupted, "while the contact was solved"};
   if (!touches(end.x)) return no_contact(contact, end.x);
   return Failure{
       FailureReason::newton_stalled,
@@ -266,7 +269,8 @@ Expected<ContactState<dim>> solve_contact(const ReducedContact<dim>& contact,
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                    \
   template Expected<ContactState<dim>> solve_contact(const ReducedContact<dim>&, const ColdStart<dim>&, \
-                                                     const std::optional<ContactUnknowns<dim>>&);
+                                                     const std::optional<ContactUnknowns<dim>>&, \
+                                                     const Interrupt&);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)
 #undef WHEELWRIGHT_INSTANTIATE

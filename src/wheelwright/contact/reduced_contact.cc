@@ -29,13 +29,13 @@ ReducedContact<dim>::ReducedContact(const SurfaceCompliance<dim>& surface, const
                                     const PolarGrid<dim>& grid, GroundPosition ground, ContactZone zone,
                                     RimControl rim, const Preload& preload)
     : zone_(zone),
+      ring_columns_(tread.n_columns()),
       rim_(std::move(rim)),
       friction_(tread.form().friction),
       tau_(tread.form().tau()),
       theta_(tread.form().theta()),
       preload_resultant_(preload.resultant) {
   const double column_angle = grid.cell_size()[1];
-  const int per_zone_column = static_cast<int>(tread.points().size());
   for (int c = 0; c < zone.n_columns; ++c) {
     const double angle = (zone.first_column + c - ground.column - ground.offset) * column_angle;
     for (const auto& point : tread.points()) {
@@ -44,17 +44,16 @@ ReducedContact<dim>::ReducedContact(const SurfaceCompliance<dim>& surface, const
     }
   }
 
+  const ObservationRows<dim> rows = observation_rows();
   if (preload.observations.rows() > 0)
-    for (int c = 0; c < zone.n_columns; ++c) {
-      const double* observed =
-          preload.observations.column(wrap(zone.first_column + c, preload.observations.columns()));
-      for (int q = 0; q < per_zone_column; ++q) {
-        const Point& point = points_[c * per_zone_column + q];
-        Vec<dim> z;
-        for (int d = 0; d < dim; ++d)
-          z[d] = tau_ * observed[2 * dim * q + dim + d] - point.gamma * observed[2 * dim * q + d];
-        preload_.push_back(rotated<dim>(z, point.angle));
-      }
+    for (int i = 0; i < n_points(); ++i) {
+      const double* observed = preload.observations.column(
+          wrap(zone.first_column + zone_column(i), preload.observations.columns()));
+      const double *displacement = observed + rows.displacement(point_of_column(i)),
+                   *traction = observed + rows.traction(point_of_column(i));
+      Vec<dim> z;
+      for (int d = 0; d < dim; ++d) z[d] = tau_ * traction[d] - points_[i].gamma * displacement[d];
+      preload_.push_back(rotated<dim>(z, points_[i].angle));
     }
 
   const int n = n_points() * components();
@@ -66,12 +65,12 @@ ReducedContact<dim>::ReducedContact(const SurfaceCompliance<dim>& surface, const
 
 template <int dim>
 void ReducedContact<dim>::set_flexibility(int to_column, int from_column, const Matrix& block) {
-  const int per_column = n_points() / zone_.n_columns, n_components = components();
-  const int first_to = per_column * to_column, first_from = per_column * from_column;
+  const int n_components = components();
+  const int first_to = per_column() * to_column, first_from = per_column() * from_column;
   const auto to_axes = ground_axes<dim>(points_[first_to].angle);
   const auto from_axes = ground_axes<dim>(points_[first_from].angle);
-  for (int from = 0; from < per_column; ++from)
-    for (int to = 0; to < per_column; ++to)
+  for (int from = 0; from < per_column(); ++from)
+    for (int to = 0; to < per_column(); ++to)
       for (int j = 0; j < n_components; ++j) {
         Vec<dim> sample{};
         for (int k = 0; k < dim; ++k)
@@ -117,8 +116,7 @@ ContactUnknowns<dim> ReducedContact<dim>::undeformed_start(double fraction) cons
 
 template <int dim>
 ContactUnknowns<dim> ReducedContact<dim>::start_from(const ContactState<dim>& other) const {
-  const int per_column = n_points() / zone_.n_columns;
-  const int shift = per_column * (other.zone.n_columns - zone_.n_columns) / 2;
+  const int shift = per_column() * (other.zone.n_columns - zone_.n_columns) / 2;
   const int n_other = static_cast<int>(other.augmented.size());
   ContactUnknowns<dim> x{{}, std::vector<double>(n_free())};
   for (int i = 0; i < n_points(); ++i) {
@@ -276,61 +274,89 @@ double ReducedContact<dim>::amplitude(const RimMotion& motion) const {
 
 template <int dim>
 Matrix ReducedContact<dim>::contact_loads(const ContactState<dim>& state) const {
-  const int per_column = n_points() / zone_.n_columns;
-  Matrix loads(2 * dim * per_column, zone_.n_columns);
+  const ObservationRows<dim> rows = observation_rows();
+  Matrix loads(rows.n_contact(), zone_.n_columns);
   for (int i = 0; i < n_points(); ++i) {
     const Point& point = points_[i];
     const Vec<dim> traction = rotated<dim>(state.traction[i], -point.angle);
-    const int row = 2 * dim * (i % per_column), column = i / per_column;
+    double* load = loads.column(zone_column(i));
+    const int q = point_of_column(i);
     for (int d = 0; d < dim; ++d) {
-      loads(row + d, column) = point.weight * traction[d];
-      loads(row + dim + d, column) = -theta_ / point.gamma * point.weight * traction[d];
+      load[rows.displacement(q) + d] = point.weight * traction[d];
+      load[rows.traction(q) + d] = -theta_ / point.gamma * point.weight * traction[d];
     }
   }
   return loads;
 }
 
 template <int dim>
-Expected<ContactAdjoint> ReducedContact<dim>::adjoint(const ContactState<dim>& state,
-                                                      const Matrix& observations) const {
+Expected<std::vector<ContactAdjoint>> ReducedContact<dim>::adjoints(
+    const ContactState<dim>& state, std::span<const Matrix> observations) const {
   // With Te p = h + F^T m: m - W Phi'^T F^T m + sum_k beta_k W Phi'^T m_k = W Phi'^T h and, for every free
   // motion, sum gamma m.m_k = 0. m vanishes off the active points; on them the matrix is newton_step()'s,
   // transposed.
-  const int nc = components(), per_column = n_points() / zone_.n_columns;
+  const int nc = components(), n_functions = static_cast<int>(observations.size());
+  const ObservationRows<dim> rows = observation_rows();
   const auto active = active_rows(state.augmented);
   const int n_active = static_cast<int>(active.size());
   const Matrix forward = active_system(state.augmented, active, response_tangent(state.augmented, active));
-  Matrix a(forward.rows(), forward.rows()), m(forward.rows(), 1);
+  Matrix a(forward.rows(), forward.rows()), m(forward.rows(), n_functions);
   for (int j = 0; j < a.columns(); ++j)
     for (int i = 0; i < a.rows(); ++i) a(i, j) = forward(j, i);
   for (int k = 0; k < n_active; ++k) {
-    const int i = active[k] / nc, component = active[k] % nc;
+    const int i = active[k] / nc, component = active[k] % nc, q = point_of_column(i);
     const Point& point = points_[i];
-    const int row = 2 * dim * (i % per_column), column = i / per_column;
-    Vec<dim> tested;
-    for (int d = 0; d < dim; ++d)
-      tested[d] = theta_ / point.gamma * observations(row + dim + d, column) - observations(row + d, column);
-    tested = rotated<dim>(tested, point.angle);
     const auto r = contact_response<dim>(state.augmented[i], friction_);
-    for (int d = 0; d < nc; ++d) m(k, 0) += point.weight * r.tangent[d][component] * tested[d];
+    for (int f = 0; f < n_functions; ++f) {
+      const double* observed = observations[f].column(zone_column(i));
+      Vec<dim> tested;
+      for (int d = 0; d < dim; ++d)
+        tested[d] =
+            theta_ / point.gamma * observed[rows.traction(q) + d] - observed[rows.displacement(q) + d];
+      tested = rotated<dim>(tested, point.angle);
+      for (int d = 0; d < nc; ++d) m(k, f) += point.weight * r.tangent[d][component] * tested[d];
+    }
   }
   if (!lu_solve(a, m)) return Failure{FailureReason::no_contact, "the adjoint contact system is singular"};
 
-  std::vector<Vec<dim>> multiplier(n_points(), Vec<dim>{});
-  for (int k = 0; k < n_active; ++k) multiplier[active[k] / nc][active[k] % nc] = m(k, 0);
-  Matrix loads(2 * dim * per_column, zone_.n_columns);
-  for (int i = 0; i < n_points(); ++i) {
-    const Point& point = points_[i];
-    const Vec<dim> value = rotated<dim>(multiplier[i], -point.angle);
-    const int row = 2 * dim * (i % per_column), column = i / per_column;
-    for (int d = 0; d < dim; ++d) {
-      loads(row + d, column) = point.gamma * value[d];
-      loads(row + dim + d, column) = -tau_ * value[d];
+  std::vector<ContactAdjoint> result;
+  for (int f = 0; f < n_functions; ++f) {
+    std::vector<Vec<dim>> multiplier(n_points(), Vec<dim>{});
+    for (int k = 0; k < n_active; ++k) multiplier[active[k] / nc][active[k] % nc] = m(k, f);
+    ContactAdjoint adjoint{Matrix(rows.n_contact(), zone_.n_columns), {}};
+    for (int i = 0; i < n_points(); ++i) {
+      const Point& point = points_[i];
+      const Vec<dim> value = rotated<dim>(multiplier[i], -point.angle);
+      double* load = adjoint.loads.column(zone_column(i));
+      const int q = point_of_column(i);
+      for (int d = 0; d < dim; ++d) {
+        load[rows.displacement(q) + d] = point.gamma * value[d];
+        load[rows.traction(q) + d] = -tau_ * value[d];
+      }
     }
+    for (int k = 0; k < n_free(); ++k)
+      adjoint.rim = combined(adjoint.rim, -m(n_active + k, f), rim_.free[k].direction);
+    result.push_back(std::move(adjoint));
   }
-  RimMotion rim;
-  for (int k = 0; k < n_free(); ++k) rim = combined(rim, -m(n_active + k, 0), rim_.free[k].direction);
-  return ContactAdjoint{std::move(loads), rim};
+  return result;
+}
+
+template <int dim>
+ContactPatch<dim> ReducedContact<dim>::patch(const ContactState<dim>& state) const {
+  ContactPatch<dim> patch{.points = {},
+                          .rim = state.rim,
+                          .rim_force = state.rim_force,
+                          .newton_iterations = state.newton_iterations};
+  for (int i = 0; i < n_points(); ++i)
+    patch.points.push_back({.column = wrap(zone_.first_column + zone_column(i), ring_columns_),
+                            .point = point_of_column(i),
+                            .angle = points_[i].angle,
+                            .position = points_[i].position,
+                            .gap = points_[i].gap,
+                            .weight = points_[i].weight,
+                            .augmented = state.augmented[i],
+                            .traction = state.traction[i]});
+  return patch;
 }
 
 template class ReducedContact<2>;

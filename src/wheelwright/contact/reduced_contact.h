@@ -5,6 +5,7 @@
 #include "wheelwright/state/load_positions.h"
 #include "wheelwright/state/rim.h"
 #include "wheelwright/contact/contact_law.h"
+#include "wheelwright/state/contact_patch.h"
 #include "wheelwright/ring/surface_compliance.h"
 
 namespace wheelwright {
@@ -102,12 +103,21 @@ class ReducedContact {
   /// Loads on the zone's observations (rows as in Tread, one column a zone column): -Te^T W Phi.
   Matrix contact_loads(const ContactState<dim>& state) const;
 
-  /// The multiplier of the adjoint problem (79): the transpose of Newton's last linear system.
-  /// `observations` of p without the contact part, in the zone.
-  Expected<ContactAdjoint> adjoint(const ContactState<dim>& state, const Matrix& observations) const;
+  /// The multipliers of several functions' adjoint problems (79): the transpose of Newton's last linear system,
+  /// factored once. `observations` of every p without the contact part, in the zone.
+  Expected<std::vector<ContactAdjoint>> adjoints(const ContactState<dim>& state,
+                                                 std::span<const Matrix> observations) const;
+
+  /// What a solution looks like from outside.
+  ContactPatch<dim> patch(const ContactState<dim>& state) const;
 
  private:
   int components() const { return friction_ > 0 ? dim : 1; }
+  /// The contact points of a column, and the column and the point in it of one of the zone's points.
+  int per_column() const { return n_points() / zone_.n_columns; }
+  int zone_column(int point) const { return point / per_column(); }
+  int point_of_column(int point) const { return point % per_column(); }
+  ObservationRows<dim> observation_rows() const { return {per_column(), 0}; }
   int n_free() const { return static_cast<int>(rim_.free.size()); }
   /// The part of the flexibility between two of the zone's columns; `block` is in the columns' frames.
   void set_flexibility(int to_column, int from_column, const Matrix& block);
@@ -118,6 +128,7 @@ class ReducedContact {
                        const Matrix& tangent) const;
 
   ContactZone zone_;
+  int ring_columns_;
   RimControl rim_;
   double friction_, tau_, theta_;
   std::vector<Point> points_;

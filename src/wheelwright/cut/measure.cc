@@ -54,6 +54,22 @@ double material_measure(const LevelSet<dim>& psi) {
 }
 
 template <int dim>
+double material_measure(const CutDomain<dim>& domain, int map_degree) {
+  const PolarGrid<dim>& grid = domain.grid;
+  std::vector<double> full_cell(grid.cells[0]);
+  for (int radial = 0; radial < grid.cells[0]; ++radial)
+    full_cell[radial] = cell_measure<dim>(CellMap<dim>(grid, map_degree, {radial}), map_degree,
+                                          unit_cell_rule<dim>(gauss_points));
+  double sum = 0;
+  for (int cell = 0; cell < grid.n_cells(); ++cell)
+    if (domain.kinds[cell] == CellKind::inside) sum += full_cell[grid.cell_position(cell)[0]];
+  for (const CutCell<dim>& cut : domain.cut)
+    sum += cell_measure<dim>(CellMap<dim>(grid, map_degree, grid.cell_position(cut.cell)), map_degree,
+                             cut.material);
+  return sum;
+}
+
+template <int dim>
 std::vector<SurfaceSample<dim>> boundary_samples(const LevelSet<dim>& psi) {
   const PolarGrid<dim>& grid = psi.lattice.grid();
   const int degree = psi.lattice.degree();
@@ -65,8 +81,9 @@ std::vector<SurfaceSample<dim>> boundary_samples(const LevelSet<dim>& psi) {
     for (const auto& point : split->boundary) {
       const auto surface =
           map_surface<dim>(map.jacobian(ShapeFunctions<dim>(degree, point.xi)), point.normal);
-      samples.push_back({cell, point.xi, rotated<dim>(surface.normal, position[1] * grid.cell_size()[1]),
-                         point.weight * surface.scale, 1});
+      samples.push_back({{cell, point.xi, rotated<dim>(surface.normal, position[1] * grid.cell_size()[1]),
+                          point.weight * surface.scale},
+                         1});
     }
   });
   return samples;
@@ -74,6 +91,8 @@ std::vector<SurfaceSample<dim>> boundary_samples(const LevelSet<dim>& psi) {
 
 template double material_measure(const LevelSet<2>&);
 template double material_measure(const LevelSet<3>&);
+template double material_measure(const CutDomain<2>&, int);
+template double material_measure(const CutDomain<3>&, int);
 template std::vector<SurfaceSample<2>> boundary_samples(const LevelSet<2>&);
 template std::vector<SurfaceSample<3>> boundary_samples(const LevelSet<3>&);
 

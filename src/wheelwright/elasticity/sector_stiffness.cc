@@ -5,20 +5,21 @@
 namespace wheelwright {
 
 template <int dim>
-ElementTable<dim>::ElementTable(const PolarGrid<dim>& grid, int degree, const Material& material,
+ElementTable<dim>::ElementTable(const PolarGrid<dim>& grid, int degree, const Materials& materials,
                                 const GhostPenalty& ghost)
-    : grid_(grid), degree_(degree), material_(material), ghost_(ghost) {
+    : grid_(grid), degree_(degree), materials_(materials), ghost_(ghost) {
   const auto rule = unit_cell_rule<dim>(degree + 2);
   for (int radial = 0; radial < grid.cells[0]; ++radial) {
     elements_.emplace_back(grid, degree, std::array<int, dim>{radial});
-    stiffness_.push_back(cell_stiffness<dim>(elements_.back(), material, rule));
+    stiffness_.push_back(cell_stiffness<dim>(elements_.back(), materials.in_row(radial), rule));
   }
   const double column_angle = grid.cell_size()[1];
   for (int radial = 0; radial < grid.cells[0]; ++radial) {
     for (int axis = 0; axis < dim; ++axis) {
       const int plus = axis == 0 ? std::min(radial + 1, grid.cells[0] - 1) : radial;
       ghosts_.push_back(ghost_stiffness<dim>(elements_[radial], elements_[plus], axis,
-                                             axis == 1 ? column_angle : 0.0, material, ghost));
+                                             axis == 1 ? column_angle : 0.0,
+                                             materials.in_row(radial), ghost));
     }
   }
 }
@@ -54,8 +55,9 @@ SectorStiffness<dim> sector_stiffness(const CutDomain<dim>& domain, const Elemen
   std::vector<Matrix> cut_stiffness(domain.cut.size());
   parallel_for(static_cast<int>(domain.cut.size()), [&](int i) {
     const CutCell<dim>& cut = domain.cut[i];
+    const int radial = grid.cell_position(cut.cell)[0];
     cut_stiffness[i] =
-        cell_stiffness<dim>(table.element(grid.cell_position(cut.cell)[0]), table.material(), cut.material);
+        cell_stiffness<dim>(table.element(radial), table.materials().in_row(radial), cut.material);
   });
   for (size_t i = 0; i < domain.cut.size(); ++i) matrix.add(cell_nodes[domain.cut[i].cell], cut_stiffness[i]);
   for (const auto& ghost : sector.ghosts) matrix.add(ghost.nodes, *ghost.stiffness);

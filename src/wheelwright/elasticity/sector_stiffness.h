@@ -1,6 +1,7 @@
 #pragma once
 
 #include "wheelwright/elasticity/element.h"
+#include "wheelwright/elasticity/materials.h"
 #include "wheelwright/elasticity/stencil_matrix.h"
 
 namespace wheelwright {
@@ -10,11 +11,11 @@ namespace wheelwright {
 template <int dim>
 class ElementTable {
  public:
-  ElementTable(const PolarGrid<dim>& grid, int degree, const Material& material, const GhostPenalty& ghost);
+  ElementTable(const PolarGrid<dim>& grid, int degree, const Materials& materials, const GhostPenalty& ghost);
 
   const PolarGrid<dim>& grid() const { return grid_; }
   int degree() const { return degree_; }
-  const Material& material() const { return material_; }
+  const Materials& materials() const { return materials_; }
   const GhostPenalty& ghost() const { return ghost_; }
 
   const ElasticElement<dim>& element(int radial) const { return elements_[radial]; }
@@ -25,7 +26,7 @@ class ElementTable {
  private:
   PolarGrid<dim> grid_;
   int degree_;
-  Material material_;
+  Materials materials_;
   GhostPenalty ghost_;
   std::vector<ElasticElement<dim>> elements_;
   std::vector<Matrix> stiffness_;

@@ -1,65 +1,44 @@
 #pragma once
 
-#include <memory>
-#include <numeric>
 #include <string>
-#include <vector>
 
-#include "wheelwright/rolling/rolling_problem.h"
+#include "wheelwright/state/state.h"
 
 namespace wheelwright {
 
-/// The derivative of a criterion's share J_i of every position i with respect to its displacement v, as
-/// loads: with K the ring's stiffness and T the tread's observations (RollingSolution's columns and rows),
-///   -dJ_i/dv = -state_weight K v + ghost_weight G v + T^T observations, G the ghost penalty.
-/// An empty matrix is zero.
-struct AdjointLoads {
-  double state_weight = 0;
-  double ghost_weight = 0;
-  Matrix observations;
-};
-
-/// A criterion at one shape.
-struct CriterionTerm {
-  std::vector<double> values;  ///< J_i of every position that was solved for, the same as its mirror image's
-  AdjointLoads loads;
-
-  /// Summed over the load positions of one sector.
-  double value(const LoadPositions& positions) const {
-    return std::inner_product(values.begin(), values.end(), positions.multiplicities.begin(), 0.0);
-  }
-};
-
-/// A criterion of the form (36), summed over the load positions. To add one: a file with a class like this, a
-/// finite-difference test, and its line in the list of criteria
-/// (run/model.cc).
+/// A functional at one shape and its states.
 template <int dim>
-class Criterion {
+struct FunctionalValue {
+  /// The part that depends on the shape alone, and the density of its shape derivative at State::boundary();
+  /// empty: zero.
+  double of_shape = 0;
+  std::vector<double> gradient_of_shape = {};
+
+  /// The part that depends on the states: J_i of every position that was solved for, the same as that of the
+  /// position's mirror image; empty: zero. And how it depends on them.
+  std::vector<double> by_position = {};
+  FunctionalDerivative<dim> derivative = {};
+
+  /// Whether the tread loads are derivatives with respect to deviations from the mean over the positions.
+  bool compares_with_mean = false;
+};
+
+/// A functional of the form (36): integrals over the material and over its boundary. It depends on the states of
+/// the load positions by way of the strain energy, of what the tread observes and of integrals over the
+/// material, and on the shape itself. To add one: a file with a class like this, its Taylor test, and its line in
+/// the list of functionals (run/functionals.cc).
+template <int dim>
+class Functional {
  public:
-  virtual ~Criterion() = default;
+  virtual ~Functional() = default;
 
   /// As in the case file and in history files.
   virtual std::string name() const = 0;
 
-  /// `mean`: what mean_observations() gives, of this solution or held from an earlier shape. At this
-  /// solution's own mean the loads are the exact derivative: deviations sum to zero over the positions, so
-  /// that the mean's own derivative drops out.
-  virtual CriterionTerm evaluate(const RollingProblem<dim>& problem, const RollingSolution<dim>& solution,
-                                 const Matrix& mean) const = 0;
-
-  /// M(u, x) of (36) at a point of the moving boundary, per unit volume; zero for what lives at the tread. A
-  /// quadratic form of the strain: only so is its sum over the load cases that over their modes.
-  virtual double boundary_density(const Voigt<dim>&, const Voigt<dim>&) const { return 0; }
+  /// `mean`: what mean_observations() gives, of these states or held from an earlier shape. The derivative is that
+  /// at a held mean.
+  virtual FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
+                                        const State<dim>& state, const Matrix& mean) const = 0;
 };
-
-/// A term of the objective (6).
-template <int dim>
-struct WeightedCriterion {
-  double weight;
-  std::shared_ptr<const Criterion<dim>> criterion;
-};
-
-template <int dim>
-using Criteria = std::vector<WeightedCriterion<dim>>;
 
 }  // namespace wheelwright

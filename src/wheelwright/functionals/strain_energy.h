@@ -6,12 +6,11 @@ namespace wheelwright {
 
 /// J_e (3), the strain energy.
 template <int dim>
-class StrainEnergy : public Criterion<dim> {
+class StrainEnergy : public Functional<dim> {
  public:
   std::string name() const override { return "strain_energy"; }
-  CriterionTerm evaluate(const RollingProblem<dim>& problem, const RollingSolution<dim>& solution,
-                         const Matrix& mean) const override;
-  double boundary_density(const Voigt<dim>& strain, const Voigt<dim>& stress) const override;
+  FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi, const State<dim>& state,
+                                const Matrix& mean) const override;
 };
 
 }  // namespace wheelwright

@@ -5,27 +5,28 @@
 namespace wheelwright {
 
 template <int dim>
-CriterionTerm UniformityAnnulus<dim>::evaluate(const RollingProblem<dim>& problem,
-                                               const RollingSolution<dim>& solution,
-                                               const Matrix& mean) const {
-  const Tread<dim>& tread = problem.tread();
-  const auto& points = tread.column().annulus;
-  const Matrix deviation = deviation_from_mean(problem, solution, mean);
-  const double epsilon = tread.rows() * problem.model().grid.cell_size()[0];
-  const double scale = length_ / (problem.model().material.youngs_modulus * epsilon);
-  CriterionTerm term{std::vector<double>(solution.positions.size()),
-                     {0, 0, Matrix(deviation.rows(), deviation.columns())}};
+FunctionalValue<dim> UniformityAnnulus<dim>::evaluate(const StateSolver<dim>& solver, const LevelSet<dim>&,
+                                                      const State<dim>& state, const Matrix& mean) const {
+  const TreadSurface<dim>& tread = solver.tread_surface();
+  const ObservationRows<dim> rows = tread.rows();
+  const Matrix deviation = deviation_from_mean(tread, state.positions(), state.observations(), mean);
+  const double scale =
+      length_ / (solver.model().materials.at_tread().youngs_modulus * tread.annulus_thickness);
+  FunctionalValue<dim> value{
+      .by_position = std::vector<double>(state.positions().size()),
+      .derivative = {.tread_loads = Matrix(deviation.rows(), deviation.columns())},
+      .compares_with_mean = true};
   for (int j = 0; j < deviation.columns(); ++j) {
-    double& value = term.values[j / problem.tread().n_columns()];
-    for (size_t q = 0; q < points.size(); ++q)
-      for (int d = 0; d < dim; ++d) {
-        const int row = tread.n_contact() + dim * static_cast<int>(q) + d;
-        const double weight = scale * points[q].weight, t = deviation(row, j);
-        value += 0.5 * weight * t * t;
-        term.loads.observations(row, j) = -weight * t;  // (63)
+    const double* observed = deviation.column(j);
+    double* load = value.derivative.tread_loads.column(j);
+    for (int q = 0; q < rows.n_annulus_points; ++q)
+      for (int row = rows.annulus_traction(q); row < rows.annulus_traction(q) + dim; ++row) {
+        const double weight = scale * tread.annulus_weights[q];
+        value.by_position[j / tread.n_columns] += 0.5 * weight * observed[row] * observed[row];
+        load[row] = -weight * observed[row];  // (63)
       }
   }
-  return term;
+  return value;
 }
 
 template class UniformityAnnulus<2>;

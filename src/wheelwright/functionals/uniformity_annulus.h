@@ -7,14 +7,14 @@ namespace wheelwright {
 /// J_p1 (60): int over the annulus Gamma_C^epsilon of L/(2 E epsilon) |sigma(u)n - p_mean|^2, n radial. The
 /// annulus is the tread of the model, whose TreadGrid must ask for annulus points.
 template <int dim>
-class UniformityAnnulus : public Criterion<dim> {
+class UniformityAnnulus : public Functional<dim> {
  public:
   /// `length`: the characteristic length L [m]; the paper takes epsilon.
   explicit UniformityAnnulus(double length) : length_(length) {}
 
   std::string name() const override { return "uniformity_annulus"; }
-  CriterionTerm evaluate(const RollingProblem<dim>& problem, const RollingSolution<dim>& solution,
-                         const Matrix& mean) const override;
+  FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi, const State<dim>& state,
+                                const Matrix& mean) const override;
 
  private:
   double length_;

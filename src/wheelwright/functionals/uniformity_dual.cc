@@ -5,37 +5,39 @@
 namespace wheelwright {
 
 template <int dim>
-Matrix traction_deviation(const RollingProblem<dim>& problem, const RollingSolution<dim>& solution,
-                          const Matrix& mean) {
-  const Matrix deviation = deviation_from_mean(problem, solution, mean);
-  Matrix tractions(dim * static_cast<int>(problem.tread().points().size()), deviation.columns());
+Matrix traction_deviation(const TreadSurface<dim>& tread, const State<dim>& state, const Matrix& mean) {
+  const ObservationRows<dim> rows = tread.rows();
+  const Matrix deviation = deviation_from_mean(tread, state.positions(), state.observations(), mean);
+  Matrix tractions(dim * rows.n_points, deviation.columns());
   for (int j = 0; j < tractions.columns(); ++j)
-    for (int i = 0; i < tractions.rows(); ++i)
-      tractions(i, j) = deviation(2 * dim * (i / dim) + dim + i % dim, j);
+    for (int q = 0; q < rows.n_points; ++q)
+      std::copy_n(deviation.column(j) + rows.traction(q), dim, tractions.column(j) + dim * q);
   return tractions;
 }
 
 template <int dim>
-CriterionTerm UniformityDual<dim>::evaluate(const RollingProblem<dim>& problem,
-                                            const RollingSolution<dim>& solution, const Matrix& mean) const {
-  const Matrix tractions = traction_deviation(problem, solution, mean);
-  const Matrix image = (*image_)(tractions);
-  CriterionTerm term{std::vector<double>(solution.positions.size()),
-                     {0, 0, Matrix(solution.observations.rows(), tractions.columns())}};
-  for (int j = 0; j < tractions.columns(); ++j) {
-    double& value = term.values[j / problem.tread().n_columns()];
-    for (int i = 0; i < tractions.rows(); ++i) {
-      const double weight = problem.tread().points()[i / dim].weight;
-      value += 0.5 * weight * tractions(i, j) * image(i, j);
-      term.loads.observations(2 * dim * (i / dim) + dim + i % dim, j) = -weight * image(i, j);  // (72)
-    }
-  }
-  return term;
+FunctionalValue<dim> UniformityDual<dim>::evaluate(const StateSolver<dim>& solver, const LevelSet<dim>&,
+                                                   const State<dim>& state, const Matrix& mean) const {
+  const TreadSurface<dim>& tread = solver.tread_surface();
+  const ObservationRows<dim> rows = tread.rows();
+  const Matrix tractions = traction_deviation(tread, state, mean);
+  const Matrix image = neumann_to_dirichlet_(tractions);
+  FunctionalValue<dim> value{.by_position = std::vector<double>(state.positions().size()),
+                             .derivative = {.tread_loads = Matrix(rows.size(), tractions.columns())},
+                             .compares_with_mean = true};
+  for (int j = 0; j < tractions.columns(); ++j)
+    for (int q = 0; q < rows.n_points; ++q)
+      for (int d = 0; d < dim; ++d) {
+        const double weight = tread.points[q].weight, w = image(dim * q + d, j);
+        value.by_position[j / tread.n_columns] += 0.5 * weight * tractions(dim * q + d, j) * w;
+        value.derivative.tread_loads(rows.traction(q) + d, j) = -weight * w;  // (72)
+      }
+  return value;
 }
 
 template class UniformityDual<2>;
 template class UniformityDual<3>;
-template Matrix traction_deviation(const RollingProblem<2>&, const RollingSolution<2>&, const Matrix&);
-template Matrix traction_deviation(const RollingProblem<3>&, const RollingSolution<3>&, const Matrix&);
+template Matrix traction_deviation(const TreadSurface<2>&, const State<2>&, const Matrix&);
+template Matrix traction_deviation(const TreadSurface<3>&, const State<3>&, const Matrix&);
 
 }  // namespace wheelwright

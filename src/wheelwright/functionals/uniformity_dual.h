@@ -1,29 +1,30 @@
 #pragma once
 
 #include "wheelwright/functionals/functional.h"
-#include "wheelwright/rolling/neumann_to_dirichlet.h"
 
 namespace wheelwright {
 
-/// J_p2 (61), (71): half the squared H^-1/2 norm of sigma(u)n - p_mean on Gamma_C, by the work of the
-/// traction on its Neumann-to-Dirichlet image.
+/// J_p2 (61), (71): half the squared H^-1/2 norm of sigma(u)n - p_mean on Gamma_C, by the work of the traction on
+/// its Neumann-to-Dirichlet image.
 template <int dim>
-class UniformityDual : public Criterion<dim> {
+class UniformityDual : public Functional<dim> {
  public:
-  explicit UniformityDual(std::shared_ptr<const NeumannToDirichlet<dim>> image) : image_(std::move(image)) {}
+  using TractionMap = typename StateSolver<dim>::TractionMap;
+
+  /// `neumann_to_dirichlet`: the solver's operator of that name.
+  explicit UniformityDual(TractionMap neumann_to_dirichlet)
+      : neumann_to_dirichlet_(std::move(neumann_to_dirichlet)) {}
 
   std::string name() const override { return "uniformity_dual"; }
-  CriterionTerm evaluate(const RollingProblem<dim>& problem, const RollingSolution<dim>& solution,
-                         const Matrix& mean) const override;
+  FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi, const State<dim>& state,
+                                const Matrix& mean) const override;
 
  private:
-  std::shared_ptr<const NeumannToDirichlet<dim>> image_;
+  TractionMap neumann_to_dirichlet_;
 };
 
-/// sigma(u)n - p_mean at the tread's points: dim rows a point, in the layout of
-/// RollingSolution::observations.
+/// sigma(u)n - p_mean at the tread's points: dim rows per point, columns as State::observations().
 template <int dim>
-Matrix traction_deviation(const RollingProblem<dim>& problem, const RollingSolution<dim>& solution,
-                          const Matrix& mean);
+Matrix traction_deviation(const TreadSurface<dim>& tread, const State<dim>& state, const Matrix& mean);
 
 }  // namespace wheelwright

@@ -7,14 +7,14 @@ namespace wheelwright {
 /// The naive uniformity criterion (4): int_Gamma_C L/(2E) |sigma(u)n - p_mean|^2. Not continuous in the data
 /// of the problem; for comparison.
 template <int dim>
-class UniformityL2 : public Criterion<dim> {
+class UniformityL2 : public Functional<dim> {
  public:
   /// `length`: the characteristic length L [m].
   explicit UniformityL2(double length) : length_(length) {}
 
   std::string name() const override { return "uniformity_l2"; }
-  CriterionTerm evaluate(const RollingProblem<dim>& problem, const RollingSolution<dim>& solution,
-                         const Matrix& mean) const override;
+  FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi, const State<dim>& state,
+                                const Matrix& mean) const override;
 
  private:
   double length_;

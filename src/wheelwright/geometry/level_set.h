@@ -28,15 +28,19 @@ struct LevelSet {
   }
 };
 
-/// A point on the moving boundary {psi = 0} of one sector, with a weight and a value: the carrier of surface
-/// integrals and of the shape gradient between the layers.
+/// A quadrature point of the moving boundary {psi = 0} of one sector.
 template <int dim>
-struct SurfaceSample {
+struct SurfacePoint {
   int cell;         ///< cell of the sector's grid
   Vec<dim> xi;      ///< position in the unit cell
   Vec<dim> normal;  ///< unit outward normal of the material, Cartesian, body frame
   double weight;    ///< boundary measure dS [m, or m^2 when dim = 3]
-  double value;     ///< what is sampled, e.g. the density G of the shape derivative (42)
+};
+
+/// A value at such a point, e.g. the density G of the shape derivative (42).
+template <int dim>
+struct SurfaceSample : SurfacePoint<dim> {
+  double value;
 };
 
 }  // namespace wheelwright

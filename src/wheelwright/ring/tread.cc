@@ -50,14 +50,14 @@ std::vector<Matrix> line_responses(const CyclicChain& lines, int n_line) {
 template <int dim, class OfTraction, class OfDisplacement>
 Matrix contact_rows(const std::vector<TreadPoint<dim>>& points, OfTraction of_traction,
                     OfDisplacement of_displacement) {
-  const int n = dim * static_cast<int>(points.size());
-  Matrix rows(n, 2 * n);
-  for (int i = 0; i < n; ++i) {
-    const TreadPoint<dim>& point = points[i / dim];
-    const int observed = 2 * dim * (i / dim) + i % dim;
-    rows(i, observed) = -of_displacement(point);
-    rows(i, observed + dim) = of_traction(point);
-  }
+  const int n_points = static_cast<int>(points.size());
+  const ObservationRows<dim> observed{n_points, 0};
+  Matrix rows(dim * n_points, observed.n_contact());
+  for (int q = 0; q < n_points; ++q)
+    for (int d = 0; d < dim; ++d) {
+      rows(dim * q + d, observed.displacement(q) + d) = -of_displacement(points[q]);
+      rows(dim * q + d, observed.traction(q) + d) = of_traction(points[q]);
+    }
   return rows;
 }
 
@@ -91,13 +91,13 @@ Expected<Tread<dim>> Tread<dim>::condense(const ElementTable<dim>& table, const 
 
   // What a column sees of another's lines, and how it loads them: through its own first and last line.
   const TreadColumn<dim>& own = tread.column_;
-  const int n_base = own.n_base, n_line = own.n_line, n_contact = tread.n_contact();
+  const int n_base = own.n_base, n_line = own.n_line, n_contact = own.surface.rows().n_contact();
   const Matrix stiffness_on_base = block(own.stiffness, 0, 0, own.stiffness.rows(), n_base);
   const Matrix observed = block(own.observation, 0, 0, n_contact, own.observation.columns());
   const Matrix sampling = contact_rows<dim>(
-      own.points, [&](const auto&) { return form.tau(); }, [](const auto& point) { return point.gamma; });
+      own.surface.points, [&](const auto&) { return form.tau(); }, [](const auto& point) { return point.gamma; });
   const Matrix testing = contact_rows<dim>(
-      own.points, [&](const auto& point) { return form.theta() / point.gamma; },
+      own.surface.points, [&](const auto& point) { return form.theta() / point.gamma; },
       [](const auto&) { return 1.0; });
   Matrix line_load_of_base[2], base_rows[2], observation_rows[2];
   for (int side = 0; side < 2; ++side) {

@@ -18,12 +18,12 @@ class Tread {
                                   const ContactForm& form, int points_per_direction);
 
   const TreadColumn<dim>& column() const { return column_; }
-  const std::vector<TreadPoint<dim>>& points() const { return column_.points; }
+  const TreadSurface<dim>& surface() const { return column_.surface; }
+  const std::vector<TreadPoint<dim>>& points() const { return column_.surface.points; }
+  ObservationRows<dim> observation_rows() const { return column_.surface.rows(); }
   int n_observations() const { return column_.observation.rows(); }
-  int body_row() const { return n_observations() - dim; }  ///< first of the integrals of u
   int n_base() const { return column_.n_base; }
   int n_line() const { return column_.n_line; }
-  int n_contact() const { return 2 * dim * static_cast<int>(points().size()); }  ///< observations on Gamma_C
   int base_per_column() const {
     return degree_ * column_.n_base / (degree_ + 1);
   }  ///< not shared with the next

@@ -169,9 +169,7 @@ Matrix transposed(const Matrix& a) {
 /// The uncondensed column.
 template <int dim>
 struct FreeColumn {
-  std::vector<TreadPoint<dim>> points;
-  std::vector<AnnulusPoint> annulus;
-  std::vector<int> mirror_images;
+  TreadSurface<dim> surface;
   double volume;
   Vec<dim> moment;
   Matrix stiffness, observation, nodal;
@@ -212,6 +210,7 @@ std::vector<int> mirror_images(const std::vector<ReferencePoint<dim>>& rule, int
 template <int dim>
 struct ColumnCell {
   const ElasticElement<dim>& element;
+  const Material& material;
   std::vector<NodeMap<dim>> nodes;
   double angle;      ///< of its frame in the column's
   int to_image;      ///< cells from here to the mirror image in the column
@@ -226,7 +225,7 @@ class ColumnAssembly {
   ColumnAssembly(const ElementTable<dim>& table, const ColumnNodes<dim>& nodes, const TreadGrid& tread,
                  const ContactForm& form, int points_per_direction)
       : grid_(table.grid()),
-        material_(table.material()),
+        materials_(table.materials()),
         nodes_(nodes),
         form_(form),
         degree_(table.degree()),
@@ -234,13 +233,14 @@ class ColumnAssembly {
         face_rule_(unit_cell_rule<dim - 1>(points_per_direction)),
         annulus_rule_(unit_cell_rule<dim>(tread.annulus_points)) {
     if constexpr (dim == 3) axial_cells_ = grid_.cells[2];
-    n_contact_ =
-        2 * dim * (1 << nodes.all_layers().back().level) * axial_cells_ * static_cast<int>(face_rule_.size());
     int n_cells = 0;
     for (const Layer& layer : nodes.all_layers()) n_cells += layer.rows * (1 << layer.level) * axial_cells_;
-    const int n_observations = n_contact_ + dim * n_cells * static_cast<int>(annulus_rule_.size()) + dim;
+    rows_ = {(1 << nodes.all_layers().back().level) * axial_cells_ * static_cast<int>(face_rule_.size()),
+             n_cells * static_cast<int>(annulus_rule_.size())};
     column_.stiffness = Matrix(nodes.n_dofs(), nodes.n_dofs());
-    column_.observation = Matrix(n_observations, nodes.n_dofs());
+    column_.observation = Matrix(rows_.size(), nodes.n_dofs());
+    column_.surface.annulus_thickness = tread.rows * grid_.cell_size()[0];
+    column_.surface.n_columns = grid_.ring_columns();
     column_.nodal = grid_nodes<dim>(nodes, degree_, tread.rows, axial_cells_);
   }
 
@@ -248,7 +248,7 @@ class ColumnAssembly {
     const int n_layers = static_cast<int>(nodes_.all_layers().size());
     for (int layer = 0; layer < n_layers; ++layer)
       for (int row = 0; row < nodes_.all_layers()[layer].rows; ++row) add_row(layer, row);
-    column_.mirror_images = all_mirror_images();
+    column_.surface.mirror_images = all_mirror_images();
     return std::move(column_);
   }
 
@@ -261,16 +261,19 @@ class ColumnAssembly {
     fine.cells[0] = layer.rows;
     fine.cells[1] <<= layer.level;
     const ElasticElement<dim> element(fine, degree_, {row});
-    const Matrix stiffness = cell_stiffness<dim>(element, material_, volume_rule_);
+    const double height = layer.inner_radius + (row + 0.5) * fine.cell_size()[0] - grid_.inner_radius;
+    const Material& material = materials_.in_row(static_cast<int>(height / grid_.cell_size()[0]));
+    const Matrix stiffness = cell_stiffness<dim>(element, material, volume_rule_);
     const bool at_tread = &layer == &nodes_.all_layers().back() && row + 1 == layer.rows;
     for (int axial = 0; axial < axial_cells_; ++axial)
       for (int across = 0; across < (1 << layer.level); ++across) {
-        ColumnCell<dim> cell{element,
-                             cell_nodes(layer_index, row, across, axial),
-                             across * fine.cell_size()[1],
-                             (1 << layer.level) - 1 - 2 * across,
-                             axial,
-                             stiffness};
+        ColumnCell<dim> cell{.element = element,
+                             .material = material,
+                             .nodes = cell_nodes(layer_index, row, across, axial),
+                             .angle = across * fine.cell_size()[1],
+                             .to_image = (1 << layer.level) - 1 - 2 * across,
+                             .axial = axial,
+                             .stiffness = stiffness};
         if (at_tread) add_contact_face(cell);
         add_annulus(cell);
         add_volume(cell);
@@ -296,18 +299,18 @@ class ColumnAssembly {
     for (const int image : of_rule) images.push_back(first + n * cell.to_image + image);
   }
 
-  /// TreadColumn::mirror_images from those of the points.
+  /// TreadSurface::mirror_images from those of the points.
   std::vector<int> all_mirror_images() const {
     std::vector<int> images;
     for (const int point : point_images_)
       for (const int part : {0, 1}) images.push_back(2 * point + part);
-    for (const int point : annulus_images_) images.push_back(n_contact_ / dim + point);
+    for (const int point : annulus_images_) images.push_back(rows_.annulus_traction(point) / dim);
     images.push_back(static_cast<int>(images.size()));
     return images;
   }
 
   void add_contact_face(ColumnCell<dim>& cell) {
-    const double gamma = form_.gamma_0 * material_.youngs_modulus / cell.element.diameter();
+    const double gamma = form_.gamma_0 * cell.material.youngs_modulus / cell.element.diameter();
     append_images(mirror_images(face_rule_, 0), cell, point_images_);
     for (const auto& q : face_rule_) {
       Vec<dim> xi{}, outward{};
@@ -315,18 +318,19 @@ class ColumnAssembly {
       for (int d = 1; d < dim; ++d) xi[d] = q.xi[d - 1];
       const auto at = cell.element.at(xi);
       const auto surface = map_surface<dim>(at.jacobian, outward);
-      const auto traction = traction_map<dim>(cell.element, material_, at, surface.normal);
+      const auto traction = traction_map<dim>(cell.element, cell.material, at, surface.normal);
       const double weight = q.weight * surface.scale;
-      const int first = 2 * dim * static_cast<int>(column_.points.size());
-      add_rows<dim>(at.displacement, cell.nodes, first, cell.angle, column_.observation);
-      add_rows<dim>(traction, cell.nodes, first + dim, cell.angle, column_.observation);
+      const int q_of_column = static_cast<int>(column_.surface.points.size());
+      add_rows<dim>(at.displacement, cell.nodes, rows_.displacement(q_of_column), cell.angle,
+                    column_.observation);
+      add_rows<dim>(traction, cell.nodes, rows_.traction(q_of_column), cell.angle, column_.observation);
       const double nitsche = -form_.theta() / gamma * weight;
       for (int j = 0; j < cell.element.n_dofs(); ++j)
         for (int i = 0; i < cell.element.n_dofs(); ++i)
           for (int d = 0; d < dim; ++d) cell.stiffness(i, j) += nitsche * traction[d][i] * traction[d][j];
       Vec<dim> position = rotated<dim>(at.position, cell.angle);
       if constexpr (dim == 3) position[2] += cell.axial * grid_.cell_size()[2];
-      column_.points.push_back({position, weight, gamma});
+      column_.surface.points.push_back({position, weight, gamma});
     }
   }
 
@@ -337,10 +341,10 @@ class ColumnAssembly {
       Vec<dim> radial{at.position[0], at.position[1]};
       const double radius = norm<dim>(radial);
       for (double& x : radial) x /= radius;
-      add_rows<dim>(traction_map<dim>(cell.element, material_, at, radial), cell.nodes,
-                    n_contact_ + dim * static_cast<int>(column_.annulus.size()), cell.angle,
-                    column_.observation);
-      column_.annulus.push_back({q.weight * at.determinant});
+      add_rows<dim>(traction_map<dim>(cell.element, cell.material, at, radial), cell.nodes,
+                    rows_.annulus_traction(static_cast<int>(column_.surface.annulus_weights.size())),
+                    cell.angle, column_.observation);
+      column_.surface.annulus_weights.push_back(q.weight * at.determinant);
     }
   }
 
@@ -350,8 +354,7 @@ class ColumnAssembly {
       const double weight = q.weight * at.determinant;
       for (auto& component : at.displacement)
         for (double& value : component) value *= weight;
-      add_rows<dim>(at.displacement, cell.nodes, column_.observation.rows() - dim, cell.angle,
-                    column_.observation);
+      add_rows<dim>(at.displacement, cell.nodes, rows_.integral(), cell.angle, column_.observation);
       column_.volume += weight;
       const Vec<dim> position = rotated<dim>(at.position, cell.angle);
       for (int d = 0; d < dim; ++d) column_.moment[d] += weight * position[d];
@@ -359,10 +362,11 @@ class ColumnAssembly {
   }
 
   const PolarGrid<dim>& grid_;
-  const Material& material_;
+  const Materials& materials_;
   const ColumnNodes<dim>& nodes_;
   const ContactForm& form_;
-  int degree_, axial_cells_ = 1, n_contact_;
+  int degree_, axial_cells_ = 1;
+  ObservationRows<dim> rows_;
   std::vector<ReferencePoint<dim>> volume_rule_;
   std::vector<ReferencePoint<dim - 1>> face_rule_;
   std::vector<ReferencePoint<dim>> annulus_rule_;
@@ -380,18 +384,16 @@ Expected<TreadColumn<dim>> tread_column(const ElementTable<dim>& table, const Tr
   const int n = nodes.n_dofs(), n_retained = nodes.n_base() + 2 * nodes.n_line(), n_inner = n - n_retained;
   const int n_observations = free.observation.rows(), n_nodal = free.nodal.rows();
 
-  TreadColumn<dim> column{std::move(free.points),
-                          std::move(free.annulus),
-                          std::move(free.mirror_images),
-                          free.volume,
-                          free.moment,
-                          nodes.n_base(),
-                          nodes.n_line(),
-                          block(free.stiffness, 0, 0, n_retained, n_retained),
-                          block(free.observation, 0, 0, n_observations, n_retained),
-                          Matrix(n_observations, n_observations),
-                          block(free.nodal, 0, 0, n_nodal, n_retained),
-                          Matrix(n_nodal, n_observations)};
+  TreadColumn<dim> column{.surface = std::move(free.surface),
+                          .volume = free.volume,
+                          .moment = free.moment,
+                          .n_base = nodes.n_base(),
+                          .n_line = nodes.n_line(),
+                          .stiffness = block(free.stiffness, 0, 0, n_retained, n_retained),
+                          .observation = block(free.observation, 0, 0, n_observations, n_retained),
+                          .compliance = Matrix(n_observations, n_observations),
+                          .nodal = block(free.nodal, 0, 0, n_nodal, n_retained),
+                          .nodal_compliance = Matrix(n_nodal, n_observations)};
   if (n_inner == 0) return column;
 
   Matrix inner = block(free.stiffness, n_retained, n_retained, n_inner, n_inner);

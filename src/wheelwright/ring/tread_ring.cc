@@ -1,5 +1,6 @@
 #include "wheelwright/ring/tread_ring.h"
 
+#include <cassert>
 #include <functional>
 #include <numeric>
 
@@ -65,9 +66,11 @@ void add_line_loads(const Matrix& loads, int first_row, std::span<const int> col
   }
 }
 
-/// Adds what the loads themselves do, the retained unknowns fixed, to what is observed in `columns`.
-void add_response(const Matrix& compliance, const TreadLoads& loads, std::span<const int> columns,
-                  Matrix& observed) {
+/// Adds what loads (one column per entry of loads.columns) do, the retained unknowns fixed, to what is observed
+/// in `columns`.
+void add_response(const Matrix& compliance, Op op, const TreadLoads& loads, const Matrix& values,
+                  std::span<const int> columns, Matrix& observed) {
+  if (values.columns() == 0) return;
   std::vector<int> loaded, places;
   for (int k = 0; k < observed.columns(); ++k) {
     const auto found = std::lower_bound(loads.columns.begin(), loads.columns.end(), columns[k]);
@@ -75,8 +78,7 @@ void add_response(const Matrix& compliance, const TreadLoads& loads, std::span<c
     loaded.push_back(static_cast<int>(found - loads.columns.begin()));
     places.push_back(k);
   }
-  const Matrix response =
-      product(compliance, Op::none, selected_columns(loads.on_observations, loaded), Op::none);
+  const Matrix response = product(compliance, op, selected_columns(values, loaded), Op::none);
   for (size_t k = 0; k < places.size(); ++k)
     for (int i = 0; i < response.rows(); ++i) observed(i, places[k]) += response(i, static_cast<int>(k));
 }
@@ -92,7 +94,11 @@ void for_blocks(int n_columns, const std::function<void(int, int)>& f) {
 
 template <int dim>
 TreadLoads tread_loads(const Tread<dim>& tread, const Matrix& observation_loads) {
-  TreadLoads loads{observation_loads.columns(), nonzero_columns(observation_loads), {}, {}};
+  TreadLoads loads{.n_fields = observation_loads.columns(),
+                   .columns = nonzero_columns(observation_loads),
+                   .on_observations = {},
+                   .on_nodes = {},
+                   .on_retained = {}};
   const int n_loaded = static_cast<int>(loads.columns.size());
   loads.on_observations = selected_columns(observation_loads, loads.columns);
   loads.on_retained = Matrix::unfilled(tread.column().observation.columns(), n_loaded);
@@ -100,6 +106,23 @@ TreadLoads tread_loads(const Tread<dim>& tread, const Matrix& observation_loads)
     multiply_columns(1, tread.column().observation, Op::transpose, loads.on_observations.column(first), n, 0,
                      loads.on_retained.column(first));
   });
+  return loads;
+}
+
+template <int dim>
+TreadLoads tread_loads(const Tread<dim>& tread, const TreadForces& forces) {
+  if (forces.on_nodes.columns() == 0) return tread_loads(tread, forces.on_observations);
+  const TreadColumn<dim>& column = tread.column();
+  const int n_fields = forces.on_nodes.columns();
+  TreadLoads loads{.n_fields = n_fields,
+                   .columns = iota(0, n_fields),
+                   .on_observations = forces.on_observations,
+                   .on_nodes = forces.on_nodes,
+                   .on_retained = product(column.nodal, Op::transpose, forces.on_nodes, Op::none)};
+  if (loads.on_observations.columns() > 0)
+    multiply(1, column.observation, Op::transpose, loads.on_observations, Op::none, 1, loads.on_retained);
+  for (int c = 0; c < n_fields; ++c)
+    for (int i = 0; i < column.n_base; ++i) loads.on_retained(i, c) += forces.on_base(i, c);
   return loads;
 }
 
@@ -156,7 +179,8 @@ Matrix observations(const Tread<dim>& tread, const TreadField& field, const Trea
                     std::span<const int> columns) {
   Matrix result =
       product(tread.column().observation, Op::none, retained(field, columns, tread.n_columns()), Op::none);
-  add_response(tread.column().compliance, loads, columns, result);
+  add_response(tread.column().compliance, Op::none, loads, loads.on_observations, columns, result);
+  add_response(tread.column().nodal_compliance, Op::transpose, loads, loads.on_nodes, columns, result);
   return result;
 }
 
@@ -172,15 +196,17 @@ Matrix observations(const Tread<dim>& tread, const TreadField& field, const Trea
 
 template <int dim>
 Matrix nodal_displacements(const Tread<dim>& tread, const TreadField& field, const TreadLoads& loads) {
+  assert(loads.on_nodes.columns() == 0);
   const auto columns = iota(0, loads.n_fields);
   Matrix result =
       product(tread.column().nodal, Op::none, retained(field, columns, tread.n_columns()), Op::none);
-  add_response(tread.column().nodal_compliance, loads, columns, result);
+  add_response(tread.column().nodal_compliance, Op::none, loads, loads.on_observations, columns, result);
   return result;
 }
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                     \
   template TreadLoads tread_loads(const Tread<dim>&, const Matrix&);                     \
+  template TreadLoads tread_loads(const Tread<dim>&, const TreadForces&);                \
   template Matrix base_loads(const Tread<dim>&, const TreadLoads&);                      \
   template TreadField tread_field(const Tread<dim>&, const Matrix&, const TreadLoads&);  \
   template Matrix observations(const Tread<dim>&, const TreadField&, const TreadLoads&); \

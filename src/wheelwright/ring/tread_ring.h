@@ -9,15 +9,26 @@ namespace wheelwright {
 /// (see Tread) have n_line() rows. Those of the core's outer line are as in CyclicStiffness: one column for
 /// every (right-hand side, sector).
 
-/// Observation loads, condensed onto what their columns keep (TreadColumn).
+/// Loads on the tread: on its observations, and on the nodes of the grid in it. One column per (right-hand side,
+/// ring column); an empty matrix is zero.
+struct TreadForces {
+  Matrix on_observations;
+  Matrix on_base;   ///< rows as the base of TreadColumn
+  Matrix on_nodes;  ///< rows as TreadColumn::nodal
+};
+
+/// Loads on the tread, condensed onto what their columns keep (TreadColumn).
 struct TreadLoads {
   int n_fields;              ///< columns of the whole tread, for all right-hand sides
   std::vector<int> columns;  ///< those with loads, ascending
-  Matrix on_observations;    ///< the loads there
-  Matrix on_retained;        ///< ... on the retained unknowns
+  Matrix on_observations;    ///< the loads there; without columns when there are none
+  Matrix on_nodes;           ///< the loads there; without columns when there are none
+  Matrix on_retained;        ///< both of them and those on the base, on the retained unknowns
 };
 template <int dim>
 TreadLoads tread_loads(const Tread<dim>& tread, const Matrix& observation_loads);
+template <int dim>
+TreadLoads tread_loads(const Tread<dim>& tread, const TreadForces& forces);
 
 /// Loads on the core's outer line that loads of the tread send there.
 template <int dim>
@@ -38,7 +49,8 @@ template <int dim>
 Matrix observations(const Tread<dim>& tread, const TreadField& field, const TreadLoads& loads,
                     std::span<const int> columns);
 
-/// Displacements of the grid's nodes above the base, rows as TreadColumn::nodal.
+/// Displacements of the grid's nodes above the base, rows as TreadColumn::nodal. There must be no loads on
+/// these nodes.
 template <int dim>
 Matrix nodal_displacements(const Tread<dim>& tread, const TreadField& field, const TreadLoads& loads);
 

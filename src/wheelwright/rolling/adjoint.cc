@@ -3,82 +3,242 @@
 #include <algorithm>
 
 #include "wheelwright/base/periodic.h"
+#include "wheelwright/rolling/material_loads.h"
 
 namespace wheelwright {
 namespace {
 
-/// The columns of observations in the contact zones, one position after the other.
+/// Some columns of a matrix, in place of as many of another from `first` on.
+void put_columns(const Matrix& from, int first, Matrix& to) {
+  std::copy(from.entries().begin(), from.entries().end(), to.column(first));
+}
+
+/// Some rows of a matrix, in place of as many of another from `first` on.
+void put_rows(const Matrix& from, int first, Matrix& to) {
+  for (int j = 0; j < from.columns(); ++j)
+    std::copy_n(from.column(j), from.rows(), to.column(j) + first);
+}
+
+/// A factor per position as one per load case.
 template <int dim>
-std::vector<int> zone_columns(const RollingSolution<dim>& s, int n_columns) {
+std::vector<double> by_load_case(const RollingSolution<dim>& s, const std::vector<double>& factors) {
+  std::vector<double> result;
+  for (const double factor : factors) result.insert(result.end(), s.ring.n_sectors(), factor);
+  return result;
+}
+
+/// The sums over the load cases along the displacement's modes: W^T M x, with one row of x per load case.
+template <int dim>
+Matrix on_modes(const RollingSolution<dim>& s, const Matrix& x) {
+  return product(scaled_rows(case_multiplicities(s), s.displacement.weights), Op::transpose, x, Op::none);
+}
+
+/// The adjoint loads of several functions that do not come from the contact.
+template <int dim>
+class Loads {
+ public:
+  Loads(const RollingProblem<dim>& problem, const RollingSolution<dim>& s,
+        std::span<const FunctionalDerivative<dim>> functions)
+      : functions_(functions), s_(s) {
+    const int n_functions = static_cast<int>(functions.size()), per_function = s.observations.columns();
+    tread.on_observations = Matrix(s.observations.rows(), n_functions * per_function);
+    boundary = Matrix(s.ring.n_boundary(), n_functions * n_cases());
+    for (int f = 0; f < n_functions; ++f) {
+      add_on_observations(problem, f);
+      if (!functions[f].integrals.empty()) add_material(problem, f);
+    }
+    add_ghost();
+  }
+
+  int n_cases() const { return s_.displacement.weights.rows(); }
+
+  TreadForces tread;  ///< of all functions, one after the other
+  Matrix boundary;    ///< loads in the core, condensed onto the ring's boundary
+
+  /// A function's loads in the core along the displacement's modes, as elimination leaves them.
+  Matrix core(int f) const {
+    Matrix loads = functions_[f].energy.empty() ? Matrix(ghost_.rows(), ghost_.columns())
+                                                : energy_weighted(s_, functions_[f].energy, ghost_);
+    if (!materials_[f]) return loads;
+    return sum(std::move(loads), on_modes(s_, *materials_[f]));
+  }
+
+ private:
+  /// The tread's own loads, and what the strain energy leaves there: dJ_e/dv is K v less the ghost penalty and
+  /// Nitsche's symmetric term.
+  void add_on_observations(const RollingProblem<dim>& problem, int f) {
+    materials_.emplace_back();
+    const int per_function = s_.observations.columns(), n_columns = per_function / s_.positions.size();
+    const auto& [energy, loads, integrals] = functions_[f];
+    if (loads.columns() > 0) put_columns(loads, f * per_function, tread.on_observations);
+    if (energy.empty()) return;
+    const Matrix nitsche = problem.nitsche_loads(s_.observations);
+    for (int j = 0; j < per_function; ++j) {
+      double* to = tread.on_observations.column(f * per_function + j);
+      for (int i = 0; i < nitsche.rows(); ++i) to[i] += energy[j / n_columns] * nitsche(i, j);
+    }
+  }
+
+  void add_material(const RollingProblem<dim>& problem, int f) {
+    MaterialLoads loads = material_loads<dim>(problem, s_, functions_[f].integrals);
+    const int per_function = s_.observations.columns(), n_functions = static_cast<int>(functions_.size());
+    if (tread.on_nodes.columns() == 0) {
+      tread.on_base = Matrix(loads.tread.on_base.rows(), n_functions * per_function);
+      tread.on_nodes = Matrix(loads.tread.on_nodes.rows(), n_functions * per_function);
+    }
+    put_columns(loads.tread.on_base, f * per_function, tread.on_base);
+    put_columns(loads.tread.on_nodes, f * per_function, tread.on_nodes);
+    const PartialCholesky& factor = s_.ring.sector_factor();
+    factor.eliminate(factor.full_sweep(), loads.core);
+    put_columns(s_.ring.boundary_loads(trailing(loads.core)), f * n_cases(), boundary);
+    materials_[f] = std::move(loads.core);
+  }
+
+  /// The ghost penalty's share of dJ_e/dv: its modes are the same for all functions.
+  void add_ghost() {
+    ghost_ = s_.ghost_loads;
+    if (std::all_of(functions_.begin(), functions_.end(), [](const auto& f) { return f.energy.empty(); }))
+      return;
+    s_.ring.sector_factor().eliminate(s_.sweep, ghost_);
+    const Matrix of_cases = product(s_.displacement.weights, Op::none, trailing(ghost_), Op::none);
+    for (size_t f = 0; f < functions_.size(); ++f) {
+      if (functions_[f].energy.empty()) continue;
+      const Matrix loads =
+          s_.ring.boundary_loads(scaled_rows(by_load_case(s_, functions_[f].energy), of_cases));
+      double* to = boundary.column(static_cast<int>(f) * n_cases());
+      for (size_t k = 0; k < loads.entries().size(); ++k) to[k] += loads.entries()[k];
+    }
+  }
+
+  Matrix trailing(const Matrix& loads) const {
+    const PartialCholesky& factor = s_.ring.sector_factor();
+    return block(loads, 0, factor.n_interior(), loads.rows(), factor.n_trailing());
+  }
+
+  std::span<const FunctionalDerivative<dim>> functions_;
+  const RollingSolution<dim>& s_;
+  Matrix ghost_;                                 ///< ghost penalty applied to the modes of v, eliminated
+  std::vector<std::optional<Matrix>> materials_;  ///< of every function, by load cases, eliminated
+};
+
+/// The columns of all functions' observations in the contact zones, one function and position after the other.
+template <int dim>
+std::vector<int> zone_columns(const RollingSolution<dim>& s, int n_functions, int n_columns) {
   std::vector<int> columns;
-  for (int i = 0; i < static_cast<int>(s.contacts.size()); ++i) {
-    const ContactZone& zone = s.contacts[i].zone();
+  const int n_positions = s.positions.size();
+  for (int k = 0; k < n_functions * n_positions; ++k) {
+    const ContactZone& zone = s.contacts[k % n_positions].zone();
     for (int c = 0; c < zone.n_columns; ++c)
-      columns.push_back(i * n_columns + wrap(zone.first_column + c, n_columns));
+      columns.push_back(k * n_columns + wrap(zone.first_column + c, n_columns));
   }
   return columns;
 }
 
-/// The multiplier loads -S^T m of all positions, all round, and the rim's motions, from what is observed of p
-/// without them in `columns`, those of zone_columns().
+/// The multiplier loads -S^T m of all functions and positions, all round, and the rim's motions [function], from
+/// what is observed of p without them in `columns`, those of zone_columns().
 template <int dim>
-Expected<std::pair<Matrix, std::vector<RimMotion>>> contact_adjoints(const RollingSolution<dim>& s,
-                                                                     const Matrix& observed,
-                                                                     std::span<const int> columns) {
-  Matrix loads(s.observations.rows(), s.observations.columns());
-  std::vector<RimMotion> rim;
+Expected<std::pair<Matrix, std::vector<std::vector<RimMotion>>>> contact_adjoints(
+    const RollingSolution<dim>& s, int n_functions, const Matrix& observed, std::span<const int> columns) {
+  Matrix loads(s.observations.rows(), n_functions * s.observations.columns());
+  std::vector<std::vector<RimMotion>> rim(n_functions);
+  const int per_function = static_cast<int>(columns.size()) / n_functions;
   int first = 0;
   for (size_t i = 0; i < s.contacts.size(); ++i) {
     const int n = s.contacts[i].zone().n_columns;
-    const auto adjoint = s.contacts[i].adjoint(s.states[i], block(observed, 0, first, observed.rows(), n));
-    if (!adjoint) return adjoint.failure();
-    rim.push_back(adjoint->rim);
-    for (int c = 0; c < n; ++c)
-      std::copy_n(adjoint->loads.column(c), adjoint->loads.rows(), loads.column(columns[first + c]));
+    std::vector<Matrix> of_functions;
+    for (int f = 0; f < n_functions; ++f)
+      of_functions.push_back(block(observed, 0, f * per_function + first, observed.rows(), n));
+    const auto adjoints = s.contacts[i].adjoints(s.states[i], of_functions);
+    if (!adjoints) return adjoints.failure();
+    for (int f = 0; f < n_functions; ++f) {
+      const ContactAdjoint& adjoint = (*adjoints)[f];
+      rim[f].push_back(adjoint.rim);
+      for (int c = 0; c < n; ++c)
+        std::copy_n(adjoint.loads.column(c), adjoint.loads.rows(),
+                    loads.column(columns[f * per_function + first + c]));
+    }
     first += n;
   }
   return std::pair{std::move(loads), std::move(rim)};
 }
 
+/// Takes the states' share off what is observed of q in `columns`: p = q - energy v.
+template <int dim>
+void subtract_states(const RollingSolution<dim>& s, std::span<const FunctionalDerivative<dim>> functions,
+                     std::span<const int> columns, Matrix& observed) {
+  const int per_function = s.observations.columns(), n_columns = per_function / s.positions.size();
+  for (int k = 0; k < observed.columns(); ++k) {
+    const auto& energy = functions[columns[k] / per_function].energy;
+    if (energy.empty()) continue;
+    const int column = columns[k] % per_function;
+    const double factor = energy[column / n_columns], *state = s.observations.column(column);
+    for (int i = 0; i < observed.rows(); ++i) observed(i, k) -= factor * state[i];
+  }
+}
+
 }  // namespace
 
 template <int dim>
-Expected<Adjoint> solve_adjoint(const RollingProblem<dim>& problem, const RollingSolution<dim>& s,
-                                const AdjointLoads& loads) {
+Matrix energy_weighted(const RollingSolution<dim>& s, const std::vector<double>& energy, Matrix modes) {
+  // With equal factors W^T M W = 1 leaves the modes as they are.
+  if (std::all_of(energy.begin(), energy.end(), [&](double e) { return e == energy.front(); })) {
+    for (double& x : modes.entries()) x *= energy.front();
+    return modes;
+  }
+  const Matrix weighted = scaled_rows(by_load_case(s, energy), s.displacement.weights);
+  return product(on_modes(s, weighted), Op::none, modes, Op::none);
+}
+
+template <int dim>
+Expected<std::vector<Adjoint>> solve_adjoints(const RollingProblem<dim>& problem,
+                                              const RollingSolution<dim>& s,
+                                              std::span<const FunctionalDerivative<dim>> functions) {
+  if (functions.empty()) return std::vector<Adjoint>{};
   const Tread<dim>& tread = problem.tread();
   const CyclicStiffness<dim>& ring = s.ring;
-  // p = q - state_weight v with K q = ghost_weight G v + T^T observations - S^T m.
-  SectorFields core{s.ghost_loads, s.displacement.weights};
-  for (double& x : core.modes.entries()) x *= loads.ghost_weight;
-  const TreadLoads on_tread = tread_loads(
-      tread, loads.observations.rows() > 0 ? loads.observations
-                                           : Matrix(s.observations.rows(), s.observations.columns()));
-  const auto [interface, condensed_loads] = ring.eliminate_interface(condense(ring, s.sweep, core));
+  const int n_functions = static_cast<int>(functions.size()), n_modes = s.displacement.modes.rows();
+  // p = q - energy v with K q = energy (G v + Nitsche's term) + the functions' own loads - S^T m.
+  const Loads<dim> loads(problem, s, functions);
+  const TreadLoads on_tread = tread_loads(tread, loads.tread);
+  const auto [interface, condensed_loads] = ring.eliminate_interface(loads.boundary);
   const Matrix without_contact = ring.outer_displacements(sum(condensed_loads, base_loads(tread, on_tread)));
-  const auto columns = zone_columns(s, tread.n_columns());
+  const auto columns = zone_columns(s, n_functions, tread.n_columns());
   Matrix observed = observations(tread, tread_field(tread, without_contact, on_tread), on_tread, columns);
-  const Matrix of_state = selected_columns(s.observations, columns);
-  for (size_t k = 0; k < observed.entries().size(); ++k)
-    observed.entries()[k] -= loads.state_weight * of_state.entries()[k];
-  auto contact = contact_adjoints(s, observed, columns);
+  subtract_states(s, functions, columns, observed);
+  auto contact = contact_adjoints(s, n_functions, observed, columns);
   if (!contact) return contact.failure();
 
   const Matrix outer =
       sum(without_contact, ring.outer_displacements(base_loads(tread, tread_loads(tread, contact->first))));
   const Matrix of_cases = ring.trailing_displacements(ring.boundary_displacements(outer, interface));
-  const Matrix trailing =
-      product(scaled_rows(case_multiplicities(s), core.weights), Op::transpose, of_cases, Op::none);
-  std::copy(trailing.entries().begin(), trailing.entries().end(),
-            core.modes.column(ring.sector_factor().n_interior()));
-  ring.sector_factor().substitute(s.sweep, core.modes);
-  for (size_t k = 0; k < core.modes.entries().size(); ++k)
-    core.modes.entries()[k] -= loads.state_weight * s.displacement.modes.entries()[k];
-  return Adjoint{std::move(core.modes), std::move(contact->second)};
+  Matrix modes(n_functions * n_modes, s.displacement.modes.columns());
+  for (int f = 0; f < n_functions; ++f) {
+    put_rows(loads.core(f), f * n_modes, modes);
+    const Matrix trailing =
+        on_modes(s, block(of_cases, f * loads.n_cases(), 0, loads.n_cases(), of_cases.columns()));
+    for (int j = 0; j < trailing.columns(); ++j)
+      std::copy_n(trailing.column(j), n_modes,
+                  modes.column(ring.sector_factor().n_interior() + j) + f * n_modes);
+  }
+  ring.sector_factor().substitute(s.sweep, modes);
+  std::vector<Adjoint> adjoints;
+  for (int f = 0; f < n_functions; ++f) {
+    adjoints.push_back({block(modes, f * n_modes, 0, n_modes, modes.columns()), contact->second[f]});
+    if (functions[f].energy.empty()) continue;
+    const Matrix states = energy_weighted(s, functions[f].energy, s.displacement.modes);
+    auto& p = adjoints.back().modes.entries();
+    for (size_t k = 0; k < p.size(); ++k) p[k] -= states.entries()[k];
+  }
+  return adjoints;
 }
 
-template Expected<Adjoint> solve_adjoint(const RollingProblem<2>&, const RollingSolution<2>&,
-                                         const AdjointLoads&);
-template Expected<Adjoint> solve_adjoint(const RollingProblem<3>&, const RollingSolution<3>&,
-                                         const AdjointLoads&);
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                                    \
+  template Matrix energy_weighted(const RollingSolution<dim>&, const std::vector<double>&, Matrix);     \
+  template Expected<std::vector<Adjoint>> solve_adjoints(const RollingProblem<dim>&,                    \
+                                                         const RollingSolution<dim>&,                   \
+                                                         std::span<const FunctionalDerivative<dim>>);
+WHEELWRIGHT_INSTANTIATE(2)
+WHEELWRIGHT_INSTANTIATE(3)
+#undef WHEELWRIGHT_INSTANTIATE
 
 }  // namespace wheelwright

@@ -1,10 +1,11 @@
 #pragma once
 
-#include "wheelwright/functionals/functional.h"
+#include "wheelwright/rolling/rolling_problem.h"
+#include "wheelwright/state/functional_derivative.h"
 
 namespace wheelwright {
 
-/// The adjoint problems (79) of all positions.
+/// The adjoint problems (79) of one function at all positions.
 struct Adjoint {
   /// p in the core without the rim's motion: its components along the load cases of the displacement's modes,
   /// sum_j multiplicity_j weights(j, k) p_j, as RollingSolution::displacement.
@@ -12,10 +13,17 @@ struct Adjoint {
   std::vector<RimMotion> rim;  ///< of every position
 };
 
-/// K p + S^T m = -dJ/dv with the transposed contact tangent. Fails with no_contact when a position's contact
-/// system is singular.
+/// The displacement's modes v_k weighted by a function's energy factors e_i: row k is sum_j m_j e_j w_jk v_j,
+/// with w the weights of load case j and m_j its multiplicity. When all factors are equal it is e v_k. `modes`
+/// holds one row per mode.
 template <int dim>
-Expected<Adjoint> solve_adjoint(const RollingProblem<dim>& problem, const RollingSolution<dim>& solution,
-                                const AdjointLoads& loads);
+Matrix energy_weighted(const RollingSolution<dim>& solution, const std::vector<double>& energy, Matrix modes);
+
+/// K p + S^T m = -dJ/dv with the transposed contact tangent, for several functions as one block of right-hand
+/// sides. Fails with no_contact when a position's contact system is singular.
+template <int dim>
+Expected<std::vector<Adjoint>> solve_adjoints(const RollingProblem<dim>& problem,
+                                              const RollingSolution<dim>& solution,
+                                              std::span<const FunctionalDerivative<dim>> functions);
 
 }  // namespace wheelwright

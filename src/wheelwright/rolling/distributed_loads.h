@@ -5,17 +5,8 @@
 
 namespace wheelwright {
 
-/// The loads of (1) on the structure itself.
-template <int dim>
-struct DistributedLoads {
-  Vec<dim> body_force{};     ///< f in the ground frame: component 0 towards the ground, 1 along it [N/m^3]
-  double hole_pressure = 0;  ///< p, g_N = -p n on the moving boundary [Pa]
-
-  bool any() const { return norm<dim>(body_force) > 0 || hole_pressure != 0; }
-};
-
-/// Those loads at all load positions. Load cases and columns as in RollingSolution; empty when there are
-/// none.
+/// Body force and pressure at all load positions. Load cases and columns as in RollingSolution; empty when there
+/// are none.
 struct AppliedLoads {
   SectorFields core;                 ///< modes: unit forces along a sector's axes, unit pressure
   Matrix tread;                      ///< on the tread's observations

@@ -5,7 +5,7 @@ namespace wheelwright {
 template <int dim>
 Expected<NeumannToDirichlet<dim>> NeumannToDirichlet<dim>::create(const RollingModel<dim>& model) {
   auto elements =
-      std::make_shared<const ElementTable<dim>>(model.grid, model.degree, model.material, model.ghost);
+      std::make_shared<const ElementTable<dim>>(model.grid, model.degree, model.materials, model.ghost);
   // The penalty form has no term of its own in the stiffness.
   auto tread = Tread<dim>::condense(*elements, {model.tread.rows, model.tread.levels, 0},
                                     {.method = ContactMethod::penalty}, model.contact_points);
@@ -23,12 +23,11 @@ Expected<NeumannToDirichlet<dim>> NeumannToDirichlet<dim>::create(const RollingM
 template <int dim>
 Matrix NeumannToDirichlet<dim>::loads(const Matrix& tractions) const {
   Matrix result(tread_.n_observations(), tractions.columns());
+  const ObservationRows<dim> rows = tread_.observation_rows();
   for (int j = 0; j < result.columns(); ++j)
-    for (size_t q = 0; q < tread_.points().size(); ++q)
-      for (int d = 0; d < dim; ++d) {
-        const int point = static_cast<int>(q);
-        result(2 * dim * point + d, j) = tread_.points()[q].weight * tractions(dim * point + d, j);
-      }
+    for (int q = 0; q < rows.n_points; ++q)
+      for (int d = 0; d < dim; ++d)
+        result(rows.displacement(q) + d, j) = tread_.points()[q].weight * tractions(dim * q + d, j);
   return result;
 }
 
@@ -37,9 +36,11 @@ Matrix NeumannToDirichlet<dim>::operator()(const Matrix& tractions) const {
   const TreadLoads on_tread = tread_loads(tread_, loads(tractions));
   const Matrix outer = ring_.outer_displacements(base_loads(tread_, on_tread));
   const Matrix observed = observations(tread_, tread_field(tread_, outer, on_tread), on_tread);
+  const ObservationRows<dim> rows = tread_.observation_rows();
   Matrix w(tractions.rows(), tractions.columns());
   for (int j = 0; j < w.columns(); ++j)
-    for (int i = 0; i < w.rows(); ++i) w(i, j) = observed(2 * dim * (i / dim) + i % dim, j);
+    for (int q = 0; q < rows.n_points; ++q)
+      for (int d = 0; d < dim; ++d) w(dim * q + d, j) = observed(rows.displacement(q) + d, j);
   return w;
 }
 

@@ -15,23 +15,6 @@
 namespace wheelwright {
 
 template <int dim>
-RimControl rim_control(const RollingModel<dim>& model) {
-  RimControl rim;
-  if (model.travel)
-    rim.prescribed.towards_ground = *model.travel;
-  else
-    rim.free.push_back({{.towards_ground = 1}, model.load});
-  if (model.horizontal_force != 0) rim.free.push_back({{.along_ground = 1}, model.horizontal_force});
-  if (model.torque != 0) rim.free.push_back({{.rotation = 1}, model.torque});
-  return rim;
-}
-
-template <int dim>
-bool is_mirror_symmetric(const RollingModel<dim>& model) {
-  return model.horizontal_force == 0 && model.torque == 0 && model.distributed.body_force[1] == 0;
-}
-
-template <int dim>
 std::vector<double> case_multiplicities(const RollingSolution<dim>& solution) {
   std::vector<double> multiplicities;
   for (const double m : solution.positions.multiplicities)
@@ -101,7 +84,7 @@ int columns_in_contact(const RollingModel<dim>& model) {
   const double half_width = model.travel
                                 ? 0.5 * std::sqrt(2 * grid.outer_radius * std::max(*model.travel, 0.0))
                                 : 2 * std::sqrt(line_load(model) * grid.outer_radius /
-                                                (std::numbers::pi * model.material.plane_strain_modulus()));
+                                                (std::numbers::pi * model.materials.at_tread().plane_strain_modulus()));
   return static_cast<int>(std::ceil(half_width / (grid.outer_radius * grid.cell_size()[1]))) + 2;
 }
 
@@ -132,7 +115,7 @@ RollingProblem<dim>::RollingProblem(const RollingModel<dim>& model,
 
 template <int dim>
 Expected<RollingProblem<dim>> RollingProblem<dim>::create(const RollingModel<dim>& model) {
-  auto elements = std::make_unique<ElementTable<dim>>(model.grid, model.degree, model.material, model.ghost);
+  auto elements = std::make_unique<ElementTable<dim>>(model.grid, model.degree, model.materials, model.ghost);
   auto tread = Tread<dim>::condense(*elements, model.tread, model.contact, model.contact_points);
   if (!tread) return tread.failure();
   return RollingProblem(model, std::move(elements), *std::move(tread));
@@ -142,15 +125,16 @@ namespace {
 
 template <int dim>
 Expected<ContactState<dim>> solve_in_zone(const RollingModel<dim>& model, const ReducedContact<dim>& contact,
-                                          const std::optional<ContactState<dim>>& known) {
+                                          const std::optional<ContactState<dim>>& known,
+                                          const Interrupt& interrupt) {
   const auto cold_start = [&](double fraction) {
     return model.travel ? contact.undeformed_start(fraction)
                         : contact.hertz_start(fraction * line_load(model), model.grid.outer_radius,
-                                              model.material.plane_strain_modulus());
+                                              model.materials.at_tread().plane_strain_modulus());
   };
   std::optional<ContactUnknowns<dim>> warm_start;
   if (known) warm_start = contact.start_from(*known);
-  return solve_contact<dim>(contact, cold_start, warm_start);
+  return solve_contact<dim>(contact, cold_start, warm_start, interrupt);
 }
 
 }  // namespace
@@ -159,7 +143,8 @@ template <int dim>
 Expected<RolledContact<dim>> roll_to(const RollingModel<dim>& model, const Tread<dim>& tread,
                                      const CyclicStiffness<dim>& ring, const SurfaceCompliance<dim>& surface,
                                      GroundPosition ground, const Preload& preload,
-                                     const std::optional<ContactState<dim>>& neighbour) {
+                                     const std::optional<ContactState<dim>>& neighbour,
+                                     const Interrupt& interrupt) {
   const PolarGrid<dim>& grid = model.grid;
   int half = std::max(columns_in_contact(model), neighbour ? neighbour->zone.n_columns / 2 : 0);
   const int largest_half = (grid.ring_columns() / 2 - 1) / 2;
@@ -171,7 +156,7 @@ Expected<RolledContact<dim>> roll_to(const RollingModel<dim>& model, const Tread
     if (width > (wider ? *wider : surface).width()) wider.emplace(ring, tread, width);
     ReducedContact<dim> contact(wider ? *wider : surface, tread, grid, ground,
                                 {ground.column - half, 2 * half}, rim_control(model), preload);
-    auto state = solve_in_zone(model, contact, known);
+    auto state = solve_in_zone(model, contact, known, interrupt);
     if (!state) return state.failure();
     if (!touches_edge(*state) || half >= largest_half)
       return RolledContact<dim>{std::move(contact), *std::move(state)};
@@ -186,7 +171,7 @@ Expected<RolledContact<dim>> reload(const RollingModel<dim>& model, const Tread<
                                     GroundPosition ground, const Preload& preload,
                                     const RolledContact<dim>& before) {
   ReducedContact<dim> contact = before.contact.under(rim_control(model));
-  auto state = solve_in_zone<dim>(model, contact, before.state);
+  auto state = solve_in_zone<dim>(model, contact, before.state, Interrupt());
   if (!state) return state.failure();
   if (touches_edge(*state)) return roll_to<dim>(model, tread, ring, surface, ground, preload, *state);
   return RolledContact<dim>{std::move(contact), *std::move(state)};
@@ -195,9 +180,10 @@ Expected<RolledContact<dim>> reload(const RollingModel<dim>& model, const Tread<
 template <int dim>
 std::vector<double> RollingProblem<dim>::nitsche_factors() const {
   std::vector<double> factors(tread_.n_observations(), 0.0);
-  for (size_t q = 0; q < tread_.points().size(); ++q)
+  const ObservationRows<dim> rows = tread_.observation_rows();
+  for (int q = 0; q < rows.n_points; ++q)
     for (int d = 0; d < dim; ++d)
-      factors[2 * dim * q + dim + d] =
+      factors[rows.traction(q) + d] =
           -tread_.form().theta() / tread_.points()[q].gamma * tread_.points()[q].weight;
   return factors;
 }
@@ -239,20 +225,8 @@ typename RollingProblem<dim>::CondensedLoads RollingProblem<dim>::preload(Rollin
 }
 
 template <int dim>
-LoadPositions RollingProblem<dim>::positions() const {
-  return load_positions(model_.grid, model_.n_positions);
-}
-
-template <int dim>
-LoadPositions RollingProblem<dim>::distinct_positions(const LevelSet<dim>& psi) const {
-  return is_mirror_symmetric(model_) && is_mirror_symmetric(psi)
-             ? load_positions_without_images(model_.grid, model_.n_positions)
-             : positions();
-}
-
-template <int dim>
-Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& psi,
-                                                          LoadPositions positions) const {
+Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& psi, LoadPositions positions,
+                                                          const Interrupt& interrupt) const {
   const int n_positions = positions.size(), n_columns = model_.grid.ring_columns();
   std::vector<PhaseTime> phases;
   Stopwatch watch;
@@ -269,28 +243,17 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& p
 
   const int likely_width = 2 * std::min(columns_in_contact(model_), (n_columns - 1) / 2) - 1;
   SurfaceCompliance<dim> surface(*factored, tread_, likely_width);
-  RollingSolution<dim> s{*std::move(domain),
-                         *std::move(factored),
-                         std::move(surface),
-                         std::move(positions),
-                         {},
-                         {},
-                         {},
-                         {},
-                         {},
-                         {},
-                         {},
-                         {},
-                         {},
-                         {},
-                         {},
-                         {}};
+  RollingSolution<dim> s{.domain = *std::move(domain),
+                         .ring = *std::move(factored),
+                         .surface = std::move(surface),
+                         .positions = std::move(positions)};
   s.tread_loads = Matrix(tread_.n_observations(), n_positions * n_columns);
   const CondensedLoads preloaded = preload(s);
   std::optional<ContactState<dim>> neighbour;
   for (int i = 0; i < n_positions; ++i) {
     auto rolled =
-        roll_to(model_, tread_, s.ring, s.surface, s.positions.grounds[i], s.preloads[i], neighbour);
+        roll_to(model_, tread_, s.ring, s.surface, s.positions.grounds[i], s.preloads[i], neighbour,
+                interrupt);
     if (!rolled) return rolled.failure();
     neighbour = rolled->state;
     const ContactZone& zone = rolled->contact.zone();
@@ -332,14 +295,12 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& p
 template class RollingProblem<2>;
 template class RollingProblem<3>;
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                        \
-  template RimControl rim_control(const RollingModel<dim>&);                                                \
-  template bool is_mirror_symmetric(const RollingModel<dim>&);                                              \
   template std::vector<double> case_multiplicities(const RollingSolution<dim>&);                            \
   template SectorFields complete_displacement(const RollingSolution<dim>&);                                 \
   template Expected<RolledContact<dim>> roll_to(const RollingModel<dim>&, const Tread<dim>&,                \
                                                 const CyclicStiffness<dim>&, const SurfaceCompliance<dim>&, \
                                                 GroundPosition, const Preload&,                             \
-                                                const std::optional<ContactState<dim>>&);                   \
+                                                const std::optional<ContactState<dim>>&, const Interrupt&); \
   template Expected<RolledContact<dim>> reload(const RollingModel<dim>&, const Tread<dim>&,                 \
                                                const CyclicStiffness<dim>&, const SurfaceCompliance<dim>&,  \
                                                GroundPosition, const Preload&, const RolledContact<dim>&);

@@ -1,37 +1,10 @@
 #pragma once
 
-#include "wheelwright/base/phase_time.h"
-#include "wheelwright/rolling/distributed_loads.h"
 #include "wheelwright/ring/tread_ring.h"
+#include "wheelwright/rolling/distributed_loads.h"
+#include "wheelwright/state/state.h"
 
 namespace wheelwright {
-
-/// A rolling structure and its load, all but its shape.
-template <int dim>
-struct RollingModel {
-  PolarGrid<dim> grid;
-  int degree = 2;                 ///< of the displacement, 1 or 2
-  std::optional<int> cut_points;  ///< Gauss points a direction in cut cells; absent: degree + 2
-  Material material;
-  GhostPenalty ghost;
-  ContactForm contact;
-  int contact_points = 5;       ///< Gauss points a direction on each contact face
-  TreadGrid tread;              ///< rows that are condensed once a run, and their refinement
-  double load;                  ///< P [N/m when dim = 2, N when dim = 3]
-  double horizontal_force = 0;  ///< H on the rim, towards larger azimuth; if not 0, it moves along the ground
-  double torque = 0;            ///< M on the rim about the axle; if not 0, it turns
-  std::optional<double> travel;  ///< of the rim towards the ground [m], instead of the load
-  DistributedLoads<dim> distributed;
-  int n_positions = 8;  ///< N_d, load positions of one sector; means over them need a divisor of its columns
-};
-
-/// What a model does to its rim.
-template <int dim>
-RimControl rim_control(const RollingModel<dim>& model);
-
-/// Whether its loads are their own mirror image in the plane of a load position.
-template <int dim>
-bool is_mirror_symmetric(const RollingModel<dim>& model);
 
 /// The direct problems of some load positions for one shape. Load cases of the core are numbered position *
 /// n_sectors + sector; matrices of the tread have one column for every (position, ring column). Position i
@@ -66,14 +39,20 @@ std::vector<double> case_multiplicities(const RollingSolution<dim>& solution);
 template <int dim>
 SectorFields complete_displacement(const RollingSolution<dim>& solution);
 
-/// The rolling problem of one run: what no shape changes is built once; every shape is then one call.
+/// The rolling problem of a cyclic, linearly elastic ring: what no shape changes is built once; every shape is
+/// then one call.
 template <int dim>
-class RollingProblem {
+class RollingProblem : public StateSolver<dim> {
  public:
   /// Fails with not_positive_definite when theta and gamma_0 do not go together.
   static Expected<RollingProblem> create(const RollingModel<dim>& model);
 
-  const RollingModel<dim>& model() const { return model_; }
+  const RollingModel<dim>& model() const override { return model_; }
+  const TreadSurface<dim>& tread_surface() const override { return tread_.surface(); }
+  Expected<std::shared_ptr<const State<dim>>> states(const LevelSet<dim>& psi, LoadPositions positions,
+                                                     const Interrupt& interrupt) const override;
+  Expected<typename StateSolver<dim>::TractionMap> neumann_to_dirichlet() const override;
+
   const ElementTable<dim>& elements() const { return *elements_; }
   const Tread<dim>& tread() const { return tread_; }
   int core_rows() const { return model_.grid.cells[0] - model_.tread.rows; }
@@ -82,16 +61,12 @@ class RollingProblem {
   int protected_rim_rows() const { return 1; }
   int protected_tread_rows() const { return model_.tread.rows + 1; }
 
-  /// All load positions of a sector.
-  LoadPositions positions() const;
-
-  /// Those that tell about all of them: only one of two mirror images if the shape and its loads are their
-  /// own.
-  LoadPositions distinct_positions(const LevelSet<dim>& psi) const;
-
-  /// Direct problems of all positions, or of some.
-  Expected<RollingSolution<dim>> solve(const LevelSet<dim>& psi) const { return solve(psi, positions()); }
-  Expected<RollingSolution<dim>> solve(const LevelSet<dim>& psi, LoadPositions positions) const;
+  /// Direct problems of all positions, or of some; states() without the interface.
+  Expected<RollingSolution<dim>> solve(const LevelSet<dim>& psi) const {
+    return solve(psi, this->all_positions());
+  }
+  Expected<RollingSolution<dim>> solve(const LevelSet<dim>& psi, LoadPositions positions,
+                                       const Interrupt& interrupt = {}) const;
 
   /// Nitsche's symmetric term of the tread applied to what is observed: loads on the tractions.
   Matrix nitsche_loads(const Matrix& observations) const;
@@ -131,7 +106,8 @@ template <int dim>
 Expected<RolledContact<dim>> roll_to(const RollingModel<dim>& model, const Tread<dim>& tread,
                                      const CyclicStiffness<dim>& ring, const SurfaceCompliance<dim>& surface,
                                      GroundPosition ground, const Preload& preload,
-                                     const std::optional<ContactState<dim>>& neighbour);
+                                     const std::optional<ContactState<dim>>& neighbour,
+                                     const Interrupt& interrupt = {});
 
 /// The same position under the loads or the travel of `model`, which differs in nothing else: next to free as
 /// long as the contact stays in the zone of `before`.

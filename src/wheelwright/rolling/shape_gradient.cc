@@ -83,106 +83,181 @@ BoundaryRule<dim> mirrored(BoundaryRule<dim> rule) {
   return rule;
 }
 
-/// The density of the positions that were solved for, each as often as it counts.
+/// The moving boundary in one cell, each of its points as often as it counts.
 template <int dim>
-class Density {
- public:
-  Density(const RollingProblem<dim>& problem, const Criteria<dim>& criteria, const RollingSolution<dim>& s,
-          const Adjoint& adjoint)
-      : problem_(problem),
-        criteria_(criteria),
-        s_(s),
-        adjoint_(adjoint),
-        loads_(problem.model(), s, adjoint) {}
+struct CellBoundary {
+  int cell;
+  BoundaryRule<dim> rule;
+};
 
-  /// At the points of a cell's moving boundary.
-  std::vector<SurfaceSample<dim>> in_cell(int cell, const BoundaryRule<dim>& rule) const {
+/// The cells in which gradients are given for one cut cell: it alone; or it and its image, when positions stand
+/// for their images too; nothing for the image itself.
+template <int dim>
+std::vector<CellBoundary<dim>> cells_of(const RollingSolution<dim>& s, const CutCell<dim>& cut) {
+  if (!s.positions.stand_for_images()) return {{cut.cell, cut.boundary}};
+  const int image = mirror_image(s.domain.grid, cut.cell);
+  if (image < cut.cell) return {};
+  std::vector<CellBoundary<dim>> cells{{cut.cell, cut.boundary}, {image, mirrored<dim>(cut.boundary)}};
+  if (image == cut.cell)
+    for (auto& cell : cells)
+      for (auto& q : cell.rule) q.weight /= 2;
+  return cells;
+}
+
+/// sum over the load cases of m_j factor_i M(u_j), from the strains of all load cases at one point (one row per
+/// component, one column per case).
+template <int dim>
+double integrand(const RollingSolution<dim>& s, const Material& material, const Matrix& strains, int first_row,
+                 std::span<const typename FunctionalDerivative<dim>::Integral> integrals) {
+  const int n_sectors = s.ring.n_sectors();
+  double sum = 0;
+  for (int j = 0; j < strains.columns(); ++j) {
+    Voigt<dim> strain;
+    std::copy_n(strains.column(j) + first_row, n_strains<dim>, strain.begin());
+    for (const auto& [density, factors] : integrals)
+      sum += s.positions.multiplicities[j / n_sectors] * factors[j / n_sectors] *
+             density->at(strain, material).density;
+  }
+  return sum;
+}
+
+/// The densities of all functions, each of its positions as often as it counts.
+template <int dim>
+class Densities {
+ public:
+  Densities(const RollingProblem<dim>& problem, const RollingSolution<dim>& s,
+            std::span<const FunctionalDerivative<dim>> functions, std::span<const Adjoint> adjoints)
+      : problem_(problem), s_(s), functions_(functions), adjoints_(adjoints) {
+    for (const Adjoint& adjoint : adjoints) loads_.emplace_back(problem.model(), s, adjoint);
+  }
+
+  /// [function][point] on a cell's moving boundary.
+  std::vector<std::vector<double>> in_cell(const CellBoundary<dim>& boundary) const {
     const PolarGrid<dim>& grid = problem_.model().grid;
-    const auto position = grid.cell_position(cell);
-    const double angle = position[1] * grid.cell_size()[1];
-    const auto& element = problem_.elements().element(position[0]);
-    const auto nodes = s_.ring.sector().space.cell_nodes(cell);
+    const auto place = grid.cell_position(boundary.cell);
+    const double angle = place[1] * grid.cell_size()[1];
+    const auto& element = problem_.elements().element(place[0]);
+    const Material& material = problem_.elements().materials().in_row(place[0]);
+    const auto nodes = s_.ring.sector().space.cell_nodes(boundary.cell);
+    std::vector<typename ElasticElement<dim>::Point> points;
+    for (const auto& q : boundary.rule) points.push_back(element.at(q.xi));
+    const Matrix strains = strain_columns<dim>(element, points);
     Matrix u(s_.displacement.modes.rows(), element.n_dofs()), p = u;
     gather(s_.ring, nodes, s_.displacement.modes, u);
-    gather(s_.ring, nodes, adjoint_.modes, p);
-    std::vector<typename ElasticElement<dim>::Point> points;
-    for (const auto& q : rule) points.push_back(element.at(q.xi));
-    const Matrix strains = strain_columns<dim>(element, points);
-    const Matrix strain_u = product(u, Op::none, strains, Op::none),
-                 strain_p = product(p, Op::none, strains, Op::none);
-    std::vector<SurfaceSample<dim>> samples;
-    for (size_t q = 0; q < points.size(); ++q) {
-      const int first = n_strains<dim> * static_cast<int>(q);
-      const double density = loads_.density(points[q], angle, p, strain_p.column(first)) +
-                             of_strains(strain_u.column(first), strain_p.column(first));
-      const auto surface = map_surface<dim>(points[q].jacobian, rule[q].normal);
-      samples.push_back(
-          {cell, rule[q].xi, rotated<dim>(surface.normal, angle), rule[q].weight * surface.scale, density});
+    const Matrix strain_u = product(u, Op::none, strains, Op::none);
+
+    std::vector<std::vector<double>> densities;
+    for (size_t f = 0; f < functions_.size(); ++f) {
+      gather(s_.ring, nodes, adjoints_[f].modes, p);
+      const Matrix strain_p = product(p, Op::none, strains, Op::none);
+      densities.push_back(energy_and_work(functions_[f].energy, material, strain_u, strain_p));
+      for (size_t q = 0; q < points.size(); ++q)
+        densities[f][q] +=
+            loads_[f].density(points[q], angle, p, strain_p.column(n_strains<dim> * static_cast<int>(q)));
+      if (!functions_[f].integrals.empty()) add_integrands(f, material, strain_u, densities[f]);
     }
-    return samples;
+    return densities;
   }
 
  private:
-  /// M(u) + sigma(u):eps(p) from the strains of the modes at a point, one component after the other.
-  double of_strains(const double* strain_u, const double* strain_p) const {
-    const int n_modes = s_.displacement.modes.rows();
-    double density = 0;
-    for (int mode = 0; mode < n_modes; ++mode) {
-      Voigt<dim> e;
-      for (int k = 0; k < n_strains<dim>; ++k) e[k] = strain_u[k * n_modes + mode];
-      const Voigt<dim> sigma = stress<dim>(problem_.model().material, e);
-      for (int k = 0; k < n_strains<dim>; ++k) density += sigma[k] * strain_p[k * n_modes + mode];
-      for (const auto& [weight, criterion] : criteria_)
-        density += weight * criterion->boundary_density(e, sigma);
+  /// energy sigma(u):eps(u) / 2 + sigma(u):eps(p) from the strains of the modes at the points, one component
+  /// after the other.
+  std::vector<double> energy_and_work(const std::vector<double>& energy, const Material& material,
+                                      const Matrix& strain_u, const Matrix& strain_p) const {
+    const int n_modes = strain_u.rows(), n_points = strain_u.columns() / n_strains<dim>;
+    const Matrix weighted = energy.empty() ? Matrix(n_modes, strain_u.columns())
+                                           : energy_weighted(s_, energy, strain_u);
+    std::vector<double> densities(n_points, 0.0);
+    for (int q = 0; q < n_points; ++q) {
+      const int first = n_strains<dim> * q;
+      for (int mode = 0; mode < n_modes; ++mode) {
+        Voigt<dim> strain;
+        for (int k = 0; k < n_strains<dim>; ++k) strain[k] = strain_u(mode, first + k);
+        const Voigt<dim> sigma = stress<dim>(material, strain);
+        for (int k = 0; k < n_strains<dim>; ++k)
+          densities[q] += sigma[k] * (strain_p(mode, first + k) + 0.5 * weighted(mode, first + k));
+      }
     }
-    return density;
+    return densities;
+  }
+
+  void add_integrands(size_t f, const Material& material, const Matrix& strain_u,
+                      std::vector<double>& densities) const {
+    const Matrix of_cases = product(strain_u, Op::transpose, s_.displacement.weights, Op::transpose);
+    for (size_t q = 0; q < densities.size(); ++q)
+      densities[q] += integrand<dim>(s_, material, of_cases, n_strains<dim> * static_cast<int>(q),
+                                     functions_[f].integrals);
   }
 
   const RollingProblem<dim>& problem_;
-  const Criteria<dim>& criteria_;
   const RollingSolution<dim>& s_;
-  const Adjoint& adjoint_;
-  WorkOfLoads<dim> loads_;
+  std::span<const FunctionalDerivative<dim>> functions_;
+  std::span<const Adjoint> adjoints_;
+  std::vector<WorkOfLoads<dim>> loads_;  ///< of every function
 };
 
-/// The density of all positions in a cell and in its mirror image, when those solved for stand for their
-/// images too: the mean of what they give in the one and in the other.
+/// The densities in the cells of one cut cell, [function][point]. Where positions stand for their images too,
+/// both are the mean of what the positions give in the one and in the other.
 template <int dim>
-std::vector<SurfaceSample<dim>> in_cell_and_image(const Density<dim>& density, const PolarGrid<dim>& grid,
-                                                  const CutCell<dim>& cut) {
-  const int image = mirror_image(grid, cut.cell);
-  if (image < cut.cell) return {};
-  auto samples = density.in_cell(cut.cell, cut.boundary);
-  auto images = density.in_cell(image, mirrored<dim>(cut.boundary));
-  for (size_t q = 0; q < samples.size(); ++q) {
-    samples[q].value = images[q].value = (samples[q].value + images[q].value) / 2;
-    if (image == cut.cell) samples[q].weight = images[q].weight = samples[q].weight / 2;
+std::vector<std::vector<double>> in_cells(const Densities<dim>& densities,
+                                          const std::vector<CellBoundary<dim>>& cells) {
+  if (cells.empty()) return {};
+  auto result = densities.in_cell(cells[0]);
+  if (cells.size() == 1) return result;
+  const auto images = densities.in_cell(cells[1]);
+  for (size_t f = 0; f < result.size(); ++f) {
+    const size_t n = result[f].size();
+    for (size_t q = 0; q < n; ++q) result[f][q] = (result[f][q] + images[f][q]) / 2;
+    for (size_t q = 0; q < n; ++q) result[f].push_back(result[f][q]);
   }
-  samples.insert(samples.end(), images.begin(), images.end());
-  return samples;
+  return result;
 }
 
 }  // namespace
 
 template <int dim>
-std::vector<SurfaceSample<dim>> shape_gradient(const RollingProblem<dim>& problem,
-                                               const Criteria<dim>& criteria, const RollingSolution<dim>& s,
-                                               const Adjoint& adjoint) {
-  const Density<dim> density(problem, criteria, s, adjoint);
-  std::vector<std::vector<SurfaceSample<dim>>> of_cell(s.domain.cut.size());
-  parallel_for(static_cast<int>(s.domain.cut.size()), [&](int c) {
-    const CutCell<dim>& cut = s.domain.cut[c];
-    of_cell[c] = s.positions.stand_for_images() ? in_cell_and_image(density, s.domain.grid, cut)
-                                                : density.in_cell(cut.cell, cut.boundary);
-  });
-  std::vector<SurfaceSample<dim>> gradient;
-  for (const auto& samples : of_cell) gradient.insert(gradient.end(), samples.begin(), samples.end());
-  return gradient;
+std::vector<SurfacePoint<dim>> boundary_points(const RollingProblem<dim>& problem,
+                                               const RollingSolution<dim>& s) {
+  const PolarGrid<dim>& grid = s.domain.grid;
+  std::vector<SurfacePoint<dim>> points;
+  for (const CutCell<dim>& cut : s.domain.cut)
+    for (const auto& [cell, rule] : cells_of(s, cut)) {
+      const auto place = grid.cell_position(cell);
+      const CellMap<dim> map(grid, problem.model().degree, place);
+      for (const auto& q : rule) {
+        const auto surface =
+            map_surface<dim>(map.jacobian(ShapeFunctions<dim>(problem.model().degree, q.xi)), q.normal);
+        points.push_back({cell, q.xi, rotated<dim>(surface.normal, place[1] * grid.cell_size()[1]),
+                          q.weight * surface.scale});
+      }
+    }
+  return points;
 }
 
-template std::vector<SurfaceSample<2>> shape_gradient(const RollingProblem<2>&, const Criteria<2>&,
-                                                      const RollingSolution<2>&, const Adjoint&);
-template std::vector<SurfaceSample<3>> shape_gradient(const RollingProblem<3>&, const Criteria<3>&,
-                                                      const RollingSolution<3>&, const Adjoint&);
+template <int dim>
+std::vector<std::vector<double>> shape_gradients(const RollingProblem<dim>& problem,
+                                                 const RollingSolution<dim>& s,
+                                                 std::span<const FunctionalDerivative<dim>> functions,
+                                                 std::span<const Adjoint> adjoints) {
+  const Densities<dim> densities(problem, s, functions, adjoints);
+  std::vector<std::vector<std::vector<double>>> of_cell(s.domain.cut.size());
+  parallel_for(static_cast<int>(s.domain.cut.size()),
+               [&](int c) { of_cell[c] = in_cells(densities, cells_of(s, s.domain.cut[c])); });
+  std::vector<std::vector<double>> gradients(functions.size());
+  for (const auto& by_function : of_cell)
+    for (size_t f = 0; f < by_function.size(); ++f)
+      gradients[f].insert(gradients[f].end(), by_function[f].begin(), by_function[f].end());
+  return gradients;
+}
+
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                                     \
+  template std::vector<SurfacePoint<dim>> boundary_points(const RollingProblem<dim>&,                    \
+                                                          const RollingSolution<dim>&);                  \
+  template std::vector<std::vector<double>> shape_gradients(                                             \
+      const RollingProblem<dim>&, const RollingSolution<dim>&, std::span<const FunctionalDerivative<dim>>, \
+      std::span<const Adjoint>);
+WHEELWRIGHT_INSTANTIATE(2)
+WHEELWRIGHT_INSTANTIATE(3)
+#undef WHEELWRIGHT_INSTANTIATE
 
 }  // namespace wheelwright

@@ -3,28 +3,106 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wheelwright/analysis/rolling_measures.h"
 #include "wheelwright/base/stopwatch.h"
 #include "wheelwright/functionals/mean_contact_stress.h"
-#include "wheelwright/analysis/rolling_measures.h"
-#include "wheelwright/rolling/adjoint.h"
-#include "wheelwright/rolling/shape_gradient.h"
 
 namespace wheelwright {
 namespace {
 
-/// sum += weight * term, where an empty matrix is zero.
-void accumulate(double weight, const Matrix& term, Matrix& sum) {
-  if (term.rows() == 0) return;
-  if (sum.rows() == 0) sum = Matrix(term.rows(), term.columns());
-  for (size_t k = 0; k < term.entries().size(); ++k) sum.entries()[k] += weight * term.entries()[k];
+/// Every functional of the functions at one shape, each evaluated once.
+template <int dim>
+class FunctionalValues {
+ public:
+  FunctionalValues(std::span<const ShapeFunction<dim>> functions, const StateSolver<dim>& solver,
+                   const LevelSet<dim>& psi, const State<dim>& state, const Matrix& mean) {
+    for (const ShapeFunction<dim>& function : functions)
+      for (const auto& [weight, functional] : function.terms)
+        if (std::ranges::find(functionals_, functional.get()) == functionals_.end()) {
+          functionals_.push_back(functional.get());
+          values_.push_back(functional->evaluate(solver, psi, state, mean));
+        }
+  }
+
+  const FunctionalValue<dim>& of(const Functional<dim>& functional) const {
+    return values_[std::ranges::find(functionals_, &functional) - functionals_.begin()];
+  }
+
+  std::vector<TermValue> terms(const LoadPositions& positions) const {
+    std::vector<TermValue> terms;
+    for (size_t k = 0; k < values_.size(); ++k) {
+      const auto by_position = of_all(positions, values_[k].by_position);
+      double value = values_[k].of_shape;
+      for (int i = 0; i < positions.size() && !values_[k].by_position.empty(); ++i)
+        value += positions.multiplicities[i] * values_[k].by_position[i];
+      terms.push_back({functionals_[k]->name(), value, by_position});
+    }
+    return terms;
+  }
+
+ private:
+  std::vector<const Functional<dim>*> functionals_;
+  std::vector<FunctionalValue<dim>> values_;
+};
+
+/// A function's weighted sum of functionals.
+template <int dim>
+struct WeightedValues {
+  FunctionValue value;
+  FunctionalDerivative<dim> derivative;
+};
+
+/// Takes the mean's own derivative into account: d(t_i - m) with m the mean of the t_i. When all positions count
+/// alike, deviations sum to zero over them, and with them their loads: then nothing is left of it.
+template <int dim>
+void add_derivative_of_mean(const TreadSurface<dim>& tread, const LoadPositions& positions, Matrix& loads) {
+  const Matrix mean = mean_over_positions(tread, positions, loads);
+  loads = deviation_from_mean(tread, positions, std::move(loads), mean);
 }
 
 template <int dim>
-std::vector<MeasureValue> measures(const RollingSolution<dim>& solution) {
+WeightedValues<dim> weighted(const ShapeFunction<dim>& function, const FunctionalValues<dim>& functionals,
+                             const StateSolver<dim>& solver, const State<dim>& state, bool mean_is_held) {
+  const LoadPositions& positions = state.positions();
+  WeightedValues<dim> result{
+      .value = {function.name, 0, {}, std::vector<double>(state.boundary().size(), 0.0), function.bounds},
+      .derivative = {}};
+  std::vector<double> by_position(positions.size(), 0.0);
+  bool depends_on_states = false;
+  for (const auto& [weight, functional] : function.terms) {
+    const FunctionalValue<dim>& term = functionals.of(*functional);
+    result.value.value += weight * term.of_shape;
+    for (size_t q = 0; q < term.gradient_of_shape.size(); ++q)
+      result.value.gradient[q] += weight * term.gradient_of_shape[q];
+    if (term.by_position.empty()) continue;
+    depends_on_states = true;
+    std::vector<double> factors(positions.size(), weight);
+    for (int i = 0; i < positions.size(); ++i) {
+      if (!function.position_weights.empty()) factors[i] *= function.position_weights[i];
+      by_position[i] += factors[i] * term.by_position[i];
+    }
+    if (term.compares_with_mean && !mean_is_held && !function.position_weights.empty()) {
+      FunctionalDerivative<dim> derivative;
+      add(term.derivative, factors, derivative);
+      add_derivative_of_mean(solver.tread_surface(), positions, derivative.tread_loads);
+      add(derivative, std::vector<double>(positions.size(), 1.0), result.derivative);
+    } else {
+      add(term.derivative, factors, result.derivative);
+    }
+  }
+  if (!depends_on_states) return result;
+  for (int i = 0; i < positions.size(); ++i)
+    result.value.value += positions.multiplicities[i] * by_position[i];
+  result.value.by_position = of_all(positions, by_position);
+  return result;
+}
+
+template <int dim>
+std::vector<MeasureValue> measures(const State<dim>& state) {
   std::vector<ContactSummary> positions;
-  for (size_t i = 0; i < solution.contacts.size(); ++i)
-    positions.insert(positions.end(), static_cast<size_t>(solution.positions.multiplicities[i]),
-                     contact_summary(solution.contacts[i], solution.states[i]));
+  for (size_t i = 0; i < state.contacts().size(); ++i)
+    positions.insert(positions.end(), static_cast<size_t>(state.positions().multiplicities[i]),
+                     contact_summary(state.contacts()[i]));
   const RollingMeasures m = rolling_measures(positions);
   return {{"mean_travel", m.mean_travel},
           {"run_out", m.run_out},
@@ -32,54 +110,84 @@ std::vector<MeasureValue> measures(const RollingSolution<dim>& solution) {
           {"pressure_spread", m.pressure_spread}};
 }
 
+template <int dim>
+bool is_finite(const Evaluation<dim>& evaluation) {
+  return std::ranges::all_of(evaluation.functions, [](const FunctionValue& function) {
+    return std::isfinite(function.value) &&
+           std::ranges::all_of(function.gradient, [](double g) { return std::isfinite(g); });
+  });
+}
+
+/// Whether a function needs an adjoint: the others depend on the shape alone.
+template <int dim>
+bool depends_on_states(const FunctionalDerivative<dim>& derivative) {
+  return !derivative.energy.empty() || derivative.tread_loads.columns() > 0 || !derivative.integrals.empty();
+}
+
 }  // namespace
 
 template <int dim>
-Expected<Evaluation<dim>> differentiate(const RollingProblem<dim>& problem, const Criteria<dim>& criteria,
-                                        const RollingSolution<dim>& solution, const Matrix* held_mean) {
-  Evaluation<dim> evaluation{
-      0, {}, {}, {}, mean_observations(problem, solution), solution.phases, measures(solution)};
+Expected<Evaluation<dim>> differentiate(const StateSolver<dim>& solver,
+                                        std::span<const ShapeFunction<dim>> functions,
+                                        const LevelSet<dim>& psi, const State<dim>& state,
+                                        const Matrix* held_mean) {
   Stopwatch watch;
-  AdjointLoads loads;
-  for (const auto& [weight, criterion] : criteria) {
-    const CriterionTerm term =
-        criterion->evaluate(problem, solution, held_mean ? *held_mean : evaluation.mean_observations);
-    evaluation.criteria.push_back({criterion->name(), term.value(solution.positions)});
-    evaluation.objective += weight * evaluation.criteria.back().value;
-    loads.state_weight += weight * term.loads.state_weight;
-    loads.ghost_weight += weight * term.loads.ghost_weight;
-    accumulate(weight, term.loads.observations, loads.observations);
+  Evaluation<dim> evaluation{.functions = {},
+                             .terms = {},
+                             .boundary = state.boundary(),
+                             .newton_iterations = {},
+                             .mean_observations = mean_observations(solver.tread_surface(), state),
+                             .phases = state.phases(),
+                             .measures = measures(state)};
+  for (const auto& contact : state.contacts())
+    evaluation.newton_iterations.push_back(contact.newton_iterations);
+  const FunctionalValues<dim> functionals(functions, solver, psi, state,
+                                          held_mean ? *held_mean : evaluation.mean_observations);
+  evaluation.terms = functionals.terms(state.positions());
+  std::vector<FunctionalDerivative<dim>> derivatives;
+  std::vector<size_t> of_states;
+  for (const ShapeFunction<dim>& function : functions) {
+    auto [value, derivative] = weighted(function, functionals, solver, state, held_mean != nullptr);
+    if (depends_on_states(derivative)) {
+      of_states.push_back(evaluation.functions.size());
+      derivatives.push_back(std::move(derivative));
+    }
+    evaluation.functions.push_back(std::move(value));
   }
-  for (const auto& state : solution.states) evaluation.newton_iterations.push_back(state.newton_iterations);
   evaluation.phases.push_back({"criteria", watch.lap()});
 
-  const auto adjoint = solve_adjoint(problem, solution, loads);
-  if (!adjoint) return adjoint.failure();
-  evaluation.phases.push_back({"adjoint", watch.lap()});
-  evaluation.gradient = shape_gradient(problem, criteria, solution, *adjoint);
-  evaluation.phases.push_back({"gradient", watch.lap()});
-  if (!std::isfinite(evaluation.objective) ||
-      !std::all_of(evaluation.gradient.begin(), evaluation.gradient.end(),
-                   [](const auto& sample) { return std::isfinite(sample.value); }))
+  const auto gradients = state.shape_gradients(derivatives);
+  if (!gradients) return gradients.failure();
+  for (size_t k = 0; k < of_states.size(); ++k)
+    for (size_t q = 0; q < evaluation.boundary.size(); ++q)
+      evaluation.functions[of_states[k]].gradient[q] += gradients->densities[k][q];
+  evaluation.phases.insert(evaluation.phases.end(), gradients->phases.begin(), gradients->phases.end());
+  if (!is_finite(evaluation))
     return Failure{FailureReason::not_finite, "the objective or its shape gradient is not finite"};
   return evaluation;
 }
 
 template <int dim>
-Expected<Evaluation<dim>> evaluate(const RollingProblem<dim>& problem, const Criteria<dim>& criteria,
-                                   const LevelSet<dim>& psi, const Matrix* held_mean) {
-  const bool compares_images_alike = !held_mean || is_mirror_symmetric(problem.tread(), *held_mean);
-  const auto solution =
-      problem.solve(psi, compares_images_alike ? problem.distinct_positions(psi) : problem.positions());
-  if (!solution) return solution.failure();
-  return differentiate(problem, criteria, *solution, held_mean);
+Expected<Evaluated<dim>> evaluate(const StateSolver<dim>& solver,
+                                  std::span<const ShapeFunction<dim>> functions, const LevelSet<dim>& psi,
+                                  const Matrix* held_mean, const Interrupt& interrupt) {
+  const bool compares_images_alike =
+      weights_are_mirror_symmetric(functions) &&
+      (!held_mean || is_mirror_symmetric(solver.tread_surface(), *held_mean));
+  auto state = solver.states(psi, compares_images_alike ? solver.distinct_positions(psi) : solver.all_positions(),
+                             interrupt);
+  if (!state) return state.failure();
+  auto evaluation = differentiate(solver, functions, psi, **state, held_mean);
+  if (!evaluation) return evaluation.failure();
+  return Evaluated<dim>{*std::move(evaluation), *std::move(state)};
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                 \
-  template Expected<Evaluation<dim>> differentiate(const RollingProblem<dim>&, const Criteria<dim>&, \
-                                                   const RollingSolution<dim>&, const Matrix*);      \
-  template Expected<Evaluation<dim>> evaluate(const RollingProblem<dim>&, const Criteria<dim>&,      \
-                                              const LevelSet<dim>&, const Matrix*);
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                                        \
+  template Expected<Evaluation<dim>> differentiate(const StateSolver<dim>&,                                 \
+                                                   std::span<const ShapeFunction<dim>>,                     \
+                                                   const LevelSet<dim>&, const State<dim>&, const Matrix*); \
+  template Expected<Evaluated<dim>> evaluate(const StateSolver<dim>&, std::span<const ShapeFunction<dim>>,  \
+                                             const LevelSet<dim>&, const Matrix*, const Interrupt&);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)
 #undef WHEELWRIGHT_INSTANTIATE

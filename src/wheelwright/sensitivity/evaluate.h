@@ -1,21 +1,32 @@
 #pragma once
 
-#include "wheelwright/functionals/functional.h"
+#include "wheelwright/functionals/shape_function.h"
 #include "wheelwright/sensitivity/evaluation.h"
 
 namespace wheelwright {
 
-/// Objective (5) and shape gradient (42) from the solutions of one shape. `held_mean`: the mean of the
-/// contact stress that uniformity criteria compare with (Evaluation::mean_observations of an earlier shape,
-/// as the paper does); null for the shape's own, whose derivative is exact.
+/// The evaluation of one shape, and the states that it was made from.
 template <int dim>
-Expected<Evaluation<dim>> differentiate(const RollingProblem<dim>& problem, const Criteria<dim>& criteria,
-                                        const RollingSolution<dim>& solution,
+struct Evaluated {
+  Evaluation<dim> evaluation;
+  std::shared_ptr<const State<dim>> state;
+};
+
+/// Values and shape gradients (42) of the functions from the states of one shape. The adjoints of all functions
+/// are one block of right-hand sides. `held_mean`: the mean of the contact stress that uniformity functionals
+/// compare with (Evaluation::mean_observations of an earlier shape, as the paper does); null for the shape's own,
+/// whose derivative is exact. Fails as the adjoint problems do, or with not_finite.
+template <int dim>
+Expected<Evaluation<dim>> differentiate(const StateSolver<dim>& solver,
+                                        std::span<const ShapeFunction<dim>> functions,
+                                        const LevelSet<dim>& psi, const State<dim>& state,
                                         const Matrix* held_mean = nullptr);
 
-/// The same for a shape: the direct problems of its distinct positions, then differentiate().
+/// The same for a shape: the states of its distinct positions, then differentiate(). All positions are solved
+/// for when the functions' weights or the held mean are not their own mirror image.
 template <int dim>
-Expected<Evaluation<dim>> evaluate(const RollingProblem<dim>& problem, const Criteria<dim>& criteria,
-                                   const LevelSet<dim>& psi, const Matrix* held_mean = nullptr);
+Expected<Evaluated<dim>> evaluate(const StateSolver<dim>& solver,
+                                  std::span<const ShapeFunction<dim>> functions, const LevelSet<dim>& psi,
+                                  const Matrix* held_mean = nullptr, const Interrupt& interrupt = {});
 
 }  // namespace wheelwright

@@ -1,18 +1,31 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "wheelwright/base/phase_time.h"
+#include "wheelwright/functionals/bounds.h"
 #include "wheelwright/geometry/level_set.h"
 #include "wheelwright/linalg/dense.h"
 
 namespace wheelwright {
 
-/// One criterion's value, summed over the load positions of one sector.
-struct CriterionValue {
-  std::string name;  ///< as in the case file, e.g. "strain_energy"
-  double value;      ///< before weighting; per metre of width when dim = 2
+/// A functional's value at one shape, before weighting. Sums run over the N_d load positions of one sector; the
+/// paper's sum over all N_l = N_d N_s positions is N_s times that.
+struct TermValue {
+  std::string name;                 ///< as in the case file, e.g. "strain_energy"
+  double value;                     ///< summed over the positions; per metre of width when dim = 2
+  std::vector<double> by_position;  ///< of every position of the sector; empty: it depends on the shape alone
+};
+
+/// A function's value, its shape gradient (42) and its bounds at one shape.
+struct FunctionValue {
+  std::string name;                 ///< e.g. "objective"
+  double value;                     ///< the weighted sum of its terms
+  std::vector<double> by_position;  ///< the share of every position of the sector; empty: none has one
+  std::vector<double> gradient;     ///< density G at Evaluation::boundary
+  Bounds bounds;
 };
 
 /// A number that is watched but not optimized, over the load positions of one sector.
@@ -21,19 +34,23 @@ struct MeasureValue {
   double value;      ///< in SI units
 };
 
-/// What the physics says about one shape: the objective (5), its shape gradient (42), and how it went. Sums
-/// run over the N_d load positions of one sector; the paper's sum over all N_l = N_d N_s positions is N_s
-/// times that.
+/// What the physics says about one shape: its functions with their gradients, and how the solution went.
 template <int dim>
 struct Evaluation {
-  double objective;                          ///< J [J/m when dim = 2]
-  std::vector<CriterionValue> criteria;      ///< the terms of J
-  std::vector<SurfaceSample<dim>> gradient;  ///< density G: DJ(Theta) = sum weight value Theta.n, for Theta
-                                             ///< equal in all sectors
-  std::vector<int> newton_iterations;        ///< one a position that was solved for
+  std::vector<FunctionValue> functions;     ///< in the order of the problem's functions
+  std::vector<TermValue> terms;             ///< the functionals that they are made of, each once
+  std::vector<SurfacePoint<dim>> boundary;  ///< DJ(Theta) = sum weight gradient Theta.n over these points, for a
+                                            ///< Theta that is equal in all sectors
+  std::vector<int> newton_iterations;       ///< one per position that was solved for
   Matrix mean_observations;  ///< of the tread over the positions (functionals/mean_contact_stress.h)
   std::vector<PhaseTime> phases;
   std::vector<MeasureValue> measures;  ///< RollingMeasures, by its names
+
+  /// The function of that name, which there must be.
+  const FunctionValue& function(std::string_view name) const;
+
+  /// Its gradient at the points of the boundary.
+  std::vector<SurfaceSample<dim>> gradient(std::string_view name) const;
 };
 
 }  // namespace wheelwright

@@ -21,6 +21,15 @@ LoadPositions load_positions_without_images(const PolarGrid<dim>& grid, int n) {
   return positions;
 }
 
+std::vector<double> of_all(const LoadPositions& positions, const std::vector<double>& values) {
+  if (values.empty() || !positions.stand_for_images()) return values;
+  double n = 0;
+  for (const double m : positions.multiplicities) n += m;
+  std::vector<double> all;
+  for (int i = 0; i < static_cast<int>(n); ++i) all.push_back(values[std::min(i, static_cast<int>(n) - i)]);
+  return all;
+}
+
 template LoadPositions load_positions(const PolarGrid<2>&, int);
 template LoadPositions load_positions(const PolarGrid<3>&, int);
 template LoadPositions load_positions_without_images(const PolarGrid<2>&, int);

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "wheelwright/functionals/functional.h"
+
+namespace wheelwright {
+
+/// int_Gamma_m N(x) ds (46) over the moving boundary of one sector, whatever the load position. N is equal in all
+/// sectors. By (42) and (47) its shape derivative has the density kappa_m N + grad N . n, with kappa_m the mean curvature. It is the
+/// derivative for a smooth boundary: the kinks that the level set's boundary has on the faces of cells are left
+/// out, which is O(h^2).
+template <int dim>
+class BoundaryIntegral : public Functional<dim> {
+ public:
+  FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi, const State<dim>& state,
+                                const Matrix& mean) const override;
+
+ protected:
+  struct Density {
+    double value;       ///< N
+    Vec<dim> gradient;  ///< grad N
+  };
+
+ private:
+  /// N at a point, Cartesian, in the body frame [m].
+  virtual Density density(const Vec<dim>& x) const = 0;
+};
+
+}  // namespace wheelwright

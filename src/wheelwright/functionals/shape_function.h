@@ -1,0 +1,39 @@
+#pragma once
+
+#include "wheelwright/functionals/bounds.h"
+#include "wheelwright/functionals/functional.h"
+
+namespace wheelwright {
+
+/// A term of a function.
+template <int dim>
+struct WeightedFunctional {
+  double weight;
+  std::shared_ptr<const Functional<dim>> functional;
+};
+
+template <int dim>
+using WeightedSum = std::vector<WeightedFunctional<dim>>;
+
+/// A function of the shape: a weighted sum of functionals, summed over the load positions of one sector. Whether
+/// it is the objective, a constraint or only watched is the optimizer's business.
+template <int dim>
+struct ShapeFunction {
+  std::string name;
+  WeightedSum<dim> terms;
+  /// A factor per load position of the sector (all of them, mirror images too); empty: 1.
+  std::vector<double> position_weights = {};
+  Bounds bounds = {};
+};
+
+/// The function that is minimized, by the name that the optimizer looks for.
+template <int dim>
+ShapeFunction<dim> objective(WeightedSum<dim> terms) {
+  return {.name = "objective", .terms = std::move(terms)};
+}
+
+/// Whether the functions weight every position as its mirror image in the plane of azimuth 0.
+template <int dim>
+bool weights_are_mirror_symmetric(std::span<const ShapeFunction<dim>> functions);
+
+}  // namespace wheelwright

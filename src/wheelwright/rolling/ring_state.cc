@@ -1,0 +1,102 @@
+#include "wheelwright/rolling/ring_state.h"
+
+#include "wheelwright/base/stopwatch.h"
+#include "wheelwright/rolling/neumann_to_dirichlet.h"
+#include "wheelwright/rolling/ring_displacement.h"
+#include "wheelwright/rolling/shape_gradient.h"
+
+namespace wheelwright {
+namespace {
+
+template <int dim>
+class RingState : public State<dim> {
+ public:
+  RingState(const RollingProblem<dim>& problem, RollingSolution<dim> solution)
+      : problem_(problem), solution_(std::move(solution)), boundary_(boundary_points(problem, solution_)) {
+    for (size_t i = 0; i < solution_.contacts.size(); ++i)
+      contacts_.push_back(solution_.contacts[i].patch(solution_.states[i]));
+  }
+
+  const CutDomain<dim>& domain() const override { return solution_.domain; }
+  const LoadPositions& positions() const override { return solution_.positions; }
+  const std::vector<ContactPatch<dim>>& contacts() const override { return contacts_; }
+  const std::vector<double>& strain_energy() const override { return solution_.strain_energy; }
+  const Matrix& observations() const override { return solution_.observations; }
+  const std::vector<PhaseTime>& phases() const override { return solution_.phases; }
+  const std::vector<SurfacePoint<dim>>& boundary() const override { return boundary_; }
+
+  std::unique_ptr<const Displacement<dim>> displacement() const override {
+    return std::make_unique<RingDisplacement<dim>>(problem_, solution_);
+  }
+
+  Expected<ShapeGradients> shape_gradients(
+      std::span<const FunctionalDerivative<dim>> functions) const override {
+    Stopwatch watch;
+    const auto adjoints = solve_adjoints(problem_, solution_, functions);
+    if (!adjoints) return adjoints.failure();
+    const double adjoint_seconds = watch.lap();
+    auto densities = wheelwright::shape_gradients<dim>(problem_, solution_, functions, *adjoints);
+    return ShapeGradients{std::move(densities), {{"adjoint", adjoint_seconds}, {"gradient", watch.lap()}}};
+  }
+
+  Expected<std::vector<std::vector<ContactPatch<dim>>>> under(
+      std::span<const RollingModel<dim>> models) const override {
+    std::vector<RolledContact<dim>> rolled;
+    for (size_t i = 0; i < solution_.contacts.size(); ++i)
+      rolled.push_back({solution_.contacts[i], solution_.states[i]});
+    std::vector<std::vector<ContactPatch<dim>>> result;
+    for (const RollingModel<dim>& model : models) {
+      result.emplace_back();
+      for (size_t i = 0; i < rolled.size(); ++i) {
+        auto next = reload(model, problem_.tread(), solution_.ring, solution_.surface,
+                           solution_.positions.grounds[i], solution_.preloads[i], rolled[i]);
+        if (!next) return next.failure();
+        rolled[i] = *std::move(next);
+        result.back().push_back(rolled[i].contact.patch(rolled[i].state));
+      }
+    }
+    return result;
+  }
+
+ private:
+  const RollingProblem<dim>& problem_;
+  RollingSolution<dim> solution_;
+  std::vector<SurfacePoint<dim>> boundary_;
+  std::vector<ContactPatch<dim>> contacts_;
+};
+
+}  // namespace
+
+template <int dim>
+std::shared_ptr<const State<dim>> ring_state(const RollingProblem<dim>& problem,
+                                             RollingSolution<dim> solution) {
+  return std::make_shared<RingState<dim>>(problem, std::move(solution));
+}
+
+template <int dim>
+Expected<std::shared_ptr<const State<dim>>> RollingProblem<dim>::states(const LevelSet<dim>& psi,
+                                                                        LoadPositions positions,
+                                                                        const Interrupt& interrupt) const {
+  auto solution = solve(psi, std::move(positions), interrupt);
+  if (!solution) return solution.failure();
+  return ring_state(*this, *std::move(solution));
+}
+
+template <int dim>
+Expected<typename StateSolver<dim>::TractionMap> RollingProblem<dim>::neumann_to_dirichlet() const {
+  auto created = NeumannToDirichlet<dim>::create(model_);
+  if (!created) return created.failure();
+  const auto map = std::make_shared<const NeumannToDirichlet<dim>>(*std::move(created));
+  return typename StateSolver<dim>::TractionMap([map](const Matrix& tractions) { return (*map)(tractions); });
+}
+
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                                      \
+  template std::shared_ptr<const State<dim>> ring_state(const RollingProblem<dim>&, RollingSolution<dim>); \
+  template Expected<std::shared_ptr<const State<dim>>> RollingProblem<dim>::states(                        \
+      const LevelSet<dim>&, LoadPositions, const Interrupt&) const;                                        \
+  template Expected<StateSolver<dim>::TractionMap> RollingProblem<dim>::neumann_to_dirichlet() const;
+WHEELWRIGHT_INSTANTIATE(2)
+WHEELWRIGHT_INSTANTIATE(3)
+#undef WHEELWRIGHT_INSTANTIATE
+
+}  // namespace wheelwright

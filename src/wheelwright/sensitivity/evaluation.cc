@@ -1,0 +1,26 @@
+#include "wheelwright/sensitivity/evaluation.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace wheelwright {
+
+template <int dim>
+const FunctionValue& Evaluation<dim>::function(std::string_view name) const {
+  const auto found = std::ranges::find(functions, name, &FunctionValue::name);
+  assert(found != functions.end());
+  return *found;
+}
+
+template <int dim>
+std::vector<SurfaceSample<dim>> Evaluation<dim>::gradient(std::string_view name) const {
+  const FunctionValue& of = function(name);
+  std::vector<SurfaceSample<dim>> samples;
+  for (size_t i = 0; i < boundary.size(); ++i) samples.push_back({boundary[i], of.gradient[i]});
+  return samples;
+}
+
+template struct Evaluation<2>;
+template struct Evaluation<3>;
+
+}  // namespace wheelwright

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "wheelwright/state/rim.h"
+
+namespace wheelwright {
+
+/// The contact at one load position: what the ground does to the wheel near the point where it touches. Vectors
+/// are in the ground frame: component 0 along n_y, towards the ground, 1 along it.
+template <int dim>
+struct ContactPatch {
+  /// A contact quadrature point of the tread.
+  struct Point {
+    int column;          ///< of the ring
+    int point;           ///< of the column (TreadSurface::points)
+    double angle;        ///< turns components in the column's frame into the ground frame [rad]
+    Vec<dim> position;   ///< relative to the axle [m]
+    double gap;          ///< g (9) [m]
+    double weight;       ///< dS [m, or m^2 when dim = 3]
+    Vec<dim> augmented;  ///< z = tau sigma(u)n - gamma (u - g n_y) [Pa]; in contact where z_0 < 0
+    Vec<dim> traction;   ///< Phi(z) of (18), (23): the ground's traction on the wheel [Pa]
+  };
+
+  std::vector<Point> points;  ///< ascending along the ground, column by column
+  RimMotion rim;
+  RimForce rim_force;     ///< on the rim: its load, and the reaction in motions that are not free
+  int newton_iterations;  ///< of all attempts
+};
+
+}  // namespace wheelwright

@@ -1,0 +1,39 @@
+#include "wheelwright/state/functional_derivative.h"
+
+namespace wheelwright {
+namespace {
+
+/// sum += factor_i term_i, where an empty vector is zero.
+void accumulate(const std::vector<double>& factors, const std::vector<double>& term,
+                std::vector<double>& sum) {
+  if (term.empty()) return;
+  sum.resize(term.size(), 0.0);
+  for (std::size_t i = 0; i < term.size(); ++i) sum[i] += factors[i] * term[i];
+}
+
+/// The same of columns, equally many per position; an empty matrix is zero.
+void accumulate(const std::vector<double>& factors, const Matrix& term, Matrix& sum) {
+  if (term.columns() == 0) return;
+  if (sum.columns() == 0) sum = Matrix(term.rows(), term.columns());
+  const int per_position = term.columns() / static_cast<int>(factors.size());
+  for (int j = 0; j < term.columns(); ++j)
+    for (int i = 0; i < term.rows(); ++i) sum(i, j) += factors[j / per_position] * term(i, j);
+}
+
+}  // namespace
+
+template <int dim>
+void add(const FunctionalDerivative<dim>& term, const std::vector<double>& factors,
+         FunctionalDerivative<dim>& sum) {
+  accumulate(factors, term.energy, sum.energy);
+  accumulate(factors, term.tread_loads, sum.tread_loads);
+  for (const auto& integral : term.integrals) {
+    sum.integrals.push_back({integral.density, {}});
+    accumulate(factors, integral.factors, sum.integrals.back().factors);
+  }
+}
+
+template void add(const FunctionalDerivative<2>&, const std::vector<double>&, FunctionalDerivative<2>&);
+template void add(const FunctionalDerivative<3>&, const std::vector<double>&, FunctionalDerivative<3>&);
+
+}  // namespace wheelwright

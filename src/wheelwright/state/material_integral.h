@@ -1,0 +1,25 @@
+#pragma once
+
+#include "wheelwright/state/state.h"
+
+namespace wheelwright {
+
+/// int M(u_i) dx over the material of the whole ring, tread included, of every position that was solved for.
+/// With MaterialRule's points and the strains of Displacement::strains().
+template <int dim>
+std::vector<double> material_integral(const StateSolver<dim>& solver, const State<dim>& state,
+                                      const MaterialDensity<dim>& density);
+
+/// Calls visit(load case, point of the cell, strain) for some points of a cell; load case = position * n_sectors
+/// + sector.
+template <int dim, class Visit>
+void for_each_strain(const Matrix& strains, Visit visit) {
+  for (int load_case = 0; load_case < strains.columns(); ++load_case)
+    for (int q = 0; q < strains.rows() / n_strains<dim>; ++q) {
+      Voigt<dim> strain;
+      std::copy_n(strains.column(load_case) + n_strains<dim> * q, n_strains<dim>, strain.begin());
+      visit(load_case, q, strain);
+    }
+}
+
+}  // namespace wheelwright

@@ -1,0 +1,27 @@
+#include "wheelwright/state/rolling_model.h"
+
+namespace wheelwright {
+
+template <int dim>
+RimControl rim_control(const RollingModel<dim>& model) {
+  RimControl rim;
+  if (model.travel)
+    rim.prescribed.towards_ground = *model.travel;
+  else
+    rim.free.push_back({{.towards_ground = 1}, model.load});
+  if (model.horizontal_force != 0) rim.free.push_back({{.along_ground = 1}, model.horizontal_force});
+  if (model.torque != 0) rim.free.push_back({{.rotation = 1}, model.torque});
+  return rim;
+}
+
+template <int dim>
+bool is_mirror_symmetric(const RollingModel<dim>& model) {
+  return model.horizontal_force == 0 && model.torque == 0 && model.distributed.body_force[1] == 0;
+}
+
+template RimControl rim_control(const RollingModel<2>&);
+template RimControl rim_control(const RollingModel<3>&);
+template bool is_mirror_symmetric(const RollingModel<2>&);
+template bool is_mirror_symmetric(const RollingModel<3>&);
+
+}  // namespace wheelwright

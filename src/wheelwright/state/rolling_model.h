@@ -1,0 +1,58 @@
+#pragma once
+
+#include <optional>
+
+#include "wheelwright/elasticity/contact_form.h"
+#include "wheelwright/elasticity/ghost_penalty.h"
+#include "wheelwright/elasticity/materials.h"
+#include "wheelwright/geometry/polar_grid.h"
+#include "wheelwright/state/rim.h"
+
+namespace wheelwright {
+
+/// The outermost rows of cells, which no shape cuts, and their grid: it is halved `levels` times towards the
+/// tread. The lower half of the rows is halved once, the next quarter twice and so on; the last part is halved
+/// `levels` times. Nodes that hang on coarser cells are constrained to them.
+struct TreadGrid {
+  int rows = 1;            ///< radial cells of the level set's grid
+  int levels = 0;          ///< L
+  int annulus_points = 0;  ///< Gauss points per direction in every cell at which sigma(u)n is observed; 0: none
+};
+
+/// The loads of (1) on the structure itself.
+template <int dim>
+struct DistributedLoads {
+  Vec<dim> body_force{};     ///< f in the ground frame: component 0 towards the ground, 1 along it [N/m^3]
+  double hole_pressure = 0;  ///< p, g_N = -p n on the moving boundary [Pa]
+
+  bool any() const { return norm<dim>(body_force) > 0 || hole_pressure != 0; }
+};
+
+/// A rolling structure and its load: all but its shape. Forces are per metre of width when dim = 2.
+template <int dim>
+struct RollingModel {
+  PolarGrid<dim> grid;
+  int degree = 2;                 ///< of the displacement, 1 or 2
+  std::optional<int> cut_points;  ///< Gauss points per direction in cut cells; absent: degree + 2
+  Materials materials;
+  GhostPenalty ghost;
+  ContactForm contact;
+  int contact_points = 5;       ///< Gauss points per direction on each contact face
+  TreadGrid tread;              ///< rows that are condensed once per run, and their refinement
+  double load;                  ///< P [N/m when dim = 2, N when dim = 3]
+  double horizontal_force = 0;  ///< H on the rim, towards larger azimuth; if not 0, it moves along the ground
+  double torque = 0;            ///< M on the rim about the axle; if not 0, it turns
+  std::optional<double> travel;  ///< of the rim towards the ground [m], instead of the load
+  DistributedLoads<dim> distributed;
+  int n_positions = 8;  ///< N_d, load positions of one sector; means over them need a divisor of its columns
+};
+
+/// What a model does to its rim.
+template <int dim>
+RimControl rim_control(const RollingModel<dim>& model);
+
+/// Whether a model's loads are their own mirror image in the plane of a load position.
+template <int dim>
+bool is_mirror_symmetric(const RollingModel<dim>& model);
+
+}  // namespace wheelwright

@@ -1,0 +1,115 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+
+#include "wheelwright/base/expected.h"
+#include "wheelwright/base/interrupt.h"
+#include "wheelwright/base/phase_time.h"
+#include "wheelwright/cut/cut_domain.h"
+#include "wheelwright/state/contact_patch.h"
+#include "wheelwright/state/functional_derivative.h"
+#include "wheelwright/state/load_positions.h"
+#include "wheelwright/state/ring_field.h"
+#include "wheelwright/state/rolling_model.h"
+#include "wheelwright/state/tread_surface.h"
+
+namespace wheelwright {
+
+/// The displacement of a solved shape everywhere in the ring.
+template <int dim>
+class Displacement {
+ public:
+  virtual ~Displacement() = default;
+
+  /// u of one load position at the nodes of the displacement's lattice, the rim's motion included [m];
+  /// Cartesian, body frame.
+  virtual RingField at_nodes(int position) const = 0;
+
+  /// Strains at points of a cell of the sector's grid, in the cell's frame: n_strains rows per point, one
+  /// column per (position, sector). In the tread they are those of the grid's own nodes.
+  virtual Matrix strains(int cell, std::span<const Vec<dim>> points) const = 0;
+};
+
+/// Shape gradients of several functions.
+struct ShapeGradients {
+  std::vector<std::vector<double>> densities;  ///< [function][point of State::boundary()]
+  std::vector<PhaseTime> phases;               ///< wall times of the adjoint problems and of the densities
+};
+
+/// The states of one shape: the solutions of its contact problems (27) at some load positions. Position i is
+/// solved in the body frame, with the ground turned to it. The field in sector s is also the field in sector 0
+/// for the load position that lies s sectors back.
+template <int dim>
+class State {
+ public:
+  virtual ~State() = default;
+
+  virtual const CutDomain<dim>& domain() const = 0;
+
+  /// The load positions that were solved for, and how many each stands for.
+  virtual const LoadPositions& positions() const = 0;
+
+  /// The contact of every position.
+  virtual const std::vector<ContactPatch<dim>>& contacts() const = 0;
+
+  /// J_e (3) of every position [J/m when dim = 2, J when dim = 3].
+  virtual const std::vector<double>& strain_energy() const = 0;
+
+  /// What the tread observes of the displacement without the rim's motion: rows as in ObservationRows, one
+  /// column per (position, ring column).
+  virtual const Matrix& observations() const = 0;
+
+  /// Wall times of the solution's phases.
+  virtual const std::vector<PhaseTime>& phases() const = 0;
+
+  /// The displacement everywhere: it costs one sweep over the interior unknowns.
+  virtual std::unique_ptr<const Displacement<dim>> displacement() const = 0;
+
+  /// The points of the moving boundary at which shape gradients are given.
+  virtual const std::vector<SurfacePoint<dim>>& boundary() const = 0;
+
+  /// The densities at boundary() of the shape derivatives (42) of several functions, each summed over its
+  /// positions (as often as they count) and over the sectors: M(u) + sigma(u):eps(p) - f.p, and p_0 div p under
+  /// a pressure p_0. Their adjoint problems (79) are solved as one block of right-hand sides.
+  virtual Expected<ShapeGradients> shape_gradients(
+      std::span<const FunctionalDerivative<dim>> functions) const = 0;
+
+  /// The contacts of the same shape and positions under other models, which may differ from the solver's in the
+  /// loads or the travel of the rim alone: [model][position]. Each starts from the one before. Fails as the
+  /// contact problem does.
+  virtual Expected<std::vector<std::vector<ContactPatch<dim>>>> under(
+      std::span<const RollingModel<dim>> models) const = 0;
+};
+
+/// Solves the states of shapes: all that a run knows of the mechanics. What no shape changes is built once.
+template <int dim>
+class StateSolver {
+ public:
+  virtual ~StateSolver() = default;
+
+  virtual const RollingModel<dim>& model() const = 0;
+  virtual const TreadSurface<dim>& tread_surface() const = 0;
+
+  /// The states of a shape at some load positions. `interrupt` is polled while the contact problems are solved;
+  /// once it asks, the failure is `interrupted`. Fails when the shape cannot be computed. The solver must
+  /// outlive the state.
+  virtual Expected<std::shared_ptr<const State<dim>>> states(const LevelSet<dim>& psi, LoadPositions positions,
+                                                             const Interrupt& interrupt) const = 0;
+
+  /// The operator g -> w[g] of (68) on the full ring, which no shape changes: tractions on the tread to the
+  /// displacement there. dim rows per contact point (Cartesian, column frame), one column per (right-hand side,
+  /// ring column), both ways. Fails as states() does.
+  using TractionMap = std::function<Matrix(const Matrix& tractions)>;
+  virtual Expected<TractionMap> neumann_to_dirichlet() const = 0;
+
+  /// All load positions of a sector.
+  LoadPositions all_positions() const { return load_positions(model().grid, model().n_positions); }
+
+  /// The positions that determine all others: one of each mirror-image pair, if the shape and its loads are
+  /// their own mirror image.
+  LoadPositions distinct_positions(const LevelSet<dim>& psi) const;
+};
+
+}  // namespace wheelwright

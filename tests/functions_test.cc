@@ -1,0 +1,319 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "wheelwright/functionals/boundary_integral.h"
+#include "wheelwright/functionals/material_volume.h"
+#include "wheelwright/functionals/perimeter.h"
+#include "wheelwright/functionals/uniformity_l2.h"
+#include "wheelwright/cut/measure.h"
+#include "wheelwright/geometry/curvature.h"
+#include "wheelwright/sensitivity/taylor_test.h"
+#include "wheelwright/state/material_integral.h"
+#include "tests/support.h"
+
+namespace wheelwright {
+namespace {
+
+using testing::generic_hole;
+using testing::holes;
+using testing::paper_model;
+using testing::smooth_direction;
+
+/// Two holes of different sizes, one across the sector's face: no symmetry at all.
+LevelSet<2> lopsided_holes(const PolarGrid<2>& grid) {
+  const double a = grid.sector_angle();
+  return holes(grid, 2, {{0.2513, 0.04 * a, 0.0213}, {0.2731, 0.53 * a, 0.0267}});
+}
+
+RollingModel<2> lopsided_model() {
+  auto model = paper_model(14, 192);
+  model.contact.friction = 0.4;
+  model.torque = 200;
+  model.distributed = {{3e4, 1e4}, 1e4};
+  model.n_positions = 4;
+  return model;
+}
+
+/// The fourth power of the von Mises stress over a yield stress of 1 MPa, integrated over the material: a function
+/// whose adjoint load acts everywhere in the material. This file adds it to the program: a class and, in a run,
+/// one line in the list of functionals.
+class StressPower : public Functional<2>, MaterialDensity<2> {
+ public:
+  std::string name() const override { return "stress_power"; }
+
+  FunctionalValue<2> evaluate(const StateSolver<2>& solver, const LevelSet<2>&, const State<2>& state,
+                              const Matrix&) const override {
+    FunctionalValue<2> value{.by_position = material_integral<2>(solver, state, *this)};
+    value.derivative.integrals.push_back({this, std::vector<double>(value.by_position.size(), 1.0)});
+    return value;
+  }
+
+ private:
+  /// With s^2 = 6 mu^2 (e:e - (tr e)^2 / 3) in plane strain.
+  Value at(const Voigt<2>& e, const Material& material) const override {
+    const double scale = 6 * material.mu() * material.mu() / 1e12, trace = e[0] + e[1];
+    const double square = scale * (e[0] * e[0] + e[1] * e[1] + 0.5 * e[2] * e[2] - trace * trace / 3);
+    const double slope = 2 * square * scale;
+    return {square * square,
+            {slope * (2 * e[0] - 2 * trace / 3), slope * (2 * e[1] - 2 * trace / 3), slope * e[2]}};
+  }
+};
+
+/// Half of sigma:eps as an integral over the material: the strain energy by another way.
+class EnergyDensity : public Functional<2>, MaterialDensity<2> {
+ public:
+  std::string name() const override { return "energy_density"; }
+  FunctionalValue<2> evaluate(const StateSolver<2>& solver, const LevelSet<2>&, const State<2>& state,
+                              const Matrix&) const override {
+    FunctionalValue<2> value{.by_position = material_integral<2>(solver, state, *this)};
+    value.derivative.integrals.push_back({this, std::vector<double>(value.by_position.size(), 1.0)});
+    return value;
+  }
+
+ private:
+  Value at(const Voigt<2>& e, const Material& material) const override {
+    const Voigt<2> sigma = stress<2>(material, e);
+    return {0.5 * (sigma[0] * e[0] + sigma[1] * e[1] + sigma[2] * e[2]), sigma};
+  }
+};
+
+/// N = |x|^2 on the edges of the holes.
+class EdgeMoment : public BoundaryIntegral<2> {
+ public:
+  std::string name() const override { return "edge_moment"; }
+
+ private:
+  Density density(const Vec<2>& x) const override { return {dot<2>(x, x), {2 * x[0], 2 * x[1]}}; }
+};
+
+Expected<Evaluation<2>> evaluation_of(const StateSolver<2>& solver, const std::vector<ShapeFunction<2>>& functions,
+                                      const LevelSet<2>& psi) {
+  auto evaluated = evaluate<2>(solver, functions, psi);
+  if (!evaluated) return evaluated.failure();
+  return std::move(evaluated->evaluation);
+}
+
+Expected<TaylorTest> taylor(const StateSolver<2>& solver, const std::vector<ShapeFunction<2>>& functions,
+                            const LevelSet<2>& psi, std::string_view name) {
+  return taylor_test<2>([&](const LevelSet<2>& shape) { return evaluation_of(solver, functions, shape); }, psi,
+                        smooth_direction(psi.lattice), solver.model().degree, 2e-5, 3, name);
+}
+
+void expect_second_order(const Expected<TaylorTest>& test, double lowest = 1.9) {
+  ASSERT_TRUE(test) << test.failure().detail;
+  for (const double order : test->orders) EXPECT_GT(order, lowest);
+}
+
+TEST(Functions, AStressFunctionPassesTheTaylorTest) {
+  for (auto model : {paper_model(14, 192), lopsided_model()}) {
+    for (const int levels : {0, 1}) {
+      model.tread.levels = levels;
+      const auto problem = RollingProblem<2>::create(model);
+      ASSERT_TRUE(problem) << problem.failure().detail;
+      const std::vector<ShapeFunction<2>> functions{{"stress", {{1, std::make_shared<StressPower>()}}}};
+      expect_second_order(taylor(*problem, functions, generic_hole(model.grid), "stress"));
+    }
+  }
+}
+
+// The tread's share of the integral is known at the grid's own nodes only, without refinement it is all of it.
+TEST(Functions, TheStrainEnergyAsAnIntegralIsTheStrainEnergy) {
+  for (auto model : {paper_model(14, 192), lopsided_model()}) {
+    model.ghost.xi = 1e-9;
+    model.cut_points = 4;
+    const auto problem = RollingProblem<2>::create(model);
+    ASSERT_TRUE(problem);
+    const std::vector<ShapeFunction<2>> functions{
+        {"integral", {{1, std::make_shared<EnergyDensity>()}}},
+        {"energy", {{1, std::make_shared<StrainEnergy<2>>()}}}};
+    const auto evaluation = evaluation_of(*problem, functions, lopsided_holes(model.grid));
+    ASSERT_TRUE(evaluation) << evaluation.failure().detail;
+    const auto &integral = evaluation->functions[0], &energy = evaluation->functions[1];
+    EXPECT_NEAR(integral.value, energy.value, 1e-8 * energy.value);
+    EXPECT_LT(testing::relative_difference(integral.by_position, energy.by_position), 1e-8);
+    EXPECT_LT(testing::relative_difference(integral.gradient, energy.gradient), 1e-5);
+  }
+}
+
+// As one block of right-hand sides the adjoints are what they are one by one.
+TEST(Functions, SeveralTogetherAreEachAlone) {
+  const auto model = lopsided_model();
+  const auto problem = RollingProblem<2>::create(model);
+  ASSERT_TRUE(problem);
+  const auto psi = lopsided_holes(model.grid);
+  const auto energy = std::make_shared<StrainEnergy<2>>();
+  const auto naive = std::make_shared<UniformityL2<2>>(0.01);
+  const auto stress = std::make_shared<StressPower>();
+  const std::vector<ShapeFunction<2>> functions{{"energy", {{1, energy}}},
+                                                {"volume", {{1, std::make_shared<MaterialVolume<2>>()}}},
+                                                {"naive", {{1, naive}}},
+                                                {"sum", {{2, energy}, {3, naive}, {-0.5, stress}}},
+                                                {"stress", {{1, stress}}, {1, 0, -2, 0.5}}};
+  const auto together = evaluation_of(*problem, functions, psi);
+  ASSERT_TRUE(together) << together.failure().detail;
+  EXPECT_EQ(together->terms.size(), 4);
+  for (const auto& function : functions) {
+    const auto alone = evaluation_of(*problem, {function}, psi);
+    ASSERT_TRUE(alone);
+    const FunctionValue &a = alone->function(function.name), &b = together->function(function.name);
+    EXPECT_NEAR(a.value, b.value, 1e-12 * std::abs(a.value)) << function.name;
+    EXPECT_LT(testing::relative_difference(b.gradient, a.gradient), 1e-9) << function.name;
+  }
+  const auto &g = together->functions;
+  const auto unweighted = evaluation_of(*problem, {{"stress", {{1, stress}}}}, psi);
+  for (size_t q = 0; q < together->boundary.size(); ++q)
+    EXPECT_NEAR(g[3].gradient[q],
+                2 * g[0].gradient[q] + 3 * g[2].gradient[q] - 0.5 * unweighted->functions[0].gradient[q],
+                1e-8 * std::abs(g[3].gradient[q]) + 1e-6);
+}
+
+TEST(Functions, WeightsPerPositionPassTheTaylorTest) {
+  auto model = paper_model(14, 192);
+  model.n_positions = 4;
+  const auto problem = RollingProblem<2>::create(model);
+  ASSERT_TRUE(problem);
+  const std::vector<double> weights{0.3, 2, 0, -1};
+  const WeightedSum<2> terms{{1, std::make_shared<StrainEnergy<2>>()},
+                             {1e-3, std::make_shared<StressPower>()},
+                             {10, std::make_shared<UniformityL2<2>>(0.01)}};
+  expect_second_order(
+      taylor(*problem, {{"weighted", terms, weights}}, generic_hole(model.grid), "weighted"));
+}
+
+// The value is the weighted sum over all positions of the sector, images included; weights that differ between
+// mirror images need all positions.
+TEST(Functions, WeightsPerPositionAreFactorsOfTheirPositions) {
+  auto model = paper_model(14, 192);
+  model.n_positions = 5;
+  const auto problem = RollingProblem<2>::create(model);
+  ASSERT_TRUE(problem);
+  const auto psi = holes(model.grid, 2, {{0.2681, 0.5 * model.grid.sector_angle(), 0.0373}});
+  const WeightedSum<2> energy{{2, std::make_shared<StrainEnergy<2>>()}};
+  const auto plain = evaluation_of(*problem, {{"energy", energy}}, psi);
+  ASSERT_TRUE(plain);
+  EXPECT_EQ(plain->newton_iterations.size(), 3);
+  const auto& by_position = plain->functions[0].by_position;
+  ASSERT_EQ(by_position.size(), 5);
+  const std::vector<double> even{1, 0.5, 3, 3, 0.5}, uneven{1, 0.5, 3, 2, 0.5};
+  for (const auto& [weights, n_solved] : {std::pair{even, 3}, {uneven, 5}}) {
+    const auto weighted = evaluation_of(*problem, {{"energy", energy, weights}}, psi);
+    ASSERT_TRUE(weighted);
+    EXPECT_EQ(weighted->newton_iterations.size(), n_solved);
+    double sum = 0;
+    for (int i = 0; i < 5; ++i) sum += weights[i] * by_position[i];
+    EXPECT_NEAR(weighted->functions[0].value, sum, 1e-8 * sum);
+    for (int i = 0; i < 5; ++i)
+      EXPECT_NEAR(weighted->functions[0].by_position[i], weights[i] * by_position[i], 1e-8 * sum);
+  }
+}
+
+TEST(Functions, AWeightOnOnePositionIsThatPositionAlone) {
+  const auto model = lopsided_model();
+  const auto problem = RollingProblem<2>::create(model);
+  ASSERT_TRUE(problem);
+  const auto psi = lopsided_holes(model.grid);
+  const WeightedSum<2> energy{{1, std::make_shared<StrainEnergy<2>>()}};
+  std::vector<ShapeFunction<2>> functions{{"all", energy}};
+  for (int i = 0; i < model.n_positions; ++i) {
+    functions.push_back({std::to_string(i), energy, std::vector<double>(model.n_positions, 0.0)});
+    functions.back().position_weights[i] = 1;
+  }
+  const auto e = evaluation_of(*problem, functions, psi);
+  ASSERT_TRUE(e) << e.failure().detail;
+  for (size_t q = 0; q < e->boundary.size(); ++q) {
+    double sum = 0, size = 0;
+    for (int i = 1; i <= model.n_positions; ++i) {
+      sum += e->functions[i].gradient[q];
+      size += std::abs(e->functions[i].gradient[q]);
+    }
+    EXPECT_NEAR(e->functions[0].gradient[q], sum, 1e-8 * size);
+  }
+}
+
+TEST(Functions, BoundsAreHandedOn) {
+  const auto model = paper_model(14, 192);
+  const auto problem = RollingProblem<2>::create(model);
+  ASSERT_TRUE(problem);
+  const auto e = evaluation_of(
+      *problem, {{.name = "volume", .terms = {{1, std::make_shared<MaterialVolume<2>>()}}, .bounds = {0.1, 0.2}}},
+      generic_hole(model.grid));
+  ASSERT_TRUE(e);
+  EXPECT_EQ(e->functions[0].bounds.lower, 0.1);
+  EXPECT_EQ(e->functions[0].bounds.upper, 0.2);
+}
+
+// --- Functions of the shape alone ----------------------------------------------------------------------
+
+TEST(ShapeFunctions, TheVolumeIsThatOfTheMaterialAndItsGradientIsOne) {
+  const auto model = paper_model(14, 192);
+  const auto problem = RollingProblem<2>::create(model);
+  ASSERT_TRUE(problem);
+  const auto psi = lopsided_holes(model.grid);
+  const std::vector<ShapeFunction<2>> functions{{"volume", {{1, std::make_shared<MaterialVolume<2>>()}}}};
+  const auto e = evaluation_of(*problem, functions, psi);
+  ASSERT_TRUE(e);
+  EXPECT_NEAR(e->functions[0].value, material_measure(psi), 1e-12 * e->functions[0].value);
+  for (const double g : e->functions[0].gradient) EXPECT_EQ(g, 1);
+  EXPECT_TRUE(e->functions[0].by_position.empty());
+  expect_second_order(taylor(*problem, functions, generic_hole(model.grid), "volume"));
+}
+
+// kappa = -1/r on the edge of a hole of radius r, with an error of order h for a quadratic level set.
+TEST(ShapeFunctions, TheCurvatureOfACircleIsOneOverItsRadius) {
+  std::vector<double> errors;
+  for (const int refinement : {1, 2, 4}) {
+    const PolarGrid<2> grid = paper_model(14 * refinement, 192 * refinement).grid;
+    const auto psi = lopsided_holes(grid);
+    double worst = 0;
+    for (const auto& sample : boundary_samples(psi)) {
+      const double curvature = mean_curvature<2>(psi, 2, sample.cell, sample.xi);
+      worst = std::max(worst, std::min(std::abs(0.0213 * curvature + 1), std::abs(0.0267 * curvature + 1)));
+    }
+    errors.push_back(worst);
+  }
+  EXPECT_LT(errors[2], 0.1);
+  for (int k = 1; k < 3; ++k) EXPECT_GT(std::log2(errors[k - 1] / errors[k]), 0.9);
+}
+
+// The derivative leaves out the kinks of the discrete boundary on the faces of cells: it tends to the difference
+// quotient with the grid. The perimeter of the holes is exact to O(h^3).
+TEST(ShapeFunctions, PerimeterAndEdgeIntegralsTendToTheirDerivatives) {
+  const auto perimeter = std::make_shared<Perimeter<2>>();
+  const auto moment = std::make_shared<EdgeMoment>();
+  std::vector<double> lengths, errors, of_moment;
+  for (const int refinement : {1, 2, 4}) {
+    auto model = paper_model(14 * refinement, 192 * refinement);
+    model.n_positions = 1;
+    const auto problem = RollingProblem<2>::create(model);
+    ASSERT_TRUE(problem);
+    const auto psi = lopsided_holes(model.grid);
+    const std::vector<ShapeFunction<2>> functions{{"perimeter", {{1, perimeter}}}, {"moment", {{1, moment}}}};
+    const auto e = evaluation_of(*problem, functions, psi);
+    ASSERT_TRUE(e);
+    const double exact = 2 * std::numbers::pi * (0.0213 + 0.0267);
+    lengths.push_back(std::abs(e->function("perimeter").value / exact - 1));
+    const auto direction = smooth_direction(psi.lattice);
+    const auto at = [&](double t, std::string_view name) {
+      auto moved = psi;
+      for (size_t i = 0; i < direction.size(); ++i) moved.values[i] += t * direction[i];
+      return evaluation_of(*problem, functions, moved)->function(name).value;
+    };
+    const double t = 1e-6;
+    for (const auto& [name, list] : {std::pair{"perimeter", &errors}, {"moment", &of_moment}}) {
+      const double difference = (at(t, name) - at(-t, name)) / (2 * t),
+                   derivative = directional_derivative<2>(e->gradient(name), psi, direction, 2);
+      double scale = 0;
+      for (const auto& sample : e->gradient(name)) scale += sample.weight * std::abs(sample.value);
+      list->push_back(std::abs(derivative - difference) / scale);
+    }
+  }
+  for (const auto& list : {lengths, errors, of_moment}) {
+    EXPECT_LT(list[2], 1e-3);
+    EXPECT_GT(std::log2(list[0] / list[2]) / 2, 1.5);
+  }
+}
+
+}  // namespace
+}  // namespace wheelwright
