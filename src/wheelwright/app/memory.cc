@@ -87,9 +87,8 @@ std::optional<std::string> lack_of_memory(const Case& c, std::optional<double> a
   const double needed = estimated_memory(c);
   if (!available || needed <= *available) return {};
   return fmt::format(
-      "it needs about {:.0f} MB of memory, and {:.0f} MB are available; take fewer cells or load positions, "
-      "or "
-      "more sectors",
+      "it needs about {:.0f} MB of memory, but only {:.0f} MB are available; take fewer cells or load "
+      "positions, or more sectors",
       needed / 1e6, *available / 1e6);
 }
 
