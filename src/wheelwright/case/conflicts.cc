@@ -27,7 +27,7 @@ std::vector<std::string> with_ring_shape(std::vector<std::string> keys) {
   return keys;
 }
 
-/// A value rounded up to three digits, so that what a message advises is accepted.
+/// The value rounded up to three digits, so that the value advised in a message is accepted.
 double rounded_up(double value) {
   const double unit = std::pow(10, std::floor(std::log10(value)) - 2);
   return std::ceil(value / unit) * unit;
@@ -66,7 +66,7 @@ void check_radii(const Case& c, Conflicts& found) {
   }
 }
 
-/// Numbers of nodes and unknowns are int.
+/// The numbers of nodes and unknowns are stored as int.
 void check_size(const Case& c, Conflicts& found) {
   constexpr long long most = 1'000'000'000;
   if (dof_bound(c) <= most) return;
@@ -176,7 +176,7 @@ void check_nitsche(const Case& c, Conflicts& found) {
        fmt::format("take gamma_0 >= {:.6g}, or theta = -1", rounded_up(least))});
 }
 
-/// What moves or turns the rim must be held by friction.
+/// Friction must resist the force or torque that moves or turns the rim.
 void check_friction(const Case& c, Conflicts& found) {
   const Load& load = c.load;
   if (load.horizontal_force != 0 && load.torque != 0)
@@ -224,7 +224,7 @@ void check_objective(const Case& c, Conflicts& found) {
                    "give at least one weight > 0"});
 }
 
-/// A quantity that the run does not compute, or a shape that it does not reach.
+/// Finds expected quantities that the run does not compute, and shapes that it does not reach.
 void check_expectations(const Case& c, Conflicts& found) {
   const Objective& o = c.objective;
   const std::map<Quantity, bool> computed{

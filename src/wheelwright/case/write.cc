@@ -42,7 +42,7 @@ std::string quotient_text(double value, double factor) {
   return best;
 }
 
-// One function a field type: the value as TOML, empty when the field holds none.
+// One function per field type: the value as TOML, empty if the field holds none.
 
 template <class Struct>
 std::string value_text(const NumberField<Struct>& field, const Struct& s) {
@@ -103,7 +103,7 @@ std::string accepted_text(const Key<Struct>& key) {
       key.field);
 }
 
-/// What an absent key means when that is not a value; empty otherwise.
+/// The meaning of an absent key, if that is not a value; empty otherwise.
 template <class Struct>
 std::string default_text(const Key<Struct>& key) {
   return std::visit(
