@@ -34,7 +34,7 @@ def section(figure: Figure, runs: Runs, album: Album) -> str:
     failures = [r for r in mine.values() if r.failure and r.name not in figure.may_fail]
     body = "".join(f"Not reproduced, {r.name}: `{r.failure}`\n" for r in failures) or figure.section(mine, album)
     expected, unmet = sum(r.expected for r in mine.values()), [line for r in mine.values() for line in r.unmet]
-    checks = f"{expected - len(unmet)} of the {expected} values that these cases expect (`[[expect]]`) were found.\n"
+    checks = f"{expected - len(unmet)} of the {expected} values expected by these cases (`[[expect]]`) were found.\n"
     checks += "".join(f"- not found: {line}\n" for line in unmet)
     plural = "s" if len(figure.numbers) > 1 else ""
     return f"## Fig{plural}. {figure.label}: {figure.title}\n\n{body}\n{checks}\n{commands}"
@@ -69,14 +69,15 @@ def write_page(page: Path, sections: dict[str, str], last: str) -> None:
 
 <!-- Written by scripts/reproduce with its pictures: do not edit. -->
 
-`scripts/reproduce` runs the cases of the paper's numerical experiments and writes this page; `scripts/reproduce 9
-16-21` does so for some figures. The paper gives few numbers, so each of its statements stands beside what was
-measured, and the verdict is computed from that. Sums are over the 8 load positions of one sector.
+`scripts/reproduce` runs the cases of the paper's numerical experiments and writes this page. `scripts/reproduce 9
+16-21` does so only for the figures named. The paper gives few numbers, so the tables compare each of its statements
+with the measured result and compute the verdict from it. Sums are over the 8 load positions of one sector.
 
-Shapes descend in two ways. *The paper's rules*: the multiplier lambda_k of section 4, harmonic extension of the
-gradient, smoothing (76), a fixed step, every shape accepted; they let the volume drift, and much of what J_e falls is
-then added material. *Volume held*: every shape has the volume of the first, the velocity is the gradient's H1
-representative, and a shape with a J more than 1e-4 above the least so far is rejected.
+The optimization is run in two ways. *The paper's rules* are the multiplier lambda_k of section 4, the harmonic
+extension of the gradient, smoothing (76) and a fixed step, and every shape is accepted. They let the volume drift, so
+that much of the decrease of J_e comes from added material. *Volume held* means that every shape has the volume of the
+first, the velocity is the H1 (Riesz) representative of the gradient, and a shape is rejected if its J exceeds the
+minimum so far by more than 1e-4, relatively.
 
 {last}
 
@@ -120,8 +121,8 @@ def main() -> None:
     version = subprocess.run([options.program, "--version"], capture_output=True, text=True, check=True).stdout.strip()
     last = (
         f"Last written by {version}: {len(names)} cases in {wall:.0f} s, {options.jobs} at a time, with {used:.0f} s "
-        f"of processor time; on {options.jobs} free cores that is {used / options.jobs:.0f} s. The times beside the "
-        "commands are those of that run."
+        f"of processor time; on {options.jobs} idle cores that is {used / options.jobs:.0f} s. The times beside the "
+        "commands are from that run."
     )
     write_page(options.page, sections, textwrap.fill(last, 115))
     album.remove_others_than(options.page.read_text())

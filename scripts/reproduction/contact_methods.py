@@ -66,13 +66,13 @@ def contact_methods(r: Runs, album: Album) -> str:
         ),
         claims(
             (
-                "Fig. 12: at gamma = E/h both give nearly the same shape",
+                "Fig. 12: at gamma = E/h both methods give nearly the same shape",
                 ways(f"the holes' lengths differ by {a.shape_gap[1]:.2f} mm", f"by {b.shape_gap[1]:.2f} mm"),
                 both_ways(a.shape_gap[1] < 2, b.shape_gap[1] < 2),
             ),
             (
                 "penalty has a slightly larger deflection",
-                ways(f"travel of the rim {percent(a.deflection)}, penetration included", percent(b.deflection)),
+                ways(f"travel of the rim {percent(a.deflection)}, including the penetration", percent(b.deflection)),
                 both_ways(a.deflection > 0, b.deflection > 0),
             ),
             (
@@ -92,7 +92,7 @@ def contact_methods(r: Runs, album: Album) -> str:
                 both_ways(*(abs(f.apart[10]) < abs(f.apart[1]) / 3 for f in (a, b))),
             ),
             (
-                "Fig. 15: Nitsche's J_e hardly depends on gamma, that of penalty does",
+                "Fig. 15: J_e hardly depends on gamma with Nitsche's method, but it does with penalty",
                 ways(
                     f"from gamma_0 = 1 to 10: Nitsche {percent(a.by_gamma['nitsche'], 2)}, penalty "
                     f"{percent(a.by_gamma['penalty'], 2)}",
@@ -102,14 +102,15 @@ def contact_methods(r: Runs, album: Album) -> str:
             ),
         ),
         "The runs by the paper's rules end with different amounts of material, "
-        f"{100 * min(b.volume.values()):.2f} to {100 * max(b.volume.values()):.2f} %. With {per_percent:.2f} J/m less "
-        "for every percent of the ring that is added (between the last shapes of Nitsche's method at gamma_0 = 10), "
-        f"Nitsche's two would differ by {per_percent * 100 * b.more_material:.2f} J/m for that alone; they differ by "
-        f"{b.difference:.2f} J/m. Nor do these runs come to rest: over its last 10 shapes J_e of Nitsche's method at "
-        f"gamma_0 = 1 varies by {b.unrest:.2f} J/m, with the volume held by {a.unrest:.3f} J/m. Where the shape is "
-        f"the same, the first, Nitsche's J_e depends on gamma by {percent(a.at_first['nitsche'], 2)} and that of "
-        f"penalty by {percent(a.at_first['penalty'], 2)}.\n",
-        "Cells at the tread are not refined here, since gamma follows their size.\n",
+        f"{100 * min(b.volume.values()):.2f} to {100 * max(b.volume.values()):.2f} %. J_e falls by "
+        f"{per_percent:.2f} J/m for every percent of the ring that is added (between the last shapes of Nitsche's "
+        "method at gamma_0 = 10). This effect alone would make J_e of Nitsche's two runs differ by "
+        f"{per_percent * 100 * b.more_material:.2f} J/m; they differ by {b.difference:.2f} J/m. These runs do not "
+        f"settle either: over the last 10 shapes of Nitsche's method at gamma_0 = 1, J_e varies by {b.unrest:.2f} J/m, "
+        f"compared with {a.unrest:.3f} J/m when the volume is held. On the first shape, which is the same for all "
+        f"runs, J_e changes from gamma_0 = 1 to 10 by {percent(a.at_first['nitsche'], 2)} with Nitsche's method and by "
+        f"{percent(a.at_first['penalty'], 2)} with penalty.\n",
+        "The cells at the tread are not refined here, because gamma depends on their size.\n",
         *(
             album.copied(ours[method, gamma], "displacement.svg", f"{text}, {parameter}, volume held (Fig. {number})")
             for number, gamma, parameter in ((12, 1, "gamma = E/h"), (14, 10, "gamma = 10 E/h"))

@@ -1,4 +1,4 @@
-"""Figs 10 and 11: strain energy alone, by both ways of descent."""
+"""Figs 10 and 11: strain energy alone, with the volume held and by the paper's rules."""
 
 from .section import Album, Runs, both_ways, claims, joined, percent, table, verdict
 
@@ -32,12 +32,12 @@ def energy_alone(r: Runs, album: Album) -> str:
             ["run", "J_e first", "J_e last", "change", "material first", "material last", "hole"],
             course("volume held, accepted steps", ours),
             course("the paper's rules", rules),
-            course("volume held at what the paper's rules end with", more),
+            course("volume held near the final volume of the paper's rules", more),
             course("volume held, friction 0.3", friction),
         ),
         claims(
             (
-                "the holes lengthen radially",
+                "the holes become longer radially",
                 f"80 mm round holes become {hole.length:.0f} mm long and {hole.width:.0f} mm wide; by the paper's rules "
                 f"{rules_hole.length:.0f} mm and {rules_hole.width:.0f} mm",
                 both_ways(_lengthens(ours), _lengthens(rules)),
@@ -50,26 +50,27 @@ def energy_alone(r: Runs, album: Album) -> str:
             ),
             (
                 "section 4: the rule lambda_k keeps the volume",
-                f"volume {percent(rules.change('volume fraction'))} at the end, {percent(largest_volume)} at most; J_e "
+                f"volume {percent(rules.change('volume fraction'))} at the end, maximum {percent(largest_volume)}; J_e "
                 f"{percent(rules.change('objective'))}",
                 verdict(abs(rules.change("volume fraction")) < 0.01),
             ),
             (
                 "section 5.1: friction does not change the optimal shape",
-                f"with F = 0.3 the hole's length and width change by {rough:.2f} mm at most, J_e of the last shape by "
+                f"with F = 0.3 the hole's length and width change by at most {rough:.2f} mm, J_e of the last shape by "
                 f"{percent(friction.last['objective'] / ours.last['objective'] - 1, 2)}",
                 verdict(rough < 2),
             ),
         ),
-        f"Of the fall of {percent(rules.change('objective'))} by the paper's rules, {percent(added)} comes with the "
-        f"material alone: round holes of 33.4 mm, with {more.last['volume fraction']:.4f} of the ring as material near "
-        f"the end of that run ({rules.last['volume fraction']:.4f}), have J_e = {more.first['objective']:.2f} J/m. "
-        f"Against those the shape gains {percent(same_volume)}; the best shape of that volume gains "
-        f"{percent(more.change('objective'))} ({more.last['objective']:.2f} J/m against "
-        f"{rules.last['objective']:.2f} J/m). With the volume held ({ours.last['volume fraction']:.4f}) J_e goes from "
-        f"{start:.2f} to {ours.last['objective']:.2f} J/m.\n",
-        "The paper publishes neither its step nor its smoothing; 0.2 cells and tau = 0.1 cells² are taken. Without "
-        "any smoothing its rules give ragged edges.\n",
+        f"By the paper's rules J_e changes by {percent(rules.change('objective'))}. The added material alone accounts "
+        f"for {percent(added)}: round holes with a radius of 33.4 mm leave a material fraction of "
+        f"{more.last['volume fraction']:.4f}, close to that at the end of the run by the paper's rules "
+        f"({rules.last['volume fraction']:.4f}), and have J_e = {more.first['objective']:.2f} J/m. Relative to these "
+        f"round holes, the shape by the paper's rules changes J_e by {percent(same_volume)}, and the best shape of "
+        f"that volume by {percent(more.change('objective'))} ({more.last['objective']:.2f} J/m instead of "
+        f"{rules.last['objective']:.2f} J/m). With the volume held ({ours.last['volume fraction']:.4f}), J_e falls "
+        f"from {start:.2f} to {ours.last['objective']:.2f} J/m.\n",
+        "The paper publishes neither its step nor its smoothing; 0.2 cells and tau = 0.1 cells² are used here. Without "
+        "any smoothing, its rules give ragged edges.\n",
         "Vertical displacement (Fig. 10), volume held:\n",
         album.copied(ours, "shapes/shape_0000_displacement.svg", "Initial shape"),
         album.copied(ours, "shapes/shape_0020_displacement.svg", "Volume held, shape 20"),

@@ -26,15 +26,16 @@ def ghost_penalty(r: Runs, album: Album) -> str:
         _deviation(r["ghost_none_p2"], r["ghost_full_p2"]),
     ]
     return joined(
-        "The largest von Mises stress over the 8 positions, from nodal values, more than 25 mm inside the tread. The "
-        f"same wheel on a grid three times as fine has {reference / 1e6:.3g} MPa. Holes of 37.7 mm leave a sliver in "
-        "a cut cell; most radii do not, and then no penalty is missed.\n",
+        "The table gives the largest von Mises stress over the 8 positions, from nodal values, more than 25 mm inside "
+        f"the tread. The same wheel on a grid three times as fine has {reference / 1e6:.3g} MPa. Holes with a radius "
+        "of 37.7 mm leave a sliver in a cut cell. Most radii do not, and then the stress is correct without a "
+        "penalty.\n",
         claims(
             (
                 "without ghost penalty the stress is badly wrong on small cuts",
                 f"xi = 0: {texts['ghost_none_p1']} with degree 1, {texts['ghost_none_p2']} with degree 2 from nodal "
-                f"values; in the material itself at most {100 * deviation[0]:.1f} % and {100 * deviation[1]:.1f} % "
-                "from that with a penalty",
+                f"values; in the material itself it differs from that with a penalty by at most "
+                f"{100 * deviation[0]:.1f} % and {100 * deviation[1]:.1f} %",
                 verdicts(
                     (
                         "from nodal values",
@@ -47,15 +48,14 @@ def ghost_penalty(r: Runs, album: Album) -> str:
             ("xi = 1e-3 in (81) cures it, degree 2", texts["ghost_paper_p2"], verdict(is_cured["ghost_paper_p2"])),
             ("(not in the paper) the full penalty, xi = 1e-4, degree 2", texts["ghost_full_p2"], "the default here"),
         ),
-        "What is badly wrong lies outside the material. A sliver's displacement is held where the material is; over the "
-        "rest of its cell it is a mere continuation, and its steep gradients enter the nodal values from which "
-        "such pictures are drawn, here and probably in the paper. The stress of the material, taken from the "
-        "displacement of every drawn piece of a cut cell (what is thinner than a quarter of a cell may be "
-        "missing), hardly needs the penalty. Its other purpose, to keep the stiffness well conditioned, is not examined "
-        "here.\n",
-        "(81) penalizes the jump of the stress alone. For degree 2 it leaves quadratic modes of slivers with "
-        "almost no stiffness, down to its own rounding errors; the full penalty adds the jump of the second normal "
-        "derivative.\n",
+        "The badly wrong stress lies outside the material. In a cell with a sliver, the displacement is determined "
+        "only in the material; over the rest of the cell it is an extrapolation. Its steep gradients enter the nodal "
+        "values from which such pictures are drawn, here and probably in the paper. The stress in the material was "
+        "also computed from the displacement of every drawn piece of a cut cell (pieces thinner than a quarter of a "
+        "cell may be missing); it hardly needs the penalty. The other purpose of the penalty, to keep the stiffness "
+        "well conditioned, is not examined here.\n",
+        "(81) penalizes only the jump of the stress. For degree 2 it leaves quadratic modes of slivers with almost no "
+        "stiffness, down to rounding errors; the full penalty adds the jump of the second normal derivative.\n",
         *(
             album.copied(r[name], "stress_contact.svg", text)
             for name, text in (
@@ -66,5 +66,5 @@ def ghost_penalty(r: Runs, album: Album) -> str:
             )
             if name in stresses
         ),
-        "The colours leave out 1 % of the drawn pieces at each end, so that slivers do not darken the rest.\n",
+        "The colour scale ignores 1 % of the drawn pieces at each end, so that slivers do not darken the rest.\n",
     )

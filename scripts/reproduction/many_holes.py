@@ -34,31 +34,33 @@ def holes_48(r: Runs, album: Album) -> str:
     spread = {run.name: run.peak_spread("final") for run in (je, jp2, rules_je, rules_jp2)}
     p = lambda value: f"{100 * value:.1f} %"  # noqa: E731
     return joined(
-        "The paper does not say how its 48 holes are arranged. Two rings of 24 are taken, in 24 sectors: their holes "
-        "are 70 mm apart radially and 71 mm along the middle circle. 12 k^2 holes in k rings of 12 k always have such "
-        "square spacing; 48 and 108 are the numbers for k = 2 and 3. Three rings of 16 would have 47 mm and 106 mm: "
-        "holes of the 16 holes' area, 46.2 mm across, would then leave 0.5 mm between them radially.\n",
+        "The paper does not say how its 48 holes are arranged. Here they form two rings of 24, in 24 sectors: their "
+        "centres are 70 mm apart radially and 71 mm along the middle circle. 12 k^2 holes in k rings of 12 k always "
+        "have such square spacing; 48 and 108 are the numbers for k = 2 and 3. Three rings of 16 would have spacings "
+        "of 47 mm and 106 mm. Holes with the same total area as the 16 holes have a diameter of 46.2 mm and would then "
+        "leave 0.5 mm between them radially.\n",
         claims(
             ("J_e alone finds a stiffer design", *_stiffer(je, rules_je)),
             (
-                "J_e + 50 J_p2 gives another design (holes that differ by 2 mm at least)",
+                "J_e + 50 J_p2 gives another design (holes that differ by at least 2 mm)",
                 f"holes of {_holes(je)} with J_e alone, {_holes(jp2)} with J_p2; by the paper's rules "
                 f"{_holes(rules_je)} and {_holes(rules_jp2)}",
                 both_ways(_shape_gap(je, jp2) > 2, _shape_gap(rules_je, rules_jp2) > 2),
             ),
             (
-                "... with evener contact stress",
-                f"peak spread {p(je.peak_spread('initial'))} at first, {p(spread[je.name])} with J_e alone, "
+                "... with more uniform contact stress",
+                f"peak spread {p(je.peak_spread('initial'))} initially, {p(spread[je.name])} with J_e alone, "
                 f"{p(spread[jp2.name])} with J_p2; J_p2 {percent(jp2.change('uniformity_dual'))}, J_e "
                 f"{percent(jp2.change('strain_energy'))}; by the paper's rules {p(spread[rules_je.name])} and "
                 f"{p(spread[rules_jp2.name])}",
                 both_ways(spread[jp2.name] < spread[je.name], spread[rules_jp2.name] < spread[rules_je.name]),
             ),
         ),
-        f"With the volume held J_p2 has little to say: J_e alone already leaves a peak spread of {p(spread[je.name])}, and "
-        f"at the end 50 J_p2 is {p(50 * jp2.last['uniformity_dual'] / jp2.last['objective'])} of J.\n",
+        "With the volume held J_p2 has little influence: J_e alone already ends with a peak spread of "
+        f"{p(spread[je.name])}, and at the end 50 J_p2 is "
+        f"{p(50 * jp2.last['uniformity_dual'] / jp2.last['objective'])} of J.\n",
         *(
-            f"The run of {run.name} ends after {len(run.history) - 1} shapes: the next one is rejected "
+            f"The run {run.name} ends after {len(run.history) - 1} shapes: the next one is rejected "
             f"({run.end}), and the paper's rules have no shorter step.\n"
             for run in (rules_je, rules_jp2)
             if run.end
@@ -84,17 +86,18 @@ def holes_48(r: Runs, album: Album) -> str:
 def holes_108(r: Runs, album: Album) -> str:
     run, rules = r["holes108_je"], r["rules_holes108_je"]
     return joined(
-        "Three rings of 36 (47 mm apart both ways), in 36 sectors: the shape repeats with every hole, so the smallest "
-        "sector, and with 8 positions in it 288 a turn. With 12 sectors of three holes neighbours could differ, but "
-        "start equal, and 8 positions would be three times as coarse.\n",
-        "The paper's third picture is a shape in three dimensions. It is out of reach: the commands and the case file "
-        "are in 2D, plane strain, and a shape that varies along the axle cannot be run. The solver itself is tested "
+        "The 108 holes form three rings of 36 (47 mm apart in both directions), in 36 sectors. The shape repeats with "
+        "every hole, so this is the smallest possible sector; 8 positions per sector are 288 per turn. With 12 sectors "
+        "of three holes in each ring, neighbouring holes could become different, but they start equal, and 8 positions "
+        "per sector would be three times as coarse.\n",
+        "The paper's third picture is a shape in three dimensions, which is not reproduced: the commands and the case "
+        "file are in 2D, plane strain, and cannot run a shape that varies along the axle. The solver itself is tested "
         "in 3D as a library, on coarse grids.\n",
         claims(
             ("J_e alone finds a stiffer design (2D)", *_stiffer(run, rules)),
             ("a shape in 3D", "not computed", "not examined"),
         ),
-        f"The holes that the three rings become: {_holes(run)} with the volume held, {_holes(rules)} by the paper's "
+        f"The holes of the three rings become {_holes(run)} with the volume held, and {_holes(rules)} by the paper's "
         "rules.\n",
         album.comparison(run, "108 holes, volume held"),
         album.comparison(rules, "108 holes, the paper's rules"),

@@ -11,9 +11,9 @@ def mesh(r: Runs, album: Album) -> str:
     inside, cut, outside = (re.search(rf">(\d+) cells {kind}", text)[1] for kind in ("inside", "cut", "outside"))
     return joined(
         f"The polar grid of the initial wheel, 28 x 384 cells: {inside} lie inside the material, {cut} are cut by its "
-        f"boundary, {outside} carry nothing. Displacements have degree 2, as in the paper. The second picture is the "
-        "solution in the load position with the largest strain energy; points are moved by 20 times their "
-        "displacement, so that the flat ground looks bent.\n",
+        f"boundary, {outside} lie outside. Displacements have degree 2, as in the paper. The second picture shows the "
+        "solution in the load position with the largest strain energy. Displacements are drawn 20 times enlarged, "
+        "which makes the flat ground look bent.\n",
         album.copied(run, "shapes/shape_0000_mesh.svg", "The polar grid, cut by the level set"),
         album.copied(run, "shapes/shape_0000_displacement.svg", "The solution on the deformed wheel"),
     )

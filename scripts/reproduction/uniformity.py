@@ -1,4 +1,4 @@
-"""Figs 16 to 21: evenness of the contact stress over the load positions."""
+"""Figs 16 to 21: uniformity of the contact stress over the load positions."""
 
 from .runs import Run
 from .section import Album, Runs, both_ways, claims, joined, percent, table, verdict, verdicts
@@ -66,9 +66,9 @@ def uniformity(r: Runs, album: Album) -> str:
     p = lambda value: f"{100 * value:.1f} %"  # noqa: E731
 
     return joined(
-        "Peak spread: (largest - smallest) / mean of the peak pressures of the 8 positions; above 5 % it counts as "
-        "significant. Deviation of the curves: root mean square of pressure minus mean pressure (73), over that of "
-        "the mean.\n",
+        "The peak spread is (largest - smallest) / mean of the peak pressures of the 8 positions; more than 5 % counts "
+        "as significant. The deviation of the curves is the root mean square of pressure minus mean pressure (73), "
+        "divided by the root mean square of the mean pressure.\n",
         table(
             ["objective (Fig.)", "J_e", "material", "peak spread", "deviation of the curves", "mean travel",
              "material outside the holes"],
@@ -83,23 +83,23 @@ def uniformity(r: Runs, album: Album) -> str:
             ),
             *(_row(f"{name} ({n})", ours.runs[n]) for n, (name, _) in objectives.items()),
             _row("J_e + J_p1 balanced by (83) (17)", balanced),
-            _row("J_e alone, cells at the tread not refined", coarse),
+            _row("J_e alone, unrefined cells at the tread", coarse),
             *(_row(f"{name} ({n}), the paper's rules", rules.runs[n]) for n, (name, _) in objectives.items()),
         ),
         claims(
             (
                 "Fig. 16: J_e alone leaves a significant disparity over the positions",
-                f"peak spread {p(initial)} of the initial shape, {p(ours.spread[16])} of the best one of J_e at "
+                f"peak spread {p(initial)} for the initial shape, {p(ours.spread[16])} for the best shape of J_e at "
                 f"constant volume, {p(rules.spread[16])} by the paper's rules",
                 both_ways(ours.spread[16] > 0.05, rules.spread[16] > 0.05),
             ),
             (
                 "alpha_1 = 6 and alpha_2 = 100 balance (83) at the first iteration",
-                f"(83) asks for alpha_1 = {balance:.1f}",
+                f"(83) gives alpha_1 = {balance:.1f}",
                 verdict(abs(balance / 6 - 1) < 0.2),
             ),
             (
-                "Fig. 17: J_p1 reduces the disparity significantly (by a quarter at least)",
+                "Fig. 17: J_p1 reduces the disparity significantly (by at least a quarter)",
                 f"from {p(ours.spread[16])} to {p(ours.spread[17])} with alpha_1 = 6, to {p(balanced_spread)} with "
                 f"alpha_1 by (83); by the paper's rules from {p(rules.spread[16])} to {p(rules.spread[17])}",
                 verdicts(
@@ -115,16 +115,17 @@ def uniformity(r: Runs, album: Album) -> str:
                 both_ways(ours.evened(18), rules.evened(18)),
             ),
             (
-                "the holes draw away from the tread",
+                "the holes move away from the tread",
                 f"material outside the holes {ours.band[16]:.1f} mm with J_e alone, {ours.band[17]:.1f} mm with "
                 f"6 J_p1, {band(balanced):.1f} mm with J_p1 by (83), {ours.band[18]:.1f} mm with J_p2; by the paper's "
                 f"rules {rules.band[16]:.1f}, {rules.band[17]:.1f} (6 J_p1), {rules.band[18]:.1f} mm",
                 both_ways(*(min(f.band[17], f.band[18]) > f.band[16] + 0.5 for f in (ours, rules))),
             ),
             (
-                "the holes draw away a little more with J_p1 than with J_p2",
-                f"{ours.band[17]:.1f} mm (alpha_1 = 6) or {band(balanced):.1f} mm (by (83)) against "
-                f"{ours.band[18]:.1f} mm; by the paper's rules {rules.band[17]:.1f} against {rules.band[18]:.1f} mm",
+                "the holes move away slightly more with J_p1 than with J_p2",
+                f"{ours.band[17]:.1f} mm (alpha_1 = 6) or {band(balanced):.1f} mm (by (83)), compared with "
+                f"{ours.band[18]:.1f} mm; by the paper's rules {rules.band[17]:.1f} compared with "
+                f"{rules.band[18]:.1f} mm",
                 verdicts(
                     ("with alpha_1 = 6", ours.band[17] > ours.band[18]),
                     ("by (83)", band(balanced) > ours.band[18]),
@@ -143,15 +144,15 @@ def uniformity(r: Runs, album: Album) -> str:
                 ),
             ),
             (
-                "Fig. 20: alpha_2 = 10 evens out little",
-                f"peak spread {p(ours.spread[20])} after {p(ours.spread[16])} with J_e alone; by the paper's rules "
-                f"{p(rules.spread[20])} after {p(rules.spread[16])}",
+                "Fig. 20: alpha_2 = 10 has little effect on the uniformity",
+                f"peak spread {p(ours.spread[20])}, compared with {p(ours.spread[16])} with J_e alone; by the paper's "
+                f"rules {p(rules.spread[20])} compared with {p(rules.spread[16])}",
                 both_ways(not ours.evened(20), not rules.evened(20)),
             ),
             (
-                "Fig. 21: alpha_2 = 1000 evens out strongly, at the price of J_e and deflection",
+                "Fig. 21: alpha_2 = 1000 improves the uniformity strongly, at the cost of J_e and deflection",
                 f"peak spread {p(ours.spread[21])}; J_e {percent(ours.dearer('strain_energy'))} and travel "
-                f"{percent(ours.dearer('mean_travel'))} against alpha_2 = 100; by the paper's rules "
+                f"{percent(ours.dearer('mean_travel'))} relative to alpha_2 = 100; by the paper's rules "
                 f"{p(rules.spread[21])}, {percent(rules.dearer('strain_energy'))} and "
                 f"{percent(rules.dearer('mean_travel'))}",
                 both_ways(
@@ -162,22 +163,24 @@ def uniformity(r: Runs, album: Album) -> str:
                 ),
             ),
         ),
-        f"The verdict on Fig. 16 rests on the peaks. Over the whole curves, whose ends move with the position, "
-        f"{p(je.curve_deviation('final'))} of deviation are left with J_e alone, and alpha_2 = 100 only makes it "
-        f"{p(jp2.curve_deviation('final'))}. J_e alone already moves the holes from 30 mm to {ours.band[16]:.0f} mm "
-        "inside the tread, and with that most of the disparity of the initial shape goes. The volume that drifts "
-        f"by the paper's rules does not bring it back: its material thickens the tread to {rules.band[16]:.0f} mm. But "
-        "on cells at the tread that are not refined, 2.3 to a contact patch instead of 9, practically the best shape "
-        f"of J_e (its J_e is {coarse.last['strain_energy']:.2f} J/m) shows a spread of {p(coarse_spread)}, which is "
-        "the grid's and not the wheel's. The paper publishes neither its mesh nor whether its shapes had converged; "
-        "either could be behind its Fig. 16.\n",
-        "By the paper's rules there is little left for Figs 17, 18 and 20 to even out: with its added material J_e "
-        f"alone ends at {p(rules.spread[16])}. There J_p1 and J_p2 change the shapes and the deviation of the curves "
-        "by little "
+        "The verdict on Fig. 16 is based on the peak pressures. If the whole curves are compared, whose ends move with "
+        f"the position, a deviation of {p(je.curve_deviation('final'))} remains with J_e alone, and alpha_2 = 100 "
+        f"reduces it only to {p(jp2.curve_deviation('final'))}. J_e alone already increases the material between holes "
+        f"and tread from 30 mm to {ours.band[16]:.0f} mm, which removes most of the disparity of the initial shape. "
+        "The volume drift of the paper's rules does not restore the disparity: the added material thickens the tread "
+        f"to {rules.band[16]:.0f} mm. The grid, however, may explain it. With unrefined cells at the tread there are "
+        "2.3 cells per contact patch instead of 9, and practically the best shape of J_e (with J_e = "
+        f"{coarse.last['strain_energy']:.2f} J/m) shows a spread of {p(coarse_spread)}, which is an error of the grid "
+        "and not a property of the wheel. The paper publishes neither its mesh nor whether its shapes had converged; "
+        "either could explain its Fig. 16.\n",
+        "By the paper's rules little disparity remains for Figs 17, 18 and 20 to remove: because of the added "
+        f"material, J_e alone ends at {p(rules.spread[16])}. There J_p1 and J_p2 change the shapes and the deviation "
+        "of the curves only slightly "
         f"({p(rules.runs[16].curve_deviation('final'))} with J_e alone, {p(rules.runs[17].curve_deviation('final'))} "
         f"with 6 J_p1, {p(rules.runs[18].curve_deviation('final'))} with 100 J_p2).\n",
-        f"For epsilon = L = 10 mm (83) gives alpha_1 = {balance:.1f}, so the paper's 6 weighs J_p1 "
-        f"{balance / 6:.0f} times too lightly beside its alpha_2. The row by (83) shows J_p1 as the paper means it.\n",
+        f"For epsilon = L = 10 mm, (83) gives alpha_1 = {balance:.1f}. The paper's value of 6 is therefore "
+        f"{balance / 6:.0f} times too small to match its alpha_2. The row with (83) shows J_p1 with the weight that "
+        "the paper intended.\n",
         album.copied(je, "pressures_initial.svg", "Initial shape"),
         *(
             album.comparison(ours.runs[n], f"{name} (Fig. {n}), volume held")

@@ -20,7 +20,7 @@ std::string load_report(const Case& c) {
                                ? line("rim travel", fmt::format("{:.6g} mm", *c.load.travel * 1e3))
                                : line("load", fmt::format("{:.6g} N on {:.6g} m = {:.6g} N/m", c.load.force,
                                                           c.wheel.width, load_per_metre(c)));
-  return load + line("load positions", fmt::format("{} a sector, {} round the wheel", c.load.positions,
+  return load + line("load positions", fmt::format("{} per sector, {} round the wheel", c.load.positions,
                                                    total_load_positions(c)));
 }
 
@@ -42,7 +42,7 @@ std::string contact_report(const Case& c) {
 std::string size_report(const Case& c) {
   return line("sector", fmt::format("{:.6g} deg, {} x {} cells", sector_angle(c) * 180 / std::numbers::pi,
                                     c.grid.radial_cells, c.grid.angular_cells / c.wheel.sectors)) +
-         line("unknowns", fmt::format("at most {}, {} of them in a sector", dof_bound(c),
+         line("unknowns", fmt::format("at most {}, {} of them per sector", dof_bound(c),
                                       dof_bound(c) / c.wheel.sectors)) +
          line("memory", fmt::format("about {:.0f} MB", std::ceil(estimated_memory(c) / 1e6)));
 }
@@ -59,17 +59,17 @@ std::vector<std::string> warnings(const Case& c) {
       !c.load.travel && cells < least_cells_per_contact_patch) {
     const int more = static_cast<int>(std::ceil(std::log2(least_cells_per_contact_patch / cells)));
     result.push_back(fmt::format(
-        "the contact patch is {:.1f} cells wide: energies are good to about a percent, pressures are "
-        "not; grid.tread_levels = {} makes it {:.1f} cells",
+        "the contact patch is only {:.1f} cells wide: energies are accurate to about one percent, "
+        "pressures are not; with grid.tread_levels = {} it is {:.1f} cells wide",
         cells, c.grid.tread_levels + more, cells * (1 << more)));
   }
   if (c.holes.rings.empty() && c.holes.circles.empty())
-    result.push_back("there are no holes: the shape has no boundary that could move");
+    result.push_back("there are no holes, so no boundary can move");
   if (const double cells = smallest_hole_in_cells(c);
       cells < least_cells_per_hole && c.optimizer.smoothing == 0)
     result.push_back(
         fmt::format("the smallest hole is {:.1f} cells wide: its edge may fray into fingers one cell wide; "
-                    "optimizer.smoothing = 0.1 or a finer grid prevents that",
+                    "optimizer.smoothing = 0.1 or a finer grid prevents this",
                     cells));
   if (c.ghost_penalty.kind == GhostPenaltyKind::paper && c.grid.degree == 2)
     result.push_back(
@@ -77,11 +77,11 @@ std::vector<std::string> warnings(const Case& c) {
         "shapes will "
         "fail; \"full\" is safe");
   if (c.ghost_penalty.xi == 0)
-    result.push_back("ghost_penalty.xi = 0: slivers of cut cells will spoil the solution");
+    result.push_back("ghost_penalty.xi = 0: slivers in cut cells will spoil the solution");
   if (c.optimizer.velocity == VelocityKind::harmonic && c.optimizer.smoothing == 0)
     result.push_back(
-        "optimizer.velocity = \"harmonic\" without optimizer.smoothing lets fingers of one cell's width "
-        "grow; smoothing = 0.3 with smooth_every = 1, or velocity = \"h1\", prevents them");
+        "optimizer.velocity = \"harmonic\" without optimizer.smoothing lets fingers one cell wide "
+        "grow; smoothing = 0.3 with smooth_every = 1, or velocity = \"h1\", prevents this");
   if (c.volume.control == VolumeControl::paper)
     result.push_back("volume.control = \"paper\" lets the volume drift; \"exact\" holds it");
   return result;

@@ -14,10 +14,10 @@ namespace wheelwright {
 
 namespace {
 
-/// BLAS gets one thread, whatever the environment says: the program shares work out itself, and sums of BLAS
-/// would be taken in an order that depends on the number of its threads. OpenBLAS may take a processor that
-/// is younger than it is for an older one without AVX-512, whose kernels cost a fifth of the speed: the same
-/// ones on all that have it. Read when the library is loaded.
+/// Restricts BLAS to one thread, regardless of the environment: the program distributes the work itself, and
+/// the order of the sums in BLAS would depend on its number of threads. OpenBLAS may mistake a processor
+/// newer than itself for an older one without AVX-512, whose kernels are a fifth slower. This selects the
+/// AVX-512 kernels on every processor that has them. BLAS reads these settings when the library is loaded.
 void prepare_blas() {
   constexpr int replace = 1, keep = 0;
   for (const char* name : {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "OMP_THREAD_LIMIT"})

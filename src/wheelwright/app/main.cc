@@ -43,13 +43,14 @@ struct CommandLine {
 constexpr const char* exit_codes =
     "Exit codes:\n"
     "  0    done\n"
-    "  1    a bug of the program\n"
-    "  2    wrong command line, or a case that is wrong or cannot be read\n"
+    "  1    a bug in the program\n"
+    "  2    wrong command line, or the case has errors or cannot be read\n"
     "  3    the solver gave up\n"
-    "  4    refused: would overwrite, another run is writing to the folder, or the memory does not suffice\n"
+    "  4    refused: a file would be overwritten, another run is writing to the folder, or there is too "
+    "little memory\n"
     "  5    a file could not be written\n"
     "  6    no checkpoint can be used\n"
-    "  7    done, but without what the case expects of it\n"
+    "  7    done, but the results differ from those that the case expects\n"
     "  129  stopped by SIGHUP (the terminal was closed) and saved\n"
     "  130  stopped by SIGINT (Ctrl-C) and saved\n"
     "  143  stopped by SIGTERM or by a file STOP in the run's folder, and saved";
@@ -77,7 +78,7 @@ int check(const CommandLine& line) {
   fmt::print("{}", derived_report(*result.value));
   print_warnings(stdout, *result.value);
   if (const auto lack = lack_of_memory(*result.value, available_memory()))
-    print_warning(stdout, "this case would not run here: " + *lack);
+    print_warning(stdout, "this case cannot run here: " + *lack);
   return exit_done;
 }
 
@@ -113,7 +114,7 @@ int compute(const std::string& command, const CommandLine& line) {
 int resume(const CommandLine& line) {
   const std::filesystem::path case_file = std::filesystem::path(line.run_folder) / "case.toml";
   if (!std::filesystem::exists(case_file)) {
-    tell("{}: holds no run; there is no {}\n", line.run_folder, case_file.string());
+    tell("{}: this folder holds no run; there is no {}\n", line.run_folder, case_file.string());
     return exit_usage;
   }
   CaseResult result = read_case(case_file);
@@ -157,27 +158,28 @@ void add_output_option(CLI::App& command, CommandLine& line, const std::string& 
 
 void declare_analyze(CLI::App& app, CommandLine& line) {
   constexpr int most_positions = 1000;
-  CLI::App* analyze = add_case_command(
-      app, line, "analyze", "Tell stiffness, contact, stress and evenness of rolling of one shape");
-  analyze->add_option("--positions", line.analyzed_positions, "Load positions of one sector")
+  CLI::App* analyze =
+      add_case_command(app, line, "analyze", "Report stiffness, contact, stress and run-out of one shape");
+  analyze->add_option("--positions", line.analyzed_positions, "Load positions per sector")
       ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(1, most_positions));
-  analyze->add_option("--loads", line.loads, "Deflection under these loads on the whole width [N]")
+  analyze->add_option("--loads", line.loads, "Report the deflection under these loads on the whole width [N]")
       ->type_name("P1,P2,... | FROM:TO:NUMBER")
       ->check([](const std::string& text) {
         return parse_loads(text) ? "" : "must be loads > 0, as in 1000,2000 or 500:3000:6";
       });
-  add_output_option(*analyze, line, "Folder to write with JSON and plots; the table alone without it");
+  add_output_option(*analyze, line, "Folder for JSON and plots; without it only the table is printed");
   analyze->add_flag("--json", line.json, "Print JSON instead of the table");
 }
 
 void add_iterations_option(CLI::App& command, CommandLine& line) {
   const Range range = range_of_iterations();
   command
-      .add_option("--iterations", line.iterations,
-                  "Number of shapes instead of the case's optimizer.iterations; what the case expects of "
-                  "shapes after them, or of the last one, is not checked")
+      .add_option(
+          "--iterations", line.iterations,
+          "Number of shapes instead of the case's optimizer.iterations; expectations of later shapes, or "
+          "of the last one, are not checked")
       ->type_name("N")
       ->check(CLI::Range(static_cast<int>(range.low), static_cast<int>(range.high)));
 }
@@ -187,8 +189,8 @@ void add_threads_option(CLI::App& command, CommandLine& line) {
   command
       .add_option(
           "--threads", line.threads,
-          "Threads to use, at most as many as there are processors; all of them without it. The results "
-          "are the same")
+          "Number of threads, at most the number of processors, which is the default. The results do not "
+          "depend on it")
       ->type_name("N")
       ->check(CLI::Range(1, most_threads));
 }
@@ -197,21 +199,22 @@ void declare_commands(CLI::App& app, CommandLine& line) {
   app.require_subcommand(1);
   app.set_version_flag("--version", fmt::format("wheelwright {}", version()));
   app.footer(exit_codes);
-  CLI::App* run = add_case_command(app, line, "run", "Optimize a case and write its output folder");
-  add_output_option(*run, line, "Folder to write instead of the case's output.folder");
+  CLI::App* run = add_case_command(app, line, "run", "Optimize a case and write the results to its folder");
+  add_output_option(*run, line, "Folder for the results, instead of the case's output.folder");
   add_iterations_option(*run, line);
-  CLI::App* resume = app.add_subcommand("resume", "Go on with a run that was stopped");
+  CLI::App* resume = app.add_subcommand("resume", "Resume a run that was stopped");
   resume->add_option("DIR", line.run_folder, "folder of the run")->required()->check(not_empty);
   add_iterations_option(*resume, line);
   declare_analyze(app, line);
-  CLI::App* verify = add_case_command(app, line, "verify", "Test the solver's shape gradient on a case");
+  CLI::App* verify =
+      add_case_command(app, line, "verify", "Test the shape gradient and the balance of forces on a case");
   for (CLI::App* command : {run, resume, app.get_subcommand("analyze"), verify})
     add_threads_option(*command, line);
-  add_case_command(app, line, "check", "Report every problem of a case and the numbers that follow from it");
+  add_case_command(app, line, "check", "Report all problems of a case, or the numbers derived from it");
   app.add_subcommand("init", "Write a commented case file to start from")
-      ->add_option("FILE", line.template_file, "File to write; never overwritten")
+      ->add_option("FILE", line.template_file, "File to write; an existing file is never overwritten")
       ->capture_default_str();
-  app.add_subcommand("reference", "Print the reference page of all keys of a case file");
+  app.add_subcommand("reference", "Print the reference page for all keys of a case file");
 }
 
 int dispatch(const std::string& command, const CommandLine& line) {
@@ -238,7 +241,7 @@ int parse_and_dispatch(int argc, char** argv) {
   return dispatch(app.get_subcommands().front()->get_name(), line);
 }
 
-/// Output that was lost, e.g. on a full disk, turns success into failure.
+/// Lost output, e.g. on a full disk, turns success into failure.
 int after_flushing(int code) {
   const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout);
   if (!lost) return code;
@@ -257,7 +260,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "wheelwright: %s\n", error.what());
     return wheelwright::exit_input_output;
   } catch (const std::bad_alloc&) {
-    std::fputs("wheelwright: the memory is used up\n", stderr);
+    std::fputs("wheelwright: out of memory\n", stderr);
     return wheelwright::exit_refused;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "wheelwright: bug: %s\n", error.what());

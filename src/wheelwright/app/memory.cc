@@ -22,13 +22,13 @@ struct GroupFiles {
 constexpr GroupFiles version_1{"memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file"};
 constexpr GroupFiles version_2{"memory.max", "memory.current", "inactive_file"};
 
-/// The number that stands alone in a file; nothing for "max" or without file.
+/// The single number in a file; nothing for "max" or if there is no file.
 std::optional<double> number_in(const Path& file) {
   double value;
   return std::ifstream(file) >> value ? std::optional(value) : std::nullopt;
 }
 
-/// The number behind a name at the beginning of a line.
+/// The number after a name at the beginning of a line.
 std::optional<double> number_of(const Path& file, std::string_view name) {
   std::ifstream in(file);
   std::string first;
@@ -42,8 +42,8 @@ void lower(std::optional<double>& least, std::optional<double> value) {
   if (value) least = std::min(least.value_or(*value), *value);
 }
 
-/// What a control group and those that hold it leave. A container may see its own group as the top one, so
-/// folders that are not there are passed over.
+/// The memory left by a control group and its parent groups. A container may see its own group as the top
+/// one, so missing folders are skipped.
 std::optional<double> left_by_groups(const Path& top, const Path& group, const GroupFiles& files) {
   std::optional<double> least;
   for (Path path = group.relative_path();; path = path.parent_path()) {
@@ -87,9 +87,8 @@ std::optional<std::string> lack_of_memory(const Case& c, std::optional<double> a
   const double needed = estimated_memory(c);
   if (!available || needed <= *available) return {};
   return fmt::format(
-      "it needs about {:.0f} MB of memory, and {:.0f} MB are available; take fewer cells or load positions, "
-      "or "
-      "more sectors",
+      "it needs about {:.0f} MB of memory, but only {:.0f} MB are available; take fewer cells or load "
+      "positions, or more sectors",
       needed / 1e6, *available / 1e6);
 }
 

@@ -25,12 +25,12 @@ struct Wheel {
 
 struct Load {
   double force = 300 * 9.81;           ///< on the whole width [N]
-  std::optional<double> travel;        ///< of the rim towards the ground [m]; the force is then a result
+  std::optional<double> travel;        ///< of the rim towards the ground [m]; if given, the force is a result
   double horizontal_force = 0;         ///< on the rim, towards larger azimuth, on the whole width [N]
   double torque = 0;                   ///< on the rim, towards larger azimuth, on the whole width [N m]
   std::array<double, 2> body_force{};  ///< along the ground towards larger azimuth, and down [N/m^3]
   double hole_pressure = 0;            ///< in the holes [Pa]
-  int positions = 8;                   ///< N_d, load positions of one sector
+  int positions = 8;                   ///< N_d, load positions per sector
   bool operator==(const Load&) const = default;
 };
 
@@ -74,13 +74,13 @@ struct Grid {
   bool operator==(const Grid&) const = default;
 };
 
-/// The mean contact stress p_mean (73) that uniformity criteria compare with.
+/// The mean contact stress p_mean (73) that the uniformity criteria compare with.
 enum class MeanStress {
   exact,  ///< that of the shape itself
   held,   ///< that of the last accepted shape, as the paper does
 };
 
-/// Weights of the criteria in J, and what the criteria need.
+/// Weights of the criteria in J, and parameters of the criteria.
 struct Objective {
   double strain_energy = 1;
   double uniformity_annulus = 0;               ///< alpha_1 of J_p1
@@ -100,7 +100,7 @@ enum class VolumeControl {
 
 struct Volume {
   VolumeControl control = VolumeControl::exact;
-  std::optional<double> target;  ///< material fraction of the ring; absent: the initial shape's
+  std::optional<double> target;  ///< material as a fraction of the ring; absent: that of the initial shape
   bool operator==(const Volume&) const = default;
 };
 
@@ -110,7 +110,7 @@ struct Optimizer {
   int iterations = 100;
   VelocityKind velocity = VelocityKind::h1;
   double velocity_length = 2;  ///< [cells]
-  double step = 0.5;           ///< largest move of the boundary a shape [cells]
+  double step = 0.5;           ///< maximum move of the boundary per shape [cells]
   int max_halvings = 6;
   double accepted_increase = 1e-4;
   double tolerance = 1e-5;
@@ -126,12 +126,13 @@ struct Output {
   std::string folder;  ///< never empty in a case that was read from a file
   int vtu_every = 10;
   int pictures_every = 0;
-  int checkpoint_every = 10;       ///< shapes; 0: not by their number
-  double checkpoint_seconds = 60;  ///< 0: not by the clock
+  int checkpoint_every = 10;       ///< shapes; 0: not by the number of shapes
+  double checkpoint_seconds = 60;  ///< 0: not by elapsed time
   bool operator==(const Output&) const = default;
 };
 
-/// What can be expected of a shape: the objective and its terms, what history.csv watches, and the stress.
+/// Quantities that `[[expect]]` can name: the objective and its terms, columns of history.csv, and the
+/// stress.
 enum class Quantity {
   objective,
   strain_energy,
@@ -146,14 +147,14 @@ enum class Quantity {
   peak_von_mises,
 };
 
-/// The words for them, in the order of the enumerators: the names of the criteria and of history.csv.
+/// Their names in case files, in the order of the enumerators, as in criteria and history.csv.
 inline constexpr std::array<std::string_view, 11> quantity_names{
     "objective", "strain_energy", "uniformity_annulus", "uniformity_dual", "uniformity_l2", "mean_travel",
     "run_out",   "peak_pressure", "pressure_spread",    "volume_fraction", "peak_von_mises"};
 
 constexpr std::string_view name(Quantity quantity) { return quantity_names[static_cast<int>(quantity)]; }
 
-/// What a run is expected to find for one quantity of one accepted shape.
+/// The expected value of one quantity of one accepted shape.
 struct Expectation {
   Quantity quantity = Quantity::objective;
   double value = 0;              ///< in the unit of history.csv

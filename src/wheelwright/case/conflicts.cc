@@ -27,7 +27,7 @@ std::vector<std::string> with_ring_shape(std::vector<std::string> keys) {
   return keys;
 }
 
-/// A value rounded up to three digits, so that what a message advises is accepted.
+/// The value rounded up to three digits, so that the value advised in a message is accepted.
 double rounded_up(double value) {
   const double unit = std::pow(10, std::floor(std::log10(value)) - 2);
   return std::ceil(value / unit) * unit;
@@ -38,13 +38,13 @@ void check_radii(const Case& c, Conflicts& found) {
   if (w.inner_radius >= w.outer_radius) {
     found.push_back({{"wheel.outer_radius", "wheel.inner_radius"},
                      fmt::format("must be larger than inner_radius = {} m", w.inner_radius),
-                     "give the rim's radius as inner_radius and the tread's as outer_radius"});
+                     "give the radius of the rim as inner_radius and that of the tread as outer_radius"});
     return;
   }
   constexpr double thinnest = 1e-4;
   if (w.outer_radius - w.inner_radius < thinnest * w.outer_radius) {
     found.push_back({{"wheel.outer_radius", "wheel.inner_radius"},
-                     fmt::format("the ring is thinner than {} of its radius", thinnest),
+                     fmt::format("the ring is thinner than {} times its radius", thinnest),
                      fmt::format("take outer_radius >= {:.6g} m", w.inner_radius / (1 - 2 * thinnest))});
     return;
   }
@@ -62,11 +62,11 @@ void check_radii(const Case& c, Conflicts& found) {
         {with_ring_shape({"optimizer.rim_band", "optimizer.tread_band"}),
          fmt::format("the bands at rim and tread, {:.6g} m and {:.6g} m, fill the whole ring of {:.6g} m",
                      rim_band(c), tread_band(c), w.outer_radius - w.inner_radius),
-         "make them thinner, or the grid finer"});
+         "take thinner bands or a finer grid"});
   }
 }
 
-/// Numbers of nodes and unknowns are int.
+/// The numbers of nodes and unknowns are stored as int.
 void check_size(const Case& c, Conflicts& found) {
   constexpr long long most = 1'000'000'000;
   if (dof_bound(c) <= most) return;
@@ -93,7 +93,7 @@ void check_angular_cells(const Case& c, Conflicts& found) {
   found.push_back({{"grid.angular_cells", "wheel.sectors", "load.positions"},
                    fmt::format("must be a multiple of sectors * positions = {} * {} = {}", c.wheel.sectors,
                                c.load.positions, positions),
-                   fmt::format("the nearest that fit: {}", fitting)});
+                   fmt::format("nearest valid: {}", fitting)});
 }
 
 std::string ring_key(std::size_t i, std::string_view name) {
@@ -115,9 +115,10 @@ void check_ring_counts(const Case& c, Conflicts& found) {
   for (const HoleRing& ring : c.holes.rings) common = std::gcd(common, ring.count);
   for (std::size_t i = 0; i < c.holes.rings.size(); ++i) {
     if (c.holes.rings[i].count % c.wheel.sectors == 0) continue;
-    found.push_back({{ring_key(i, "count"), "wheel.sectors"},
-                     fmt::format("must be a multiple of wheel.sectors = {}", c.wheel.sectors),
-                     fmt::format("sectors that fit all rings: {}", fmt::join(divisors(common), ", "))});
+    found.push_back(
+        {{ring_key(i, "count"), "wheel.sectors"},
+         fmt::format("must be a multiple of wheel.sectors = {}", c.wheel.sectors),
+         fmt::format("values of wheel.sectors that fit all rings: {}", fmt::join(divisors(common), ", "))});
   }
 }
 
@@ -129,8 +130,8 @@ void check_hole_inside(const Case& c, double center_radius, double radius, std::
   if (low >= high || (lowest >= low - rounding && highest <= high + rounding)) return;
   found.push_back(
       {with_ring_shape(std::move(keys)),
-       fmt::format("the hole reaches from radius {:.6g} m to {:.6g} m, beyond what the bands at rim and "
-                   "tread leave: {:.6g} m to {:.6g} m",
+       fmt::format("the hole extends from radius {:.6g} m to {:.6g} m; between the bands at rim and "
+                   "tread there is only {:.6g} m to {:.6g} m",
                    lowest, highest, low, high),
        fmt::format("the largest hole at this place has radius {:.6g} m",
                    std::max(0.0, std::min(center_radius - low, high - center_radius)))});
@@ -169,31 +170,32 @@ void check_nitsche(const Case& c, Conflicts& found) {
   if (c.contact.gamma_0 >= least) return;
   found.push_back(
       {{"contact.gamma_0", "contact.theta", "contact.method", "material.poissons_ratio"},
-       fmt::format("too small for theta = {} at poissons_ratio = {}: the stiffness is not safely positive "
+       fmt::format("too small for theta = {} and poissons_ratio = {}: the stiffness may not be positive "
                    "definite",
                    c.contact.theta, c.material.poissons_ratio),
        fmt::format("take gamma_0 >= {:.6g}, or theta = -1", rounded_up(least))});
 }
 
-/// What moves or turns the rim must be held by friction.
+/// Friction must resist the force or torque that moves or turns the rim.
 void check_friction(const Case& c, Conflicts& found) {
   const Load& load = c.load;
   if (load.horizontal_force != 0 && load.torque != 0)
     found.push_back(
         {{"load.torque", "load.horizontal_force"},
-         "the wheel would roll away: the ground holds the rim along it or about the axle, not both",
+         "the wheel would roll away: friction can resist a horizontal force or a torque, not both",
          "keep one of torque and horizontal_force"});
   const double arm = c.wheel.outer_radius, held = c.contact.friction * load.force;
   const auto check = [&](const char* key, double value, double limit, const char* unit) {
     if (value == 0) return;
     if (c.contact.friction == 0)
       found.push_back({{key, "contact.friction"},
-                       "nothing holds the wheel without friction",
+                       "without friction nothing holds the wheel",
                        "give contact.friction > 0"});
     else if (!load.travel && load.body_force == std::array<double, 2>{} && std::abs(value) >= limit)
-      found.push_back({{key, "contact.friction", "load.force", "load.mass"},
-                       fmt::format("the wheel would slide: friction holds less than {:.6g} {}", limit, unit),
-                       "take less of it, or more contact.friction"});
+      found.push_back(
+          {{key, "contact.friction", "load.force", "load.mass"},
+           fmt::format("the wheel would slide: friction resists less than {:.6g} {}", limit, unit),
+           "take a smaller value, or more contact.friction"});
   };
   check("load.horizontal_force", load.horizontal_force, held, "N");
   check("load.torque", load.torque, held * arm, "N m");
@@ -205,7 +207,7 @@ void check_annulus(const Case& c, Conflicts& found) {
   if (std::abs(annulus_thickness(c) - tread_rows(c) * cell) < 1e-6 * cell) return;
   found.push_back({{"objective.annulus", "grid.radial_cells"},
                    fmt::format("must be a whole number of radial cells of {:.6g} m", cell),
-                   fmt::format("the nearest that fits: {:.6g} m", tread_rows(c) * cell)});
+                   fmt::format("nearest valid: {:.6g} m", tread_rows(c) * cell)});
 }
 
 void check_objective(const Case& c, Conflicts& found) {
@@ -217,11 +219,12 @@ void check_objective(const Case& c, Conflicts& found) {
   if (o.strain_energy > 0 || o.uniformity_annulus > 0 || o.uniformity_dual > 0 || o.uniformity_l2 > 0 ||
       o.annulus_matches_dual)
     return;
-  found.push_back(
-      {{"objective.strain_energy"}, "all weights are 0: nothing to minimize", "give one a weight > 0"});
+  found.push_back({{"objective.strain_energy"},
+                   "all weights are 0: there is nothing to minimize",
+                   "give at least one weight > 0"});
 }
 
-/// A quantity that the run does not compute, or a shape that it does not reach.
+/// Finds expected quantities that the run does not compute, and shapes that it does not reach.
 void check_expectations(const Case& c, Conflicts& found) {
   const Objective& o = c.objective;
   const std::map<Quantity, bool> computed{
@@ -235,12 +238,12 @@ void check_expectations(const Case& c, Conflicts& found) {
     const auto criterion = computed.find(expectation.quantity);
     if (criterion != computed.end() && !criterion->second)
       found.push_back({{key("quantity"), fmt::format("objective.{}", name(expectation.quantity))},
-                       "has no weight in the objective, so that it is not computed",
-                       "give it a weight, however small, or expect something else"});
+                       "it has no weight in the objective, so the run does not compute it",
+                       "give it a weight, however small, or expect another quantity"});
     if (expectation.iteration && *expectation.iteration > c.optimizer.iterations)
       found.push_back({{key("iteration"), "optimizer.iterations"},
                        fmt::format("the run ends at shape {} at the latest", c.optimizer.iterations),
-                       "expect it of an earlier shape, or of the last one by leaving the key out"});
+                       "take an earlier shape, or omit the key for the last shape"});
   }
 }
 

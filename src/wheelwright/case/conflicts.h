@@ -7,9 +7,9 @@
 
 namespace wheelwright {
 
-/// Values that are each in range but do not go together.
+/// Values that are each in range but contradict each other.
 struct Conflict {
-  std::vector<std::string> keys;  ///< paths of all keys involved, the one to blame first
+  std::vector<std::string> keys;  ///< paths of all keys involved, the most likely cause first
   std::string problem;
   std::string remedy;
 };

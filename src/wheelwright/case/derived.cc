@@ -89,7 +89,7 @@ bool wants_dual(const Case& c) {
   return c.objective.uniformity_dual > 0 || c.objective.annulus_matches_dual.has_value();
 }
 
-/// Columns of tread cells that contact may reach [cells of the tread, before they are halved].
+/// Number of tread columns that contact may reach [cells of the tread, before they are halved].
 double contact_columns(const Case& c) {
   const double cell = 2 * pi * c.wheel.outer_radius / c.grid.angular_cells;
   const double half_width =
@@ -109,12 +109,12 @@ double estimated_memory(const Case& c) {
   const double dofs = static_cast<double>(dof_bound(c)), sector_dofs = dofs / sectors;
   const double radial_line = 2 * (c.grid.degree * c.grid.radial_cells + 1);
   const double ring_line = 2 * c.grid.degree * columns, sector_line = ring_line / sectors;
-  const double tractions = 2.0 * c.contact.quadrature_points * (1 << c.grid.tread_levels);  // of a column
+  const double tractions = 2.0 * c.contact.quadrature_points * (1 << c.grid.tread_levels);  // per column
   const double observations = 2 * tractions, zone_columns = contact_columns(c);
   double holes = 0;
   for (const HoleRing& ring : c.holes.rings) holes += ring.count / sectors;
 
-  // What each number counts is known; how many of them there are at the peak is fitted to measurements.
+  // The size of each array is known; how many of them exist at the peak is fitted to measurements.
   const double libraries = 190e6;
   const double fields = number * (137 * cells + 0.6 * dofs * positions);
   const double factor = number * sector_dofs * std::log2(std::max(sector_dofs, 2.0));
@@ -125,7 +125,7 @@ double estimated_memory(const Case& c) {
   const double tread = number * (60 * square(observations) + 4.5 * observations * columns * positions);
   const double zones = number * 0.6 * positions * square(zone_columns * tractions);
   const double shape = number * 10 * holes;
-  const double rings = wants_dual(c) ? 2 : 1;  // the dual norm's is one more
+  const double rings = wants_dual(c) ? 2 : 1;  // the dual norm has its own ring
   return libraries + fields + rings * (factor + condensed + harmonics) + compliance + surface + tread +
          zones + shape;
 }

@@ -7,28 +7,28 @@
 
 namespace wheelwright {
 
-// Numbers that follow from a case without solving. Plane strain, per metre of width.
+// Numbers that follow from a case without a solve. Plane strain, per metre of width.
 
 /// P [N/m].
 double load_per_metre(const Case& c);
 
-/// a = 2 sqrt(P R_e / (pi E*)) [m]: half the contact patch of a solid disc under the load, an estimate of the
-/// wheel's own.
+/// a = 2 sqrt(P R_e / (pi E*)) [m]: half the contact patch of a solid disc under the load, an estimate for
+/// the wheel.
 double hertz_half_width(const Case& c);
 
 /// p_0 = 2 P / (pi a) [Pa].
 double hertz_peak_pressure(const Case& c);
 
-/// Arc of the smallest cells, those at the tread [m].
+/// Arc length of the smallest cells, which are at the tread [m].
 double tread_cell_width(const Case& c);
 
 /// Cells on the tread under the Hertz patch 2a.
 double cells_per_contact_patch(const Case& c);
 
-/// Contact pressures are not resolved with fewer cells per patch.
+/// Contact pressures are not resolved with fewer cells per patch than this.
 inline constexpr double least_cells_per_contact_patch = 6;
 
-/// Diameter of the smallest hole in the longer edges of the cells at mid-ring; infinite without holes.
+/// Diameter of the smallest hole, in units of the longer cell edge at mid-ring; infinite without holes.
 double smallest_hole_in_cells(const Case& c);
 
 /// Smaller holes fray in an optimization without smoothing.
@@ -40,7 +40,7 @@ double sector_angle(const Case& c);
 /// N_l = N_d N_s: load positions of the full wheel.
 int total_load_positions(const Case& c);
 
-/// Radial cells of the annulus of J_p1, which are condensed once a run; 1 without that criterion.
+/// Number of radial cells of the annulus of J_p1, condensed once per run; 1 without that criterion.
 int tread_rows(const Case& c);
 
 /// Whether J_p1 is part of the objective.
@@ -50,30 +50,31 @@ bool wants_annulus(const Case& c);
 double annulus_thickness(const Case& c);
 double characteristic_length(const Case& c);
 
-/// The thinnest bands that the solver can do with [m]: its outermost rows of cells are condensed once a run,
-/// and the row below them carries the ghost penalty of the cells that are cut.
+/// Minimum thickness of the bands [m]: the outermost rows of cells are condensed once per run, and the row
+/// below them carries the ghost penalty of the cut cells.
 double least_rim_band(const Case& c);
 double least_tread_band(const Case& c);
 
-/// Thicknesses that stay material [m].
+/// Thickness of the bands that stay material [m].
 double rim_band(const Case& c);
 double tread_band(const Case& c);
 
-/// The holes of one sector, rings and circles; those of the others are their images. A hole may lie in any
-/// sector and cross the sector's faces.
+/// The holes of one sector, from rings and circles; those of the other sectors are their rotations. A hole
+/// may lie in any sector and cross the interfaces between sectors.
 std::vector<Circle> sector_holes(const Case& c);
 
-/// Displacement unknowns of the full ring if every cell held material: an upper bound.
+/// Number of displacement unknowns of the full ring if every cell held material: an upper bound.
 long long dof_bound(const Case& c);
 
-/// Peak memory of a run [bytes], to a factor of 1.25 (docs/performance.md): the libraries, the fields of the
-/// full ring, the factor of one sector and its condensed stiffness, the harmonics of its interfaces, the
-/// compliances of the outer line and of the surface, the tread's observations and the contact zones.
+/// Estimated peak memory of a run [bytes], within a factor of 1.25 (docs/performance.md): the libraries, the
+/// fields of the full ring, the factor of one sector and its condensed stiffness, the harmonics of its
+/// interfaces, the compliances of the outer line and of the surface, the tread's observations and the contact
+/// zones.
 double estimated_memory(const Case& c);
 
-/// The least gamma_0 for which Nitsche's method is safe with this theta and nu: 0 for theta = -1, about 10
-/// for 0 and 100 for 1 at nu = 0.48. In between 10 (1 + theta)^2 for the lack of symmetry plus 60 theta for
-/// the indefinite boundary term, times (lambda + 2 mu) / E.
+/// The minimum gamma_0 for which Nitsche's method is safe with this theta and nu. At nu = 0.48 it is 0 for
+/// theta = -1, about 10 for theta = 0 and 100 for theta = 1. In between it is 10 (1 + theta)^2 for the lack
+/// of symmetry plus 60 theta for the indefinite boundary term, scaled by (lambda + 2 mu) / E.
 double least_gamma_0(double theta, const Material& material);
 
 }  // namespace wheelwright

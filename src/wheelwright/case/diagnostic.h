@@ -4,22 +4,22 @@
 
 namespace wheelwright {
 
-/// Something wrong with a case file.
+/// A problem in a case file.
 struct Diagnostic {
   enum class Kind {
     unreadable,  ///< the file cannot be opened
-    empty,       ///< no key at all
+    empty,       ///< the file contains no key
     syntax,      ///< not TOML, or too large or deep to be a case
     unknown_key,
     missing_key,
     wrong_type,
     out_of_range,
-    conflict,  ///< values that do not go together
+    conflict,  ///< values that contradict each other
   };
 
   Kind kind;
   std::string file;
-  int line, column;   ///< from 1; 0 when the problem has no place
+  int line, column;   ///< from 1; 0 if the problem has no position
   std::string key;    ///< path, e.g. "wheel.sectors" or "holes.ring[2].count" (from 1); may be empty
   std::string value;  ///< as in the file; may be empty
   std::string problem;

@@ -40,37 +40,38 @@ std::string_view rule_text(TextRule rule) {
 }
 
 const Section<Case>& general_section() {
-  static const Section<Case> section{.name = "",
-                                     .meaning = "",
-                                     .in = [](Case& c) -> Case& { return c; },
-                                     .keys = {{.name = "title",
-                                               .unit = "",
-                                               .field = TextField<Case>{&Case::title, ""},
-                                               .meaning = "a line of text for pictures and reports"}}};
+  static const Section<Case> section{
+      .name = "",
+      .meaning = "",
+      .in = [](Case& c) -> Case& { return c; },
+      .keys = {{.name = "title",
+                .unit = "",
+                .field = TextField<Case>{&Case::title, ""},
+                .meaning = "one line of text, the title of pictures and reports"}}};
   return section;
 }
 
 const Section<Wheel>& wheel_section() {
   static const Section<Wheel> section{
       .name = "wheel",
-      .meaning = "the ring that the structure lives in",
+      .meaning = "dimensions of the ring, and its number of equal sectors",
       .in = [](Case& c) -> Wheel& { return c.wheel; },
       .keys = {{.name = "inner_radius",
                 .unit = "m",
                 .field = NumberField<Wheel>{&Wheel::inner_radius, length},
-                .meaning = "R_i: the structure is bonded to a rigid rim here"},
+                .meaning = "R_i: radius at which the structure is bonded to the rigid rim"},
                {.name = "outer_radius",
                 .unit = "m",
                 .field = NumberField<Wheel>{&Wheel::outer_radius, length},
-                .meaning = "R_e: the tread, which rolls on flat ground"},
+                .meaning = "R_e: radius of the tread, which rolls on flat ground"},
                {.name = "width",
                 .unit = "m",
                 .field = NumberField<Wheel>{&Wheel::width, length},
-                .meaning = "w_r: extent along the axle"},
+                .meaning = "w_r: width along the axle"},
                {.name = "sectors",
                 .unit = "",
                 .field = IntegerField<Wheel>{&Wheel::sectors, between(1, 10000)},
-                .meaning = "N_s: equal sectors of the shape; 1 is no cyclic symmetry"}}};
+                .meaning = "N_s: number of equal sectors of the shape; 1 means no cyclic symmetry"}}};
   return section;
 }
 
@@ -82,18 +83,18 @@ const Section<Material>& material_section() {
       .keys = {{.name = "youngs_modulus",
                 .unit = "Pa",
                 .field = NumberField<Material>{&Material::youngs_modulus, above(0, 1e13)},
-                .meaning = "E"},
+                .meaning = "E: Young's modulus"},
                {.name = "poissons_ratio",
                 .unit = "",
                 .field = NumberField<Material>{&Material::poissons_ratio, at_least_and_below(0, 0.5)},
-                .meaning = "nu"}}};
+                .meaning = "nu: Poisson's ratio"}}};
   return section;
 }
 
 const Section<Load>& load_section() {
   static const Section<Load> section{
       .name = "load",
-      .meaning = "what the wheel carries while it rolls through all load positions",
+      .meaning = "the load on the wheel, the same in all load positions",
       .in = [](Case& c) -> Load& { return c.load; },
       .keys = {{.name = "mass",
                 .unit = "kg",
@@ -107,31 +108,31 @@ const Section<Load>& load_section() {
                {.name = "travel",
                 .unit = "m",
                 .field = OptionalNumberField<Load>{&Load::travel, above(0, 1000), "the rim carries the load"},
-                .meaning = "travel of the rim towards the ground, which is held; the force is a result",
+                .meaning = "prescribed travel of the rim towards the ground; the force is a result",
                 .instead_of = "mass"},
                {.name = "horizontal_force",
                 .unit = "N",
                 .field = NumberField<Load>{&Load::horizontal_force, between(-1e10, 1e10)},
                 .meaning = "force on the rim along the ground, towards larger azimuth, on the whole width; "
-                           "the rim moves along the ground only under one"},
+                           "if it is 0 the rim does not move along the ground"},
                {.name = "torque",
                 .unit = "N m",
                 .field = NumberField<Load>{&Load::torque, between(-1e10, 1e10)},
                 .meaning = "driving or braking torque on the rim, towards larger azimuth, on the whole "
-                           "width; the rim turns only under one"},
+                           "width; if it is 0 the rim does not turn"},
                {.name = "body_force",
                 .unit = "N/m^3",
                 .field = PointField<Load>{&Load::body_force, between(-1e12, 1e12)},
-                .meaning = "[along, down]: force on every volume of the structure, along the ground towards "
-                           "larger azimuth and down; its weight is [0, 9.81 * density]"},
+                .meaning = "[along, down]: force per volume of the structure, along the ground towards "
+                           "larger azimuth, and downwards; [0, 9.81 * density] is its weight"},
                {.name = "hole_pressure",
                 .unit = "Pa",
                 .field = NumberField<Load>{&Load::hole_pressure, between(-1e12, 1e12)},
-                .meaning = "pressure on the boundary of the holes, g_N = -p n of (1)"},
+                .meaning = "pressure p on the boundary of the holes: g_N = -p n in (1)"},
                {.name = "positions",
                 .unit = "",
                 .field = IntegerField<Load>{&Load::positions, between(1, 1000)},
-                .meaning = "N_d: load positions of one sector"}}};
+                .meaning = "N_d: number of load positions per sector"}}};
   return section;
 }
 
@@ -147,11 +148,11 @@ const Section<Contact>& contact_section() {
                {.name = "theta",
                 .unit = "",
                 .field = NumberField<Contact>{&Contact::theta, any_number},
-                .meaning = "Nitsche's parameter; -1 needs no large gamma_0, 0 and 1 do"},
+                .meaning = "Nitsche's parameter; -1 works with any gamma_0, 0 and 1 need a large one"},
                {.name = "gamma_0",
                 .unit = "",
                 .field = NumberField<Contact>{&Contact::gamma_0, above(0, 1e9)},
-                .meaning = "gamma = gamma_0 E / h_T with h_T the diameter of the contact cell"},
+                .meaning = "gamma = gamma_0 E / h_T, where h_T is the diameter of the contact cell"},
                {.name = "friction",
                 .unit = "",
                 .field = NumberField<Contact>{&Contact::friction, between(0, 10)},
@@ -159,7 +160,7 @@ const Section<Contact>& contact_section() {
                {.name = "quadrature_points",
                 .unit = "",
                 .field = IntegerField<Contact>{&Contact::quadrature_points, between(1, 20)},
-                .meaning = "Gauss points on each contact face"}}};
+                .meaning = "number of Gauss points on each contact face"}}};
   return section;
 }
 
@@ -168,18 +169,18 @@ const SectionArray<HoleRing>& ring_sections() {
       .parent = "holes",
       .name = "ring",
       .meaning =
-          "holes of the initial shape: equal circles, evenly spaced about the axle; any number of rings",
+          "holes of the initial shape: equal circles, evenly spaced about the axle; give any number of rings",
       .in = [](Case& c) -> std::vector<HoleRing>& { return c.holes.rings; },
       .example = {.count = 16, .center_radius = 0.27, .radius = 0.04, .phase = {}},
       .keys = {{.name = "count",
                 .unit = "",
                 .field = IntegerField<HoleRing>{&HoleRing::count, between(1, 100000)},
-                .meaning = "holes round the full wheel, a multiple of wheel.sectors",
+                .meaning = "number of holes round the full wheel, a multiple of wheel.sectors",
                 .presence = Presence::required},
                {.name = "center_radius",
                 .unit = "m",
                 .field = NumberField<HoleRing>{&HoleRing::center_radius, length},
-                .meaning = "distance of the centres from the axle",
+                .meaning = "distance from the axle to the centres",
                 .presence = Presence::required},
                {.name = "radius",
                 .unit = "m",
@@ -190,7 +191,7 @@ const SectionArray<HoleRing>& ring_sections() {
                 .unit = "deg",
                 .field = OptionalNumberField<HoleRing>{&HoleRing::phase, between(-360, 360),
                                                        "half the spacing, 180 / count", degree_of_arc},
-                .meaning = "azimuth of the first centre; sectors begin at azimuth 0"}}};
+                .meaning = "azimuth of the first centre; the first sector begins at azimuth 0"}}};
   return sections;
 }
 
@@ -198,19 +199,20 @@ const SectionArray<HoleCircle>& circle_sections() {
   static const SectionArray<HoleCircle> sections{
       .parent = "holes",
       .name = "circle",
-      .meaning = "holes of the initial shape: a circle, repeated in every sector; any number of circles",
+      .meaning = "holes of the initial shape: a circle, repeated in every sector; give any number of circles",
       .in = [](Case& c) -> std::vector<HoleCircle>& { return c.holes.circles; },
       .example = {.center = {0.29, 0.02}, .radius = 0.01},
-      .keys = {{.name = "center",
-                .unit = "m",
-                .field = PointField<HoleCircle>{&HoleCircle::center, between(-1000, 1000)},
-                .meaning = "[x, y] of one of the circles, with the axle at [0, 0] and azimuth 0 along x",
-                .presence = Presence::required},
-               {.name = "radius",
-                .unit = "m",
-                .field = NumberField<HoleCircle>{&HoleCircle::radius, length},
-                .meaning = "radius of the hole",
-                .presence = Presence::required}}};
+      .keys = {
+          {.name = "center",
+           .unit = "m",
+           .field = PointField<HoleCircle>{&HoleCircle::center, between(-1000, 1000)},
+           .meaning = "[x, y] of the centre in one sector; the axle is at [0, 0], and azimuth 0 is along x",
+           .presence = Presence::required},
+          {.name = "radius",
+           .unit = "m",
+           .field = NumberField<HoleCircle>{&HoleCircle::radius, length},
+           .meaning = "radius of the hole",
+           .presence = Presence::required}}};
   return sections;
 }
 
@@ -223,24 +225,25 @@ const Section<Grid>& grid_section() {
           {.name = "radial_cells",
            .unit = "",
            .field = IntegerField<Grid>{&Grid::radial_cells, cell_count},
-           .meaning = "cells from rim to tread"},
+           .meaning = "number of cells from rim to tread"},
           {.name = "angular_cells",
            .unit = "",
            .field = IntegerField<Grid>{&Grid::angular_cells, cell_count},
-           .meaning = "cells round the full ring, a multiple of wheel.sectors * load.positions"},
+           .meaning = "number of cells round the full ring, a multiple of wheel.sectors * load.positions"},
           {.name = "degree",
            .unit = "",
            .field = IntegerField<Grid>{&Grid::degree, between(1, 2)},
-           .meaning = "degree of the displacement"},
+           .meaning = "polynomial degree of the displacement"},
           {.name = "level_set_degree",
            .unit = "",
            .field = IntegerField<Grid>{&Grid::level_set_degree, between(1, 2)},
-           .meaning = "degree of the level set"},
+           .meaning = "polynomial degree of the level set"},
           {.name = "tread_levels",
            .unit = "",
            .field = IntegerField<Grid>{&Grid::tread_levels, between(0, 6)},
-           .meaning = "halvings of the cells at the tread, for contact pressures; the level set's grid and "
-                      "the cost of the cut cells stay"}}};
+           .meaning =
+               "how many times the cells at the tread are halved, for accurate contact pressures; the level "
+               "set's grid and the cost of the cut cells do not change"}}};
   return section;
 }
 
@@ -249,23 +252,24 @@ const Section<GhostPenalty>& ghost_penalty_section() {
       .name = "ghost_penalty",
       .meaning = "stabilization of the cells that the boundary cuts",
       .in = [](Case& c) -> GhostPenalty& { return c.ghost_penalty; },
-      .keys = {{.name = "kind",
-                .unit = "",
-                .field = choice<&GhostPenalty::kind>({"full", "paper"}),
-                .meaning =
-                    "full: all faces of cut cells, jumps of the stress and of the second normal derivative; "
-                    "paper: (81), jump of the stress alone, unsafe for degree 2"},
-               {.name = "xi",
-                .unit = "",
-                .field = NumberField<GhostPenalty>{&GhostPenalty::xi, between(0, 1)},
-                .meaning = "weight; large values stiffen the structure"}}};
+      .keys = {
+          {.name = "kind",
+           .unit = "",
+           .field = choice<&GhostPenalty::kind>({"full", "paper"}),
+           .meaning = "full: jumps of the stress and of the second normal derivative on all faces of cut "
+                      "cells; paper: only the jump of the stress, by (81), which is unsafe for degree 2"},
+          {.name = "xi",
+           .unit = "",
+           .field = NumberField<GhostPenalty>{&GhostPenalty::xi, between(0, 1)},
+           .meaning = "weight; a large value stiffens the structure"}}};
   return section;
 }
 
 const Section<Objective>& objective_section() {
   static const Section<Objective> section{
       .name = "objective",
-      .meaning = "weights of the criteria in J, which is summed over all load positions and minimized",
+      .meaning =
+          "weights of the criteria in the objective J, which is summed over all load positions and minimized",
       .in = [](Case& c) -> Objective& { return c.objective; },
       .keys = {
           {.name = "strain_energy",
@@ -275,33 +279,37 @@ const Section<Objective>& objective_section() {
           {.name = "uniformity_annulus",
            .unit = "",
            .field = NumberField<Objective>{&Objective::uniformity_annulus, between(0, 1e9)},
-           .meaning = "weight alpha_1 of J_p1 (60): evenness of the contact stress in the annulus"},
+           .meaning = "weight alpha_1 of J_p1 (60): uniformity of the contact stress over the load "
+                      "positions, in an annulus"},
           {.name = "uniformity_dual",
            .unit = "",
            .field = NumberField<Objective>{&Objective::uniformity_dual, between(0, 1e9)},
-           .meaning = "weight alpha_2 of J_p2 (61): evenness of the contact stress in H^-1/2"},
+           .meaning = "weight alpha_2 of J_p2 (61): uniformity of the contact stress over the load "
+                      "positions, in H^-1/2"},
           {.name = "uniformity_l2",
            .unit = "",
            .field = NumberField<Objective>{&Objective::uniformity_l2, between(0, 1e9)},
-           .meaning = "weight of the naive evenness criterion (4); for comparison"},
+           .meaning = "weight of J_p (4), the naive uniformity criterion; for comparison"},
           {.name = "annulus_matches_dual",
            .unit = "",
            .field = OptionalNumberField<Objective>{&Objective::annulus_matches_dual, above(0, 1e9),
-                                                   "uniformity_annulus counts"},
-           .meaning = "chooses uniformity_annulus by (83): J_p1 starts as large as J_p2 with this weight"},
+                                                   "uniformity_annulus is used"},
+           .meaning =
+               "computes uniformity_annulus by (83): weighted J_p1 starts equal to J_p2 with this weight"},
           {.name = "annulus",
            .unit = "m",
            .field = OptionalNumberField<Objective>{&Objective::annulus, above(0, 1000), "one radial cell"},
-           .meaning = "epsilon of J_p1, a whole number of radial cells; it stays material"},
+           .meaning = "epsilon: thickness of the annulus of J_p1, a whole number of radial cells; it stays "
+                      "material"},
           {.name = "length",
            .unit = "m",
            .field = OptionalNumberField<Objective>{&Objective::length, above(0, 1000), "epsilon"},
-           .meaning = "characteristic length L of J_p1 and of the naive criterion"},
+           .meaning = "L: characteristic length of J_p1 and J_p"},
           {.name = "mean",
            .unit = "",
            .field = choice<&Objective::mean>({"exact", "held"}),
-           .meaning =
-               "p_mean (73) of the shape itself, or held at the last accepted shape as the paper does"}}};
+           .meaning = "mean contact stress p_mean (73); exact: of the shape itself; held: of the last "
+                      "accepted shape, as in the paper"}}};
   return section;
 }
 
@@ -314,29 +322,29 @@ const Section<Volume>& volume_section() {
           {.name = "control",
            .unit = "",
            .field = choice<&Volume::control>({"exact", "paper"}),
-           .meaning = "exact: every shape has the target volume; paper: lambda_k of section 4.2, "
+           .meaning = "exact: every shape has the target volume; paper: the rule lambda_k of section 4.2, "
                       "which lets the volume drift"},
           {.name = "target",
            .unit = "",
            .field = OptionalNumberField<Volume>{&Volume::target, above(0, 1), "that of the initial shape"},
-           .meaning = "material fraction of the ring"}}};
+           .meaning = "material as a fraction of the ring"}}};
   return section;
 }
 
 const Section<Optimizer>& optimizer_section() {
   static const Section<Optimizer> section{
       .name = "optimizer",
-      .meaning = "descent; a cell is the shortest edge of a grid cell at mid-ring",
+      .meaning = "the descent; the unit \"cell\" is the shortest edge of a grid cell at mid-ring",
       .in = [](Case& c) -> Optimizer& { return c.optimizer; },
       .keys = {
           {.name = "iterations",
            .unit = "",
            .field = IntegerField<Optimizer>{&Optimizer::iterations, between(0, 1000000)},
-           .meaning = "accepted shapes at most, after the initial one"},
+           .meaning = "maximum number of accepted shapes after the initial one"},
           {.name = "velocity",
            .unit = "",
            .field = choice<&Optimizer::velocity>({"h1", "harmonic"}),
-           .meaning = "h1: Riesz representative of the gradient; harmonic: the paper's extension"},
+           .meaning = "h1: Riesz representative of the gradient; harmonic: the paper's harmonic extension"},
           {.name = "velocity_length",
            .unit = "cells",
            .field = NumberField<Optimizer>{&Optimizer::velocity_length, between(0, 1000)},
@@ -344,27 +352,28 @@ const Section<Optimizer>& optimizer_section() {
           {.name = "step",
            .unit = "cells",
            .field = NumberField<Optimizer>{&Optimizer::step, above(0, 10)},
-           .meaning = "largest move of the boundary from one shape to the next"},
+           .meaning = "maximum move of the boundary from one shape to the next"},
           {.name = "max_halvings",
            .unit = "",
            .field = IntegerField<Optimizer>{&Optimizer::max_halvings, between(0, 50)},
-           .meaning = "times a rejected step is halved before the run stops"},
+           .meaning = "how many times a rejected step is halved before the run stops"},
           {.name = "accepted_increase",
            .unit = "",
            .field = NumberField<Optimizer>{&Optimizer::accepted_increase, between(0, 1)},
-           .meaning = "relative rise of J over the best shape so far with which a shape is still accepted"},
+           .meaning = "a shape is accepted if its J exceeds the best J so far by at most this fraction"},
           {.name = "tolerance",
            .unit = "",
            .field = NumberField<Optimizer>{&Optimizer::tolerance, between(0, 1)},
-           .meaning = "the run stops when J fell by less than this, relatively, over 10 shapes; 0 is never"},
+           .meaning =
+               "the run stops when J has fallen by less than this fraction over 10 shapes; 0 means never"},
           {.name = "redistance_every",
            .unit = "shapes",
            .field = IntegerField<Optimizer>{&Optimizer::redistance_every, between(0, 1000000)},
-           .meaning = "how often the level set is made a signed distance again; 0 is never"},
+           .meaning = "how often the level set is redistanced (made a signed distance again); 0 means never"},
           {.name = "smoothing",
            .unit = "cells^2",
            .field = NumberField<Optimizer>{&Optimizer::smoothing, between(0, 1000)},
-           .meaning = "tau of (76); 0 is none, with which small holes may fray"},
+           .meaning = "tau of (76); 0 means no smoothing, and then small holes may fray"},
           {.name = "smooth_every",
            .unit = "shapes",
            .field = IntegerField<Optimizer>{&Optimizer::smooth_every, between(1, 1000000)},
@@ -372,43 +381,46 @@ const Section<Optimizer>& optimizer_section() {
           {.name = "rim_band",
            .unit = "m",
            .field = OptionalNumberField<Optimizer>{&Optimizer::rim_band, between(0, 1000), "one radial cell"},
-           .meaning = "thickness at the rim that stays material, at least one radial cell"},
+           .meaning = "thickness of the band at the rim that stays material, at least one radial cell"},
           {.name = "tread_band",
            .unit = "m",
            .field = OptionalNumberField<Optimizer>{&Optimizer::tread_band, between(0, 1000),
                                                    "one radial cell more than the annulus"},
-           .meaning = "thickness at the tread that stays material, at least one radial cell more than the "
-                      "annulus"}}};
+           .meaning =
+               "thickness of the band at the tread that stays material, at least one radial cell more than "
+               "the annulus"}}};
   return section;
 }
 
 const Section<Output>& output_section() {
   static const Section<Output> section{
       .name = "output",
-      .meaning = "what a run writes",
+      .meaning = "the output of a run",
       .in = [](Case& c) -> Output& { return c.output; },
-      .keys = {{.name = "folder",
-                .unit = "",
-                .field = TextField<Output>{&Output::folder, "runs/ and the name of the case file",
-                                           TextRule::path_below},
-                .meaning = "folder of the run, below the current one; the option --output may name any"},
-               {.name = "vtu_every",
-                .unit = "shapes",
-                .field = IntegerField<Output>{&Output::vtu_every, between(0, 1000000)},
-                .meaning = "how often fields are written for ParaView; 0 is never"},
-               {.name = "pictures_every",
-                .unit = "shapes",
-                .field = IntegerField<Output>{&Output::pictures_every, between(0, 1000000)},
-                .meaning = "how often the loaded wheel is drawn in the folder shapes; 0 is never, the last "
-                           "shape is always drawn"},
-               {.name = "checkpoint_every",
-                .unit = "shapes",
-                .field = IntegerField<Output>{&Output::checkpoint_every, between(0, 1000000)},
-                .meaning = "how often the run is saved for `wheelwright resume`; 0 is by the clock alone"},
-               {.name = "checkpoint_seconds",
-                .unit = "s",
-                .field = NumberField<Output>{&Output::checkpoint_seconds, between(0, 1e9)},
-                .meaning = "time after which the next shape is saved too; 0 is never"}}};
+      .keys = {
+          {.name = "folder",
+           .unit = "",
+           .field = TextField<Output>{&Output::folder, "runs/ and the name of the case file",
+                                      TextRule::path_below},
+           .meaning = "folder of the run, below the current one; the option --output takes any"},
+          {.name = "vtu_every",
+           .unit = "shapes",
+           .field = IntegerField<Output>{&Output::vtu_every, between(0, 1000000)},
+           .meaning = "how often fields are written for ParaView; 0 means never"},
+          {.name = "pictures_every",
+           .unit = "shapes",
+           .field = IntegerField<Output>{&Output::pictures_every, between(0, 1000000)},
+           .meaning = "how often the loaded wheel is drawn in the folder shapes; 0 means never; the last "
+                      "shape is always drawn"},
+          {.name = "checkpoint_every",
+           .unit = "shapes",
+           .field = IntegerField<Output>{&Output::checkpoint_every, between(0, 1000000)},
+           .meaning = "how often the run is saved for `wheelwright resume`; 0 means only after "
+                      "checkpoint_seconds"},
+          {.name = "checkpoint_seconds",
+           .unit = "s",
+           .field = NumberField<Output>{&Output::checkpoint_seconds, between(0, 1e9)},
+           .meaning = "time after which the next shape is saved as well; 0 means never"}}};
   return section;
 }
 
@@ -417,29 +429,29 @@ const SectionArray<Expectation>& expectation_sections() {
       .parent = "",
       .name = "expect",
       .meaning =
-          "what a run is expected to find; it says which of these it did not, and ends with exit "
-          "code 7; any number of them",
+          "an expected result; a run that finds another value reports it and ends with exit "
+          "code 7; give any number of them",
       .in = [](Case& c) -> std::vector<Expectation>& { return c.expectations; },
       .example = {.quantity = Quantity::strain_energy, .value = 35, .margin = 0.01, .iteration = {}},
       .keys = {{.name = "quantity",
                 .unit = "",
                 .field = choice<&Expectation::quantity>({quantity_names.begin(), quantity_names.end()}),
-                .meaning = "a column of history.csv, or the largest von Mises stress of all positions",
+                .meaning = "a column of history.csv, or the maximum von Mises stress of all positions",
                 .presence = Presence::required},
                {.name = "value",
                 .unit = "",
                 .field = NumberField<Expectation>{&Expectation::value, above(0, 1e15)},
-                .meaning = "what it should be, in the unit of history.csv, stresses in Pa",
+                .meaning = "expected value, in the unit of history.csv; stresses in Pa",
                 .presence = Presence::required},
                {.name = "margin",
                 .unit = "",
                 .field = NumberField<Expectation>{&Expectation::margin, above(0, 1)},
-                .meaning = "how far it may be from that, relative to the value"},
+                .meaning = "accepted deviation, relative to the value"},
                {.name = "iteration",
                 .unit = "",
                 .field = OptionalIntegerField<Expectation>{&Expectation::iteration, between(0, 1000000),
                                                            "the last shape"},
-                .meaning = "number of the accepted shape; 0 is the initial one"}}};
+                .meaning = "number of the accepted shape; 0 is the initial shape"}}};
   return sections;
 }
 

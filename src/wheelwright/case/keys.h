@@ -22,7 +22,7 @@ struct Range {
   double low, high;
   End low_end = End::closed, high_end = End::closed;
 
-  /// False for NaN and infinities.
+  /// False for NaN and infinity.
   bool contains(double value) const;
   /// E.g. "0 < value <= 20".
   std::string text() const;
@@ -67,10 +67,10 @@ struct OptionalIntegerField {
 
 enum class TextRule {
   any,
-  path_below,  ///< of a folder in or below the current one: relative, without ".."
+  path_below,  ///< a path in or below the current folder: relative, without ".."
 };
 
-/// Whether a text is what the rule asks for.
+/// Whether a text obeys the rule.
 bool keeps(TextRule rule, const std::string& text);
 /// The rule in words, e.g. "text".
 std::string_view rule_text(TextRule rule);
@@ -78,7 +78,7 @@ std::string_view rule_text(TextRule rule);
 template <class Struct>
 struct TextField {
   std::string Struct::*member;
-  std::string_view default_text;  ///< what an absent key means, when that is not the empty text
+  std::string_view default_text;  ///< meaning of an absent key, if not the empty text
   TextRule rule = TextRule::any;
 };
 
@@ -88,7 +88,7 @@ struct PointField {
   Range range;
 };
 
-/// One of several words; the words stand in the order of the enumerators.
+/// One of several words, in the order of the enumerators.
 template <class Struct>
 struct ChoiceField {
   std::vector<std::string_view> words;
@@ -187,7 +187,7 @@ void for_each_section(Visitor&& visit) {
   visit(expectation_sections());
 }
 
-/// The key of that name, or null.
+/// The key with that name, or null.
 template <class Struct>
 const Key<Struct>* find_key(const std::vector<Key<Struct>>& keys, std::string_view name) {
   for (const auto& key : keys)

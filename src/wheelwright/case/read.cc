@@ -110,7 +110,7 @@ std::optional<Complaint> read_number(const toml::node& node, std::string_view un
   if (const auto integer = node.value_exact<std::int64_t>()) value = static_cast<double>(*integer);
   if (!value) {
     const std::string in_unit = unit.empty() ? "" : fmt::format(", in {}", unit);
-    return wrong_type("a number", fmt::format("write it without quotes and unit{}", in_unit));
+    return wrong_type("a number", fmt::format("write it without quotes or unit{}", in_unit));
   }
   if (!range.contains(*value))
     return Complaint{Kind::out_of_range, "out of range",
@@ -133,7 +133,7 @@ template <class Struct, class Field>
 requires std::same_as<Field, IntegerField<Struct>> || std::same_as<Field, OptionalIntegerField<Struct>>
     std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>& key, const Field& field,
                                         Struct& out) {
-  if (!node.is_integer()) return wrong_type("a whole number", "write it without quotes and decimal point");
+  if (!node.is_integer()) return wrong_type("a whole number", "write it without quotes or decimal point");
   double value = 0;
   auto complaint = read_number(node, key.unit, field.range, value);
   if (!complaint) out.*field.member = static_cast<int>(value);
@@ -144,7 +144,7 @@ template <class Struct>
 std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>&,
                                     const TextField<Struct>& field, Struct& out) {
   const auto value = node.value<std::string>();
-  if (!value) return wrong_type("a text", "put it in quotes");
+  if (!value) return wrong_type("text", "put it in quotes");
   if (!keeps(field.rule, *value))
     return Complaint{Kind::out_of_range, fmt::format("must be {}", rule_text(field.rule)), ""};
   out.*field.member = *value;
@@ -242,7 +242,7 @@ void check_presence(Reading& reading, const std::string& parent, const toml::tab
     const std::string path = join_path(parent, key.name);
     if (key.presence == Presence::required && !table.contains(key.name))
       complain(reading, path, {static_cast<int>(begin.line), static_cast<int>(begin.column), ""},
-               {Kind::missing_key, "missing", fmt::format("give {}", key.meaning)});
+               {Kind::missing_key, "missing", fmt::format("add it ({})", key.meaning)});
   }
 }
 
@@ -287,7 +287,7 @@ const toml::table* find_table(Reading& reading, const toml::table& root, std::st
   const std::string path(name);
   if (!reading.entries.contains(path)) {
     note(reading, path, *node);
-    complain(reading, path, wrong_type("a table", fmt::format("begin it with a line [{}]", name)));
+    complain(reading, path, wrong_type("a table", fmt::format("start it with a line [{}]", name)));
   }
   return nullptr;
 }
@@ -307,7 +307,7 @@ void read_section(Reading& reading, const toml::table& root, const SectionArray<
   if (!array || (!array->empty() && !array->is_array_of_tables())) {
     note(reading, section.path(), *node);
     complain(reading, section.path(),
-             wrong_type("an array of tables", fmt::format("begin each with a line [[{}]]", section.path())));
+             wrong_type("an array of tables", fmt::format("start each with a line [[{}]]", section.path())));
     return;
   }
   auto& list = section.in(out);
@@ -386,8 +386,8 @@ CaseResult interpret(const TomlLines& toml, const std::filesystem::path& file) {
   Case result = read_root(reading, toml.root);
   if (syntax.empty()) check_conflicts(reading, result);
   if (syntax.empty() && toml.root.empty())
-    return failed({Kind::empty, reading.file, 1, 1, "", "", "the file holds no key",
-                   "wheelwright init writes a case to start from"});
+    return failed({Kind::empty, reading.file, 1, 1, "", "", "the file contains no key",
+                   "`wheelwright init` writes a case to start from"});
   std::vector<Diagnostic> problems = merged(syntax, reading.problems);
   std::stable_sort(problems.begin(), problems.end(), [](const auto& a, const auto& b) {
     return std::tie(a.line, a.column) < std::tie(b.line, b.column);

@@ -4,8 +4,8 @@
 
 namespace wheelwright {
 
-/// The case with another number of shapes. If it differs from the case's own, what is expected of later
-/// shapes, or of the last one, is left out.
+/// The case with another number of shapes. If the number differs from the case's own, the expectations of
+/// later shapes and of the last one are removed.
 Case with_iterations(Case c, int iterations);
 
 }  // namespace wheelwright

@@ -7,10 +7,10 @@
 
 namespace wheelwright {
 
-/// Edits (insert, delete, replace, swap neighbours) that turn one word into the other.
+/// Number of edits (insert, delete, replace, swap neighbours) that turn one word into the other.
 int edit_distance(std::string_view a, std::string_view b);
 
-/// The candidate that the word is most likely a misspelling of, if any is near enough.
+/// The candidate that the word most likely misspells, if one is similar enough.
 std::optional<std::string> did_you_mean(std::string_view word,
                                         const std::vector<std::string_view>& candidates);
 

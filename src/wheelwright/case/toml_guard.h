@@ -6,17 +6,17 @@
 
 namespace wheelwright {
 
-/// No case file is longer.
+/// Maximum length of a case file.
 inline constexpr std::size_t most_case_bytes = 1 << 20;
 
-/// Where a text goes beyond what the TOML parser can take without exhausting the stack.
+/// The place where a text exceeds what the TOML parser can parse without exhausting the stack.
 struct ParserLimitExceeded {
   int line, column;  ///< from 1
   std::string problem;
 };
 
 /// Checks the size of the text and the depth of its dotted keys, before parsing. Text inside strings and
-/// comments does not count.
+/// comments is ignored.
 std::optional<ParserLimitExceeded> exceeded_parser_limit(std::string_view text);
 
 }  // namespace wheelwright

@@ -42,7 +42,7 @@ std::string quotient_text(double value, double factor) {
   return best;
 }
 
-// One function a field type: the value as TOML, empty when the field holds none.
+// One function per field type: the value as TOML, empty if the field holds none.
 
 template <class Struct>
 std::string value_text(const NumberField<Struct>& field, const Struct& s) {
@@ -103,7 +103,7 @@ std::string accepted_text(const Key<Struct>& key) {
       key.field);
 }
 
-/// What an absent key means when that is not a value; empty otherwise.
+/// The meaning of an absent key, if that is not a value; empty otherwise.
 template <class Struct>
 std::string default_text(const Key<Struct>& key) {
   return std::visit(
@@ -217,7 +217,7 @@ template <class Struct>
 std::string default_cell(const Key<Struct>& key, const Struct& defaults) {
   if (key.presence == Presence::required) return "required";
   if (std::string text = default_text(key); !text.empty()) return text;
-  if (!key.instead_of.empty()) return fmt::format("`{}` counts", key.instead_of);
+  if (!key.instead_of.empty()) return fmt::format("`{}` is used", key.instead_of);
   return fmt::format("`{}`", value_text(key, defaults));
 }
 
@@ -261,9 +261,8 @@ std::string case_template() {
   Case c;
   c.holes.rings = {ring_sections().example};
   std::string result =
-      "# A case for wheelwright: check it with `wheelwright check FILE`, run it with `wheelwright run "
-      "FILE`.\n"
-      "# Keys that are left out take the value shown here; rings and circles of holes have no defaults.\n\n";
+      "# A case for wheelwright. `wheelwright check FILE` checks it, `wheelwright run FILE` runs it.\n"
+      "# A key that is left out has the value shown here; rings and circles of holes have no defaults.\n\n";
   for_each_section([&](const auto& section) { result += template_text(section, c); });
   return result;
 }
@@ -271,13 +270,12 @@ std::string case_template() {
 std::string case_reference_markdown() {
   std::string result =
       "# The case file\n\n"
-      "<!-- Written by `wheelwright reference` from the declarations in src/case/keys.cc: do not edit. "
-      "-->\n\n"
-      "A case is a [TOML](https://toml.io) file. `wheelwright init` writes one with comments; `wheelwright "
-      "check` "
-      "reports\nevery problem of one, with its line, and prints the numbers that follow from it. Keys that "
-      "are left "
-      "out take their\ndefault. Equation numbers are those of the paper that the method comes from.\n\n";
+      "<!-- Written by `wheelwright reference` from the declarations in src/wheelwright/case/keys.cc: do not "
+      "edit. -->\n\n"
+      "A case is a [TOML](https://toml.io) file. `wheelwright init` writes one with comments. `wheelwright "
+      "check` reports\nevery problem of a case file with its line, and prints the numbers derived from it. A "
+      "key that is left out has its\ndefault value. Equation numbers are those of the paper that the method "
+      "comes from.\n\n";
   for_each_section([&](const auto& section) { result += reference_text(section); });
   return result;
 }

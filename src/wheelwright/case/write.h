@@ -6,10 +6,10 @@
 
 namespace wheelwright {
 
-/// The case as a case file with every value written out; read again, it gives an equal case.
+/// The case as a case file with every value written out; reading it gives an equal case.
 std::string to_toml(const Case& c);
 
-/// A commented case file to start from: the defaults, and one ring of holes.
+/// A commented case file to start from, with the defaults and one ring of holes.
 std::string case_template();
 
 /// The reference page of all keys, in Markdown.

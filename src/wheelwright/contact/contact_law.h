@@ -9,7 +9,7 @@ namespace wheelwright {
 /// [x]_- = max(-x, 0).
 inline double negative_part(double x) { return x < 0 ? -x : 0; }
 
-/// The product of two vectors' parts along the ground, and the length of one.
+/// The scalar product of the tangential parts of two vectors, and the length of a tangential part.
 template <int dim>
 double tangential_dot(const Vec<dim>& a, const Vec<dim>& b) {
   double sum = 0;
@@ -28,10 +28,10 @@ template <int dim>
 struct ContactResponse {
   Vec<dim> traction;  ///< Phi(z)
   Mat<dim>
-      tangent;  ///< d Phi_i / d z_j, the dependence of the friction threshold on z_0 included: (56), (57)
+      tangent;  ///< d Phi_i / d z_j, including the dependence of the friction threshold on z_0: (56), (57)
 };
 
-/// Phi(z) of (18), (23): Phi_n = -[z_n]_-, Phi_t = z_t projected on the ball of radius F [z_n]_- (19).
+/// Phi(z) of (18), (23): Phi_n = -[z_n]_-, Phi_t = z_t projected onto the ball of radius F [z_n]_- (19).
 template <int dim>
 ContactResponse<dim> contact_response(const Vec<dim>& z, double friction) {
   ContactResponse<dim> r{};
@@ -58,7 +58,7 @@ ContactResponse<dim> contact_response(const Vec<dim>& z, double friction) {
   return r;
 }
 
-/// What a point does according to its augmented traction.
+/// The contact status of a point, by its augmented traction.
 enum class ContactStatus { open, sticks, slides };
 
 template <int dim>

@@ -12,13 +12,13 @@ namespace {
 constexpr double tolerance = 1e-12, balance_tolerance = 1e-11;
 constexpr int max_residual_halvings = 5, max_contact_set_halvings = 30;
 
-/// What shortens a Newton step.
+/// The criterion that shortens a Newton step.
 enum class Damping {
   residual,     ///< it must lower the residual
   contact_set,  ///< at most a quarter of the touching points may change between open, sticking and sliding
 };
 
-/// Where Newton's method ended.
+/// The last iterate of Newton's method.
 template <int dim>
 struct NewtonEnd {
   ContactUnknowns<dim> x;
@@ -41,7 +41,7 @@ bool touches(const ContactUnknowns<dim>& x) {
   return std::any_of(x.augmented.begin(), x.augmented.end(), [](const Vec<dim>& z) { return z[0] < 0; });
 }
 
-/// What residuals are measured in: balances of force count as the pressure they are on the start's contact.
+/// The norm of residuals: balances of force are converted to a pressure on the contact of the initial guess.
 template <int dim>
 class ResidualNorm {
  public:
@@ -65,7 +65,7 @@ class ResidualNorm {
     return std::hypot(of_tractions(residual), of_balance(residual));
   }
 
-  /// Whether only rounding is left.
+  /// Whether only rounding errors are left.
   bool vanishes(const ContactUnknowns<dim>& residual, const ContactUnknowns<dim>& x) const {
     double scale = scale_;
     for (size_t k = 0; k < balance_.size(); ++k) scale = std::max(scale, stiffness_[k] * std::abs(x.rim[k]));
@@ -90,7 +90,7 @@ class ResidualNorm {
   std::vector<double> balance_, stiffness_;
 };
 
-/// Whether a step turned a point's sliding round.
+/// Whether a step reversed the sliding direction of a point.
 template <int dim>
 bool turned(const Vec<dim>& before, const Vec<dim>& after, double friction) {
   return contact_status<dim>(before, friction) == ContactStatus::slides &&
@@ -116,7 +116,7 @@ int changes_allowed(const ContactUnknowns<dim>& x) {
   return std::max(1, static_cast<int>(touching) / 4);
 }
 
-/// The step that changes few points' contact.
+/// The step, shortened until it changes the contact status of few points.
 template <int dim>
 ContactUnknowns<dim> contact_set_search(const ContactUnknowns<dim>& x, const ContactUnknowns<dim>& step,
                                         double friction) {
@@ -128,7 +128,7 @@ ContactUnknowns<dim> contact_set_search(const ContactUnknowns<dim>& x, const Con
   return trial;
 }
 
-/// The step that lowers the residual, or the last one tried.
+/// The step, shortened until it lowers the residual, or the last one tried.
 template <int dim>
 ContactUnknowns<dim> residual_search(const ReducedContact<dim>& contact, const ResidualNorm<dim>& norm,
                                      double fraction, double residual, const ContactUnknowns<dim>& x,
@@ -140,7 +140,7 @@ ContactUnknowns<dim> residual_search(const ReducedContact<dim>& contact, const R
   return trial;
 }
 
-/// Whether every touching point slides to the same side though friction must hold the rim.
+/// Whether every touching point slides in the same direction although friction must hold the rim.
 template <int dim>
 bool slides(const ReducedContact<dim>& contact, const ContactUnknowns<dim>& x) {
   const auto& free = contact.rim().free;
@@ -164,14 +164,15 @@ void stick(Vec<dim>& z) {
   std::fill(z.begin() + 1, z.end(), 0.0);
 }
 
-/// Lets every touching point stick: the way out where the tangent is singular because all slide.
+/// Makes every touching point stick, where the tangent is singular because all points slide.
 template <int dim>
 void stick_all(ContactUnknowns<dim>& x) {
   for (Vec<dim>& z : x.augmented)
     if (z[0] < 0) stick<dim>(z);
 }
 
-/// Lets the points stick that a step turned round: between the two directions they come to rest.
+/// Makes the points stick whose sliding direction a step reversed: between the two directions they come to
+/// rest.
 template <int dim>
 void stick_turned(const ContactUnknowns<dim>& before, double friction, ContactUnknowns<dim>& x) {
   for (size_t i = 0; i < x.augmented.size(); ++i)

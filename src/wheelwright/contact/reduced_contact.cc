@@ -10,7 +10,8 @@
 namespace wheelwright {
 namespace {
 
-/// The ground frame's axes in a column's frame, which `angle` turns into the ground frame.
+/// The axes of the ground frame in a column's frame; `angle` rotates the column's frame into the ground
+/// frame.
 template <int dim>
 std::array<Vec<dim>, dim> ground_axes(double angle) {
   std::array<Vec<dim>, dim> axes;
@@ -226,7 +227,7 @@ std::optional<ContactUnknowns<dim>> ReducedContact<dim>::newton_step(
   for (int k = 0; k < n_free(); ++k) solution(n_active + k, 0) = residual.rim[k];
   if (!lu_solve(a, solution)) return {};
 
-  // Points without contact follow from the others: their columns are unit vectors.
+  // Points without contact follow from the other points: their columns are unit vectors.
   ContactUnknowns<dim> step = residual;
   const double longest = norm<dim>(points_.front().position);
   for (int k = 0; k < n_free(); ++k) {

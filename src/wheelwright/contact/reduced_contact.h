@@ -16,17 +16,17 @@ struct ContactZone {
   int n_columns;
 };
 
-/// What loads other than the ground's do at one load position before the ground does anything.
+/// The contact-free response to distributed loads at one load position.
 struct Preload {
-  Matrix observations;  ///< of v on the tread, one column a ring column; empty: zero
+  Matrix observations;  ///< of v on the tread, one column per ring column; empty: zero
   RimForce resultant;
 };
 
-/// The unknowns of one load position's contact problem, or a change of them, or its residual.
+/// The unknowns of one load position's contact problem; also used for their changes and the residual.
 template <int dim>
 struct ContactUnknowns {
   std::vector<Vec<dim>> augmented;  ///< z = tau sigma(u)n - gamma (u - g n_y), ground frame [Pa]
-  std::vector<double> rim;          ///< how far the rim goes along each of its free motions
+  std::vector<double> rim;          ///< coefficient of each free motion of the rim
 };
 
 /// The solution of one load position's contact problem, reduced to the zone.
@@ -40,7 +40,7 @@ struct ContactState {
   int newton_iterations;  ///< of all attempts
 };
 
-/// The contact's part of the adjoint problem (79) at one load position.
+/// The contact part of the adjoint problem (79) at one load position.
 struct ContactAdjoint {
   Matrix loads;   ///< -S^T m on the zone's observations, m the multiplier
   RimMotion rim;  ///< of the adjoint
@@ -48,9 +48,9 @@ struct ContactAdjoint {
 
 /// The contact problem (27) with the rigid rim (4.3) of one load position, condensed onto its contact zone:
 ///   z = z_0 + F W Phi(z) + gamma (g n_y - m),   sum w Phi(z).m_k + force_k = 0,
-/// W the weights, F the flexibility of the zone, m the rim's motion and m_k its free motions, z_0 what other
-/// loads make of tau sigma(v)n - gamma v. Only the
-/// components that can carry traction are kept: the normal one without friction.
+/// where W holds the weights, F is the flexibility of the zone, m the rim's motion, m_k its free motions, and
+/// z_0 the value of tau sigma(v)n - gamma v due to other loads. Only the components that can carry traction
+/// are kept: without friction only the normal one.
 template <int dim>
 class ReducedContact {
  public:
@@ -58,7 +58,7 @@ class ReducedContact {
   ReducedContact(const SurfaceCompliance<dim>& surface, const Tread<dim>& tread, const PolarGrid<dim>& grid,
                  GroundPosition ground, ContactZone zone, RimControl rim, const Preload& preload = {});
 
-  /// The same zone with another control of the rim.
+  /// The same zone with another rim control.
   ReducedContact under(const RimControl& rim) const;
 
   const ContactZone& zone() const { return zone_; }
@@ -72,13 +72,13 @@ class ReducedContact {
     double gap;         ///< g (9) [m]
     double weight;      ///< dS
     double gamma;       ///< [Pa/m]
-    double angle;       ///< turns column-frame components into ground-frame ones
+    double angle;       ///< rotates column-frame components into the ground frame
   };
   const std::vector<Point>& points() const { return points_; }
 
-  /// Starts for Newton's method: the pressure of the Hertz contact of a solid disc; the undeformed tread
-  /// under a fraction of the rim's prescribed motion; another zone's solution, both zones centred on their
-  /// ground position.
+  /// Initial guesses for Newton's method: the pressure of the Hertz contact of a solid disc; the undeformed
+  /// tread under a fraction of the rim's prescribed motion; the solution of another zone, where both zones
+  /// are centred on their ground position.
   ContactUnknowns<dim> hertz_start(double load, double radius, double reduced_modulus) const;
   ContactUnknowns<dim> undeformed_start(double fraction) const;
   ContactUnknowns<dim> start_from(const ContactState<dim>& other) const;
@@ -86,21 +86,21 @@ class ReducedContact {
   /// The residual under a fraction of all loads and prescribed motions.
   ContactUnknowns<dim> residual(const ContactUnknowns<dim>& x, double fraction) const;
 
-  /// Newton's step, to be subtracted. Nothing when the tangent is singular, or the rim would go farther than
-  /// the tread's radius.
+  /// Newton's step, to be subtracted. Empty if the tangent is singular or the rim would move farther than the
+  /// tread's radius.
   std::optional<ContactUnknowns<dim>> newton_step(const ContactUnknowns<dim>& x,
                                                   const ContactUnknowns<dim>& residual) const;
 
-  /// What a solution x under the full loads means.
+  /// The contact state for a solution x under the full loads.
   ContactState<dim> state(const ContactUnknowns<dim>& x, int newton_iterations) const;
 
-  /// The least distance to the ground at x where nothing touches [m].
+  /// The minimum distance to the ground at x, if no point touches [m].
   double smallest_gap(const ContactUnknowns<dim>& x) const;
 
-  /// The largest displacement of a point that moves with the rim.
+  /// The maximum displacement of a point that moves with the rim.
   double amplitude(const RimMotion& motion) const;
 
-  /// Loads on the zone's observations (rows as in Tread, one column a zone column): -Te^T W Phi.
+  /// Loads on the zone's observations (rows as in Tread, one column per zone column): -Te^T W Phi.
   Matrix contact_loads(const ContactState<dim>& state) const;
 
   /// The multipliers of several functions' adjoint problems (79): the transpose of Newton's last linear system,
@@ -119,7 +119,7 @@ class ReducedContact {
   int point_of_column(int point) const { return point % per_column(); }
   ObservationRows<dim> observation_rows() const { return {per_column(), 0}; }
   int n_free() const { return static_cast<int>(rim_.free.size()); }
-  /// The part of the flexibility between two of the zone's columns; `block` is in the columns' frames.
+  /// The block of the flexibility between two columns of the zone; `block` is in the columns' frames.
   void set_flexibility(int to_column, int from_column, const Matrix& block);
   RimMotion rim_motion(const std::vector<double>& free, double fraction) const;
   std::vector<int> active_rows(const std::vector<Vec<dim>>& z) const;

@@ -125,7 +125,8 @@ Expected<CyclicStiffness<dim>> CyclicStiffness<dim>::factor(SectorStiffness<dim>
   return ring;
 }
 
-/// The condensed stiffness of a sector by how many sectors its second unknown is ahead of its first.
+/// The condensed stiffness of a sector, split by the number of sectors that the second unknown is ahead of
+/// the first.
 template <int dim>
 typename CyclicStiffness<dim>::CoupledSectors CyclicStiffness<dim>::couple_sectors() const {
   int farthest = 0;

@@ -10,14 +10,14 @@
 
 namespace wheelwright {
 
-/// The factored stiffness of the ring's core plus whatever stands on its outer line (the tread), by cyclic
-/// symmetry: one real factorization of one sector, condensed onto its boundary, and a small Hermitian system
-/// for every harmonic of the sectors.
+/// The factored stiffness of the ring's core plus the contribution of the tread on its outer line, by cyclic
+/// symmetry: one real factorization of one sector, condensed onto its boundary (Schur complement), and a
+/// small Hermitian system for every harmonic of the sectors.
 ///
 /// The boundary unknowns of a sector are those that it shares with its neighbours or with the tread: first
-/// the interface ones, then those of the outer line (azimuth line major, then axial node, then component).
-/// Boundary vectors of the ring are matrices with one column for every (right-hand side, sector): column =
-/// rhs * n_sectors + sector, its load case. Components are polar, body frame.
+/// the interface unknowns, then those of the outer line (azimuth line major, then axial node, then
+/// component). Boundary vectors of the ring are matrices with one column for every (right-hand side, sector):
+/// column = rhs * n_sectors + sector, its load case. Components are polar, body frame.
 template <int dim>
 class CyclicStiffness {
  public:
@@ -30,23 +30,23 @@ class CyclicStiffness {
   const SectorStiffness<dim>& sector() const { return sector_; }
   int n_sectors() const { return harmonics_.n_sectors(); }
   int n_boundary() const { return n_boundary_; }
-  int n_outer() const { return n_outer_; }  ///< they are the last of the boundary unknowns
+  int n_outer() const { return n_outer_; }  ///< the last of the boundary unknowns
   const PartialCholesky& sector_factor() const { return sector_factor_; }
 
-  /// Where a sector's dof (2) stands in elimination order.
+  /// Elimination index of a sector dof.
   int row(int dof) const { return row_[dof]; }
 
   /// The compliance between outer-line unknowns of two sectors: entry (i, j) of the ring's inverse between i
   /// in sector s and j in sector s - difference.
   const Matrix& outer_compliance(int difference) const;
 
-  /// Loads on a sector's trailing unknowns (one row a load case) to boundary loads of the ring: a node shared
-  /// by sectors may carry its load in any of them.
+  /// Maps loads on a sector's trailing unknowns (one row per load case) to boundary loads of the ring. A node
+  /// shared by sectors may carry its load in any of them.
   Matrix boundary_loads(const Matrix& trailing_loads) const;
 
-  /// What eliminating the interface unknowns makes of boundary loads.
+  /// Boundary loads after elimination of the interface unknowns.
   struct EliminatedInterface {
-    std::vector<ComplexMatrix> interface;  ///< one a harmonic; none without loads on the interface
+    std::vector<ComplexMatrix> interface;  ///< one per harmonic; empty without loads on the interface
     Matrix outer;                          ///< condensed loads on the outer line, n_outer x load cases
   };
   EliminatedInterface eliminate_interface(const Matrix& boundary_loads) const;
@@ -54,11 +54,11 @@ class CyclicStiffness {
   /// Displacements of the outer line for condensed loads on it, both n_outer x load cases.
   Matrix outer_displacements(const Matrix& condensed_loads) const;
 
-  /// Boundary displacements (n_boundary x load cases) from those of the outer line and what
-  /// eliminate_interface() left of loads on the interface.
+  /// Boundary displacements (n_boundary x load cases) from those of the outer line and the interface loads
+  /// returned by eliminate_interface().
   Matrix boundary_displacements(const Matrix& outer, const std::vector<ComplexMatrix>& interface) const;
 
-  /// Displacements of every sector's trailing unknowns, one row a load case.
+  /// Displacements of every sector's trailing unknowns, one row per load case.
   Matrix trailing_displacements(const Matrix& boundary) const;
 
  private:

@@ -17,14 +17,14 @@ class SectorHarmonics {
   /// w^(harmonic * shift).
   std::complex<double> phase(int harmonic, int shift) const;
 
-  /// rows x n_sectors (one column a sector) to rows x n_harmonics.
+  /// Maps rows x n_sectors (one column per sector) to rows x n_harmonics.
   ComplexMatrix forward(const Matrix& by_sector) const;
 
   /// rows x n_harmonics to rows x n_sectors.
   Matrix backward(const ComplexMatrix& by_harmonic) const;
 
-  /// The transforms of several vectors: column = vector * n_sectors + sector by sectors, one matrix with one
-  /// column a vector for each harmonic.
+  /// The transforms of several vectors. By sectors: column = vector * n_sectors + sector. By harmonics: one
+  /// matrix per harmonic, with one column per vector.
   std::vector<ComplexMatrix> forward_each(const Matrix& by_sector) const;
   Matrix backward_each(const std::vector<ComplexMatrix>& by_harmonic) const;
 

@@ -53,7 +53,7 @@ class Dissection {
     }
   }
 
-  /// Puts the nodes into their order of elimination.
+  /// Puts the nodes into their elimination order.
   void sort(std::span<int> nodes) {
     const auto line = best_line(nodes);
     if (!line) return;
@@ -79,7 +79,7 @@ class Dissection {
     return best;
   }
 
-  /// The line with the least ratio of the separator to the product of what it separates.
+  /// The line with the minimum ratio of the separator's size to the product of the sizes of its two sides.
   std::optional<Line> best_line(std::span<const int> nodes, const Box<dim>& box, int axis) const {
     const int first = box.first[axis], length = box.last[axis] - first + 1, degree = space_.degree();
     constexpr int smallest_length = 3;  // cells
@@ -105,8 +105,8 @@ class Dissection {
     return best;
   }
 
-  /// Sorts the nodes into those before the line, those after it and the separator; returns how many there are
-  /// of the first two.
+  /// Sorts the nodes into those before the line, those after it and the separator; returns the numbers of the
+  /// first two.
   std::pair<size_t, size_t> divide(std::span<int> nodes, const Line& line) {
     for (const Coupling& coupling : couplings_)
       if (coupling.box.first[line.axis] < line.position && line.position < coupling.box.last[line.axis])
@@ -125,13 +125,13 @@ class Dissection {
 
   /// The nodes of two cells with ghost penalty on their face.
   struct Coupling {
-    std::vector<int> nodes;  ///< but fixed ones
+    std::vector<int> nodes;  ///< without fixed ones
     Box<dim> box;
   };
 
   const SectorSpace<dim>& space_;
   std::vector<Coupling> couplings_;
-  std::vector<char> beyond_line_;  ///< whether a coupling takes the node across the line at hand
+  std::vector<char> beyond_line_;  ///< whether a coupling takes the node across the current line
 };
 
 }  // namespace

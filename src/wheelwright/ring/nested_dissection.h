@@ -6,9 +6,9 @@
 
 namespace wheelwright {
 
-/// An order of elimination for `nodes` (distinct node numbers of the sector) by nested dissection along lines
-/// of cells' boundaries. A separator is what stands on a line, together with the nodes behind it that a ghost
-/// face couples with nodes before it; lines through holes are short, and preferred.
+/// An elimination order for `nodes` (distinct node numbers of the sector) by nested dissection along grid
+/// lines. A separator consists of the nodes on a line and of the nodes behind it that a ghost face couples
+/// with nodes before it. Lines through holes are short and preferred.
 template <int dim>
 std::vector<int> nested_dissection(const SectorStiffness<dim>& sector, std::vector<int> nodes);
 

@@ -9,7 +9,7 @@
 namespace wheelwright {
 namespace {
 
-/// Loaded columns that are solved for together.
+/// Number of loaded columns that are solved together.
 constexpr int group_size = 6;
 
 /// The core's compliance between the outer line's unknowns of some columns of the ring.

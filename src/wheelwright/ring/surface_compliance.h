@@ -5,19 +5,19 @@
 
 namespace wheelwright {
 
-/// How the tread's surface answers tractions on it, core and tread together: what every load position's
-/// contact operator is cut from.
+/// The response of the tread's surface to tractions on it, with core and tread. The contact operators of all
+/// load positions consist of its blocks.
 template <int dim>
 class SurfaceCompliance {
  public:
-  /// Of columns up to `width` apart.
+  /// For columns up to `width` apart.
   SurfaceCompliance(const CyclicStiffness<dim>& ring, const Tread<dim>& tread, int width);
 
   int width() const { return width_; }
 
   /// The sample z = tau sigma(u)n - gamma u on ring column from + difference for a unit traction (times dS)
   /// on column `from`, applied as the weak form (28) does, with theta; |difference| <= width(). dim rows and
-  /// columns a point, column frames.
+  /// columns per point, column frames.
   const Matrix& block(int from, int difference) const {
     return blocks_[(2 * width_ + 1) * (from % columns_per_sector_) + difference + width_];
   }

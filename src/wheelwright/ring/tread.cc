@@ -24,7 +24,7 @@ Matrix line_stiffness(const TreadColumn<dim>& column, int row_side, int column_s
   return block(column.stiffness, column.n_base + row_side * n, column.n_base + column_side * n, n, n);
 }
 
-/// The lines of the ring, base held fixed: a line is the last of one column and the first of the next.
+/// The lines of the ring, base fixed: a line is the last of one column and the first of the next.
 template <int dim>
 Expected<CyclicChain> line_chain(const TreadColumn<dim>& column, int n_columns) {
   Matrix diagonal = line_stiffness(column, 0, 0);
@@ -45,8 +45,8 @@ std::vector<Matrix> line_responses(const CyclicChain& lines, int n_line) {
   return responses;
 }
 
-/// Rows that make samples z = tau sigma(u)n - gamma u, or tests theta/gamma sigma(u)n - u, of observations on
-/// Gamma_C.
+/// Rows that map observations on Gamma_C to samples z = tau sigma(u)n - gamma u, or to tests
+/// theta/gamma sigma(u)n - u.
 template <int dim, class OfTraction, class OfDisplacement>
 Matrix contact_rows(const std::vector<TreadPoint<dim>>& points, OfTraction of_traction,
                     OfDisplacement of_displacement) {
@@ -89,7 +89,7 @@ Expected<Tread<dim>> Tread<dim>::condense(const ElementTable<dim>& table, const 
     --reach;
   tread.reach_ = reach;
 
-  // What a column sees of another's lines, and how it loads them: through its own first and last line.
+  // A column observes and loads the lines of another column through its own first and last line.
   const TreadColumn<dim>& own = tread.column_;
   const int n_base = own.n_base, n_line = own.n_line, n_contact = own.surface.rows().n_contact();
   const Matrix stiffness_on_base = block(own.stiffness, 0, 0, own.stiffness.rows(), n_base);
@@ -149,7 +149,7 @@ std::vector<ComplexMatrix> Tread<dim>::outer_stiffness(const SectorHarmonics& ha
         for (int j = 0; j < n_base; ++j) {
           const int source = from * per_column + j;
           for (int i = 0; i < n_base; ++i) {
-            // Floor division: columns before the sector belong to the one before.
+            // Floor division: columns before the sector belong to the previous one.
             const int target = (from + d) * per_column + i;
             const int target_sector = (target >= 0 ? target : target - n_outer + 1) / n_outer;
             result[h](target - target_sector * n_outer, source % n_outer) +=

@@ -6,14 +6,15 @@
 
 namespace wheelwright {
 
-/// The tread: the outermost rows of cells, condensed once a run. It hangs on the core's outer line, its base,
-/// and is a ring of equal columns (one angular cell each), so that all about it is one column's response and
-/// its rotations. See TreadColumn for the order of base and observations; a load is a combination of
-/// observations. "Line c" are the nodes above the base on column c's first azimuth.
+/// The tread: the outermost rows of cells, eliminated by static condensation once per run. It is attached to
+/// the core along its base, the core's outer line. It is a ring of equal columns (one angular cell each), so
+/// that the response of one column and its rotations describe it completely. See TreadColumn for the order of
+/// base and observations; a load is a combination of observations. "Line c" consists of the nodes above the
+/// base on column c's first azimuth.
 template <int dim>
 class Tread {
  public:
-  /// Fails with not_positive_definite when theta > 0 asks for a larger gamma_0.
+  /// Fails with not_positive_definite if theta > 0 needs a larger gamma_0.
   static Expected<Tread> condense(const ElementTable<dim>& table, const TreadGrid& grid,
                                   const ContactForm& form, int points_per_direction);
 
@@ -32,20 +33,20 @@ class Tread {
   int rows() const { return grid_.rows; }  ///< radial cells of the level set's grid
   const ContactForm& form() const { return form_; }
 
-  /// Columns farther apart than this do not feel each other through the tread, to rounding.
+  /// Columns farther apart than this do not interact through the tread, up to rounding errors.
   int reach() const { return reach_; }
 
-  /// The equations of the lines above a base that is held fixed.
+  /// The equations of the lines above a fixed base.
   const CyclicChain& lines() const { return *lines_; }
 
-  /// Contact samples z = tau sigma(u)n - gamma u and tests it with theta/gamma sigma(v)n - v (dim rows a
-  /// point, column frame). Samples, tests of column c + difference for a unit displacement of the base of
-  /// column c; |difference| <= reach(). Tests transposed: the load that reaches the base of column c from a
-  /// unit traction (times dS) on column c + difference.
+  /// Trial traces z = tau sigma(u)n - gamma u ("samples") and test traces theta/gamma sigma(v)n - v
+  /// ("tests"), with dim rows per point, in the column frame: values in column c + difference for a unit
+  /// displacement of the base of column c; |difference| <= reach(). Transposed tests: the load on the base of
+  /// column c from a unit traction (times dS) on column c + difference.
   const Matrix& samples(int difference) const { return samples_[difference + reach_]; }
   const Matrix& tests(int difference) const { return tests_[difference + reach_]; }
 
-  /// Samples of column c + difference for a unit test of column c, base held fixed; |difference| <= reach().
+  /// Samples of column c + difference for a unit test load on column c, base fixed; |difference| <= reach().
   const Matrix& compliance(int difference) const { return compliance_[difference + reach_]; }
 
   /// The tread's stiffness on the core's outer line for every harmonic of the sectors, in the order of

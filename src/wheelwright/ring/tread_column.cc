@@ -13,7 +13,7 @@ struct Layer {
   int rows, level;
 };
 
-/// Lower half once, next quarter twice, ..., the last part `levels` times halved: two rows of its cells.
+/// Lower half halved once, next quarter twice, ..., last part `levels` times: two rows of its cells.
 std::vector<Layer> layers(double inner_radius, double outer_radius, const TreadGrid& tread) {
   if (tread.levels == 0) return {{inner_radius, outer_radius, tread.rows, 0}};
   std::vector<Layer> result;
@@ -27,7 +27,7 @@ std::vector<Layer> layers(double inner_radius, double outer_radius, const TreadG
   return result;
 }
 
-/// A node's polar displacement as a combination of those of free nodes.
+/// The polar displacement of a node as a combination of displacements of free nodes.
 template <int dim>
 using NodeMap = std::vector<std::pair<int, Mat<dim>>>;
 
@@ -40,8 +40,8 @@ class ColumnNodes {
     if constexpr (dim == 3) axial_nodes_ = degree * grid.cells[2] + 1;
     const double row = grid.cell_size()[0];
     layers_ = layers(grid.outer_radius - tread.rows * row, grid.outer_radius, tread);
-    // Free lines upward: the base, then every line of every layer but its lowest, which is the one below's
-    // top.
+    // Free lines upward: the base, then every line of every layer except its lowest, which is the top line of
+    // the layer below.
     intervals_.push_back(degree);
     for (const Layer& layer : layers_) {
       first_line_.push_back(static_cast<int>(intervals_.size()) - 1);
@@ -105,7 +105,7 @@ class ColumnNodes {
   }
 
  private:
-  /// Polar components at one azimuth to those at another, `angle` further back.
+  /// Maps polar components at one azimuth to those at another, `angle` further back.
   static Mat<dim> turn(double angle) {
     Mat<dim> m{};
     for (int d = 0; d < dim; ++d) m[d][d] = 1;
@@ -190,7 +190,7 @@ Matrix grid_nodes(const ColumnNodes<dim>& nodes, int degree, int rows, int axial
   return result;
 }
 
-/// Of every point of a symmetric rule the one that is its mirror image along an axis.
+/// Index of each point's mirror image along an axis, for a symmetric rule.
 template <int dim>
 std::vector<int> mirror_images(const std::vector<ReferencePoint<dim>>& rule, int axis) {
   std::vector<int> images;
@@ -218,7 +218,7 @@ struct ColumnCell {
   Matrix stiffness;  ///< on its own dofs
 };
 
-/// Adds up a column cell by cell.
+/// Assembles a column cell by cell.
 template <int dim>
 class ColumnAssembly {
  public:
@@ -292,7 +292,7 @@ class ColumnAssembly {
     return result;
   }
 
-  /// The images of a cell's points, from those of its rule's.
+  /// The images of a cell's points, from those of its rule.
   static void append_images(const std::vector<int>& of_rule, const ColumnCell<dim>& cell,
                             std::vector<int>& images) {
     const int n = static_cast<int>(of_rule.size()), first = static_cast<int>(images.size());

@@ -6,7 +6,8 @@
 
 namespace wheelwright {
 
-/// One column of the tread (one angular cell of the level set's grid) with its inner unknowns condensed.
+/// One column of the tread (one angular cell of the level set's grid) as a substructure (superelement): its
+/// inner unknowns are eliminated by static condensation.
 /// Retained unknowns: base (the nodes of the core's outer line on the column's degree + 1 azimuth lines; line
 /// major, then axial node, then polar component), then the nodes above the base on the column's first
 /// azimuth, then those on its last. Observations are those of ObservationRows. Nitsche's term -theta/gamma
@@ -26,7 +27,7 @@ struct TreadColumn {
   Matrix nodal_compliance;  ///< x observations, retained unknowns fixed
 };
 
-/// Fails with not_positive_definite when theta > 0 asks for a larger gamma_0.
+/// Fails with not_positive_definite if theta > 0 needs a larger gamma_0.
 template <int dim>
 Expected<TreadColumn<dim>> tread_column(const ElementTable<dim>& table, const TreadGrid& tread,
                                         const ContactForm& form, int points_per_direction);

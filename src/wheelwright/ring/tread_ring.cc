@@ -14,8 +14,8 @@ int next_column(int column, int n_columns) {
   return (column + 1) % n_columns == 0 ? column + 1 - n_columns : column + 1;
 }
 
-/// Where an angular cell's own part of vectors on the outer line is, and the next one's, with which its base
-/// shares nodes.
+/// Positions in outer-line vectors of an angular cell's own part and of the part of the next cell, with which
+/// its base shares nodes.
 template <int dim, class OuterLine>
 auto base_parts(const Tread<dim>& tread, OuterLine& outer, int column) {
   const int per_column = tread.base_per_column();
@@ -134,7 +134,7 @@ Matrix base_loads(const Tread<dim>& tread, const TreadLoads& loads) {
   add_line_loads(loads.on_retained, n_base, loads.columns, n_columns, line_loads);
   const Matrix lines = tread.lines().solve(line_loads);
 
-  // The base feels its own loads less what it takes to hold it while the lines move.
+  // The load on the base is its own load minus the force that holds it while the lines move.
   const Matrix to_base = block(tread.column().stiffness, 0, n_base, n_base, 2 * n_line);
   auto on_base = Matrix::unfilled(n_base, n_fields);
   for_blocks(n_fields, [&](int first, int n) {

@@ -30,11 +30,11 @@ TreadLoads tread_loads(const Tread<dim>& tread, const Matrix& observation_loads)
 template <int dim>
 TreadLoads tread_loads(const Tread<dim>& tread, const TreadForces& forces);
 
-/// Loads on the core's outer line that loads of the tread send there.
+/// Loads on the core's outer line due to loads on the tread.
 template <int dim>
 Matrix base_loads(const Tread<dim>& tread, const TreadLoads& loads);
 
-/// What the tread does under displacements of the outer line and loads.
+/// Displacements of the tread under displacements of the outer line and loads.
 struct TreadField {
   Matrix base;   ///< displacements of every column's own base, n_base() rows
   Matrix lines;  ///< displacements of every column's first line
@@ -42,7 +42,7 @@ struct TreadField {
 template <int dim>
 TreadField tread_field(const Tread<dim>& tread, const Matrix& outer, const TreadLoads& loads);
 
-/// What is observed of a field: in all columns, or in some of them.
+/// Observations of a field, in all columns or in some of them.
 template <int dim>
 Matrix observations(const Tread<dim>& tread, const TreadField& field, const TreadLoads& loads);
 template <int dim>

@@ -12,7 +12,7 @@ LoadPositions load_positions(const PolarGrid<dim>& grid, int n) {
 
 template <int dim>
 LoadPositions load_positions_without_images(const PolarGrid<dim>& grid, int n) {
-  // Position i's image is n - i: those at 0 and in the middle of the sector are their own.
+  // Position i's image is n - i; the positions at 0 and in the middle of the sector are their own images.
   LoadPositions positions = load_positions(grid, n);
   positions.grounds.resize(n / 2 + 1);
   positions.multiplicities.assign(n / 2 + 1, 2.0);

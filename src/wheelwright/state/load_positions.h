@@ -7,26 +7,27 @@
 
 namespace wheelwright {
 
-/// The ground at one load position, in the body frame: flat, rigid, touching the undeformed tread's circle at
-/// ring column `column` (a fraction `offset` of it past its first azimuth); n_y points there from the axle.
+/// The ground at one load position, in the body frame. It is flat and rigid and touches the undeformed tread
+/// circle in ring column `column`, a fraction `offset` of the column past its first azimuth; n_y points from
+/// the axle to that point.
 struct GroundPosition {
   int column;
   double offset = 0;  ///< 0 <= offset < 1
 
-  /// Of n_y [rad].
+  /// Azimuth of n_y [rad].
   template <int dim>
   double azimuth(const PolarGrid<dim>& grid) const {
     return (column + offset) * grid.cell_size()[1];
   }
 };
 
-/// Load positions that are solved for.
+/// The load positions that are solved.
 struct LoadPositions {
   std::vector<GroundPosition> grounds;
-  std::vector<double> multiplicities;  ///< how many of a sector's positions each stands for
+  std::vector<double> multiplicities;  ///< number of a sector's positions that each represents
 
   int size() const { return static_cast<int>(grounds.size()); }
-  /// Whether some stand for their mirror image in the plane of azimuth 0 too.
+  /// Whether some also represent their mirror image in the plane of azimuth 0.
   bool stand_for_images() const {
     return std::any_of(multiplicities.begin(), multiplicities.end(), [](double m) { return m > 1; });
   }
@@ -40,7 +41,8 @@ std::vector<double> of_all(const LoadPositions& positions, const std::vector<dou
 template <int dim>
 LoadPositions load_positions(const PolarGrid<dim>& grid, int n);
 
-/// Of those only the first of any two that are mirror images in the plane of azimuth 0; it stands for both.
+/// Representatives: only the first of each pair that are mirror images in the plane of azimuth 0. It
+/// represents both.
 template <int dim>
 LoadPositions load_positions_without_images(const PolarGrid<dim>& grid, int n);
 

@@ -14,18 +14,18 @@ struct RimMotion {
   double rotation = 0;        ///< about the axle, towards larger azimuth [rad]
 };
 
-/// What does work on those motions [N/m and N when dim = 2].
+/// The forces that do work on those motions [N/m and N when dim = 2].
 struct RimForce {
   double towards_ground = 0, along_ground = 0, torque = 0;
 };
 
-/// A motion in which the rim is free, and the force on the rim that does work on it.
+/// A free motion of the rim, and the force on the rim that does work on it.
 struct FreeMotion {
   RimMotion direction;
   double force;
 };
 
-/// What holds and loads the rim: it moves as prescribed plus any combination of the free motions.
+/// How the rim is held and loaded: its motion is the prescribed one plus any combination of the free motions.
 struct RimControl {
   RimMotion prescribed;
   std::vector<FreeMotion> free;
@@ -45,14 +45,14 @@ inline RimForce scaled(double factor, const RimForce& a) {
   return {factor * a.towards_ground, factor * a.along_ground, factor * a.torque};
 }
 
-/// What a force does on a motion.
+/// The work of a force on a motion.
 inline double work(const RimForce& force, const RimMotion& motion) {
   return force.towards_ground * motion.towards_ground + force.along_ground * motion.along_ground +
          force.torque * motion.rotation;
 }
 
-/// The displacement of a point that moves with the rim, in the ground frame: component 0 towards the ground,
-/// 1 along it. `position` is relative to the axle, in the same frame.
+/// The displacement of a point that moves with the rim, in the ground frame: component 0 is towards the
+/// ground, 1 along it. `position` is relative to the axle, in the same frame.
 template <int dim>
 Vec<dim> displacement(const RimMotion& motion, const Vec<dim>& position) {
   Vec<dim> u{};
