@@ -2,11 +2,16 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <toml++/toml.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <numbers>
 #include <random>
 #include <set>
@@ -543,15 +548,53 @@ TEST(TomlGuard, ThousandsOfMistakesAreAllReported) {
   EXPECT_EQ(parse_case(text, "many.toml").problems.size(), 20000u);
 }
 
-TEST(NumberText, ReadsBackAsTheSameNumber) {
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> exponent(-20, 20);
-  for (int i = 0; i < 1000; ++i) {
-    const double exact = std::pow(10, exponent(random)), rounded = std::pow(10, std::round(exponent(random)));
-    EXPECT_EQ(std::stod(number_text(exact)), exact);
-    EXPECT_EQ(std::stod(number_text(-rounded)), -rounded);
+/// The number that a TOML parser reads; NaN where the text is no TOML number. As in a case file, an integer
+/// is a number too.
+double read_as_toml(const std::string& text) try {
+  const toml::table table = toml::parse("x = " + text);
+  if (const auto* integer = table.get_as<std::int64_t>("x")) return static_cast<double>(integer->get());
+  if (const auto* number = table.get_as<double>("x")) return number->get();
+  return std::nan("");
+} catch (const toml::parse_error&) {
+  return std::nan("");
+}
+
+void expect_to_read_back(double value) {
+  for (const double x : {value, -value}) {
+    const std::string text = number_text(x);
+    EXPECT_EQ(std::strtod(text.c_str(), nullptr), x) << text;
+    EXPECT_EQ(read_as_toml(text), x) << text;
   }
-  EXPECT_EQ(number_text(200e6), "200e6");
+}
+
+TEST(NumberText, ReadsBackAsTheSameNumber) {
+  std::mt19937_64 random(3);
+  for (int i = 0; i < 20000; ++i) {
+    // Any bits: all exponents are equally likely. A cleared exponent makes a subnormal number.
+    const std::uint64_t bits = random() >> 1, fraction = (std::uint64_t{1} << 52) - 1;
+    if (const double any = std::bit_cast<double>(bits); std::isfinite(any)) expect_to_read_back(any);
+    expect_to_read_back(std::bit_cast<double>(bits & fraction));
+    // Integers below 2^53, with any number of digits.
+    expect_to_read_back(static_cast<double>((random() >> 11) >> (i % 53)));
+  }
+  for (int exponent = -323; exponent <= 308; ++exponent) {
+    const double power_of_ten = std::strtod(fmt::format("1e{}", exponent).c_str(), nullptr);
+    expect_to_read_back(power_of_ten);
+    expect_to_read_back(std::nextafter(power_of_ten, HUGE_VAL));
+    expect_to_read_back(std::nextafter(power_of_ten, 0));
+  }
+  using Limits = std::numeric_limits<double>;
+  for (const double x : {0.0, Limits::denorm_min(), Limits::min(), Limits::max(), std::ldexp(1, 53)})
+    expect_to_read_back(x);
+}
+
+TEST(NumberText, HasNoSuperfluousDigits) {
+  EXPECT_EQ(number_text(300), "300");
+  EXPECT_EQ(number_text(0.1), "0.1");
+  EXPECT_EQ(number_text(200e6), "2e8");
+  EXPECT_EQ(number_text(1e13), "1e13");
+  EXPECT_EQ(number_text(-1.5e7), "-15e6");
+  EXPECT_EQ(number_text(1e16), "1e16");
 }
 
 TEST(Derived, ThePapersWheel) {

@@ -9,6 +9,7 @@
 #include "wheelwright/evolution/closest_point.h"
 #include "wheelwright/evolution/evolver.h"
 #include "wheelwright/evolution/multilinear.h"
+#include "wheelwright/evolution/nearest_point.h"
 #include "wheelwright/evolution/redistance.h"
 #include "wheelwright/evolution/seeds.h"
 #include "wheelwright/evolution/transport.h"
@@ -219,6 +220,50 @@ TEST(Transport, LeavesNodesWithoutVelocityAlone) {
   const auto lattice = lattice_of(2);
   const auto psi = make_level_set<2>(lattice, one_hole);
   EXPECT_EQ(transport<2>(psi, std::vector<double>(lattice.n_nodes()), 1).values, psi.values);
+}
+
+// --- nearest points ---
+
+/// By comparison with all points; the first of those that are equally near.
+template <int dim>
+int index_of_nearest_by_comparison(const std::vector<Vec<dim>>& points, const Vec<dim>& x) {
+  int nearest = 0;
+  double shortest = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < static_cast<int>(points.size()); ++k) {
+    double distance2 = 0;
+    for (int d = 0; d < dim; ++d) distance2 += (x[d] - points[k][d]) * (x[d] - points[k][d]);
+    if (distance2 >= shortest) continue;
+    nearest = k;
+    shortest = distance2;
+  }
+  return nearest;
+}
+
+/// Points on a lattice of halves, most of them several times, so that nearly every query has ties, and all
+/// distances are exact.
+template <int dim>
+void expect_the_first_of_the_nearest(int n_points) {
+  std::mt19937 random(n_points);
+  std::uniform_int_distribution<int> coordinate(-6, 6);
+  const auto draw = [&](double unit) {
+    Vec<dim> x;
+    for (double& component : x) component = unit * coordinate(random);
+    return x;
+  };
+  std::vector<Vec<dim>> points;
+  for (int k = 0; k < n_points; ++k) points.push_back(draw(0.5));
+  const NearestPoint<dim> nearest(points);
+  for (int query = 0; query < 500; ++query) {
+    const Vec<dim> x = draw(0.75);
+    EXPECT_EQ(nearest.index_of_nearest(x), index_of_nearest_by_comparison<dim>(points, x));
+  }
+}
+
+TEST(NearestPoint, IsTheFirstOfThePointsThatAreEquallyNear) {
+  for (const int n_points : {1, 2, 11, 100, 1000}) {
+    expect_the_first_of_the_nearest<2>(n_points);
+    expect_the_first_of_the_nearest<3>(n_points);
+  }
 }
 
 // --- redistancing ---

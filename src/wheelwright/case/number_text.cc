@@ -2,20 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 namespace wheelwright {
 
 std::string number_text(double value) {
-  constexpr double smallest_with_exponent = 1e6, largest_exact_integer = 1e15;
-  const double size = std::abs(value);
-  if (size < smallest_with_exponent || size > largest_exact_integer) return fmt::format("{}", value);
-  int exponent = 0;
-  while (std::fmod(value, 1000) == 0) {
-    value /= 1000;
-    exponent += 3;
-  }
-  return exponent > 0 ? fmt::format("{}e{}", value, exponent) : fmt::format("{}", value);
+  std::string text = fmt::format("{}", value);
+  if (const auto plus = text.find('+'); plus != std::string::npos) return text.erase(plus, 1);
+  constexpr std::size_t shortest_run_of_zeros = 6;
+  const std::size_t n_digits = text.find_last_not_of('0') + 1, n_zeros = text.size() - n_digits;
+  return n_zeros < shortest_run_of_zeros ? text : fmt::format("{}e{}", text.substr(0, n_digits), n_zeros);
 }
 
 }  // namespace wheelwright

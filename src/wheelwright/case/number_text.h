@@ -4,7 +4,8 @@
 
 namespace wheelwright {
 
-/// The shortest decimal that reads back as the same number; large ones with an exponent, e.g. "200e6".
+/// The TOML number with the fewest digits that reads back as the same finite `value`. Six or more zeros at
+/// the end of an integer become an exponent, e.g. "2e8".
 std::string number_text(double value);
 
 }  // namespace wheelwright

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "wheelwright/evolution/kd_tree.h"
+#include "wheelwright/evolution/nearest_point.h"
 #include "wheelwright/evolution/redistance.h"
 #include "wheelwright/geometry/finite.h"
 #include "wheelwright/geometry/place.h"
@@ -37,11 +37,11 @@ std::optional<Failure> check(const Component<dim>& island, double largest) {
 template <int dim>
 class DistanceToIslands {
  public:
-  explicit DistanceToIslands(const Components<dim>& pieces) : points_(images(pieces)), tree_(points_) {}
+  explicit DistanceToIslands(const Components<dim>& pieces) : samples_(images(pieces)) {}
 
   double operator()(const Vec<dim>& polar) const {
     Vec<dim> offset = cartesian<dim>(polar);
-    const Vec<dim>& nearest = points_[tree_.nearest(offset)];
+    const Vec<dim>& nearest = samples_.points()[samples_.index_of_nearest(offset)];
     for (int d = 0; d < dim; ++d) offset[d] -= nearest[d];
     return norm<dim>(offset);
   }
@@ -60,8 +60,7 @@ class DistanceToIslands {
     return points;
   }
 
-  std::vector<Vec<dim>> points_;
-  KdTree<dim> tree_;
+  NearestPoint<dim> samples_;
 };
 
 template <int dim>

@@ -1,7 +1,7 @@
 #include "wheelwright/evolution/redistance.h"
 
 #include "wheelwright/evolution/closest_point.h"
-#include "wheelwright/evolution/kd_tree.h"
+#include "wheelwright/evolution/nearest_point.h"
 #include "wheelwright/evolution/seeds.h"
 
 namespace wheelwright {
@@ -38,13 +38,13 @@ LevelSet<dim> redistance(const LevelSet<dim>& psi) {
   if (seeds.empty()) return psi;
   std::vector<Vec<dim>> positions;
   for (const auto& seed : seeds) positions.push_back(cartesian_position<dim>(lattice, seed));
-  const KdTree<dim> tree(positions);
+  const NearestPoint<dim> nearest_seed(std::move(positions));
   LevelSet<dim> result = psi;
   for (int n = 0; n < lattice.n_nodes(); ++n) {
     const auto position = lattice.node_position(n);
     Vec<dim> node;
     for (int d = 0; d < dim; ++d) node[d] = position[d];
-    const Vec<dim> seed = seeds[tree.nearest(cartesian_position<dim>(lattice, node))];
+    const Vec<dim> seed = seeds[nearest_seed.index_of_nearest(cartesian_position<dim>(lattice, node))];
     const Vec<dim> closest = closest_zero<dim>(interpolant, node, seed).value_or(seed);
     const double distance = physical_distance<dim>(lattice, node, closest);
     result.values[n] = psi.values[n] < 0 ? -distance : distance;

@@ -1,17 +1,12 @@
 #include "wheelwright/linalg/column_basis.h"
 
+#include <cblas.h>
+#include <lapacke.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
-
-extern "C" {
-void dgeqp3_(const int*, const int*, double*, const int*, int*, double*, double*, const int*, int*);
-void dtrsm_(const char*, const char*, const char*, const char*, const int*, const int*, const double*,
-            const double*, const int*, double*, const int*);
-void dorgqr_(const int*, const int*, const int*, double*, const int*, const double*, double*, const int*,
-             int*);
-}
 
 namespace wheelwright {
 namespace {
@@ -60,10 +55,12 @@ Matrix orthonormal(Matrix x, double shortest) {
   std::vector<double> reflectors(n), workspace(size_t(64) * (n + 1));
   const int workspace_size = static_cast<int>(workspace.size());
   if (n == 0) return x;
-  int info = 0, rank = 0;
-  dgeqp3_(&m, &n, x.data(), &m, pivots.data(), reflectors.data(), workspace.data(), &workspace_size, &info);
+  LAPACKE_dgeqp3_work(LAPACK_COL_MAJOR, m, n, x.data(), m, pivots.data(), reflectors.data(), workspace.data(),
+                      workspace_size);
+  int rank = 0;
   while (rank < std::min(m, n) && std::abs(x(rank, rank)) > shortest) ++rank;
-  dorgqr_(&m, &rank, &rank, x.data(), &m, reflectors.data(), workspace.data(), &workspace_size, &info);
+  LAPACKE_dorgqr_work(LAPACK_COL_MAJOR, m, rank, rank, x.data(), m, reflectors.data(), workspace.data(),
+                      workspace_size);
   return block(x, 0, 0, m, rank);
 }
 
@@ -71,8 +68,9 @@ Matrix orthonormal(Matrix x, double shortest) {
 void orthonormalize(Matrix& x) {
   Matrix gram = product(x, Op::transpose, x, Op::none);
   const int m = x.rows(), n = x.columns();
-  const double one = 1;
-  if (cholesky(gram)) dtrsm_("R", "L", "T", "N", &m, &n, &one, gram.data(), &n, x.data(), &m);
+  if (!cholesky(gram)) return;
+  cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, m, n, 1, gram.data(), n,
+              x.data(), m);
 }
 
 }  // namespace

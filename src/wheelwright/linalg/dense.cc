@@ -1,5 +1,8 @@
 #include "wheelwright/linalg/dense.h"
 
+#include <cblas.h>
+#include <lapacke.h>
+
 #include <algorithm>
 #include <bit>
 #include <cassert>
@@ -7,55 +10,52 @@
 #include <cstdint>
 #include <functional>
 
-extern "C" {
-void dgemm_(const char*, const char*, const int*, const int*, const int*, const double*, const double*,
-            const int*, const double*, const int*, const double*, double*, const int*);
-void zgemm_(const char*, const char*, const int*, const int*, const int*, const std::complex<double>*,
-            const std::complex<double>*, const int*, const std::complex<double>*, const int*,
-            const std::complex<double>*, std::complex<double>*, const int*);
-void dpotrf_(const char*, const int*, double*, const int*, int*);
-void zpotrf_(const char*, const int*, std::complex<double>*, const int*, int*);
-void dpotrs_(const char*, const int*, const int*, const double*, const int*, double*, const int*, int*);
-void zpotri_(const char*, const int*, std::complex<double>*, const int*, int*);
-void dgesv_(const int*, const int*, double*, const int*, int*, double*, const int*, int*);
-}
-
 namespace wheelwright {
 namespace {
 
-char letter(Op op) { return op == Op::none ? 'N' : op == Op::transpose ? 'T' : 'C'; }
+CBLAS_TRANSPOSE cblas_op(Op op) {
+  return op == Op::none ? CblasNoTrans : op == Op::transpose ? CblasTrans : CblasConjTrans;
+}
 
-template <class Scalar, class Gemm>
-void multiply_with(Gemm gemm, Scalar alpha, const DenseMatrix<Scalar>& a, Op op_a,
-                   const DenseMatrix<Scalar>& b, Op op_b, Scalar beta, DenseMatrix<Scalar>& c) {
-  const int m = c.rows(), n = c.columns(), k = op_a == Op::none ? a.columns() : a.rows();
-  assert((op_a == Op::none ? a.rows() : a.columns()) == m);
-  assert((op_b == Op::none ? b.columns() : b.rows()) == n);
+/// The arguments of gemm that do not depend on the type of the entries.
+struct ProductShape {
+  int m, n, k, lda, ldb;
+};
+
+template <class Scalar>
+ProductShape product_shape(const DenseMatrix<Scalar>& a, Op op_a, const DenseMatrix<Scalar>& b, Op op_b,
+                           const DenseMatrix<Scalar>& c) {
+  const int k = op_a == Op::none ? a.columns() : a.rows();
+  assert((op_a == Op::none ? a.rows() : a.columns()) == c.rows());
+  assert((op_b == Op::none ? b.columns() : b.rows()) == c.columns());
   assert((op_b == Op::none ? b.rows() : b.columns()) == k);
-  if (m == 0 || n == 0) return;
-  const char ta = letter(op_a), tb = letter(op_b);
-  const int lda = std::max(1, a.rows()), ldb = std::max(1, b.rows());
-  gemm(&ta, &tb, &m, &n, &k, &alpha, a.data(), &lda, b.data(), &ldb, &beta, c.data(), &m);
+  return {
+      .m = c.rows(), .n = c.columns(), .k = k, .lda = std::max(1, a.rows()), .ldb = std::max(1, b.rows())};
 }
 
 }  // namespace
 
 void multiply(double alpha, const Matrix& a, Op op_a, const Matrix& b, Op op_b, double beta, Matrix& c) {
-  multiply_with(dgemm_, alpha, a, op_a, b, op_b, beta, c);
+  const auto [m, n, k, lda, ldb] = product_shape(a, op_a, b, op_b, c);
+  if (m == 0 || n == 0) return;
+  cblas_dgemm(CblasColMajor, cblas_op(op_a), cblas_op(op_b), m, n, k, alpha, a.data(), lda, b.data(), ldb,
+              beta, c.data(), m);
 }
 
 void multiply(std::complex<double> alpha, const ComplexMatrix& a, Op op_a, const ComplexMatrix& b, Op op_b,
               std::complex<double> beta, ComplexMatrix& c) {
-  multiply_with(zgemm_, alpha, a, op_a, b, op_b, beta, c);
+  const auto [m, n, k, lda, ldb] = product_shape(a, op_a, b, op_b, c);
+  if (m == 0 || n == 0) return;
+  cblas_zgemm(CblasColMajor, cblas_op(op_a), cblas_op(op_b), m, n, k, &alpha, a.data(), lda, b.data(), ldb,
+              &beta, c.data(), m);
 }
 
 void multiply_columns(double alpha, const Matrix& a, Op op, const double* b, int columns, double beta,
                       double* c) {
   const int m = op == Op::none ? a.rows() : a.columns(), k = op == Op::none ? a.columns() : a.rows();
   if (m == 0 || columns == 0) return;
-  const char ta = letter(op), none = 'N';
-  const int lda = std::max(1, a.rows()), ldb = std::max(1, k);
-  dgemm_(&ta, &none, &m, &columns, &k, &alpha, a.data(), &lda, b, &ldb, &beta, c, &m);
+  cblas_dgemm(CblasColMajor, cblas_op(op), CblasNoTrans, m, columns, k, alpha, a.data(),
+              std::max(1, a.rows()), b, std::max(1, k), beta, c, m);
 }
 
 Matrix selected_columns(const Matrix& a, std::span<const int> columns) {
@@ -109,28 +109,22 @@ Matrix product(const Matrix& a, Op op_a, const Matrix& b, Op op_b) {
 
 bool cholesky(Matrix& a) {
   const int n = a.rows();
-  int info = 0;
-  if (n > 0) dpotrf_("L", &n, a.data(), &n, &info);
-  return info == 0;
+  return n == 0 || LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', n, a.data(), n) == 0;
 }
 
 bool cholesky(ComplexMatrix& a) {
   const int n = a.rows();
-  int info = 0;
-  if (n > 0) zpotrf_("L", &n, a.data(), &n, &info);
-  return info == 0;
+  return n == 0 || LAPACKE_zpotrf_work(LAPACK_COL_MAJOR, 'L', n, a.data(), n) == 0;
 }
 
 void cholesky_solve(const Matrix& factor, Matrix& b) {
   const int n = factor.rows(), m = b.columns();
-  int info = 0;
-  if (n > 0 && m > 0) dpotrs_("L", &n, &m, factor.data(), &n, b.data(), &n, &info);
+  if (n > 0 && m > 0) LAPACKE_dpotrs_work(LAPACK_COL_MAJOR, 'L', n, m, factor.data(), n, b.data(), n);
 }
 
 void cholesky_invert(ComplexMatrix& factor) {
   const int n = factor.rows();
-  int info = 0;
-  if (n > 0) zpotri_("L", &n, factor.data(), &n, &info);
+  if (n > 0) LAPACKE_zpotri_work(LAPACK_COL_MAJOR, 'L', n, factor.data(), n);
   for (int j = 0; j < n; ++j)
     for (int i = j + 1; i < n; ++i) factor(j, i) = std::conj(factor(i, j));
 }
@@ -138,9 +132,7 @@ void cholesky_invert(ComplexMatrix& factor) {
 bool lu_solve(Matrix& a, Matrix& b) {
   const int n = a.rows(), m = b.columns();
   std::vector<int> pivots(n);
-  int info = 0;
-  if (n > 0) dgesv_(&n, &m, a.data(), &n, pivots.data(), b.data(), &n, &info);
-  return info == 0;
+  return n == 0 || LAPACKE_dgesv_work(LAPACK_COL_MAJOR, n, m, a.data(), n, pivots.data(), b.data(), n) == 0;
 }
 
 }  // namespace wheelwright

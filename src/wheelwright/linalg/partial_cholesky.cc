@@ -1,6 +1,8 @@
 #include "wheelwright/linalg/partial_cholesky.h"
 
+#include <cblas.h>
 #include <cholmod.h>
+#include <lapacke.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,16 +11,6 @@
 #include <numeric>
 
 #include "wheelwright/base/parallel.h"
-
-extern "C" {
-void dpotrf_(const char*, const int*, double*, const int*, int*);
-void dtrsm_(const char*, const char*, const char*, const char*, const int*, const int*, const double*,
-            const double*, const int*, double*, const int*);
-void dsyrk_(const char*, const char*, const int*, const int*, const double*, const double*, const int*,
-            const double*, double*, const int*);
-void dgemm_(const char*, const char*, const int*, const int*, const int*, const double*, const double*,
-            const int*, const double*, const int*, const double*, double*, const int*);
-}
 
 namespace wheelwright {
 namespace {
@@ -232,13 +224,11 @@ class PartialCholesky::Numbers {
       }
       updates_[child] = {};
     }
-    int info = 0;
-    const double one = 1, minus_one = -1;
-    dpotrf_("L", &n, l, &stride, &info);
-    if (info != 0) return false;
+    if (LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', n, l, stride) != 0) return false;
     if (m == 0) return true;
-    dtrsm_("R", "L", "T", "N", &m, &n, &one, l, &stride, l + n, &stride);
-    dsyrk_("L", "N", &m, &n, &minus_one, l + n, &stride, &one, update.data(), &m);
+    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, m, n, 1, l, stride, l + n,
+                stride);
+    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, m, n, -1, l + n, stride, 1, update.data(), m);
     return true;
   }
 
@@ -304,7 +294,6 @@ double PartialCholesky::sweep_entries(const Sweep& sweep) const {
 }
 
 void PartialCholesky::eliminate(const Sweep& sweep, Matrix& loads) const {
-  const double one = 1, zero = 0;
   const int leading = loads.rows();
   for_blocks(leading, [&](int first, int n) {
     std::vector<double> passed_on;
@@ -313,11 +302,12 @@ void PartialCholesky::eliminate(const Sweep& sweep, Matrix& loads) const {
       const int stride = node.stride(), *below = below_.data() + node.below;
       const double* l = &values_[node.values];
       double* own = loads.column(node.first) + first;
-      dtrsm_("R", "L", "T", "N", &n, &node.n_columns, &one, l, &stride, own, &leading);
+      cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, n, node.n_columns, 1, l,
+                  stride, own, leading);
       if (node.n_below == 0) continue;
       passed_on.resize(size_t(n) * node.n_below);
-      dgemm_("N", "T", &n, &node.n_below, &node.n_columns, &one, own, &leading, l + node.n_columns, &stride,
-             &zero, passed_on.data(), &n);
+      cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, n, node.n_below, node.n_columns, 1, own, leading,
+                  l + node.n_columns, stride, 0, passed_on.data(), n);
       for (int k = 0; k < node.n_below; ++k) {
         double* to = loads.column(below[k]) + first;
         const double* from = &passed_on[size_t(k) * n];
@@ -328,7 +318,6 @@ void PartialCholesky::eliminate(const Sweep& sweep, Matrix& loads) const {
 }
 
 void PartialCholesky::substitute(const Sweep& sweep, Matrix& x) const {
-  const double one = 1, minus_one = -1;
   const int leading = x.rows();
   for_blocks(leading, [&](int first, int n) {
     std::vector<double> known;
@@ -341,9 +330,10 @@ void PartialCholesky::substitute(const Sweep& sweep, Matrix& x) const {
       for (int k = 0; k < node.n_below; ++k)
         std::copy_n(x.column(below[k]) + first, n, &known[size_t(k) * n]);
       if (node.n_below > 0)
-        dgemm_("N", "N", &n, &node.n_columns, &node.n_below, &minus_one, known.data(), &n, l + node.n_columns,
-               &stride, &one, own, &leading);
-      dtrsm_("R", "L", "N", "N", &n, &node.n_columns, &one, l, &stride, own, &leading);
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, node.n_columns, node.n_below, -1,
+                    known.data(), n, l + node.n_columns, stride, 1, own, leading);
+      cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasNoTrans, CblasNonUnit, n, node.n_columns, 1, l,
+                  stride, own, leading);
     }
   });
 }

@@ -1,14 +1,9 @@
 #include "wheelwright/linalg/two_block_cholesky.h"
 
-using Complex = std::complex<double>;
+#include <cblas.h>
+#include <lapacke.h>
 
-extern "C" {
-void ztrsm_(const char*, const char*, const char*, const char*, const int*, const int*, const Complex*,
-            const Complex*, const int*, Complex*, const int*);
-void zgemm_(const char*, const char*, const int*, const int*, const int*, const Complex*, const Complex*,
-            const int*, const Complex*, const int*, const Complex*, Complex*, const int*);
-void zpotrs_(const char*, const int*, const int*, const Complex*, const int*, Complex*, const int*, int*);
-}
+using Complex = std::complex<double>;
 
 namespace wheelwright {
 
@@ -21,25 +16,27 @@ void TwoBlockCholesky::eliminate(ComplexMatrix& loads) const {
   const int n = l_.rows(), first = n_first_, last = n_last(), rhs = loads.columns();
   if (first == 0 || rhs == 0) return;
   const Complex one = 1, minus_one = -1;
-  ztrsm_("L", "L", "N", "N", &first, &rhs, &one, l_.data(), &n, loads.data(), &n);
-  zgemm_("N", "N", &last, &rhs, &first, &minus_one, l_.data() + first, &n, loads.data(), &n, &one,
-         loads.data() + first, &n);
+  cblas_ztrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, first, rhs, &one, l_.data(),
+              n, loads.data(), n);
+  cblas_zgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, last, rhs, first, &minus_one, l_.data() + first, n,
+              loads.data(), n, &one, loads.data() + first, n);
 }
 
 void TwoBlockCholesky::solve_last(ComplexMatrix& loads) const {
   const int n = l_.rows(), last = n_last(), rhs = loads.columns();
-  int info = 0;
   if (last > 0 && rhs > 0)
-    zpotrs_("L", &last, &rhs, l_.column(n_first_) + n_first_, &n, loads.data(), &last, &info);
+    LAPACKE_zpotrs_work(LAPACK_COL_MAJOR, 'L', last, rhs, l_.column(n_first_) + n_first_, n, loads.data(),
+                        last);
 }
 
 void TwoBlockCholesky::substitute(ComplexMatrix& x) const {
   const int n = l_.rows(), first = n_first_, last = n_last(), rhs = x.columns();
   if (first == 0 || rhs == 0) return;
   const Complex one = 1, minus_one = -1;
-  zgemm_("C", "N", &first, &rhs, &last, &minus_one, l_.data() + first, &n, x.data() + first, &n, &one,
-         x.data(), &n);
-  ztrsm_("L", "L", "C", "N", &first, &rhs, &one, l_.data(), &n, x.data(), &n);
+  cblas_zgemm(CblasColMajor, CblasConjTrans, CblasNoTrans, first, rhs, last, &minus_one, l_.data() + first, n,
+              x.data() + first, n, &one, x.data(), n);
+  cblas_ztrsm(CblasColMajor, CblasLeft, CblasLower, CblasConjTrans, CblasNonUnit, first, rhs, &one, l_.data(),
+              n, x.data(), n);
 }
 
 ComplexMatrix TwoBlockCholesky::last_block_of_inverse() const {

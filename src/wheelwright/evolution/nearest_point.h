@@ -1,0 +1,73 @@
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <nanoflann.hpp>
+#include <utility>
+#include <vector>
+
+#include "wheelwright/base/vec.h"
+
+namespace wheelwright {
+
+/// Finds the nearest of many points of R^dim with nanoflann's k-d tree. If several points are equally near,
+/// the one that comes first among the points is found, whatever the shape of the tree.
+template <int dim>
+class NearestPoint {
+ public:
+  /// Takes at least one point.
+  explicit NearestPoint(std::vector<Vec<dim>> points) : cloud_{std::move(points)}, tree_(dim, cloud_) {}
+
+  const std::vector<Vec<dim>>& points() const { return cloud_.points; }
+
+  /// Index of the point nearest to x.
+  int index_of_nearest(const Vec<dim>& x) const {
+    FirstOfTheNearest result;
+    tree_.findNeighbors(result, x.data(), nanoflann::SearchParams());
+    return result.index();
+  }
+
+ private:
+  /// The points as nanoflann wants to see them.
+  struct Cloud {
+    std::vector<Vec<dim>> points;
+    std::size_t kdtree_get_point_count() const { return points.size(); }
+    double kdtree_get_pt(std::size_t point, std::size_t axis) const { return points[point][axis]; }
+    template <class Box>
+    bool kdtree_get_bbox(Box&) const {
+      return false;
+    }
+  };
+
+  /// What a search has found so far. The tree skips a branch whose distance, up to rounding, exceeds
+  /// worstDist(), and points that do not fall below it. The margin lets it see all of the points that are
+  /// equally near.
+  class FirstOfTheNearest {
+   public:
+    double worstDist() const {
+      constexpr double margin = 1e-12;
+      return (1 + margin) * distance2_ + std::numeric_limits<double>::min();
+    }
+    bool full() const { return index_ >= 0; }
+    /// Returns true: the search goes on.
+    bool addPoint(double distance2, int index) {
+      if (distance2 < distance2_ || (distance2 == distance2_ && index < index_)) {
+        distance2_ = distance2;
+        index_ = index;
+      }
+      return true;
+    }
+    int index() const { return std::max(index_, 0); }
+
+   private:
+    double distance2_ = std::numeric_limits<double>::infinity();
+    int index_ = -1;
+  };
+
+  using Metric = nanoflann::L2_Simple_Adaptor<double, Cloud>;
+
+  Cloud cloud_;
+  nanoflann::KDTreeSingleIndexAdaptor<Metric, Cloud, dim> tree_;
+};
+
+}  // namespace wheelwright
