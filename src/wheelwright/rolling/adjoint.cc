@@ -13,10 +13,33 @@ void put_columns(const Matrix& from, int first, Matrix& to) {
   std::copy(from.entries().begin(), from.entries().end(), to.column(first));
 }
 
-/// Some rows of a matrix, in place of as many of another from `first` on.
-void put_rows(const Matrix& from, int first, Matrix& to) {
-  for (int j = 0; j < from.columns(); ++j)
-    std::copy_n(from.column(j), from.rows(), to.column(j) + first);
+/// Matrices with equally many columns, one below the other.
+Matrix stacked(std::vector<Matrix> parts) {
+  if (parts.size() == 1) return std::move(parts.front());
+  int rows = 0;
+  for (const Matrix& part : parts) rows += part.rows();
+  auto result = Matrix::unfilled(rows, parts.front().columns());
+  for (int j = 0; j < result.columns(); ++j) {
+    double* to = result.column(j);
+    for (const Matrix& part : parts) to = std::copy_n(part.column(j), part.rows(), to);
+  }
+  return result;
+}
+
+/// The n equal parts that a matrix was stacked from.
+std::vector<Matrix> unstacked(Matrix all, int n) {
+  std::vector<Matrix> parts;
+  if (n == 1) {
+    parts.push_back(std::move(all));
+    return parts;
+  }
+  const int rows = all.rows() / n;
+  for (int k = 0; k < n; ++k) parts.push_back(block(all, k * rows, 0, rows, all.columns()));
+  return parts;
+}
+
+bool all_equal(const std::vector<double>& x) {
+  return std::all_of(x.begin(), x.end(), [&](double y) { return y == x.front(); });
 }
 
 /// A factor per position as one per load case.
@@ -55,12 +78,18 @@ class Loads {
   TreadForces tread;  ///< of all functions, one after the other
   Matrix boundary;    ///< loads in the core, condensed onto the ring's boundary
 
-  /// A function's loads in the core along the displacement's modes, as elimination leaves them.
-  Matrix core(int f) const {
-    Matrix loads = functions_[f].energy.empty() ? Matrix(ghost_.rows(), ghost_.columns())
-                                                : energy_weighted(s_, functions_[f].energy, ghost_);
-    if (!materials_[f]) return loads;
-    return sum(std::move(loads), on_modes(s_, *materials_[f]));
+  /// The functions' loads in the core along the displacement's modes, as elimination leaves them.
+  std::vector<Matrix> core() && {
+    std::vector<Matrix> loads;
+    for (size_t f = 0; f < functions_.size(); ++f) {
+      if (functions_[f].energy.empty())
+        loads.emplace_back(ghost_.rows(), ghost_.columns());
+      else
+        loads.push_back(energy_weighted(
+            s_, functions_[f].energy, f + 1 == functions_.size() ? std::move(ghost_) : Matrix(ghost_)));
+      if (materials_[f]) loads.back() = sum(std::move(loads.back()), on_modes(s_, *materials_[f]));
+    }
+    return loads;
   }
 
  private:
@@ -176,13 +205,28 @@ void subtract_states(const RollingSolution<dim>& s, std::span<const FunctionalDe
   }
 }
 
+/// Takes the energy-weighted modes of the displacement off those of q: p = q - energy v.
+template <int dim>
+void subtract_energy_weighted(const RollingSolution<dim>& s, const std::vector<double>& energy, Matrix& modes) {
+  if (energy.empty()) return;
+  const Matrix& states = s.displacement.modes;
+  if (all_equal(energy)) {
+    for (size_t k = 0; k < states.entries().size(); ++k)
+      modes.entries()[k] -= energy.front() * states.entries()[k];
+    return;
+  }
+  const Matrix weighted = energy_weighted(s, energy, states);
+  for (size_t k = 0; k < states.entries().size(); ++k) modes.entries()[k] -= weighted.entries()[k];
+}
+
 }  // namespace
 
 template <int dim>
 Matrix energy_weighted(const RollingSolution<dim>& s, const std::vector<double>& energy, Matrix modes) {
   // With equal factors W^T M W = 1 leaves the modes as they are.
-  if (std::all_of(energy.begin(), energy.end(), [&](double e) { return e == energy.front(); })) {
-    for (double& x : modes.entries()) x *= energy.front();
+  if (all_equal(energy)) {
+    if (energy.front() != 1)
+      for (double& x : modes.entries()) x *= energy.front();
     return modes;
   }
   const Matrix weighted = scaled_rows(by_load_case(s, energy), s.displacement.weights);
@@ -196,9 +240,9 @@ Expected<std::vector<Adjoint>> solve_adjoints(const RollingProblem<dim>& problem
   if (functions.empty()) return std::vector<Adjoint>{};
   const Tread<dim>& tread = problem.tread();
   const CyclicStiffness<dim>& ring = s.ring;
-  const int n_functions = static_cast<int>(functions.size()), n_modes = s.displacement.modes.rows();
+  const int n_functions = static_cast<int>(functions.size());
   // p = q - energy v with K q = energy (G v + Nitsche's term) + the functions' own loads - S^T m.
-  const Loads<dim> loads(problem, s, functions);
+  Loads<dim> loads(problem, s, functions);
   const TreadLoads on_tread = tread_loads(tread, loads.tread);
   const auto [interface, condensed_loads] = ring.eliminate_interface(loads.boundary);
   const Matrix without_contact = ring.outer_displacements(sum(condensed_loads, base_loads(tread, on_tread)));
@@ -211,23 +255,20 @@ Expected<std::vector<Adjoint>> solve_adjoints(const RollingProblem<dim>& problem
   const Matrix outer =
       sum(without_contact, ring.outer_displacements(base_loads(tread, tread_loads(tread, contact->first))));
   const Matrix of_cases = ring.trailing_displacements(ring.boundary_displacements(outer, interface));
-  Matrix modes(n_functions * n_modes, s.displacement.modes.columns());
+  const int n_cases = loads.n_cases();
+  std::vector<Matrix> of_functions = std::move(loads).core();
   for (int f = 0; f < n_functions; ++f) {
-    put_rows(loads.core(f), f * n_modes, modes);
-    const Matrix trailing =
-        on_modes(s, block(of_cases, f * loads.n_cases(), 0, loads.n_cases(), of_cases.columns()));
-    for (int j = 0; j < trailing.columns(); ++j)
-      std::copy_n(trailing.column(j), n_modes,
-                  modes.column(ring.sector_factor().n_interior() + j) + f * n_modes);
+    const Matrix trailing = on_modes(s, block(of_cases, f * n_cases, 0, n_cases, of_cases.columns()));
+    std::copy(trailing.entries().begin(), trailing.entries().end(),
+              of_functions[f].column(ring.sector_factor().n_interior()));
   }
+  Matrix modes = stacked(std::move(of_functions));
   ring.sector_factor().substitute(s.sweep, modes);
+  of_functions = unstacked(std::move(modes), n_functions);
   std::vector<Adjoint> adjoints;
   for (int f = 0; f < n_functions; ++f) {
-    adjoints.push_back({block(modes, f * n_modes, 0, n_modes, modes.columns()), contact->second[f]});
-    if (functions[f].energy.empty()) continue;
-    const Matrix states = energy_weighted(s, functions[f].energy, s.displacement.modes);
-    auto& p = adjoints.back().modes.entries();
-    for (size_t k = 0; k < p.size(); ++k) p[k] -= states.entries()[k];
+    subtract_energy_weighted(s, functions[f].energy, of_functions[f]);
+    adjoints.push_back({std::move(of_functions[f]), contact->second[f]});
   }
   return adjoints;
 }
