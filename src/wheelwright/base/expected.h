@@ -22,6 +22,7 @@ enum class FailureReason {
   negative_energy,        ///< a strain energy came out negative
   empty_shape,            ///< no material, or no boundary to move
   objective_jumped,       ///< the objective changed more than a small step can change it
+  interrupted,            ///< the caller asked the computation to end early (base/interrupt.h)
 };
 
 /// The reason as a word for logs and history files, e.g. "newton_stalled".
@@ -51,6 +52,8 @@ constexpr const char* to_string(FailureReason reason) {
       return "empty_shape";
     case FailureReason::objective_jumped:
       return "objective_jumped";
+    case FailureReason::interrupted:
+      return "interrupted";
   }
   return "unknown";
 }

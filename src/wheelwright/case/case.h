@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "wheelwright/base/quantity.h"
 #include "wheelwright/elasticity/contact_form.h"
 #include "wheelwright/elasticity/ghost_penalty.h"
 #include "wheelwright/elasticity/material.h"
@@ -130,28 +131,6 @@ struct Output {
   double checkpoint_seconds = 60;  ///< 0: not by the clock
   bool operator==(const Output&) const = default;
 };
-
-/// What can be expected of a shape: the objective and its terms, what history.csv watches, and the stress.
-enum class Quantity {
-  objective,
-  strain_energy,
-  uniformity_annulus,
-  uniformity_dual,
-  uniformity_l2,
-  mean_travel,
-  run_out,
-  peak_pressure,
-  pressure_spread,
-  volume_fraction,
-  peak_von_mises,
-};
-
-/// The words for them, in the order of the enumerators: the names of the criteria and of history.csv.
-inline constexpr std::array<std::string_view, 11> quantity_names{
-    "objective", "strain_energy", "uniformity_annulus", "uniformity_dual", "uniformity_l2", "mean_travel",
-    "run_out",   "peak_pressure", "pressure_spread",    "volume_fraction", "peak_von_mises"};
-
-constexpr std::string_view name(Quantity quantity) { return quantity_names[static_cast<int>(quantity)]; }
 
 /// What a run is expected to find for one quantity of one accepted shape.
 struct Expectation {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "wheelwright/base/quantity.h"
 #include "wheelwright/rolling/rolling_problem.h"
 
 namespace wheelwright {

@@ -8,7 +8,7 @@ namespace wheelwright {
 template <int dim>
 class StrainEnergy : public Criterion<dim> {
  public:
-  std::string name() const override { return "strain_energy"; }
+  std::string name() const override { return std::string(wheelwright::name(Quantity::strain_energy)); }
   CriterionTerm evaluate(const RollingProblem<dim>& problem, const RollingSolution<dim>& solution,
                          const Matrix& mean) const override;
   double boundary_density(const Voigt<dim>& strain, const Voigt<dim>& stress) const override;

@@ -12,7 +12,7 @@ class UniformityAnnulus : public Criterion<dim> {
   /// `length`: the characteristic length L [m]; the paper takes epsilon.
   explicit UniformityAnnulus(double length) : length_(length) {}
 
-  std::string name() const override { return "uniformity_annulus"; }
+  std::string name() const override { return std::string(wheelwright::name(Quantity::uniformity_annulus)); }
   CriterionTerm evaluate(const RollingProblem<dim>& problem, const RollingSolution<dim>& solution,
                          const Matrix& mean) const override;
 

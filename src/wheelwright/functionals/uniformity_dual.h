@@ -12,7 +12,7 @@ class UniformityDual : public Criterion<dim> {
  public:
   explicit UniformityDual(std::shared_ptr<const NeumannToDirichlet<dim>> image) : image_(std::move(image)) {}
 
-  std::string name() const override { return "uniformity_dual"; }
+  std::string name() const override { return std::string(wheelwright::name(Quantity::uniformity_dual)); }
   CriterionTerm evaluate(const RollingProblem<dim>& problem, const RollingSolution<dim>& solution,
                          const Matrix& mean) const override;
 

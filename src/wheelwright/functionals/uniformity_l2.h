@@ -12,7 +12,7 @@ class UniformityL2 : public Criterion<dim> {
   /// `length`: the characteristic length L [m].
   explicit UniformityL2(double length) : length_(length) {}
 
-  std::string name() const override { return "uniformity_l2"; }
+  std::string name() const override { return std::string(wheelwright::name(Quantity::uniformity_l2)); }
   CriterionTerm evaluate(const RollingProblem<dim>& problem, const RollingSolution<dim>& solution,
                          const Matrix& mean) const override;
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -9,6 +10,17 @@
 #include "wheelwright/sensitivity/evaluation.h"
 
 namespace wheelwright {
+
+template <int dim>
+struct RollingSolution;
+
+/// What an objective returns for a shape: its value and gradient, and the solution that they were computed
+/// from, for those who watch the loop. The loop itself does not look into the solution; it may be null.
+template <int dim>
+struct Evaluated {
+  Evaluation<dim> evaluation;
+  std::shared_ptr<const RollingSolution<dim>> solution;
+};
 
 /// How the measure of the material is held.
 enum class MeasureControl {
@@ -30,8 +42,8 @@ struct OptimizerOptions {
   std::optional<double> target_measure;  ///< of the material in one sector; absent: the initial shape's
 };
 
-/// The last accepted shape and all that the next one depends on: a run resumed from a copy goes on
-/// identically, provided that the objective depends on the shape alone.
+/// The last accepted shape and all that the next one depends on: a run resumed from a copy proceeds
+/// identically.
 template <int dim>
 struct OptimizationState {
   LevelSet<dim> shape;
@@ -42,7 +54,8 @@ struct OptimizationState {
   double step;           ///< to be tried next [cells]
   int since_redistance;  ///< accepted shapes since the last redistancing
   int since_smoothing;
-  std::vector<double> history;  ///< the objective of every accepted shape, the initial one first
+  std::vector<double> history;  ///< the objective of every accepted shape, the initial one first; or, after
+                                ///< the objective was changed, from the shape on that was evaluated anew
 };
 
 enum class Verdict {
@@ -74,10 +87,13 @@ struct Trial {
   LevelSet<dim> shape;  ///< as far as it could be built; at worst the last accepted one
   double measure;       ///< of the material, one sector; NaN when it was not reached
   Verdict verdict;
-  std::optional<Evaluation<dim>> evaluation;  ///< empty when there is none
-  std::optional<Failure> failure;             ///< set when failed
-  std::vector<ShapeEvent<dim>> events;  ///< islands removed; when accepted, also what became of the holes of
-                                        ///< the shape before: the given one for the initial shape
+  std::optional<Evaluation<dim>> evaluation = {};  ///< empty when there is none
+  std::optional<Failure> failure = {};             ///< set when failed
+  std::vector<ShapeEvent<dim>> events =
+      {};  ///< islands removed; when accepted, also what became of the holes of
+           ///< the shape before: the given one for the initial shape
+  /// What the evaluation was computed from; null when there was none.
+  std::shared_ptr<const RollingSolution<dim>> solution = {};
 };
 
 enum class StopReason {
@@ -121,7 +137,10 @@ std::optional<StopReason> reason_to_stop(const OptimizerOptions& options,
 template <int dim>
 class ShapeOptimizer {
  public:
-  using Objective = std::function<Expected<Evaluation<dim>>(const LevelSet<dim>&)>;
+  /// `previous` is the evaluation of the last accepted shape; null for the first. A failure `interrupted` is
+  /// no failed trial: the trial is forgotten and the loop stops as if asked to.
+  using Objective =
+      std::function<Expected<Evaluated<dim>>(const LevelSet<dim>&, const Evaluation<dim>* previous)>;
   /// Sees every trial, accepted or rejected, and the state after it.
   using Observer = std::function<void(const Trial<dim>&, const OptimizationState<dim>&)>;
 
@@ -132,7 +151,12 @@ class ShapeOptimizer {
   /// given and held exactly. The observer sees it as iteration 0.
   Expected<OptimizationState<dim>> start(const LevelSet<dim>& initial, const Observer& observer) const;
 
-  /// Goes on to the next accepted shape; a reason when there is none, the state then stays as it is.
+  /// The state's shape evaluated by this objective, in place of another one under which the shape was found.
+  /// Step and history begin anew. The observer sees it as a trial of the same iteration.
+  Expected<OptimizationState<dim>> restart(const OptimizationState<dim>& state,
+                                           const Observer& observer) const;
+
+  /// Proceeds to the next accepted shape; a reason when there is none, the state then stays as it is.
   /// `stop_requested` is asked before every trial. The observer sees a failure of the velocity as a trial
   /// without a shape of its own.
   std::optional<StopReason> advance(OptimizationState<dim>& state, const Observer& observer,
@@ -142,6 +166,8 @@ class ShapeOptimizer {
   StopReason run(OptimizationState<dim>& state, const Observer& observer,
                  const std::function<bool()>& stop_requested) const;
 
+  const Evolver<dim>& evolver() const { return evolver_; }
+
  private:
   Expected<std::vector<double>> descent_velocity(const OptimizationState<dim>& state) const;
   Trial<dim> attempt(const OptimizationState<dim>& state, std::span<const double> velocity,
@@ -149,7 +175,7 @@ class ShapeOptimizer {
   void evolve(const OptimizationState<dim>& state, std::span<const double> velocity, Trial<dim>& trial) const;
   void finish(Trial<dim>& trial, std::optional<double> target, double boundary_measure) const;
   void add_changes(const LevelSet<dim>& before, Trial<dim>& trial) const;
-  void evaluate(Trial<dim>& trial) const;
+  void evaluate(Trial<dim>& trial, const Evaluation<dim>* previous) const;
   bool is_due(int every, int since, int halvings) const;
   double next_step(const OptimizationState<dim>& state, const Trial<dim>& trial) const;
   OptimizationState<dim> successor(const OptimizationState<dim>& state, const Trial<dim>& trial) const;

@@ -43,6 +43,9 @@ struct HistoryRow {
   std::vector<std::string> events = {};  ///< what happened to the shape besides the motion of its boundary
 };
 
+/// The name of the file in a run's folder.
+inline constexpr const char* history_file = "history.csv";
+
 /// A place in a history file: behind its first bytes, known by their checksum.
 struct HistoryMark {
   std::uint64_t bytes = 0;
@@ -56,7 +59,8 @@ class History {
   /// Replaces the file. Throws OutputError.
   History(std::filesystem::path path, HistoryColumns columns);
 
-  /// Goes on at a place of the file, which must hold it, and drops the rows behind it. Throws OutputError.
+  /// Continues at a place of the file, which must hold it, and drops the rows behind it. The columns of
+  /// criteria are those of the file, whatever `columns` says. Throws OutputError.
   History(std::filesystem::path path, HistoryColumns columns, const HistoryMark& end);
 
   /// Whether the file begins with what the mark was taken of.

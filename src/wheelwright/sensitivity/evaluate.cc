@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wheelwright/analysis/rolling_measures.h"
 #include "wheelwright/base/stopwatch.h"
 #include "wheelwright/functionals/mean_contact_stress.h"
-#include "wheelwright/analysis/rolling_measures.h"
 #include "wheelwright/rolling/adjoint.h"
 #include "wheelwright/rolling/shape_gradient.h"
 
@@ -26,10 +26,10 @@ std::vector<MeasureValue> measures(const RollingSolution<dim>& solution) {
     positions.insert(positions.end(), static_cast<size_t>(solution.positions.multiplicities[i]),
                      contact_summary(solution.contacts[i], solution.states[i]));
   const RollingMeasures m = rolling_measures(positions);
-  return {{"mean_travel", m.mean_travel},
-          {"run_out", m.run_out},
-          {"peak_pressure", m.peak_pressure},
-          {"pressure_spread", m.pressure_spread}};
+  std::vector<MeasureValue> values;
+  for (const auto& [quantity, member] : rolling_quantities)
+    values.push_back({std::string(name(quantity)), m.*member});
+  return values;
 }
 
 }  // namespace
@@ -51,13 +51,13 @@ Expected<Evaluation<dim>> differentiate(const RollingProblem<dim>& problem, cons
     accumulate(weight, term.loads.observations, loads.observations);
   }
   for (const auto& state : solution.states) evaluation.newton_iterations.push_back(state.newton_iterations);
-  evaluation.phases.push_back({"criteria", watch.lap()});
+  evaluation.phases.push_back({phase::criteria, watch.lap()});
 
   const auto adjoint = solve_adjoint(problem, solution, loads);
   if (!adjoint) return adjoint.failure();
-  evaluation.phases.push_back({"adjoint", watch.lap()});
+  evaluation.phases.push_back({phase::adjoint, watch.lap()});
   evaluation.gradient = shape_gradient(problem, criteria, solution, *adjoint);
-  evaluation.phases.push_back({"gradient", watch.lap()});
+  evaluation.phases.push_back({phase::gradient, watch.lap()});
   if (!std::isfinite(evaluation.objective) ||
       !std::all_of(evaluation.gradient.begin(), evaluation.gradient.end(),
                    [](const auto& sample) { return std::isfinite(sample.value); }))

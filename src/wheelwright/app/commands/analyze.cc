@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "wheelwright/run/model.h"
-#include "wheelwright/report/wheel_pictures.h"
 #include "wheelwright/app/exit_code.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/base/text.h"
@@ -11,6 +9,8 @@
 #include "wheelwright/report/pressure_plot.h"
 #include "wheelwright/report/rolling_report.h"
 #include "wheelwright/report/solution_fields.h"
+#include "wheelwright/report/wheel_pictures.h"
+#include "wheelwright/run/study.h"
 
 namespace wheelwright {
 namespace {
@@ -58,9 +58,9 @@ int analyze_command(const Case& c, const RunOptions& options) {
     tell("{}: holds an analysis already; choose another folder, or remove it\n", options.output->string());
     return exit_refused;
   }
-  const auto problem = RollingProblem<2>::create(rolling_model(c));
+  const auto problem = RollingProblem<2>::create(rolling_model<2>(c));
   if (!problem) return give_up(problem.failure());
-  const LevelSet<2> shape = initial_shape(c);
+  const LevelSet<2> shape = initial_shape<2>(c);
   const auto solution = problem->solve(shape);
   if (!solution) return give_up(solution.failure());
   const auto report = rolling_report(c, options, *problem, *solution);
@@ -70,7 +70,8 @@ int analyze_command(const Case& c, const RunOptions& options) {
                        : without_control_characters(report->title) + "\n\n" + rolling_table(*report));
   if (options.output) {
     write_folder(*options.output, *report, contact_points(*problem, *solution));
-    write_wheel_pictures(*options.output, "", report->title, *problem, *solution, shape);
+    write_wheel_pictures(*options.output, {.prefix = "", .title = report->title}, shape, solution->domain,
+                         position_fields(*problem, *solution, worst_position(solution->strain_energy)));
   }
   return exit_done;
 }

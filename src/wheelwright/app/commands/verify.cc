@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "wheelwright/run/model.h"
 #include "wheelwright/app/exit_code.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/cut/measure.h"
+#include "wheelwright/run/study.h"
 #include "wheelwright/sensitivity/taylor_test.h"
 
 namespace wheelwright {
@@ -69,8 +69,8 @@ double lowest_order(const TaylorTest& test) {
 }
 
 void report_remainders(const TaylorTest& test) {
-  fmt::print("Taylor test of the shape gradient: J = {:.8g} J/m, derivative {:.8g}\n", test.objective,
-             test.derivative);
+  fmt::print("Taylor test of the shape gradient: J = {:.8g} {}, derivative {:.8g}\n", test.objective,
+             unit<2>(kind(Quantity::objective)), test.derivative);
   for (size_t k = 0; k < test.steps.size(); ++k)
     fmt::print("  step {:.3e} m  remainder {:.4e}{}\n", test.steps[k], test.remainders[k],
                k == 0 ? "" : fmt::format("  order {:.4f}", test.orders[k - 1]));
@@ -96,7 +96,7 @@ bool report_balance(const RollingSolution<2>& solution, const RimControl& rim) {
 /// The objective of a case and its Taylor test at a shape.
 Expected<TaylorTest> test_gradient(const Case& c, const RollingProblem<2>& problem, const LevelSet<2>& shape,
                                    const std::vector<double>& direction, double step) {
-  const auto objective = criteria(c, problem);
+  const auto objective = criteria<2>(c, problem);
   if (!objective) return objective.failure();
   return taylor_test<2>([&](const LevelSet<2>& psi) { return evaluate<2>(problem, *objective, psi); }, shape,
                         direction, c.grid.degree, step, halvings);
@@ -132,9 +132,9 @@ int give_up(const Failure& failure) {
 }  // namespace
 
 int verify_command(const Case& c, const RunOptions&) {
-  const auto problem = RollingProblem<2>::create(rolling_model(c));
+  const auto problem = RollingProblem<2>::create(rolling_model<2>(c));
   if (!problem) return give_up(problem.failure());
-  const LevelSet<2> initial = initial_shape(c);
+  const LevelSet<2> initial = initial_shape<2>(c);
   const auto direction = test_direction(initial.lattice);
   const double step = 1e-3 * initial.lattice.grid().resolution();
   const auto shape = generic_shape(initial, direction, step);
