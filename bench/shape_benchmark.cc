@@ -181,7 +181,7 @@ class Evolution {
   LevelSet<2> hold_measure() const {
     double length = 0;
     for (const auto& sample : gradient_) length += sample.weight;
-    return value_of(evolver_.with_measure(moved_, material_measure(wheel_.psi()), length));
+    return value_of(evolver_.with_measure(moved_, material_measure(wheel_.psi()), length)).shape;
   }
   LevelSet<2> redistance() const { return value_of(evolver_.redistance(moved_)); }
 

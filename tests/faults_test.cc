@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "tests/support.h"
 #include "wheelwright/cut/measure.h"
 #include "wheelwright/geometry/shapes.h"
 #include "wheelwright/optimize/optimizer.h"
@@ -130,9 +131,10 @@ struct Course {
 };
 
 Course run(const LevelSet<2>& initial, const OptimizerOptions& options,
-           const ShapeOptimizer<2>::Objective& objective) {
+           const std::function<Expected<Evaluation<2>>(const LevelSet<2>&)>& objective) {
   Course course{};
-  const ShapeOptimizer<2> optimizer(lattice, evolution, options, objective);
+  const ShapeOptimizer<2> optimizer(lattice, evolution, options,
+                                    wheelwright::testing::objective_of_shape<2>(objective));
   course.outcome = optimize<2>(
       optimizer, initial,
       [&](const Trial<2>& trial, const OptimizationState<2>&) { course.trials.push_back(trial); },

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "wheelwright/run/model.h"
+#include "wheelwright/run/study.h"
 #include "wheelwright/cut/measure.h"
 #include "wheelwright/evolution/evolver.h"
 #include "wheelwright/geometry/shapes.h"
@@ -120,10 +120,10 @@ TEST(Changes, NameWhatTheGridOfACaseCannotHold) {
   c.grid.level_set_degree = 1;
   const double off_the_nodes = grid.inner_radius + 14.5 * grid.cell_size()[0];
   c.holes.rings = {{.count = 16, .center_radius = off_the_nodes, .radius = 0.03, .phase = {}}};
-  EXPECT_TRUE(lost_on_the_grid(c).empty());
+  EXPECT_TRUE(lost_on_the_grid<2>(c).empty());
   c.holes.rings = {
       {.count = 16, .center_radius = off_the_nodes, .radius = 0.3 * h, .phase = 12.5 / 24 * sector}};
-  const auto tiny = lost_on_the_grid(c);
+  const auto tiny = lost_on_the_grid<2>(c);
   ASSERT_EQ(tiny.size(), 1u);
   EXPECT_EQ(tiny[0].kind, ShapeEventKind::hole_vanished);
   EXPECT_NEAR(tiny[0].place[0], off_the_nodes, 0.3 * h);

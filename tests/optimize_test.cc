@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "tests/support.h"
 #include "wheelwright/cut/measure.h"
 #include "wheelwright/geometry/cell_map.h"
 #include "wheelwright/geometry/shapes.h"
@@ -104,7 +105,8 @@ TEST(ShapeOptimizer, ConvergesToTheLevelLineAtConstantMeasure) {
   OptimizerOptions options;
   options.iterations = 200;
   options.smooth_every = 20;
-  const ShapeOptimizer<2> optimizer(lattice, evolution, options, bowl_objective);
+  const ShapeOptimizer<2> optimizer(lattice, evolution, options,
+                                    wheelwright::testing::objective_of_shape<2>(bowl_objective));
   Record record;
   const auto outcome = optimize<2>(optimizer, displaced_hole(), record.observer(), never);
   EXPECT_TRUE(outcome.reason == StopReason::converged || outcome.reason == StopReason::no_descent)
@@ -128,7 +130,8 @@ TEST(ShapeOptimizer, ReachesAGivenMeasure) {
   OptimizerOptions options;
   options.iterations = 3;
   options.target_measure = 1.01 * material_measure(displaced_hole());
-  const ShapeOptimizer<2> optimizer(lattice, evolution, options, bowl_objective);
+  const ShapeOptimizer<2> optimizer(lattice, evolution, options,
+                                    wheelwright::testing::objective_of_shape<2>(bowl_objective));
   Record record;
   const auto outcome = optimize<2>(optimizer, displaced_hole(), record.observer(), never);
   EXPECT_EQ(outcome.reason, StopReason::iterations);
@@ -143,7 +146,8 @@ TEST(ShapeOptimizer, FollowsThePapersRule) {
   options.measure_control = MeasureControl::proportional;
   auto harmonic = evolution;
   harmonic.velocity.kind = ExtensionKind::harmonic;
-  const ShapeOptimizer<2> optimizer(lattice, harmonic, options, bowl_objective);
+  const ShapeOptimizer<2> optimizer(lattice, harmonic, options,
+                                    wheelwright::testing::objective_of_shape<2>(bowl_objective));
   Record record;
   const auto outcome = optimize<2>(optimizer, displaced_hole(), record.observer(), never);
   EXPECT_EQ(outcome.reason, StopReason::iterations);
@@ -156,7 +160,7 @@ TEST(ShapeOptimizer, FollowsThePapersRule) {
   // The density is positive on the whole boundary: the multiplier leaves an offset.
   EXPECT_LT(outcome.state->measure, outcome.state->target_measure);
   RecordProperty("measure_ratio",
-                 testing::PrintToString(outcome.state->measure / outcome.state->target_measure));
+                 ::testing::PrintToString(outcome.state->measure / outcome.state->target_measure));
 }
 
 TEST(ShapeOptimizer, HalvesTheStepWhereTheEvaluationFails) {
@@ -172,7 +176,8 @@ TEST(ShapeOptimizer, HalvesTheStepWhereTheEvaluationFails) {
   OptimizerOptions options;
   options.iterations = 8;
   options.redistance_every = 0;
-  const ShapeOptimizer<2> optimizer(lattice, evolution, options, fragile);
+  const ShapeOptimizer<2> optimizer(lattice, evolution, options,
+                                    wheelwright::testing::objective_of_shape<2>(fragile));
   Record record;
   const auto outcome = optimize<2>(optimizer, displaced_hole(), record.observer(), never);
   EXPECT_EQ(outcome.reason, StopReason::iterations);
@@ -196,7 +201,8 @@ TEST(ShapeOptimizer, GivesUpWhereEveryTrialFails) {
   };
   OptimizerOptions options;
   options.max_halvings = 3;
-  const ShapeOptimizer<2> optimizer(lattice, evolution, options, only_once);
+  const ShapeOptimizer<2> optimizer(lattice, evolution, options,
+                                    wheelwright::testing::objective_of_shape<2>(only_once));
   Record record;
   const auto outcome = optimize<2>(optimizer, displaced_hole(), record.observer(), never);
   EXPECT_EQ(outcome.reason, StopReason::gave_up);
@@ -213,7 +219,8 @@ TEST(ShapeOptimizer, RejectsARiseOfTheObjective) {
   };
   OptimizerOptions options;
   options.accepted_increase = 0;
-  const ShapeOptimizer<2> optimizer(lattice, evolution, options, uphill);
+  const ShapeOptimizer<2> optimizer(lattice, evolution, options,
+                                    wheelwright::testing::objective_of_shape<2>(uphill));
   Record record;
   const auto outcome = optimize<2>(optimizer, displaced_hole(), record.observer(), never);
   EXPECT_EQ(outcome.reason, StopReason::no_descent);
@@ -224,7 +231,8 @@ TEST(ShapeOptimizer, NamesAFailedStart) {
   const auto failing = [](const LevelSet<2>&) -> Expected<Evaluation<2>> {
     return Failure{FailureReason::disconnected_material, "x"};
   };
-  const ShapeOptimizer<2> optimizer(lattice, evolution, {}, failing);
+  const ShapeOptimizer<2> optimizer(lattice, evolution, {},
+                                    wheelwright::testing::objective_of_shape<2>(failing));
   const auto outcome = optimize<2>(optimizer, displaced_hole(), Record().observer(), never);
   EXPECT_EQ(outcome.reason, StopReason::failed_start);
   EXPECT_FALSE(outcome.state);
@@ -237,7 +245,8 @@ TEST(ShapeOptimizer, TreatsANotFiniteObjectiveAsAFailure) {
     evaluation.objective = std::nan("");
     return evaluation;
   };
-  const ShapeOptimizer<2> optimizer(lattice, evolution, {}, not_a_number);
+  const ShapeOptimizer<2> optimizer(lattice, evolution, {},
+                                    wheelwright::testing::objective_of_shape<2>(not_a_number));
   const auto outcome = optimize<2>(optimizer, displaced_hole(), Record().observer(), never);
   EXPECT_EQ(outcome.failure->reason, FailureReason::not_finite);
 }
@@ -247,7 +256,8 @@ TEST(ShapeOptimizer, ResumesACopyBitForBit) {
   options.iterations = 12;
   options.redistance_every = 3;
   options.smooth_every = 4;
-  const ShapeOptimizer<2> optimizer(lattice, evolution, options, bowl_objective);
+  const ShapeOptimizer<2> optimizer(lattice, evolution, options,
+                                    wheelwright::testing::objective_of_shape<2>(bowl_objective));
   std::optional<OptimizationState<2>> copy;
   const auto outcome = optimize<2>(
       optimizer, displaced_hole(),
@@ -256,7 +266,8 @@ TEST(ShapeOptimizer, ResumesACopyBitForBit) {
       },
       never);
   ASSERT_TRUE(copy);
-  const ShapeOptimizer<2> another(lattice, evolution, options, bowl_objective);
+  const ShapeOptimizer<2> another(lattice, evolution, options,
+                                  wheelwright::testing::objective_of_shape<2>(bowl_objective));
   EXPECT_EQ(another.run(*copy, Record().observer(), never), outcome.reason);
   EXPECT_EQ(copy->shape.values, outcome.state->shape.values);
   EXPECT_EQ(copy->history, outcome.state->history);
@@ -264,7 +275,8 @@ TEST(ShapeOptimizer, ResumesACopyBitForBit) {
 }
 
 TEST(ShapeOptimizer, StopsOnRequest) {
-  const ShapeOptimizer<2> optimizer(lattice, evolution, {}, bowl_objective);
+  const ShapeOptimizer<2> optimizer(lattice, evolution, {},
+                                    wheelwright::testing::objective_of_shape<2>(bowl_objective));
   auto state = optimizer.start(displaced_hole(), Record().observer());
   ASSERT_TRUE(state);
   EXPECT_EQ(optimizer.run(*state, Record().observer(), [&] { return state->iteration == 4; }),

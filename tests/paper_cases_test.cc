@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "wheelwright/run/expectations.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/shorten.h"
+#include "wheelwright/run/expectations.h"
 
 namespace wheelwright {
 namespace {
@@ -32,23 +32,23 @@ Case read(const std::string& name) {
 /// Runs a case and compares all that it expects.
 void expect_as_expected(const Case& c) {
   ASSERT_FALSE(c.expectations.empty());
-  const auto problem = RollingProblem<2>::create(rolling_model(c));
-  ASSERT_TRUE(problem);
-  const auto objective = criteria(c, *problem);
-  ASSERT_TRUE(objective);
+  const auto study = make_study<2>(c);
+  ASSERT_TRUE(study);
   ASSERT_EQ(c.objective.mean, MeanStress::exact);
-  ExpectationWatch watch(c.expectations, {});
-  const LevelSet<2> initial = initial_shape(c);
+  std::vector<FoundQuantity> found;
+  std::shared_ptr<const RollingSolution<2>> last_solution;
   const auto outcome = optimize<2>(
-      ShapeOptimizer<2>(initial.lattice, evolution_options(c), optimizer_options(c),
-                        [&](const LevelSet<2>& psi) { return evaluate<2>(*problem, *objective, psi); }),
-      initial,
+      optimizer_of(*study), study->initial,
       [&](const Trial<2>& trial, const OptimizationState<2>& state) {
-        if (trial.verdict == Verdict::accepted) watch(*problem, state);
+        if (trial.verdict != Verdict::accepted) return;
+        for (auto& quantity : found_quantities(c.expectations, *study->problem, state, *trial.solution))
+          found.push_back(std::move(quantity));
+        last_solution = trial.solution;
       },
       [] { return false; });
   ASSERT_TRUE(outcome.state) << outcome.failure->detail;
-  for (const Finding& finding : watch.findings(*problem, *outcome.state))
+  for (const Finding& finding :
+       findings<2>(c.expectations, found, *study->problem, *outcome.state, last_solution.get()))
     EXPECT_TRUE(finding.met()) << finding.text();
 }
 
@@ -58,7 +58,7 @@ TEST_P(PaperCases, TheFirstShapesAreAsExpected) {
   constexpr int few = 2;
   const Case c = read(GetParam());
   if (GetParam() == refused) {
-    const auto solution = RollingProblem<2>::create(rolling_model(c))->solve(initial_shape(c));
+    const auto solution = RollingProblem<2>::create(rolling_model<2>(c))->solve(initial_shape<2>(c));
     ASSERT_FALSE(solution);
     EXPECT_EQ(solution.failure().reason, FailureReason::not_positive_definite);
   } else if (c.grid.angular_cells <= 576) {  // the fine reference of Fig. 9 is slow

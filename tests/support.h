@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "wheelwright/functionals/strain_energy.h"
+#include "wheelwright/optimize/optimizer.h"
 #include "wheelwright/rolling/rolling_problem.h"
 #include "wheelwright/sensitivity/evaluate.h"
 #include "wheelwright/sensitivity/taylor_test.h"
@@ -111,6 +112,16 @@ inline Expected<TaylorTest> generic_taylor_test(const RollingProblem<2>& problem
   const auto psi = generic_hole(problem.model().grid);
   return taylor_test<2>([&](const LevelSet<2>& shape) { return evaluate_objective<2>(problem, terms, shape); }, psi,
                         smooth_direction(psi.lattice), problem.model().degree, 2e-5, 3);
+}
+
+/// An objective that depends on the shape alone and hands out no solution, for the loop.
+template <int dim, class Evaluate>
+typename ShapeOptimizer<dim>::Objective objective_of_shape(Evaluate evaluate) {
+  return [evaluate](const LevelSet<dim>& psi, const Evaluation<dim>*) mutable -> Expected<Evaluated<dim>> {
+    auto evaluation = evaluate(psi);
+    if (!evaluation) return evaluation.failure();
+    return Evaluated<dim>{*std::move(evaluation), nullptr};
+  };
 }
 
 }  // namespace wheelwright::testing

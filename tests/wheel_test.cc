@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "wheelwright/run/model.h"
 #include "wheelwright/case/read.h"
+#include "wheelwright/run/study.h"
 
 namespace wheelwright {
 namespace {
@@ -14,18 +14,12 @@ struct Course {
 };
 
 Course optimize_case(const Case& c) {
-  const auto problem = RollingProblem<2>::create(rolling_model(c));
-  EXPECT_TRUE(problem);
-  const auto objective = criteria(c, *problem);
-  EXPECT_TRUE(objective);
-  const LevelSet<2> initial = initial_shape(c);
-  const ShapeOptimizer<2> optimizer(
-      initial.lattice, evolution_options(c), optimizer_options(c),
-      [&](const LevelSet<2>& psi) { return evaluate<2>(*problem, *objective, psi); });
+  const auto study = make_study<2>(c);
+  EXPECT_TRUE(study);
   std::optional<OptimizationState<2>> first;
   double worst = 0;
   const auto outcome = optimize<2>(
-      optimizer, initial,
+      optimizer_of(*study), study->initial,
       [&](const Trial<2>& trial, const OptimizationState<2>& state) {
         if (!first) first = state;
         if (trial.verdict == Verdict::accepted)
@@ -80,7 +74,7 @@ TEST(PapersWheel, SlowAHundredShapesMakeItStiffer) {
 
 /// (max - min) / mean over the positions of the peak contact pressure.
 double pressure_spread(const Case& c, const LevelSet<2>& shape) {
-  const auto problem = RollingProblem<2>::create(rolling_model(c));
+  const auto problem = RollingProblem<2>::create(rolling_model<2>(c));
   const auto solution = problem->solve(shape);
   EXPECT_TRUE(solution);
   double low = 1e30, high = 0, sum = 0;

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "wheelwright/base/quantity.h"
 #include "wheelwright/state/contact_patch.h"
 
 namespace wheelwright {
@@ -39,6 +42,13 @@ struct RollingMeasures {
   double peak_pressure;    ///< greatest over the positions [Pa]
   double pressure_spread;  ///< of the positions' peaks: greatest less least, over their mean
 };
+
+/// Which quantity each of them is: what history.csv records in this order.
+inline constexpr std::array<std::pair<Quantity, double RollingMeasures::*>, 4> rolling_quantities{
+    {{Quantity::mean_travel, &RollingMeasures::mean_travel},
+     {Quantity::run_out, &RollingMeasures::run_out},
+     {Quantity::peak_pressure, &RollingMeasures::peak_pressure},
+     {Quantity::pressure_spread, &RollingMeasures::pressure_spread}}};
 
 RollingMeasures rolling_measures(std::span<const ContactSummary> positions);
 

@@ -22,7 +22,7 @@ enum class FailureReason {
   negative_energy,        ///< a strain energy came out negative
   empty_shape,            ///< no material, or no boundary to move
   objective_jumped,       ///< the objective changed more than a small step can change it
-  interrupted,            ///< the caller asked to end early
+  interrupted,            ///< the caller asked the computation to end early (base/interrupt.h)
 };
 
 /// The reason as a word for logs and history files, e.g. "newton_stalled".

@@ -5,17 +5,18 @@
 
 namespace wheelwright {
 
-/// Asks a long computation to end early. The computation polls it between its steps and then fails with
-/// FailureReason::interrupted; without a question it never asks.
+/// What a long computation asks from time to time: whether it should end early, with the failure
+/// `interrupted`. The question is cheap; once the answer was yes it stays yes.
 class Interrupt {
  public:
+  /// Never requested.
   Interrupt() = default;
-  explicit Interrupt(std::function<bool()> asks) : asks_(std::move(asks)) {}
+  explicit Interrupt(std::function<bool()> requested) : requested_(std::move(requested)) {}
 
-  bool operator()() const { return asks_ && asks_(); }
+  bool requested() const { return requested_ && requested_(); }
 
  private:
-  std::function<bool()> asks_;
+  std::function<bool()> requested_;
 };
 
 }  // namespace wheelwright

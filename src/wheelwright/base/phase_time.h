@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 
 namespace wheelwright {
@@ -9,5 +10,15 @@ struct PhaseTime {
   std::string phase;
   double seconds;
 };
+
+/// The phases of one trial shape, in the order in which they come: the one place for their names.
+namespace phase {
+inline constexpr const char *cut = "cut", *assembly = "assembly", *factorization = "factorization",
+                            *contact = "contact", *recovery = "recovery", *criteria = "criteria",
+                            *adjoint = "adjoint", *gradient = "gradient", *evolution = "evolution";
+}
+inline constexpr std::array<const char*, 9> phase_names{phase::cut,     phase::assembly, phase::factorization,
+                                                        phase::contact, phase::recovery, phase::criteria,
+                                                        phase::adjoint, phase::gradient, phase::evolution};
 
 }  // namespace wheelwright

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "wheelwright/base/quantity.h"
 #include "wheelwright/elasticity/contact_form.h"
 #include "wheelwright/elasticity/ghost_penalty.h"
 #include "wheelwright/elasticity/material.h"
@@ -131,30 +132,7 @@ struct Output {
   bool operator==(const Output&) const = default;
 };
 
-/// Quantities that `[[expect]]` can name: the objective and its terms, columns of history.csv, and the
-/// stress.
-enum class Quantity {
-  objective,
-  strain_energy,
-  uniformity_annulus,
-  uniformity_dual,
-  uniformity_l2,
-  mean_travel,
-  run_out,
-  peak_pressure,
-  pressure_spread,
-  volume_fraction,
-  peak_von_mises,
-};
-
-/// Their names in case files, in the order of the enumerators, as in criteria and history.csv.
-inline constexpr std::array<std::string_view, 11> quantity_names{
-    "objective", "strain_energy", "uniformity_annulus", "uniformity_dual", "uniformity_l2", "mean_travel",
-    "run_out",   "peak_pressure", "pressure_spread",    "volume_fraction", "peak_von_mises"};
-
-constexpr std::string_view name(Quantity quantity) { return quantity_names[static_cast<int>(quantity)]; }
-
-/// The expected value of one quantity of one accepted shape.
+/// What a run is expected to find for one quantity of one accepted shape.
 struct Expectation {
   Quantity quantity = Quantity::objective;
   double value = 0;              ///< in the unit of history.csv

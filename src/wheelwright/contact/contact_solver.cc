@@ -188,7 +188,7 @@ NewtonEnd<dim> newton(const ReducedContact<dim>& contact, ContactUnknowns<dim> s
   const int max_iterations = damping == Damping::residual ? 60 : 200;
   ContactUnknowns<dim> residual = contact.residual(end.x, fraction);
   end.residual = norm(residual);
-  while (end.iterations < max_iterations && std::isfinite(end.residual) && !interrupt()) {
+  while (end.iterations < max_iterations && std::isfinite(end.residual) && !interrupt.requested()) {
     auto step = contact.newton_step(end.x, residual);
     if (!step) {
       stick_all(end.x);
@@ -245,7 +245,7 @@ Expected<ContactState<dim>> solve_contact(const ReducedContact<dim>& contact,
   std::vector<std::string> tried;
   int iterations = 0;
   const auto attempt = [&](std::string name, const auto& solve) {
-    if (end.converged || interrupt()) return;
+    if (end.converged || interrupt.requested()) return;
     end = solve();
     tried.push_back(std::move(name));
     iterations += end.iterations;
@@ -259,7 +259,7 @@ Expected<ContactState<dim>> solve_contact(const ReducedContact<dim>& contact,
             [&] { return newton_in_load_steps(contact, cold_start, n_steps, interrupt); });
 
   if (end.converged && touches(end.x)) return contact.state(end.x, iterations);
-  if (interrupt()) return Failure{FailureReason::interrupted, "while the contact was solved"};
+  if (interrupt.requested()) return Failure{FailureReason::interrupted, "while the contact was solved"};
   if (!touches(end.x)) return no_contact(contact, end.x);
   return Failure{
       FailureReason::newton_stalled,

@@ -6,7 +6,6 @@
 #include "wheelwright/evolution/multilinear.h"
 #include "wheelwright/evolution/redistance.h"
 #include "wheelwright/evolution/transport.h"
-#include "wheelwright/evolution/volume.h"
 #include "wheelwright/geometry/finite.h"
 #include "wheelwright/geometry/mirror.h"
 
@@ -104,8 +103,8 @@ LevelSet<dim> Evolver<dim>::keep_bands(const LevelSet<dim>& psi) const {
 }
 
 template <int dim>
-Expected<LevelSet<dim>> Evolver<dim>::with_measure(const LevelSet<dim>& psi, double target,
-                                                   double boundary_measure) const {
+Expected<MeasuredShape<dim>> Evolver<dim>::with_measure(const LevelSet<dim>& psi, double target,
+                                                        double boundary_measure) const {
   return wheelwright::with_measure<dim>(psi, bands_, target, boundary_measure);
 }
 

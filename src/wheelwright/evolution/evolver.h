@@ -7,6 +7,7 @@
 #include "wheelwright/evolution/islands.h"
 #include "wheelwright/evolution/smoothing.h"
 #include "wheelwright/evolution/velocity.h"
+#include "wheelwright/evolution/volume.h"
 
 namespace wheelwright {
 
@@ -45,8 +46,8 @@ class Evolver {
   LevelSet<dim> keep_bands(const LevelSet<dim>& psi) const;
 
   /// As the free functions of these names.
-  Expected<LevelSet<dim>> with_measure(const LevelSet<dim>& psi, double target,
-                                       double boundary_measure) const;
+  Expected<MeasuredShape<dim>> with_measure(const LevelSet<dim>& psi, double target,
+                                            double boundary_measure) const;
   Expected<AttachedShape<dim>> without_islands(const LevelSet<dim>& psi, double largest) const;
 
   /// What happened to the holes between two shapes: topology_changes(), and those that came to a band.

@@ -29,8 +29,8 @@ struct Bracket {
 }  // namespace
 
 template <int dim>
-Expected<LevelSet<dim>> with_measure(const LevelSet<dim>& psi, const ProtectedBands<dim>& bands,
-                                     double target, double boundary_measure) {
+Expected<MeasuredShape<dim>> with_measure(const LevelSet<dim>& psi, const ProtectedBands<dim>& bands,
+                                          double target, double boundary_measure) {
   if (auto failure = check_finite<dim>(psi.lattice, psi.values, "the level set")) return *failure;
   const auto& grid = psi.lattice.grid();
   const double reach = grid.outer_radius - grid.inner_radius;
@@ -38,9 +38,10 @@ Expected<LevelSet<dim>> with_measure(const LevelSet<dim>& psi, const ProtectedBa
   double shift = 0, slope = -boundary_measure, last_shift = 0, last_error = 0;
   for (int k = 0; k < max_evaluations; ++k) {
     LevelSet<dim> candidate = shifted(psi, bands, shift);
-    const double error = material_measure(candidate) - target;
+    const double measure = material_measure(candidate), error = measure - target;
     if (!std::isfinite(error)) return Failure{FailureReason::cut_quadrature, "the measure of the material"};
-    if (std::abs(error) <= relative_tolerance * target) return candidate;
+    if (std::abs(error) <= relative_tolerance * target)
+      return MeasuredShape<dim>{std::move(candidate), measure};
     (error > 0 ? bracket.too_small : bracket.too_large) = shift;
     if (k > 0) slope = (error - last_error) / (shift - last_shift);
     last_shift = shift;
@@ -72,8 +73,10 @@ double proportional_multiplier(std::span<const SurfaceSample<dim>> gradient, dou
   return 8 * (high->value - low->value) * (target_ratio - ratio);
 }
 
-template Expected<LevelSet<2>> with_measure<2>(const LevelSet<2>&, const ProtectedBands<2>&, double, double);
-template Expected<LevelSet<3>> with_measure<3>(const LevelSet<3>&, const ProtectedBands<3>&, double, double);
+template Expected<MeasuredShape<2>> with_measure<2>(const LevelSet<2>&, const ProtectedBands<2>&, double,
+                                                    double);
+template Expected<MeasuredShape<3>> with_measure<3>(const LevelSet<3>&, const ProtectedBands<3>&, double,
+                                                    double);
 template double sector_measure<2>(const PolarGrid<2>&);
 template double sector_measure<3>(const PolarGrid<3>&);
 template double proportional_multiplier<2>(std::span<const SurfaceSample<2>>, double, double);

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "wheelwright/base/quantity.h"
 #include "wheelwright/state/state.h"
 
 namespace wheelwright {

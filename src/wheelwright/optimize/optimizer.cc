@@ -19,22 +19,27 @@ constexpr double step_growth = 1.5;
 constexpr double step_reduction = 0.5;
 constexpr std::size_t convergence_window = 10;
 constexpr int max_removals = 4;
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-template <int dim>
-double boundary_measure(std::span<const SurfaceSample<dim>> samples) {
+template <class Points>
+double boundary_measure(const Points& points) {
   double sum = 0;
-  for (const auto& sample : samples) sum += sample.weight;
+  for (const auto& point : points) sum += point.weight;
   return sum;
 }
 
 template <int dim>
 bool is_finite(const Evaluation<dim>& evaluation) {
-  double sum = evaluation.objective;
-  for (const auto& sample : evaluation.gradient) sum += sample.weight * sample.value;
+  double sum = 0;
+  for (const FunctionValue& function : evaluation.functions) {
+    sum += function.value;
+    for (size_t q = 0; q < evaluation.boundary.size(); ++q)
+      sum += evaluation.boundary[q].weight * function.gradient[q];
+  }
   return std::isfinite(sum);
 }
 
@@ -70,9 +75,33 @@ std::optional<Failure> check_jump(double before, double after, double foretold) 
 template <int dim>
 Trial<dim> failed_trial(const OptimizationState<dim>& state, int halvings, double step,
                         std::optional<Failure> failure) {
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  return {state.iteration + 1, halvings, step, unknown, 0, state.shape, unknown, Verdict::failed, {},
-          std::move(failure),  {}};
+  return {.iteration = state.iteration + 1,
+          .halvings = halvings,
+          .step = step,
+          .max_velocity = unknown,
+          .evolution_seconds = 0,
+          .shape = state.shape,
+          .measure = unknown,
+          .verdict = Verdict::failed,
+          .failure = std::move(failure)};
+}
+
+/// The trial of a shape that did not move.
+template <int dim>
+Trial<dim> trial_at_rest(int iteration, LevelSet<dim> shape) {
+  return {.iteration = iteration,
+          .halvings = 0,
+          .step = 0,
+          .max_velocity = 0,
+          .evolution_seconds = 0,
+          .shape = std::move(shape),
+          .measure = unknown,
+          .verdict = Verdict::failed};
+}
+
+template <int dim>
+bool was_interrupted(const Trial<dim>& trial) {
+  return trial.failure && trial.failure->reason == FailureReason::interrupted;
 }
 
 /// Makes a stage's result the trial's shape, or its failure the trial's; whether it is a shape.
@@ -83,6 +112,17 @@ bool take(Expected<LevelSet<dim>> shape, Trial<dim>& trial) {
   else
     trial.failure = shape.failure();
   return !trial.failure;
+}
+
+template <int dim>
+bool take(Expected<MeasuredShape<dim>> measured, Trial<dim>& trial) {
+  if (!measured) {
+    trial.failure = measured.failure();
+    return false;
+  }
+  trial.shape = std::move(measured->shape);
+  trial.measure = measured->measure;
+  return true;
 }
 
 }  // namespace
@@ -97,30 +137,47 @@ std::optional<StopReason> reason_to_stop(const OptimizerOptions& options,
 
 template <int dim>
 ShapeOptimizer<dim>::ShapeOptimizer(const Lattice<dim>& lattice, const EvolutionOptions& evolution,
-                                    const OptimizerOptions& options, Objective objective)
-    : lattice_(lattice), evolver_(lattice, evolution), options_(options), objective_(std::move(objective)) {}
+                                    const OptimizerOptions& options, Evaluate evaluate)
+    : lattice_(lattice), evolver_(lattice, evolution), options_(options), evaluate_(std::move(evaluate)) {}
 
 template <int dim>
 Expected<OptimizationState<dim>> ShapeOptimizer<dim>::start(const LevelSet<dim>& initial,
                                                             const Observer& observer) const {
   if (auto failure = check_finite<dim>(lattice_, initial.values, "the initial level set")) return *failure;
-  Trial<dim> trial{0, 0, 0, 0, 0, evolver_.keep_bands(initial), 0, Verdict::failed, {}, {}, {}};
-  finish(trial, options_.target_measure, boundary_measure<dim>(boundary_samples<dim>(trial.shape)));
-  if (!trial.failure) evaluate(trial);
+  Trial<dim> trial = trial_at_rest<dim>(0, evolver_.keep_bands(initial));
+  finish(trial, options_.target_measure, boundary_measure(boundary_samples<dim>(trial.shape)));
+  if (!trial.failure) evaluate(trial, nullptr);
   if (trial.failure) return *trial.failure;
   trial.verdict = Verdict::accepted;
   add_changes(initial, trial);
-  OptimizationState<dim> state{trial.shape,
-                               *trial.evaluation,
-                               trial.measure,
-                               options_.target_measure.value_or(trial.measure),
-                               0,
-                               options_.step,
-                               0,
-                               0,
-                               {trial.evaluation->objective}};
+  OptimizationState<dim> state{.shape = trial.shape,
+                               .evaluation = *trial.evaluation,
+                               .measure = trial.measure,
+                               .target_measure = options_.target_measure.value_or(trial.measure),
+                               .iteration = 0,
+                               .step = options_.step,
+                               .since_redistance = 0,
+                               .since_smoothing = 0,
+                               .history = {objective_of(*trial.evaluation)}};
   observer(trial, state);
   return state;
+}
+
+template <int dim>
+Expected<OptimizationState<dim>> ShapeOptimizer<dim>::restart(const OptimizationState<dim>& state,
+                                                              const Observer& observer) const {
+  Trial<dim> trial = trial_at_rest<dim>(state.iteration, state.shape);
+  trial.measure = state.measure;
+  evaluate(trial, nullptr);
+  if (trial.failure) return *trial.failure;
+  trial.verdict = Verdict::accepted;
+  OptimizationState<dim> anew = state;
+  anew.evaluation = *trial.evaluation;
+  anew.target_measure = options_.target_measure.value_or(state.target_measure);
+  anew.step = options_.step;
+  anew.history = {objective_of(*trial.evaluation)};
+  observer(trial, anew);
+  return anew;
 }
 
 template <int dim>
@@ -138,6 +195,7 @@ std::optional<StopReason> ShapeOptimizer<dim>::advance(OptimizationState<dim>& s
   bool all_failed = true;
   for (int halvings = 0; halvings <= options_.max_halvings; ++halvings) {
     const Trial<dim> trial = attempt(state, *velocity, halvings);
+    if (was_interrupted(trial)) return StopReason::stop_requested;
     if (trial.verdict == Verdict::accepted) state = successor(state, trial);
     observer(trial, state);
     if (trial.verdict == Verdict::accepted) return std::nullopt;
@@ -155,9 +213,14 @@ StopReason ShapeOptimizer<dim>::run(OptimizationState<dim>& state, const Observe
 }
 
 template <int dim>
+double ShapeOptimizer<dim>::objective_of(const Evaluation<dim>& evaluation) const {
+  return evaluation.function(options_.objective).value;
+}
+
+template <int dim>
 Expected<std::vector<double>> ShapeOptimizer<dim>::descent_velocity(
     const OptimizationState<dim>& state) const {
-  auto gradient = state.evaluation.gradient;
+  auto gradient = state.evaluation.gradient(options_.objective);
   if (options_.measure_control == MeasureControl::exact)
     return evolver_.measure_preserving_velocity(gradient);
   const double whole = sector_measure<dim>(lattice_.grid());
@@ -177,16 +240,16 @@ Trial<dim> ShapeOptimizer<dim>::attempt(const OptimizationState<dim>& state, std
   evolve(state, velocity, trial);
   trial.evolution_seconds = seconds_since(start);
   if (trial.failure) return trial;
-  evaluate(trial);
+  evaluate(trial, &state.evaluation);
   if (trial.failure) return trial;
   const double foretold =
-      evolver_.first_order_change(state.evaluation.gradient, velocity, step * lattice_.grid().resolution());
-  trial.failure = check_jump(state.evaluation.objective, trial.evaluation->objective, foretold);
+      evolver_.first_order_change(state.evaluation.gradient(options_.objective), velocity, step * lattice_.grid().resolution());
+  trial.failure = check_jump(objective_of(state.evaluation), objective_of(*trial.evaluation), foretold);
   if (trial.failure) return trial;
   const double best = *std::min_element(state.history.begin(), state.history.end());
   const double bound = best + options_.accepted_increase * std::abs(best);
   const bool accepted =
-      options_.measure_control == MeasureControl::proportional || trial.evaluation->objective <= bound;
+      options_.measure_control == MeasureControl::proportional || objective_of(*trial.evaluation) <= bound;
   trial.verdict = accepted ? Verdict::accepted : Verdict::objective_rose;
   if (!accepted) return trial;
   add_changes(state.shape, trial);
@@ -202,7 +265,7 @@ void ShapeOptimizer<dim>::evolve(const OptimizationState<dim>& state, std::span<
   if (take(evolver_.move(state.shape, velocity, trial.step * lattice_.grid().resolution()), trial) &&
       (!redistances || take(evolver_.redistance(trial.shape), trial)) &&
       (!smooths || take(evolver_.smooth(trial.shape), trial)))
-    finish(trial, state.target_measure, boundary_measure<dim>(state.evaluation.gradient));
+    finish(trial, state.target_measure, boundary_measure(state.evaluation.boundary));
 }
 
 /// Gives the trial's shape the target measure, if that is held exactly, and removes islands: one after the
@@ -212,6 +275,7 @@ void ShapeOptimizer<dim>::finish(Trial<dim>& trial, std::optional<double> target
                                  double boundary_measure) const {
   const double largest = options_.largest_island * sector_measure<dim>(lattice_.grid());
   for (int k = 0; k < max_removals; ++k) {
+    trial.measure = unknown;
     if (target && options_.measure_control == MeasureControl::exact &&
         !take(evolver_.with_measure(trial.shape, *target, boundary_measure), trial))
       return;
@@ -234,20 +298,24 @@ void ShapeOptimizer<dim>::add_changes(const LevelSet<dim>& before, Trial<dim>& t
   for (const auto& event : evolver_.changes(before, trial.shape)) trial.events.push_back(event);
 }
 
+/// The trial's measure is computed unless the shift to the target has done so.
 template <int dim>
-void ShapeOptimizer<dim>::evaluate(Trial<dim>& trial) const {
-  trial.measure = material_measure(trial.shape);
+void ShapeOptimizer<dim>::evaluate(Trial<dim>& trial, const Evaluation<dim>* previous) const {
+  if (std::isnan(trial.measure)) trial.measure = material_measure(trial.shape);
   if (!std::isfinite(trial.measure)) {
     trial.failure = Failure{FailureReason::cut_quadrature, "the measure of the material"};
     return;
   }
-  auto evaluation = objective_(trial.shape);
-  if (!evaluation)
-    trial.failure = evaluation.failure();
-  else if (!is_finite(*evaluation))
-    trial.failure = Failure{FailureReason::not_finite, "the objective or its shape gradient"};
+  auto evaluated = evaluate_(trial.shape, previous);
+  if (!evaluated) {
+    trial.failure = evaluated.failure();
+    return;
+  }
+  trial.solution = std::move(evaluated->state);
+  if (is_finite(evaluated->evaluation))
+    trial.evaluation = std::move(evaluated->evaluation);
   else
-    trial.evaluation = *std::move(evaluation);
+    trial.failure = Failure{FailureReason::not_finite, "the objective or its shape gradient"};
 }
 
 template <int dim>
@@ -259,7 +327,7 @@ bool ShapeOptimizer<dim>::is_due(int every, int since, int halvings) const {
 template <int dim>
 double ShapeOptimizer<dim>::next_step(const OptimizationState<dim>& state, const Trial<dim>& trial) const {
   const bool overshot = options_.measure_control == MeasureControl::exact &&
-                        trial.evaluation->objective > state.evaluation.objective;
+                        objective_of(*trial.evaluation) > objective_of(state.evaluation);
   const double step = trial.step * (overshot ? step_reduction : step_growth);
   return std::clamp(step, std::ldexp(options_.step, -options_.max_halvings), options_.step);
 }
@@ -271,7 +339,7 @@ OptimizationState<dim> ShapeOptimizer<dim>::successor(const OptimizationState<di
     return is_due(every, since, trial.halvings) ? 0 : since + 1;
   };
   auto history = state.history;
-  history.push_back(trial.evaluation->objective);
+  history.push_back(objective_of(*trial.evaluation));
   return {trial.shape,
           *trial.evaluation,
           trial.measure,

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "wheelwright/base/expected.h"
 #include "wheelwright/evolution/evolver.h"
-#include "wheelwright/sensitivity/evaluation.h"
+#include "wheelwright/sensitivity/evaluate.h"
 
 namespace wheelwright {
 
@@ -18,6 +20,7 @@ enum class MeasureControl {
 };
 
 struct OptimizerOptions {
+  std::string objective = "objective";  ///< the name of the function that is minimized
   int iterations = 100;
   double step = 0.5;                ///< farthest that the boundary travels in one shape [cells]
   int max_halvings = 6;             ///< of the step, for one shape
@@ -30,8 +33,8 @@ struct OptimizerOptions {
   std::optional<double> target_measure;  ///< of the material in one sector; absent: the initial shape's
 };
 
-/// The last accepted shape and all that the next one depends on: a run resumed from a copy goes on
-/// identically, provided that the objective depends on the shape alone.
+/// The last accepted shape and all that the next one depends on: a run resumed from a copy proceeds
+/// identically.
 template <int dim>
 struct OptimizationState {
   LevelSet<dim> shape;
@@ -42,7 +45,8 @@ struct OptimizationState {
   double step;           ///< to be tried next [cells]
   int since_redistance;  ///< accepted shapes since the last redistancing
   int since_smoothing;
-  std::vector<double> history;  ///< the objective of every accepted shape, the initial one first
+  std::vector<double> history;  ///< the objective of every accepted shape, the initial one first; or, after
+                                ///< the objective was changed, from the shape on that was evaluated anew
 };
 
 enum class Verdict {
@@ -74,10 +78,13 @@ struct Trial {
   LevelSet<dim> shape;  ///< as far as it could be built; at worst the last accepted one
   double measure;       ///< of the material, one sector; NaN when it was not reached
   Verdict verdict;
-  std::optional<Evaluation<dim>> evaluation;  ///< empty when there is none
-  std::optional<Failure> failure;             ///< set when failed
-  std::vector<ShapeEvent<dim>> events;  ///< islands removed; when accepted, also what became of the holes of
-                                        ///< the shape before: the given one for the initial shape
+  std::optional<Evaluation<dim>> evaluation = {};  ///< empty when there is none
+  std::optional<Failure> failure = {};             ///< set when failed
+  std::vector<ShapeEvent<dim>> events =
+      {};  ///< islands removed; when accepted, also what became of the holes of
+           ///< the shape before: the given one for the initial shape
+  /// What the evaluation was computed from; null when there was none.
+  std::shared_ptr<const State<dim>> solution = {};
 };
 
 enum class StopReason {
@@ -121,18 +128,26 @@ std::optional<StopReason> reason_to_stop(const OptimizerOptions& options,
 template <int dim>
 class ShapeOptimizer {
  public:
-  using Objective = std::function<Expected<Evaluation<dim>>(const LevelSet<dim>&)>;
+  /// `previous` is the evaluation of the last accepted shape; null for the first. A failure `interrupted` is
+  /// no failed trial: the trial is forgotten and the loop stops as if asked to.
+  using Evaluate =
+      std::function<Expected<Evaluated<dim>>(const LevelSet<dim>&, const Evaluation<dim>* previous)>;
   /// Sees every trial, accepted or rejected, and the state after it.
   using Observer = std::function<void(const Trial<dim>&, const OptimizationState<dim>&)>;
 
   ShapeOptimizer(const Lattice<dim>& lattice, const EvolutionOptions& evolution,
-                 const OptimizerOptions& options, Objective objective);
+                 const OptimizerOptions& options, Evaluate evaluate);
 
   /// Evaluates the initial shape, cut off at the protected bands and shifted to the target measure, if one is
   /// given and held exactly. The observer sees it as iteration 0.
   Expected<OptimizationState<dim>> start(const LevelSet<dim>& initial, const Observer& observer) const;
 
-  /// Goes on to the next accepted shape; a reason when there is none, the state then stays as it is.
+  /// The state's shape evaluated by this objective, in place of another one under which the shape was found.
+  /// Step and history begin anew. The observer sees it as a trial of the same iteration.
+  Expected<OptimizationState<dim>> restart(const OptimizationState<dim>& state,
+                                           const Observer& observer) const;
+
+  /// Proceeds to the next accepted shape; a reason when there is none, the state then stays as it is.
   /// `stop_requested` is asked before every trial. The observer sees a failure of the velocity as a trial
   /// without a shape of its own.
   std::optional<StopReason> advance(OptimizationState<dim>& state, const Observer& observer,
@@ -142,6 +157,11 @@ class ShapeOptimizer {
   StopReason run(OptimizationState<dim>& state, const Observer& observer,
                  const std::function<bool()>& stop_requested) const;
 
+  const Evolver<dim>& evolver() const { return evolver_; }
+
+  /// The value that is minimized.
+  double objective_of(const Evaluation<dim>& evaluation) const;
+
  private:
   Expected<std::vector<double>> descent_velocity(const OptimizationState<dim>& state) const;
   Trial<dim> attempt(const OptimizationState<dim>& state, std::span<const double> velocity,
@@ -149,7 +169,7 @@ class ShapeOptimizer {
   void evolve(const OptimizationState<dim>& state, std::span<const double> velocity, Trial<dim>& trial) const;
   void finish(Trial<dim>& trial, std::optional<double> target, double boundary_measure) const;
   void add_changes(const LevelSet<dim>& before, Trial<dim>& trial) const;
-  void evaluate(Trial<dim>& trial) const;
+  void evaluate(Trial<dim>& trial, const Evaluation<dim>* previous) const;
   bool is_due(int every, int since, int halvings) const;
   double next_step(const OptimizationState<dim>& state, const Trial<dim>& trial) const;
   OptimizationState<dim> successor(const OptimizationState<dim>& state, const Trial<dim>& trial) const;
@@ -157,7 +177,7 @@ class ShapeOptimizer {
   Lattice<dim> lattice_;
   Evolver<dim> evolver_;
   OptimizerOptions options_;
-  Objective objective_;
+  Evaluate evaluate_;
 };
 
 /// How a run ended: its last accepted shape, or why the initial shape failed.

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "wheelwright/geometry/level_set.h"
-#include "wheelwright/report/ring_field.h"
+#include "wheelwright/state/ring_field.h"
 
 namespace wheelwright {
 

@@ -12,7 +12,7 @@ constexpr double mm = 1e3, MPa = 1e-6, N_per_mm = 1e-3, degree = 180 / std::numb
 constexpr size_t most_harmonics_shown = 4;
 
 /// A quantity over the positions.
-struct Quantity {
+struct ShownQuantity {
   std::string name;
   std::string unit;  ///< for people
   double factor;     ///< from SI to that unit
@@ -31,7 +31,7 @@ RollingVariation travel_variation(const std::vector<ContactSummary>& positions) 
   return rolling_variation(travel);
 }
 
-std::vector<Quantity> quantities(const RollingReport& report) {
+std::vector<ShownQuantity> quantities(const RollingReport& report) {
   const RollingAnalysis& a = report.analysis;
   return {{"rim travel at fixed load", "mm", mm, rolling_variation(a.travel_at_load)},
           {"radial force at fixed travel", "N", report.width, rolling_variation(a.force_at_travel)},
@@ -55,7 +55,8 @@ std::string position_lines(const RollingReport& report) {
   table += fmt::format(words, "azimuth", "stiffness", "pressure", "patch", "von Mises", "energy", "travel at",
                        "force at");
   table += fmt::format(words, "", "", "peak", "length", "peak", "", load_text(report), travel_text(report));
-  table += fmt::format(words, "[deg]", "[N/mm]", "[MPa]", "[mm]", "[MPa]", "[J/m]", "[mm]", "[N]");
+  table += fmt::format(words, "[deg]", "[N/mm]", "[MPa]", "[mm]", "[MPa]",
+                       fmt::format("[{}]", unit<2>(kind(Quantity::strain_energy))), "[mm]", "[N]");
   for (size_t i = 0; i < a.positions.size(); ++i) {
     const ContactSummary& p = a.positions[i];
     const double force = p.radial_force * report.width;
@@ -75,7 +76,7 @@ std::string variation_lines(const RollingReport& report) {
     waves += fmt::format("{:>11}", fmt::format("{} waves", (k + 1) * report.n_sectors));
   std::string table =
       fmt::format("{:<36}{:>11}{:>11}{:>13}{}\n", "in rolling", "mean", "pk to pk", "of the mean", waves);
-  for (const Quantity& q : all) {
+  for (const ShownQuantity& q : all) {
     const RollingVariation& v = q.variation;
     table += fmt::format("{:<36}{:>11.5g}{:>11.4g}{:>11.3g} %", fmt::format("{} [{}]", q.name, q.unit),
                          v.mean * q.factor, v.peak_to_peak() * q.factor, 100 * v.peak_to_peak() / v.mean);
@@ -173,7 +174,7 @@ std::string rolling_table(const RollingReport& report) {
 std::string rolling_json(const RollingReport& report) {
   const RollingAnalysis& a = report.analysis;
   const auto all = quantities(report);
-  const auto variation = [&](const Quantity& q, double factor) {
+  const auto variation = [&](const ShownQuantity& q, double factor) {
     return variation_json(q.variation, factor, report.n_sectors);
   };
   Json json{{"title", report.title},

@@ -1,69 +1,19 @@
 #include "wheelwright/report/solution_fields.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "wheelwright/base/units.h"
 
 namespace wheelwright {
 namespace {
 
 constexpr double no_material = std::numeric_limits<double>::quiet_NaN();
 
-Lattice<2> displacement_lattice(const RollingProblem<2>& problem) {
-  return Lattice<2>(problem.model().grid, problem.model().degree);
-}
-
 }  // namespace
 
-RingField displacement_field(const RollingProblem<2>& problem, const RollingSolution<2>& s, int position) {
-  const Lattice<2> lattice = displacement_lattice(problem);
-  const PolarGrid<2>& grid = lattice.grid();
-  const SectorSpace<2>& space = s.ring.sector().space;
-  const int n_sectors = grid.n_sectors, n_columns = grid.ring_columns(), degree = lattice.degree();
-  const int base_row = degree * problem.core_rows();
-
-  Matrix outer(s.outer_line.rows(), n_sectors), loads(s.tread_loads.rows(), n_columns);
-  std::copy_n(s.outer_line.column(position * n_sectors), outer.entries().size(), outer.data());
-  std::copy_n(s.tread_loads.column(position * n_columns), loads.entries().size(), loads.data());
-  const TreadLoads on_tread = tread_loads(problem.tread(), loads);
-  const Matrix tread =
-      nodal_displacements(problem.tread(), tread_field(problem.tread(), outer, on_tread), on_tread);
-  const int upper_rows = degree * problem.tread().rows();
-
-  const SectorFields core = complete_displacement(s);
-  const double ground_azimuth = s.positions.grounds[position].azimuth(grid);
-  RingField field{2, std::vector<double>(2 * size_t(lattice.n_nodes()) * n_sectors, no_material)};
-  for (int sector = 0; sector < n_sectors; ++sector) {
-    for (int node = 0; node < lattice.n_nodes(); ++node) {
-      const auto p = lattice.node_position(node);
-      Vec<2> polar{};
-      if (p[0] > base_row) {
-        const int column = sector * grid.columns() + p[1] / degree;
-        const int row = 2 * ((p[1] % degree) * upper_rows + p[0] - base_row - 1);
-        polar = {tread(row, column), tread(row + 1, column)};
-      } else if (p[0] > 0) {
-        // Nodes of the first azimuth may belong to the sector before alone.
-        int number = space.number(p), from = sector;
-        if (number < 0 && p[1] == 0) {
-          number = space.number({p[0], lattice.nodes()[1]});
-          from = (sector + n_sectors - 1) % n_sectors;
-        }
-        if (number < 0) continue;
-        const int load_case = position * n_sectors + from;
-        polar = {core.value(load_case, s.ring.row(2 * number)),
-                 core.value(load_case, s.ring.row(2 * number + 1))};
-      }
-      const Vec<2> at = lattice.polar_point(p);
-      const double azimuth = at[1] + sector * grid.sector_angle();
-      const Vec<2> u = rotated<2>(polar, azimuth);
-      const Vec<2> of_rim =
-          rotated<2>(displacement<2>(s.states[position].rim, cartesian<2>({at[0], azimuth - ground_azimuth})),
-                     ground_azimuth);
-      double* value = &field.values[2 * (node + size_t(lattice.n_nodes()) * sector)];
-      for (int d = 0; d < 2; ++d) value[d] = u[d] + of_rim[d];
-    }
-  }
-  return field;
-}
+Lattice<2> displacement_lattice(const RollingModel<2>& model) { return Lattice<2>(model.grid, model.degree); }
 
 RingField vertical_field(const RingField& displacement, double ground_azimuth) {
   const double x = std::cos(ground_azimuth), y = std::sin(ground_azimuth);
@@ -73,45 +23,78 @@ RingField vertical_field(const RingField& displacement, double ground_azimuth) {
   return field;
 }
 
-RingField von_mises_field(const RollingProblem<2>& problem, const RollingSolution<2>& s,
+namespace {
+
+/// The nodes of the full ring that a cell of a row of cells has, in local order.
+std::vector<size_t> cell_nodes(const Lattice<2>& lattice, int radial, int ring_column) {
+  std::vector<size_t> nodes;
+  for (int a = 0; a < nodes_per_cell<2>(lattice.degree()); ++a) {
+    auto p = local_node_position<2>(lattice.degree(), a);
+    p[0] += lattice.degree() * radial;
+    p[1] += lattice.degree() * ring_column;
+    nodes.push_back(ring_node<2>(lattice, p));
+  }
+  return nodes;
+}
+
+/// Strains at the nodes of a cell of this row as a linear map of its dofs: n_strains rows a node.
+Matrix strains_at_nodes(const ElasticElement<2>& element) {
+  const int degree = element.degree();
+  Matrix map(n_strains<2> * element.n_nodes(), element.n_dofs());
+  for (int a = 0; a < element.n_nodes(); ++a) {
+    const auto p = local_node_position<2>(degree, a);
+    const auto point = element.at({double(p[0]) / degree, double(p[1]) / degree});
+    for (int k = 0; k < n_strains<2>; ++k)
+      for (int j = 0; j < element.n_dofs(); ++j) map(n_strains<2> * a + k, j) = point.strain[k][j];
+  }
+  return map;
+}
+
+/// The field's vectors in polar components.
+std::vector<double> polar_values(const Lattice<2>& lattice, const RingField& field) {
+  std::vector<double> polar = field.values;
+  const int per_sector = lattice.nodes()[1];
+  for (int line = 0; line < per_sector * lattice.grid().n_sectors; ++line) {
+    const double azimuth = lattice.polar_point(std::array{0, line % per_sector})[1] +
+                           line / per_sector * lattice.grid().sector_angle();
+    const double cosine = std::cos(azimuth), sine = std::sin(azimuth);
+    for (int row = 0; row < lattice.nodes()[0]; ++row) {
+      double* u = &polar[2 * ring_node<2>(lattice, {row, line})];
+      const Vec<2> cartesian{u[0], u[1]};
+      u[0] = cosine * cartesian[0] + sine * cartesian[1];
+      u[1] = cosine * cartesian[1] - sine * cartesian[0];
+    }
+  }
+  return polar;
+}
+
+}  // namespace
+
+RingField von_mises_field(const RollingModel<2>& model, const CutDomain<2>& domain,
                           const RingField& displacement) {
-  const Lattice<2> lattice = displacement_lattice(problem);
+  const Lattice<2> lattice = displacement_lattice(model);
   const PolarGrid<2>& grid = lattice.grid();
-  const int n_sectors = grid.n_sectors, degree = lattice.degree(), n_nodes = lattice.n_nodes();
-  std::vector<double> sum(size_t(n_nodes) * n_sectors, 0.0);
+  const std::vector<double> polar = polar_values(lattice, displacement);
+  std::vector<double> sum(polar.size() / 2, 0.0);
   std::vector<int> count(sum.size(), 0);
   for (int radial = 0; radial < grid.cells[0]; ++radial) {
-    const auto& element = problem.elements().element(radial);
-    std::vector<ElasticElement<2>::Point> points;
-    for (int a = 0; a < element.n_nodes(); ++a) {
-      const auto p = local_node_position<2>(degree, a);
-      points.push_back(element.at({double(p[0]) / degree, double(p[1]) / degree}));
-    }
-    for (int column = 0; column < grid.columns(); ++column) {
-      if (!s.domain.active(grid.cell_index({radial, column}))) continue;
-      for (int sector = 0; sector < n_sectors; ++sector) {
-        std::array<size_t, 9> nodes;
-        std::array<double, ElasticElement<2>::max_dofs> u;
-        for (int a = 0; a < element.n_nodes(); ++a) {
-          auto p = local_node_position<2>(degree, a);
-          p[0] += degree * radial;
-          p[1] += degree * column;
-          const int node_sector = (sector + p[1] / lattice.nodes()[1]) % n_sectors;
-          nodes[a] = lattice.node_index(p) + size_t(n_nodes) * node_sector;
-          const double azimuth = lattice.polar_point(p)[1] + sector * grid.sector_angle();
-          const Vec<2> polar = rotated<2>(
-              {displacement.values[2 * nodes[a]], displacement.values[2 * nodes[a] + 1]}, -azimuth);
-          u[2 * a] = polar[0];
-          u[2 * a + 1] = polar[1];
-        }
-        for (int a = 0; a < element.n_nodes(); ++a) {
-          Voigt<2> strain{};
-          for (int k = 0; k < n_strains<2>; ++k)
-            for (int j = 0; j < element.n_dofs(); ++j) strain[k] += points[a].strain[k][j] * u[j];
-          sum[nodes[a]] +=
-              von_mises<2>(problem.model().material, stress<2>(problem.model().material, strain));
-          ++count[nodes[a]];
-        }
+    const ElasticElement<2> element(grid, model.degree, {radial});
+    const Material& material = model.materials.in_row(radial);
+    std::vector<std::vector<size_t>> cells;
+    for (int column = 0; column < grid.ring_columns(); ++column)
+      if (domain.active(grid.cell_index({radial, column % grid.columns()})))
+        cells.push_back(cell_nodes(lattice, radial, column));
+    Matrix dofs(element.n_dofs(), static_cast<int>(cells.size()));
+    for (size_t c = 0; c < cells.size(); ++c)
+      for (size_t a = 0; a < cells[c].size(); ++a)
+        std::copy_n(&polar[2 * cells[c][a]], 2, dofs.column(static_cast<int>(c)) + 2 * a);
+    const Matrix strains = product(strains_at_nodes(element), Op::none, dofs, Op::none);
+    for (size_t c = 0; c < cells.size(); ++c) {
+      const double* strain = strains.column(static_cast<int>(c));
+      for (const size_t node : cells[c]) {
+        sum[node] += von_mises<2>(material, stress<2>(material, {strain[0], strain[1], strain[2]}));
+        ++count[node];
+        strain += n_strains<2>;
       }
     }
   }
@@ -121,8 +104,56 @@ RingField von_mises_field(const RollingProblem<2>& problem, const RollingSolutio
   return field;
 }
 
-RingField repeated_field(const RollingProblem<2>& problem, const LevelSet<2>& sector_values) {
-  const Lattice<2> lattice = displacement_lattice(problem);
+namespace {
+
+double ground_azimuth(const StateSolver<2>& solver, int position) {
+  return solver.all_positions().grounds[position].azimuth(solver.model().grid);
+}
+
+/// The fields of a position that was solved for.
+PositionFields fields_of_solved(const StateSolver<2>& solver, const State<2>& state,
+                                const Displacement<2>& displacement, int position) {
+  RingField u = displacement.at_nodes(position);
+  RingField von_mises = von_mises_field(solver.model(), state.domain(), u);
+  return {.lattice = displacement_lattice(solver.model()),
+          .displacement = std::move(u),
+          .von_mises = std::move(von_mises),
+          .ground_azimuth = state.positions().grounds[position].azimuth(solver.model().grid)};
+}
+
+PositionFields mirror_image(const PositionFields& fields, double ground_azimuth) {
+  return {.lattice = fields.lattice,
+          .displacement = wheelwright::mirror_image<2>(fields.lattice, fields.displacement),
+          .von_mises = wheelwright::mirror_image<2>(fields.lattice, fields.von_mises),
+          .ground_azimuth = ground_azimuth};
+}
+
+}  // namespace
+
+PositionFields position_fields(const StateSolver<2>& solver, const State<2>& state, int position) {
+  const PositionSource source = position_sources(state.positions(), solver.model().n_positions)[position];
+  const PositionFields solved = fields_of_solved(solver, state, *state.displacement(), source.solved);
+  return source.is_image ? mirror_image(solved, ground_azimuth(solver, position)) : solved;
+}
+
+std::vector<PositionFields> all_position_fields(const StateSolver<2>& solver, const State<2>& state) {
+  const auto displacement = state.displacement();
+  const auto sources = position_sources(state.positions(), solver.model().n_positions);
+  std::vector<PositionFields> all;
+  for (size_t i = 0; i < sources.size(); ++i)
+    all.push_back(sources[i].is_image
+                      ? mirror_image(all[sources[i].solved], ground_azimuth(solver, static_cast<int>(i)))
+                      : fields_of_solved(solver, state, *displacement, sources[i].solved));
+  return all;
+}
+
+std::vector<NamedField> named_fields(const PositionFields& fields) {
+  return {{"displacement", unit<2>(UnitKind::length), fields.displacement},
+          {"von_mises", unit<2>(UnitKind::stress), fields.von_mises}};
+}
+
+RingField repeated_field(const RollingModel<2>& model, const LevelSet<2>& sector_values) {
+  const Lattice<2> lattice = displacement_lattice(model);
   const PolarGrid<2>& grid = lattice.grid();
   const int degree = lattice.degree(), n_sectors = grid.n_sectors;
   RingField field{1, std::vector<double>(size_t(lattice.n_nodes()) * n_sectors)};
@@ -140,23 +171,51 @@ RingField repeated_field(const RollingProblem<2>& problem, const LevelSet<2>& se
   return field;
 }
 
-std::vector<ContactPoint> contact_points(const RollingProblem<2>& problem, const RollingSolution<2>& s) {
-  const int n_columns = problem.model().grid.ring_columns();
-  const int per_column = static_cast<int>(problem.tread().points().size());
+namespace {
+
+std::vector<ContactPoint> points_of_solved(const StateSolver<2>& solver, const State<2>& state,
+                                           int position) {
+  const ObservationRows<2> rows = solver.tread_surface().rows();
+  const ContactPatch<2>& contact = state.contacts()[position];
   std::vector<ContactPoint> result;
-  for (int position = 0; position < s.positions.size(); ++position) {
-    const auto& contact = s.contacts[position];
-    const auto& state = s.states[position];
-    for (int i = 0; i < contact.n_points(); ++i) {
-      const auto& point = contact.points()[i];
-      const int column = (contact.zone().first_column + i / per_column + n_columns) % n_columns;
-      const int row = 4 * (i % per_column);
-      const double* observed = s.observations.column(position * n_columns + column);
-      const Vec<2> u = rotated<2>({observed[row], observed[row + 1]}, point.angle);
-      const Vec<2> traction = rotated<2>({observed[row + 2], observed[row + 3]}, point.angle);
-      const double approach = u[0] + displacement<2>(state.rim, point.position)[0];
-      result.push_back({position, std::atan2(point.position[1], point.position[0]), point.position[1],
-                        -state.traction[i][0], traction[0], point.gap - approach});
+  for (const auto& point : contact.points) {
+    const double* observed =
+        state.observations().column(position * solver.tread_surface().n_columns + point.column);
+    const double *displacement = observed + rows.displacement(point.point),
+                 *traction = observed + rows.traction(point.point);
+    const Vec<2> u = rotated<2>({displacement[0], displacement[1]}, point.angle);
+    const double approach = u[0] + wheelwright::displacement<2>(contact.rim, point.position)[0];
+    result.push_back({.position = position,
+                      .azimuth = std::atan2(point.position[1], point.position[0]),
+                      .x = point.position[1],
+                      .pressure = -point.traction[0],
+                      .normal_stress = rotated<2>({traction[0], traction[1]}, point.angle)[0],
+                      .gap = point.gap - approach});
+  }
+  return result;
+}
+
+/// What the mirror image of a load position shows, in the same order along the ground.
+std::vector<ContactPoint> mirror_images(std::vector<ContactPoint> points) {
+  std::ranges::reverse(points);
+  for (ContactPoint& p : points) {
+    p.azimuth = -p.azimuth;
+    p.x = -p.x;
+  }
+  return points;
+}
+
+}  // namespace
+
+std::vector<ContactPoint> contact_points(const StateSolver<2>& solver, const State<2>& state) {
+  std::vector<ContactPoint> result;
+  const auto sources = position_sources(state.positions(), solver.model().n_positions);
+  for (size_t position = 0; position < sources.size(); ++position) {
+    auto points = points_of_solved(solver, state, sources[position].solved);
+    if (sources[position].is_image) points = mirror_images(std::move(points));
+    for (ContactPoint& p : points) {
+      p.position = static_cast<int>(position);
+      result.push_back(p);
     }
   }
   return result;

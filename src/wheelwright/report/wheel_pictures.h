@@ -1,20 +1,26 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 
-#include "wheelwright/rolling/rolling_problem.h"
+#include "wheelwright/report/solution_fields.h"
 
 namespace wheelwright {
 
 /// The load position with the largest strain energy.
-int worst_position(const RollingSolution<2>& solution);
+int worst_position(std::span<const double> strain_energy);
 
-/// Draws a solved shape in its worst position: PREFIXstress.svg, PREFIXstress_contact.svg about the contact,
-/// PREFIXdisplacement.svg (towards the ground) and PREFIXmesh.svg (the cut grid). Displacements of the
-/// outline are magnified. Throws OutputError.
-void write_wheel_pictures(const std::filesystem::path& folder, const std::string& prefix,
-                          const std::string& title, const RollingProblem<2>& problem,
-                          const RollingSolution<2>& solution, const LevelSet<2>& shape);
+/// How the pictures of a shape are called.
+struct PictureNames {
+  std::string prefix;  ///< of the files
+  std::string title;
+};
+
+/// Draws a solved shape in one load position: PREFIXstress.svg, PREFIXstress_contact.svg about the contact,
+/// PREFIXdisplacement.svg (towards the ground) and PREFIXmesh.svg (the cut grid, `domain`). Displacements of
+/// the outline are magnified. Throws OutputError.
+void write_wheel_pictures(const std::filesystem::path& folder, const PictureNames& names,
+                          const LevelSet<2>& shape, const CutDomain<2>& domain, const PositionFields& fields);
 
 }  // namespace wheelwright

@@ -1,8 +1,39 @@
 #include "wheelwright/rolling/ring_displacement.h"
 
+#include <array>
+#include <cmath>
 #include <limits>
 
 namespace wheelwright {
+namespace {
+
+/// A rotation about the axle by one angle.
+class Turn {
+ public:
+  explicit Turn(double angle) : cosine_(std::cos(angle)), sine_(std::sin(angle)) {}
+
+  template <std::size_t dim>
+  std::array<double, dim> forward(std::array<double, dim> v) const {
+    return turned(v, sine_);
+  }
+  template <std::size_t dim>
+  std::array<double, dim> back(std::array<double, dim> v) const {
+    return turned(v, -sine_);
+  }
+
+ private:
+  template <std::size_t dim>
+  std::array<double, dim> turned(std::array<double, dim> v, double sine) const {
+    const double x = v[0], y = v[1];
+    v[0] = cosine_ * x - sine * y;
+    v[1] = sine * x + cosine_ * y;
+    return v;
+  }
+
+  double cosine_, sine_;
+};
+
+}  // namespace
 
 template <int dim>
 RingDisplacement<dim>::RingDisplacement(const RollingProblem<dim>& problem,
@@ -17,8 +48,17 @@ RingDisplacement<dim>::RingDisplacement(const RollingProblem<dim>& problem,
   tread_nodes_ = nodal_displacements(problem.tread(), tread_, loads);
 }
 
+/// v in the core: one row per sector, one column per unknown in elimination order.
 template <int dim>
-std::optional<Vec<dim>> RingDisplacement<dim>::at_node(int position, int sector,
+Matrix RingDisplacement<dim>::core_values(int position) const {
+  const int n_sectors = lattice_.grid().n_sectors;
+  const Matrix weights = block(core_.weights, position * n_sectors, 0, n_sectors, core_.weights.columns());
+  return product(weights, Op::none, core_.modes, Op::none);
+}
+
+/// Polar components of v at a node of a sector, from core_values(); nothing at nodes without material.
+template <int dim>
+std::optional<Vec<dim>> RingDisplacement<dim>::at_node(const Matrix& core, int position, int sector,
                                                        const std::array<int, dim>& node) const {
   const PolarGrid<dim>& grid = lattice_.grid();
   const int degree = lattice_.degree(), base_row = degree * problem_.core_rows();
@@ -26,8 +66,7 @@ std::optional<Vec<dim>> RingDisplacement<dim>::at_node(int position, int sector,
   if (node[0] == 0) return polar;
   if (node[0] > base_row) {
     const int column = position * grid.ring_columns() + sector * grid.columns() + node[1] / degree;
-    const double* u = tread_nodes_.column(column) + tread_cells_.row_of_node(node);
-    std::copy_n(u, dim, polar.begin());
+    std::copy_n(tread_nodes_.column(column) + tread_cells_.row_of_node(node), dim, polar.begin());
     return polar;
   }
   // A node of the first azimuth may belong to the sector before alone.
@@ -40,8 +79,7 @@ std::optional<Vec<dim>> RingDisplacement<dim>::at_node(int position, int sector,
     from = (sector + grid.n_sectors - 1) % grid.n_sectors;
   }
   if (number < 0) return {};
-  for (int c = 0; c < dim; ++c)
-    polar[c] = core_.value(position * grid.n_sectors + from, solution_.ring.row(dim * number + c));
+  for (int c = 0; c < dim; ++c) polar[c] = core(from, solution_.ring.row(dim * number + c));
   return polar;
 }
 
@@ -51,18 +89,26 @@ RingField RingDisplacement<dim>::at_nodes(int position) const {
   const PolarGrid<dim>& grid = lattice_.grid();
   const double ground = solution_.positions.grounds[position].azimuth(grid);
   const RimMotion& rim = solution_.states[position].rim;
+  const Matrix core = core_values(position);
   RingField field{dim, std::vector<double>(dim * size_t(lattice_.n_nodes()) * grid.n_sectors, no_material)};
+  const int nodes_per_azimuth = lattice_.n_nodes() / lattice_.nodes()[1];
   for (int sector = 0; sector < grid.n_sectors; ++sector)
-    for (int node = 0; node < lattice_.n_nodes(); ++node) {
-      const auto polar = at_node(position, sector, lattice_.node_position(node));
-      if (!polar) continue;
-      Vec<dim> at = lattice_.polar_point(node);
-      at[1] += sector * grid.sector_angle();
-      const Vec<dim> u = rotated<dim>(*polar, at[1]);
-      at[1] -= ground;
-      const Vec<dim> of_rim = rotated<dim>(wheelwright::displacement<dim>(rim, cartesian<dim>(at)), ground);
-      double* value = &field.values[dim * (node + size_t(lattice_.n_nodes()) * sector)];
-      for (int d = 0; d < dim; ++d) value[d] = u[d] + of_rim[d];
+    for (int line = 0; line < lattice_.nodes()[1]; ++line) {
+      const double azimuth = sector * grid.sector_angle() + line * lattice_.spacing()[1];
+      const Turn from_polar(azimuth), from_ground(azimuth - ground);
+      for (int k = 0; k < nodes_per_azimuth; ++k) {
+        const int node = line * nodes_per_azimuth + k;
+        const auto place = lattice_.node_position(node);
+        const auto v = at_node(core, position, sector, place);
+        if (!v) continue;
+        const double radius = lattice_.polar_point(place)[0];
+        const Vec<dim> of_rim = from_ground.back(
+            wheelwright::displacement<dim>(rim, from_ground.forward(Vec<dim>{radius})));
+        Vec<dim> polar = *v;
+        for (int d = 0; d < dim; ++d) polar[d] += of_rim[d];
+        const Vec<dim> u = from_polar.forward(polar);
+        std::copy(u.begin(), u.end(), &field.values[dim * (node + size_t(lattice_.n_nodes()) * sector)]);
+      }
     }
   return field;
 }

@@ -19,8 +19,9 @@ class RingDisplacement : public Displacement<dim> {
  private:
   /// Displacements of a cell's dofs: one row per dof, one column per (position, sector).
   Matrix cell_displacements(int cell) const;
-  /// Polar components of v at a node of a sector; nothing at nodes without material.
-  std::optional<Vec<dim>> at_node(int position, int sector, const std::array<int, dim>& node) const;
+  Matrix core_values(int position) const;
+  std::optional<Vec<dim>> at_node(const Matrix& core, int position, int sector,
+                                  const std::array<int, dim>& node) const;
 
   const RollingProblem<dim>& problem_;
   const RollingSolution<dim>& solution_;

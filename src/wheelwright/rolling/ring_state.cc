@@ -36,7 +36,7 @@ class RingState : public State<dim> {
     if (!adjoints) return adjoints.failure();
     const double adjoint_seconds = watch.lap();
     auto densities = wheelwright::shape_gradients<dim>(problem_, solution_, functions, *adjoints);
-    return ShapeGradients{std::move(densities), {{"adjoint", adjoint_seconds}, {"gradient", watch.lap()}}};
+    return ShapeGradients{std::move(densities), {{phase::adjoint, adjoint_seconds}, {phase::gradient, watch.lap()}}};
   }
 
   Expected<std::vector<std::vector<ContactPatch<dim>>>> under(

@@ -234,12 +234,12 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& p
   auto domain = cut_domain(psi, model_.cut_points.value_or(model_.degree + 2));
   if (!domain) return domain.failure();
   if (auto failure = check_attached(*domain, protected_rim_rows(), protected_tread_rows())) return *failure;
-  phases.push_back({"cut", watch.lap()});
+  phases.push_back({phase::cut, watch.lap()});
   auto sector = sector_stiffness(*domain, *elements_, core_rows());
-  phases.push_back({"assembly", watch.lap()});
+  phases.push_back({phase::assembly, watch.lap()});
   auto factored = CyclicStiffness<dim>::factor(std::move(sector), outer_stiffness_, harmonics_);
   if (!factored) return factored.failure();
-  phases.push_back({"factorization", watch.lap()});
+  phases.push_back({phase::factorization, watch.lap()});
 
   const int likely_width = 2 * std::min(columns_in_contact(model_), (n_columns - 1) / 2) - 1;
   SurfaceCompliance<dim> surface(*factored, tread_, likely_width);
@@ -266,7 +266,7 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& p
     s.contacts.push_back(std::move(rolled->contact));
     s.states.push_back(std::move(rolled->state));
   }
-  phases.push_back({"contact", watch.lap()});
+  phases.push_back({phase::contact, watch.lap()});
 
   const TreadLoads loads = tread_loads(tread_, s.tread_loads);
   s.outer_line = s.ring.outer_displacements(sum(preloaded.boundary.outer, base_loads(tread_, loads)));
@@ -287,7 +287,7 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& p
     if (!(s.strain_energy[i] > 0))
       return Failure{FailureReason::negative_energy,
                      fmt::format("the strain energy of position {} is {:.4g} J/m", i, s.strain_energy[i])};
-  phases.push_back({"recovery", watch.lap()});
+  phases.push_back({phase::recovery, watch.lap()});
   s.phases = std::move(phases);
   return s;
 }

@@ -7,8 +7,8 @@
 namespace wheelwright {
 namespace {
 
-constexpr std::string_view kind = "CKPT";
-constexpr std::uint32_t version = 1;
+constexpr std::string_view file_kind = "CKPT";
+constexpr std::uint32_t version = 2;
 
 constexpr int largest_int = std::numeric_limits<int>::max();
 
@@ -54,29 +54,73 @@ Matrix read_matrix(ByteReader& reader) {
 }
 
 template <int dim>
-void append(const std::vector<SurfaceSample<dim>>& samples, ByteWriter& writer) {
-  writer.integer(static_cast<std::int64_t>(samples.size()));
-  for (const auto& [cell, xi, normal, weight, value] : samples) {
+void append(const std::vector<SurfacePoint<dim>>& points, ByteWriter& writer) {
+  writer.integer(static_cast<std::int64_t>(points.size()));
+  for (const auto& [cell, xi, normal, weight] : points) {
     writer.integer(cell);
     for (const double x : xi) writer.number(x);
     for (const double x : normal) writer.number(x);
     writer.number(weight);
-    writer.number(value);
   }
 }
 
 template <int dim>
-std::vector<SurfaceSample<dim>> read_samples(ByteReader& reader) {
-  constexpr std::size_t bytes_each = sizeof(std::int64_t) + (2 * dim + 2) * sizeof(double);
-  std::vector<SurfaceSample<dim>> samples(reader.count(bytes_each));
-  for (auto& [cell, xi, normal, weight, value] : samples) {
-    cell = static_cast<int>(reader.integer(0, largest_int, "the cell of a sample of the shape gradient"));
-    for (double& x : xi) x = reader.finite_number("a point of the shape gradient");
-    for (double& x : normal) x = reader.finite_number("a normal of the shape gradient");
-    weight = reader.finite_number("a weight of the shape gradient");
-    value = reader.finite_number("a value of the shape gradient");
+std::vector<SurfacePoint<dim>> read_points(ByteReader& reader) {
+  constexpr std::size_t bytes_each = sizeof(std::int64_t) + (2 * dim + 1) * sizeof(double);
+  std::vector<SurfacePoint<dim>> points(reader.count(bytes_each));
+  for (auto& [cell, xi, normal, weight] : points) {
+    cell = static_cast<int>(reader.integer(0, largest_int, "the cell of a point of the boundary"));
+    for (double& x : xi) x = reader.finite_number("a point of the boundary");
+    for (double& x : normal) x = reader.finite_number("a normal of the boundary");
+    weight = reader.finite_number("a weight of the boundary");
   }
-  return samples;
+  return points;
+}
+
+void append(const std::vector<FunctionValue>& functions, ByteWriter& writer) {
+  writer.integer(static_cast<std::int64_t>(functions.size()));
+  for (const auto& [name, value, by_position, gradient, bounds] : functions) {
+    writer.text(name);
+    writer.number(value);
+    writer.numbers(by_position);
+    writer.numbers(gradient);
+    writer.number(bounds.lower);
+    writer.number(bounds.upper);
+  }
+}
+
+std::vector<FunctionValue> read_functions(ByteReader& reader) {
+  constexpr std::size_t least_bytes_each = 3 * sizeof(std::int64_t) + 3 * sizeof(double);
+  std::vector<FunctionValue> functions(reader.count(least_bytes_each));
+  for (auto& [name, value, by_position, gradient, bounds] : functions) {
+    name = reader.text();
+    value = reader.finite_number("the value of a function");
+    by_position = reader.finite_numbers("the values of a function by position");
+    gradient = reader.finite_numbers("the gradient of a function");
+    bounds.lower = reader.number();
+    bounds.upper = reader.number();
+  }
+  return functions;
+}
+
+void append(const std::vector<TermValue>& terms, ByteWriter& writer) {
+  writer.integer(static_cast<std::int64_t>(terms.size()));
+  for (const auto& [name, value, by_position] : terms) {
+    writer.text(name);
+    writer.number(value);
+    writer.numbers(by_position);
+  }
+}
+
+std::vector<TermValue> read_terms(ByteReader& reader) {
+  constexpr std::size_t least_bytes_each = 2 * sizeof(std::int64_t) + sizeof(double);
+  std::vector<TermValue> terms(reader.count(least_bytes_each));
+  for (auto& [name, value, by_position] : terms) {
+    name = reader.text();
+    value = reader.finite_number("the value of a term");
+    by_position = reader.finite_numbers("the values of a term by position");
+  }
+  return terms;
 }
 
 void append(const std::vector<int>& values, ByteWriter& writer) {
@@ -92,11 +136,10 @@ std::vector<int> read_integers(ByteReader& reader, std::string_view name) {
 
 template <int dim>
 void append(const Evaluation<dim>& evaluation, ByteWriter& writer) {
-  const auto& [objective, criteria, gradient, newton_iterations, mean_observations, phases, measures] =
-      evaluation;
-  writer.number(objective);
-  append_named(criteria, writer);
-  append(gradient, writer);
+  const auto& [functions, terms, boundary, newton_iterations, mean_observations, phases, measures] = evaluation;
+  append(functions, writer);
+  append(terms, writer);
+  append(boundary, writer);
   append(newton_iterations, writer);
   append(mean_observations, writer);
   append_named(phases, writer);
@@ -106,10 +149,10 @@ void append(const Evaluation<dim>& evaluation, ByteWriter& writer) {
 template <int dim>
 Evaluation<dim> read_evaluation(ByteReader& reader) {
   Evaluation<dim> evaluation;
-  auto& [objective, criteria, gradient, newton_iterations, mean_observations, phases, measures] = evaluation;
-  objective = reader.finite_number("the objective");
-  criteria = read_named<CriterionValue>(reader);
-  gradient = read_samples<dim>(reader);
+  auto& [functions, terms, boundary, newton_iterations, mean_observations, phases, measures] = evaluation;
+  functions = read_functions(reader);
+  terms = read_terms(reader);
+  boundary = read_points<dim>(reader);
   newton_iterations = read_integers(reader, "a number of Newton iterations");
   mean_observations = read_matrix(reader);
   phases = read_named<PhaseTime>(reader);
@@ -136,8 +179,11 @@ void append(const OptimizationState<dim>& state, ByteWriter& writer) {
 template <int dim>
 std::string_view misfit(const OptimizationState<dim>& state) {
   const int n_cells = state.shape.lattice.grid().n_cells();
-  for (const auto& sample : state.evaluation.gradient)
-    if (sample.cell >= n_cells) return "a sample of the shape gradient lies outside the grid";
+  for (const auto& point : state.evaluation.boundary)
+    if (point.cell >= n_cells) return "a point of the boundary lies outside the grid";
+  for (const FunctionValue& function : state.evaluation.functions)
+    if (function.gradient.size() != state.evaluation.boundary.size())
+      return "there is not one value of a gradient for every point of the boundary";
   if (state.history.size() != std::size_t(state.iteration) + 1)
     return "there is not one objective for every shape";
   if (!(state.step > 0)) return "the step is not positive";
@@ -220,13 +266,13 @@ std::string checkpoint_file(const Checkpoint<dim>& checkpoint) {
   run.integer(finished ? static_cast<int>(*finished) : -1);
   append(found, run);
   return block_file(
-      kind, version,
+      file_kind, version,
       {{"CASE", origin.bytes()}, {"STAT", current.bytes()}, {"INIT", first.bytes()}, {"RUN ", run.bytes()}});
 }
 
 template <int dim>
 Expected<Checkpoint<dim>, FormatError> parse_checkpoint_file(std::string_view bytes) {
-  const auto blocks = parse_block_file(bytes, kind, version, {"CASE", "STAT", "INIT", "RUN "});
+  const auto blocks = parse_block_file(bytes, file_kind, version, {"CASE", "STAT", "INIT", "RUN "});
   if (!blocks) return blocks.failure();
   ByteReader origin((*blocks)[0]), current((*blocks)[1]), first((*blocks)[2]), run((*blocks)[3]);
   Provenance provenance{origin.text(), origin.text()};

@@ -1,55 +1,54 @@
 #include "wheelwright/run/checkpointer.h"
 
-#include <fmt/format.h>
-
 #include "wheelwright/run/provenance.h"
 
 namespace wheelwright {
 
-Checkpointer::Checkpointer(const Case& c, CheckpointFolder folder, RunRecorder& recorder, Signals& signals,
-                           const std::optional<Checkpoint<2>>& start)
-    : output_(c.output),
-      folder_(std::move(folder)),
-      recorder_(recorder),
-      signals_(signals),
-      provenance_(provenance(c)) {
-  if (!start) return;
-  history_ = start->history;
-  elapsed_ = start->elapsed_seconds;
-  saved_iteration_ = start->state.iteration;
+template <int dim>
+Checkpointer<dim>::Checkpointer(CheckpointFolder folder, const std::optional<Checkpoint<dim>>& resumed)
+    : folder_(std::move(folder)) {
+  if (!resumed) return;
+  elapsed_ = resumed->elapsed_seconds;
+  saved_iteration_ = resumed->state.iteration;
 }
 
-void Checkpointer::operator()(const Trial<2>& trial, const OptimizationState<2>& state) {
-  if (trial.verdict == Verdict::accepted) {
-    history_ = recorder_.history().end();
-    elapsed_ = recorder_.elapsed();
+template <int dim>
+void Checkpointer<dim>::operator()(const Event<dim>& event, const RunView<dim>& run) {
+  if (std::holds_alternative<CaseChanged>(event)) saved_iteration_.reset();
+  if (const auto* done = std::get_if<TrialDone<dim>>(&event)) {
+    if (done->trial.verdict == Verdict::accepted) elapsed_ = run.elapsed_seconds;
+    if (is_due(done->state, run.study.source.output)) write(done->state, run, {});
   }
-  const bool asked = signals_.take_save_request();
-  if (asked || is_due(state)) save(state);
-  if (asked) recorder_.note(fmt::format("shape {} is saved", state.iteration));
+  if (const auto* request = std::get_if<SaveRequested<dim>>(&event))
+    if (saved_iteration_ != request->state.iteration) write(request->state, run, {});
+  if (const auto* ended = std::get_if<RunEnded<dim>>(&event))
+    if (ended->solution && ended->reason != StopReason::gave_up) write(*ended->state, run, ended->reason);
 }
 
-bool Checkpointer::is_due(const OptimizationState<2>& state) const {
-  const auto& [every, seconds] = std::pair(output_.checkpoint_every, output_.checkpoint_seconds);
+template <int dim>
+bool Checkpointer<dim>::is_due(const OptimizationState<dim>& state, const Output& output) const {
+  const auto& [every, seconds] = std::pair(output.checkpoint_every, output.checkpoint_seconds);
   return !saved_iteration_ || (every > 0 && state.iteration - *saved_iteration_ >= every) ||
          (seconds > 0 && since_saved_.seconds() >= seconds);
 }
 
-void Checkpointer::save(const OptimizationState<2>& state) {
-  if (saved_iteration_ != state.iteration) write(state, {});
-}
-
-void Checkpointer::save_finished(const OptimizationState<2>& state, StopReason reason) {
-  write(state, reason);
-}
-
-void Checkpointer::write(const OptimizationState<2>& state, std::optional<StopReason> finished) {
-  recorder_.history().synchronize();
-  folder_.save(state.iteration,
-               checkpoint_file<2>({provenance_, state, *recorder_.initial(), recorder_.expectations().found(),
-                                   history_, elapsed_, finished}));
+template <int dim>
+void Checkpointer<dim>::write(const OptimizationState<dim>& state, const RunView<dim>& run,
+                              std::optional<StopReason> finished) {
+  Checkpoint<dim> checkpoint{.provenance = provenance(run.study.source),
+                             .state = state,
+                             .initial = *run.initial,
+                             .found = {},
+                             .history = {},
+                             .elapsed_seconds = 0,
+                             .finished = finished};
+  for (const auto& observer : run.observers) observer->add_to(checkpoint);
+  folder_.save(state.iteration, checkpoint_file(checkpoint));
   saved_iteration_ = state.iteration;
   since_saved_.lap();
 }
+
+template class Checkpointer<2>;
+template class Checkpointer<3>;
 
 }  // namespace wheelwright

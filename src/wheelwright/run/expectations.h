@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "wheelwright/run/model.h"
-#include "wheelwright/run/checkpoint.h"
+#include "wheelwright/run/observer.h"
 
 namespace wheelwright {
 
@@ -21,22 +20,35 @@ struct Finding {
 };
 
 /// Watches the accepted shapes of a run for what its case expects of them.
-class ExpectationWatch {
+template <int dim>
+class ExpectationWatch : public Observer<dim> {
  public:
-  /// `found` was noted before the run was stopped, if it was.
-  ExpectationWatch(const std::vector<Expectation>& expectations, const std::vector<FoundQuantity>& found);
+  ExpectationWatch(std::vector<Expectation> expectations, const std::optional<Checkpoint<dim>>& resumed);
 
-  /// Notes what is expected of this shape by its number.
-  void operator()(const RollingProblem<2>& problem, const OptimizationState<2>& state);
-
-  /// What was noted of shapes so far.
-  std::vector<FoundQuantity> found() const;
-
-  /// One finding an expectation, in their order; `last` is the last accepted shape.
-  std::vector<Finding> findings(const RollingProblem<2>& problem, const OptimizationState<2>& last) const;
+  void operator()(const Event<dim>& event, const RunView<dim>& run) override;
+  void add_to(Checkpoint<dim>& checkpoint) override;
 
  private:
-  std::vector<Finding> findings_;
+  std::vector<Expectation> expectations_;
+  std::vector<FoundQuantity> found_;
 };
+
+/// The values of what is expected of this shape by its number. `solution` is the shape's, of all load
+/// positions or of those that stand for them.
+template <int dim>
+std::vector<FoundQuantity> found_quantities(const std::vector<Expectation>& expectations,
+                                            const StateSolver<dim>& solver,
+                                            const OptimizationState<dim>& state,
+                                            const State<dim>& solution);
+
+/// One finding for each expectation, in their order: from what was found along the way and from the last
+/// accepted shape. Without the last shape's solution, its stress is not computed.
+template <int dim>
+std::vector<Finding> findings(const std::vector<Expectation>& expectations,
+                              const std::vector<FoundQuantity>& found, const StateSolver<dim>& solver,
+                              const OptimizationState<dim>& last, const State<dim>* solution);
+
+/// Whether any of them is about the stress, which only a solution can tell.
+bool need_a_solution(const std::vector<Expectation>& expectations);
 
 }  // namespace wheelwright

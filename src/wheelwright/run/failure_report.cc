@@ -12,23 +12,28 @@
 #include "wheelwright/report/svg.h"
 
 namespace wheelwright {
-namespace {
 
-std::string headline(const GivenUp& failure) {
-  const Trial<2>& trial = failure.trials.back();
+template <int dim>
+std::string failure_headline(const OptimizationState<dim>* last, std::span<const Trial<dim>> trials) {
+  const Trial<dim>& trial = trials.back();
   const std::string why = fmt::format("{}: {}", to_string(trial.failure->reason), trial.failure->detail);
-  if (!failure.last) return "the initial shape cannot be computed with: " + why;
+  if (!last) return "the initial shape cannot be computed with: " + why;
   return fmt::format("gave up at shape {}: none of {} trial shapes could be computed; the last: {}",
-                     trial.iteration, failure.trials.size(), why);
+                     trial.iteration, trials.size(), why);
 }
 
-std::string report(const GivenUp& failure, const PolarGrid<2>& grid) {
-  std::string text = headline(failure) + "\n\n";
-  if (failure.last)
-    text += fmt::format("last accepted shape: {}, objective {:.8g} J/m, volume {:.6f} of the ring\n",
-                        failure.last->iteration, failure.last->evaluation.objective,
-                        volume_fraction(grid, failure.last->measure));
-  for (const Trial<2>& trial : failure.trials)
+template std::string failure_headline(const OptimizationState<2>*, std::span<const Trial<2>>);
+template std::string failure_headline(const OptimizationState<3>*, std::span<const Trial<3>>);
+
+namespace {
+
+std::string report(const RunEnded<2>& failure, const PolarGrid<2>& grid) {
+  std::string text = failure_headline<2>(failure.state, failure.failed_trials) + "\n\n";
+  if (failure.state)
+    text += fmt::format("last accepted shape: {}, objective {:.8g} {}, volume {:.6f} of the ring\n",
+                        failure.state->iteration, failure.state->evaluation.function("objective").value,
+                        unit<2>(kind(Quantity::objective)), volume_fraction(grid, failure.state->measure));
+  for (const Trial<2>& trial : failure.failed_trials)
     text += fmt::format("trial {} of shape {}: step {:.4g} cells = {:.4g} mm, volume {:.6f}: {}: {}\n",
                         trial.halvings, trial.iteration, trial.step, 1e3 * trial.step * grid.resolution(),
                         volume_fraction(grid, material_measure(trial.shape)),
@@ -36,7 +41,7 @@ std::string report(const GivenUp& failure, const PolarGrid<2>& grid) {
   return text +
          "\n"
          "rejected.svg        the shape that failed last\n"
-         "rejected.levelset   its level set; the format is in src/output/level_set_file.h\n"
+         "rejected.levelset   its level set; the format is in src/wheelwright/files/level_set_file.h\n"
          "accepted.levelset   that of the last accepted shape, if there is one\n"
          "case.toml           the case with every key; `wheelwright check` tells what follows from it\n"
          "../history.csv      every trial of the run\n";
@@ -54,36 +59,41 @@ WheelState wheel(const std::string& heading, const LevelSet<2>& shape, double ob
           objective, volume_fraction(shape.lattice.grid(), measure)};
 }
 
-std::string picture(const GivenUp& failure) {
-  const Trial<2>& trial = failure.trials.back();
+std::string picture(const RunEnded<2>& failure) {
+  const Trial<2>& trial = failure.failed_trials.back();
   const PolarGrid<2>& grid = trial.shape.lattice.grid();
   const std::string reason = to_string(trial.failure->reason);
   const double objective =
-      trial.evaluation ? trial.evaluation->objective : std::numeric_limits<double>::quiet_NaN();
+      trial.evaluation ? trial.evaluation->function("objective").value : std::numeric_limits<double>::quiet_NaN();
   const WheelState rejected =
       wheel("rejected: " + reason, trial.shape, objective, material_measure(trial.shape));
-  if (!failure.last) return shape_svg(grid, rejected.contours, rejected.heading);
-  const OptimizationState<2>& last = *failure.last;
+  if (!failure.state) return shape_svg(grid, rejected.contours, rejected.heading);
+  const OptimizationState<2>& last = *failure.state;
   const WheelState accepted = wheel(fmt::format("shape {}, accepted", last.iteration), last.shape,
-                                    last.evaluation.objective, last.measure);
-  return comparison_svg(
-      grid, {"Where the run gave up", trial.failure->detail, "objective", "J/m", accepted, rejected});
+                                    last.evaluation.function("objective").value, last.measure);
+  return comparison_svg(grid, {.title = "Where the run gave up",
+                               .caption = trial.failure->detail,
+                               .objective_name = std::string(name(Quantity::objective)),
+                               .objective_unit = unit<2>(kind(Quantity::objective)),
+                               .before = accepted,
+                               .after = rejected});
 }
 
 }  // namespace
 
-std::string write_failure(const std::filesystem::path& run_folder, const Case& c, const GivenUp& failure) {
-  const std::filesystem::path folder = run_folder / "failure";
-  make_folder(folder);
-  const LevelSet<2>& rejected = failure.trials.back().shape;
-  write_atomically(folder / "case.toml", to_toml(c));
-  write_atomically(folder / "report.txt", report(failure, rejected.lattice.grid()));
-  write_atomically(folder / "rejected.svg", picture(failure));
-  write_atomically(folder / "rejected.levelset", level_set_file(rejected));
-  if (failure.last) write_atomically(folder / "accepted.levelset", level_set_file(failure.last->shape));
-  return fmt::format(
-      "{}\n  {:<36} every failed trial, and what is in this folder\n  {:<36} the shape that failed\n",
-      headline(failure), (folder / "report.txt").string(), (folder / "rejected.svg").string());
+void FailureReport::operator()(const Event<2>& event, const RunView<2>& run) {
+  const auto* ended = std::get_if<RunEnded<2>>(&event);
+  if (!ended || ended->failed_trials.empty() ||
+      (ended->reason != StopReason::gave_up && ended->reason != StopReason::failed_start))
+    return;
+  make_folder(run.folder / "failure");
+  const LevelSet<2>& rejected = ended->failed_trials.back().shape;
+  write_atomically(run.folder / "failure/case.toml", to_toml(run.study.source));
+  write_atomically(run.folder / failure_report_file, report(*ended, rejected.lattice.grid()));
+  write_atomically(run.folder / rejected_picture_file, picture(*ended));
+  write_atomically(run.folder / "failure/rejected.levelset", level_set_file(rejected));
+  if (ended->state)
+    write_atomically(run.folder / "failure/accepted.levelset", level_set_file(ended->state->shape));
 }
 
 }  // namespace wheelwright

@@ -1,25 +1,26 @@
 #pragma once
 
-#include <filesystem>
-#include <optional>
-#include <span>
 #include <string>
 
-#include "wheelwright/run/model.h"
-#include "wheelwright/optimize/optimizer.h"
+#include "wheelwright/run/observer.h"
 
 namespace wheelwright {
 
-/// Why a run could not go on: its last accepted shape, if there is one, and the trials that failed after it,
-/// in their order; at least one.
-struct GivenUp {
-  std::optional<OptimizationState<2>> last;
-  std::span<const Trial<2>> trials;
-};
+/// Names of the files in a run's folder that tell why it gave up.
+inline constexpr const char *failure_report_file = "failure/report.txt",
+                            *rejected_picture_file = "failure/rejected.svg";
 
-/// Writes what is needed to look into it to RUN_FOLDER/failure: report.txt with every failed trial, a picture
-/// of the last one's shape, its level set and that of the last accepted shape, and the case. Returns the text
-/// for the terminal. Throws OutputError.
-std::string write_failure(const std::filesystem::path& run_folder, const Case& c, const GivenUp& failure);
+/// One line: why a run could not continue. `last` is its last accepted shape, null if there is none; `trials`
+/// are those that failed after it, in their order, at least one.
+template <int dim>
+std::string failure_headline(const OptimizationState<dim>* last, std::span<const Trial<dim>> trials);
+
+/// Writes what is needed to look into a run that gave up to the folder `failure`: report.txt with every
+/// failed trial, a picture of the last one's shape, its level set and that of the last accepted shape, and
+/// the case. In 2D: it draws the shape.
+class FailureReport : public Observer<2> {
+ public:
+  void operator()(const Event<2>& event, const RunView<2>& run) override;
+};
 
 }  // namespace wheelwright

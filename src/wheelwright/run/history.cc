@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
+#include <sstream>
 
+#include "wheelwright/base/quantity.h"
 #include "wheelwright/files/checksum.h"
 #include "wheelwright/files/csv.h"
 #include "wheelwright/files/output_error.h"
@@ -29,6 +31,27 @@ std::string phase_cell(const std::vector<PhaseTime>& phases, const std::string& 
   return csv_number(seconds);
 }
 
+constexpr const char* volume_fraction_column = "volume fraction";
+
+/// What the file's header says between the objective and the column `next`.
+std::vector<HistoryColumns::Quantity> criteria_columns(const std::filesystem::path& path,
+                                                       const std::string& next) {
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  std::istringstream header(line);
+  std::vector<HistoryColumns::Quantity> criteria;
+  bool is_criterion = false;
+  for (std::string cell; std::getline(header, cell, ',');) {
+    const std::size_t open = cell.find(" [");
+    const std::string word = cell.substr(0, open);
+    if (word == next) break;
+    if (is_criterion) criteria.push_back({word, cell.substr(open + 2, cell.size() - open - 3)});
+    is_criterion = is_criterion || word == name(Quantity::objective);
+  }
+  return criteria;
+}
+
 }  // namespace
 
 History::History(std::filesystem::path path, HistoryColumns columns)
@@ -38,8 +61,8 @@ History::History(std::filesystem::path path, HistoryColumns columns)
                                   "objective [" + columns_.objective_unit + "]"};
   for (const auto* quantities : {&columns_.criteria, &columns_.measures})
     for (const auto& q : *quantities) header.push_back(q.name + " [" + q.unit + "]");
-  for (const char* name : {"volume fraction [-]", "step [m]", "max velocity [Pa]", "max newton iterations"})
-    header.push_back(name);
+  header.push_back(std::string(volume_fraction_column) + " [-]");
+  for (const char* name : {"step [m]", "max velocity [Pa]", "max newton iterations"}) header.push_back(name);
   for (const auto& phase : columns_.phases) header.push_back(phase + " [s]");
   for (const char* name : {"trial [s]", "elapsed [s]", "events"}) header.push_back(name);
   write_line(header);
@@ -49,6 +72,8 @@ History::History(std::filesystem::path path, HistoryColumns columns, const Histo
     : path_(std::move(path)), columns_(std::move(columns)), file_(std::fopen(path_.c_str(), "a")), end_(end) {
   if (!file_ || ::ftruncate(::fileno(file_.get()), static_cast<off_t>(end.bytes)) != 0)
     throw OutputError(path_, errno);
+  columns_.criteria = criteria_columns(
+      path_, columns_.measures.empty() ? volume_fraction_column : columns_.measures.front().name);
 }
 
 bool History::holds(const std::filesystem::path& path, const HistoryMark& mark) {

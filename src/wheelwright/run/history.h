@@ -18,7 +18,7 @@ struct HistoryColumns {
     std::string unit;
   };
   std::string objective_unit;       ///< e.g. "J/m"
-  std::vector<Quantity> criteria;   ///< one column each, by the names of Evaluation::criteria
+  std::vector<Quantity> criteria;   ///< one column each, by the names of Evaluation::terms
   std::vector<Quantity> measures;   ///< one column each, by the names of Evaluation::measures
   std::vector<std::string> phases;  ///< one column each, in seconds, by the names of Evaluation::phases
 };
@@ -31,7 +31,7 @@ struct HistoryRow {
   bool accepted;
   std::string reason;  ///< why it was rejected, e.g. "newton_stalled"; empty when accepted
   double objective;
-  std::vector<CriterionValue> criteria;
+  std::vector<TermValue> criteria;
   std::vector<MeasureValue> measures;
   double volume_fraction;     ///< material area over the area of the full ring
   double step;                ///< farthest that the boundary travelled [m]
@@ -42,6 +42,9 @@ struct HistoryRow {
   double elapsed_seconds;                ///< wall time since the run began
   std::vector<std::string> events = {};  ///< what happened to the shape besides the motion of its boundary
 };
+
+/// The name of the file in a run's folder.
+inline constexpr const char* history_file = "history.csv";
 
 /// A place in a history file: behind its first bytes, known by their checksum.
 struct HistoryMark {
@@ -56,7 +59,8 @@ class History {
   /// Replaces the file. Throws OutputError.
   History(std::filesystem::path path, HistoryColumns columns);
 
-  /// Goes on at a place of the file, which must hold it, and drops the rows behind it. Throws OutputError.
+  /// Continues at a place of the file, which must hold it, and drops the rows behind it. The columns of
+  /// criteria are those of the file, whatever `columns` says. Throws OutputError.
   History(std::filesystem::path path, HistoryColumns columns, const HistoryMark& end);
 
   /// Whether the file begins with what the mark was taken of.

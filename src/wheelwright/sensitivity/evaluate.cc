@@ -104,10 +104,10 @@ std::vector<MeasureValue> measures(const State<dim>& state) {
     positions.insert(positions.end(), static_cast<size_t>(state.positions().multiplicities[i]),
                      contact_summary(state.contacts()[i]));
   const RollingMeasures m = rolling_measures(positions);
-  return {{"mean_travel", m.mean_travel},
-          {"run_out", m.run_out},
-          {"peak_pressure", m.peak_pressure},
-          {"pressure_spread", m.pressure_spread}};
+  std::vector<MeasureValue> values;
+  for (const auto& [quantity, member] : rolling_quantities)
+    values.push_back({std::string(name(quantity)), m.*member});
+  return values;
 }
 
 template <int dim>
@@ -154,7 +154,7 @@ Expected<Evaluation<dim>> differentiate(const StateSolver<dim>& solver,
     }
     evaluation.functions.push_back(std::move(value));
   }
-  evaluation.phases.push_back({"criteria", watch.lap()});
+  evaluation.phases.push_back({phase::criteria, watch.lap()});
 
   const auto gradients = state.shape_gradients(derivatives);
   if (!gradients) return gradients.failure();

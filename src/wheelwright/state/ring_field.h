@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
+#include "wheelwright/base/periodic.h"
 #include "wheelwright/geometry/lagrange.h"
 #include "wheelwright/geometry/polar_grid.h"
 
@@ -22,6 +24,35 @@ struct NamedField {
   std::string unit;  ///< e.g. "m"
   RingField field;
 };
+
+/// The index of a node of the full ring: its azimuthal position counts from azimuth 0 round the ring.
+template <int dim>
+std::size_t ring_node(const Lattice<dim>& lattice, std::array<int, dim> position) {
+  const int per_sector = lattice.nodes()[1];
+  const int azimuthal = wrap(position[1], per_sector * lattice.grid().n_sectors);
+  position[1] = azimuthal % per_sector;
+  return lattice.node_index(position) +
+         static_cast<std::size_t>(lattice.n_nodes()) * (azimuthal / per_sector);
+}
+
+/// The mirror image of a field in the plane of azimuth 0: a field with as many components as the space has
+/// dimensions is one of vectors, any other one of scalars.
+template <int dim>
+RingField mirror_image(const Lattice<dim>& lattice, const RingField& field) {
+  RingField image = field;
+  const int per_sector = lattice.nodes()[1];
+  for (int sector = 0; sector < lattice.grid().n_sectors; ++sector)
+    for (int node = 0; node < lattice.n_nodes(); ++node) {
+      auto p = lattice.node_position(node);
+      p[1] += per_sector * sector;
+      const double* from = &field.values[field.components * ring_node<dim>(lattice, p)];
+      p[1] = -p[1];
+      double* to = &image.values[field.components * ring_node<dim>(lattice, p)];
+      std::copy_n(from, field.components, to);
+      if (field.components == dim) to[1] = -to[1];
+    }
+  return image;
+}
 
 /// One component of the field at a point of a sector's cell; `shape` is that point's, of the lattice's
 /// degree.

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "wheelwright/run/model.h"
-#include "wheelwright/report/wheel_pictures.h"
 #include "wheelwright/app/exit_code.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/base/text.h"
@@ -11,6 +9,8 @@
 #include "wheelwright/report/pressure_plot.h"
 #include "wheelwright/report/rolling_report.h"
 #include "wheelwright/report/solution_fields.h"
+#include "wheelwright/report/wheel_pictures.h"
+#include "wheelwright/run/study.h"
 
 namespace wheelwright {
 namespace {
@@ -23,14 +23,14 @@ int give_up(const Failure& failure) {
 }
 
 Expected<RollingReport> rolling_report(const Case& c, const RunOptions& options,
-                                       const RollingProblem<2>& problem, const RollingSolution<2>& solution) {
-  auto analysis = rolling_analysis(problem, solution);
+                                       const StateSolver<2>& solver, const State<2>& solution) {
+  auto analysis = rolling_analysis(solver, solution);
   if (!analysis) return analysis.failure();
   const std::string name = without_control_characters(options.case_file.stem().string());
   RollingReport report{
       c.title.empty() ? name : c.title, c.wheel.width, c.wheel.sectors, *std::move(analysis), {}, {}};
   for (const double load : options.loads) report.loads.push_back(load / c.wheel.width);
-  auto under = under_loads<2>(problem, solution, report.loads);
+  auto under = under_loads<2>(solver, solution, report.loads);
   if (!under) return under.failure();
   report.under_loads = *std::move(under);
   return report;
@@ -58,19 +58,22 @@ int analyze_command(const Case& c, const RunOptions& options) {
     tell("{}: holds an analysis already; choose another folder, or remove it\n", options.output->string());
     return exit_refused;
   }
-  const auto problem = RollingProblem<2>::create(rolling_model(c));
-  if (!problem) return give_up(problem.failure());
-  const LevelSet<2> shape = initial_shape(c);
-  const auto solution = problem->solve(shape);
-  if (!solution) return give_up(solution.failure());
-  const auto report = rolling_report(c, options, *problem, *solution);
+  const auto made = make_solver(rolling_model<2>(c));
+  if (!made) return give_up(made.failure());
+  const StateSolver<2>& solver = **made;
+  const LevelSet<2> shape = initial_shape<2>(c);
+  const auto solved = solver.states(shape, solver.all_positions(), Interrupt());
+  if (!solved) return give_up(solved.failure());
+  const State<2>& states = **solved;
+  const auto report = rolling_report(c, options, solver, states);
   if (!report) return give_up(report.failure());
   fmt::print("{}", options.json
                        ? rolling_json(*report)
                        : without_control_characters(report->title) + "\n\n" + rolling_table(*report));
   if (options.output) {
-    write_folder(*options.output, *report, contact_points(*problem, *solution));
-    write_wheel_pictures(*options.output, "", report->title, *problem, *solution, shape);
+    write_folder(*options.output, *report, contact_points(solver, states));
+    write_wheel_pictures(*options.output, {.prefix = "", .title = report->title}, shape, states.domain(),
+                         position_fields(solver, states, worst_position(states.strain_energy())));
   }
   return exit_done;
 }

@@ -1,30 +1,18 @@
 #include "wheelwright/app/commands/run.h"
 
-#include <fmt/format.h>
-
-#include "wheelwright/run/optimize_case.h"
-#include "wheelwright/app/exit_code.h"
-#include "wheelwright/app/terminal.h"
+#include "wheelwright/app/commands/execute.h"
+#include "wheelwright/app/run_messages.h"
 
 namespace wheelwright {
-namespace {
-
-int begin(const Case& c, const std::filesystem::path& folder) {
-  const CheckpointFolder checkpoints(folder);
-  if (!std::filesystem::exists(folder / "history.csv") && !checkpoints.exists())
-    return optimize_case(c, {folder, checkpoints});
-  tell(
-      "{0}: holds a run already; `wheelwright resume {0}` goes on with it; for a new one choose another "
-      "folder with --output, or remove this one\n",
-      folder.string());
-  return exit_refused;
-}
-
-}  // namespace
 
 int run_command(const Case& c, const RunOptions& options) {
   const std::filesystem::path folder = options.output.value_or(c.output.folder);
-  return in_locked_folder(folder, [&] { return begin(c, folder); });
+  return in_dimension_of(c, [&](auto dim) {
+    Signals signals;
+    auto run = Run<dim>::begin(c, folder);
+    if (!run) return report_not_begun<dim>(run.failure(), folder);
+    return execute(*run, signals);
+  });
 }
 
 }  // namespace wheelwright

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "wheelwright/run/model.h"
 #include "wheelwright/app/exit_code.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/cut/measure.h"
+#include "wheelwright/run/study.h"
 #include "wheelwright/sensitivity/taylor_test.h"
 
 namespace wheelwright {
@@ -69,8 +69,8 @@ double lowest_order(const TaylorTest& test) {
 }
 
 void report_remainders(const TaylorTest& test) {
-  fmt::print("Taylor test of the shape gradient: J = {:.8g} J/m, derivative {:.8g}\n", test.objective,
-             test.derivative);
+  fmt::print("Taylor test of the shape gradient: J = {:.8g} {}, derivative {:.8g}\n", test.value,
+             unit<2>(kind(Quantity::objective)), test.derivative);
   for (size_t k = 0; k < test.steps.size(); ++k)
     fmt::print("  step {:.3e} m  remainder {:.4e}{}\n", test.steps[k], test.remainders[k],
                k == 0 ? "" : fmt::format("  order {:.4f}", test.orders[k - 1]));
@@ -83,39 +83,43 @@ bool report_order(const TaylorTest& test) {
 }
 
 /// The ground's forces and moments on the wheel against those on the rim, in the motions that are free.
-bool report_balance(const RollingSolution<2>& solution, const RimControl& rim) {
+bool report_balance(const State<2>& solution, const RimControl& rim) {
   double worst = 0;
-  for (const auto& state : solution.states)
+  for (const auto& contact : solution.contacts())
     for (const FreeMotion& motion : rim.free)
-      worst = std::max(worst, std::abs(work(state.rim_force, motion.direction) / motion.force - 1));
+      worst = std::max(worst, std::abs(work(contact.rim_force, motion.direction) / motion.force - 1));
   fmt::print("Contact forces against loads, worst of {} positions: {:.2e}, wanted < {:.0e}: {}\n",
-             solution.states.size(), worst, balance_tolerance, verdict(worst < balance_tolerance));
+             solution.contacts().size(), worst, balance_tolerance, verdict(worst < balance_tolerance));
   return worst < balance_tolerance;
 }
 
 /// The objective of a case and its Taylor test at a shape.
-Expected<TaylorTest> test_gradient(const Case& c, const RollingProblem<2>& problem, const LevelSet<2>& shape,
+Expected<TaylorTest> test_gradient(const Case& c, const StateSolver<2>& solver, const LevelSet<2>& shape,
                                    const std::vector<double>& direction, double step) {
-  const auto objective = criteria(c, problem);
-  if (!objective) return objective.failure();
-  return taylor_test<2>([&](const LevelSet<2>& psi) { return evaluate<2>(problem, *objective, psi); }, shape,
-                        direction, c.grid.degree, step, halvings);
+  const auto functions = shape_functions<2>(c, solver);
+  if (!functions) return functions.failure();
+  const auto evaluation = [&](const LevelSet<2>& psi) -> Expected<Evaluation<2>> {
+    auto evaluated = evaluate<2>(solver, *functions, psi);
+    if (!evaluated) return evaluated.failure();
+    return std::move(evaluated->evaluation);
+  };
+  return taylor_test<2>(evaluation, shape, direction, c.grid.degree, step, halvings);
 }
 
 /// The rule on cut cells leaves an error in the gradient that shows where a hole is a few cells wide. Then
 /// the test is made once more with a rule that knows the discrete problem exactly: the bar is for the
 /// gradient.
-Expected<bool> report_taylor(const Case& c, const RollingProblem<2>& problem, const LevelSet<2>& shape,
+Expected<bool> report_taylor(const Case& c, const StateSolver<2>& solver, const LevelSet<2>& shape,
                              const std::vector<double>& direction, double step) {
-  const auto test = test_gradient(c, problem, shape, direction, step);
+  const auto test = test_gradient(c, solver, shape, direction, step);
   if (!test) return test.failure();
   report_remainders(*test);
   if (lowest_order(*test) > least_order) return report_order(*test);
-  RollingModel<2> model = problem.model();
+  RollingModel<2> model = solver.model();
   model.cut_points = exact_cut_points;
-  const auto exact_problem = RollingProblem<2>::create(model);
-  if (!exact_problem) return exact_problem.failure();
-  const auto exact = test_gradient(c, *exact_problem, shape, direction, step);
+  const auto exact_solver = make_solver(model);
+  if (!exact_solver) return exact_solver.failure();
+  const auto exact = test_gradient(c, **exact_solver, shape, direction, step);
   if (!exact) return exact.failure();
   fmt::print(
       "  lowest order {:.4f}: is it the quadrature of cut cells? Once more with {} points a direction\n",
@@ -132,9 +136,10 @@ int give_up(const Failure& failure) {
 }  // namespace
 
 int verify_command(const Case& c, const RunOptions&) {
-  const auto problem = RollingProblem<2>::create(rolling_model(c));
-  if (!problem) return give_up(problem.failure());
-  const LevelSet<2> initial = initial_shape(c);
+  const auto made = make_solver(rolling_model<2>(c));
+  if (!made) return give_up(made.failure());
+  const StateSolver<2>& solver = **made;
+  const LevelSet<2> initial = initial_shape<2>(c);
   const auto direction = test_direction(initial.lattice);
   const double step = 1e-3 * initial.lattice.grid().resolution();
   const auto shape = generic_shape(initial, direction, step);
@@ -142,11 +147,11 @@ int verify_command(const Case& c, const RunOptions&) {
     return give_up({FailureReason::empty_shape,
                     "the case has no boundary that can move without changing its cut cells"});
 
-  const auto taylor = report_taylor(c, *problem, *shape, direction, step);
+  const auto taylor = report_taylor(c, solver, *shape, direction, step);
   if (!taylor) return give_up(taylor.failure());
-  const auto solution = problem->solve(*shape);
-  if (!solution) return give_up(solution.failure());
-  const bool balance = report_balance(*solution, rim_control(problem->model()));
+  const auto states = solver.states(*shape, solver.all_positions(), Interrupt());
+  if (!states) return give_up(states.failure());
+  const bool balance = report_balance(**states, rim_control(solver.model()));
   return *taylor && balance ? exit_done : exit_no_solution;
 }
 

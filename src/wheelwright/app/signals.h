@@ -4,6 +4,8 @@
 #include <map>
 #include <optional>
 
+#include "wheelwright/run/command.h"
+
 namespace wheelwright {
 
 /// While one lives, SIGINT, SIGTERM and SIGHUP no longer end the program: they are noted. A second one of
@@ -20,10 +22,11 @@ class Signals {
   /// SIGINT, SIGTERM or SIGHUP, when one came.
   std::optional<int> stop() const;
 
-  /// Whether SIGUSR1 came since the last call.
-  bool take_save_request();
+  /// A source of commands for a run: Stop, once, and Save.
+  std::optional<Command> next_command();
 
  private:
+  bool stop_is_passed_on_ = false;
   std::map<int, struct sigaction> before_;
 };
 

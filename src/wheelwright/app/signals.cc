@@ -1,4 +1,4 @@
-#include "wheelwright/run/signals.h"
+#include "wheelwright/app/signals.h"
 
 #include <unistd.h>
 
@@ -53,10 +53,14 @@ std::optional<int> Signals::stop() const {
   return signal == 0 ? std::nullopt : std::optional(signal);
 }
 
-bool Signals::take_save_request() {
-  const bool requested = save_requested != 0;
-  save_requested = 0;
-  return requested;
+std::optional<Command> Signals::next_command() {
+  if (save_requested != 0) {
+    save_requested = 0;
+    return Save{};
+  }
+  if (!stop() || stop_is_passed_on_) return {};
+  stop_is_passed_on_ = true;
+  return Stop{};
 }
 
 }  // namespace wheelwright

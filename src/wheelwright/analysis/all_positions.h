@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "wheelwright/state/load_positions.h"
+
+namespace wheelwright {
+
+/// Where the state of a load position is found: a position that was solved for, or the mirror image of that
+/// state in the plane of azimuth 0.
+struct PositionSource {
+  int solved;     ///< index of a solved position
+  bool is_image;  ///< whether its state must be reflected
+};
+
+/// The sources of all n load positions of a sector. Where a position was left out because another stands for
+/// it, position i is the image of position n - i.
+std::vector<PositionSource> position_sources(const LoadPositions& solved, int n);
+
+}  // namespace wheelwright

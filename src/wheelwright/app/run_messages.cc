@@ -1,0 +1,159 @@
+#include "wheelwright/app/run_messages.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <csignal>
+
+#include "wheelwright/app/terminal.h"
+#include "wheelwright/run/failure_report.h"
+
+namespace wheelwright {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Tells what was expected and how it turned out.
+int report_findings(const std::vector<Finding>& findings) {
+  const auto unmet = std::ranges::count_if(findings, [](const Finding& f) { return !f.met(); });
+  if (!findings.empty())
+    fmt::print("expected   {} of {} values found\n", findings.size() - unmet, findings.size());
+  for (const Finding& finding : findings)
+    if (!finding.met()) tell("wheelwright: {}\n", finding.text());
+  return unmet > 0 ? exit_unexpected : exit_done;
+}
+
+void report_unusable(const std::vector<UnusableCheckpoint>& unusable) {
+  for (const auto& [file, reason] : unusable)
+    tell("{}: cannot be used, trying the one before it: {}\n", file.string(), reason);
+}
+
+/// One overload for each reason not to begin.
+template <int dim>
+struct NotBegunReport {
+  const fs::path& folder;
+
+  int operator()(const FolderInUse&) const {
+    tell("{}: another run is writing to this folder\n", folder.string());
+    return exit_refused;
+  }
+  int operator()(const FolderHoldsARun&) const {
+    tell(
+        "{0}: holds a run already; `wheelwright resume {0}` goes on with it; for a new one choose another "
+        "folder with --output, or remove this one\n",
+        folder.string());
+    return exit_refused;
+  }
+  int operator()(const CheckpointsGone&) const {
+    tell("{}: its checkpoints are gone; it cannot go on\n", folder.string());
+    return exit_checkpoint;
+  }
+  int operator()(const NoUsableCheckpoint& none) const {
+    report_unusable(none.unusable);
+    tell("{}: no checkpoint can be used\n", folder.string());
+    return exit_checkpoint;
+  }
+  int operator()(const CheckpointMisfit& misfit) const {
+    tell("{}: {}\n", folder.string(), misfit.reason);
+    return exit_checkpoint;
+  }
+  int operator()(const AlreadyFinished<dim>& finished) const {
+    report_unusable(finished.unusable);
+    const Checkpoint<dim>& end = finished.end;
+    fmt::print("{}: finished: {} shapes ({})\n", folder.string(), end.state.iteration,
+               to_string(*end.finished));
+    if (end.finished == StopReason::iterations)
+      fmt::print("to go further: wheelwright resume {} --iterations N\n", folder.string());
+    return report_findings(finished.findings);
+  }
+  int operator()(const Failure& failure) const {
+    tell("wheelwright: {}: {}\n", to_string(failure.reason), failure.detail);
+    return exit_no_solution;
+  }
+};
+
+/// 2D: of what make_observers() writes there.
+void print_files(const fs::path& folder) {
+  for (const auto& [file, meaning] :
+       {std::pair{"comparison.svg", "before and after"},
+        {"shape.svg", "the shape in true scale, for cutting"},
+        {"stress.svg", "the loaded wheel; stress_contact.svg about the contact"},
+        {"displacement.svg", "the loaded wheel, how far its points come down"},
+        {"mesh.svg", "the grid and the cells that the boundary cuts"},
+        {"history.csv", "every trial shape"},
+        {"shapes.pvd", "all shapes, for ParaView"},
+        {"rolling.pvd", "all load positions, for ParaView"}})
+    if (fs::exists(folder / file)) fmt::print("  {:<36} {}\n", (folder / file).string(), meaning);
+}
+
+template <int dim>
+void print_summary(const RunResult<dim>& result, const fs::path& folder) {
+  const InitialShape<dim>& first = *result.initial;
+  const OptimizationState<dim>& last = *result.state;
+  const PolarGrid<dim>& grid = last.shape.lattice.grid();
+  fmt::print("objective  {:.6g} -> {:.6g} {} ({:+.2f} %) after {} shapes in {:.1f} s ({})\n", first.objective,
+             last.evaluation.function("objective").value, unit<dim>(kind(Quantity::objective)),
+             100 * (last.evaluation.function("objective").value / first.objective - 1), last.iteration, result.elapsed_seconds,
+             to_string(result.reason));
+  fmt::print("volume     {:.6f} -> {:.6f} of the ring\n", volume_fraction(grid, first.measure),
+             volume_fraction(grid, last.measure));
+  print_files(folder);
+}
+
+template <int dim>
+int report_failure(const RunResult<dim>& result, const fs::path& folder) {
+  tell("wheelwright: {}\n",
+       failure_headline<dim>(result.state ? &*result.state : nullptr, result.failed_trials));
+  const auto line = [&](const char* file, const char* meaning) {
+    if (fs::exists(folder / file)) tell("  {:<36} {}\n", (folder / file).string(), meaning);
+  };
+  line(failure_report_file, "every failed trial, and what is in this folder");
+  line(rejected_picture_file, "the shape that failed");
+  return exit_no_solution;
+}
+
+ExitCode exit_code_of_stop(const Signals& signals) {
+  const auto signal = signals.stop();
+  return signal == SIGINT ? exit_interrupted : signal == SIGHUP ? exit_hung_up : exit_terminated;
+}
+
+}  // namespace
+
+template <int dim>
+int report_not_begun(const NotBegun<dim>& reason, const fs::path& folder) {
+  return std::visit(NotBegunReport<dim>{folder}, reason);
+}
+
+void report_resumption(const Resumption& resumption, const fs::path& folder) {
+  report_unusable(resumption.unusable);
+  if (!resumption.shape) {
+    tell("{}: no checkpoint yet; the run begins\n", folder.string());
+    return;
+  }
+  if (resumption.other_program)
+    tell("warning: saved by {}; the last digits may differ from a run without a stop\n",
+         *resumption.other_program);
+  tell("{}: going on after shape {}\n", folder.string(), *resumption.shape);
+}
+
+template <int dim>
+int report_result(const RunResult<dim>& result, const fs::path& folder, const Signals& signals) {
+  if (result.reason == StopReason::stop_requested) {
+    tell("stopped after {} shapes, saved; to go on: wheelwright resume {}\n",
+         result.state ? result.state->iteration : 0, folder.string());
+    return exit_code_of_stop(signals);
+  }
+  if (result.reason == StopReason::failed_start) return report_failure(result, folder);
+  print_summary(result, folder);
+  if (result.reason == StopReason::gave_up) return report_failure(result, folder);
+  return report_findings(result.findings);
+}
+
+#define WHEELWRIGHT_INSTANTIATE(dim)                                    \
+  template int report_not_begun(const NotBegun<dim>&, const fs::path&); \
+  template int report_result(const RunResult<dim>&, const fs::path&, const Signals&);
+WHEELWRIGHT_INSTANTIATE(2)
+WHEELWRIGHT_INSTANTIATE(3)
+#undef WHEELWRIGHT_INSTANTIATE
+
+}  // namespace wheelwright

@@ -1,0 +1,64 @@
+#include "wheelwright/app/terminal_observer.h"
+
+#include <fmt/format.h>
+
+#include "wheelwright/app/terminal.h"
+
+namespace wheelwright {
+namespace {
+
+template <int dim>
+std::string reason(const Trial<dim>& trial) {
+  return trial.failure ? fmt::format("{} ({})", to_string(trial.failure->reason), trial.failure->detail)
+                       : to_string(trial.verdict);
+}
+
+template <int dim>
+void print_weights(const WeightedSum<dim>& terms) {
+  for (const auto& [weight, functional] : terms)
+    if (terms.size() > 1) tell("objective: {:.6g} * {}\n", weight, functional->name());
+}
+
+}  // namespace
+
+template <int dim>
+void TerminalObserver<dim>::operator()(const Event<dim>& event, const RunView<dim>& run) {
+  if (const auto* started = std::get_if<RunStarted>(&event)) begin(*started, run);
+  if (const auto* done = std::get_if<TrialDone<dim>>(&event)) show(*done, run);
+  if (const auto* command = std::get_if<CommandDone>(&event); command && !command->text.empty())
+    progress_.note((command->was_obeyed ? "" : "refused: ") + command->text);
+  if (std::holds_alternative<RunEnded<dim>>(event)) progress_.end();
+}
+
+template <int dim>
+void TerminalObserver<dim>::begin(const RunStarted& started, const RunView<dim>& run) {
+  print_weights(run.study.objective().terms);
+  if (started.resumed_after) return;
+  for (const auto& event : lost_on_the_grid<dim>(run.study.source))
+    progress_.note("warning: the grid is too coarse for the case's holes: " + text(event));
+}
+
+template <int dim>
+void TerminalObserver<dim>::show(const TrialDone<dim>& done, const RunView<dim>& run) {
+  const auto& [trial, state, seconds] = done;
+  if (trial.verdict != Verdict::accepted) {
+    progress_.note(
+        fmt::format("shape {}: {}, step {:.3g} cells halved", trial.iteration, reason(trial), trial.step));
+    return;
+  }
+  for (const auto& event : trial.events)
+    progress_.note(fmt::format("shape {}: {}", trial.iteration, text(event)));
+  const PolarGrid<dim>& grid = run.study.grid();
+  progress_.show({.shape = state.iteration,
+                  .n_shapes = run.study.optimizer.iterations,
+                  .objective = state.evaluation.function("objective").value,
+                  .initial_objective = state.history.front(),
+                  .volume_fraction = volume_fraction(grid, state.measure),
+                  .step = trial.step * grid.resolution(),
+                  .elapsed_seconds = run.elapsed_seconds});
+}
+
+template class TerminalObserver<2>;
+template class TerminalObserver<3>;
+
+}  // namespace wheelwright

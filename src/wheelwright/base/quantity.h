@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+#include "wheelwright/base/units.h"
+
+namespace wheelwright {
+
+/// The scalars that describe a shape: the objective and its terms, what history.csv records besides, and the
+/// peak stress.
+enum class Quantity {
+  objective,
+  strain_energy,
+  uniformity_annulus,
+  uniformity_dual,
+  uniformity_l2,
+  mean_travel,
+  run_out,
+  peak_pressure,
+  pressure_spread,
+  volume_fraction,
+  peak_von_mises,
+};
+
+struct QuantityDescription {
+  std::string_view name;  ///< the word for case files and history.csv
+  UnitKind kind;
+};
+
+/// In the order of the enumerators: the one place for names and units.
+inline constexpr std::array<QuantityDescription, 11> quantity_descriptions{
+    {{"objective", UnitKind::energy},
+     {"strain_energy", UnitKind::energy},
+     {"uniformity_annulus", UnitKind::energy},
+     {"uniformity_dual", UnitKind::energy},
+     {"uniformity_l2", UnitKind::energy},
+     {"mean_travel", UnitKind::length},
+     {"run_out", UnitKind::length},
+     {"peak_pressure", UnitKind::stress},
+     {"pressure_spread", UnitKind::ratio},
+     {"volume_fraction", UnitKind::ratio},
+     {"peak_von_mises", UnitKind::stress}}};
+
+constexpr std::string_view name(Quantity quantity) {
+  return quantity_descriptions[static_cast<std::size_t>(quantity)].name;
+}
+constexpr UnitKind kind(Quantity quantity) {
+  return quantity_descriptions[static_cast<std::size_t>(quantity)].kind;
+}
+
+/// Their names alone, in the order of the enumerators.
+inline constexpr auto quantity_names = [] {
+  std::array<std::string_view, quantity_descriptions.size()> names{};
+  for (std::size_t i = 0; i < names.size(); ++i) names[i] = quantity_descriptions[i].name;
+  return names;
+}();
+
+}  // namespace wheelwright

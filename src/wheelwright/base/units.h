@@ -1,0 +1,28 @@
+#pragma once
+
+namespace wheelwright {
+
+/// Kinds of numbers that are shown to the user, all in SI units.
+enum class UnitKind { energy, force, torque, length, stress, ratio };
+
+/// The unit of each kind. In 2D, energies, forces and torques are those of one metre of width.
+template <int dim>
+constexpr const char* unit(UnitKind kind) {
+  switch (kind) {
+    case UnitKind::energy:
+      return dim == 2 ? "J/m" : "J";
+    case UnitKind::force:
+      return dim == 2 ? "N/m" : "N";
+    case UnitKind::torque:
+      return dim == 2 ? "N" : "N m";
+    case UnitKind::length:
+      return "m";
+    case UnitKind::stress:
+      return "Pa";
+    case UnitKind::ratio:
+      return "-";
+  }
+  return "";
+}
+
+}  // namespace wheelwright

@@ -1,0 +1,75 @@
+#include "wheelwright/run/command.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <vector>
+
+namespace wheelwright {
+namespace {
+
+Obeyed changed(RunControl& run, const Case& c, const std::string& what) {
+  if (auto refusal = run.change_case(c, what)) return *std::move(refusal);
+  return what;
+}
+
+std::string load_text(const Load& load) {
+  std::string text = load.travel ? fmt::format("rim travel {:.6g} m", *load.travel)
+                                 : fmt::format("force {:.6g} N", load.force);
+  if (load.horizontal_force != 0) text += fmt::format(", horizontal force {:.6g} N", load.horizontal_force);
+  if (load.torque != 0) text += fmt::format(", torque {:.6g} N m", load.torque);
+  if (load.hole_pressure != 0) text += fmt::format(", hole pressure {:.6g} Pa", load.hole_pressure);
+  if (load.body_force != Load{}.body_force)
+    text += fmt::format(", body force {:.6g} N/m^3", fmt::join(load.body_force, " and "));
+  return text + fmt::format(", {} positions", load.positions);
+}
+
+}  // namespace
+
+Obeyed Save::obey(RunControl& run) const {
+  run.save();
+  return fmt::format("shape {} is saved", run.iteration());
+}
+
+Obeyed Stop::obey(RunControl& run) const {
+  run.stop();
+  return std::string();
+}
+
+Obeyed Pause::obey(RunControl& run) const {
+  run.pause(0);
+  return fmt::format("paused after shape {}", run.iteration());
+}
+
+Obeyed Continue::obey(RunControl& run) const {
+  run.go_on();
+  return std::string("continued");
+}
+
+Obeyed Step::obey(RunControl& run) const {
+  run.pause(1);
+  return fmt::format("one more shape after shape {}", run.iteration());
+}
+
+Obeyed NewWeights::obey(RunControl& run) const {
+  Case c = run.current_case();
+  std::vector<std::string> words;
+  const auto set = [&](Quantity quantity, const std::optional<double>& weight, double& place) {
+    if (!weight) return;
+    place = *weight;
+    words.push_back(fmt::format("{} {:.6g}", name(quantity), *weight));
+  };
+  set(Quantity::strain_energy, strain_energy, c.objective.strain_energy);
+  set(Quantity::uniformity_annulus, uniformity_annulus, c.objective.uniformity_annulus);
+  set(Quantity::uniformity_dual, uniformity_dual, c.objective.uniformity_dual);
+  set(Quantity::uniformity_l2, uniformity_l2, c.objective.uniformity_l2);
+  return changed(run, c, fmt::format("new weights: {}", fmt::join(words, ", ")));
+}
+
+Obeyed NewLoad::obey(RunControl& run) const {
+  Case c = run.current_case();
+  c.load = load;
+  return changed(run, c, "new load: " + load_text(load));
+}
+
+}  // namespace wheelwright

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "wheelwright/run/command.h"
+
+namespace wheelwright {
+
+/// Commands on their way to a run. Any thread may push them; the run takes them between its trial shapes, in
+/// their order.
+class CommandQueue {
+ public:
+  /// Something that is asked for a command from time to time: at least before every trial shape, and several
+  /// times a second while a shape is evaluated or the run is paused.
+  using Source = std::function<std::optional<Command>()>;
+
+  void push(Command command);
+  /// A source must not touch the queue.
+  void add_source(Source source);
+
+  /// The next command, if there is one.
+  std::optional<Command> take();
+
+  /// The next command; waits for it without using the processor.
+  Command wait();
+
+  /// How many commands to stop are waiting. To be called often while a shape is evaluated.
+  int waiting_stops();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void ask_sources();
+
+  std::mutex mutex_;
+  std::condition_variable pushed_;
+  std::deque<Command> commands_;
+  std::vector<Source> sources_;
+  Clock::time_point asked_ = Clock::now();
+};
+
+}  // namespace wheelwright

@@ -1,0 +1,99 @@
+#include "wheelwright/run/history_writer.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "wheelwright/analysis/rolling_measures.h"
+
+namespace wheelwright {
+namespace {
+
+HistoryColumns::Quantity column(std::string name, const char* unit) { return {std::move(name), unit}; }
+
+template <int dim>
+HistoryColumns history_columns(const ShapeFunction<dim>& objective) {
+  HistoryColumns columns{.objective_unit = unit<dim>(kind(Quantity::objective)),
+                         .criteria = {},
+                         .measures = {},
+                         .phases = {phase_names.begin(), phase_names.end()}};
+  for (const auto& term : objective.terms)
+    columns.criteria.push_back(column(term.functional->name(), unit<dim>(UnitKind::energy)));
+  for (const auto& [quantity, member] : rolling_quantities)
+    columns.measures.push_back(column(std::string(name(quantity)), unit<dim>(kind(quantity))));
+  return columns;
+}
+
+template <int dim>
+std::string reason(const Trial<dim>& trial) {
+  if (trial.verdict == Verdict::accepted) return "";
+  return trial.failure ? to_string(trial.failure->reason) : to_string(trial.verdict);
+}
+
+}  // namespace
+
+template <int dim>
+HistoryWriter<dim>::HistoryWriter(const std::optional<Checkpoint<dim>>& resumed) {
+  if (resumed) resumed_at_ = accepted_ = resumed->history;
+}
+
+template <int dim>
+void HistoryWriter<dim>::operator()(const Event<dim>& event, const RunView<dim>& run) {
+  if (std::holds_alternative<RunStarted>(event)) open(run);
+  if (const auto* changed = std::get_if<CaseChanged>(&event)) notes_.push_back(changed->text);
+  if (const auto* done = std::get_if<TrialDone<dim>>(&event)) record(*done, run);
+}
+
+template <int dim>
+void HistoryWriter<dim>::add_to(Checkpoint<dim>& checkpoint) {
+  history_->synchronize();
+  checkpoint.history = accepted_;
+}
+
+template <int dim>
+void HistoryWriter<dim>::open(const RunView<dim>& run) {
+  const auto path = run.folder / history_file;
+  auto columns = history_columns(run.study.objective());
+  if (resumed_at_)
+    history_.emplace(path, std::move(columns), *resumed_at_);
+  else
+    history_.emplace(path, std::move(columns));
+}
+
+template <int dim>
+void HistoryWriter<dim>::record(const TrialDone<dim>& done, const RunView<dim>& run) {
+  const Trial<dim>& trial = done.trial;
+  const PolarGrid<dim>& grid = run.study.grid();
+  HistoryRow row{.iteration = trial.iteration,
+                 .trial = trial.halvings,
+                 .accepted = trial.verdict == Verdict::accepted,
+                 .reason = reason(trial),
+                 .objective = std::numeric_limits<double>::quiet_NaN(),
+                 .criteria = {},
+                 .measures = {},
+                 .volume_fraction = volume_fraction(grid, trial.measure),
+                 .step = trial.step * grid.resolution(),
+                 .max_velocity = trial.max_velocity,
+                 .max_newton_iterations = 0,
+                 .phases = {},
+                 .trial_seconds = done.seconds,
+                 .elapsed_seconds = run.elapsed_seconds,
+                 .events = std::move(notes_)};
+  notes_.clear();
+  for (const auto& event : trial.events) row.events.push_back(text(event));
+  if (trial.evaluation) {
+    const auto& newton = trial.evaluation->newton_iterations;
+    row.objective = trial.evaluation->function("objective").value;
+    row.criteria = trial.evaluation->terms;
+    row.measures = trial.evaluation->measures;
+    row.max_newton_iterations = newton.empty() ? 0 : *std::max_element(newton.begin(), newton.end());
+    row.phases = trial.evaluation->phases;
+  }
+  row.phases.push_back({phase::evolution, trial.evolution_seconds});
+  history_->add(row);
+  if (row.accepted) accepted_ = history_->end();
+}
+
+template class HistoryWriter<2>;
+template class HistoryWriter<3>;
+
+}  // namespace wheelwright

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+
+#include "wheelwright/run/history.h"
+#include "wheelwright/run/observer.h"
+
+namespace wheelwright {
+
+/// Writes history.csv: one row per trial shape. A change of the case is an event of the row of the shape that
+/// is evaluated anew. The columns are those of the criteria that the run began with.
+template <int dim>
+class HistoryWriter : public Observer<dim> {
+ public:
+  explicit HistoryWriter(const std::optional<Checkpoint<dim>>& resumed);
+
+  void operator()(const Event<dim>& event, const RunView<dim>& run) override;
+  void add_to(Checkpoint<dim>& checkpoint) override;
+
+ private:
+  void open(const RunView<dim>& run);
+  void record(const TrialDone<dim>& done, const RunView<dim>& run);
+
+  std::optional<HistoryMark> resumed_at_;
+  std::optional<History> history_;
+  HistoryMark accepted_;            ///< its end at the last accepted shape
+  std::vector<std::string> notes_;  ///< for the next row
+};
+
+}  // namespace wheelwright

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "wheelwright/run/checkpoint.h"
+#include "wheelwright/run/study.h"
+
+namespace wheelwright {
+
+// What happens in a run, as its observers are told. References and pointers are good during the call only.
+
+/// The run begins, or resumes after this shape.
+struct RunStarted {
+  std::optional<int> resumed_after;
+};
+
+/// A shape was tried. `state` is the last accepted one, this trial's if it was accepted. When the case of the
+/// run changed, the current shape is evaluated anew, as an accepted trial of the same iteration.
+template <int dim>
+struct TrialDone {
+  const Trial<dim>& trial;
+  const OptimizationState<dim>& state;
+  double seconds;  ///< of this trial
+};
+
+/// The last accepted shape should be saved now, unless it is.
+template <int dim>
+struct SaveRequested {
+  const OptimizationState<dim>& state;
+};
+
+/// A command was obeyed, or refused.
+struct CommandDone {
+  std::string text;  ///< what was done, or why it was refused; may be empty
+  bool was_obeyed;
+};
+
+/// The case is another one from now on (RunView::study); the current shape is evaluated anew next.
+struct CaseChanged {
+  std::string text;  ///< what changed
+};
+
+/// The run ended. After a stop by request there are no results to write.
+template <int dim>
+struct RunEnded {
+  StopReason reason;
+  const OptimizationState<dim>* state;        ///< the last accepted shape; null after a failed start
+  const State<dim>* solution;       ///< its solution; null when there are no results to write
+  std::span<const Trial<dim>> failed_trials;  ///< after the last accepted shape
+};
+
+template <int dim>
+using Event =
+    std::variant<RunStarted, TrialDone<dim>, SaveRequested<dim>, CommandDone, CaseChanged, RunEnded<dim>>;
+
+template <int dim>
+class Observer;
+
+template <int dim>
+using Observers = std::vector<std::unique_ptr<Observer<dim>>>;
+
+/// The run at the time of an event.
+template <int dim>
+struct RunView {
+  const std::filesystem::path& folder;
+  const Study<dim>& study;
+  const Evolver<dim>& evolver;       ///< the loop's
+  const InitialShape<dim>* initial;  ///< null before the first shape
+  double elapsed_seconds;            ///< computed so far, before a resumption too
+  const Observers<dim>& observers;   ///< all of them, for whom a checkpoint asks
+};
+
+/// Watches a run. The run knows nothing of what its observers do; none of them solves or factors anything. To
+/// add one: a class like this in a file of its own, and its line in make_observers() (run/observers.cc), or
+/// in a call of Run::add() from outside.
+template <int dim>
+class Observer {
+ public:
+  virtual ~Observer() = default;
+
+  /// Throws OutputError if it writes files.
+  virtual void operator()(const Event<dim>& event, const RunView<dim>& run) = 0;
+
+  /// Adds to a checkpoint what this observer needs when the run is resumed after the last accepted shape;
+  /// files that it refers to are on the disk then. Throws OutputError.
+  virtual void add_to(Checkpoint<dim>&) {}
+};
+
+}  // namespace wheelwright

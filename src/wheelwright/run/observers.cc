@@ -1,0 +1,37 @@
+#include "wheelwright/run/observers.h"
+
+#include "wheelwright/run/checkpointer.h"
+#include "wheelwright/run/expectations.h"
+#include "wheelwright/run/failure_report.h"
+#include "wheelwright/run/history_writer.h"
+#include "wheelwright/run/pressure_files.h"
+#include "wheelwright/run/result_files.h"
+#include "wheelwright/run/shape_files.h"
+
+namespace wheelwright {
+
+template <int dim>
+Observers<dim> make_observers(const Case& c, const CheckpointFolder& checkpoints,
+                              const std::optional<Checkpoint<dim>>& resumed) {
+  Observers<dim> observers;
+  observers.push_back(std::make_unique<HistoryWriter<dim>>(resumed));
+  if constexpr (dim == 2) {
+    observers.push_back(std::make_unique<ShapeFiles>());
+    observers.push_back(std::make_unique<ShapePictures>());
+  }
+  observers.push_back(std::make_unique<ExpectationWatch<dim>>(c.expectations, resumed));
+  if constexpr (dim == 2) {
+    observers.push_back(std::make_unique<PressureFiles>());
+    observers.push_back(std::make_unique<ResultFiles>());
+    observers.push_back(std::make_unique<FailureReport>());
+  }
+  observers.push_back(std::make_unique<Checkpointer<dim>>(checkpoints, resumed));
+  return observers;
+}
+
+template Observers<2> make_observers(const Case&, const CheckpointFolder&,
+                                     const std::optional<Checkpoint<2>>&);
+template Observers<3> make_observers(const Case&, const CheckpointFolder&,
+                                     const std::optional<Checkpoint<3>>&);
+
+}  // namespace wheelwright

@@ -1,0 +1,81 @@
+#include "wheelwright/run/resume_point.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "wheelwright/run/provenance.h"
+
+namespace wheelwright {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Why a checkpoint cannot be used, in words.
+struct Unusable {
+  std::string reason;
+};
+
+Expected<std::string, Unusable> read_file(const fs::path& file) {
+  constexpr std::uintmax_t most_bytes = 1 << 30;
+  std::error_code error;
+  const auto size = fs::file_size(file, error);
+  if (error) return Unusable{error.message()};
+  if (size > most_bytes) return Unusable{"larger than any checkpoint"};
+  std::string bytes(size, '\0');
+  if (!std::ifstream(file, std::ios::binary).read(bytes.data(), static_cast<std::streamsize>(size)))
+    return Unusable{"cannot be read"};
+  return bytes;
+}
+
+/// The first line of a case in which `now` differs from `then`.
+std::string first_difference(const std::string& then, const std::string& now) {
+  std::istringstream lines_then(then), lines_now(now);
+  std::string a, b;
+  while (std::getline(lines_then, a) && std::getline(lines_now, b))
+    if (a != b) return fmt::format("it said \"{}\" and now says \"{}\"", a, b);
+  return "it has other keys";
+}
+
+template <int dim>
+Expected<Checkpoint<dim>, Unusable> read_checkpoint(const fs::path& file, const Case& c,
+                                                    const fs::path& history) {
+  const auto bytes = read_file(file);
+  if (!bytes) return bytes.failure();
+  auto checkpoint = parse_checkpoint_file<dim>(*bytes);
+  if (!checkpoint)
+    return Unusable{
+        fmt::format("{}: {}", to_string(checkpoint.failure().fault), checkpoint.failure().detail)};
+  const std::string &then = checkpoint->provenance.resolved_case, now = provenance(c).resolved_case;
+  if (then != now) return Unusable{fmt::format("written for another case: {}", first_difference(then, now))};
+  const Lattice<dim> lattice(polar_grid<dim>(c), c.grid.level_set_degree);
+  for (const LevelSet<dim>* psi : {&checkpoint->state.shape, &checkpoint->initial.shape})
+    if (psi->lattice.grid() != lattice.grid() || psi->lattice.degree() != lattice.degree())
+      return Unusable{"its shape stands on another grid than the case's"};
+  if (!History::holds(history, checkpoint->history))
+    return Unusable{fmt::format("{} does not hold the rows that were written before it", history.string())};
+  return *std::move(checkpoint);
+}
+
+}  // namespace
+
+template <int dim>
+ResumePoint<dim> resume_point(const fs::path& folder, const Case& c) {
+  ResumePoint<dim> point{CheckpointFolder(folder), {}, {}};
+  for (const fs::path& file : point.checkpoints.files()) {
+    auto checkpoint = read_checkpoint<dim>(file, c, folder / history_file);
+    if (checkpoint) {
+      point.checkpoints.keep(file);
+      point.newest = *std::move(checkpoint);
+      break;
+    }
+    point.unusable.push_back({file, checkpoint.failure().reason});
+  }
+  return point;
+}
+
+template ResumePoint<2> resume_point(const fs::path&, const Case&);
+template ResumePoint<3> resume_point(const fs::path&, const Case&);
+
+}  // namespace wheelwright

@@ -1,0 +1,116 @@
+#include "wheelwright/run/run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include "wheelwright/run/observers.h"
+#include "wheelwright/run/provenance.h"
+#include "wheelwright/run/run_loop.h"
+
+namespace wheelwright {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Whether the history tells of trials after the initial shape, which is saved before them.
+bool has_trials(const fs::path& history) {
+  constexpr std::ptrdiff_t header_and_initial_shape = 2;
+  std::ifstream file(history, std::ios::binary);
+  return std::count(std::istreambuf_iterator<char>(file), {}, '\n') > header_and_initial_shape;
+}
+
+template <int dim>
+bool is_finished(const Checkpoint<dim>& checkpoint, const Case& c) {
+  if (!checkpoint.finished) return false;
+  return checkpoint.finished == StopReason::no_descent ||
+         reason_to_stop(optimizer_options<dim>(c), checkpoint.state);
+}
+
+/// What the case expects of a run that ended there.
+template <int dim>
+Expected<std::vector<Finding>> findings_at(const Case& c, const Checkpoint<dim>& end) {
+  if (c.expectations.empty()) return std::vector<Finding>{};
+  const auto study = make_study<dim>(c);
+  if (!study) return study.failure();
+  if (!need_a_solution(c.expectations))
+    return findings<dim>(c.expectations, end.found, *study->solver, end.state, nullptr);
+  const auto states = study->solver->states(end.state.shape, study->solver->all_positions(), Interrupt());
+  return findings<dim>(c.expectations, end.found, *study->solver, end.state,
+                       states ? states->get() : nullptr);
+}
+
+template <int dim>
+NotBegun<dim> already_finished(const Case& c, Checkpoint<dim> end, std::vector<UnusableCheckpoint> unusable) {
+  auto found = findings_at(c, end);
+  if (!found) return found.failure();
+  return AlreadyFinished<dim>{std::move(end), *std::move(found), std::move(unusable)};
+}
+
+/// Whether the checkpoint's mean contact stress is one of this problem's tread.
+template <int dim>
+bool fits(const OptimizationState<dim>& state, const StateSolver<dim>& solver) {
+  const Matrix& mean = state.evaluation.mean_observations;
+  const TreadSurface<dim>& tread = solver.tread_surface();
+  return mean.rows() == tread.rows().size() && mean.columns() == tread.n_columns;
+}
+
+}  // namespace
+
+template <int dim>
+Run<dim>::Run(FolderLock lock, fs::path folder, Study<dim> study, Resumption resumption,
+              CheckpointFolder checkpoints, std::optional<Checkpoint<dim>> checkpoint)
+    : lock_(std::move(lock)),
+      folder_(std::move(folder)),
+      study_(std::move(study)),
+      resumption_(std::move(resumption)),
+      checkpoint_(std::move(checkpoint)),
+      observers_(make_observers<dim>(study_.source, checkpoints, checkpoint_)) {}
+
+template <int dim>
+Expected<Run<dim>, NotBegun<dim>> Run<dim>::begin(const Case& c, const fs::path& folder) {
+  auto lock = FolderLock::acquire(folder);
+  if (!lock) return NotBegun<dim>(FolderInUse{});
+  const CheckpointFolder checkpoints(folder);
+  if (fs::exists(folder / history_file) || checkpoints.exists()) return NotBegun<dim>(FolderHoldsARun{});
+  auto study = make_study<dim>(c);
+  if (!study) return NotBegun<dim>(study.failure());
+  return Run(*std::move(lock), folder, *std::move(study), {}, checkpoints, {});
+}
+
+template <int dim>
+Expected<Run<dim>, NotBegun<dim>> Run<dim>::resume(const Case& c, const fs::path& folder) {
+  auto lock = FolderLock::acquire(folder);
+  if (!lock) return NotBegun<dim>(FolderInUse{});
+  auto [checkpoints, checkpoint, unusable] = resume_point<dim>(folder, c);
+  if (!checkpoint && !unusable.empty()) return NotBegun<dim>(NoUsableCheckpoint{std::move(unusable)});
+  if (!checkpoint && has_trials(folder / history_file)) return NotBegun<dim>(CheckpointsGone{});
+  if (checkpoint && is_finished(*checkpoint, c))
+    return already_finished(c, *std::move(checkpoint), std::move(unusable));
+
+  auto study = make_study<dim>(c);
+  if (!study) return NotBegun<dim>(study.failure());
+  Resumption resumption{.unusable = std::move(unusable), .shape = {}, .other_program = {}};
+  if (checkpoint) {
+    if (!fits(checkpoint->state, *study->solver))
+      return NotBegun<dim>(CheckpointMisfit{"the checkpoint's mean contact stress does not fit the tread"});
+    resumption.shape = checkpoint->state.iteration;
+    if (checkpoint->provenance.program != program_text())
+      resumption.other_program = checkpoint->provenance.program;
+  }
+  return Run(*std::move(lock), folder, *std::move(study), std::move(resumption), checkpoints,
+             std::move(checkpoint));
+}
+
+template <int dim>
+RunResult<dim> Run<dim>::execute(CommandQueue& commands) {
+  RunLoop<dim> loop(folder_, study_, observers_, commands);
+  return checkpoint_ ? loop.resume(*checkpoint_) : loop.begin();
+}
+
+template class Run<2>;
+template class Run<3>;
+
+}  // namespace wheelwright

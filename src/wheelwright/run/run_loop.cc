@@ -1,0 +1,264 @@
+#include "wheelwright/run/run_loop.h"
+
+#include <fmt/format.h>
+
+#include "wheelwright/case/read.h"
+#include "wheelwright/case/write.h"
+#include "wheelwright/files/atomic_file.h"
+#include "wheelwright/run/provenance.h"
+
+namespace wheelwright {
+namespace {
+
+constexpr const char* case_file = "case.toml";
+
+std::string problem_text(const Diagnostic& d) {
+  return fmt::format("{}{}{}: {}{}{}", d.key, d.value.empty() ? "" : " = ", d.value, d.problem,
+                     d.remedy.empty() ? "" : "; ", d.remedy);
+}
+
+/// The case if a file with it would be accepted.
+Expected<Case, Refusal> checked(const Case& c) {
+  CaseResult result = parse_case(to_toml(c), case_file);
+  if (result.value) return *std::move(result.value);
+  std::string reason;
+  for (const Diagnostic& problem : result.problems)
+    reason += (reason.empty() ? "" : "; ") + problem_text(problem);
+  return Refusal{reason};
+}
+
+Refusal refusal(const Failure& failure) {
+  return {fmt::format("{}: {}", to_string(failure.reason), failure.detail)};
+}
+
+}  // namespace
+
+template <int dim>
+RunLoop<dim>::RunLoop(const std::filesystem::path& folder, Study<dim> study, const Observers<dim>& observers,
+                      CommandQueue& commands)
+    : folder_(folder),
+      observers_(observers),
+      commands_(commands),
+      stop_file_(std::make_shared<StopFile>(folder)),
+      work_(make_work(std::move(study))) {
+  commands_.add_source([file = stop_file_] { return (*file)(); });
+}
+
+template <int dim>
+std::shared_ptr<const typename RunLoop<dim>::Work> RunLoop<dim>::make_work(Study<dim> study) {
+  const Interrupt interrupt([this] { return commands_.waiting_stops() > stops_before_; });
+  auto evaluate = evaluate_of(study, interrupt);
+  ShapeOptimizer<dim> optimizer(study.initial.lattice, study.evolution, study.optimizer, evaluate);
+  return std::make_shared<const Work>(Work{std::move(study), std::move(evaluate), std::move(optimizer)});
+}
+
+template <int dim>
+RunResult<dim> RunLoop<dim>::begin() {
+  write_case_file();
+  notify(RunStarted{});
+  stops_before_ = commands_.waiting_stops();
+  auto state = work_->optimizer.start(
+      work_->study.initial,
+      [this](const Trial<dim>& trial, const OptimizationState<dim>& first) { observe(trial, first); });
+  stops_before_ = 0;
+  if (!state) return end_without_a_shape(state.failure());
+  state_ = *std::move(state);
+  return advance();
+}
+
+template <int dim>
+RunResult<dim> RunLoop<dim>::resume(const Checkpoint<dim>& checkpoint) {
+  write_case_file();
+  state_ = checkpoint.state;
+  initial_ = checkpoint.initial;
+  elapsed_ = checkpoint.elapsed_seconds;
+  notify(RunStarted{.resumed_after = state_->iteration});
+  return advance();
+}
+
+template <int dim>
+RunResult<dim> RunLoop<dim>::advance() {
+  const auto observer = [this](const Trial<dim>& trial, const OptimizationState<dim>& state) {
+    observe(trial, state);
+  };
+  while (!is_stopped_) {
+    const auto work = work_;  // a command may replace it while the loop is in it
+    const auto reason = work->optimizer.advance(*state_, observer, [this] { return must_yield(); });
+    if (reason && *reason != StopReason::stop_requested) return end(*reason);
+    if (reason) must_yield();  // an evaluation was interrupted: by a command to stop
+  }
+  return end(StopReason::stop_requested);
+}
+
+template <int dim>
+RunResult<dim> RunLoop<dim>::end(StopReason reason) {
+  save();
+  stop_file_->remove();
+  if (reason == StopReason::stop_requested) {
+    notify(RunEnded<dim>{reason, &*state_, nullptr, {}});
+    return result(reason);
+  }
+  const SharedSolution solution = final_solution();
+  notify(RunEnded<dim>{reason, &*state_, solution.get(), failed_trials_});
+  RunResult<dim> ended = result(reason);
+  ended.findings = findings_at_the_end(solution.get());
+  return ended;
+}
+
+template <int dim>
+RunResult<dim> RunLoop<dim>::end_without_a_shape(const Failure& failure) {
+  stop_file_->remove();
+  if (failure.reason == FailureReason::interrupted) {
+    notify(RunEnded<dim>{StopReason::stop_requested, nullptr, nullptr, {}});
+    return result(StopReason::stop_requested);
+  }
+  failed_trials_ = {{.iteration = 0,
+                     .halvings = 0,
+                     .step = 0,
+                     .max_velocity = 0,
+                     .evolution_seconds = 0,
+                     .shape = work_->study.initial,
+                     .measure = 0,
+                     .verdict = Verdict::failed,
+                     .failure = failure}};
+  notify(RunEnded<dim>{StopReason::failed_start, nullptr, nullptr, failed_trials_});
+  return result(StopReason::failed_start);
+}
+
+template <int dim>
+RunResult<dim> RunLoop<dim>::result(StopReason reason) const {
+  return {.reason = reason,
+          .state = state_,
+          .initial = initial_,
+          .failed_trials = failed_trials_,
+          .findings = {},
+          .elapsed_seconds = elapsed_};
+}
+
+template <int dim>
+std::vector<Finding> RunLoop<dim>::findings_at_the_end(const State<dim>* solution) {
+  const auto& expectations = work_->study.source.expectations;
+  if (expectations.empty()) return {};
+  Checkpoint<dim> noted{.provenance = {},
+                        .state = *state_,
+                        .initial = *initial_,
+                        .found = {},
+                        .history = {},
+                        .elapsed_seconds = 0,
+                        .finished = {}};
+  for (const auto& observer : observers_) observer->add_to(noted);
+  return findings<dim>(expectations, noted.found, *work_->study.solver, *state_, solution);
+}
+
+/// The loop's own solution of the last accepted shape, if it is known to be the last when it is accepted. It
+/// is solved again where other shapes were tried after it, and in a resumed run that had ended: until then
+/// the memory of a solution is not held.
+template <int dim>
+typename RunLoop<dim>::SharedSolution RunLoop<dim>::final_solution() {
+  if (last_solution_) return last_solution_;
+  const StateSolver<dim>& solver = *work_->study.solver;
+  auto states = solver.states(state_->shape, solver.distinct_positions(state_->shape), Interrupt());
+  return states ? *std::move(states) : nullptr;
+}
+
+template <int dim>
+void RunLoop<dim>::observe(const Trial<dim>& trial, const OptimizationState<dim>& state) {
+  const double seconds = watch_.lap();
+  elapsed_ += seconds;
+  if (trial.verdict == Verdict::accepted) {
+    failed_trials_.clear();
+    if (!initial_) initial_ = InitialShape<dim>{state.shape, work_->optimizer.objective_of(state.evaluation), state.measure};
+    last_solution_ = reason_to_stop(work_->study.optimizer, state) ? trial.solution : nullptr;
+  } else if (trial.verdict == Verdict::failed) {
+    failed_trials_.push_back(trial);
+    failed_trials_.back().solution.reset();
+  }
+  notify(TrialDone<dim>{trial, state, seconds});
+  elapsed_ += watch_.lap();
+}
+
+template <int dim>
+void RunLoop<dim>::notify(const Event<dim>& event) {
+  const RunView<dim> view{.folder = folder_,
+                          .study = work_->study,
+                          .evolver = work_->optimizer.evolver(),
+                          .initial = initial_ ? &*initial_ : nullptr,
+                          .elapsed_seconds = elapsed_,
+                          .observers = observers_};
+  for (const auto& observer : observers_) (*observer)(event, view);
+}
+
+template <int dim>
+void RunLoop<dim>::write_case_file() const {
+  write_atomically(folder_ / case_file,
+                   fmt::format("# {}\n\n{}", program_text(), to_toml(work_->study.source)));
+}
+
+/// Obeys the commands that wait; whether the loop must return: to end, or to proceed with another case.
+template <int dim>
+bool RunLoop<dim>::must_yield() {
+  const auto work = work_;
+  while (!is_stopped_) {
+    const auto command = commands_.take();
+    if (!command) break;
+    obey(*command);
+  }
+  wait_while_paused();
+  return is_stopped_ || work_ != work;
+}
+
+template <int dim>
+void RunLoop<dim>::wait_while_paused() {
+  const auto is_paused = [this] { return !is_stopped_ && pause_at_ && state_->iteration >= *pause_at_; };
+  if (!is_paused()) return;
+  elapsed_ += watch_.lap();
+  while (is_paused()) obey(commands_.wait());
+  watch_.lap();  // the pause does not count
+}
+
+template <int dim>
+void RunLoop<dim>::obey(const Command& command) {
+  const Obeyed obeyed = std::visit(
+      [this](const auto& c) -> Obeyed { return c.obey(static_cast<RunControl&>(*this)); }, command);
+  if (obeyed)
+    notify(CommandDone{*obeyed, true});
+  else
+    notify(CommandDone{obeyed.failure().reason, false});
+}
+
+template <int dim>
+void RunLoop<dim>::pause(int after_shapes) {
+  const int from = after_shapes > 0 ? std::max(state_->iteration, pause_at_.value_or(0)) : state_->iteration;
+  pause_at_ = from + after_shapes;
+}
+
+template <int dim>
+std::optional<Refusal> RunLoop<dim>::change_case(const Case& changed, const std::string& what) {
+  const auto c = checked(changed);
+  if (!c) return c.failure();
+  if (polar_grid<dim>(*c) != work_->study.grid() ||
+      c->grid.level_set_degree != state_->shape.lattice.degree())
+    return Refusal{"the shape stands on another grid than the case's"};
+  auto study = make_study<dim>(*c);
+  if (!study) return refusal(study.failure());
+  const auto work = make_work(*std::move(study));
+  const auto first = work->evaluate(initial_->shape, nullptr);
+  if (!first) return refusal(first.failure());
+  std::optional<Trial<dim>> trial;
+  auto anew = work->optimizer.restart(
+      *state_, [&](const Trial<dim>& seen, const OptimizationState<dim>&) { trial = seen; });
+  if (!anew) return refusal(anew.failure());
+
+  work_ = work;
+  initial_->objective = first->evaluation.function("objective").value;
+  state_ = *std::move(anew);
+  notify(CaseChanged{what});
+  observe(*trial, *state_);  // saved by the checkpointer, before case.toml says so
+  write_case_file();
+  return {};
+}
+
+template class RunLoop<2>;
+template class RunLoop<3>;
+
+}  // namespace wheelwright

@@ -1,0 +1,74 @@
+#pragma once
+
+#include "wheelwright/base/stopwatch.h"
+#include "wheelwright/run/run.h"
+#include "wheelwright/run/stop_file.h"
+
+namespace wheelwright {
+
+/// The loop of a run with its observers and commands: what Run::execute() does.
+template <int dim>
+class RunLoop : private RunControl {
+ public:
+  /// All but the study, which a command may replace, must outlive this.
+  RunLoop(const std::filesystem::path& folder, Study<dim> study, const Observers<dim>& observers,
+          CommandQueue& commands);
+
+  /// From the initial shape, or from a checkpoint, to the end. Throws OutputError.
+  RunResult<dim> begin();
+  RunResult<dim> resume(const Checkpoint<dim>& checkpoint);
+
+ private:
+  using SharedSolution = std::shared_ptr<const State<dim>>;
+
+  /// What the loop works on. A change of the case replaces it as a whole.
+  struct Work {
+    Study<dim> study;
+    typename ShapeOptimizer<dim>::Evaluate evaluate;
+    ShapeOptimizer<dim> optimizer;
+  };
+  std::shared_ptr<const Work> make_work(Study<dim> study);
+
+  // RunControl
+  const Case& current_case() const override { return work_->study.source; }
+  int iteration() const override { return state_->iteration; }
+  void save() override { notify(SaveRequested<dim>{*state_}); }
+  void stop() override { is_stopped_ = true; }
+  void pause(int after_shapes) override;
+  void go_on() override { pause_at_.reset(); }
+  std::optional<Refusal> change_case(const Case& changed, const std::string& what) override;
+
+  RunResult<dim> advance();
+  RunResult<dim> end(StopReason reason);
+  RunResult<dim> end_without_a_shape(const Failure& failure);
+  std::vector<Finding> findings_at_the_end(const State<dim>* solution);
+  RunResult<dim> result(StopReason reason) const;
+  SharedSolution final_solution();
+
+  void observe(const Trial<dim>& trial, const OptimizationState<dim>& state);
+  bool must_yield();
+  void obey(const Command& command);
+  void wait_while_paused();
+  void notify(const Event<dim>& event);
+  void write_case_file() const;
+
+  const std::filesystem::path& folder_;
+  const Observers<dim>& observers_;
+  CommandQueue& commands_;
+  std::shared_ptr<StopFile> stop_file_;
+  int stops_before_ =
+      0;  ///< commands to stop that were waiting when the run began: they let the first shape finish
+
+  std::shared_ptr<const Work> work_;
+  std::optional<OptimizationState<dim>> state_;
+  std::optional<InitialShape<dim>> initial_;
+  std::vector<Trial<dim>> failed_trials_;
+  SharedSolution last_solution_;  ///< of the last accepted shape, kept when nothing follows it
+
+  bool is_stopped_ = false;
+  std::optional<int> pause_at_;  ///< the number of the shape after which the run waits
+  Stopwatch watch_;
+  double elapsed_ = 0;
+};
+
+}  // namespace wheelwright

@@ -1,0 +1,75 @@
+#include "wheelwright/run/shape_files.h"
+
+#include <fmt/format.h>
+
+#include "wheelwright/files/atomic_file.h"
+#include "wheelwright/report/solution_fields.h"
+#include "wheelwright/report/wheel_pictures.h"
+#include "wheelwright/run/run_title.h"
+
+namespace wheelwright {
+namespace {
+
+std::string shape_file(int iteration) { return fmt::format("shapes/shape_{:04d}.vtu", iteration); }
+
+bool is_due(const TrialDone<2>& done, int every) {
+  return done.trial.verdict == Verdict::accepted && done.trial.solution && every > 0 &&
+         done.state.iteration % every == 0;
+}
+
+/// The extended shape gradient at the nodes, in the unit of its density; nothing where it cannot be computed.
+std::optional<LevelSet<2>> shape_gradient_field(const OptimizationState<2>& state,
+                                                const Evolver<2>& evolver) {
+  auto velocity = evolver.velocity(state.evaluation.gradient("objective"));
+  if (!velocity) return {};
+  for (double& value : *velocity) value = -value;
+  return LevelSet<2>{state.shape.lattice, *std::move(velocity)};
+}
+
+}  // namespace
+
+void ShapeFiles::operator()(const Event<2>& event, const RunView<2>& run) {
+  if (const auto* started = std::get_if<RunStarted>(&event); started && started->resumed_after)
+    list_shapes(run.folder, *started->resumed_after);
+  if (const auto* done = std::get_if<TrialDone<2>>(&event);
+      done && is_due(*done, run.study.source.output.vtu_every))
+    write(*done, run);
+}
+
+void ShapeFiles::list_shapes(const std::filesystem::path& folder, int last_iteration) {
+  for (int iteration = 0; iteration <= last_iteration; ++iteration)
+    if (std::filesystem::exists(folder / shape_file(iteration)))
+      shapes_.push_back({static_cast<double>(iteration), shape_file(iteration)});
+  if (!shapes_.empty()) write_pvd(folder / "shapes.pvd", shapes_);
+}
+
+void ShapeFiles::write(const TrialDone<2>& done, const RunView<2>& run) {
+  const StateSolver<2>& solver = *run.study.solver;
+  const State<2>& solution = *done.trial.solution;
+  const PositionFields worst = position_fields(solver, solution, worst_position(solution.strain_energy()));
+  auto fields = named_fields(worst);
+  if (const auto gradient = shape_gradient_field(done.state, run.evolver))
+    fields.push_back({"shape_gradient", unit<2>(UnitKind::stress), repeated_field(solver.model(), *gradient)});
+  const int iteration = done.state.iteration;
+  make_folder(run.folder / "shapes");
+  write_vtu(run.folder / shape_file(iteration), done.state.shape, worst.lattice, fields,
+            vtu_cut_subdivisions);
+  std::erase_if(shapes_, [&](const PvdEntry& entry) { return entry.time == iteration; });
+  shapes_.push_back({static_cast<double>(iteration), shape_file(iteration)});
+  write_pvd(run.folder / "shapes.pvd", shapes_);
+}
+
+void ShapePictures::operator()(const Event<2>& event, const RunView<2>& run) {
+  const auto* done = std::get_if<TrialDone<2>>(&event);
+  if (!done || !is_due(*done, run.study.source.output.pictures_every)) return;
+  const State<2>& solution = *done->trial.solution;
+  make_folder(run.folder / "shapes");
+  write_wheel_pictures(
+      run.folder / "shapes",
+      {.prefix = fmt::format("shape_{:04d}_", done->state.iteration),
+       .title = fmt::format("{}, shape {}", run_title(run.study.source), done->state.iteration)},
+      done->state.shape, solution.domain(),
+      position_fields(*run.study.solver, solution, worst_position(solution.strain_energy())));
+}
+
+}  // namespace wheelwright

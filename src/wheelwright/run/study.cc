@@ -1,0 +1,236 @@
+#include "wheelwright/run/study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "wheelwright/case/derived.h"
+#include "wheelwright/evolution/volume.h"
+#include "wheelwright/functionals/material_volume.h"
+#include "wheelwright/functionals/mean_contact_stress.h"
+#include "wheelwright/functionals/strain_energy.h"
+#include "wheelwright/functionals/uniformity_annulus.h"
+#include "wheelwright/functionals/uniformity_dual.h"
+#include "wheelwright/functionals/uniformity_l2.h"
+#include "wheelwright/geometry/components.h"
+#include "wheelwright/rolling/rolling_problem.h"
+
+namespace wheelwright {
+namespace {
+
+/// Cells along the axle in 3D, until a case can say so.
+constexpr int axial_cells = 2;
+
+/// What is given on the whole width as the model of this dimension takes it.
+template <int dim>
+double on_model_width(double on_whole_width, const Case& c) {
+  return dim == 2 ? on_whole_width / c.wheel.width : on_whole_width;
+}
+
+}  // namespace
+
+template <int dim>
+PolarGrid<dim> polar_grid(const Case& c) {
+  PolarGrid<dim> grid{c.wheel.inner_radius,
+                      c.wheel.outer_radius,
+                      c.wheel.width,
+                      c.wheel.sectors,
+                      {c.grid.radial_cells, c.grid.angular_cells / c.wheel.sectors}};
+  if constexpr (dim == 3) grid.cells[2] = axial_cells;
+  return grid;
+}
+
+template <int dim>
+RollingModel<dim> rolling_model(const Case& c) {
+  RollingModel<dim> model;
+  model.grid = polar_grid<dim>(c);
+  model.degree = c.grid.degree;
+  model.materials = c.material;
+  model.ghost = c.ghost_penalty;
+  model.contact = {.method = c.contact.method,
+                   .theta_nitsche = c.contact.theta,
+                   .gamma_0 = c.contact.gamma_0,
+                   .friction = c.contact.friction};
+  model.contact_points = c.contact.quadrature_points;
+  model.tread = {tread_rows(c), c.grid.tread_levels, wants_annulus(c) ? c.grid.degree + 1 : 0};
+  model.load = on_model_width<dim>(c.load.force, c);
+  model.horizontal_force = on_model_width<dim>(c.load.horizontal_force, c);
+  model.torque = on_model_width<dim>(c.load.torque, c);
+  model.travel = c.load.travel;
+  const auto [along_ground, down] = c.load.body_force;
+  model.distributed.body_force[0] = down;
+  model.distributed.body_force[1] = along_ground;
+  model.distributed.hole_pressure = c.load.hole_pressure;
+  model.n_positions = c.load.positions;
+  return model;
+}
+
+namespace {
+
+/// alpha_1 from alpha_2 by (83), on the initial shape.
+template <int dim>
+Expected<double> matching_weight(const Case& c, const StateSolver<dim>& solver, const Functional<dim>& annulus,
+                                 const Functional<dim>& dual) {
+  const LevelSet<dim> shape = initial_shape<dim>(c);
+  const auto states = solver.states(shape, solver.all_positions(), Interrupt());
+  if (!states) return states.failure();
+  const Matrix mean = mean_observations(solver.tread_surface(), **states);
+  const auto value = [&](const Functional<dim>& functional) {
+    const auto by_position = functional.evaluate(solver, shape, **states, mean).by_position;
+    return std::accumulate(by_position.begin(), by_position.end(), 0.0);
+  };
+  return *c.objective.annulus_matches_dual * value(dual) / value(annulus);
+}
+
+/// The terms of the objective with weights > 0: the list of all functionals that a case can name.
+template <int dim>
+Expected<WeightedSum<dim>> objective_terms(const Case& c, const StateSolver<dim>& solver) {
+  const Objective& o = c.objective;
+  WeightedSum<dim> terms;
+  const auto add = [&](double weight, std::shared_ptr<const Functional<dim>> functional) {
+    if (weight > 0) terms.push_back({weight, std::move(functional)});
+  };
+  std::shared_ptr<const Functional<dim>> dual;
+  if (o.uniformity_dual > 0 || o.annulus_matches_dual) {
+    auto map = solver.neumann_to_dirichlet();
+    if (!map) return map.failure();
+    dual = std::make_shared<UniformityDual<dim>>(*std::move(map));
+  }
+  const auto annulus = std::make_shared<UniformityAnnulus<dim>>(characteristic_length(c));
+  double annulus_weight = o.uniformity_annulus;
+  if (o.annulus_matches_dual) {
+    const auto weight = matching_weight<dim>(c, solver, *annulus, *dual);
+    if (!weight) return weight.failure();
+    annulus_weight = *weight;
+  }
+  add(o.strain_energy, std::make_shared<StrainEnergy<dim>>());
+  add(annulus_weight, annulus);
+  add(o.uniformity_dual, dual);
+  add(o.uniformity_l2, std::make_shared<UniformityL2<dim>>(characteristic_length(c)));
+  return terms;
+}
+
+}  // namespace
+
+template <int dim>
+Expected<std::shared_ptr<const StateSolver<dim>>> make_solver(const RollingModel<dim>& model) {
+  auto problem = RollingProblem<dim>::create(model);
+  if (!problem) return problem.failure();
+  return std::shared_ptr<const StateSolver<dim>>(
+      std::make_shared<const RollingProblem<dim>>(*std::move(problem)));
+}
+
+template <int dim>
+Expected<std::vector<ShapeFunction<dim>>> shape_functions(const Case& c, const StateSolver<dim>& solver) {
+  auto terms = objective_terms<dim>(c, solver);
+  if (!terms) return terms.failure();
+  return std::vector<ShapeFunction<dim>>{
+      objective(*std::move(terms)),
+      {.name = "volume", .terms = {{1, std::make_shared<MaterialVolume<dim>>()}}}};
+}
+
+template <int dim>
+const ShapeFunction<dim>& Study<dim>::objective() const {
+  return *std::ranges::find(functions, optimizer.objective, &ShapeFunction<dim>::name);
+}
+
+template <int dim>
+LevelSet<dim> initial_shape(const Case& c) {
+  return make_level_set(Lattice<dim>(polar_grid<dim>(c), c.grid.level_set_degree), sector_holes(c));
+}
+
+template <int dim>
+std::vector<ShapeEvent<dim>> lost_on_the_grid(const Case& c) {
+  PolarGrid<dim> fine = polar_grid<dim>(c);
+  for (int d = 0; d < 2; ++d) fine.cells[d] *= component_samples;  // the holes are cylinders along the axle
+  const auto given = make_level_set(Lattice<dim>(fine, 1), sector_holes(c));
+  return topology_changes(components(given, 1), components(initial_shape<dim>(c)));
+}
+
+EvolutionOptions evolution_options(const Case& c) {
+  EvolutionOptions options;
+  options.velocity.kind =
+      c.optimizer.velocity == VelocityKind::h1 ? ExtensionKind::h1 : ExtensionKind::harmonic;
+  options.velocity.length = c.optimizer.velocity_length;
+  options.smoothing = c.optimizer.smoothing;
+  options.rim_band = rim_band(c);
+  options.tread_band = tread_band(c);
+  return options;
+}
+
+template <int dim>
+OptimizerOptions optimizer_options(const Case& c) {
+  OptimizerOptions options;
+  options.iterations = c.optimizer.iterations;
+  options.step = c.optimizer.step;
+  options.max_halvings = c.optimizer.max_halvings;
+  options.accepted_increase = c.optimizer.accepted_increase;
+  options.tolerance = c.optimizer.tolerance;
+  options.redistance_every = c.optimizer.redistance_every;
+  options.smooth_every = c.optimizer.smoothing > 0 ? c.optimizer.smooth_every : 0;
+  options.measure_control =
+      c.volume.control == VolumeControl::exact ? MeasureControl::exact : MeasureControl::proportional;
+  if (c.volume.target) options.target_measure = *c.volume.target * sector_measure<dim>(polar_grid<dim>(c));
+  return options;
+}
+
+template <int dim>
+double volume_fraction(const PolarGrid<dim>& grid, double measure) {
+  return measure / sector_measure<dim>(grid);
+}
+
+template <int dim>
+std::string load_text(const RollingModel<dim>& model) {
+  return model.travel ? fmt::format("rim travel {:.6g} mm", *model.travel * 1e3)
+                      : fmt::format("{:.6g} {}", model.load, unit<dim>(UnitKind::force));
+}
+
+template <int dim>
+Expected<Study<dim>> make_study(const Case& c) {
+  auto solver = make_solver(rolling_model<dim>(c));
+  if (!solver) return solver.failure();
+  auto functions = shape_functions<dim>(c, **solver);
+  if (!functions) return functions.failure();
+  return Study<dim>{.source = c,
+                    .solver = *std::move(solver),
+                    .functions = *std::move(functions),
+                    .initial = initial_shape<dim>(c),
+                    .evolution = evolution_options(c),
+                    .optimizer = optimizer_options<dim>(c)};
+}
+
+template <int dim>
+typename ShapeOptimizer<dim>::Evaluate evaluate_of(const Study<dim>& study, Interrupt interrupt) {
+  const bool holds_mean = study.source.objective.mean == MeanStress::held;
+  return [solver = study.solver, functions = study.functions, holds_mean, interrupt = std::move(interrupt)](
+             const LevelSet<dim>& psi, const Evaluation<dim>* previous) {
+    const Matrix* held_mean = holds_mean && previous ? &previous->mean_observations : nullptr;
+    return evaluate<dim>(*solver, functions, psi, held_mean, interrupt);
+  };
+}
+
+template <int dim>
+ShapeOptimizer<dim> optimizer_of(const Study<dim>& study, Interrupt interrupt) {
+  return {study.initial.lattice, study.evolution, study.optimizer, evaluate_of(study, std::move(interrupt))};
+}
+
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                  \
+  template PolarGrid<dim> polar_grid(const Case&);                                    \
+  template RollingModel<dim> rolling_model(const Case&);                              \
+  template LevelSet<dim> initial_shape(const Case&);                                  \
+  template OptimizerOptions optimizer_options<dim>(const Case&);                      \
+  template Expected<std::shared_ptr<const StateSolver<dim>>> make_solver(const RollingModel<dim>&); \
+  template Expected<std::vector<ShapeFunction<dim>>> shape_functions(const Case&, const StateSolver<dim>&); \
+  template struct Study<dim>; \
+  template std::vector<ShapeEvent<dim>> lost_on_the_grid(const Case&);                \
+  template double volume_fraction(const PolarGrid<dim>&, double);                     \
+  template std::string load_text(const RollingModel<dim>&);                           \
+  template Expected<Study<dim>> make_study(const Case&);                              \
+  template ShapeOptimizer<dim>::Evaluate evaluate_of(const Study<dim>&, Interrupt); \
+  template ShapeOptimizer<dim> optimizer_of(const Study<dim>&, Interrupt);
+WHEELWRIGHT_INSTANTIATE(2)
+WHEELWRIGHT_INSTANTIATE(3)
+#undef WHEELWRIGHT_INSTANTIATE
+
+}  // namespace wheelwright

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <memory>
+#include <type_traits>
+#include <utility>
+
+#include "wheelwright/base/interrupt.h"
+#include "wheelwright/case/case.h"
+#include "wheelwright/geometry/topology.h"
+#include "wheelwright/optimize/optimizer.h"
+#include "wheelwright/sensitivity/evaluate.h"
+
+namespace wheelwright {
+
+// From a case to what the solver, the evolution and the optimizer work on. In 2D, forces, torques and
+// energies are those of one metre of width.
+
+template <int dim>
+PolarGrid<dim> polar_grid(const Case& c);
+template <int dim>
+RollingModel<dim> rolling_model(const Case& c);
+template <int dim>
+LevelSet<dim> initial_shape(const Case& c);
+EvolutionOptions evolution_options(const Case& c);
+template <int dim>
+OptimizerOptions optimizer_options(const Case& c);
+
+/// What solves the states of a model's shapes. Fails with not_positive_definite when theta and gamma_0 do not go
+/// together.
+template <int dim>
+Expected<std::shared_ptr<const StateSolver<dim>>> make_solver(const RollingModel<dim>& model);
+
+/// The functions of the shape that a case asks for: the objective, and the volume of the material. Solves the
+/// initial shape when (83) is to choose a weight. Fails as the solver does.
+template <int dim>
+Expected<std::vector<ShapeFunction<dim>>> shape_functions(const Case& c, const StateSolver<dim>& solver);
+
+/// Features of the case's holes that the nodes of the initial shape cannot represent: holes that vanish
+/// between nodes, and holes that merge because the material between them is thinner than the nodes' distance.
+template <int dim>
+std::vector<ShapeEvent<dim>> lost_on_the_grid(const Case& c);
+
+/// Material area (volume) over that of the ring, from the measure of one sector.
+template <int dim>
+double volume_fraction(const PolarGrid<dim>& grid, double measure);
+
+/// The load of a model for people: "rim travel 2 mm", or its force in the model's unit.
+template <int dim>
+std::string load_text(const RollingModel<dim>& model);
+
+/// Everything that follows from a case before a shape is solved: the optimization problem, ready to run.
+template <int dim>
+struct Study {
+  Case source;
+  std::shared_ptr<const StateSolver<dim>> solver;
+  std::vector<ShapeFunction<dim>> functions;
+  LevelSet<dim> initial;
+  EvolutionOptions evolution;
+  OptimizerOptions optimizer;
+
+  const RollingModel<dim>& model() const { return solver->model(); }
+  const PolarGrid<dim>& grid() const { return solver->model().grid; }
+
+  /// The function that is minimized.
+  const ShapeFunction<dim>& objective() const;
+};
+
+/// Fails as make_solver() and shape_functions() do.
+template <int dim>
+Expected<Study<dim>> make_study(const Case& c);
+
+/// Evaluates the study's functions at a shape, for the loop. With `objective.mean = "held"` it compares with the mean
+/// contact stress of the previous shape, otherwise with that of the shape itself. Keeps what it needs of the
+/// study.
+template <int dim>
+typename ShapeOptimizer<dim>::Evaluate evaluate_of(const Study<dim>& study, Interrupt interrupt = {});
+
+/// The loop on the study's functions.
+template <int dim>
+ShapeOptimizer<dim> optimizer_of(const Study<dim>& study, Interrupt interrupt = {});
+
+/// Calls the visitor with the dimension in which a case is computed, as std::integral_constant<int, dim>: the
+/// one place that decides it.
+template <class Visitor>
+decltype(auto) in_dimension_of(const Case&, Visitor&& visitor) {
+  return std::forward<Visitor>(visitor)(std::integral_constant<int, 2>{});
+}
+
+}  // namespace wheelwright
