@@ -40,11 +40,11 @@ void write_shapes(const RunView<2>& run, const OptimizationState<2>& last) {
 void write_rolling(const RunView<2>& run, const LevelSet<2>& shape,
                    const std::vector<PositionFields>& positions) {
   make_folder(run.folder / "rolling");
+  const VtuMesh mesh(shape, positions.front().lattice, vtu_cut_subdivisions);
   std::vector<PvdEntry> entries;
   for (size_t i = 0; i < positions.size(); ++i) {
     const std::string file = fmt::format("rolling/position_{:02d}.vtu", i);
-    write_vtu(run.folder / file, shape, positions[i].lattice, named_fields(positions[i]),
-              vtu_cut_subdivisions);
+    mesh.write(run.folder / file, named_fields(positions[i]));
     entries.push_back({static_cast<double>(i), file});
   }
   write_pvd(run.folder / "rolling.pvd", entries);

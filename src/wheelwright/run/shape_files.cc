@@ -52,8 +52,8 @@ void ShapeFiles::write(const TrialDone<2>& done, const RunView<2>& run) {
     fields.push_back({"shape_gradient", unit<2>(UnitKind::stress), repeated_field(solver.model(), *gradient)});
   const int iteration = done.state.iteration;
   make_folder(run.folder / "shapes");
-  write_vtu(run.folder / shape_file(iteration), done.state.shape, worst.lattice, fields,
-            vtu_cut_subdivisions);
+  VtuMesh(done.state.shape, worst.lattice, vtu_cut_subdivisions)
+      .write(run.folder / shape_file(iteration), fields);
   std::erase_if(shapes_, [&](const PvdEntry& entry) { return entry.time == iteration; });
   shapes_.push_back({static_cast<double>(iteration), shape_file(iteration)});
   write_pvd(run.folder / "shapes.pvd", shapes_);
