@@ -19,7 +19,8 @@ double cell_measure(const CellMap<dim>& map, int degree, const std::vector<Refer
   return sum;
 }
 
-/// Calls visit(cell, kind, split) for every cell; split is set for cells that the boundary crosses.
+/// Calls visit(cell, kind, split) for each cell. `split` is the quadrature of a cut cell; it is empty if that
+/// failed, and for other cells.
 template <int dim, class Visit>
 void for_each_cell(const LevelSet<dim>& psi, Visit visit) {
   CellQuadrature<dim> quadrature(psi.lattice.degree(), gauss_points);
@@ -65,8 +66,11 @@ std::vector<SurfaceSample<dim>> boundary_samples(const LevelSet<dim>& psi) {
     for (const auto& point : split->boundary) {
       const auto surface =
           map_surface<dim>(map.jacobian(ShapeFunctions<dim>(degree, point.xi)), point.normal);
-      samples.push_back({cell, point.xi, rotated<dim>(surface.normal, position[1] * grid.cell_size()[1]),
-                         point.weight * surface.scale, 1});
+      samples.push_back({.cell = cell,
+                         .xi = point.xi,
+                         .normal = rotated<dim>(surface.normal, position[1] * grid.cell_size()[1]),
+                         .weight = point.weight * surface.scale,
+                         .value = 1});
     }
   });
   return samples;

@@ -7,36 +7,32 @@
 
 namespace wheelwright {
 
-/// The level set psi (74) of one sector: negative in the material, positive in the holes. A piecewise
-/// polynomial of the lattice's degree (1 or 2), given by its nodal values [m], periodic in azimuth.
+/// The level set psi (74) of one sector, negative in the material and positive in the holes: a piecewise
+/// polynomial of the degree of the lattice (1 or 2), periodic in azimuth, given by its nodal values [m].
 template <int dim>
 struct LevelSet {
   Lattice<dim> lattice;
-  std::vector<double> values;  ///< one value a lattice node
+  std::vector<double> values;  ///< one value per lattice node
 
-  /// Nodal values of one cell, axis 0 fastest.
+  /// Nodal values of one cell in the order of its local nodes.
   std::vector<double> cell_values(int cell) const {
-    const int degree = lattice.degree();
-    const auto c = lattice.grid().cell_position(cell);
-    std::vector<double> result(nodes_per_cell<dim>(degree));
-    for (int a = 0; a < static_cast<int>(result.size()); ++a) {
-      auto p = local_node_position<dim>(degree, a);
-      for (int d = 0; d < dim; ++d) p[d] += degree * c[d];
-      result[a] = values[lattice.node_index(p)];
-    }
+    const auto position = lattice.grid().cell_position(cell);
+    std::vector<double> result(nodes_per_cell<dim>(lattice.degree()));
+    for (int a = 0; a < static_cast<int>(result.size()); ++a)
+      result[a] = values[lattice.node_index(lattice.cell_node(position, a))];
     return result;
   }
 };
 
-/// A point on the moving boundary {psi = 0} of one sector, with a weight and a value: the carrier of surface
-/// integrals and of the shape gradient between the layers.
+/// A point on the moving boundary {psi = 0} of one sector, with a weight and a value. Surface integrals and
+/// the shape gradient are passed between the folders as a list of such samples.
 template <int dim>
 struct SurfaceSample {
-  int cell;         ///< cell of the sector's grid
+  int cell;         ///< cell of the grid of the sector
   Vec<dim> xi;      ///< position in the unit cell
   Vec<dim> normal;  ///< unit outward normal of the material, Cartesian, body frame
   double weight;    ///< boundary measure dS [m, or m^2 when dim = 3]
-  double value;     ///< what is sampled, e.g. the density G of the shape derivative (42)
+  double value;     ///< value of the sampled field, e.g. the density G of the shape derivative (42)
 };
 
 }  // namespace wheelwright
