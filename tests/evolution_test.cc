@@ -5,13 +5,13 @@
 
 #include "wheelwright/cut/cut_domain.h"
 #include "wheelwright/cut/measure.h"
-#include "wheelwright/evolution/cell_scale.h"
 #include "wheelwright/evolution/closest_point.h"
 #include "wheelwright/evolution/evolver.h"
 #include "wheelwright/evolution/multilinear.h"
 #include "wheelwright/evolution/nearest_point.h"
 #include "wheelwright/evolution/redistance.h"
 #include "wheelwright/evolution/seeds.h"
+#include "wheelwright/evolution/sub_cell_filter.h"
 #include "wheelwright/evolution/transport.h"
 #include "wheelwright/evolution/volume.h"
 #include "wheelwright/geometry/shapes.h"
@@ -492,7 +492,7 @@ TEST(ProportionalMultiplier, IsTheFormulaOfThePaper) {
 
 // --- invariance ---
 
-TEST(CellScale, RemovesBulgesOfSingleCellsAndKeepsTheBoundary) {
+TEST(SubCellFilter, RemovesBulgesOfSingleCellsAndKeepsTheBoundary) {
   for (double refinement : {1.0, 2.0}) {
     const auto lattice = lattice_of(2, refinement);
     const double h = lattice.grid().resolution();
@@ -503,18 +503,18 @@ TEST(CellScale, RemovesBulgesOfSingleCellsAndKeepsTheBoundary) {
       if (p[0] % 2 != 0 || p[1] % 2 != 0) bulged.values[node] += 0.02 * h;
     }
     EXPECT_GT(boundary_error(bulged, one_hole[0]), 0.015 * h);
-    EXPECT_LT(boundary_error(on_cell_scale(bulged), one_hole[0]), 2e-3 * h / refinement);
+    EXPECT_LT(boundary_error(sub_cell_filter(bulged), one_hole[0]), 2e-3 * h / refinement);
     const double hole = sector_measure<2>(lattice.grid()) - material_measure(circle);
-    EXPECT_NEAR(material_measure(on_cell_scale(circle)), material_measure(circle),
+    EXPECT_NEAR(material_measure(sub_cell_filter(circle)), material_measure(circle),
                 2e-5 * hole / (refinement * refinement));
   }
 }
 
-TEST(CellScale, IsAProjection) {
-  const auto once = on_cell_scale(make_level_set<2>(lattice_of(2), one_hole));
-  EXPECT_LT(largest_difference(on_cell_scale(once).values, once.values), 1e-15);
+TEST(SubCellFilter, IsAProjection) {
+  const auto once = sub_cell_filter(make_level_set<2>(lattice_of(2), one_hole));
+  EXPECT_LT(largest_difference(sub_cell_filter(once).values, once.values), 1e-15);
   const auto linear = make_level_set<2>(lattice_of(1), one_hole);
-  EXPECT_EQ(on_cell_scale(linear).values, linear.values);
+  EXPECT_EQ(sub_cell_filter(linear).values, linear.values);
 }
 
 TEST(Evolution, DoesNotSeeWhereTheSectorBegins) {

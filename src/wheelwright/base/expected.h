@@ -7,13 +7,12 @@
 
 namespace wheelwright {
 
-/// Why a numerical stage could not deliver. The optimization loop rejects the trial shape and halves its
-/// step.
+/// Why a numerical stage failed. The optimization loop then rejects the trial shape and halves its step.
 enum class FailureReason {
   disconnected_material,  ///< some material is not attached to the rim
-  tread_cut_off,          ///< holes join all round: the tread is not attached to the rim
+  tread_cut_off,          ///< holes join around the whole wheel: the tread is not attached to the rim
   protected_band,         ///< a hole reaches the rows of cells kept full at the rim or the tread
-  cut_quadrature,         ///< a cut cell's quadrature does not add up to the cell
+  cut_quadrature,         ///< the quadrature of a cut cell does not add up to the measure of the cell
   not_positive_definite,  ///< the stiffness could not be factored
   newton_stalled,         ///< the contact iteration did not converge
   no_contact,             ///< no point touches the ground
@@ -21,7 +20,7 @@ enum class FailureReason {
   inaccurate_solution,    ///< the residual of a solve is too large
   negative_energy,        ///< a strain energy came out negative
   empty_shape,            ///< no material, or no boundary to move
-  objective_jumped,       ///< the objective changed more than a small step can change it
+  objective_jumped,       ///< the objective changed by more than a small step can explain
   interrupted,            ///< the caller asked the computation to end early (base/interrupt.h)
 };
 
@@ -61,10 +60,10 @@ constexpr const char* to_string(FailureReason reason) {
 /// A numerical failure: a value that the caller handles, never an exception.
 struct Failure {
   FailureReason reason;
-  std::string detail;  ///< where, how much, and what would help; one line
+  std::string detail;  ///< one line: where, by how much, and what would help
 };
 
-/// Either a T or the E, by default a numerical Failure, that prevented it.
+/// Holds either a T or the error E, by default a numerical Failure, that prevented it.
 template <class T, class E = Failure>
 class [[nodiscard]] Expected {
  public:

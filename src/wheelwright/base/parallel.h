@@ -5,12 +5,13 @@
 
 namespace wheelwright {
 
-/// Calls f(0), ..., f(n - 1) on the threads that a ThreadLimit allows, in no particular order, and returns
-/// when all are done. Calls must write to places of their own: then results do not depend on the number of
-/// threads.
+/// Calls f(0), ..., f(n - 1) on as many threads as a ThreadLimit allows, in no particular order, and returns
+/// when all calls are done. Each call must write to memory of its own; then the results do not depend on the
+/// number of threads.
 void parallel_for(int n, const std::function<void(int)>& f);
 
-/// While it lives, parallel_for() uses at most so many threads. Without any: as many as there are processors.
+/// While an object lives, parallel_for() uses at most n_threads threads. Without any ThreadLimit it uses one
+/// thread per processor.
 class ThreadLimit {
  public:
   explicit ThreadLimit(int n_threads);

@@ -2,7 +2,7 @@
 
 namespace wheelwright {
 
-/// The index in [0, period) that stands for `index` in a periodic sequence.
+/// The index in [0, period) that is equivalent to `index` in a periodic sequence.
 constexpr int wrap(int index, int period) { return (index % period + period) % period; }
 
 }  // namespace wheelwright

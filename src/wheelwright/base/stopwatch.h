@@ -4,13 +4,13 @@
 
 namespace wheelwright {
 
-/// Wall time since construction or the last lap.
+/// Measures wall time since construction or the last lap.
 class Stopwatch {
  public:
-  /// Seconds since the last lap, which goes on.
+  /// Seconds since the start of the current lap, which continues.
   double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
-  /// Seconds since the last lap; begins the next.
+  /// Seconds since the start of the current lap; starts the next lap.
   double lap() {
     const auto now = Clock::now();
     const double seconds = std::chrono::duration<double>(now - start_).count();

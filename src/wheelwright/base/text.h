@@ -7,7 +7,8 @@
 
 namespace wheelwright {
 
-/// Bytes of the UTF-8 character that a text begins with; 0 if it begins with none (Unicode 15, table 3-7).
+/// Number of bytes of the UTF-8 character at the beginning of a text; 0 if there is none (Unicode 15, table
+/// 3-7).
 inline std::size_t utf8_length(std::string_view text) {
   if (text.empty()) return 0;
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
@@ -22,14 +23,14 @@ inline std::size_t utf8_length(std::string_view text) {
   return std::all_of(text.begin() + 2, text.begin() + length, continues) ? length : 0;
 }
 
-/// Whether all of a text is UTF-8.
+/// Whether a text is valid UTF-8.
 inline bool is_utf8(std::string_view text) {
   while (const std::size_t length = utf8_length(text)) text.remove_prefix(length);
   return text.empty();
 }
 
-/// A text as one line that a terminal shows as it stands: tabs and line ends become spaces, other control
-/// characters (U+0000 to U+001F, U+007F to U+009F) and what is no UTF-8 become '?'.
+/// Returns the text as one line that is safe to show on a terminal: tabs and line ends become spaces; other
+/// control characters (U+0000 to U+001F, U+007F to U+009F) and bytes that are not valid UTF-8 become '?'.
 inline std::string without_control_characters(std::string_view text) {
   std::string result;
   while (!text.empty()) {

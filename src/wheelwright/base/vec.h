@@ -5,11 +5,12 @@
 
 namespace wheelwright {
 
-/// A point or vector in R^dim. In the ring's own coordinates axis 0 is radial, 1 azimuthal, 2 axial.
+/// A point or vector in R^dim. In polar coordinates of the ring, axis 0 is radial, axis 1 azimuthal and axis
+/// 2 axial.
 template <int dim>
 using Vec = std::array<double, dim>;
 
-/// A dim x dim tensor, row-major: m[i][j].
+/// A dim x dim tensor in row-major order: m[i][j].
 template <int dim>
 using Mat = std::array<std::array<double, dim>, dim>;
 
@@ -25,7 +26,7 @@ double norm(const Vec<dim>& a) {
   return std::sqrt(dot<dim>(a, a));
 }
 
-/// Determinant of m.
+/// Returns the determinant of m.
 template <int dim>
 constexpr double determinant(const Mat<dim>& m) {
   if constexpr (dim == 1) {
@@ -39,7 +40,7 @@ constexpr double determinant(const Mat<dim>& m) {
   }
 }
 
-/// Inverse of m; m must be regular.
+/// Returns the inverse of m, which must not be singular.
 template <int dim>
 constexpr Mat<dim> inverse(const Mat<dim>& m) {
   const double scale = 1 / determinant<dim>(m);
@@ -57,7 +58,7 @@ constexpr Mat<dim> inverse(const Mat<dim>& m) {
   }
 }
 
-/// m^T v.
+/// Returns m^T v.
 template <int dim>
 constexpr Vec<dim> transpose_times(const Mat<dim>& m, const Vec<dim>& v) {
   Vec<dim> result{};
@@ -66,7 +67,7 @@ constexpr Vec<dim> transpose_times(const Mat<dim>& m, const Vec<dim>& v) {
   return result;
 }
 
-/// n^dim for small integers.
+/// Returns n^dim for small integers.
 constexpr int power(int n, int dim) {
   int result = 1;
   for (int d = 0; d < dim; ++d) result *= n;

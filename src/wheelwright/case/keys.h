@@ -32,7 +32,7 @@ constexpr Range any_number{-1e9, 1e9};
 constexpr Range between(double low, double high) { return {low, high}; }
 constexpr Range above(double low, double high) { return {low, high, Range::End::open}; }
 constexpr Range at_least_and_below(double low, double high) {
-  return {low, high, Range::End::closed, Range::End::open};
+  return {.low = low, .high = high, .low_end = Range::End::closed, .high_end = Range::End::open};
 }
 
 template <class Struct>

@@ -90,8 +90,14 @@ void note(Reading& reading, const std::string& path, const toml::node& node) {
 
 void complain(Reading& reading, const std::string& path, Entry at, Complaint complaint) {
   reading.faulty.insert(path);
-  reading.problems.push_back({complaint.kind, reading.file, at.line, at.column, path, std::move(at.value),
-                              std::move(complaint.problem), std::move(complaint.remedy)});
+  reading.problems.push_back({.kind = complaint.kind,
+                              .file = reading.file,
+                              .line = at.line,
+                              .column = at.column,
+                              .key = path,
+                              .value = std::move(at.value),
+                              .problem = std::move(complaint.problem),
+                              .remedy = std::move(complaint.remedy)});
 }
 
 void complain(Reading& reading, const std::string& path, Complaint complaint) {
@@ -340,23 +346,28 @@ void check_conflicts(Reading& reading, const Case& c) {
     const std::string problem = blamed_is_given || given == keys.end()
                                     ? conflict.problem
                                     : fmt::format("{}: {}", keys.front(), conflict.problem);
-    reading.problems.push_back({Kind::conflict, reading.file, at.line, at.column,
-                                given == keys.end() ? keys.front() : *given, at.value, problem,
-                                conflict.remedy});
+    reading.problems.push_back({.kind = Kind::conflict,
+                                .file = reading.file,
+                                .line = at.line,
+                                .column = at.column,
+                                .key = given == keys.end() ? keys.front() : *given,
+                                .value = at.value,
+                                .problem = problem,
+                                .remedy = conflict.remedy});
   }
 }
 
 CaseResult failed(Diagnostic problem) { return {std::nullopt, {std::move(problem)}}; }
 
 Diagnostic diagnostic(const SyntaxError& error, const std::string& file) {
-  return {Kind::syntax,
-          file,
-          error.line,
-          error.column,
-          "",
-          "",
-          without_control_characters(error.problem),
-          "write KEY = VALUE, with words in quotes and numbers without unit, below a line [TABLE]"};
+  return {.kind = Kind::syntax,
+          .file = file,
+          .line = error.line,
+          .column = error.column,
+          .key = "",
+          .value = "",
+          .problem = without_control_characters(error.problem),
+          .remedy = "write KEY = VALUE, with words in quotes and numbers without unit, below a line [TABLE]"};
 }
 
 /// Leaves out what reading complains of on a line that is no TOML, and keys that are missing since such a
@@ -386,8 +397,14 @@ CaseResult interpret(const TomlLines& toml, const std::filesystem::path& file) {
   Case result = read_root(reading, toml.root);
   if (syntax.empty()) check_conflicts(reading, result);
   if (syntax.empty() && toml.root.empty())
-    return failed({Kind::empty, reading.file, 1, 1, "", "", "the file contains no key",
-                   "`wheelwright init` writes a case to start from"});
+    return failed({.kind = Kind::empty,
+                   .file = reading.file,
+                   .line = 1,
+                   .column = 1,
+                   .key = "",
+                   .value = "",
+                   .problem = "the file contains no key",
+                   .remedy = "`wheelwright init` writes a case to start from"});
   std::vector<Diagnostic> problems = merged(syntax, reading.problems);
   std::stable_sort(problems.begin(), problems.end(), [](const auto& a, const auto& b) {
     return std::tie(a.line, a.column) < std::tie(b.line, b.column);
@@ -401,8 +418,14 @@ CaseResult interpret(const TomlLines& toml, const std::filesystem::path& file) {
 
 CaseResult parse_case(std::string_view text, const std::filesystem::path& file) {
   if (const auto exceeded = exceeded_parser_limit(text))
-    return failed({Kind::syntax, file.string(), exceeded->line, exceeded->column, "", "", exceeded->problem,
-                   "this is not a case file"});
+    return failed({.kind = Kind::syntax,
+                   .file = file.string(),
+                   .line = exceeded->line,
+                   .column = exceeded->column,
+                   .key = "",
+                   .value = "",
+                   .problem = exceeded->problem,
+                   .remedy = "this is not a case file"});
   return interpret(parse_toml_lines(text), file);
 }
 
@@ -411,8 +434,14 @@ CaseResult read_case(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (in.bad() || (in.fail() && !in.eof()) || std::filesystem::is_directory(file))
-    return failed(
-        {Kind::unreadable, file.string(), 0, 0, "", "", "cannot be read", "check its name and permissions"});
+    return failed({.kind = Kind::unreadable,
+                   .file = file.string(),
+                   .line = 0,
+                   .column = 0,
+                   .key = "",
+                   .value = "",
+                   .problem = "cannot be read",
+                   .remedy = "check its name and permissions"});
   text.resize(in.gcount());
   return parse_case(text, file);
 }

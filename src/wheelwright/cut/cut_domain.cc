@@ -12,7 +12,8 @@
 namespace wheelwright {
 namespace {
 
-/// Moves nodal values off zero: a level set that vanishes on a cell face would count its boundary twice.
+/// Moves nodal values away from zero, since a boundary that lies in a face of two cells would be integrated
+/// twice.
 template <int dim>
 LevelSet<dim> nudged(const LevelSet<dim>& psi) {
   LevelSet<dim> result = psi;
@@ -22,7 +23,8 @@ LevelSet<dim> nudged(const LevelSet<dim>& psi) {
   return result;
 }
 
-/// Below this fraction of the cell a piece of material is not represented: its quadrature is not reliable.
+/// Pieces of material below this fraction of the cell are neglected, because their quadrature is not
+/// reliable.
 constexpr double smallest_fraction = 1e-13;
 
 template <int dim>
@@ -32,7 +34,8 @@ double material_fraction(const CutCell<dim>& cell) {
   return sum;
 }
 
-/// Calls visit(neighbour) for the active face neighbours of a cell, the neighbouring sectors' included.
+/// Calls visit(neighbour) for the face neighbours of a cell. At the faces of the sector these are images of
+/// cells of the same sector.
 template <int dim, class Visit>
 void for_each_neighbour(const PolarGrid<dim>& grid, int cell, Visit visit) {
   const auto position = grid.cell_position(cell);
@@ -103,7 +106,7 @@ std::optional<Failure> check_connected(const CutDomain<dim>& domain) {
                   islands, place(grid, first))};
 }
 
-/// Whether the nodal values of psi change sign on the face of `cell` at the end of `axis`.
+/// Whether the nodal values of psi change sign on the last face of `cell` along `axis`.
 template <int dim>
 bool face_is_crossed(const LevelSet<dim>& psi, int cell, int axis) {
   const int degree = psi.lattice.degree();
@@ -130,7 +133,8 @@ std::vector<GhostFace> find_ghost_faces(const LevelSet<dim>& psi, const CutDomai
       const int plus = grid.cell_index(p);
       if (!domain.active(plus)) continue;
       if (domain.kinds[minus] == CellKind::cut || domain.kinds[plus] == CellKind::cut)
-        faces.push_back({minus, plus, axis, face_is_crossed(psi, minus, axis)});
+        faces.push_back(
+            {.minus = minus, .plus = plus, .axis = axis, .crossed = face_is_crossed(psi, minus, axis)});
     }
   }
   return faces;
@@ -143,7 +147,8 @@ Expected<CutDomain<dim>> cut_domain(const LevelSet<dim>& given, int points) {
   if (auto failure = check_finite<dim>(given.lattice, given.values, "the level set")) return *failure;
   const LevelSet<dim> psi = nudged(given);
   const PolarGrid<dim>& grid = psi.lattice.grid();
-  CutDomain<dim> domain{grid, std::vector<CellKind>(grid.n_cells()), {}, {}};
+  CutDomain<dim> domain{
+      .grid = grid, .kinds = std::vector<CellKind>(grid.n_cells()), .cut = {}, .ghost_faces = {}};
   CellQuadrature<dim> quadrature(psi.lattice.degree(), points);
   for (int cell = 0; cell < grid.n_cells(); ++cell) {
     const auto values = psi.cell_values(cell);

@@ -16,12 +16,13 @@ enum class CellKind : std::uint8_t { outside, cut, inside };
 template <int dim>
 struct ReferenceSurfacePoint {
   Vec<dim> xi;
-  Vec<dim> normal;  ///< unit, along the gradient of psi in the unit cell's coordinates: out of the material
-  double weight;    ///< measure in the unit cell's coordinates
+  Vec<dim> normal;  ///< unit normal along the gradient of psi in the coordinates of the unit cell, out of the
+                    ///< material
+  double weight;    ///< length (or area) in the coordinates of the unit cell
 };
 
-/// Quadrature of one cell that the boundary crosses, exact for the piecewise polynomial level set up to the
-/// order of the one-dimensional rule.
+/// Quadrature of one cell that the boundary crosses. It integrates over the zero set of the polynomial
+/// itself; its order is that of the one-dimensional Gauss rule.
 template <int dim>
 struct CutCell {
   int cell;
@@ -29,33 +30,37 @@ struct CutCell {
   std::vector<ReferenceSurfacePoint<dim>> boundary;  ///< over {psi = 0} in the unit cell
 };
 
-/// An interior face between two active cells, at least one of them cut. `plus` lies behind `minus` along
-/// `axis`; when axis = 1 and `minus` is in the last column, `plus` belongs to the next sector.
+/// An interior face between two active cells of which at least one is cut. `plus` is the next cell after
+/// `minus` along `axis`. If axis = 1 and `minus` is in the last column, `plus` belongs to the next sector.
 struct GhostFace {
   int minus, plus;
   int axis;
-  bool crossed;  ///< the boundary crosses this very face: the faces of (81)
+  bool crossed;  ///< whether the boundary crosses the face itself, as for the faces of (81)
 };
 
-/// Where the material is on one sector's grid: which cells are inside, cut or outside, and how to integrate.
+/// The cells of one sector classified as inside, cut or outside the material, with the quadrature of the cut
+/// cells.
 template <int dim>
 struct CutDomain {
   PolarGrid<dim> grid;
-  std::vector<CellKind> kinds;    ///< one a cell of the sector
-  std::vector<CutCell<dim>> cut;  ///< ascending cell numbers
+  std::vector<CellKind> kinds;    ///< one per cell of the sector
+  std::vector<CutCell<dim>> cut;  ///< in ascending order of the cells
   std::vector<GhostFace> ghost_faces;
 
+  /// Whether the cell holds material.
   bool active(int cell) const { return kinds[cell] != CellKind::outside; }
 };
 
-/// Classifies the cells of psi's grid and builds the cut quadrature with `points` Gauss points a direction.
-/// Fails with cut_quadrature (a cell's parts do not add up) or not_finite.
+/// Classifies the cells of the grid of psi and builds the quadrature of the cut cells with `points` Gauss
+/// points per direction. Fails with cut_quadrature if the parts of a cell do not add up to the cell, and with
+/// not_finite.
 template <int dim>
 Expected<CutDomain<dim>> cut_domain(const LevelSet<dim>& psi, int points);
 
-/// Whether the shape can be computed with: fails with protected_band when a cell of the innermost `rim_rows`
-/// or outermost `tread_rows` rows is not full, with tread_cut_off when the outermost row is not reached from
-/// the rim through active cells, and with disconnected_material when another active cell is not.
+/// Checks whether the shape can be computed. Returns protected_band if a cell of the innermost `rim_rows`
+/// rows or of the outermost `tread_rows` rows is not full, tread_cut_off if active cells of the outermost row
+/// are not connected to the rim through active cells, and disconnected_material if other active cells are
+/// not. Empty if all is well.
 template <int dim>
 std::optional<Failure> check_attached(const CutDomain<dim>& domain, int rim_rows, int tread_rows);
 

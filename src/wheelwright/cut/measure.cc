@@ -19,7 +19,8 @@ double cell_measure(const CellMap<dim>& map, int degree, const std::vector<Refer
   return sum;
 }
 
-/// Calls visit(cell, kind, split) for every cell; split is set for cells that the boundary crosses.
+/// Calls visit(cell, kind, split) for each cell. `split` is the quadrature of a cut cell; it is empty if that
+/// failed, and for other cells.
 template <int dim, class Visit>
 void for_each_cell(const LevelSet<dim>& psi, Visit visit) {
   CellQuadrature<dim> quadrature(psi.lattice.degree(), gauss_points);

@@ -6,8 +6,9 @@
 
 namespace wheelwright {
 
-/// Measure of {psi < 0} in one sector [m^2, or m^3 when dim = 3], by cut quadrature on the isoparametric
-/// cells of the level set's own degree. NaN where psi is not finite or the quadrature of a cell fails.
+/// Area of {psi < 0} in one sector [m^2], or its volume [m^3] when dim = 3, by cut quadrature on
+/// isoparametric cells of the degree of the level set. NaN if psi is not finite or the quadrature of a cell
+/// fails.
 template <int dim>
 double material_measure(const LevelSet<dim>& psi);
 
@@ -15,7 +16,8 @@ double material_measure(const LevelSet<dim>& psi);
 template <int dim>
 double material_measure(const CutDomain<dim>& domain, int map_degree);
 
-/// Quadrature points of {psi = 0} in one sector: their weights add up to the boundary's measure; value is 1.
+/// Quadrature points on {psi = 0} in one sector, with the value 1. Their weights add up to the length of the
+/// boundary [m], or to its area [m^2] when dim = 3.
 template <int dim>
 std::vector<SurfaceSample<dim>> boundary_samples(const LevelSet<dim>& psi);
 

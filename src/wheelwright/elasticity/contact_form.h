@@ -8,16 +8,16 @@ enum class ContactMethod {
   penalty,  ///< (22): I_P
 };
 
-/// Both methods are one form. With the augmented traction
+/// The contact terms, in one form for both methods. With the augmented traction
 ///   z(u) = tau sigma(u)n - gamma (u - g n_y)
-/// and the contact traction Phi(z) of (18), (23),
+/// and the contact traction Phi(z) of (18), (23), they are
 ///   I(u, v) = int_Gamma_C -theta/gamma sigma(u)n . sigma(v)n + Phi(z(u)) . (theta/gamma sigma(v)n - v),
-/// where penalty is tau = theta = 0 and Nitsche's method tau = 1.
+/// where the penalty method has tau = theta = 0 and Nitsche's method has tau = 1.
 struct ContactForm {
   ContactMethod method = ContactMethod::nitsche;
   double theta_nitsche = -1;  ///< theta; ignored by the penalty method
   double gamma_0 = 1;         ///< gamma = gamma_0 E / h_T [Pa/m]
-  double friction = 0;        ///< Coulomb's coefficient F
+  double friction = 0;        ///< coefficient F of Coulomb's friction
 
   double tau() const { return method == ContactMethod::nitsche ? 1 : 0; }
   double theta() const { return method == ContactMethod::nitsche ? theta_nitsche : 0; }

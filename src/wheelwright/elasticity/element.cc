@@ -6,7 +6,7 @@
 namespace wheelwright {
 namespace {
 
-/// Tensor indices (i, j) of each Voigt component.
+/// Tensor indices (i, j) of the Voigt components.
 template <int dim>
 constexpr std::array<std::array<int, 2>, n_strains<dim>> voigt_indices() {
   if constexpr (dim == 2)
@@ -84,19 +84,23 @@ ElasticElement<dim>::ElasticElement(const PolarGrid<dim>& grid, int degree, cons
 template <int dim>
 auto ElasticElement<dim>::at(const Vec<dim>& xi) const -> Point {
   const ShapeFunctions<dim> shape(degree_, xi);
-  Point point{map_.position(shape), map_.jacobian(shape), 0, {}, {}};
-  point.determinant = determinant<dim>(point.jacobian);
-  const Mat<dim> inverse_jacobian = inverse<dim>(point.jacobian);
+  const Mat<dim> jacobian = map_.jacobian(shape);
+  Point point{.position = map_.position(shape),
+              .jacobian = jacobian,
+              .determinant = determinant<dim>(jacobian),
+              .strain = {},
+              .displacement = {}};
+  const Mat<dim> inverse_jacobian = inverse<dim>(jacobian);
   constexpr auto indices = voigt_indices<dim>();
   for (int a = 0; a < n_nodes(); ++a) {
     const Vec<dim> gradient = transpose_times<dim>(inverse_jacobian, shape.gradient[a]);
     for (int c = 0; c < dim; ++c) {
-      const int dof = dim * a + c;
-      for (int i = 0; i < dim; ++i) point.displacement[i][dof] = frames_[a][i][c] * shape.value[a];
+      const int k = dof(a, c);
+      for (int i = 0; i < dim; ++i) point.displacement[i][k] = frames_[a][i][c] * shape.value[a];
       for (int s = 0; s < n_strains<dim>; ++s) {
         const auto [i, j] = indices[s];
-        point.strain[s][dof] = frames_[a][i][c] * gradient[j];
-        if (i != j) point.strain[s][dof] += frames_[a][j][c] * gradient[i];
+        point.strain[s][k] = frames_[a][i][c] * gradient[j];
+        if (i != j) point.strain[s][k] += frames_[a][j][c] * gradient[i];
       }
     }
   }
@@ -108,7 +112,7 @@ auto ElasticElement<dim>::second_derivative(const Vec<dim>& xi, const Vec<dim>& 
     -> std::array<std::array<double, max_dofs>, dim> {
   const ShapeFunctions<dim> shape(degree_, xi);
   const Mat<dim> inverse_jacobian = inverse<dim>(map_.jacobian(shape));
-  Vec<dim> m{};  // n in the unit cell's coordinates
+  Vec<dim> m{};  // n in the coordinates of the unit cell
   for (int i = 0; i < dim; ++i)
     for (int j = 0; j < dim; ++j) m[i] += inverse_jacobian[i][j] * n[j];
   const auto curvature = map_.second_derivative(xi, m);  // d^2 x / dm^2
@@ -118,7 +122,7 @@ auto ElasticElement<dim>::second_derivative(const Vec<dim>& xi, const Vec<dim>& 
     const Vec<dim> gradient = transpose_times<dim>(inverse_jacobian, shape.gradient[a]);
     const double value = shape_second_derivative<dim>(degree_, a, xi, m) - dot<dim>(gradient, curvature);
     for (int c = 0; c < dim; ++c)
-      for (int i = 0; i < dim; ++i) result[i][dim * a + c] = frames_[a][i][c] * value;
+      for (int i = 0; i < dim; ++i) result[i][dof(a, c)] = frames_[a][i][c] * value;
   }
   return result;
 }

@@ -2,10 +2,10 @@
 
 namespace wheelwright {
 
-/// Which jumps the ghost penalty holds.
+/// The jumps that the ghost penalty penalizes.
 enum class GhostPenaltyKind {
-  full,   ///< every face of a cut cell; stress jump and second normal-derivative jump
-  paper,  ///< (81): faces that the boundary crosses; stress jump
+  full,   ///< jumps of the traction and of the second normal derivative, on all faces of cut cells
+  paper,  ///< (81): jump of the traction, on faces that the boundary crosses
 };
 
 struct GhostPenalty {

@@ -12,7 +12,7 @@ struct Material {
   }
   double mu() const { return youngs_modulus / (2 * (1 + poissons_ratio)); }
 
-  /// E / (1 - nu^2) [Pa]: the modulus of plane strain contact.
+  /// E / (1 - nu^2) [Pa], the modulus E* of plane-strain contact.
   double plane_strain_modulus() const { return youngs_modulus / (1 - poissons_ratio * poissons_ratio); }
 
   bool operator==(const Material&) const = default;

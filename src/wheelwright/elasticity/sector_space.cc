@@ -15,11 +15,8 @@ SectorSpace<dim>::SectorSpace(const CutDomain<dim>& domain, int degree, int core
 
   constexpr int used = 0;
   const auto mark = [&](int cell, int sectors_ahead) {
-    const auto c = grid.cell_position(cell);
     for (int a = 0; a < nodes_per_cell<dim>(degree); ++a) {
-      auto p = local_node_position<dim>(degree, a);
-      for (int d = 0; d < dim; ++d) p[d] += degree * c[d];
-      p[1] += sectors_ahead * degree * grid.cells[1];
+      const auto p = cell_node(cell, a, sectors_ahead);
       if (p[0] > 0) numbers_[extended_index(p)] = used;
     }
   };
@@ -49,16 +46,17 @@ int SectorSpace<dim>::extended_index(const std::array<int, dim>& p) const {
 }
 
 template <int dim>
+std::array<int, dim> SectorSpace<dim>::cell_node(int cell, int local_node, int sectors_ahead) const {
+  auto position = lattice_.cell_node(grid().cell_position(cell), local_node);
+  position[1] += sectors_ahead * lattice_.nodes()[1];
+  return position;
+}
+
+template <int dim>
 std::vector<int> SectorSpace<dim>::cell_nodes(int cell, int sectors_ahead) const {
-  const int degree = lattice_.degree();
-  const auto c = grid().cell_position(cell);
-  std::vector<int> nodes(nodes_per_cell<dim>(degree));
-  for (int a = 0; a < static_cast<int>(nodes.size()); ++a) {
-    auto p = local_node_position<dim>(degree, a);
-    for (int d = 0; d < dim; ++d) p[d] += degree * c[d];
-    p[1] += sectors_ahead * degree * grid().cells[1];
-    nodes[a] = number(p);
-  }
+  std::vector<int> nodes(nodes_per_cell<dim>(degree()));
+  for (int a = 0; a < static_cast<int>(nodes.size()); ++a)
+    nodes[a] = number(cell_node(cell, a, sectors_ahead));
   return nodes;
 }
 

@@ -6,8 +6,8 @@
 
 namespace wheelwright {
 
-/// Everything about the elements of a grid that no shape changes: elements, stiffness of full cells and ghost
-/// penalty of faces, one a radial row. Built once a run.
+/// The parts of the discretization that do not depend on the shape: one element, one stiffness of a full cell
+/// and the ghost penalties of its faces per radial row. Built once per run.
 template <int dim>
 class ElementTable {
  public:
@@ -20,7 +20,7 @@ class ElementTable {
 
   const ElasticElement<dim>& element(int radial) const { return elements_[radial]; }
   const Matrix& full_cell_stiffness(int radial) const { return stiffness_[radial]; }
-  /// On the dofs (minus cell, plus cell); `radial` is the minus cell's row.
+  /// The ghost penalty of a face on the dofs (minus cell, plus cell); `radial` is the row of the minus cell.
   const Matrix& face_ghost(int radial, int axis) const { return ghosts_[dim * radial + axis]; }
 
  private:
@@ -33,14 +33,15 @@ class ElementTable {
   std::vector<Matrix> ghosts_;
 };
 
-/// Stiffness of the core of one sector: bulk (2) and ghost penalty (81), rim fixed, sector faces free.
+/// Stiffness of the core of one sector: bulk (2) and ghost penalty (81), with a fixed rim and free sector
+/// faces.
 template <int dim>
 struct SectorStiffness {
   SectorSpace<dim> space;
   SparseSymmetric matrix;
 
-  /// A face that carries ghost penalty: its matrix on the dofs of `nodes` (minus cell, plus cell; -1 for
-  /// fixed nodes).
+  /// A face with ghost penalty: `stiffness` acts on the dofs of `nodes` (minus cell, plus cell; -1 for fixed
+  /// nodes).
   struct Ghost {
     std::vector<int> nodes;
     const Matrix* stiffness;
@@ -48,7 +49,7 @@ struct SectorStiffness {
   std::vector<Ghost> ghosts;
 };
 
-/// Assembles the sector; `table` must outlive the result.
+/// Assembles the stiffness of a sector. The result refers to `table`, which must outlive it.
 template <int dim>
 SectorStiffness<dim> sector_stiffness(const CutDomain<dim>& domain, const ElementTable<dim>& table,
                                       int core_rows);

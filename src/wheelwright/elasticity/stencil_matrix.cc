@@ -21,8 +21,8 @@ StencilMatrix<dim>::StencilMatrix(Pattern pattern) : pattern_(std::move(pattern)
   for (int a = 0; a < space.n_nodes(); ++a) {
     std::array<int, dim> next_entry;
     for (int c = 0; c < dim; ++c) {
-      next_entry[c] = matrix_.column_start[dim * a + c];
-      for (int other = c; other < dim; ++other) matrix_.rows[next_entry[c]++] = dim * a + other;
+      next_entry[c] = matrix_.column_start[space.dof(a, c)];
+      for (int other = c; other < dim; ++other) matrix_.rows[next_entry[c]++] = space.dof(a, other);
     }
     for (int w = 0; w < static_cast<int>(pattern_.masks_[a].size()); ++w) {
       for (std::uint64_t word = pattern_.masks_[a][w]; word != 0; word &= word - 1) {
@@ -37,7 +37,7 @@ StencilMatrix<dim>::StencilMatrix(Pattern pattern) : pattern_(std::move(pattern)
         p[1] += bit;
         const int b = space.number(p);
         for (int c = 0; c < dim; ++c)
-          for (int other = 0; other < dim; ++other) matrix_.rows[next_entry[c]++] = dim * b + other;
+          for (int other = 0; other < dim; ++other) matrix_.rows[next_entry[c]++] = space.dof(b, other);
       }
     }
   }
@@ -46,6 +46,7 @@ StencilMatrix<dim>::StencilMatrix(Pattern pattern) : pattern_(std::move(pattern)
 template <int dim>
 void StencilMatrix<dim>::add(std::span<const int> nodes, const Matrix& block) {
   const int n = static_cast<int>(nodes.size());
+  const auto dof = SectorSpace<dim>::dof;
   for (int i = 0; i < n; ++i) {
     const int a = nodes[i];
     if (a < 0) continue;
@@ -55,14 +56,13 @@ void StencilMatrix<dim>::add(std::span<const int> nodes, const Matrix& block) {
       if (b == a) {
         for (int c = 0; c < dim; ++c)
           for (int other = c; other < dim; ++other)
-            matrix_.values[matrix_.column_start[dim * a + c] + other - c] +=
-                block(dim * j + other, dim * i + c);
+            matrix_.values[matrix_.column_start[dof(a, c)] + other - c] += block(dof(j, other), dof(i, c));
         continue;
       }
       const int before = dim * couplings_before(a, slot(*pattern_.space_, a, b));
       for (int c = 0; c < dim; ++c) {
-        double* entry = &matrix_.values[matrix_.column_start[dim * a + c] + dim - c + before];
-        for (int other = 0; other < dim; ++other) entry[other] += block(dim * j + other, dim * i + c);
+        double* entry = &matrix_.values[matrix_.column_start[dof(a, c)] + dim - c + before];
+        for (int other = 0; other < dim; ++other) entry[other] += block(dof(j, other), dof(i, c));
       }
     }
   }

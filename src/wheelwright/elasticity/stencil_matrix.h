@@ -12,16 +12,18 @@
 
 namespace wheelwright {
 
-/// Assembles a symmetric sparse matrix over a sector's nodes. Nodes couple only when they are at most two
-/// cells apart, so that a node's couplings are bits of a small mask and every entry's place is a count of
-/// bits. Mark all couplings, then build(), then add().
+/// The sector assembler: assembles a symmetric sparse matrix on the dofs of a sector. Nodes couple only if
+/// they are at most two cells apart, so that the couplings of a node are bits of a small mask, and the
+/// position of an entry is a count of bits. Usage: couple() all nodes in a Pattern, construct the assembler
+/// from it, add() the blocks, and release() the matrix.
 template <int dim>
 class StencilMatrix {
  public:
-  /// Couples all pairs of these nodes (negative numbers are skipped) in the pattern.
+  /// The sparsity pattern.
   class Pattern {
    public:
     explicit Pattern(const SectorSpace<dim>& space) : space_(&space), masks_(space.n_nodes()) {}
+    /// Couples all pairs of these nodes. Negative numbers are skipped.
     void couple(std::span<const int> nodes) {
       for (int a : nodes)
         for (int b : nodes)
@@ -39,13 +41,14 @@ class StencilMatrix {
 
   explicit StencilMatrix(Pattern pattern);
 
-  /// Adds a dense symmetric block on the dofs of these nodes (dof = dim * local node + component).
+  /// Adds a dense symmetric block whose dofs are those of ElasticElement on these nodes. Negative numbers are
+  /// skipped.
   void add(std::span<const int> nodes, const Matrix& block);
 
   SparseSymmetric release() && { return std::move(matrix_); }
 
  private:
-  /// Place of the coupling a -> b > a in a's mask; ascending with b.
+  /// Position of the coupling a -> b > a in the mask of a; it increases with b.
   static int slot(const SectorSpace<dim>& space, int a, int b) {
     const int reach = 2 * space.degree(), width = 2 * reach + 1;
     const auto& p = space.position(a);
@@ -55,6 +58,7 @@ class StencilMatrix {
     return index * width + q[0] - p[0] + reach;
   }
 
+  /// Number of couplings of node a before this bit of its mask.
   int couplings_before(int a, int bit) const {
     int count = 0;
     const auto& mask = pattern_.masks_[a];

@@ -7,7 +7,8 @@ namespace wheelwright {
 namespace {
 
 constexpr int max_newton_steps = 10;
-constexpr double tolerance = 1e-5;  ///< of the last step, in node spacings; the error is about its square
+/// Tolerance on the length of the last step, in node spacings. The error is about the square of this length.
+constexpr double tolerance = 1e-5;
 
 template <int dim>
 double radius_at(const Lattice<dim>& lattice, const Vec<dim>& point) {
@@ -19,7 +20,7 @@ double shortest_spacing(const Lattice<dim>& lattice) {
   return lattice.grid().resolution() / lattice.degree();
 }
 
-/// b - a in the orthonormal polar frame at a.
+/// The vector from a to b in the orthonormal polar frame at a.
 template <int dim>
 Vec<dim> difference(const Lattice<dim>& lattice, const Vec<dim>& a, const Vec<dim>& b) {
   const Vec<dim> spacing = lattice.spacing();
@@ -32,7 +33,7 @@ Vec<dim> difference(const Lattice<dim>& lattice, const Vec<dim>& a, const Vec<di
   return result;
 }
 
-/// The point at `step` from a, the step given in the orthonormal polar frame at a.
+/// The point a + step, with the step given in the orthonormal polar frame at a.
 template <int dim>
 Vec<dim> moved(const Lattice<dim>& lattice, const Vec<dim>& a, const Vec<dim>& step) {
   const Vec<dim> spacing = lattice.spacing();
@@ -52,7 +53,8 @@ bool inside(const Lattice<dim>& lattice, const Vec<dim>& point) {
   return true;
 }
 
-/// Solves the n x n system by elimination with row pivots; garbage where it is singular.
+/// Solves an n x n system by Gaussian elimination with partial pivoting. The result is undefined if the
+/// matrix is singular.
 template <int n>
 Vec<n> solve(Mat<n> m, Vec<n> b) {
   for (int k = 0; k < n; ++k) {
@@ -74,7 +76,7 @@ Vec<n> solve(Mat<n> m, Vec<n> b) {
   return b;
 }
 
-/// The Newton step of the Lagrangian's stationary point, `to_target` = target - x.
+/// The Newton step towards a stationary point of the Lagrangian; `to_target` = target - x.
 template <int dim>
 Vec<dim> lagrange_step(const Jet<dim>& jet, const Vec<dim>& to_target) {
   const double slope2 = dot<dim>(jet.gradient, jet.gradient);

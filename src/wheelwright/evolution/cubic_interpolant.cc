@@ -42,7 +42,7 @@ template <int dim>
 Jet<dim> CubicInterpolant<dim>::operator()(const Vec<dim>& point) const {
   std::array<AxisBasis, dim> basis;
   for (int d = 0; d < dim; ++d) basis[d] = axis_basis(d, point[d]);
-  // Derivatives with respect to the lattice's own coordinates.
+  // Derivatives with respect to the coordinates of the lattice.
   double value = 0;
   Vec<dim> first{};
   Mat<dim> second{};
@@ -72,7 +72,7 @@ Jet<dim> CubicInterpolant<dim>::operator()(const Vec<dim>& point) const {
         }
       }
     }
-  // To the orthonormal frame of polar coordinates.
+  // Transform them to the orthonormal frame of polar coordinates.
   const Vec<dim> spacing = lattice().spacing();
   const double radius = lattice().grid().inner_radius + point[0] * spacing[0];
   Vec<dim> length = spacing;

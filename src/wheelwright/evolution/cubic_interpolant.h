@@ -4,7 +4,8 @@
 
 namespace wheelwright {
 
-/// Value and derivatives of a function in the orthonormal frame (radial, azimuthal[, axial]) at the point.
+/// Value, gradient and Hessian of a function at a point, in the orthonormal frame (radial, azimuthal[,
+/// axial]) there.
 template <int dim>
 struct Jet {
   double value;
@@ -13,15 +14,16 @@ struct Jet {
 };
 
 /// Piecewise tensor-product cubic through the nodal values of a level set, in polar coordinates: on each
-/// lattice element the Lagrange polynomial of the four nearest nodes along each axis. Continuous, of fourth
-/// order whatever the degree of the level set. Refers to the level set, which must outlive it.
+/// element of the lattice it is the Lagrange polynomial of the four nearest nodes along each axis. It is
+/// continuous and of fourth order for both degrees of the level set. It refers to the level set, which must
+/// outlive it.
 template <int dim>
 class CubicInterpolant {
  public:
   explicit CubicInterpolant(const LevelSet<dim>& psi);
 
-  /// At a point in units of the lattice's node spacing: node `position` lies at exactly that point. Azimuth
-  /// is taken periodically.
+  /// Evaluates the interpolant at a point in units of the node spacing of the lattice: the node at lattice
+  /// position p lies at the point p. The azimuth is periodic.
   Jet<dim> operator()(const Vec<dim>& point) const;
 
   const LevelSet<dim>& level_set() const { return *psi_; }
@@ -30,14 +32,15 @@ class CubicInterpolant {
  private:
   static constexpr int max_points = 4;
   struct AxisBasis {
-    std::array<int, max_points> offset;                        ///< of the points' nodes in the nodal values
-    std::array<std::array<double, max_points>, 3> derivative;  ///< of order 0, 1, 2
+    std::array<int, max_points> offset;  ///< of the interpolation nodes in the nodal values
+    std::array<std::array<double, max_points>, 3> derivative;  ///< of order 0, 1 and 2
   };
   AxisBasis axis_basis(int axis, double coordinate) const;
 
   const LevelSet<dim>* psi_;
   std::array<int, dim> strides_;
-  std::array<int, dim> n_points_;  ///< interpolation points along each axis: 4, fewer on a tiny lattice
+  /// Number of interpolation points along each axis: 4, or fewer on a tiny lattice.
+  std::array<int, dim> n_points_;
 };
 
 }  // namespace wheelwright

@@ -2,9 +2,9 @@
 
 #include <numeric>
 
-#include "wheelwright/evolution/cell_scale.h"
 #include "wheelwright/evolution/multilinear.h"
 #include "wheelwright/evolution/redistance.h"
+#include "wheelwright/evolution/sub_cell_filter.h"
 #include "wheelwright/evolution/transport.h"
 #include "wheelwright/geometry/finite.h"
 #include "wheelwright/geometry/mirror.h"
@@ -54,14 +54,15 @@ Expected<std::vector<double>> Evolver<dim>::measure_preserving_velocity(
   });
 }
 
-/// What a stage made of a shape, on the cell scale, its own mirror image if all that it was made of is, and
-/// cut off at the bands: which would hide an infinity.
+/// Post-processes the result of a stage: applies the sub-cell filter, restores mirror symmetry if the input
+/// of the stage had it, and clips holes at the protected bands. Clipping could hide an infinity, so that
+/// values are checked first.
 template <int dim>
-Expected<LevelSet<dim>> Evolver<dim>::kept(const LevelSet<dim>& psi, bool is_symmetric,
-                                           const char* what) const {
+Expected<LevelSet<dim>> Evolver<dim>::finished(const LevelSet<dim>& psi, bool is_symmetric,
+                                               const char* what) const {
   if (auto failure = check_finite<dim>(lattice_, psi.values, what)) return *failure;
-  LevelSet<dim> on_scale = on_cell_scale(psi);
-  return bands_.keep(is_symmetric ? mirror_symmetric_part(on_scale) : std::move(on_scale));
+  LevelSet<dim> filtered = sub_cell_filter(psi);
+  return bands_.keep(is_symmetric ? mirror_symmetric_part(filtered) : std::move(filtered));
 }
 
 template <int dim>
@@ -73,7 +74,7 @@ Expected<LevelSet<dim>> Evolver<dim>::move(const LevelSet<dim>& psi, std::span<c
   const bool is_symmetric =
       is_mirror_symmetric(psi) &&
       is_mirror_symmetric<dim>(psi.lattice, velocity, 1e-9 * largest_magnitude(velocity));
-  return kept(transport<dim>(psi, velocity, time), is_symmetric, "the level set after transport");
+  return finished(transport<dim>(psi, velocity, time), is_symmetric, "the level set after transport");
 }
 
 template <int dim>
@@ -87,14 +88,14 @@ double Evolver<dim>::first_order_change(std::span<const SurfaceSample<dim>> grad
 template <int dim>
 Expected<LevelSet<dim>> Evolver<dim>::redistance(const LevelSet<dim>& psi) const {
   if (auto failure = check_finite<dim>(psi.lattice, psi.values, "the level set")) return *failure;
-  return kept(wheelwright::redistance<dim>(psi), is_mirror_symmetric(psi),
-              "the level set after redistancing");
+  return finished(wheelwright::redistance<dim>(psi), is_mirror_symmetric(psi),
+                  "the level set after redistancing");
 }
 
 template <int dim>
 Expected<LevelSet<dim>> Evolver<dim>::smooth(const LevelSet<dim>& psi) const {
   if (!smoother_) return psi;
-  return kept((*smoother_)(psi), is_mirror_symmetric(psi), "the level set after smoothing");
+  return finished((*smoother_)(psi), is_mirror_symmetric(psi), "the level set after smoothing");
 }
 
 template <int dim>

@@ -13,31 +13,35 @@ namespace wheelwright {
 
 struct EvolutionOptions {
   VelocityOptions velocity;
-  double smoothing = 0;   ///< tau of (76), in squares of the grid's resolution; 0: smooth() does nothing
-  double rim_band = 0;    ///< [m]
-  double tread_band = 0;  ///< [m]
+  /// tau of (76), in units of the squared resolution of the grid. With 0, smooth() is the identity.
+  double smoothing = 0;
+  double rim_band = 0;    ///< width of the protected band at the rim [m]
+  double tread_band = 0;  ///< width of the protected band at the tread [m]
 };
 
-/// Everything that moves shapes of one lattice; factors what depends on the lattice alone once. All shapes it
-/// returns keep the protected bands; what it moved has no structure below the cells (cell_scale.h), and is
-/// its own mirror image if the shape and its velocity were (geometry/mirror.h). A NaN or an infinity that
-/// comes in, or out of a stage, is the failure not_finite.
+/// Moves shapes on one lattice. Matrices that depend only on the lattice are factored once. All returned
+/// shapes keep the protected bands. Shapes from move(), redistance() and smooth() have passed the sub-cell
+/// filter (sub_cell_filter.h), and they are mirror-symmetric if the given shape and velocity are
+/// (geometry/mirror.h). A NaN or an infinity in the input or in the result of a stage is the failure
+/// not_finite.
 template <int dim>
 class Evolver {
  public:
   Evolver(const Lattice<dim>& lattice, const EvolutionOptions& options);
 
-  /// Descent velocity of the shape gradient density G, and the same made to preserve the measure. Where the
-  /// boundary lies on the edge of a band and would go into it, G is left out.
+  /// Descent velocity of the density G of the shape gradient, and the descent velocity that also
+  /// preserves the measure. G is ignored where the boundary lies on the edge of a band and would move into
+  /// it.
   Expected<std::vector<double>> velocity(std::span<const SurfaceSample<dim>> gradient) const;
   Expected<std::vector<double>> measure_preserving_velocity(
       std::span<const SurfaceSample<dim>> gradient) const;
 
-  /// Transport for as long as the fastest node takes to travel `distance` [m]. `velocity` is not all zero.
+  /// Transports the shape for the time in which the fastest node travels `distance` [m]. Fails if `velocity`
+  /// vanishes everywhere.
   Expected<LevelSet<dim>> move(const LevelSet<dim>& psi, std::span<const double> velocity,
                                double distance) const;
 
-  /// By how much that motion changes the objective that has this gradient, to first order.
+  /// First-order change of the objective with this gradient under the same motion.
   double first_order_change(std::span<const SurfaceSample<dim>> gradient, std::span<const double> velocity,
                             double distance) const;
 
@@ -45,12 +49,12 @@ class Evolver {
   Expected<LevelSet<dim>> smooth(const LevelSet<dim>& psi) const;
   LevelSet<dim> keep_bands(const LevelSet<dim>& psi) const;
 
-  /// As the free functions of these names.
+  /// As the free functions with these names.
   Expected<MeasuredShape<dim>> with_measure(const LevelSet<dim>& psi, double target,
                                             double boundary_measure) const;
   Expected<AttachedShape<dim>> without_islands(const LevelSet<dim>& psi, double largest) const;
 
-  /// What happened to the holes between two shapes: topology_changes(), and those that came to a band.
+  /// Changes of the holes between two shapes: topology_changes(), and holes that reached a protected band.
   std::vector<ShapeEvent<dim>> changes(const LevelSet<dim>& before, const LevelSet<dim>& after) const;
 
  private:
@@ -58,7 +62,8 @@ class Evolver {
   Expected<std::vector<double>> movable_velocity(std::span<const SurfaceSample<dim>> gradient,
                                                  Extend extend) const;
 
-  Expected<LevelSet<dim>> kept(const LevelSet<dim>& psi, bool is_symmetric, const char* what) const;
+  /// Post-processes the result of a stage: filters, symmetrizes and clips it.
+  Expected<LevelSet<dim>> finished(const LevelSet<dim>& psi, bool is_symmetric, const char* what) const;
 
   Lattice<dim> lattice_;
   ProtectedBands<dim> bands_;

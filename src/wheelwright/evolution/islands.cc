@@ -17,7 +17,7 @@ bool is_island(const Component<dim>& component) {
   return component.is_material && !component.at_rim;
 }
 
-/// Why an island cannot be taken out.
+/// The reason why an island cannot be removed, if there is one.
 template <int dim>
 std::optional<Failure> check(const Component<dim>& island, double largest) {
   if (island.at_tread)
@@ -33,7 +33,7 @@ std::optional<Failure> check(const Component<dim>& island, double largest) {
   return {};
 }
 
-/// Distances to the samples of all islands, those of the neighbouring sectors included.
+/// Distance to the samples of all islands and of their images in the neighbouring sectors.
 template <int dim>
 class DistanceToIslands {
  public:
@@ -63,6 +63,7 @@ class DistanceToIslands {
   NearestPoint<dim> samples_;
 };
 
+/// The shape without its islands.
 template <int dim>
 LevelSet<dim> emptied(const LevelSet<dim>& psi, const Components<dim>& pieces) {
   const Lattice<dim>& lattice = psi.lattice;

@@ -5,17 +5,18 @@
 
 namespace wheelwright {
 
-/// A shape whose material all hangs together, and what was taken out for that.
+/// A shape without islands, and the islands that were removed from it.
 template <int dim>
 struct AttachedShape {
   LevelSet<dim> psi;
-  std::vector<ShapeEvent<dim>> removed;  ///< island_removed, one an island
+  std::vector<ShapeEvent<dim>> removed;  ///< one event island_removed per island
 };
 
-/// Takes islands, material that is not attached to the rim, out of a shape: psi becomes the distance to the
-/// rest of the boundary in them and where they were the nearest; elsewhere it keeps its values. Fails with
-/// tread_cut_off when the tread is not attached, with disconnected_material for an island larger than
-/// `largest` [m^2 in one sector, or m^3], with not_finite where psi is not finite.
+/// Removes islands, which are pieces of material that are not attached to the rim. In the islands, and where
+/// an island was nearer than the rest of the boundary, psi becomes the distance to the rest of the boundary;
+/// elsewhere it keeps its values. Fails with tread_cut_off if the tread is not attached, with
+/// disconnected_material if the measure of an island in one sector exceeds `largest` [m^2, or m^3 when dim =
+/// 3], and with not_finite.
 template <int dim>
 Expected<AttachedShape<dim>> without_islands(const LevelSet<dim>& psi, double largest);
 

@@ -4,7 +4,7 @@
 
 namespace wheelwright {
 
-/// By how much the node number grows from one node to the next along each axis, within one sector.
+/// Difference of the node indices of two neighbouring nodes along each axis, within one sector.
 template <int dim>
 std::array<int, dim> lattice_strides(const Lattice<dim>& lattice) {
   std::array<int, dim> strides;

@@ -21,7 +21,7 @@ std::array<int, n_corners<dim>> corner_nodes(const Lattice<dim>& lattice, const 
   return nodes;
 }
 
-/// The form on the elements between node radii `inner_radius` and inner_radius + spacing[0].
+/// Matrix of the bilinear form on an element between the radii inner_radius and inner_radius + spacing[0].
 template <int dim>
 CornerMatrix<dim> element_matrix(double inner_radius, const Vec<dim>& spacing, double mass,
                                  double stiffness) {

@@ -4,7 +4,7 @@ namespace wheelwright {
 
 namespace {
 
-constexpr double margin = 0.1;  ///< of the resolution
+constexpr double margin = 0.1;  ///< in units of the resolution
 
 }  // namespace
 
@@ -23,7 +23,7 @@ ProtectedBands<dim>::ProtectedBands(const Lattice<dim>& lattice, double rim_band
   }
 }
 
-/// To the nearest band; negative in a band.
+/// Radial distance to the nearest band; negative in a band.
 template <int dim>
 double ProtectedBands<dim>::distance(double radius) const {
   return std::min(radius - inner_edge_, outer_edge_ - radius);

@@ -6,26 +6,26 @@
 
 namespace wheelwright {
 
-/// The rings along rim and tread that stay material: r < R_i + rim_band and r > R_e - tread_band.
+/// The bands along the rim and the tread that stay material: r < R_i + rim_band and r > R_e - tread_band.
 template <int dim>
 class ProtectedBands {
  public:
-  /// Widths in metres.
+  /// The widths are in metres.
   ProtectedBands(const Lattice<dim>& lattice, double rim_band, double tread_band);
 
-  /// One flag a lattice node: true in a band.
+  /// One flag per lattice node, true in a band.
   const std::vector<bool>& nodes() const { return nodes_; }
 
-  /// The shape with every hole cut off at the edges of the bands: the smaller of psi and the distance to the
-  /// nearest band, less a tenth of the resolution, so that quadratic cells between an edge node and the next
-  /// do not overshoot into the band.
+  /// Clips holes at the edges of the bands: returns the minimum of psi and of the distance to the nearest
+  /// band minus a tenth of the resolution. This margin keeps quadratic level sets from overshooting into the
+  /// band between a node on its edge and the next node.
   LevelSet<dim> keep(LevelSet<dim> psi) const;
 
-  /// The holes of `after` that lie at a band, to within a sample, where none of the holes of `before` that
-  /// they overlap did; the place is the one at the band.
+  /// One event for each hole of `after` that reaches a band, up to about one sample spacing, if no
+  /// overlapping hole of `before` did. The place of the event is at the band.
   std::vector<ShapeEvent<dim>> contacts(const Components<dim>& before, const Components<dim>& after) const;
 
-  /// Whether a boundary point lies on the edge of a band, where keep() stops it.
+  /// Whether a boundary point lies on the edge of a band, where keep() stops the boundary.
   bool touches(const SurfaceSample<dim>& sample) const;
 
  private:

@@ -8,7 +8,7 @@ namespace wheelwright {
 
 namespace {
 
-/// The points of one sector and their images in the two neighbouring ones.
+/// The points of one sector and their images in the two neighbouring sectors.
 template <int dim>
 std::vector<Vec<dim>> with_images(const Lattice<dim>& lattice, const std::vector<Vec<dim>>& points) {
   std::vector<Vec<dim>> result;

@@ -4,11 +4,12 @@
 
 namespace wheelwright {
 
-/// The signed distance to {psi = 0} at every node, with the nodes' signs kept: the closest-point method
-/// (Chopp 2001; Saye 2014). The zero line is that of the cubic through the nodal values; seeds on it are
-/// found once, each node's nearest seed starts a Newton iteration for the closest point. Distances are
-/// physical, and the line's images in the neighbouring sectors count. Near corners of the line the nearest
-/// seed itself is taken. A psi of one sign comes back unchanged.
+/// Reinitialization: returns the signed distance [m] to {psi = 0} at all nodes, with the signs of psi, by the
+/// closest-point method (Chopp 2001; Saye 2014). The zero set is that of the cubic interpolant. Seed points
+/// on it are computed once; the seed nearest to a node starts a Newton iteration for the closest point of the
+/// zero set. Images of the zero set in the neighbouring sectors are included. Where the iteration fails, as
+/// near corners of the zero set, the distance to the seed itself is taken. A psi of one sign is returned
+/// unchanged.
 template <int dim>
 LevelSet<dim> redistance(const LevelSet<dim>& psi);
 

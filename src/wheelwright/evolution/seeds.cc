@@ -8,8 +8,8 @@ namespace {
 
 constexpr int samples_per_axis = 3;
 
-/// Root of psi on the lattice edge from `node` along `axis`, whose ends differ in sign: Newton, kept in a
-/// shrinking bracket.
+/// Root of psi on the lattice edge from `node` along `axis`, whose ends differ in sign, by Newton's method in
+/// a shrinking bracket.
 template <int dim>
 Vec<dim> edge_root(const CubicInterpolant<dim>& psi, const std::array<int, dim>& node, int axis) {
   Vec<dim> x;

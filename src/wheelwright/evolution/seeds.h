@@ -6,9 +6,9 @@
 
 namespace wheelwright {
 
-/// Points on {psi = 0} of one sector, about a third of the node spacing apart: one on every lattice edge
-/// whose ends differ in sign, and projections of sample points from the elements that have both signs. In
-/// units of the lattice's node spacing.
+/// Points on {psi = 0} in one sector, about a third of the node spacing apart: one on each edge of the
+/// lattice whose ends differ in sign, and the projections of sample points in elements whose corners differ
+/// in sign. The points are in units of the node spacing of the lattice.
 template <int dim>
 std::vector<Vec<dim>> zero_seeds(const CubicInterpolant<dim>& psi);
 

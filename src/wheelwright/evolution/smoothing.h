@@ -5,11 +5,12 @@
 
 namespace wheelwright {
 
-/// The smoothing step (76): the minimum of int (phi - psi)^2 / 2 + tau |grad phi|^2 / 2 over the sector.
+/// The smoothing step (76): returns the minimizer phi of int (phi - psi)^2 / 2 + tau |grad phi|^2 / 2 over
+/// the sector.
 template <int dim>
 class Smoother {
  public:
-  /// `length` = sqrt(tau) [m]: what is shorter than it is damped.
+  /// `length` = sqrt(tau) [m]; shorter waves are damped.
   Smoother(const Lattice<dim>& lattice, double length);
 
   LevelSet<dim> operator()(const LevelSet<dim>& psi) const;

@@ -14,7 +14,7 @@ double minmod(double a, double b) {
   return std::abs(a) < std::abs(b) ? a : b;
 }
 
-/// The lattice line through `first` along one axis, with two ghost values at each end.
+/// Copies the lattice line that starts at node `first` along one axis, with two ghost values at each end.
 template <int dim>
 void read_line(const Lattice<dim>& lattice, const std::vector<double>& phi, int first, int axis,
                std::vector<double>& line) {
@@ -33,14 +33,14 @@ void read_line(const Lattice<dim>& lattice, const std::vector<double>& phi, int 
   }
 }
 
-/// Godunov's choice between the squared one-sided derivatives for a front that moves with this speed.
+/// Square of the one-sided derivative that Godunov's scheme selects for a front with this speed.
 double upwind_square(double backward, double forward, double speed) {
   const double b = speed > 0 ? std::max(backward, 0.0) : std::min(backward, 0.0);
   const double f = speed > 0 ? std::min(forward, 0.0) : std::max(forward, 0.0);
   return std::max(b * b, f * f);
 }
 
-/// |grad phi|^2, upwind with respect to the velocity's sign.
+/// |grad phi|^2 at all nodes, upwind with respect to the sign of the velocity.
 template <int dim>
 std::vector<double> squared_gradient(const Lattice<dim>& lattice, const std::vector<double>& phi,
                                      std::span<const double> velocity) {
@@ -66,6 +66,7 @@ std::vector<double> squared_gradient(const Lattice<dim>& lattice, const std::vec
   return result;
 }
 
+/// One explicit Euler step.
 template <int dim>
 void euler_step(const Lattice<dim>& lattice, std::span<const double> velocity, double dt,
                 std::vector<double>& phi) {
@@ -74,7 +75,7 @@ void euler_step(const Lattice<dim>& lattice, std::span<const double> velocity, d
     phi[node] -= dt * velocity[node] * std::sqrt(gradient[node]);
 }
 
-/// Nodes that the fastest front crosses in a unit of time.
+/// Maximum number of nodes that a front crosses per unit of time [1/s].
 template <int dim>
 double crossing_rate(const Lattice<dim>& lattice, std::span<const double> velocity) {
   double rate = 0;

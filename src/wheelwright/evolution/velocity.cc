@@ -64,8 +64,8 @@ class HarmonicExtension final : public VelocityExtension<dim> {
   }
 
  private:
-  /// The mass term, negligible at the scale of the ring, keeps the operator regular without bands and
-  /// boundary.
+  /// The mass term is negligible at the scale of the ring. It keeps the operator regular if there are neither
+  /// bands nor boundary samples.
   static std::vector<SparseSpd::Entry> regularized_laplacian(const Lattice<dim>& lattice) {
     const double far = 1e3 * lattice.grid().outer_radius;
     return multilinear_form<dim>(lattice, 1 / (far * far), 1);

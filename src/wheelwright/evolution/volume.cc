@@ -19,7 +19,8 @@ LevelSet<dim> shifted(LevelSet<dim> psi, const ProtectedBands<dim>& bands, doubl
   return bands.keep(std::move(psi));
 }
 
-/// Where the measure is above the target the shift is too small, and the other way round.
+/// Shifts between which the solution lies: the measure is above the target for a shift that is too small, and
+/// below it for one that is too large.
 struct Bracket {
   double too_small, too_large;
   bool contains(double shift) const { return shift > too_small && shift < too_large; }

@@ -14,21 +14,23 @@ struct MeasuredShape {
   double measure;
 };
 
-/// The shape psi + c, with the one constant c that gives the material the measure `target` to 1e-6 relative
-/// [m^2 a sector, or m^3]. Nodes in the bands keep their value. `boundary_measure` is a guess of the length
-/// (area) of {psi = 0} in one sector, the slope of the measure. Fails with empty_shape where no c within the
-/// ring's thickness gives that measure, with cut_quadrature where the measure jumps across the target or
-/// cannot be found, with not_finite where psi is not finite.
+/// Returns psi + c with the constant c for which the material of one sector has the area `target` [m^2], or
+/// the volume [m^3] when dim = 3, up to a relative error of 1e-6. Nodes in the bands keep their values.
+/// `boundary_measure` is an estimate of the length (or area) of {psi = 0} in one sector; it is the initial
+/// slope of the secant method. Fails with empty_shape if no c within the thickness of the ring gives this
+/// measure, with cut_quadrature if the measure jumps across the target or cannot be computed, and with
+/// not_finite.
 template <int dim>
 Expected<MeasuredShape<dim>> with_measure(const LevelSet<dim>& psi, const ProtectedBands<dim>& bands,
                                           double target, double boundary_measure);
 
-/// Measure of the whole sector, holes included.
+/// Area [m^2] of the whole sector including the holes, or its volume [m^3] when dim = 3.
 template <int dim>
 double sector_measure(const PolarGrid<dim>& grid);
 
-/// The paper's multiplier lambda_k = 8 (max G - min G) (r_0 - r_k), with r the volume ratios (section 4); the
-/// material is then moved with G - lambda_k. Proportional only: an offset of the volume remains.
+/// The multiplier lambda_k = 8 (max G - min G) (r_0 - r_k) of the paper, where r is the volume ratio (section
+/// 4). The shape is then moved with the gradient G - lambda_k. This is a proportional control, so that an
+/// offset of the volume remains.
 template <int dim>
 double proportional_multiplier(std::span<const SurfaceSample<dim>> gradient, double target_ratio,
                                double ratio);

@@ -5,23 +5,20 @@
 
 namespace wheelwright {
 
-/// Isoparametric map of degree 1 or 2 of one grid cell, in the Cartesian axes of the cell's own frame: the
-/// frame whose first axis is radial at the cell's first azimuth. Cells of one radial (and axial) row share
-/// it.
+/// Isoparametric map of degree 1 or 2 from the unit cell to one grid cell, in the Cartesian frame of the
+/// cell: its first axis is radial at the first azimuth of the cell. All cells of one radial (and axial) row
+/// have the same map.
 template <int dim>
 class CellMap {
  public:
   CellMap(const PolarGrid<dim>& grid, int degree, std::array<int, dim> cell) : degree_(degree) {
     cell[1] = 0;
     const Lattice<dim> lattice(grid, degree);
-    for (int a = 0; a < nodes_per_cell<dim>(degree); ++a) {
-      auto p = local_node_position<dim>(degree, a);
-      for (int d = 0; d < dim; ++d) p[d] += degree * cell[d];
-      nodes_[a] = cartesian<dim>(lattice.polar_point(p));
-    }
+    for (int a = 0; a < nodes_per_cell<dim>(degree); ++a)
+      nodes_[a] = cartesian<dim>(lattice.polar_point(lattice.cell_node(cell, a)));
   }
 
-  /// Position of a point with these shape functions.
+  /// Position of the point where the shape functions have these values.
   Vec<dim> position(const ShapeFunctions<dim>& shape) const {
     Vec<dim> x{};
     for (int a = 0; a < nodes_per_cell<dim>(degree_); ++a)
@@ -38,7 +35,7 @@ class CellMap {
     return j;
   }
 
-  /// d^2 x / dm^2 at xi for a direction m in the unit cell's coordinates.
+  /// Second derivative d^2 x / dm^2 at xi for a direction m in the coordinates of the unit cell.
   Vec<dim> second_derivative(const Vec<dim>& xi, const Vec<dim>& m) const {
     Vec<dim> result{};
     for (int a = 0; a < nodes_per_cell<dim>(degree_); ++a) {
@@ -53,13 +50,15 @@ class CellMap {
   std::array<Vec<dim>, power(3, dim)> nodes_;
 };
 
-/// Physical surface element of a reference surface point (Nanson): J cof(F) n_ref.
+/// The physical surface element that a reference surface element is mapped to.
 template <int dim>
 struct SurfaceElement {
-  Vec<dim> normal;  ///< unit
+  Vec<dim> normal;  ///< unit normal
   double scale;     ///< dS / dS_ref
 };
 
+/// Maps a surface element with a unit reference normal by Nanson's formula: n dS = det(F) F^-T n_ref dS_ref,
+/// where F is the Jacobian.
 template <int dim>
 SurfaceElement<dim> map_surface(const Mat<dim>& jacobian, const Vec<dim>& reference_normal) {
   Vec<dim> n = transpose_times<dim>(inverse<dim>(jacobian), reference_normal);
@@ -68,7 +67,7 @@ SurfaceElement<dim> map_surface(const Mat<dim>& jacobian, const Vec<dim>& refere
   return {n, length * determinant<dim>(jacobian)};
 }
 
-/// v turned by an angle about the axle.
+/// Returns v rotated by an angle [rad] about the axle.
 template <int dim>
 Vec<dim> rotated(const Vec<dim>& v, double angle) {
   Vec<dim> result = v;

@@ -5,7 +5,7 @@
 namespace wheelwright {
 namespace {
 
-/// psi at the points of a finer lattice.
+/// Values of psi at the nodes of a finer lattice.
 template <int dim>
 class Samples {
  public:
@@ -21,11 +21,8 @@ class Samples {
     for (int cell = 0; cell < grid().n_cells(); ++cell) {
       const auto c = grid().cell_position(cell);
       const auto nodal = psi.cell_values(cell);
-      for (std::size_t k = 0; k < shape.size(); ++k) {
-        auto p = local_node_position<dim>(per_cell, static_cast<int>(k));
-        for (int d = 0; d < dim; ++d) p[d] += per_cell * c[d];
-        values_[lattice_.node_index(p)] = value(shape[k], nodal);
-      }
+      for (std::size_t k = 0; k < shape.size(); ++k)
+        values_[lattice_.node_index(lattice_.cell_node(c, static_cast<int>(k)))] = value(shape[k], nodal);
     }
   }
 
@@ -33,7 +30,7 @@ class Samples {
   bool is_material(int sample) const { return values_[sample] < 0; }
   bool is_material(const std::array<int, dim>& p) const { return is_material(index(p)); }
 
-  /// Lattice::node_index(), quicker for azimuths near the sector.
+  /// As Lattice::node_index(), but faster for azimuths near the sector.
   int index(std::array<int, dim> p) const {
     const int period = lattice_.nodes()[1];
     while (p[1] < 0) p[1] += period;
@@ -43,7 +40,7 @@ class Samples {
     return index * lattice_.nodes()[0] + p[0];
   }
 
-  /// psi < 0 at the centre of the square from p to its neighbours along two axes.
+  /// Whether psi < 0 at the centre of the square that p spans with its neighbours along the axes a and b.
   bool is_material_between(std::array<int, dim> p, int a, int b, int step_a, int step_b) const {
     const int period = lattice_.nodes()[1];
     p[1] = wrap(p[1], period);
@@ -97,10 +94,17 @@ class FloodFill {
     return true;
   }
 
-  /// The component of a sample: goes on from sample to sample, counting azimuths on beyond the sector.
+  /// Collects the component of a sample. Azimuthal positions are not wrapped at the faces of the sector, so
+  /// that the image stays in one piece.
   void fill(int first) {
     const Vec<dim> origin = lattice_.polar_point(first);
-    Component<dim> component{samples_.is_material(first), 0, {}, origin, origin, false, false};
+    Component<dim> component{.is_material = samples_.is_material(first),
+                             .measure = 0,
+                             .centre = {},
+                             .innermost = origin,
+                             .outermost = origin,
+                             .at_rim = false,
+                             .at_tread = false};
     mark(lattice_.node_position(first));
     while (!front_.empty()) {
       const Position p = front_.back();
@@ -174,7 +178,7 @@ class FloodFill {
   double in_sector(double azimuth) const {
     const double sector = lattice_.grid().sector_angle();
     const double result = azimuth - sector * std::floor(azimuth / sector);
-    return result < sector ? result : 0;  // rounding
+    return result < sector ? result : 0;  // rounding can give the sector angle itself
   }
 
   const Samples<dim>& samples_;

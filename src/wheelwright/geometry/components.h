@@ -6,32 +6,36 @@
 
 namespace wheelwright {
 
-/// One connected piece of the material, or one hole. Its copies in the other sectors are the same component.
+/// One connected piece of the material, or one hole. Its images in the other sectors belong to the same
+/// component.
 template <int dim>
 struct Component {
   bool is_material;
-  double measure;  ///< of one copy [m^2, or m^3 when dim = 3], to about a sample's share a sample on its edge
-  Vec<dim> centre;        ///< of one copy, mean (radius, azimuth[, axial]) with the azimuth in the sector
-  Vec<dim> innermost;     ///< sample next to the rim, (radius, azimuth[, axial])
-  Vec<dim> outermost;     ///< sample next to the tread
-  bool at_rim, at_tread;  ///< reaches the inner or outer radius
+  /// Area of one image [m^2], or volume [m^3] when dim = 3; the error is about the share of one sample per
+  /// sample on the edge of the component.
+  double measure;
+  Vec<dim> centre;        ///< mean (radius, azimuth[, axial]) of one image, with the azimuth in the sector
+  Vec<dim> innermost;     ///< sample nearest to the rim, (radius, azimuth[, axial])
+  Vec<dim> outermost;     ///< sample nearest to the tread
+  bool at_rim, at_tread;  ///< whether the component reaches the inner or outer radius
 };
 
-/// The pieces of {psi < 0} and of {psi >= 0} in the ring that repeats psi's sector.
+/// The connected components of {psi < 0} and of {psi >= 0} in the full ring.
 template <int dim>
 struct Components {
-  Lattice<dim> samples;        ///< where psi was sampled
-  std::vector<int> of_sample;  ///< index into `all`, one a sample
+  Lattice<dim> samples;        ///< the points where psi was sampled
+  std::vector<int> of_sample;  ///< one index into `all` per sample
   std::vector<Component<dim>> all;
 };
 
-/// Samples of psi a cell and axis that tell components apart. What is thinner than a sample's distance may be
-/// lost, and pieces that come closer than that may be taken for one.
+/// Number of samples of psi per cell and axis. A piece that is thinner than the distance of two samples may
+/// be lost, and pieces that are closer to each other than that may be taken for one.
 constexpr int component_samples = 4;
 
-/// Flood fill over samples of every cell's polynomial, periodic in azimuth: a piece may cross the sector's
-/// face, or hold on to the rim in a neighbouring sector only. Two samples across the diagonal of a square are
-/// joined where psi at its centre has their sign, as in material_contours(). psi must be finite.
+/// Finds the components by a flood fill over samples of the polynomial of each cell, periodic in azimuth: a
+/// piece may cross a face of the sector, or be attached to the rim only in a neighbouring sector. Two samples
+/// on a diagonal of a square are connected if psi has their sign at the centre of the square, as in
+/// material_contours(). psi must be finite.
 template <int dim>
 Components<dim> components(const LevelSet<dim>& psi, int samples_per_cell = component_samples);
 

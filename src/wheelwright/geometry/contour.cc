@@ -11,12 +11,12 @@
 namespace wheelwright {
 namespace {
 
-/// Crossings keep this distance, in edges of a sampling square, from the edge's ends: vertices stay distinct
-/// where psi vanishes at a sample.
+/// Minimum distance of a crossing from the ends of its edge, as a fraction of the edge. It keeps vertices
+/// distinct where psi vanishes at a sample.
 constexpr double end_margin = 1e-6;
 
-/// Where a polygon's vertex sits: at sample (i, j), or at the fraction t of the edge that leaves the sample
-/// along an axis.
+/// The place of a polygon vertex: at sample (i, j), or at the fraction t of the edge that starts at the
+/// sample and runs along an axis.
 enum class Site { sample, radial_edge, azimuthal_edge };
 
 struct Vertex {
@@ -32,8 +32,8 @@ struct Vertex {
 
 using Polygon = std::vector<Vertex>;
 
-/// The zero in (0, 1) of the parabola through (0, start), (1/2, middle), (1, end); start and end differ in
-/// sign.
+/// The zero in (0, 1) of the parabola through (0, start), (1/2, middle) and (1, end), where start and end
+/// differ in sign.
 double parabola_zero(double start, double middle, double end) {
   const double a = 2 * (start + end) - 4 * middle;
   const double b = 4 * middle - 3 * start - end;
@@ -43,7 +43,8 @@ double parabola_zero(double start, double middle, double end) {
   return std::clamp(t, end_margin, 1 - end_margin);
 }
 
-/// psi of one sector on a grid `n` times finer than its cells. Samples (i, j) count along radius and azimuth.
+/// Samples of psi on a grid that is `n` times finer than the cells of the sector. Sample (i, j) is the i-th
+/// along the radius and the j-th along the azimuth.
 class SampledLevelSet {
  public:
   SampledLevelSet(const LevelSet<2>& psi, int n)
@@ -63,7 +64,7 @@ class SampledLevelSet {
   double sample(int i, int j) const { return samples_[(j % columns_) * (rows_ + 1) + i]; }
   bool material(int i, int j) const { return sample(i, j) < 0; }
 
-  /// Polygons of the material in the square whose first corner is sample (i, j).
+  /// Polygons of the material in the square with the first corner at sample (i, j).
   std::vector<Polygon> square_polygons(int i, int j) const {
     const auto crossings = square_crossings(i, j);
     const auto corners = square_corners(i, j);
@@ -83,7 +84,7 @@ class SampledLevelSet {
     return {polygon};
   }
 
-  /// The cell's samples all lie in the material.
+  /// Whether all samples of the cell lie in the material.
   bool full(int cell) const {
     const auto c = cells_.cell_position(cell);
     for (int j = n_ * c[1]; j <= n_ * (c[1] + 1); ++j)
@@ -92,12 +93,12 @@ class SampledLevelSet {
     return true;
   }
 
-  /// Number of the cell that holds the square (i, j).
+  /// Index of the cell that contains the square (i, j).
   int cell_of(int i, int j) const {
     return cells_.cell_index({std::min(i, rows_ - 1) / n_, std::min(j, columns_ - 1) / n_});
   }
 
-  /// A position in units of samples as a point of the unit cell.
+  /// Converts a position in units of samples to a point of the unit cell.
   Vec<2> unit_cell_point(const Vec<2>& position, int cell) const {
     const auto c = cells_.cell_position(cell);
     return {position[0] / n_ - c[0], position[1] / n_ - c[1]};
@@ -105,25 +106,25 @@ class SampledLevelSet {
 
  private:
   static std::array<Vertex, 4> square_corners(int i, int j) {
-    return {{{i, j, Site::sample, 0},
-             {i + 1, j, Site::sample, 0},
-             {i + 1, j + 1, Site::sample, 0},
-             {i, j + 1, Site::sample, 0}}};
+    const auto corner = [](int k, int l) { return Vertex{.i = k, .j = l, .site = Site::sample, .t = 0}; };
+    return {corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)};
   }
 
-  /// Zeros on the square's sides, side k from corner k to the next; t = 0 where a side has none.
+  /// Zeros on the sides of the square; side k runs from corner k to the next. t = 0 marks a side without a
+  /// zero.
   std::array<Vertex, 4> square_crossings(int i, int j) const {
     return {{crossing(i, j, Site::radial_edge, i, j), crossing(i + 1, j, Site::azimuthal_edge, i, j),
              crossing(i, j + 1, Site::radial_edge, i, j), crossing(i, j, Site::azimuthal_edge, i, j)}};
   }
 
-  /// Zero on the edge that leaves sample (i, j), by the polynomial of the square's cell.
+  /// The zero on the edge that starts at sample (i, j), for the polynomial of the cell that contains the
+  /// square.
   Vertex crossing(int i, int j, Site site, int square_i, int square_j) const {
     const int di = site == Site::radial_edge, dj = site == Site::azimuthal_edge;
     const double start = sample(i, j), end = sample(i + di, j + dj);
-    if ((start < 0) == (end < 0)) return {i, j, site, 0};
+    if ((start < 0) == (end < 0)) return {.i = i, .j = j, .site = site, .t = 0};
     const double middle = polynomial({i + 0.5 * di, j + 0.5 * dj}, square_i, square_j);
-    return {i, j, site, parabola_zero(start, middle, end)};
+    return {.i = i, .j = j, .site = site, .t = parabola_zero(start, middle, end)};
   }
 
   double polynomial(const Vec<2>& position, int square_i, int square_j) const {
@@ -140,14 +141,14 @@ class SampledLevelSet {
   std::vector<double> samples_;
 };
 
-/// A piece of the material's boundary in one sector, material on the left.
+/// An edge of the boundary of the material in one sector, with the material on the left.
 struct Segment {
   Vertex start, end;
   ContourKind kind;
-  Vec<2> start_point;  ///< Cartesian, for the first sector
+  Vec<2> start_point;  ///< Cartesian position in the first sector
 };
 
-/// Whether the polygon's side from a to b bounds the material, and where.
+/// Whether the side from a to b of a polygon lies on the boundary of the material; sets the kind of boundary.
 bool bounds_material(const Vertex& a, const Vertex& b, int rows, ContourKind& kind) {
   if (a.on_circle(0) && b.on_circle(0)) {
     kind = ContourKind::rim;
@@ -180,7 +181,10 @@ std::vector<Segment> sector_segments(const LevelSet<2>& psi, int subdivisions) {
           ContourKind kind;
           if (!bounds_material(a, b, samples.rows(), kind)) continue;
           const ShapeFunctions<2> shape(degree, samples.unit_cell_point(a.position(), cell));
-          segments.push_back({a, b, kind, rotated<2>(maps[c[0]].position(shape), c[1] * column_angle)});
+          segments.push_back({.start = a,
+                              .end = b,
+                              .kind = kind,
+                              .start_point = rotated<2>(maps[c[0]].position(shape), c[1] * column_angle)});
         }
       }
     }
@@ -188,7 +192,7 @@ std::vector<Segment> sector_segments(const LevelSet<2>& psi, int subdivisions) {
   return segments;
 }
 
-/// One number for one vertex of the full ring, whichever square it is seen from.
+/// Numbers the vertices of the full ring. A vertex has the same number in all squares that share it.
 class VertexNumbering {
  public:
   VertexNumbering(const PolarGrid<2>& grid, int subdivisions)
@@ -205,7 +209,7 @@ class VertexNumbering {
   int samples_per_line_, columns_, ring_columns_;
 };
 
-/// The kind of a chain of segments: that of all of them, or free.
+/// The kind of a chain of segments: their common kind, or free if they differ.
 ContourKind joined(ContourKind a, ContourKind b) { return a == b ? a : ContourKind::free; }
 
 }  // namespace

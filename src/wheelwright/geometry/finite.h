@@ -9,8 +9,8 @@
 
 namespace wheelwright {
 
-/// The failure not_finite, with the place of the first NaN or infinity among the values of a lattice's nodes;
-/// nothing when all are finite. `what`: the values, as a subject, e.g. "the velocity".
+/// Returns the failure not_finite, with the place of the first NaN or infinity, unless all nodal values are
+/// finite. `what` names the values in the message, e.g. "the velocity".
 template <int dim>
 std::optional<Failure> check_finite(const Lattice<dim>& lattice, std::span<const double> values,
                                     std::string_view what);

@@ -8,7 +8,7 @@ namespace wheelwright {
 GaussRule gauss_rule(int n) {
   GaussRule rule{std::vector<double>(n), std::vector<double>(n)};
   for (int i = 0; i < n; ++i) {
-    // Newton on the Legendre polynomial P_n from the usual asymptotic root.
+    // Newton's method for a root of the Legendre polynomial P_n, started at the asymptotic root.
     double x = std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5)), derivative = 1;
     for (int iteration = 0; iteration < 100; ++iteration) {
       double p = 1, previous = 0;

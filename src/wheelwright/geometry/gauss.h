@@ -6,12 +6,12 @@
 
 namespace wheelwright {
 
-/// Gauss-Legendre rule on [0, 1].
+/// A Gauss-Legendre rule on [0, 1].
 struct GaussRule {
   std::vector<double> points, weights;
 };
 
-/// The rule with n points, exact for polynomials of degree 2n - 1.
+/// Returns the rule with n points, which is exact for polynomials of degree 2n - 1.
 GaussRule gauss_rule(int n);
 
 /// A quadrature point in the unit cell.
@@ -21,7 +21,7 @@ struct ReferencePoint {
   double weight;
 };
 
-/// Tensor product of the n-point rule over the unit cell.
+/// Returns the tensor product of the n-point rule on the unit cell; axis 0 varies fastest.
 template <int dim>
 std::vector<ReferencePoint<dim>> unit_cell_rule(int n);
 

@@ -6,7 +6,8 @@
 
 namespace wheelwright {
 
-/// Lagrange basis of degree 1 or 2 on [0, 1] with equidistant nodes: values, first and second derivatives.
+/// Values, first and second derivatives at x of the Lagrange basis of degree 1 or 2 with equidistant nodes on
+/// [0, 1].
 struct Lagrange1D {
   std::array<double, 3> value{}, derivative{}, second{};
 
@@ -22,13 +23,14 @@ struct Lagrange1D {
   }
 };
 
-/// Nodes of the tensor-product cell of this degree.
+/// Number of nodes of the tensor-product cell of this degree.
 template <int dim>
 constexpr int nodes_per_cell(int degree) {
   return power(degree + 1, dim);
 }
 
-/// Position of a cell's local node along each axis, in 0..degree; axis 0 fastest.
+/// Position of a local node of a cell along each axis, in 0..degree. Local nodes are numbered with axis 0
+/// fastest.
 template <int dim>
 constexpr std::array<int, dim> local_node_position(int degree, int node) {
   std::array<int, dim> p{};
@@ -39,12 +41,12 @@ constexpr std::array<int, dim> local_node_position(int degree, int node) {
   return p;
 }
 
-/// Tensor-product Lagrange shape functions at one point of the unit cell. Local nodes: axis 0 fastest.
+/// Tensor-product Lagrange shape functions at one point of the unit cell, in the order of the local nodes.
 template <int dim>
 struct ShapeFunctions {
   static constexpr int max_nodes = power(3, dim);
   std::array<double, max_nodes> value;
-  std::array<Vec<dim>, max_nodes> gradient;  ///< with respect to the unit cell's coordinates
+  std::array<Vec<dim>, max_nodes> gradient;  ///< with respect to the coordinates of the unit cell
 
   ShapeFunctions(int degree, const Vec<dim>& xi) {
     const auto axes = evaluate_axes(degree, xi);
@@ -71,7 +73,8 @@ struct ShapeFunctions {
   }
 };
 
-/// d^2 N_a / dm^2 at xi for a direction m in the unit cell's coordinates.
+/// Second derivative d^2 N_a / dm^2 at xi of the shape function of local node a, for a direction m in the
+/// coordinates of the unit cell.
 template <int dim>
 double shape_second_derivative(int degree, int node, const Vec<dim>& xi, const Vec<dim>& m) {
   const auto p = local_node_position<dim>(degree, node);

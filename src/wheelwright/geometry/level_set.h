@@ -7,23 +7,19 @@
 
 namespace wheelwright {
 
-/// The level set psi (74) of one sector: negative in the material, positive in the holes. A piecewise
-/// polynomial of the lattice's degree (1 or 2), given by its nodal values [m], periodic in azimuth.
+/// The level set psi (74) of one sector, negative in the material and positive in the holes: a piecewise
+/// polynomial of the degree of the lattice (1 or 2), periodic in azimuth, given by its nodal values [m].
 template <int dim>
 struct LevelSet {
   Lattice<dim> lattice;
-  std::vector<double> values;  ///< one value a lattice node
+  std::vector<double> values;  ///< one value per lattice node
 
-  /// Nodal values of one cell, axis 0 fastest.
+  /// Nodal values of one cell in the order of its local nodes.
   std::vector<double> cell_values(int cell) const {
-    const int degree = lattice.degree();
-    const auto c = lattice.grid().cell_position(cell);
-    std::vector<double> result(nodes_per_cell<dim>(degree));
-    for (int a = 0; a < static_cast<int>(result.size()); ++a) {
-      auto p = local_node_position<dim>(degree, a);
-      for (int d = 0; d < dim; ++d) p[d] += degree * c[d];
-      result[a] = values[lattice.node_index(p)];
-    }
+    const auto position = lattice.grid().cell_position(cell);
+    std::vector<double> result(nodes_per_cell<dim>(lattice.degree()));
+    for (int a = 0; a < static_cast<int>(result.size()); ++a)
+      result[a] = values[lattice.node_index(lattice.cell_node(position, a))];
     return result;
   }
 };

@@ -6,22 +6,23 @@
 
 namespace wheelwright {
 
-// Mirror images in the plane of azimuth 0. A shape with sectors that is its own mirror image there is so in
-// every sector's middle plane too: a sector's cells and nodes have theirs in the same sector.
+// Mirror images with respect to the plane of azimuth 0. A cyclic shape that is symmetric with respect to this
+// plane is symmetric with respect to the middle plane of each sector too. Therefore cells and nodes of a
+// sector are mapped to cells and nodes of the same sector.
 
-/// Whether values at the lattice's nodes are their own mirror image. False if one is NaN.
+/// Whether nodal values are mirror-symmetric up to an absolute tolerance. False if a value is NaN.
 template <int dim>
 bool is_mirror_symmetric(const Lattice<dim>& lattice, std::span<const double> values, double tolerance);
 
-/// Whether a shape is its own mirror image, up to 1e-9 of a cell.
+/// Whether a shape is mirror-symmetric, up to 1e-9 of the resolution of the grid.
 template <int dim>
 bool is_mirror_symmetric(const LevelSet<dim>& psi);
 
-/// The mean of a level set and its mirror image.
+/// Returns the mean of a level set and its mirror image.
 template <int dim>
 LevelSet<dim> mirror_symmetric_part(const LevelSet<dim>& psi);
 
-/// The number of the cell where a cell of the sector's grid has its image.
+/// Index of the cell that is the mirror image of a cell in the same sector.
 template <int dim>
 int mirror_image(const PolarGrid<dim>& grid, int cell) {
   auto position = grid.cell_position(cell);
@@ -29,7 +30,7 @@ int mirror_image(const PolarGrid<dim>& grid, int cell) {
   return grid.cell_index(position);
 }
 
-/// The image of a vector, given by polar or Cartesian components, or of a direction in the unit cell.
+/// Mirror image of a vector, given by polar or Cartesian components, or of a direction in the unit cell.
 template <int dim>
 Vec<dim> mirror_image(Vec<dim> v) {
   v[1] = -v[1];

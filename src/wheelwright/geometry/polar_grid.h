@@ -5,26 +5,26 @@
 #include <cmath>
 #include <numbers>
 
-#include "wheelwright/base/vec.h"
+#include "wheelwright/geometry/lagrange.h"
 
 namespace wheelwright {
 
-/// A structured grid of one sector of a ring: axis 0 radial (inner to outer radius), axis 1 azimuthal (one
-/// sector, periodic), axis 2 axial (dim = 3). Cells are equal in (radius, azimuth, axial) coordinates.
-/// Lengths in metres, angles in radians; azimuth 0 is the sector's first face.
+/// A structured grid of one sector of a ring: axis 0 is radial (inner to outer radius), axis 1 azimuthal (one
+/// sector, periodic) and axis 2 axial (dim = 3). All cells have the same size in (radius, azimuth, axial)
+/// coordinates. Lengths are in metres and angles in radians; azimuth 0 is the first face of the sector.
 template <int dim>
 struct PolarGrid {
   double inner_radius;         ///< R_i, the rim
   double outer_radius;         ///< R_e, the tread
   double width;                ///< w_r, along the axle; the extent of axis 2 when dim = 3
   int n_sectors;               ///< N_s
-  std::array<int, dim> cells;  ///< cells of one sector along each axis
+  std::array<int, dim> cells;  ///< number of cells of one sector along each axis
 
   bool operator==(const PolarGrid&) const = default;
 
   double sector_angle() const { return 2 * std::numbers::pi / n_sectors; }
-  int columns() const { return cells[1]; }                   ///< angular cells of a sector
-  int ring_columns() const { return cells[1] * n_sectors; }  ///< angular cells of the full ring
+  int columns() const { return cells[1]; }                   ///< number of angular cells of a sector
+  int ring_columns() const { return cells[1] * n_sectors; }  ///< number of angular cells of the full ring
 
   /// Extent of a cell along each axis, in (m, rad, m).
   Vec<dim> cell_size() const {
@@ -35,7 +35,8 @@ struct PolarGrid {
     return size;
   }
 
-  /// The shortest edge of a cell at mid-ring, in metres: the length h that steps and bands are measured in.
+  /// The length h [m] that steps and bands are measured in: the shortest edge of a cell at the mean radius of
+  /// the ring.
   double resolution() const {
     const Vec<dim> size = cell_size();
     double h = std::min(size[0], size[1] * 0.5 * (inner_radius + outer_radius));
@@ -49,13 +50,15 @@ struct PolarGrid {
     return n;
   }
 
-  /// Cell number; radial fastest, azimuth slowest, so that one angular column is contiguous.
+  /// Index of the cell at a position. The radial position varies fastest and the azimuthal position slowest,
+  /// so that the cells of one angular column are contiguous.
   int cell_index(const std::array<int, dim>& c) const {
     int index = c[1];
     if constexpr (dim == 3) index = index * cells[2] + c[2];
     return index * cells[0] + c[0];
   }
 
+  /// Position of a cell along each axis.
   std::array<int, dim> cell_position(int index) const {
     std::array<int, dim> c;
     c[0] = index % cells[0];
@@ -78,8 +81,9 @@ Vec<dim> cartesian(const Vec<dim>& polar) {
   return x;
 }
 
-/// The nodes of degree `degree` on a sector's grid. Periodic in azimuth: the nodes of the sector's last face
-/// are those of the next sector's first. Radial fastest, azimuth slowest.
+/// The nodes of a sector's grid for elements of degree `degree`. The lattice is periodic in azimuth: the
+/// nodes of the last face of a sector are those of the first face of the next sector. The radial position
+/// varies fastest in the node index and the azimuthal position slowest.
 template <int dim>
 class Lattice {
  public:
@@ -89,22 +93,25 @@ class Lattice {
 
   const PolarGrid<dim>& grid() const { return grid_; }
   int degree() const { return degree_; }
-  const std::array<int, dim>& nodes() const { return nodes_; }  ///< nodes of one sector along each axis
+  const std::array<int, dim>& nodes() const {
+    return nodes_;
+  }  ///< number of nodes of one sector along each axis
 
   int n_nodes() const {
     int n = 1;
     for (int k : nodes_) n *= k;
     return n;
   }
-  int nodes_per_line() const { return n_nodes() / nodes_[1]; }  ///< nodes of one azimuth
+  int nodes_per_line() const { return n_nodes() / nodes_[1]; }  ///< number of nodes at one azimuth
 
-  /// Node number; position[1] may lie outside [0, nodes()[1]): it is taken periodically.
+  /// Index of the node at a position. position[1] is taken modulo nodes()[1].
   int node_index(const std::array<int, dim>& position) const {
     int index = (position[1] % nodes_[1] + nodes_[1]) % nodes_[1];
     if constexpr (dim == 3) index = index * nodes_[2] + position[2];
     return index * nodes_[0] + position[0];
   }
 
+  /// Position of a node along each axis.
   std::array<int, dim> node_position(int index) const {
     std::array<int, dim> p;
     p[0] = index % nodes_[0];
@@ -117,6 +124,14 @@ class Lattice {
     return p;
   }
 
+  /// Position of a local node of the cell at position `cell`. On the last face of the sector its azimuthal
+  /// position is nodes()[1].
+  std::array<int, dim> cell_node(const std::array<int, dim>& cell, int local_node) const {
+    auto position = local_node_position<dim>(degree_, local_node);
+    for (int d = 0; d < dim; ++d) position[d] += degree_ * cell[d];
+    return position;
+  }
+
   /// Distance of neighbouring nodes along each axis, in (m, rad, m).
   Vec<dim> spacing() const {
     Vec<dim> h = grid_.cell_size();
@@ -124,7 +139,7 @@ class Lattice {
     return h;
   }
 
-  /// (radius, azimuth[, axial]) of a node; position[1] may lie outside the sector.
+  /// Coordinates (radius, azimuth[, axial]) of a node; position[1] may lie outside the sector.
   Vec<dim> polar_point(const std::array<int, dim>& position) const {
     const Vec<dim> h = spacing();
     Vec<dim> x;

@@ -7,7 +7,7 @@ double signed_distance(const PolarGrid<dim>& grid, std::span<const Circle> holes
   double result = grid.inner_radius - grid.outer_radius;
   for (std::size_t k = 0; k < holes.size(); ++k) {
     const Circle& hole = holes[k];
-    // The nearest image is the one within half a sector.
+    // The nearest image of the hole is the one whose azimuth differs by at most half a sector.
     const double offset = std::remainder(polar[1] - hole.centre_azimuth, grid.sector_angle());
     const double chord = 2 * std::sqrt(polar[0] * hole.centre_radius) * std::sin(offset / 2);
     const double depth = hole.hole_radius - std::hypot(polar[0] - hole.centre_radius, chord);

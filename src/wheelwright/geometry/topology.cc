@@ -27,7 +27,7 @@ std::vector<std::set<int>> overlapping_holes(const Components<dim>& of, const Co
 
 namespace {
 
-/// An event for each hole that overlaps several holes, and for each that overlaps none.
+/// Adds one event for each hole of `of` that overlaps several holes of `with` or none.
 template <int dim>
 void compare(const Components<dim>& of, const Components<dim>& with, ShapeEventKind several,
              ShapeEventKind none, std::vector<ShapeEvent<dim>>& events) {

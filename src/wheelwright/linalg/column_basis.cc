@@ -11,12 +11,12 @@
 namespace wheelwright {
 namespace {
 
-/// Columns that are made orthogonal together.
+/// Number of columns that are orthogonalized together.
 constexpr int block_size = 32;
 
 double length(const Matrix& a, int column) {
   const double* x = a.column(column);
-  // Four sums, so that they go through vector registers.
+  // Four partial sums let the compiler use vector registers.
   std::array<double, 4> sums{};
   int i = 0;
   for (; i + 4 <= a.rows(); i += 4)
@@ -25,12 +25,12 @@ double length(const Matrix& a, int column) {
   return std::sqrt(sums[0] + sums[1] + (sums[2] + sums[3]));
 }
 
-/// Takes the components along the basis out of x.
+/// Projects the columns of x onto the orthogonal complement of the basis.
 void project_out(const Matrix& basis, Matrix& x) {
   multiply(-1, basis, Op::none, product(basis, Op::transpose, x, Op::none), Op::none, 1, x);
 }
 
-/// The columns that are longer than `shortest`.
+/// Returns the columns that are longer than `shortest`.
 Matrix long_columns(const Matrix& a, double shortest) {
   auto result = Matrix::unfilled(a.rows(), a.columns());
   int n = 0;
@@ -39,7 +39,7 @@ Matrix long_columns(const Matrix& a, double shortest) {
   return block(result, 0, 0, a.rows(), n);
 }
 
-/// The basis with more columns.
+/// Appends columns to the basis.
 Matrix extended(const Matrix& basis, const Matrix& more) {
   auto result = Matrix::unfilled(basis.rows(), basis.columns() + more.columns());
   std::copy_n(basis.data(), basis.entries().size(), result.data());
@@ -47,8 +47,8 @@ Matrix extended(const Matrix& basis, const Matrix& more) {
   return result;
 }
 
-/// An orthonormal basis of x's columns, the longest remainder first, until none is longer than `shortest`: QR
-/// with column pivoting.
+/// Truncated pivoted QR: an orthonormal basis of the columns of x. Each step takes the column with the
+/// longest remainder; the factorization ends when no remainder is longer than `shortest`.
 Matrix orthonormal(Matrix x, double shortest) {
   const int m = x.rows(), n = x.columns();
   std::vector<int> pivots(n, 0);
@@ -64,7 +64,7 @@ Matrix orthonormal(Matrix x, double shortest) {
   return block(x, 0, 0, m, rank);
 }
 
-/// Makes columns orthonormal that almost are: Cholesky QR.
+/// Orthonormalizes columns that are nearly orthonormal already, by Cholesky QR.
 void orthonormalize(Matrix& x) {
   Matrix gram = product(x, Op::transpose, x, Op::none);
   const int m = x.rows(), n = x.columns();
@@ -83,13 +83,14 @@ ColumnBasis column_basis(const Matrix& a, double tolerance) {
   Matrix basis(a.rows(), 0);
   const int n_blocks = (a.columns() + block_size - 1) / block_size;
   for (int block = 0; block < n_blocks && longest > 0; ++block) {
-    // Neighbouring columns are often alike: a block takes them from all over a.
+    // Neighbouring columns are often similar, so that each block takes columns spread over all of a.
     auto x = Matrix::unfilled(a.rows(), (a.columns() - block + n_blocks - 1) / n_blocks);
     for (int k = 0; k < x.columns(); ++k) std::copy_n(a.column(block + k * n_blocks), a.rows(), x.column(k));
     project_out(basis, x);
     Matrix more = orthonormal(long_columns(x, shortest), shortest);
     if (more.columns() == 0) continue;
-    // What rounding left of the basis weighs more in a short remainder: once again.
+    // Rounding left components along the basis, which weigh more in the now normalized remainders: project
+    // again.
     project_out(basis, more);
     orthonormalize(more);
     basis = extended(basis, more);

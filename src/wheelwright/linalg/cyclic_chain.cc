@@ -19,13 +19,14 @@ Failure not_positive_definite() {
   return {FailureReason::not_positive_definite, "a chain of equal links is not positive definite"};
 }
 
-/// Pivots converge with the square of step's spectral radius; a chain that needs more is as good as singular.
+/// Limit on the number of pivots. The pivots converge like the square of the spectral radius of step, so that
+/// a chain that needs more is numerically singular.
 constexpr int most_pivots = 10000;
 
-/// Changes of a pivot that are smaller, as a fraction of the diagonal, are rounding when they no longer fall.
+/// A change of the pivot below this fraction of the diagonal is rounding once the changes no longer decrease.
 constexpr double nearly_converged = 1e-12;
 
-/// Powers of step below this are left out.
+/// Powers of step whose entries are all below this bound are neglected.
 constexpr double negligible = 1e-17;
 
 }  // namespace
@@ -77,7 +78,7 @@ Matrix CyclicChain::solve(const Matrix& loads) const {
   return x;
 }
 
-/// Solves for n_rhs right-hand sides from `first` on.
+/// Solves for the right-hand sides first ... first + n_rhs - 1.
 void CyclicChain::solve_some(const Matrix& loads, int first, int n_rhs, Matrix& result) const {
   const int n = loads.rows();
   const auto copy = [&](const Matrix& from, auto place_from, Matrix& to, auto place_to) {
@@ -91,7 +92,8 @@ void CyclicChain::solve_some(const Matrix& loads, int first, int n_rhs, Matrix& 
   copy(loads, by_rhs, x, by_link);
   const auto link = [&](int c) { return x.column(c * n_rhs); };
 
-  // Forwards, the first link without its predecessor; then what that one passes on, once round the ring.
+  // Forward elimination that ignores the predecessor of the first link; then the contribution of that
+  // predecessor, propagated around the ring.
   Matrix passed(n, n_rhs), closed(n, n_rhs);
   for (int c = 1; c < n_links_; ++c) multiply_columns(1, step_, Op::none, link(c - 1), n_rhs, 1, link(c));
   multiply_columns(1, closing_, Op::none, link(n_links_ - 1), n_rhs, 0, passed.data());

@@ -68,7 +68,7 @@ std::vector<int> nonzero_columns(const Matrix& a) {
   std::vector<int> columns;
   for (int j = 0; j < a.columns(); ++j) {
     const double* x = a.column(j);
-    // Bits without that of the sign, so that the loop goes through vector registers.
+    // The bits without the sign bit are all zero for 0 and -0; the loop uses vector registers.
     std::uint64_t bits = 0;
     for (int i = 0; i < a.rows(); ++i) bits |= std::bit_cast<std::uint64_t>(x[i]) << 1;
     if (bits != 0) columns.push_back(j);

@@ -10,7 +10,7 @@
 
 namespace wheelwright {
 
-/// Leaves new entries without a value where std::allocator would set them to zero.
+/// An allocator that leaves new entries uninitialized where std::allocator would set them to zero.
 template <class T>
 struct NoInitialization : std::allocator<T> {
   template <class U>
@@ -30,11 +30,11 @@ template <class Scalar>
 class DenseMatrix {
  public:
   DenseMatrix() = default;
-  /// Of zeros.
+  /// A matrix of zeros.
   DenseMatrix(int rows, int columns)
       : rows_(rows), columns_(columns), entries_(size_t(rows) * columns, Scalar(0)) {}
 
-  /// To be filled: its entries have no value yet.
+  /// A matrix whose entries are uninitialized; the caller must set them all.
   static DenseMatrix unfilled(int rows, int columns) {
     DenseMatrix result;
     result.rows_ = rows;
@@ -63,7 +63,8 @@ class DenseMatrix {
 using Matrix = DenseMatrix<double>;
 using ComplexMatrix = DenseMatrix<std::complex<double>>;
 
-/// The part of a with `rows` rows from `first_row` on and `columns` columns from `first_column` on.
+/// A copy of the block of a with `rows` rows from `first_row` on and `columns` columns from `first_column`
+/// on.
 template <class Scalar>
 DenseMatrix<Scalar> block(const DenseMatrix<Scalar>& a, int first_row, int first_column, int rows,
                           int columns) {
@@ -73,44 +74,49 @@ DenseMatrix<Scalar> block(const DenseMatrix<Scalar>& a, int first_row, int first
   return result;
 }
 
-/// Some columns of a, and the numbers of those that are not all zeros.
+/// A copy of the given columns of a, in the given order.
 Matrix selected_columns(const Matrix& a, std::span<const int> columns);
+
+/// Ascending indices of the columns that have an entry other than zero.
 std::vector<int> nonzero_columns(const Matrix& a);
 
-/// diag(factors) a.
+/// Returns diag(factors) * a.
 Matrix scaled_rows(std::span<const double> factors, Matrix a);
 
-/// The largest absolute value of an entry; NaN if one is NaN.
+/// The maximum absolute value of the entries; NaN if an entry is NaN.
 double largest_entry(const Matrix& a);
 
 enum class Op { none, transpose, adjoint };
 
-/// c = alpha op_a(a) op_b(b) + beta c (BLAS gemm); shapes must fit.
+/// Computes c = alpha * op_a(a) * op_b(b) + beta * c (gemm of BLAS). The shapes must match.
 void multiply(double alpha, const Matrix& a, Op op_a, const Matrix& b, Op op_b, double beta, Matrix& c);
 void multiply(std::complex<double> alpha, const ComplexMatrix& a, Op op_a, const ComplexMatrix& b, Op op_b,
               std::complex<double> beta, ComplexMatrix& c);
 
-/// c = alpha op(a) b + beta c on the first columns of b and c, which have no gaps between them.
+/// Computes c = alpha * op(a) * b + beta * c, where b and c are the first entries of contiguous column-major
+/// matrices with this number of columns.
 void multiply_columns(double alpha, const Matrix& a, Op op, const double* b, int columns, double beta,
                       double* c);
 
+/// Returns a + b.
 Matrix sum(Matrix a, const Matrix& b);
 
-/// op_a(a) op_b(b).
+/// Returns op_a(a) * op_b(b).
 Matrix product(const Matrix& a, Op op_a, const Matrix& b, Op op_b);
 
 /// Replaces the lower triangle of a Hermitian positive definite matrix by its Cholesky factor; the strict
-/// upper triangle is neither read nor written. False when it is not positive definite.
+/// upper triangle is neither read nor written. Returns false when the matrix is not positive definite.
 [[nodiscard]] bool cholesky(Matrix& a);
 [[nodiscard]] bool cholesky(ComplexMatrix& a);
 
-/// Solves a x = b with cholesky()'s factor; b becomes x.
+/// Solves a * x = b with the factor that cholesky() left in a; b becomes x.
 void cholesky_solve(const Matrix& factor, Matrix& b);
 
-/// The inverse, both triangles, of a Hermitian positive definite matrix from cholesky()'s factor, in place.
+/// Replaces the factor that cholesky() left by both triangles of the inverse matrix.
 void cholesky_invert(ComplexMatrix& factor);
 
-/// Solves a x = b by LU with partial pivoting; a is destroyed, b becomes x. False when a is singular.
+/// Solves a * x = b by LU factorization with partial pivoting; a is destroyed and b becomes x. Returns false
+/// when a is singular.
 [[nodiscard]] bool lu_solve(Matrix& a, Matrix& b);
 
 }  // namespace wheelwright

@@ -59,7 +59,7 @@ class SymbolicFactor {
   bool kept_order() const { return factor_ != nullptr; }
   int n_supernodes() const { return static_cast<int>(factor_->nsuper); }
   int first(int supernode) const { return static_cast<const int*>(factor_->super)[supernode]; }
-  /// Nodes of a supernode's rows, its own first.
+  /// Nodes of the rows of a supernode; the nodes of its diagonal block come first.
   std::span<const int> rows(int supernode) const {
     const int* start = static_cast<const int*>(factor_->pi);
     return {static_cast<const int*>(factor_->s) + start[supernode],
@@ -71,10 +71,11 @@ class SymbolicFactor {
   cholmod_factor* factor_ = nullptr;
 };
 
-/// Vectors that sweeps take together.
+/// Number of vectors that a sweep processes together.
 constexpr int sweep_block = 24;
 
-/// Calls f(first, n) for blocks of n of `size` vectors, whatever the number of threads.
+/// Calls f(first, n) for blocks of n of the `size` vectors. The blocks do not depend on the number of
+/// threads.
 void for_blocks(int size, const std::function<void(int, int)>& f) {
   const int n_blocks = (size + sweep_block - 1) / sweep_block;
   parallel_for(n_blocks, [&](int block) {
@@ -101,12 +102,12 @@ Expected<PartialCholesky> PartialCholesky::analyze(const SparseSymmetric& matrix
     const auto below = std::upper_bound(
         rows.begin(), rows.end(),
         std::min(n_interior, s + 1 < symbolic.n_supernodes() ? symbolic.first(s + 1) : n_interior) - 1);
-    Supernode node{block * symbolic.first(s),
-                   block * static_cast<int>(below - rows.begin()),
-                   block * static_cast<int>(rows.end() - below),
-                   result.below_.size(),
-                   n_values,
-                   -1};
+    const Supernode node{.first = block * symbolic.first(s),
+                         .n_columns = block * static_cast<int>(below - rows.begin()),
+                         .n_below = block * static_cast<int>(rows.end() - below),
+                         .below = result.below_.size(),
+                         .values = n_values,
+                         .parent = -1};
     for (auto row = below; row != rows.end(); ++row)
       for (int c = 0; c < block; ++c) result.below_.push_back(block * *row + c);
     n_values += size_t(node.stride()) * node.n_columns;
@@ -148,7 +149,7 @@ class PartialCholesky::Numbers {
     for (size_t s = 0; s < updates_.size(); ++s) {
       const Supernode& node = factor_.supernodes_[s];
       if (node.parent >= 0) continue;
-      const int* rows = factor_.below_.data() + node.below;
+      const int* rows = factor_.rows_below(node);
       for (int j = 0; j < node.n_below; ++j)
         for (int i = j; i < node.n_below; ++i) schur(rows[i] - first, rows[j] - first) += updates_[s](i, j);
     }
@@ -162,7 +163,7 @@ class PartialCholesky::Numbers {
     double value;
   };
 
-  /// The matrix's lower triangle in elimination order, by columns.
+  /// Sorts the lower triangle of the matrix into columns in elimination order.
   void sort_entries(const SparseSymmetric& matrix, int block, std::span<const int> order) {
     std::vector<int> place(matrix.size);
     for (size_t k = 0; k < order.size(); ++k)
@@ -200,11 +201,11 @@ class PartialCholesky::Numbers {
            eliminate(root, place);
   }
 
-  /// `place`: room for one number an unknown.
+  /// `place` is work space with one entry per unknown.
   bool eliminate(int s, std::vector<int>& place) {
     const Supernode& node = factor_.supernodes_[s];
     const int stride = node.stride(), n = node.n_columns, m = node.n_below;
-    const int* below = factor_.below_.data() + node.below;
+    const int* below = factor_.rows_below(node);
     double* l = &factor_.values_[node.values];
     std::iota(place.begin() + node.first, place.begin() + node.first + n, 0);
     for (int k = 0; k < m; ++k) place[below[k]] = n + k;
@@ -215,7 +216,7 @@ class PartialCholesky::Numbers {
         l[size_t(j) * stride + place[entries_[k].row]] += entries_[k].value;
     for (const int child : children_[s]) {
       const int n_rows = factor_.supernodes_[child].n_below;
-      const int* rows = factor_.below_.data() + factor_.supernodes_[child].below;
+      const int* rows = factor_.rows_below(factor_.supernodes_[child]);
       for (int j = 0; j < n_rows; ++j) {
         const int column = place[rows[j]];
         double* to = column < n ? l + size_t(column) * stride : update.column(column - n) - n;
@@ -235,10 +236,10 @@ class PartialCholesky::Numbers {
   PartialCholesky& factor_;
   std::vector<int> roots_;
   std::vector<std::vector<int>> children_;
-  std::vector<double> work_;  ///< of every subtree
+  std::vector<double> work_;  ///< estimated work per subtree
   double total_work_ = 0;
-  std::vector<Matrix>
-      updates_;  ///< what a supernode passes on to its parent: lower triangle on its rows below
+  /// Update matrix that a supernode adds to its parent: lower triangle on its rows below.
+  std::vector<Matrix> updates_;
   std::vector<int> column_start_;
   std::vector<Entry> entries_;
 };
@@ -299,8 +300,8 @@ void PartialCholesky::eliminate(const Sweep& sweep, Matrix& loads) const {
     std::vector<double> passed_on;
     for (const int s : sweep.supernodes) {
       const Supernode& node = supernodes_[s];
-      const int stride = node.stride(), *below = below_.data() + node.below;
-      const double* l = &values_[node.values];
+      const int stride = node.stride(), *below = rows_below(node);
+      const double* l = columns(node);
       double* own = loads.column(node.first) + first;
       cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, n, node.n_columns, 1, l,
                   stride, own, leading);
@@ -323,8 +324,8 @@ void PartialCholesky::substitute(const Sweep& sweep, Matrix& x) const {
     std::vector<double> known;
     for (auto s = sweep.supernodes.rbegin(); s != sweep.supernodes.rend(); ++s) {
       const Supernode& node = supernodes_[*s];
-      const int stride = node.stride(), *below = below_.data() + node.below;
-      const double* l = &values_[node.values];
+      const int stride = node.stride(), *below = rows_below(node);
+      const double* l = columns(node);
       double* own = x.column(node.first) + first;
       known.resize(size_t(n) * node.n_below);
       for (int k = 0; k < node.n_below; ++k)

@@ -10,61 +10,71 @@
 namespace wheelwright {
 
 /// Static condensation of a sparse symmetric matrix onto its trailing unknowns t, by multifrontal Cholesky
-/// factorization of the interior ones i: schur = K_tt - K_ti K_ii^-1 K_it. K_ii must be positive definite;
-/// K_tt need not be (empty rows are fine). Supernodes come from CHOLMOD's symbolic analysis; the numbers are
-/// the program's own, so that subtrees go to several threads and nothing is spent on factoring K_tt.
-/// "Elimination order" has the interior unknowns first, the trailing ones last. Vectors are matrices with one
-/// row a vector and one column an unknown in elimination order, so that sweeps move contiguous numbers.
+/// factorization of its interior unknowns i: schur = K_tt - K_ti K_ii^-1 K_it. K_ii must be positive
+/// definite; K_tt need not be (empty rows are allowed). CHOLMOD's symbolic analysis finds the supernodes. The
+/// numerical factorization is our own: it shares subtrees among threads and does not factor K_tt. In
+/// elimination order the interior unknowns come first and the trailing unknowns last. A set of vectors is a
+/// matrix with one row per vector and one column per unknown in elimination order, so that sweeps access
+/// contiguous memory.
 class PartialCholesky {
  public:
-  /// The unknowns of node i are block * i ... block * i + block - 1, and couple with all of another node's or
-  /// with none. `order[k]` is the node eliminated k-th; its last n_trailing ones are the trailing nodes, in
-  /// the order that schur() keeps. Fails with not_positive_definite or not_finite.
+  /// The unknowns of node i are block * i ... block * i + block - 1; they couple with all unknowns of another
+  /// node or with none of them. `order[k]` is the node that is eliminated k-th. The last n_trailing nodes of
+  /// `order` are the trailing nodes; schur() keeps their order. Fails with not_positive_definite or
+  /// not_finite.
   static Expected<PartialCholesky> factor(const SparseSymmetric& matrix, int block,
                                           std::span<const int> order, int n_trailing);
 
   int size() const { return static_cast<int>(supernode_of_.size()); }
   int n_trailing() const { return schur_.rows(); }
   int n_interior() const { return size() - n_trailing(); }
-  const Matrix& schur() const { return schur_; }  ///< full symmetric
-  double factor_flops() const;                    ///< of the numerical factorization
+  const Matrix& schur() const { return schur_; }  ///< both triangles
+  double factor_flops() const;                    ///< flops of the numerical factorization
 
-  /// What sweeps visit of the factor: supernodes, ascending, each with all that it depends on.
+  /// The part of the factor that a sweep visits: ascending supernodes, each with all supernodes that it
+  /// depends on.
   struct Sweep {
     std::vector<int> supernodes;
-    std::vector<char> visited;  ///< of every unknown; trailing ones always are
+    std::vector<char> visited;  ///< one flag per unknown; always true for trailing unknowns
   };
-  /// The least sweep that visits the unknowns with a mark (one mark an unknown in elimination order).
+  /// The smallest sweep that visits all marked unknowns (one mark per unknown, in elimination order).
   Sweep sweep_through(const std::vector<char>& marked) const;
   Sweep full_sweep() const;
-  double sweep_entries(const Sweep& sweep) const;  ///< numbers of the factor that it visits
+  double sweep_entries(const Sweep& sweep) const;  ///< number of factor entries that the sweep visits
 
-  /// Forward elimination of loads f in place: the interior unknowns become L_ii^-1 f_i, the trailing ones the
-  /// condensed loads f_t - K_ti K_ii^-1 f_i. Loads on unknowns that the sweep does not visit must be zero.
+  /// Forward elimination of loads f in place: the interior loads become L_ii^-1 f_i, the trailing loads
+  /// become the condensed loads f_t - K_ti K_ii^-1 f_i. Loads on unknowns that the sweep does not visit must
+  /// be zero.
   void eliminate(const Sweep& sweep, Matrix& loads) const;
 
-  /// Back substitution in place: takes what eliminate() makes of the interior loads (zero without any) and
-  /// the trailing displacements; the interior unknowns that the sweep visits become displacements.
+  /// Back substitution in place. On entry the interior part holds the result of eliminate() (zero without
+  /// interior loads) and the trailing part holds displacements; on return the interior unknowns that the
+  /// sweep visits hold displacements too.
   void substitute(const Sweep& sweep, Matrix& x) const;
 
  private:
-  /// Interior unknowns eliminated together: L's diagonal block and the rows below it.
+  /// Interior unknowns that are eliminated together: a diagonal block of L and the rows below it.
   struct Supernode {
-    int first, n_columns;  ///< unknowns
-    int n_below;
-    size_t below;   ///< where the unknowns of the rows below start in below_
-    size_t values;  ///< where L's columns start in values_: column-major, the diagonal block on top
-    int parent;     ///< of the elimination tree; -1 when all rows below are trailing ones
+    int first, n_columns;  ///< its unknowns are first ... first + n_columns - 1
+    int n_below;           ///< number of rows of L below the diagonal block
+    size_t below;          ///< start of the unknowns of the rows below in below_
+    size_t values;         ///< start of the columns of L in values_: column-major, diagonal block on top
+    int parent;            ///< in the elimination tree; -1 when all rows below belong to trailing unknowns
     int stride() const { return n_columns + n_below; }
   };
   class Numbers;
 
   PartialCholesky() = default;
+  /// The unknowns of the rows below the diagonal block of a supernode.
+  const int* rows_below(const Supernode& node) const { return below_.data() + node.below; }
+  /// The columns of L of a supernode; their stride is node.stride().
+  const double* columns(const Supernode& node) const { return values_.data() + node.values; }
+
   static Expected<PartialCholesky> analyze(const SparseSymmetric& matrix, int block,
                                            std::span<const int> order, int n_trailing);
 
   std::vector<Supernode> supernodes_;  ///< children before parents
-  std::vector<int> supernode_of_;      ///< of every unknown; -1 for trailing ones
+  std::vector<int> supernode_of_;      ///< one entry per unknown; -1 for trailing unknowns
   std::vector<int> below_;
   std::vector<double> values_;
   Matrix schur_;

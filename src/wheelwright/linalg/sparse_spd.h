@@ -8,17 +8,17 @@
 
 namespace wheelwright {
 
-/// The Cholesky factor of a real sparse symmetric positive definite matrix: factored once, solved many times.
-/// Not safe for concurrent solves with one object.
+/// The Cholesky factor of a real sparse symmetric positive definite matrix, computed once for many solves.
+/// One object must not solve on several threads at a time.
 class SparseSpd {
  public:
-  /// One contribution to the lower triangle (row >= column); contributions to the same place add up.
+  /// One contribution to the lower triangle (row >= column). Contributions to the same position add up.
   struct Entry {
     int row, column;
     double value;
   };
 
-  /// Fails with not_positive_definite.
+  /// Factors the matrix with this lower triangle. Fails with not_positive_definite.
   static Expected<SparseSpd> factor(int size, std::span<const Entry> lower_triangle);
 
   std::vector<double> solve(std::span<const double> right_hand_side) const;

@@ -4,14 +4,14 @@
 
 namespace wheelwright {
 
-/// The lower triangle of a real symmetric sparse matrix, by compressed columns with ascending rows.
+/// The lower triangle of a real symmetric sparse matrix in compressed columns with ascending rows.
 struct SparseSymmetric {
   int size = 0;
-  std::vector<int> column_start;  ///< size + 1
+  std::vector<int> column_start;  ///< size + 1 entries
   std::vector<int> rows;
   std::vector<double> values;
 
-  /// y += a x for one vector.
+  /// Computes y += a * x for one vector, with a the whole symmetric matrix.
   void add_product(const double* x, double* y) const {
     for (int j = 0; j < size; ++j) {
       double sum = 0;

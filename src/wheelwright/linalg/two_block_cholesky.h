@@ -6,25 +6,25 @@
 
 namespace wheelwright {
 
-/// The Cholesky factor of a Hermitian positive definite matrix whose unknowns come in two blocks, so that
-/// equations can be solved block by block. Vectors are columns of a matrix, the first block on top.
+/// The Cholesky factor of a Hermitian positive definite matrix with two blocks of unknowns, which allows to
+/// solve equations block by block. Vectors are columns of a matrix, with the first block on top.
 class TwoBlockCholesky {
  public:
-  /// `a`: its lower triangle. Nothing when it is not positive definite.
+  /// Factors the matrix with the lower triangle `a`. Empty when it is not positive definite.
   static std::optional<TwoBlockCholesky> factor(ComplexMatrix a, int n_first);
 
   int n_last() const { return l_.rows() - n_first_; }
 
-  /// Elimination of the first block, in place: loads (f_1, f_2) become (L_11^-1 f_1, f_2 - A_21 A_11^-1 f_1).
+  /// Eliminates the first block in place: loads (f_1, f_2) become (L_11^-1 f_1, f_2 - A_21 A_11^-1 f_1).
   void eliminate(ComplexMatrix& loads) const;
 
-  /// Condensed loads on the last block (n_last() rows) become its displacements, in place.
+  /// Solves for the last block in place: condensed loads (n_last() rows) become displacements.
   void solve_last(ComplexMatrix& loads) const;
 
   /// Back substitution in place: (L_11^-1 f_1, x_2) becomes (x_1, x_2).
   void substitute(ComplexMatrix& x) const;
 
-  /// The last block of the inverse matrix, both triangles.
+  /// Both triangles of the last block of the inverse matrix.
   ComplexMatrix last_block_of_inverse() const;
 
  private:

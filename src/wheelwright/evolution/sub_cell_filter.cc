@@ -1,4 +1,4 @@
-#include "wheelwright/evolution/cell_scale.h"
+#include "wheelwright/evolution/sub_cell_filter.h"
 
 #include <cmath>
 
@@ -7,7 +7,7 @@
 namespace wheelwright {
 
 template <int dim>
-LevelSet<dim> on_cell_scale(const LevelSet<dim>& psi) {
+LevelSet<dim> sub_cell_filter(const LevelSet<dim>& psi) {
   const Lattice<dim>& lattice = psi.lattice;
   const int degree = lattice.degree();
   if (degree == 1) return psi;
@@ -18,7 +18,8 @@ LevelSet<dim> on_cell_scale(const LevelSet<dim>& psi) {
     vertices.values.push_back(psi.values[lattice.node_index(p)]);
   }
   const CubicInterpolant<dim> interpolant(vertices);
-  // A distance function has kinks midway between boundaries; there the difference is large, and real.
+  // A distance function has kinks midway between two boundaries, where the difference is large and must be
+  // kept.
   const double kink = 0.05 * lattice.grid().resolution();
   LevelSet<dim> result = psi;
   for (int node = 0; node < lattice.n_nodes(); ++node) {
@@ -36,7 +37,7 @@ LevelSet<dim> on_cell_scale(const LevelSet<dim>& psi) {
   return result;
 }
 
-template LevelSet<2> on_cell_scale(const LevelSet<2>&);
-template LevelSet<3> on_cell_scale(const LevelSet<3>&);
+template LevelSet<2> sub_cell_filter(const LevelSet<2>&);
+template LevelSet<3> sub_cell_filter(const LevelSet<3>&);
 
 }  // namespace wheelwright
