@@ -27,6 +27,7 @@ def parsed(arguments):
     parser.add_argument("--sample", type=int, metavar="N", help="every so many of all breaks that N remain")
     parser.add_argument("--seed", type=int, default=1, help="of the random breaks (%(default)s)")
     parser.add_argument("--jobs", type=int, default=2, help="tests at a time (%(default)s)")
+    parser.add_argument("--tests", default="", metavar="REGEX", help="build and run only these test programs")
     parser.add_argument("--report", type=Path, metavar="FILE", help="write the report to this file too")
     parser.add_argument("--folder", type=Path, default=ROOT / "build/mutants", metavar="DIR",
                         help="of the copy and its build (build/mutants)")
@@ -99,12 +100,17 @@ def main():
         print(f"scripts/mutate: tests/mutations does not fit the sources:\n{problem}", file=sys.stderr)
         return 1
     candidates = shuffled_candidates(texts, options.seed)
+
+    def chosen(refused):
+        return choose(candidates, options.random, kept, refused)
+
     if options.list:
-        for mutant in [*kept, *choose(candidates, options.random, kept, set())]:
+        for mutant in [*kept, *chosen(set())]:
             print(f"{mutant.name} {mutant.place()}: {mutant.change()}")
         return 0
-    mutants = build.make(ROOT, options.folder, texts, kept, candidates, choose, options.random, options.jobs, tell)
-    units = tests.units_of(options.folder / "build")
+    mutants = build.make(ROOT, options.folder, texts, kept, chosen, build.targets_for(ROOT, options.tests), options.jobs,
+                         tell)
+    units = tests.units_of(options.folder / "build", options.tests)
     tests.measure(units, len(mutants), options.jobs, tell)
     results = try_all(mutants, sampled(mutants, options), units, options.jobs)
     text, good = report(results, options, time.monotonic() - start)

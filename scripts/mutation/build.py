@@ -13,8 +13,9 @@ def tracked_files(root):
 
 
 def read_sources(root):
-    return {name: (root / name).read_text() for name in tracked_files(root)
-            if name.startswith(SOURCES + "/") and name.endswith((".cc", ".h"))}
+    """File -> text."""
+    return {str(path.relative_to(root)): path.read_text() for path in sorted((root / SOURCES).rglob("*"))
+            if path.suffix in (".cc", ".h")}
 
 
 def mutated(text, numbered):
@@ -23,6 +24,13 @@ def mutated(text, numbered):
         site = mutant.site
         text = text[:site.begin] + site.guarded.replace("@", str(number)) + text[site.end:]
     return text
+
+
+def targets_for(root, pattern):
+    """The program, and the test programs that match."""
+    if not pattern:
+        return ["wheelwright", "tests/all"]
+    return ["wheelwright", *sorted(p.stem for p in (root / "tests").glob("*_test.cc") if re.search(pattern, p.stem))]
 
 
 def write_if_changed(path, content, mode):
@@ -56,10 +64,10 @@ def configure(copy, build):
                        stdout=subprocess.DEVNULL, check=True)
 
 
-def compile_copy(build, jobs):
+def compile_copy(build, targets, jobs):
     """The compiler's output; empty when all is built."""
-    result = subprocess.run(["ninja", "-C", build, "-j", str(jobs), "-k", "0", "wheelwright", "tests/all"],
-                            capture_output=True, text=True, check=False)
+    result = subprocess.run(["ninja", "-C", build, "-j", str(jobs), "-k", "0", *targets], capture_output=True,
+                            text=True, check=False)
     return "" if result.returncode == 0 else result.stdout + result.stderr
 
 
@@ -71,18 +79,18 @@ def broken_lines(copy, output):
     return places
 
 
-def make(root, folder, texts, kept, candidates, choose, number, jobs, tell):
-    """Writes and compiles until every mutant compiles; returns them in the order of their numbers. Those that do
-    not compile give their place to others."""
+def make(root, folder, texts, kept, choose, targets, jobs, tell):
+    """Writes and compiles until every mutant compiles; returns them in the order of their numbers. `choose` gives
+    the random ones without those that do not compile, which give their place to others."""
     copy, build = folder / "source", folder / "build"
     refused = set()
     while True:
-        chosen = choose(candidates, number, kept, refused)
+        chosen = choose(refused)
         mutants = [*kept, *chosen]
         write_copy(root, copy, texts, mutants)
         configure(copy, build)
         tell(f"compiling {len(kept)} kept and {len(chosen)} random breaks")
-        output = compile_copy(build, jobs)
+        output = compile_copy(build, targets, jobs)
         if not output:
             return mutants
         places = broken_lines(copy, output)

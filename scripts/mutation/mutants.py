@@ -96,7 +96,7 @@ def shuffled_candidates(texts, seed):
 
 
 def choose(candidates, number, taken, refused):
-    """The first candidates that do not compile to nothing, stand apart from each other and from the list."""
+    """The first candidates that are not refused and stand apart from each other and from those that are taken."""
     chosen = []
     by_file = {}
     for mutant in taken:

@@ -15,6 +15,7 @@ from pathlib import Path
 
 MOST_MUTANTS = 4096  # as in mutants.h
 MEMORY, FILE_SIZE = 8 << 30, 1 << 30
+OF_THIS_SCRIPT = "mutation"  # the test of the sources as they are
 ENVIRONMENT = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "OMP_THREAD_LIMIT": "1"}
 
 
@@ -26,8 +27,8 @@ class Unit:
         self.seconds, self.reached = 0.0, frozenset()
 
 
-def units_of(build):
-    """The programs behind the usual tests of ctest, each once."""
+def units_of(build, pattern):
+    """The programs behind the usual tests of ctest, each once; of them those whose name matches."""
     listing = json.loads(subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1"], capture_output=True,
                                         text=True, check=True).stdout)
     units = {}
@@ -41,7 +42,9 @@ def units_of(build):
             name = Path(program).name
         else:
             name = test["name"]
-        units.setdefault(name, Unit(name, [program, *arguments], properties.get("WORKING_DIRECTORY", str(build))))
+        if name != OF_THIS_SCRIPT and re.search(pattern, name):
+            folder = properties.get("WORKING_DIRECTORY", str(build))
+            units.setdefault(name, Unit(name, [program, *arguments], folder))
     return list(units.values())
 
 
