@@ -52,7 +52,7 @@ class Sites(unittest.TestCase):
 
     def test_one_build_holds_what_each_break_would_give(self):
         """With a mutant active the program prints what the program with that break in its text prints."""
-        mutants = [Mutant(f"r{k}", "f", CODE, site) for k, site in enumerate(sites_of(CODE))]
+        mutants = [Mutant(f"r{k}", k, "f", CODE, site) for k, site in enumerate(sites_of(CODE))]
         chosen = []  # sites may be alternatives to each other
         for mutant in mutants:
             if not any(mutant.site.overlaps(other.site) for other in chosen):
@@ -60,7 +60,7 @@ class Sites(unittest.TestCase):
         self.assertGreater(len(chosen), 20)
         header = Path("scripts/mutation/mutants.h").resolve()
         broken = [CODE[:m.site.begin] + m.site.broken + CODE[m.site.end:] for m in chosen]
-        spaces = [mutated(CODE, list(enumerate(chosen))), *broken]
+        spaces = [mutated(CODE, chosen), *broken]
         program = f'#include "{header}"\n#include <cstdio>\n#include <cstdlib>\n' + "".join(
             f"namespace v{k} {{ {code} }}\n" for k, code in enumerate(spaces))
         calls = "".join(f"case {k}: std::printf(\"%.17g %.17g\\n\", v{k}::value(v, 3), v{k}::value(v, 2)); break;\n"
@@ -80,8 +80,8 @@ class Sites(unittest.TestCase):
             sound = printed(0, -1)
             differing = 0
             for k, mutant in enumerate(chosen):
-                self.assertEqual(printed(0, k), printed(k + 1, -1), mutant.change())
-                differing += printed(0, k) != sound
+                self.assertEqual(printed(0, mutant.number), printed(k + 1, -1), mutant.change())
+                differing += printed(0, mutant.number) != sound
             self.assertGreater(differing, 0.8 * len(chosen))
 
 

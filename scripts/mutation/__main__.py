@@ -50,14 +50,13 @@ def sampled(mutants, options):
     return mutants
 
 
-def try_all(mutants, chosen, units, jobs):
+def try_all(chosen, units, jobs):
     """(mutant, what caught it or None, number of programs that reach it), in the order of the mutants."""
-    numbers = {m.name: k for k, m in enumerate(mutants)}
     done = 0
 
     def attempt(mutant):
         nonlocal done
-        caught, reaching = tests.first_to_notice(units, numbers[mutant.name])
+        caught, reaching = tests.first_to_notice(units, mutant.number)
         done += 1
         tell(f"{done}/{len(chosen)} {mutant.name} {mutant.place()} {caught or 'SURVIVED'}")
         return mutant, caught, reaching
@@ -111,8 +110,8 @@ def main():
     mutants = build.make(ROOT, options.folder, texts, kept, chosen, build.targets_for(ROOT, options.tests), options.jobs,
                          tell)
     units = tests.units_of(options.folder / "build", options.tests)
-    tests.measure(units, len(mutants), options.jobs, tell)
-    results = try_all(mutants, sampled(mutants, options), units, options.jobs)
+    tests.measure(units, mutants, options.jobs, tell)
+    results = try_all(sampled(mutants, options), units, options.jobs)
     text, good = report(results, options, time.monotonic() - start)
     print(text)
     if options.report:

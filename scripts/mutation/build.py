@@ -18,11 +18,11 @@ def read_sources(root):
             if path.suffix in (".cc", ".h")}
 
 
-def mutated(text, numbered):
+def mutated(text, mutants):
     """The file with all its mutants, none of them active."""
-    for number, mutant in sorted(numbered, key=lambda entry: -entry[1].site.begin):
+    for mutant in sorted(mutants, key=lambda m: -m.site.begin):
         site = mutant.site
-        text = text[:site.begin] + site.guarded.replace("@", str(number)) + text[site.end:]
+        text = text[:site.begin] + site.guarded.replace("@", str(mutant.number)) + text[site.end:]
     return text
 
 
@@ -42,10 +42,9 @@ def write_if_changed(path, content, mode):
 
 
 def write_copy(root, copy, texts, mutants):
-    """`mutants`: in the order of their numbers."""
     by_file = {}
-    for number, mutant in enumerate(mutants):
-        by_file.setdefault(mutant.file, []).append((number, mutant))
+    for mutant in mutants:
+        by_file.setdefault(mutant.file, []).append(mutant)
     names = tracked_files(root)
     for name in names:
         content = (root / name).read_bytes()
@@ -80,8 +79,8 @@ def broken_lines(copy, output):
 
 
 def make(root, folder, texts, kept, choose, targets, jobs, tell):
-    """Writes and compiles until every mutant compiles; returns them in the order of their numbers. `choose` gives
-    the random ones without those that do not compile, which give their place to others."""
+    """Writes and compiles until every mutant compiles; returns them. `choose` gives the random ones without those
+    that do not compile, which give their place to others."""
     copy, build = folder / "source", folder / "build"
     refused = set()
     while True:

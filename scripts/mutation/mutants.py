@@ -8,10 +8,11 @@ from .source import NAMESPACE, Site, line_of, sites_of
 
 
 class Mutant:
-    """One break of one file. `name` says which, e.g. k7 or r12; `reason` why it matters, where somebody said so."""
+    """One break of one file. `name` says which, e.g. k7 or r12; `number` is its number in the build; `reason` says
+    why it matters, where somebody said so."""
 
-    def __init__(self, name, file, text, site, reason=""):
-        self.name, self.file, self.site, self.reason = name, file, site, reason
+    def __init__(self, name, number, file, text, site, reason=""):
+        self.name, self.number, self.file, self.site, self.reason = name, number, file, site, reason
         self.line = line_of(text, site.begin)
         self.original = " ".join(text[site.begin:site.end].split())
         start = text.rfind("\n", 0, site.begin) + 1
@@ -62,7 +63,7 @@ def kept_mutants(folder, texts):
                 if entry["file"] not in texts:
                     raise StaleList(f"{entry['file']}: no such file")
                 text = texts[entry["file"]]
-                mutant = Mutant(name, entry["file"], text, kept_site(entry, text), entry["why"])
+                mutant = Mutant(name, len(mutants), entry["file"], text, kept_site(entry, text), entry["why"])
                 clash = [m for m in mutants if m.file == mutant.file and m.site.overlaps(mutant.site)]
                 if clash:
                     raise StaleList(f"{entry['file']}: overlaps {clash[0].name}: {entry['old']}")
@@ -74,6 +75,7 @@ def kept_mutants(folder, texts):
     return mutants
 
 
+FIRST_RANDOM = 1000  # above the numbers of the list
 KINDS = ("sign", "comparison", "index", "axis")
 
 
@@ -91,7 +93,8 @@ def shuffled_candidates(texts, seed):
         for kind in KINDS:
             if queues[kind]:
                 file, site = queues[kind].pop()
-                result.append(Mutant(f"r{len(result) + 1}", file, texts[file], site))
+                n = len(result) + 1
+                result.append(Mutant(f"r{n}", FIRST_RANDOM + n, file, texts[file], site))
     return result
 
 
