@@ -24,7 +24,7 @@ def parsed(arguments):
     parser.add_argument("--only", metavar="NAME", action="append", default=[],
                         help="this break alone, as --list names it, e.g. k7 or r12; may be repeated")
     parser.add_argument("--random", type=int, default=200, metavar="N", help="random breaks (%(default)s)")
-    parser.add_argument("--sample", type=int, metavar="N", help="every so many of all breaks that N remain")
+    parser.add_argument("--sample", type=int, metavar="N", help="N of all breaks, evenly chosen")
     parser.add_argument("--seed", type=int, default=1, help="of the random breaks (%(default)s)")
     parser.add_argument("--jobs", type=int, default=2, help="tests at a time (%(default)s)")
     parser.add_argument("--tests", default="", metavar="REGEX", help="build and run only these test programs")
@@ -44,9 +44,8 @@ def sampled(mutants, options):
         if unknown:
             raise SystemExit(f"scripts/mutate: no break {', '.join(sorted(unknown))}; see --list")
         return [m for m in mutants if m.name in options.only]
-    if options.sample:
-        step = max(1, len(mutants) // options.sample)
-        return mutants[::step][:options.sample]
+    if options.sample and options.sample < len(mutants):
+        return [mutants[k * len(mutants) // options.sample] for k in range(options.sample)]
     return mutants
 
 
