@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <random>
 
+#include "wheelwright/elasticity/contact_form.h"
+
 namespace wheelwright {
 namespace {
 

@@ -1,0 +1,115 @@
+"""The breaks: those of a kept list, and random ones."""
+
+import random
+import re
+from pathlib import Path
+
+from .source import NAMESPACE, Site, line_of, sites_of
+
+
+class Mutant:
+    """One break of one file. `name` says which, e.g. k7 or r12; `number` is its number in the build; `reason` says
+    why it matters, where somebody said so."""
+
+    def __init__(self, name, number, file, text, site, reason=""):
+        self.name, self.number, self.file, self.site, self.reason = name, number, file, site, reason
+        self.line = line_of(text, site.begin)
+        self.original = " ".join(text[site.begin:site.end].split())
+        start = text.rfind("\n", 0, site.begin) + 1
+        end = text.find("\n", site.end)
+        self.code = text[start:end if end >= 0 else None].strip()
+
+    def place(self):
+        return f"{self.file}:{self.line}"
+
+    def change(self):
+        return f"{self.original!r} -> {self.site.broken!r} in: {' '.join(self.code.split())}"
+
+
+class StaleList(Exception):
+    """Breaks of the list that do not fit the sources."""
+
+
+def entries_of(path):
+    """The breaks of one file of the list: paragraphs of lines `key: value`."""
+    for paragraph in re.split(r"\n\s*\n", path.read_text()):
+        lines = [line for line in paragraph.splitlines() if line and not line.startswith("#")]
+        if lines:
+            entry = dict(line.split(":", 1) for line in lines)
+            yield {key: value.strip() for key, value in entry.items()}
+
+
+def kept_site(entry, text):
+    """Where the old code stands, however it is broken into lines. A statement ends in a semicolon, anything else
+    is an expression."""
+    old, new = entry["old"], entry["new"]
+    found = list(re.finditer(r"\s+".join(map(re.escape, old.split())), text))
+    if len(found) != 1:
+        raise StaleList(f"{entry['file']}: {'not found' if not found else 'found more than once'}: {old}")
+    if old.endswith(";"):
+        guarded = f"if ({NAMESPACE}broken(@)) {{ {new} }} else {{ {found[0][0]} }}"
+    else:
+        guarded = f"({NAMESPACE}broken(@) ? ({new}) : ({found[0][0]}))"
+    return Site("kept", found[0].start(), found[0].end(), new, guarded)
+
+
+def kept_mutants(folder, texts):
+    """The list, one mutant an entry; raises StaleList with all that does not fit."""
+    mutants, problems = [], []
+    for path in sorted(Path(folder).glob("*.txt")):
+        for entry in entries_of(path):
+            name = f"k{len(mutants) + len(problems) + 1}"
+            try:
+                if entry["file"] not in texts:
+                    raise StaleList(f"{entry['file']}: no such file")
+                text = texts[entry["file"]]
+                mutant = Mutant(name, len(mutants), entry["file"], text, kept_site(entry, text), entry["why"])
+                clash = [m for m in mutants if m.file == mutant.file and m.site.overlaps(mutant.site)]
+                if clash:
+                    raise StaleList(f"{entry['file']}: overlaps {clash[0].name}: {entry['old']}")
+                mutants.append(mutant)
+            except (StaleList, KeyError) as problem:
+                problems.append(f"{path.name}: {problem}")
+    if problems:
+        raise StaleList("\n".join(problems))
+    return mutants
+
+
+FIRST_RANDOM = 1000  # above the numbers of the list
+KINDS = ("sign", "comparison", "index", "axis")
+
+
+def shuffled_candidates(texts, seed):
+    """All random mutants in the order in which they are tried: the kinds take turns, so that none is rare."""
+    queues = {kind: [] for kind in KINDS}
+    for file in sorted(texts):
+        for site in sites_of(texts[file]):
+            queues[site.kind].append((file, site))
+    generator = random.Random(seed)
+    for kind in KINDS:
+        generator.shuffle(queues[kind])
+    result = []
+    while any(queues.values()):
+        for kind in KINDS:
+            if queues[kind]:
+                file, site = queues[kind].pop()
+                n = len(result) + 1
+                result.append(Mutant(f"r{n}", FIRST_RANDOM + n, file, texts[file], site))
+    return result
+
+
+def choose(candidates, number, taken, refused):
+    """The first candidates that are not refused and stand apart from each other and from those that are taken."""
+    chosen = []
+    by_file = {}
+    for mutant in taken:
+        by_file.setdefault(mutant.file, []).append(mutant.site)
+    for mutant in candidates:
+        if len(chosen) == number:
+            break
+        sites = by_file.setdefault(mutant.file, [])
+        if mutant.name in refused or any(mutant.site.overlaps(site) for site in sites):
+            continue
+        sites.append(mutant.site)
+        chosen.append(mutant)
+    return chosen

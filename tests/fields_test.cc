@@ -1,0 +1,225 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/support.h"
+#include "wheelwright/report/solution_fields.h"
+
+namespace wheelwright {
+namespace {
+
+using testing::holes;
+
+/// A wheel without any symmetry: its holes differ, one lies across a sector face, and all loads act on it.
+RollingModel<2> asymmetric_model(int degree) {
+  RollingModel<2> model;
+  model.grid = {0.20, 0.34, 0.12, 7, {9, 15}};
+  model.degree = degree;
+  model.material = {60e6, 0.4};
+  model.contact.friction = 0.5;
+  model.load = 20e3;
+  model.horizontal_force = 500;
+  model.torque = 780;
+  model.distributed = {{2e4, 1e4}, 0};
+  model.n_positions = 3;
+  return model;
+}
+
+LevelSet<2> asymmetric_shape(const PolarGrid<2>& grid) {
+  return holes(grid, 2, {{0.262, 0.05, 0.022}, {0.281, 0.43, 0.024}, {0.246, 0.62, 0.017}});
+}
+
+struct Solved {
+  RollingProblem<2> problem;
+  RollingSolution<2> solution;
+};
+
+Solved solved(int degree) {
+  const auto model = asymmetric_model(degree);
+  auto problem = RollingProblem<2>::create(model);
+  auto solution = problem->solve(asymmetric_shape(model.grid));
+  EXPECT_TRUE(solution) << solution.failure().detail;
+  return {*std::move(problem), *std::move(solution)};
+}
+
+/// The nodes of the full ring: calls visit(index in a field's nodes, radius, azimuth).
+template <class Visit>
+void for_each_node(const RollingProblem<2>& problem, Visit visit) {
+  const Lattice<2> lattice(problem.model().grid, problem.model().degree);
+  for (int sector = 0; sector < lattice.grid().n_sectors; ++sector)
+    for (int node = 0; node < lattice.n_nodes(); ++node) {
+      const Vec<2> p = lattice.polar_point(node);
+      visit(std::size_t(node) + std::size_t(lattice.n_nodes()) * sector, p[0],
+            p[1] + sector * lattice.grid().sector_angle());
+    }
+}
+
+template <class F>
+RingField displacement_of(const RollingProblem<2>& problem, F u) {
+  RingField field{2, {}};
+  for_each_node(problem, [&](std::size_t, double radius, double azimuth) {
+    for (const double value : u(cartesian<2>({radius, azimuth}))) field.values.push_back(value);
+  });
+  return field;
+}
+
+/// sqrt(3/2 s:s) in plane strain, from the displacement's gradient.
+double von_mises_of(const Material& material, const Mat<2>& gradient) {
+  const double xx = gradient[0][0], yy = gradient[1][1], xy = 0.5 * (gradient[0][1] + gradient[1][0]);
+  const double trace = xx + yy, mean = trace / 3;
+  const double square = (xx - mean) * (xx - mean) + (yy - mean) * (yy - mean) + mean * mean + 2 * xy * xy;
+  return 2 * material.mu() * std::sqrt(1.5 * square);
+}
+
+// The elements are isoparametric: they hold displacements that are linear in x and y, and their rotations.
+TEST(VonMisesField, IsExactForLinearDisplacements) {
+  for (const int degree : {1, 2}) {
+    const auto [problem, solution] = solved(degree);
+    for (const Mat<2>& a : {Mat<2>{{{2e-3, -7e-3}, {1.5e-3, 4e-3}}}, Mat<2>{{{-1e-3, 5e-3}, {5e-3, 1e-3}}}}) {
+      const RingField u = displacement_of(problem, [&](const Vec<2>& x) {
+        return Vec<2>{1e-3 + a[0][0] * x[0] + a[0][1] * x[1], a[1][0] * x[0] + a[1][1] * x[1] - 2e-3};
+      });
+      const RingField stress = von_mises_field(problem, solution, u);
+      const double expected = von_mises_of(problem.model().material, a);
+      int n = 0;
+      for (const double value : stress.values) {
+        if (std::isnan(value)) continue;
+        EXPECT_NEAR(value, expected, 1e-9 * expected);
+        ++n;
+      }
+      EXPECT_GT(n, 0.8 * stress.values.size());
+    }
+  }
+}
+
+TEST(VonMisesField, RotationsHaveNoStress) {
+  for (const int degree : {1, 2}) {
+    const auto [problem, solution] = solved(degree);
+    const double rotation = 1e-2;
+    const RingField u = displacement_of(problem, [&](const Vec<2>& x) {
+      return Vec<2>{-rotation * x[1], rotation * x[0]};
+    });
+    for (const double value : von_mises_field(problem, solution, u).values)
+      EXPECT_FALSE(value > 1e-9 * rotation * problem.model().material.youngs_modulus);
+  }
+}
+
+// u = (x y, x^2 - 3 y^2) k has a stress that differs from point to point, and from a point to its mirror
+// image.
+TEST(VonMisesField, FollowsTheStressFromPlaceToPlace) {
+  const auto [problem, solution] = solved(2);
+  const double k = 0.02;
+  const RingField u = displacement_of(problem, [&](const Vec<2>& x) {
+    return Vec<2>{k * x[0] * x[1], k * (x[0] * x[0] - 3 * x[1] * x[1] + x[0] * x[1])};
+  });
+  const RingField stress = von_mises_field(problem, solution, u);
+  for_each_node(problem, [&](std::size_t node, double radius, double azimuth) {
+    if (std::isnan(stress.values[node])) return;
+    const Vec<2> x = cartesian<2>({radius, azimuth});
+    const Mat<2> gradient{{{k * x[1], k * x[0]}, {k * (2 * x[0] + x[1]), k * (-6 * x[1] + x[0])}}};
+    const double expected = von_mises_of(problem.model().material, gradient);
+    EXPECT_NEAR(stress.values[node], expected, 2e-2 * k * problem.model().material.youngs_modulus * 0.3)
+        << radius << ' ' << azimuth;
+  });
+}
+
+// The rim moves rigidly: towards the ground and along it, and it turns, each in the body frame.
+TEST(DisplacementField, TheRimMovesRigidly) {
+  for (const int degree : {1, 2}) {
+    const auto [problem, solution] = solved(degree);
+    for (int position = 0; position < solution.positions.size(); ++position) {
+      const RingField u = displacement_field(problem, solution, position);
+      const double ground = 2 * std::numbers::pi / 7 * position / 3;
+      const RimMotion& rim = solution.states[position].rim;
+      EXPECT_GT(rim.towards_ground, 0);
+      for_each_node(problem, [&](std::size_t node, double radius, double azimuth) {
+        if (radius > problem.model().grid.inner_radius + 1e-9) return;
+        const Vec<2> x = cartesian<2>({radius, azimuth});
+        const double c = std::cos(ground), s = std::sin(ground);
+        EXPECT_NEAR(u.values[2 * node], c * rim.towards_ground - s * rim.along_ground - rim.rotation * x[1],
+                    1e-14);
+        EXPECT_NEAR(u.values[2 * node + 1],
+                    s * rim.towards_ground + c * rim.along_ground + rim.rotation * x[0], 1e-14);
+      });
+    }
+  }
+}
+
+/// The deformed place of the tread at an azimuth of the body frame, on the outermost line of nodes.
+Vec<2> deformed_tread(const RollingProblem<2>& problem, const RingField& u, double azimuth) {
+  const Lattice<2> lattice(problem.model().grid, problem.model().degree);
+  const PolarGrid<2>& grid = lattice.grid();
+  const int n = grid.ring_columns();
+  const double column = azimuth / (2 * std::numbers::pi) * n;
+  const int first = static_cast<int>(std::floor(column));
+  const double eta = column - first;
+  const auto at = [&](int node, int component) {
+    const int wrapped = (2 * first + node + 2 * n) % (2 * n), per_sector = lattice.nodes()[1];
+    const std::size_t index = lattice.node_index({lattice.nodes()[0] - 1, wrapped % per_sector}) +
+                              std::size_t(lattice.n_nodes()) * (wrapped / per_sector);
+    return u.values[2 * index + component];
+  };
+  Vec<2> x = cartesian<2>({grid.outer_radius, azimuth});
+  for (int d = 0; d < 2; ++d)
+    x[d] += (1 - eta) * (1 - 2 * eta) * at(0, d) + 4 * eta * (1 - eta) * at(1, d) +
+            eta * (2 * eta - 1) * at(2, d);
+  return x;
+}
+
+// The ground is the plane at the tread's radius below the axle: a point's gap is its distance to that plane.
+TEST(ContactPoints, GapsAreThoseOfTheDisplacementAtTheirAzimuth) {
+  const auto [problem, solution] = solved(2);
+  const double radius = problem.model().grid.outer_radius;
+  const auto points = contact_points(problem, solution);
+  int touching = 0, last = -1;
+  RingField u;
+  for (const ContactPoint& point : points) {
+    if (point.position != last) u = displacement_field(problem, solution, last = point.position);
+    const double ground = 2 * std::numbers::pi / 7 * point.position / 3;
+    const Vec<2> x = deformed_tread(problem, u, ground + point.azimuth);
+    const double travel = solution.states[point.position].rim.towards_ground;
+    EXPECT_NEAR(point.gap, radius - x[0] * std::cos(ground) - x[1] * std::sin(ground), 2e-4 * travel);
+    EXPECT_NEAR(point.x, radius * std::sin(point.azimuth), 1e-5 * radius);
+    touching += point.pressure > 0;
+    EXPECT_GE(point.pressure, 0);
+  }
+  EXPECT_GT(touching, 10);
+}
+
+// With y up and the ground below, x and the azimuth grow the same way as the forces. Moments about the axle:
+// P x_p = R H' - M, where H' is all that friction holds and the body force acts on every cubic metre alike.
+TEST(ContactPoints, ThePressureStandsWhereForceAndTorqueDriveIt) {
+  const auto [problem, solution] = solved(2);
+  const RollingModel<2>& model = problem.model();
+  double material = 0;
+  for (const double weight : {1.0, -1.0})
+    for (const double area : weight > 0
+                                 ? std::vector{0.34 * 0.34 - 0.2 * 0.2}
+                                 : std::vector{7 * 0.022 * 0.022, 7 * 0.024 * 0.024, 7 * 0.017 * 0.017})
+      material += weight * std::numbers::pi * area;
+  const double down = model.load + model.distributed.body_force[0] * material;
+  const double along = model.horizontal_force + model.distributed.body_force[1] * material;
+  for (int i = 0; i < solution.positions.size(); ++i) {
+    double force = 0, moment = 0;
+    const auto& contact = solution.contacts[i];
+    for (int q = 0; q < contact.n_points(); ++q) {
+      const double weight = contact.points()[q].weight;
+      force -= weight * solution.states[i].traction[q][0];
+      moment -= weight * solution.states[i].traction[q][0] * contact.points()[q].position[1];
+    }
+    EXPECT_NEAR(force, down, 1e-4 * down);
+    EXPECT_NEAR(moment / force, (model.grid.outer_radius * along - model.torque) / down, 3e-5) << i;
+  }
+}
+
+TEST(RepeatedField, HasTheLevelSetsValuesInEverySector) {
+  const auto [problem, solution] = solved(2);
+  const auto psi = asymmetric_shape(problem.model().grid);
+  const RingField field = repeated_field(problem, psi);
+  for (std::size_t k = 0; k < field.values.size(); ++k)
+    EXPECT_NEAR(field.values[k], psi.values[k % psi.values.size()], 1e-15);
+}
+
+}  // namespace
+}  // namespace wheelwright
