@@ -3,6 +3,7 @@
 #include "wheelwright/cut/measure.h"
 #include "wheelwright/geometry/shapes.h"
 #include "wheelwright/optimize/optimizer.h"
+#include "tests/support.h"
 
 namespace wheelwright {
 namespace {
@@ -18,11 +19,9 @@ class Scripted {
   explicit Scripted(std::vector<double> values) : values_(std::move(values)) {}
 
   Expected<Evaluation<2>> operator()(const LevelSet<2>& psi) {
-    Evaluation<2> result{};
-    result.objective = values_.at(calls_++);
-    result.gradient = boundary_samples<2>(psi);
-    for (auto& sample : result.gradient) sample.value = 1 + 0.3 * sample.normal[0] + 0.2 * sample.normal[1];
-    return result;
+    auto gradient = boundary_samples<2>(psi);
+    for (auto& sample : gradient) sample.value = 1 + 0.3 * sample.normal[0] + 0.2 * sample.normal[1];
+    return testing::evaluation_with<2>(values_.at(calls_++), gradient);
   }
 
  private:
@@ -46,7 +45,7 @@ ScriptedRun run_with(std::vector<double> objectives, int iterations,
   options.max_halvings = 2;
   options.measure_control = control;
   const ShapeOptimizer<2> optimizer(lattice, {{ExtensionKind::h1, 2}, 0.04, 0.012, 0.012}, options,
-                                    Scripted(std::move(objectives)));
+                                    testing::objective_of_shape<2>(Scripted(std::move(objectives))));
   std::vector<Verdict> verdicts;
   std::vector<double> steps;
   const auto observer = [&](const Trial<2>& trial, const OptimizationState<2>&) {

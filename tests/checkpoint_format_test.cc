@@ -40,10 +40,22 @@ TEST(CheckpointFormat, HoldsTheWholeState) {
   EXPECT_EQ(a.shape.lattice.degree(), b.shape.lattice.degree());
   EXPECT_EQ(a.shape.lattice.grid().cells, b.shape.lattice.grid().cells);
   EXPECT_EQ(a.shape.lattice.grid().outer_radius, b.shape.lattice.grid().outer_radius);
-  EXPECT_EQ(a.evaluation.objective, b.evaluation.objective);
-  EXPECT_EQ(a.evaluation.criteria[1].name, b.evaluation.criteria[1].name);
-  EXPECT_EQ(a.evaluation.gradient[0].normal, b.evaluation.gradient[0].normal);
-  EXPECT_TRUE(std::signbit(b.evaluation.gradient[1].value));
+  ASSERT_EQ(b.evaluation.functions.size(), 2);
+  for (int k = 0; k < 2; ++k) {
+    const FunctionValue &f = a.evaluation.functions[k], &g = b.evaluation.functions[k];
+    EXPECT_EQ(f.name, g.name);
+    EXPECT_EQ(f.value, g.value);
+    EXPECT_EQ(f.by_position, g.by_position);
+    EXPECT_EQ(f.gradient, g.gradient);
+    EXPECT_EQ(f.bounds.lower, g.bounds.lower);
+    EXPECT_EQ(f.bounds.upper, g.bounds.upper);
+    EXPECT_EQ(a.evaluation.terms[k].name, b.evaluation.terms[k].name);
+    EXPECT_EQ(a.evaluation.terms[k].value, b.evaluation.terms[k].value);
+    EXPECT_EQ(a.evaluation.terms[k].by_position, b.evaluation.terms[k].by_position);
+  }
+  EXPECT_EQ(a.evaluation.boundary[0].normal, b.evaluation.boundary[0].normal);
+  EXPECT_EQ(a.evaluation.boundary[1].weight, b.evaluation.boundary[1].weight);
+  EXPECT_TRUE(std::signbit(b.evaluation.functions[0].gradient[1]));
   EXPECT_EQ(a.evaluation.newton_iterations, b.evaluation.newton_iterations);
   EXPECT_EQ(a.evaluation.mean_observations.entries(), b.evaluation.mean_observations.entries());
   EXPECT_EQ(a.evaluation.mean_observations.rows(), b.evaluation.mean_observations.rows());
@@ -177,8 +189,9 @@ bool accepts(Change change) {
 TEST(CheckpointFormat, RejectsStatesThatNoRunHas) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(accepts([](auto&) {}));
-  EXPECT_FALSE(accepts([](auto& c) { c.state.evaluation.gradient[0].cell = 6; }));
-  EXPECT_FALSE(accepts([](auto& c) { c.state.evaluation.gradient[0].cell = -1; }));
+  EXPECT_FALSE(accepts([](auto& c) { c.state.evaluation.boundary[0].cell = 6; }));
+  EXPECT_FALSE(accepts([](auto& c) { c.state.evaluation.boundary[0].cell = -1; }));
+  EXPECT_FALSE(accepts([](auto& c) { c.state.evaluation.functions[1].gradient.pop_back(); }));
   EXPECT_FALSE(accepts([](auto& c) { c.state.shape.values.pop_back(); }));
   EXPECT_FALSE(accepts([&](auto& c) { c.state.shape.values[3] = nan; }));
   EXPECT_FALSE(accepts([&](auto& c) { c.initial.objective = nan; }));

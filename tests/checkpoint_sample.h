@@ -47,14 +47,15 @@ Checkpoint<dim> some_checkpoint() {
   Matrix mean(3, 4);
   std::ranges::copy(random.numbers(12), mean.data());
   Evaluation<dim> evaluation{
-      random.number(),
-      {{"strain_energy", random.number()}, {"uniformity_dual", random.number()}},
-      {{0, point(), point(), random.number(), random.number()}, {5, point(), point(), random.number(), -0.0}},
-      {7, 0, 12},
-      mean,
-      {{"cut", 0.25}, {"contact", 1e-3}},
-      {{"run_out", std::numeric_limits<double>::denorm_min()},
-       {"pressure_spread", std::numeric_limits<double>::quiet_NaN()}}};
+      .functions = {{"objective", random.number(), random.numbers(3), {random.number(), -0.0}, {}},
+                    {"volume", random.number(), {}, random.numbers(2), {-1.5, random.number()}}},
+      .terms = {{"strain_energy", random.number(), random.numbers(3)}, {"volume", random.number(), {}}},
+      .boundary = {{0, point(), point(), random.number()}, {5, point(), point(), random.number()}},
+      .newton_iterations = {7, 0, 12},
+      .mean_observations = mean,
+      .phases = {{"cut", 0.25}, {"contact", 1e-3}},
+      .measures = {{"run_out", std::numeric_limits<double>::denorm_min()},
+                   {"pressure_spread", std::numeric_limits<double>::quiet_NaN()}}};
   OptimizationState<dim> state{some_level_set<dim>(random, 2),
                                evaluation,
                                random.number(),

@@ -16,7 +16,7 @@ using testing::holes;
 RollingModel<2> pressed_model() {
   RollingModel<2> model;
   model.grid = {0.20, 0.34, 0.12, 5, {14, 48}};
-  model.material = {30e6, 0.3};
+  model.materials = Material{30e6, 0.3};
   model.load = 1e5;
   model.travel = 0.03;
   model.n_positions = 3;
@@ -35,7 +35,7 @@ Expected<ContactState<2>> solved_in(const RollingProblem<2>& problem, const Roll
                             return model.travel
                                        ? contact.undeformed_start(fraction)
                                        : contact.hertz_start(fraction * model.load, model.grid.outer_radius,
-                                                             model.material.plane_strain_modulus());
+                                                             model.materials.at_tread().plane_strain_modulus());
                           },
                           {});
 }

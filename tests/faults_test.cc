@@ -96,23 +96,25 @@ class FaultyObjective {
       : faulty_calls_(std::move(faulty_calls)), fault_(std::move(fault)) {}
 
   Expected<Evaluation<2>> operator()(const LevelSet<2>& psi) {
-    Evaluation<2> result{0, {}, some_gradient(psi), {}, {}, {}, {}};
-    for (const auto& sample : result.gradient) {
+    double objective = 0;
+    auto gradient = some_gradient(psi);
+    for (const auto& sample : gradient) {
       const auto cell = grid.cell_position(sample.cell);
       const double radius = grid.inner_radius + (cell[0] + sample.xi[0]) * grid.cell_size()[0];
       const double azimuth = (cell[1] + sample.xi[1]) * grid.cell_size()[1];
       // The area of the hole about the point (0.3, 0.3 sector): the divergence theorem.
       const Vec<2> x = cartesian<2>({radius, azimuth}), middle = cartesian<2>({0.3, 0.3 * sector});
       const Vec<2> d{x[0] - middle[0], x[1] - middle[1]};
-      result.objective -= sample.weight * dot<2>(sample.normal, d) * dot<2>(d, d) / 4;
+      objective -= sample.weight * dot<2>(sample.normal, d) * dot<2>(d, d) / 4;
     }
-    for (auto& sample : result.gradient) {
+    for (auto& sample : gradient) {
       const auto cell = grid.cell_position(sample.cell);
       const Vec<2> x = cartesian<2>({grid.inner_radius + (cell[0] + sample.xi[0]) * grid.cell_size()[0],
                                      (cell[1] + sample.xi[1]) * grid.cell_size()[1]});
       const Vec<2> middle = cartesian<2>({0.3, 0.3 * sector});
       sample.value = -(std::pow(x[0] - middle[0], 2) + std::pow(x[1] - middle[1], 2));
     }
+    auto result = testing::evaluation_with<2>(objective, gradient);
     const int call = calls_++;
     const bool faulty = std::find(faulty_calls_.begin(), faulty_calls_.end(), call) != faulty_calls_.end();
     if (faulty || (faulty_calls_.empty() && call > 0)) fault_(result);
@@ -143,11 +145,11 @@ Course run(const LevelSet<2>& initial, const OptimizerOptions& options,
 }
 
 const std::vector<std::pair<FailureReason, FaultyObjective::Fault>> faults{
-    {FailureReason::not_finite, [](Evaluation<2>& e) { e.objective = nan; }},
-    {FailureReason::not_finite, [](Evaluation<2>& e) { e.gradient[7].value = -infinity; }},
-    {FailureReason::not_finite, [](Evaluation<2>& e) { e.gradient[7].weight = nan; }},
-    {FailureReason::objective_jumped, [](Evaluation<2>& e) { e.objective *= 1e-3; }},
-    {FailureReason::objective_jumped, [](Evaluation<2>& e) { e.objective *= 50; }},
+    {FailureReason::not_finite, [](Evaluation<2>& e) { e.functions[0].value = nan; }},
+    {FailureReason::not_finite, [](Evaluation<2>& e) { e.functions[0].gradient[7] = -infinity; }},
+    {FailureReason::not_finite, [](Evaluation<2>& e) { e.boundary[7].weight = nan; }},
+    {FailureReason::objective_jumped, [](Evaluation<2>& e) { e.functions[0].value *= 1e-3; }},
+    {FailureReason::objective_jumped, [](Evaluation<2>& e) { e.functions[0].value *= 50; }},
 };
 
 TEST(FaultyObjective, IsRejectedAndTheRunGoesOn) {
@@ -168,7 +170,7 @@ TEST(FaultyObjective, IsRejectedAndTheRunGoesOn) {
         EXPECT_EQ(course.trials[k + 1].step, course.trials[k].step / 2);
       }
       EXPECT_EQ(course.outcome.state->iteration, 6);
-      EXPECT_TRUE(std::isfinite(course.outcome.state->evaluation.objective));
+      EXPECT_TRUE(std::isfinite(course.outcome.state->evaluation.function("objective").value));
     }
 }
 
@@ -194,7 +196,8 @@ TEST(FaultyObjective, InTheInitialShapeFailsTheStart) {
 // A gradient that is finite, and whose velocity is not.
 TEST(FaultyObjective, WhoseVelocityOverflowsMakesTheRunGiveUp) {
   const Course course = run(one_hole(), {}, FaultyObjective({0}, [](Evaluation<2>& e) {
-                              for (auto& sample : e.gradient) sample.value = 1e308 * sample.normal[0];
+                              for (size_t q = 0; q < e.boundary.size(); ++q)
+                                e.functions[0].gradient[q] = 1e308 * e.boundary[q].normal[0];
                             }));
   EXPECT_EQ(course.outcome.reason, StopReason::gave_up);
   ASSERT_EQ(course.trials.size(), 2u);

@@ -5,6 +5,8 @@
 
 #include "tests/support.h"
 #include "wheelwright/report/solution_fields.h"
+#include "wheelwright/rolling/ring_displacement.h"
+#include "wheelwright/rolling/ring_state.h"
 
 namespace wheelwright {
 namespace {
@@ -16,7 +18,7 @@ RollingModel<2> asymmetric_model(int degree) {
   RollingModel<2> model;
   model.grid = {0.20, 0.34, 0.12, 7, {9, 15}};
   model.degree = degree;
-  model.material = {60e6, 0.4};
+  model.materials = Material{60e6, 0.4};
   model.contact.friction = 0.5;
   model.load = 20e3;
   model.horizontal_force = 500;
@@ -80,8 +82,8 @@ TEST(VonMisesField, IsExactForLinearDisplacements) {
       const RingField u = displacement_of(problem, [&](const Vec<2>& x) {
         return Vec<2>{1e-3 + a[0][0] * x[0] + a[0][1] * x[1], a[1][0] * x[0] + a[1][1] * x[1] - 2e-3};
       });
-      const RingField stress = von_mises_field(problem, solution, u);
-      const double expected = von_mises_of(problem.model().material, a);
+      const RingField stress = von_mises_field(problem.model(), solution.domain, u);
+      const double expected = von_mises_of(problem.model().materials.at_tread(), a);
       int n = 0;
       for (const double value : stress.values) {
         if (std::isnan(value)) continue;
@@ -100,8 +102,8 @@ TEST(VonMisesField, RotationsHaveNoStress) {
     const RingField u = displacement_of(problem, [&](const Vec<2>& x) {
       return Vec<2>{-rotation * x[1], rotation * x[0]};
     });
-    for (const double value : von_mises_field(problem, solution, u).values)
-      EXPECT_FALSE(value > 1e-9 * rotation * problem.model().material.youngs_modulus);
+    for (const double value : von_mises_field(problem.model(), solution.domain, u).values)
+      EXPECT_FALSE(value > 1e-9 * rotation * problem.model().materials.at_tread().youngs_modulus);
   }
 }
 
@@ -113,13 +115,13 @@ TEST(VonMisesField, FollowsTheStressFromPlaceToPlace) {
   const RingField u = displacement_of(problem, [&](const Vec<2>& x) {
     return Vec<2>{k * x[0] * x[1], k * (x[0] * x[0] - 3 * x[1] * x[1] + x[0] * x[1])};
   });
-  const RingField stress = von_mises_field(problem, solution, u);
+  const RingField stress = von_mises_field(problem.model(), solution.domain, u);
   for_each_node(problem, [&](std::size_t node, double radius, double azimuth) {
     if (std::isnan(stress.values[node])) return;
     const Vec<2> x = cartesian<2>({radius, azimuth});
     const Mat<2> gradient{{{k * x[1], k * x[0]}, {k * (2 * x[0] + x[1]), k * (-6 * x[1] + x[0])}}};
-    const double expected = von_mises_of(problem.model().material, gradient);
-    EXPECT_NEAR(stress.values[node], expected, 2e-2 * k * problem.model().material.youngs_modulus * 0.3)
+    const double expected = von_mises_of(problem.model().materials.at_tread(), gradient);
+    EXPECT_NEAR(stress.values[node], expected, 2e-2 * k * problem.model().materials.at_tread().youngs_modulus * 0.3)
         << radius << ' ' << azimuth;
   });
 }
@@ -129,7 +131,7 @@ TEST(DisplacementField, TheRimMovesRigidly) {
   for (const int degree : {1, 2}) {
     const auto [problem, solution] = solved(degree);
     for (int position = 0; position < solution.positions.size(); ++position) {
-      const RingField u = displacement_field(problem, solution, position);
+      const RingField u = RingDisplacement<2>(problem, solution).at_nodes(position);
       const double ground = 2 * std::numbers::pi / 7 * position / 3;
       const RimMotion& rim = solution.states[position].rim;
       EXPECT_GT(rim.towards_ground, 0);
@@ -171,11 +173,11 @@ Vec<2> deformed_tread(const RollingProblem<2>& problem, const RingField& u, doub
 TEST(ContactPoints, GapsAreThoseOfTheDisplacementAtTheirAzimuth) {
   const auto [problem, solution] = solved(2);
   const double radius = problem.model().grid.outer_radius;
-  const auto points = contact_points(problem, solution);
+  const auto points = contact_points(problem, *ring_state<2>(problem, solution));
   int touching = 0, last = -1;
   RingField u;
   for (const ContactPoint& point : points) {
-    if (point.position != last) u = displacement_field(problem, solution, last = point.position);
+    if (point.position != last) u = RingDisplacement<2>(problem, solution).at_nodes(last = point.position);
     const double ground = 2 * std::numbers::pi / 7 * point.position / 3;
     const Vec<2> x = deformed_tread(problem, u, ground + point.azimuth);
     const double travel = solution.states[point.position].rim.towards_ground;
@@ -216,7 +218,7 @@ TEST(ContactPoints, ThePressureStandsWhereForceAndTorqueDriveIt) {
 TEST(RepeatedField, HasTheLevelSetsValuesInEverySector) {
   const auto [problem, solution] = solved(2);
   const auto psi = asymmetric_shape(problem.model().grid);
-  const RingField field = repeated_field(problem, psi);
+  const RingField field = repeated_field(problem.model(), psi);
   for (std::size_t k = 0; k < field.values.size(); ++k)
     EXPECT_NEAR(field.values[k], psi.values[k % psi.values.size()], 1e-15);
 }

@@ -49,15 +49,15 @@ Vec<2> polar_of(const SurfaceSample<2>& sample) {
 
 Evaluation<2> evaluate_bowl(const LevelSet<2>& psi) {
   const Bowl bowl;
-  Evaluation<2> result{
-      grid.sector_angle() * bowl.flux(grid.outer_radius, 0), {}, boundary_samples<2>(psi), {}, {}, {}, {}};
-  for (auto& sample : result.gradient) {
+  double objective = grid.sector_angle() * bowl.flux(grid.outer_radius, 0);
+  auto gradient = boundary_samples<2>(psi);
+  for (auto& sample : gradient) {
     const Vec<2> x = polar_of(sample);
     const double radial_normal = sample.normal[0] * std::cos(x[1]) + sample.normal[1] * std::sin(x[1]);
-    result.objective += sample.weight * radial_normal * bowl.flux(x[0], bowl.wave(x[1])) / x[0];
+    objective += sample.weight * radial_normal * bowl.flux(x[0], bowl.wave(x[1])) / x[0];
     sample.value = 2 - bowl.q(x[0], x[1]);
   }
-  return result;
+  return wheelwright::testing::evaluation_with<2>(objective, gradient);
 }
 
 Expected<Evaluation<2>> bowl_objective(const LevelSet<2>& psi) { return evaluate_bowl(psi); }
@@ -93,10 +93,10 @@ TEST(Bowl, HasTheShapeDerivativeThatItReturns) {
   const auto moved = [&](double distance) {
     auto shifted = psi;
     for (double& value : shifted.values) value -= distance;
-    return evaluate_bowl(shifted).objective;
+    return evaluate_bowl(shifted).function("objective").value;
   };
   double derivative = 0;
-  for (const auto& sample : evaluate_bowl(psi).gradient) derivative += sample.weight * sample.value;
+  for (const auto& sample : evaluate_bowl(psi).gradient("objective")) derivative += sample.weight * sample.value;
   const double step = 1e-5;
   EXPECT_NEAR((moved(step) - moved(-step)) / (2 * step), derivative, 1e-4 * derivative);
 }
@@ -113,12 +113,12 @@ TEST(ShapeOptimizer, ConvergesToTheLevelLineAtConstantMeasure) {
       << to_string(outcome.reason);
   const auto [low, high] = range_of_q(outcome.state->shape);
   EXPECT_LT(high - low, 0.05 * high);
-  double last = record.trials.front().evaluation->objective;
+  double last = record.trials.front().evaluation->function("objective").value;
   for (const auto& trial : record.trials) {
     if (trial.verdict != Verdict::accepted) continue;
-    EXPECT_LE(trial.evaluation->objective, last + options.accepted_increase * std::abs(last));
+    EXPECT_LE(trial.evaluation->function("objective").value, last + options.accepted_increase * std::abs(last));
     EXPECT_NEAR(trial.measure, outcome.state->target_measure, 1e-6 * trial.measure);
-    last = trial.evaluation->objective;
+    last = trial.evaluation->function("objective").value;
   }
   RecordProperty("stop", to_string(outcome.reason));
   RecordProperty("q", fmt::format("{} {}", low, high));
@@ -190,7 +190,7 @@ TEST(ShapeOptimizer, HalvesTheStepWhereTheEvaluationFails) {
     EXPECT_FALSE(trial.evaluation);
   }
   EXPECT_GE(failures, 1);
-  EXPECT_LT(outcome.state->evaluation.objective, outcome.state->history.front());
+  EXPECT_LT(outcome.state->evaluation.function("objective").value, outcome.state->history.front());
 }
 
 TEST(ShapeOptimizer, GivesUpWhereEveryTrialFails) {
@@ -214,7 +214,7 @@ TEST(ShapeOptimizer, GivesUpWhereEveryTrialFails) {
 TEST(ShapeOptimizer, RejectsARiseOfTheObjective) {
   const auto uphill = [](const LevelSet<2>& psi) -> Expected<Evaluation<2>> {
     auto evaluation = evaluate_bowl(psi);
-    for (auto& sample : evaluation.gradient) sample.value = -sample.value;
+    for (double& value : evaluation.functions[0].gradient) value = -value;
     return evaluation;
   };
   OptimizerOptions options;
@@ -242,7 +242,7 @@ TEST(ShapeOptimizer, NamesAFailedStart) {
 TEST(ShapeOptimizer, TreatsANotFiniteObjectiveAsAFailure) {
   const auto not_a_number = [](const LevelSet<2>& psi) -> Expected<Evaluation<2>> {
     auto evaluation = evaluate_bowl(psi);
-    evaluation.objective = std::nan("");
+    evaluation.functions[0].value = std::nan("");
     return evaluation;
   };
   const ShapeOptimizer<2> optimizer(lattice, evolution, {},

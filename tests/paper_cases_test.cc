@@ -5,6 +5,7 @@
 
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/shorten.h"
+#include "wheelwright/rolling/rolling_problem.h"
 #include "wheelwright/run/expectations.h"
 
 namespace wheelwright {
@@ -36,19 +37,19 @@ void expect_as_expected(const Case& c) {
   ASSERT_TRUE(study);
   ASSERT_EQ(c.objective.mean, MeanStress::exact);
   std::vector<FoundQuantity> found;
-  std::shared_ptr<const RollingSolution<2>> last_solution;
+  std::shared_ptr<const State<2>> last_solution;
   const auto outcome = optimize<2>(
       optimizer_of(*study), study->initial,
       [&](const Trial<2>& trial, const OptimizationState<2>& state) {
         if (trial.verdict != Verdict::accepted) return;
-        for (auto& quantity : found_quantities(c.expectations, *study->problem, state, *trial.solution))
+        for (auto& quantity : found_quantities(c.expectations, *study->solver, state, *trial.solution))
           found.push_back(std::move(quantity));
         last_solution = trial.solution;
       },
       [] { return false; });
   ASSERT_TRUE(outcome.state) << outcome.failure->detail;
   for (const Finding& finding :
-       findings<2>(c.expectations, found, *study->problem, *outcome.state, last_solution.get()))
+       findings<2>(c.expectations, found, *study->solver, *outcome.state, last_solution.get()))
     EXPECT_TRUE(finding.met()) << finding.text();
 }
 

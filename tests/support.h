@@ -114,9 +114,21 @@ inline Expected<TaylorTest> generic_taylor_test(const RollingProblem<2>& problem
                         smooth_direction(psi.lattice), problem.model().degree, 2e-5, 3);
 }
 
+/// The evaluation of an objective with this value and this gradient.
+template <int dim>
+Evaluation<dim> evaluation_with(double objective, const std::vector<SurfaceSample<dim>>& gradient) {
+  Evaluation<dim> evaluation;
+  evaluation.functions.push_back({"objective", objective, {}, {}, {}});
+  for (const auto& sample : gradient) {
+    evaluation.boundary.push_back(sample);
+    evaluation.functions[0].gradient.push_back(sample.value);
+  }
+  return evaluation;
+}
+
 /// An objective that depends on the shape alone and hands out no solution, for the loop.
-template <int dim, class Evaluate>
-typename ShapeOptimizer<dim>::Objective objective_of_shape(Evaluate evaluate) {
+template <int dim, class EvaluateShape>
+typename ShapeOptimizer<dim>::Evaluate objective_of_shape(EvaluateShape evaluate) {
   return [evaluate](const LevelSet<dim>& psi, const Evaluation<dim>*) mutable -> Expected<Evaluated<dim>> {
     auto evaluation = evaluate(psi);
     if (!evaluation) return evaluation.failure();

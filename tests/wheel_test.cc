@@ -51,7 +51,7 @@ std::pair<double, double> hole_extent(const LevelSet<2>& psi) {
 }
 
 void expect_stiffer_at_constant_volume(const Course& run) {
-  EXPECT_LT(run.last.evaluation.objective, 0.83 * run.initial.evaluation.objective);
+  EXPECT_LT(run.last.evaluation.function("objective").value, 0.83 * run.initial.evaluation.function("objective").value);
   EXPECT_LT(run.worst_volume_error, 1e-3);
   const auto [radial0, azimuthal0] = hole_extent(run.initial.shape);
   const auto [radial, azimuthal] = hole_extent(run.last.shape);
@@ -89,7 +89,7 @@ double pressure_spread(const Case& c, const LevelSet<2>& shape) {
 }
 
 double criterion_value(const OptimizationState<2>& state, const std::string& name) {
-  for (const auto& value : state.evaluation.criteria)
+  for (const auto& value : state.evaluation.terms)
     if (value.name == name) return value.value;
   ADD_FAILURE() << name;
   return 0;
