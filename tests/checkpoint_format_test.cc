@@ -68,6 +68,7 @@ TEST(CheckpointFormat, HoldsTheWholeState) {
   EXPECT_EQ(a.since_redistance, b.since_redistance);
   EXPECT_EQ(a.since_smoothing, b.since_smoothing);
   EXPECT_EQ(a.history, b.history);
+  EXPECT_EQ(a.history_begin, b.history_begin);
   EXPECT_EQ(written.initial.shape.values, parsed->initial.shape.values);
   EXPECT_EQ(written.initial.objective, parsed->initial.objective);
   EXPECT_EQ(written.found[1].quantity, parsed->found[1].quantity);
@@ -117,9 +118,10 @@ TEST(CheckpointFormat, NamesTheFault) {
   const auto fault = [](const std::string& bytes) { return parse_checkpoint_file<2>(bytes).failure().fault; };
   EXPECT_EQ(fault("no such file, but one that is long enough for a header"), FormatFault::wrong_kind);
   EXPECT_EQ(fault(block_file("LSET", 1, {})), FormatFault::wrong_kind);
-  EXPECT_EQ(fault(block_file("CKPT", 2, {})), FormatFault::unsupported_version);
-  EXPECT_EQ(fault(block_file("CKPT", 1, {{"STAT", ""}, {"CASE", ""}})), FormatFault::wrong_block);
-  EXPECT_EQ(fault(block_file("CKPT", 1, {})), FormatFault::wrong_block);
+  EXPECT_EQ(fault(block_file("CKPT", 1, {})), FormatFault::unsupported_version);
+  EXPECT_EQ(fault(block_file("CKPT", 3, {})), FormatFault::unsupported_version);
+  EXPECT_EQ(fault(block_file("CKPT", 2, {{"STAT", ""}, {"CASE", ""}})), FormatFault::wrong_block);
+  EXPECT_EQ(fault(block_file("CKPT", 2, {})), FormatFault::wrong_block);
   std::string bad = good;
   bad[good.size() / 2] ^= 1;
   EXPECT_EQ(fault(bad), FormatFault::wrong_checksum);
@@ -128,14 +130,14 @@ TEST(CheckpointFormat, NamesTheFault) {
 /// The checkpoint with right checksums, after a change of the payload of one block.
 template <class Change>
 std::string reframed(const std::string& good, std::size_t block, Change change) {
-  const auto payloads = parse_block_file(good, "CKPT", 1, checkpoint_tags);
+  const auto payloads = parse_block_file(good, "CKPT", 2, checkpoint_tags);
   std::vector<Block> blocks;
   for (std::size_t k = 0; k < checkpoint_tags.size(); ++k) {
     std::string payload((*payloads)[k]);
     if (k == block) change(payload);
     blocks.push_back({std::string(checkpoint_tags[k]), std::move(payload)});
   }
-  return block_file("CKPT", 1, blocks);
+  return block_file("CKPT", 2, blocks);
 }
 
 // Checksums do not protect from files that were made to harm: sizes and values are checked too.
@@ -144,7 +146,7 @@ TEST(CheckpointFormat, RejectsWhatDoesNotFitThoughItsChecksumsAreRight) {
   const std::string good = checkpoint_file(some_checkpoint<2>());
   int rejected = 0;
   for (std::size_t block = 0; block < checkpoint_tags.size(); ++block) {
-    const std::size_t size = (*parse_block_file(good, "CKPT", 1, checkpoint_tags))[block].size();
+    const std::size_t size = (*parse_block_file(good, "CKPT", 2, checkpoint_tags))[block].size();
     for (std::size_t at = 0; at < size; ++at)
       for (const char value : {'\x00', '\x01', '\x7f', '\x80', '\xff'}) {
         const auto parsed = parse_checkpoint_file<2>(
@@ -196,6 +198,12 @@ TEST(CheckpointFormat, RejectsStatesThatNoRunHas) {
   EXPECT_FALSE(accepts([&](auto& c) { c.state.shape.values[3] = nan; }));
   EXPECT_FALSE(accepts([&](auto& c) { c.initial.objective = nan; }));
   EXPECT_FALSE(accepts([](auto& c) { c.state.history.pop_back(); }));
+  EXPECT_FALSE(accepts([](auto& c) { c.state.history_begin = 1; }));
+  EXPECT_FALSE(accepts([](auto& c) { c.state.history_begin = c.state.iteration + 1; }));
+  EXPECT_TRUE(accepts([](auto& c) {
+    c.state.history_begin = 1;
+    c.state.history.pop_back();
+  }));
   EXPECT_FALSE(accepts([](auto& c) { c.state.iteration = -1; }));
   EXPECT_FALSE(accepts([](auto& c) { c.state.step = 0; }));
   EXPECT_FALSE(accepts([](auto& c) { c.state.evaluation.mean_observations.entries().pop_back(); }));

@@ -114,7 +114,7 @@ class FaultyObjective {
       const Vec<2> middle = cartesian<2>({0.3, 0.3 * sector});
       sample.value = -(std::pow(x[0] - middle[0], 2) + std::pow(x[1] - middle[1], 2));
     }
-    auto result = testing::evaluation_with<2>(objective, gradient);
+    auto result = wheelwright::testing::evaluation_with<2>(objective, gradient);
     const int call = calls_++;
     const bool faulty = std::find(faulty_calls_.begin(), faulty_calls_.end(), call) != faulty_calls_.end();
     if (faulty || (faulty_calls_.empty() && call > 0)) fault_(result);

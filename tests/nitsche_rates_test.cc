@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "wheelwright/report/solution_fields.h"
+#include "wheelwright/rolling/ring_displacement.h"
 #include "tests/support.h"
 
 namespace wheelwright {
@@ -29,7 +29,7 @@ Pressed press(int degree, int angular_cells, double theta, double gamma_0) {
   solid.values.assign(solid.lattice.n_nodes(), -1.0);
   const auto solution = problem->solve(solid);
   EXPECT_TRUE(solution) << solution.failure().detail;
-  RingField field = displacement_field(*problem, *solution, 0);
+  RingField field = RingDisplacement<2>(*problem, *solution).at_nodes(0);
   return {std::move(problem), std::move(field)};
 }
 

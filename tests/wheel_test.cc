@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include "wheelwright/rolling/rolling_problem.h"
+
 #include "wheelwright/case/read.h"
 #include "wheelwright/run/study.h"
 

@@ -176,6 +176,7 @@ Expected<OptimizationState<dim>> ShapeOptimizer<dim>::restart(const Optimization
   anew.target_measure = options_.target_measure.value_or(state.target_measure);
   anew.step = options_.step;
   anew.history = {objective_of(*trial.evaluation)};
+  anew.history_begin = state.iteration;
   observer(trial, anew);
   return anew;
 }
@@ -338,17 +339,18 @@ OptimizationState<dim> ShapeOptimizer<dim>::successor(const OptimizationState<di
   const auto count = [&](int every, int since) {
     return is_due(every, since, trial.halvings) ? 0 : since + 1;
   };
-  auto history = state.history;
-  history.push_back(objective_of(*trial.evaluation));
-  return {trial.shape,
-          *trial.evaluation,
-          trial.measure,
-          state.target_measure,
-          trial.iteration,
-          next_step(state, trial),
-          count(options_.redistance_every, state.since_redistance),
-          count(options_.smooth_every, state.since_smoothing),
-          std::move(history)};
+  OptimizationState<dim> next{.shape = trial.shape,
+                              .evaluation = *trial.evaluation,
+                              .measure = trial.measure,
+                              .target_measure = state.target_measure,
+                              .iteration = trial.iteration,
+                              .step = next_step(state, trial),
+                              .since_redistance = count(options_.redistance_every, state.since_redistance),
+                              .since_smoothing = count(options_.smooth_every, state.since_smoothing),
+                              .history = state.history,
+                              .history_begin = state.history_begin};
+  next.history.push_back(objective_of(*trial.evaluation));
+  return next;
 }
 
 template <int dim>

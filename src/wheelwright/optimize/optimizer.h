@@ -45,8 +45,8 @@ struct OptimizationState {
   double step;           ///< to be tried next [cells]
   int since_redistance;  ///< accepted shapes since the last redistancing
   int since_smoothing;
-  std::vector<double> history;  ///< the objective of every accepted shape, the initial one first; or, after
-                                ///< the objective was changed, from the shape on that was evaluated anew
+  std::vector<double> history;  ///< the objective of every accepted shape from history_begin on
+  int history_begin = 0;        ///< the shape that the objective was last changed at; 0 if it never was
 };
 
 enum class Verdict {

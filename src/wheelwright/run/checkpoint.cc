@@ -163,7 +163,7 @@ Evaluation<dim> read_evaluation(ByteReader& reader) {
 template <int dim>
 void append(const OptimizationState<dim>& state, ByteWriter& writer) {
   const auto& [shape, evaluation, measure, target_measure, iteration, step, since_redistance, since_smoothing,
-               history] = state;
+               history, history_begin] = state;
   append(shape, writer);
   append(evaluation, writer);
   writer.number(measure);
@@ -173,6 +173,7 @@ void append(const OptimizationState<dim>& state, ByteWriter& writer) {
   writer.integer(since_redistance);
   writer.integer(since_smoothing);
   writer.numbers(history);
+  writer.integer(history_begin);
 }
 
 /// What is wrong with the parts of a state taken together; empty when they fit.
@@ -184,7 +185,8 @@ std::string_view misfit(const OptimizationState<dim>& state) {
   for (const FunctionValue& function : state.evaluation.functions)
     if (function.gradient.size() != state.evaluation.boundary.size())
       return "there is not one value of a gradient for every point of the boundary";
-  if (state.history.size() != std::size_t(state.iteration) + 1)
+  if (state.history_begin > state.iteration ||
+      state.history.size() != std::size_t(state.iteration) - std::size_t(state.history_begin) + 1)
     return "there is not one objective for every shape";
   if (!(state.step > 0)) return "the step is not positive";
   return {};
@@ -204,10 +206,18 @@ std::optional<OptimizationState<dim>> read_state(ByteReader& reader) {
   const int since_redistance = count("the number of shapes since the last redistancing");
   const int since_smoothing = count("the number of shapes since the last smoothing");
   auto history = reader.finite_numbers("the objectives so far");
+  const int history_begin = count("the shape that the objectives begin with");
   if (!reader.ok()) return {};
-  OptimizationState<dim> state{
-      *std::move(shape), std::move(evaluation), measure,           target_measure, iteration, step,
-      since_redistance,  since_smoothing,       std::move(history)};
+  OptimizationState<dim> state{.shape = *std::move(shape),
+                               .evaluation = std::move(evaluation),
+                               .measure = measure,
+                               .target_measure = target_measure,
+                               .iteration = iteration,
+                               .step = step,
+                               .since_redistance = since_redistance,
+                               .since_smoothing = since_smoothing,
+                               .history = std::move(history),
+                               .history_begin = history_begin};
   const std::string_view problem = misfit(state);
   if (!problem.empty()) reader.fail(problem);
   return state;

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "wheelwright/optimize/optimizer.h"
 #include "wheelwright/files/block_file.h"
+#include "wheelwright/optimize/optimizer.h"
 #include "wheelwright/run/history.h"
 
 namespace wheelwright {

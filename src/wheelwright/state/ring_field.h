@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -35,21 +36,25 @@ std::size_t ring_node(const Lattice<dim>& lattice, std::array<int, dim> position
          static_cast<std::size_t>(lattice.n_nodes()) * (azimuthal / per_sector);
 }
 
-/// The mirror image of a field in the plane of azimuth 0: a field with as many components as the space has
-/// dimensions is one of vectors, any other one of scalars.
+/// The mirror image of a field in the middle plane of sector 0, which takes load position i of n to position
+/// n - i: a sector further than the image in the plane of azimuth 0. A field with as many components as the
+/// space has dimensions is one of vectors, any other one of scalars.
 template <int dim>
 RingField mirror_image(const Lattice<dim>& lattice, const RingField& field) {
   RingField image = field;
   const int per_sector = lattice.nodes()[1];
+  const double angle = lattice.grid().sector_angle(), cosine = std::cos(angle), sine = std::sin(angle);
   for (int sector = 0; sector < lattice.grid().n_sectors; ++sector)
     for (int node = 0; node < lattice.n_nodes(); ++node) {
       auto p = lattice.node_position(node);
       p[1] += per_sector * sector;
       const double* from = &field.values[field.components * ring_node<dim>(lattice, p)];
-      p[1] = -p[1];
+      p[1] = per_sector - p[1];
       double* to = &image.values[field.components * ring_node<dim>(lattice, p)];
       std::copy_n(from, field.components, to);
-      if (field.components == dim) to[1] = -to[1];
+      if (field.components != dim) continue;
+      to[0] = cosine * from[0] + sine * from[1];
+      to[1] = sine * from[0] - cosine * from[1];
     }
   return image;
 }

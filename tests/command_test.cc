@@ -1,0 +1,396 @@
+#include <atomic>
+#include <ctime>
+#include <thread>
+
+#include "tests/run_support.h"
+#include "wheelwright/base/stopwatch.h"
+#include "wheelwright/case/read.h"
+#include "wheelwright/run/command_queue.h"
+#include "wheelwright/run/run.h"
+
+namespace wheelwright::testing {
+namespace {
+
+using namespace std::chrono_literals;
+using TheRun = Run<2>;  // a test has a Run() of its own
+
+/// An observer of the test, in no list of the program: what stands in a file of its own otherwise. The one
+/// line that makes it known to a run is the call of Run::add() in RunTest::execute() below; an observer of
+/// every run would be named by one line in make_observers() (run/observers.cc) instead.
+class Recorder : public Observer<2> {
+ public:
+  struct Record {
+    std::vector<int> accepted;       ///< iterations
+    std::vector<double> objectives;  ///< of those
+    std::vector<std::string> obeyed, refused, changes;
+    std::vector<LevelSet<2>> shapes;
+    int trials = 0, ended = 0;
+    bool solutions_were_there = true;
+  };
+  using Reaction = std::function<void(const TrialDone<2>&)>;
+
+  Recorder(Record& record, Reaction reaction) : record_(record), reaction_(std::move(reaction)) {}
+
+  void operator()(const Event<2>& event, const RunView<2>&) override {
+    if (const auto* command = std::get_if<CommandDone>(&event))
+      (command->was_obeyed ? record_.obeyed : record_.refused).push_back(command->text);
+    if (const auto* changed = std::get_if<CaseChanged>(&event)) record_.changes.push_back(changed->text);
+    if (std::holds_alternative<RunEnded<2>>(event)) ++record_.ended;
+    if (const auto* done = std::get_if<TrialDone<2>>(&event)) {
+      ++record_.trials;
+      record_.solutions_were_there =
+          record_.solutions_were_there && (done->trial.solution || done->trial.failure);
+      if (done->trial.verdict == Verdict::accepted) {
+        record_.accepted.push_back(done->state.iteration);
+        record_.objectives.push_back(done->state.evaluation.function("objective").value);
+        record_.shapes.push_back(done->state.shape);
+      }
+      if (reaction_) reaction_(*done);
+    }
+  }
+
+ private:
+  Record& record_;
+  Reaction reaction_;
+};
+
+class RunTest : public TemporaryFolder {
+ protected:
+  static Case the_case(const std::string& text) { return *parse_case(text, "case.toml").value; }
+  static Case case_of(const fs::path& run) { return *read_case(run / "case.toml").value; }
+
+  /// Executes a run; `reaction` sees every trial and may push commands.
+  static RunResult<2> execute(Expected<TheRun, NotBegun<2>> run, CommandQueue& commands,
+                              Recorder::Record& record, Recorder::Reaction reaction = {}) {
+    EXPECT_TRUE(run);
+    run->add(std::make_unique<Recorder>(record, std::move(reaction)));
+    return run->execute(commands);
+  }
+
+  RunResult<2> straight(const std::string& text) {
+    CommandQueue commands;
+    Recorder::Record record;
+    return execute(TheRun::begin(the_case(text), folder() / "straight"), commands, record);
+  }
+};
+
+/// Pushes a command when this shape is accepted, not when it is evaluated anew.
+Recorder::Reaction after_shape(int shape, CommandQueue& commands, const Command& command) {
+  return [shape, &commands, command](const TrialDone<2>& done) {
+    const bool is_anew = done.state.iteration > 0 && done.trial.step == 0;
+    if (done.trial.verdict == Verdict::accepted && done.state.iteration == shape && !is_anew)
+      commands.push(command);
+  };
+}
+
+TEST_F(RunTest, StopsSavedAndResumesWithTheSameBytes) {
+  const std::string text = small_case(8);
+  straight(text);
+  for (int shape : {0, 3, 5}) {
+    const fs::path stopped = folder() / std::to_string(shape);
+    CommandQueue commands;
+    Recorder::Record record;
+    const auto result = execute(TheRun::begin(the_case(text), stopped), commands, record,
+                                after_shape(shape, commands, Stop{}));
+    EXPECT_EQ(result.reason, StopReason::stop_requested);
+    EXPECT_EQ(result.state->iteration, shape);
+    EXPECT_EQ(record.ended, 1);
+    EXPECT_TRUE(record.solutions_were_there);
+    CommandQueue none;
+    const auto resumed = execute(TheRun::resume(case_of(stopped), stopped), none, record);
+    EXPECT_EQ(resumed.reason, StopReason::iterations);
+    expect_equal_results(folder() / "straight", stopped);
+  }
+}
+
+// The stop comes while a shape is evaluated: the trial is forgotten.
+TEST_F(RunTest, StopInterruptsAnEvaluation) {
+  const std::string text = small_case(8);
+  straight(text);
+  const auto study = make_study<2>(the_case(text));
+  ASSERT_TRUE(study);
+  for (int asked : {1, 2, 9, 10, 14}) {
+    int questions = 0;
+    const Interrupt interrupt([&] { return ++questions >= asked; });
+    const ShapeOptimizer<2> optimizer = optimizer_of(*study, interrupt);
+    int trials = 0;
+    const auto outcome = optimize<2>(
+        optimizer, study->initial,
+        [&](const Trial<2>& trial, const OptimizationState<2>&) {
+          ++trials;
+          EXPECT_FALSE(trial.failure && trial.failure->reason == FailureReason::interrupted);
+        },
+        [] { return false; });
+    if (asked <= 2) {
+      EXPECT_EQ(outcome.failure->reason, FailureReason::interrupted);
+      EXPECT_EQ(trials, 0);
+      continue;
+    }
+    EXPECT_EQ(outcome.reason, StopReason::stop_requested);
+    auto state = *outcome.state;
+    const ShapeOptimizer<2> undisturbed = optimizer_of(*study);
+    Outcome<2> whole = optimize<2>(
+        undisturbed, study->initial, [](const auto&, const auto&) {}, [] { return false; });
+    undisturbed.run(
+        state, [](const auto&, const auto&) {}, [] { return false; });
+    EXPECT_EQ(state.shape.values, whole.state->shape.values);
+    EXPECT_EQ(state.history, whole.state->history);
+  }
+}
+
+TEST_F(RunTest, StopFromAnotherThreadEndsItWithinTwoSeconds) {
+  CommandQueue commands;
+  Recorder::Record record;
+  Stopwatch since_stop;
+  std::atomic<bool> begun = false;
+  std::thread user([&] {
+    while (!begun) std::this_thread::sleep_for(1ms);
+    since_stop.lap();
+    commands.push(Stop{});
+  });
+  const auto result = execute(TheRun::begin(the_case(small_case(10000)), folder() / "run"), commands, record,
+                              [&](const TrialDone<2>&) { begun = true; });
+  user.join();
+  EXPECT_LT(since_stop.seconds(), 2);
+  EXPECT_EQ(result.reason, StopReason::stop_requested);
+}
+
+TEST_F(RunTest, SaveWritesACheckpointAndChangesNothing) {
+  straight(small_case(8));
+  CommandQueue commands;
+  Recorder::Record record;
+  const fs::path saved = folder() / "saved";
+  bool was_there = false;
+  execute(TheRun::begin(the_case(small_case(8)), saved), commands, record, [&](const TrialDone<2>& done) {
+    if (done.trial.verdict == Verdict::accepted && done.state.iteration == 4) commands.push(Save{});
+    if (done.state.iteration == 5) was_there = fs::exists(saved / "checkpoints/shape_000004.checkpoint");
+  });
+  EXPECT_TRUE(was_there);
+  EXPECT_EQ(record.obeyed.size(), 1u);
+  expect_equal_results(folder() / "straight", saved);
+}
+
+// Pause, three steps, continue: from another thread, which sees how far the run has come.
+TEST_F(RunTest, PausesStepsAndContinuesWithTheSameBytes) {
+  straight(small_case(8));
+  CommandQueue commands;
+  Recorder::Record record;
+  std::atomic<int> shape = -1;
+  std::vector<int> seen;
+  double processor_seconds_paused = 0;
+  std::thread user([&] {
+    const auto settled = [&] {  // longer than a shape takes
+      int before = -2;
+      while (shape < 2 || shape != before) {
+        before = shape;
+        std::this_thread::sleep_for(300ms);
+      }
+      return before;
+    };
+    seen.push_back(settled());
+    for (int k = 0; k < 3; ++k) {
+      commands.push(Step{});
+      const int last = seen.back();
+      while (shape == last) std::this_thread::sleep_for(1ms);
+      seen.push_back(settled());
+    }
+    const auto processor = std::clock();
+    std::this_thread::sleep_for(500ms);
+    processor_seconds_paused = double(std::clock() - processor) / CLOCKS_PER_SEC;
+    commands.push(Continue{});
+  });
+  const auto result = execute(TheRun::begin(the_case(small_case(8)), folder() / "paused"), commands, record,
+                              [&](const TrialDone<2>& done) {
+                                if (done.trial.verdict != Verdict::accepted) return;
+                                if (done.state.iteration == 2) commands.push(Pause{});
+                                shape = done.state.iteration;
+                              });
+  user.join();
+  EXPECT_EQ(seen, (std::vector<int>{2, 3, 4, 5}));
+  EXPECT_LT(processor_seconds_paused, 0.05);
+  EXPECT_EQ(result.reason, StopReason::iterations);
+  EXPECT_LT(result.elapsed_seconds, 60);
+  expect_equal_results(folder() / "straight", folder() / "paused");
+}
+
+TEST_F(RunTest, StopsWhilePaused) {
+  CommandQueue commands;
+  Recorder::Record record;
+  commands.push(Pause{});
+  std::thread user([&] {
+    std::this_thread::sleep_for(200ms);
+    commands.push(Stop{});
+  });
+  const auto result = execute(TheRun::begin(the_case(small_case(8)), folder() / "run"), commands, record);
+  user.join();
+  EXPECT_EQ(result.reason, StopReason::stop_requested);
+  EXPECT_EQ(result.state->iteration, 0);
+}
+
+TEST_F(RunTest, StepsThatWaitAddUp) {
+  CommandQueue commands;
+  Recorder::Record record;
+  for (int k = 0; k < 3; ++k) commands.push(Step{});
+  std::thread user([&] {
+    while (record.accepted.size() < 4) std::this_thread::sleep_for(10ms);
+    std::this_thread::sleep_for(300ms);
+    commands.push(Stop{});
+  });
+  const auto result = execute(TheRun::begin(the_case(small_case(8)), folder() / "run"), commands, record);
+  user.join();
+  EXPECT_EQ(result.state->iteration, 3);
+}
+
+/// The objective of a shape under a case.
+double objective_under(const Case& c, const LevelSet<2>& shape) {
+  const auto study = make_study<2>(c);
+  EXPECT_TRUE(study);
+  const auto evaluated = evaluate_of(*study)(shape, nullptr);
+  EXPECT_TRUE(evaluated) << evaluated.failure().detail;
+  return evaluated->evaluation.function("objective").value;
+}
+
+TEST_F(RunTest, NewLoadIsThatOfACaseWithIt) {
+  Case c = the_case(small_case(8));
+  Load load = c.load;
+  load.force *= 1.5;
+  load.hole_pressure = 900;
+  CommandQueue commands;
+  Recorder::Record record;
+  const fs::path run = folder() / "run";
+  execute(TheRun::begin(c, run), commands, record, after_shape(4, commands, NewLoad{load}));
+  ASSERT_EQ(record.accepted, (std::vector<int>{0, 1, 2, 3, 4, 4, 5, 6, 7, 8}));
+  ASSERT_EQ(record.changes.size(), 1u);
+  EXPECT_EQ(record.shapes[4].values, record.shapes[5].values);
+  c.load = load;
+  const double expected = objective_under(c, record.shapes[4]);
+  EXPECT_NEAR(record.objectives[5], expected, 1e-12 * expected);
+  EXPECT_NE(record.objectives[4], record.objectives[5]);
+  EXPECT_EQ(case_of(run).load, load);
+  const auto lines = split(content(run / "history.csv"), '\n');
+  EXPECT_EQ(std::ranges::count_if(
+                lines, [](const std::string& line) { return line.find("new load: ") != std::string::npos; }),
+            1);
+}
+
+TEST_F(RunTest, ACaseThatChangedIsResumedWithTheSameBytes) {
+  const Case c = the_case(small_case(9));
+  Load load = c.load;
+  load.force *= 0.8;
+  const auto react = [&](CommandQueue& commands, int stop_after) {
+    return [&, stop_after](const TrialDone<2>& done) {
+      if (done.trial.verdict != Verdict::accepted) return;
+      const bool is_anew = done.trial.step == 0;
+      if (done.state.iteration == 4 && !is_anew) commands.push(NewLoad{load});
+      // A stop that waits behind the new load would interrupt its evaluation.
+      if (done.state.iteration == stop_after && (stop_after != 4 || is_anew)) commands.push(Stop{});
+    };
+  };
+  const fs::path straight = folder() / "changed";
+  Recorder::Record record;
+  CommandQueue commands;
+  execute(TheRun::begin(c, straight), commands, record, react(commands, -1));
+  for (int stop : {4, 5, 7}) {
+    const fs::path stopped = folder() / std::to_string(stop);
+    CommandQueue first, second;
+    execute(TheRun::begin(c, stopped), first, record, react(first, stop));
+    EXPECT_EQ(case_of(stopped).load, load);
+    execute(TheRun::resume(case_of(stopped), stopped), second, record);
+    expect_equal_results(straight, stopped);
+  }
+}
+
+TEST_F(RunTest, NewWeightsMayAddACriterion) {
+  Case c = the_case(small_case(6));
+  CommandQueue commands;
+  Recorder::Record record;
+  const fs::path run = folder() / "run";
+  execute(TheRun::begin(c, run), commands, record,
+          after_shape(3, commands, NewWeights{.strain_energy = 2.0, .uniformity_dual = 50.0}));
+  ASSERT_EQ(record.accepted, (std::vector<int>{0, 1, 2, 3, 3, 4, 5, 6}));
+  c.objective.strain_energy = 2;
+  c.objective.uniformity_dual = 50;
+  const double expected = objective_under(c, record.shapes[4]);
+  EXPECT_NEAR(record.objectives[4], expected, 1e-12 * expected);
+  EXPECT_EQ(case_of(run).objective, c.objective);
+  for (const std::string& line : split(content(run / "history.csv"), '\n')) EXPECT_FALSE(line.empty());
+}
+
+TEST_F(RunTest, ARefusedCommandChangesNothing) {
+  straight(small_case(6));
+  const Case c = the_case(small_case(6));
+  Load negative = c.load, none = c.load, twisting = c.load;
+  negative.force = -1;
+  none.positions = 0;
+  twisting.torque = 5;  // without friction nothing would hold the wheel
+  CommandQueue commands;
+  Recorder::Record record;
+  const fs::path run = folder() / "run";
+  execute(TheRun::begin(c, run), commands, record, [&](const TrialDone<2>& done) {
+    if (done.trial.verdict != Verdict::accepted || done.state.iteration != 3) return;
+    commands.push(NewLoad{negative});
+    commands.push(NewLoad{none});
+    commands.push(NewLoad{twisting});
+    commands.push(NewWeights{.strain_energy = 0.0});
+    commands.push(NewWeights{.uniformity_dual = std::nan("")});
+  });
+  EXPECT_EQ(record.refused.size(), 5u);
+  for (const std::string& reason : record.refused) EXPECT_FALSE(reason.empty());
+  EXPECT_TRUE(record.obeyed.empty());
+  EXPECT_TRUE(record.changes.empty());
+  expect_equal_results(folder() / "straight", run);
+}
+
+/// A command of the test, in no list of the program: what stands in a file of its own otherwise. The one line
+/// that hands it to the run is the push of Custom below; a command of the program would be named by one line
+/// in the list `Command` (run/command.h) instead.
+struct WritePostcard {
+  fs::path file;
+
+  Obeyed obey(RunControl& run) const {
+    std::ofstream(file) << "greetings from shape " << run.iteration();
+    return std::string("wrote a postcard");
+  }
+};
+
+TEST_F(RunTest, ObeysACommandOfItsUsers) {
+  CommandQueue commands;
+  Recorder::Record record;
+  const WritePostcard postcard{folder() / "postcard"};
+  execute(TheRun::begin(the_case(small_case(4)), folder() / "run"), commands, record,
+          after_shape(2, commands, Custom{[=](RunControl& run) { return postcard.obey(run); }}));
+  EXPECT_EQ(content(postcard.file), "greetings from shape 2");
+  EXPECT_EQ(record.obeyed.size(), 1u);
+}
+
+TEST(CommandQueue, KeepsTheOrderAndAsksItsSources) {
+  CommandQueue queue;
+  int asked = 0;
+  queue.add_source([&]() -> std::optional<Command> {
+    return ++asked == 1 ? std::optional<Command>(Save{}) : std::nullopt;
+  });
+  queue.push(Pause{});
+  queue.push(Stop{});
+  EXPECT_EQ(queue.waiting_stops(), 1);
+  EXPECT_TRUE(std::holds_alternative<Pause>(*queue.take()));
+  EXPECT_TRUE(std::holds_alternative<Stop>(queue.wait()));
+  EXPECT_EQ(queue.waiting_stops(), 0);
+  EXPECT_TRUE(std::holds_alternative<Save>(*queue.take()));
+  EXPECT_FALSE(queue.take());
+}
+
+TEST(CommandQueue, LosesNothingBetweenThreads) {
+  CommandQueue queue;
+  constexpr int each = 200;
+  std::vector<std::thread> users;
+  for (int t = 0; t < 3; ++t)
+    users.emplace_back([&] {
+      for (int k = 0; k < each; ++k) queue.push(Step{});
+    });
+  for (int k = 0; k < 3 * each; ++k) EXPECT_TRUE(std::holds_alternative<Step>(queue.wait()));
+  for (auto& user : users) user.join();
+  EXPECT_FALSE(queue.take());
+}
+
+}  // namespace
+}  // namespace wheelwright::testing

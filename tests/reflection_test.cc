@@ -1,0 +1,148 @@
+#include <gtest/gtest.h>
+
+#include "tests/support.h"
+#include "wheelwright/analysis/stress_peak.h"
+#include "wheelwright/geometry/mirror.h"
+#include "wheelwright/report/solution_fields.h"
+
+namespace wheelwright {
+namespace {
+
+/// With load positions between the columns too: 24 columns, 7 positions.
+RollingModel<2> model_with(int n_positions) {
+  RollingModel<2> model = testing::paper_model(14, 192);
+  model.n_positions = n_positions;
+  return model;
+}
+
+double largest(const std::vector<double>& values) {
+  double result = 0;
+  for (const double v : values)
+    if (std::isfinite(v)) result = std::max(result, std::abs(v));
+  return result;
+}
+
+void expect_equal(const RingField& a, const RingField& b, double tolerance) {
+  ASSERT_EQ(a.components, b.components);
+  ASSERT_EQ(a.values.size(), b.values.size());
+  const double scale = largest(b.values);
+  double worst = 0;
+  for (size_t i = 0; i < a.values.size(); ++i) {
+    ASSERT_EQ(std::isnan(a.values[i]), std::isnan(b.values[i])) << i;
+    if (!std::isnan(b.values[i])) worst = std::max(worst, std::abs(a.values[i] - b.values[i]));
+  }
+  EXPECT_LT(worst, tolerance * scale);
+}
+
+/// Points in contact, which both zones hold; beyond them zones may end one column apart.
+std::vector<ContactPoint> touching(const std::vector<ContactPoint>& points, int position) {
+  std::vector<ContactPoint> result;
+  for (const auto& p : points)
+    if (p.position == position && p.pressure > 0) result.push_back(p);
+  return result;
+}
+
+/// How far reflected fields and contact points may be from solved ones, relative to their largest value.
+struct Tolerances {
+  double displacement, stress, contact;
+};
+
+void expect_what_solving_all_gives(int n, const std::vector<testing::Hole>& holes,
+                                   const Tolerances& tolerances) {
+  const auto problem = RollingProblem<2>::create(model_with(n));
+  ASSERT_TRUE(problem);
+  const LevelSet<2> psi = testing::holes(problem->model().grid, 2, holes);
+  ASSERT_TRUE(is_mirror_symmetric(psi));
+  const auto all = problem->states(psi, problem->all_positions(), Interrupt()),
+             distinct = problem->states(psi, problem->distinct_positions(psi), Interrupt());
+  ASSERT_TRUE(all && distinct);
+  ASSERT_EQ((*distinct)->positions().size(), n / 2 + 1);
+  ASSERT_EQ((*all)->positions().size(), n);
+
+  const auto expected = all_position_fields(*problem, **all), found = all_position_fields(*problem, **distinct);
+  ASSERT_EQ(found.size(), size_t(n));
+  const auto expected_points = contact_points(*problem, **all), points = contact_points(*problem, **distinct);
+  for (int i = 0; i < n; ++i) {
+    SCOPED_TRACE(i);
+    EXPECT_EQ(found[i].ground_azimuth, (*all)->positions().grounds[i].azimuth(problem->model().grid));
+    expect_equal(found[i].displacement, expected[i].displacement, tolerances.displacement);
+    expect_equal(found[i].von_mises, expected[i].von_mises, tolerances.stress);
+    const auto a = touching(points, i), b = touching(expected_points, i);
+    ASSERT_EQ(a.size(), b.size());
+    ASSERT_GT(a.size(), 3u);
+    double peak = 0;
+    for (const auto& p : b) peak = std::max(peak, p.pressure);
+    for (size_t k = 0; k < a.size(); ++k) {
+      EXPECT_NEAR(a[k].x, b[k].x, 1e-12);
+      EXPECT_NEAR(a[k].azimuth, b[k].azimuth, 1e-12);
+      EXPECT_NEAR(a[k].pressure, b[k].pressure, tolerances.contact * peak);
+      EXPECT_NEAR(a[k].normal_stress, b[k].normal_stress, tolerances.contact * peak);
+      EXPECT_NEAR(a[k].gap, b[k].gap, 1e-12);
+    }
+  }
+}
+
+class Reflection : public ::testing::TestWithParam<int> {};
+
+// Fields come from their modes, which leave out 1e-10 of them; pressures are as exact as Newton's method
+// leaves them.
+TEST_P(Reflection, GivesWhatSolvingAllPositionsGives) {
+  expect_what_solving_all_gives(
+      GetParam(), {},
+      {.displacement = 10 * mode_tolerance, .stress = 1000 * mode_tolerance, .contact = 2e-11});
+}
+
+// The quadrature of a cut cell is that of its image to 1e-7 only, and so are the solutions.
+TEST_P(Reflection, GivesItOnAWheelWithHolesToTheirQuadrature) {
+  const double middle = std::numbers::pi / 16;
+  expect_what_solving_all_gives(GetParam(), {{0.26, middle, 0.025}, {0.295, middle, 0.012}},
+                                {.displacement = 1e-5, .stress = 1e-4, .contact = 1e-9});
+}
+
+INSTANTIATE_TEST_SUITE_P(Positions, Reflection, ::testing::Values(1, 2, 6, 7));
+
+TEST(WheelWithoutSymmetry, HasNoReflectedPositions) {
+  const auto problem = RollingProblem<2>::create(model_with(4));
+  ASSERT_TRUE(problem);
+  const double sector = problem->model().grid.sector_angle();
+  const LevelSet<2> psi = testing::holes(problem->model().grid, 2, {{0.26, 0.4 * sector, 0.02}});
+  const auto states = problem->states(psi, problem->distinct_positions(psi), Interrupt());
+  ASSERT_TRUE(states);
+  for (const PositionSource& source : position_sources((*states)->positions(), 4)) EXPECT_FALSE(source.is_image);
+  const auto fields = all_position_fields(*problem, **states);
+  ASSERT_EQ(fields.size(), 4u);
+  for (int i = 0; i < 4; ++i)
+    EXPECT_EQ(fields[i].displacement.values[5], (*states)->displacement()->at_nodes(i).values[5]);
+  // The images would be others.
+  const RingField image = mirror_image<2>(fields[1].lattice, fields[1].displacement);
+  double difference = 0;
+  for (size_t i = 0; i < image.values.size(); ++i)
+    if (std::isfinite(image.values[i]) && std::isfinite(fields[3].displacement.values[i]))
+      difference = std::max(difference, std::abs(image.values[i] - fields[3].displacement.values[i]));
+  EXPECT_GT(difference, 1e-3 * largest(image.values));
+}
+
+TEST(MirrorImage, OfAFieldIsItsOwnInverseAndTurnsVectors) {
+  const Lattice<2> lattice({0.20, 0.34, 0.12, 5, {2, 3}}, 2);
+  RingField field{2, {}};
+  for (int i = 0; i < 2 * lattice.n_nodes() * 5; ++i) field.values.push_back(std::sin(1.7 * i));
+  const RingField image = mirror_image<2>(lattice, field);
+  const RingField twice = mirror_image<2>(lattice, image);
+  for (size_t i = 0; i < field.values.size(); ++i) EXPECT_NEAR(twice.values[i], field.values[i], 1e-15);
+  // Position itself is a field whose image is itself.
+  RingField position{2, std::vector<double>(field.values.size())};
+  for (int line = 0; line < lattice.nodes()[1] * 5; ++line)
+    for (int row = 0; row < lattice.nodes()[0]; ++row) {
+      const double radius = 0.20 + row * 0.14 / 4,
+                   azimuth = 2 * std::numbers::pi * line / (lattice.nodes()[1] * 5);
+      double* x = &position.values[2 * ring_node<2>(lattice, {row, line})];
+      x[0] = radius * std::cos(azimuth);
+      x[1] = radius * std::sin(azimuth);
+    }
+  const RingField mirrored = mirror_image<2>(lattice, position);
+  for (size_t i = 0; i < position.values.size(); ++i)
+    EXPECT_NEAR(mirrored.values[i], position.values[i], 1e-15);
+}
+
+}  // namespace
+}  // namespace wheelwright
