@@ -11,10 +11,6 @@ install(TARGETS wheelwright RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS libwheelwright EXPORT wheelwright
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
   FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-foreach(level ${processor_levels})
-  install(TARGETS libwheelwright-${level}
-    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/glibc-hwcaps/${level} NAMELINK_SKIP)
-endforeach()
 
 install(EXPORT wheelwright NAMESPACE wheelwright:: FILE wheelwrightConfig.cmake DESTINATION ${package_folder})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/wheelwrightConfigVersion.cmake

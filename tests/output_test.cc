@@ -136,11 +136,11 @@ std::vector<T> vtu_array(const std::string& vtu, const std::string& tag) {
   return values;
 }
 
-struct VtuMesh {
+struct DecodedMesh {
   std::vector<float> points;
   std::vector<std::int32_t> connectivity, offsets;
 
-  explicit VtuMesh(const std::string& vtu) {
+  explicit DecodedMesh(const std::string& vtu) {
     const std::string mesh = vtu.substr(vtu.find("<Points>"));
     points = vtu_array<float>(mesh, "<DataArray");
     connectivity = vtu_array<std::int32_t>(mesh, "Name=\"connectivity\"");
@@ -174,9 +174,9 @@ TEST_F(VtuFile, CellsCoverTheMaterialAndFieldsAreInterpolated) {
                       return std::array{0.5 * x[1], x[0] - 2 * x[1]};
                     })},
         {"von_mises", "Pa", ring_field(lattice, 1, [](const Vec<2>& x) { return std::array{3e6 * x[0]}; })}};
-    write_vtu(folder / "shape.vtu", psi, lattice, fields, 4);
+    VtuMesh(psi, lattice, 4).write(folder / "shape.vtu", fields);
     const std::string vtu = content(folder / "shape.vtu");
-    const VtuMesh mesh(vtu);
+    const DecodedMesh mesh(vtu);
     double contour_area = 0;
     for (const Contour& c : material_contours(psi, 4)) contour_area += signed_area(c);
     EXPECT_NEAR(mesh.area() / contour_area, 1, 2e-5);
@@ -201,8 +201,8 @@ TEST_F(VtuFile, CellsCoverTheMaterialAndFieldsAreInterpolated) {
 
 TEST_F(VtuFile, SameInputGivesTheSameBytes) {
   const auto psi = holes_level_set(2, 1.0);
-  write_vtu(folder / "a.vtu", psi, psi.lattice, {}, 2);
-  write_vtu(folder / "b.vtu", psi, psi.lattice, {}, 2);
+  VtuMesh(psi, psi.lattice, 2).write(folder / "a.vtu", {});
+  VtuMesh(psi, psi.lattice, 2).write(folder / "b.vtu", {});
   EXPECT_EQ(content(folder / "a.vtu"), content(folder / "b.vtu"));
 }
 

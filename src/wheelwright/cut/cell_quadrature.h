@@ -1,9 +1,9 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <span>
 
+#include "wheelwright/cut/bernstein.h"
 #include "wheelwright/cut/cut_domain.h"
 
 namespace wheelwright {
@@ -14,19 +14,25 @@ class CellQuadrature {
  public:
   /// `points` Gauss points a direction on every smooth piece; `degree` (1 or 2) of the level set.
   CellQuadrature(int degree, int points);
-  ~CellQuadrature();
 
   /// Sign pattern of a cell's polynomial from its Bernstein coefficients: `inside` and `outside` are certain,
   /// `cut` means that the zero set may cross the cell.
   CellKind classify(std::span<const double> nodal_values) const;
 
-  /// Quadrature of a cell whose classify() is `cut`; its parts may be empty. Nothing when the measures of
-  /// both sides do not add up to the cell's to 1e-6.
-  std::optional<CutCell<dim>> split(int cell, std::span<const double> nodal_values);
+  /// Quadrature of a cell whose classify() is `cut`; its parts may be empty. Nothing when a value is not
+  /// finite. Mirror images of a cell's values give the mirror images of its points, up to rounding.
+  std::optional<CutCell<dim>> split(int cell, std::span<const double> nodal_values) const;
 
  private:
-  struct Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  struct Box;
+  void append(const BernsteinForm<dim>& psi, const Box& box, CutCell<dim>& result) const;
+  void append_cut(const BernsteinForm<dim>& psi, const Box& box, CutCell<dim>& result) const;
+  void append_parts(const BernsteinForm<dim>& psi, const Box& box, CutCell<dim>& result) const;
+
+  int degree_;
+  GaussRule rule_;
+  std::vector<ReferencePoint<dim>> full_rule_;
+  double smallest_width_;
 };
 
 }  // namespace wheelwright

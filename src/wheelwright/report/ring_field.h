@@ -23,21 +23,26 @@ struct NamedField {
   RingField field;
 };
 
+/// One component of the field at a node of a sector's cell.
+template <int dim>
+double node_value(const Lattice<dim>& lattice, const RingField& field, int sector, int cell, int local_node,
+                  int component) {
+  const auto c = lattice.grid().cell_position(cell);
+  auto p = local_node_position<dim>(lattice.degree(), local_node);
+  for (int d = 0; d < dim; ++d) p[d] += lattice.degree() * c[d];
+  const int node_sector = (sector + p[1] / lattice.nodes()[1]) % lattice.grid().n_sectors;
+  const std::size_t node = lattice.node_index(p) + static_cast<std::size_t>(lattice.n_nodes()) * node_sector;
+  return field.values[component + field.components * node];
+}
+
 /// One component of the field at a point of a sector's cell; `shape` is that point's, of the lattice's
 /// degree.
 template <int dim>
 double interpolate(const Lattice<dim>& lattice, const RingField& field, int sector, int cell,
                    const ShapeFunctions<dim>& shape, int component) {
-  const auto c = lattice.grid().cell_position(cell);
   double value = 0;
-  for (int a = 0; a < nodes_per_cell<dim>(lattice.degree()); ++a) {
-    auto p = local_node_position<dim>(lattice.degree(), a);
-    for (int d = 0; d < dim; ++d) p[d] += lattice.degree() * c[d];
-    const int node_sector = (sector + p[1] / lattice.nodes()[1]) % lattice.grid().n_sectors;
-    const std::size_t node =
-        lattice.node_index(p) + static_cast<std::size_t>(lattice.n_nodes()) * node_sector;
-    value += shape.value[a] * field.values[component + field.components * node];
-  }
+  for (int a = 0; a < nodes_per_cell<dim>(lattice.degree()); ++a)
+    value += shape.value[a] * node_value<dim>(lattice, field, sector, cell, a, component);
   return value;
 }
 

@@ -1,20 +1,39 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "wheelwright/geometry/level_set.h"
 #include "wheelwright/report/ring_field.h"
 
 namespace wheelwright {
 
-/// Writes the material of the full ring with psi and nodal fields as a ParaView file, atomically. Full cells
-/// are divided by the lattice's degree; cut cells are clipped at {psi = 0} on a grid of
-/// `cut_subdivisions` squares along each axis. `lattice` carries the fields, on psi's grid. A field of 2
-/// components is written as a vector, any other as scalars. Throws OutputError.
-void write_vtu(const std::filesystem::path& path, const LevelSet<2>& psi, const Lattice<2>& lattice,
-               std::span<const NamedField> fields, int cut_subdivisions);
+/// The material of the full ring as cells for ParaView, with psi at their points. Full cells are divided by the
+/// lattice's degree; cut cells are clipped at {psi = 0} on a grid of `cut_subdivisions` squares along each axis.
+/// Files of the same shape share one.
+class VtuMesh {
+ public:
+  /// `lattice` carries the fields, on psi's grid.
+  VtuMesh(const LevelSet<2>& psi, const Lattice<2>& lattice, int cut_subdivisions);
+  ~VtuMesh();
+
+  /// Writes a ParaView file with psi and nodal fields, atomically. A field of 2 components is written as a
+  /// vector, any other as scalars. Throws OutputError.
+  void write(const std::filesystem::path& path, std::span<const NamedField> fields) const;
+
+ private:
+  struct Sector;
+
+  std::vector<float> values(const RingField& field, int component) const;
+  std::string data_arrays(const NamedField& field) const;
+
+  Lattice<2> lattice_;
+  std::unique_ptr<Sector> sector_;
+  std::string beginning_;  ///< of every file: the cells and psi
+};
 
 /// One file of a ParaView time collection.
 struct PvdEntry {

@@ -8,7 +8,7 @@
 namespace wheelwright {
 
 std::string program_text() {
-  return fmt::format("wheelwright {}, deal.II 9.4, compiled by {}", version(), __VERSION__);
+  return fmt::format("wheelwright {}, compiled by {}", version(), __VERSION__);
 }
 
 Provenance provenance(const Case& c) {

@@ -77,7 +77,7 @@ void RunFolder::write_shape(const RollingProblem<2>& problem, const Optimization
 
   const std::string file = shape_file(state.iteration);
   make_folder(folder_ / "shapes");
-  write_vtu(folder_ / file, state.shape, displacement_lattice(problem), fields, cut_subdivisions);
+  VtuMesh(state.shape, displacement_lattice(problem), cut_subdivisions).write(folder_ / file, fields);
   shapes_.push_back({static_cast<double>(state.iteration), file});
   write_list_of_shapes();
 }
@@ -124,11 +124,11 @@ void RunFolder::write_result(const RollingProblem<2>& problem, const InitialShap
   if (!solution) return;
   write_pressures(problem, *solution, "final");
   make_folder(folder_ / "rolling");
+  const VtuMesh mesh(final_state.shape, displacement_lattice(problem), cut_subdivisions);
   std::vector<PvdEntry> positions;
   for (int i = 0; i < solution->positions.size(); ++i) {
     const std::string file = fmt::format("rolling/position_{:02d}.vtu", i);
-    write_vtu(folder_ / file, final_state.shape, displacement_lattice(problem),
-              position_fields(problem, *solution, i), cut_subdivisions);
+    mesh.write(folder_ / file, position_fields(problem, *solution, i));
     positions.push_back({static_cast<double>(i), file});
   }
   write_pvd(folder_ / "rolling.pvd", positions);

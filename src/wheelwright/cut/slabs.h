@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "wheelwright/cut/columns.h"
+#include "wheelwright/cut/cut_domain.h"
+
+namespace wheelwright {
+
+/// {psi < 0} in the unit cube, by quadrature over parallel slices.
+class Slabs {
+ public:
+  /// `axes`: base and height of the slices, then the axis that the slices are stacked along.
+  Slabs(const BernsteinForm<3>& psi, const std::array<int, 3>& axes, double smallest_width);
+
+  std::vector<ReferencePoint<3>> material(const GaussRule& rule) const;
+  std::vector<ReferenceSurfacePoint<3>> boundary(const GaussRule& rule) const;
+
+ private:
+  Slice slice(double across) const;
+  Columns columns(double across) const { return Columns(slice(across), smallest_width_); }
+  void append(const Interval& interval);
+  bool is_resolved(const Interval& interval) const;
+
+  BernsteinForm<3> psi_;
+  std::array<int, 3> axes_;
+  double smallest_width_;
+  std::vector<Interval> intervals_;
+};
+
+}  // namespace wheelwright
