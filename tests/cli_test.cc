@@ -457,5 +457,13 @@ TEST_F(CommandLine, OutputThatIsNotATerminalHasNoEscapeCodes) {
             std::string::npos);
 }
 
+/// What a program loads before main() is most of the time that it takes to start.
+TEST_F(CommandLine, TheProgramLoadsFewLibraries) {
+  setenv("LD_TRACE_LOADED_OBJECTS", "1", 1);
+  const std::string libraries = wheelwright("").output;
+  unsetenv("LD_TRACE_LOADED_OBJECTS");
+  EXPECT_LT(std::ranges::count(libraries, '\n'), 40) << libraries;
+}
+
 }  // namespace
 }  // namespace wheelwright::testing
