@@ -35,7 +35,6 @@ refuses() {
 accepts optimize/optimizer.cc '#include "evolution/evolver.h"'
 accepts case/case.cc '#include "base/vec.h"'
 accepts case/case.h '#include "elasticity/material.h"'
-accepts cut/cell_quadrature.cc '#include <deal.II/base/quadrature.h>'
 accepts app/commands/run.cc '#include "optimize/optimizer.h"'
 
 refuses geometry/level_set.h '#include "cut/cut_domain.h"'
@@ -45,8 +44,6 @@ refuses case/case.cc '#include "elasticity/element.h"'
 refuses evolution/velocity.cc '#include "elasticity/element.h"'
 refuses evolution/velocity.cc '#include "cyclic/harmonics.h"'
 refuses evolution/velocity.cc '#include "contact/tread.h"'
-refuses cut/cut_domain.h '#include <deal.II/base/quadrature.h>'
-refuses elasticity/element.cc '#include <deal.II/base/quadrature.h>'
 refuses elasticity/element.cc '#include "element.h"'
 refuses output/svg.cc '#include "case/case.h"'
 

@@ -2,12 +2,13 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
+#include "tests/support.h"
 #include "wheelwright/cut/cell_quadrature.h"
 #include "wheelwright/cut/cut_domain.h"
 #include "wheelwright/cut/measure.h"
 #include "wheelwright/sensitivity/taylor_test.h"
-#include "tests/support.h"
 
 namespace wheelwright {
 namespace {
@@ -119,6 +120,124 @@ TEST(Cut, IslandsAndNansAreFailures) {
   const auto nan = cut_domain(psi, 3);
   ASSERT_FALSE(nan);
   EXPECT_EQ(nan.failure().reason, FailureReason::not_finite);
+}
+
+// --- Random cells ----------------------------------------------------------------------------------------
+
+/// Nodal values of one of several kinds: random ones, circles of any radius, small holes, saddles.
+std::vector<double> random_cell(std::mt19937_64& random, int kind) {
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::normal_distribution<double> normal;
+  const double x = uniform(random), y = uniform(random), angle = 2 * std::numbers::pi * uniform(random);
+  const double radius = std::pow(10.0, 4 * uniform(random) - 2);
+  std::vector<double> values;
+  for (int a = 0; a < 9; ++a) {
+    const auto node = local_node_position<2>(2, a);
+    const double dx = node[0] / 2.0 - x, dy = node[1] / 2.0 - y;
+    if (kind == 0) values.push_back(normal(random));
+    if (kind == 1)
+      values.push_back(std::hypot(dx + radius * std::cos(angle), dy + radius * std::sin(angle)) - radius);
+    if (kind == 2) values.push_back(radius * radius * 1e-4 - dx * dx - dy * dy);
+    if (kind == 3) values.push_back(dx * dy - 0.1 * std::cos(angle));
+  }
+  return values;
+}
+
+/// Length of {psi < 0} on an edge of the unit cell, from the zeros of a quadratic.
+double length_inside(double at_0, double at_half, double at_1) {
+  const double a = 2 * (at_0 + at_1) - 4 * at_half, b = 4 * at_half - 3 * at_0 - at_1;
+  std::vector<double> places{0, 1};
+  const double root = std::sqrt(std::max(0.0, b * b - 4 * a * at_0)), q = -0.5 * (b + std::copysign(root, b));
+  for (const double x : {q / a, at_0 / q})
+    if (x > 0 && x < 1) places.push_back(x);
+  std::sort(places.begin(), places.end());
+  double sum = 0;
+  for (size_t i = 1; i < places.size(); ++i) {
+    const double x = 0.5 * (places[i - 1] + places[i]);
+    if (at_0 + x * (b + x * a) < 0) sum += places[i] - places[i - 1];
+  }
+  return sum;
+}
+
+/// The divergence theorem: of unit vectors, and of the position (which gives the area).
+void expect_divergence_theorem(const CutCell<2>& cell, const std::vector<double>& v, double tolerance) {
+  const double at_x0 = length_inside(v[0], v[3], v[6]), at_x1 = length_inside(v[2], v[5], v[8]);
+  const double at_y0 = length_inside(v[0], v[1], v[2]), at_y1 = length_inside(v[6], v[7], v[8]);
+  Vec<2> normals{};
+  double area = 0, flux = at_x1 + at_y1;
+  for (const auto& q : cell.material) area += q.weight;
+  for (const auto& q : cell.boundary) {
+    for (int d = 0; d < 2; ++d) normals[d] += q.weight * q.normal[d];
+    flux += q.weight * dot<2>(q.xi, q.normal);
+  }
+  EXPECT_NEAR(normals[0], at_x0 - at_x1, tolerance);
+  EXPECT_NEAR(normals[1], at_y0 - at_y1, tolerance);
+  EXPECT_NEAR(2 * area, flux, tolerance);
+}
+
+/// Both sides of the boundary fill the cell and have the same boundary.
+void expect_complement(const CutCell<2>& cell, const std::vector<double>& v, double tolerance) {
+  std::vector<double> negative;
+  for (const double x : v) negative.push_back(-x);
+  const auto other = CellQuadrature<2>(2, 16).split(0, negative);
+  ASSERT_TRUE(other);
+  double area = 0, length = 0;
+  for (const auto& q : cell.material) area += q.weight;
+  for (const auto& q : other->material) area += q.weight;
+  for (const auto& q : cell.boundary) length += q.weight;
+  for (const auto& q : other->boundary) length -= q.weight;
+  EXPECT_NEAR(area, 1, tolerance);
+  EXPECT_NEAR(length, 0, tolerance);
+}
+
+/// Random cells, `n` of each kind, meet identities that hold for the exact integrals.
+void expect_identities(int n) {
+  std::mt19937_64 random(3);
+  for (int kind = 0; kind < 4; ++kind)
+    for (int i = 0; i < n && !::testing::Test::HasFailure(); ++i) {
+      const auto values = random_cell(random, kind);
+      const CellQuadrature<2> quadrature(2, 16);
+      if (quadrature.classify(values) != CellKind::cut) continue;
+      const auto cell = quadrature.split(0, values);
+      ASSERT_TRUE(cell);
+      SCOPED_TRACE(::testing::PrintToString(values));
+      expect_divergence_theorem(*cell, values, 1e-10);
+      expect_complement(*cell, values, 1e-10);
+    }
+}
+
+TEST(RandomCells, MeetTheDivergenceTheoremAndFillTheCell) { expect_identities(1000); }
+
+TEST(RandomCells, SlowMeetTheDivergenceTheoremAndFillTheCell) { expect_identities(25000); }
+
+TEST(RandomCells, MirrorImagesHaveTheMirrorImagesOfThePoints) {
+  std::mt19937_64 random(5);
+  const CellQuadrature<2> quadrature(2, 4);
+  for (int i = 0; i < 2000; ++i) {
+    const auto values = random_cell(random, i % 3);
+    if (quadrature.classify(values) != CellKind::cut) continue;
+    const auto cell = quadrature.split(0, values);
+    for (const int axis : {0, 1}) {
+      std::vector<double> image;
+      for (int a = 0; a < 9; ++a) {
+        auto node = local_node_position<2>(2, a);
+        node[axis] = 2 - node[axis];
+        image.push_back(values[node[0] + 3 * node[1]]);
+      }
+      const auto mirrored = quadrature.split(0, image);
+      ASSERT_EQ(mirrored->material.size(), cell->material.size());
+      ASSERT_EQ(mirrored->boundary.size(), cell->boundary.size());
+      for (const auto& q : cell->material) {
+        Vec<2> xi = q.xi;
+        xi[axis] = 1 - xi[axis];
+        double nearest = 1;
+        for (const auto& p : mirrored->material)
+          nearest = std::min(
+              nearest, std::abs(p.xi[0] - xi[0]) + std::abs(p.xi[1] - xi[1]) + std::abs(p.weight - q.weight));
+        ASSERT_LT(nearest, 1e-11) << ::testing::PrintToString(values);
+      }
+    }
+  }
 }
 
 }  // namespace

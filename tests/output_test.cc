@@ -12,20 +12,20 @@
 #include <regex>
 #include <sstream>
 
-#include "wheelwright/geometry/contour.h"
+#include "wheelwright/app/progress.h"
 #include "wheelwright/files/atomic_file.h"
-#include "wheelwright/report/colour_map.h"
 #include "wheelwright/files/csv.h"
+#include "wheelwright/files/output_error.h"
+#include "wheelwright/geometry/contour.h"
+#include "wheelwright/report/colour_map.h"
 #include "wheelwright/report/deformed_svg.h"
-#include "wheelwright/run/history.h"
 #include "wheelwright/report/mesh_svg.h"
 #include "wheelwright/report/outline.h"
-#include "wheelwright/files/output_error.h"
 #include "wheelwright/report/pressure_csv.h"
-#include "wheelwright/app/progress.h"
 #include "wheelwright/report/solution_fields.h"
 #include "wheelwright/report/svg.h"
 #include "wheelwright/report/vtu.h"
+#include "wheelwright/run/history.h"
 
 namespace wheelwright {
 namespace {

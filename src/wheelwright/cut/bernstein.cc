@@ -72,9 +72,8 @@ void append_sign_changes(const Quartic& c, double from, double width, int halvin
 }
 
 Quartic product(const Quadratic& a, const Quadratic& b) {
-  return {a[0] * b[0], 0.5 * (a[0] * b[1] + a[1] * b[0]),
-          ((a[0] * b[2] + a[2] * b[0]) + 4 * a[1] * b[1]) / 6, 0.5 * (a[1] * b[2] + a[2] * b[1]),
-          a[2] * b[2]};
+  return {a[0] * b[0], 0.5 * (a[0] * b[1] + a[1] * b[0]), ((a[0] * b[2] + a[2] * b[0]) + 4 * a[1] * b[1]) / 6,
+          0.5 * (a[1] * b[2] + a[2] * b[1]), a[2] * b[2]};
 }
 
 }  // namespace
@@ -124,10 +123,10 @@ std::vector<double> sign_changes(const Quadratic& c) {
 
 std::vector<std::complex<double>> complex_zeros(const Quartic& c) {
   // In powers of y = x - 1/2, which a reflection only changes in sign.
-  const std::array<double, 5> p{
-      ((c[0] + c[4]) + 4 * (c[1] + c[3]) + 6 * c[2]) / 16, ((c[4] - c[0]) + 2 * (c[3] - c[1])) / 2,
-      1.5 * ((c[0] + c[4]) - 2 * c[2]), 2 * ((c[4] - c[0]) - 2 * (c[3] - c[1])),
-      (c[0] + c[4]) - 4 * (c[1] + c[3]) + 6 * c[2]};
+  const std::array<double, 5> p{((c[0] + c[4]) + 4 * (c[1] + c[3]) + 6 * c[2]) / 16,
+                                ((c[4] - c[0]) + 2 * (c[3] - c[1])) / 2, 1.5 * ((c[0] + c[4]) - 2 * c[2]),
+                                2 * ((c[4] - c[0]) - 2 * (c[3] - c[1])),
+                                (c[0] + c[4]) - 4 * (c[1] + c[3]) + 6 * c[2]};
   double largest = 0;
   for (const double x : p) largest = std::max(largest, std::abs(x));
   int degree = 4;

@@ -72,7 +72,8 @@ class BernsteinForm {
   double smallest() const;  ///< of the coefficients
   double magnitude() const;
 
-  /// Bounds of the derivative along an axis, divided by the degree 2: its smallest and its largest coefficient.
+  /// Bounds of the derivative along an axis, divided by the degree 2: its smallest and its largest
+  /// coefficient.
   std::array<double, 2> derivative_bounds(int axis) const;
   /// Sum of the coefficients' differences along an axis: how much the polynomial changes along it.
   double variation(int axis) const;

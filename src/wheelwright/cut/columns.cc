@@ -65,7 +65,8 @@ Columns::Columns(const Slice& slice, double smallest_width) : slice_(slice), mag
   for (const int end : {0, 2})
     for (const double x : sign_changes(at_height(slice_.psi, end))) add(x, false);
   const double noise = rounding * magnitude_ * magnitude_;
-  discriminant_ = discriminant_of({at_height(slice_.psi, 0), at_height(slice_.psi, 1), at_height(slice_.psi, 2)});
+  discriminant_ =
+      discriminant_of({at_height(slice_.psi, 0), at_height(slice_.psi, 1), at_height(slice_.psi, 2)});
   if (magnitude_of(discriminant_) > noise) {
     for (const auto& x : complex_zeros(discriminant_))
       (std::abs(double_root(x) - 0.5) < 1.5 ? branch_points_ : poles_).push_back(x);
@@ -75,7 +76,8 @@ Columns::Columns(const Slice& slice, double smallest_width) : slice_(slice), mag
     }
   }
   Quadratic leading;
-  for (int i = 0; i < 3; ++i) leading[i] = (slice_.psi[i][0] - slice_.psi[i][1]) + (slice_.psi[i][2] - slice_.psi[i][1]);
+  for (int i = 0; i < 3; ++i)
+    leading[i] = (slice_.psi[i][0] - slice_.psi[i][1]) + (slice_.psi[i][2] - slice_.psi[i][1]);
   if (magnitude_of(leading) > rounding * magnitude_)
     for (const auto& x : complex_zeros(squared(leading))) poles_.push_back(x);
   vertical_lines_ = vertical_lines(candidates);
@@ -88,8 +90,31 @@ Columns::Columns(const Slice& slice, double smallest_width) : slice_(slice), mag
   std::sort(breaks.begin(), breaks.end(), [](const Break& a, const Break& b) { return a.place < b.place; });
   for (size_t i = 1; i < breaks.size(); ++i)
     if (breaks[i].place - breaks[i - 1].place > 1e-15)
-      append({breaks[i - 1].place, breaks[i].place, breaks[i - 1].is_branch_point, breaks[i].is_branch_point},
+      append(up_to_branch_points({breaks[i - 1].place, breaks[i].place, breaks[i - 1].is_branch_point,
+                                  breaks[i].is_branch_point}),
              smallest_width);
+}
+
+Interval Columns::up_to_branch_points(const Interval& interval) const {
+  const double width = interval.to - interval.from;
+  double from = -INFINITY, to = INFINITY;
+  for (const auto& place : branch_points_) {
+    if (std::abs(place.imag()) > 1e-12) continue;
+    if (place.real() <= interval.from) from = std::max(from, place.real());
+    if (place.real() >= interval.to) to = std::min(to, place.real());
+  }
+  Interval result = interval;
+  if (!interval.root_at_from && interval.from - from < 0.5 * width) {
+    result.from = from;
+    result.root_at_from = true;
+  }
+  if (!interval.root_at_to && to - interval.to < 0.5 * width) {
+    result.to = to;
+    result.root_at_to = true;
+  }
+  result.first = result.substituted(interval.from).real();
+  result.last = result.substituted(interval.to).real();
+  return result;
 }
 
 std::vector<double> Columns::vertical_lines(const std::vector<double>& candidates) const {
@@ -132,9 +157,19 @@ Columns::Piece Columns::piece_on(const Interval& interval) const {
   return piece;
 }
 
+bool Columns::is_pole_of(const Piece& piece, std::complex<double> place) const {
+  if (piece.crossings != 1) return true;
+  const double from = piece.interval.at(0).x, to = piece.interval.at(1).x;
+  const double nearest = std::clamp((place.real() - from) / (to - from), 0.0, 1.0);
+  const double height = zeros(piece, piece.interval.at(nearest))[0].height;
+  const Quadratic c = column(place.real());
+  return !(std::abs(height - c[0] / (2 * (c[0] - c[1]))) < 0.05);  // it is the zero that stays finite
+}
+
 bool Columns::is_resolved(const Piece& piece, double negligible) const {
   if (!piece.interval.is_far_from_branch_points(branch_points_)) return false;
-  if (!piece.interval.is_far_from_poles(poles_)) return false;
+  for (const auto& place : poles_)
+    if (!piece.interval.is_far_from_pole(place) && is_pole_of(piece, place)) return false;
   std::array<Resolution::Samples, 2> heights, lengths;
   for (int q = 0; q < Resolution::n_samples; ++q) {
     const auto place = piece.interval.at(resolution().places()[q]);
@@ -165,7 +200,8 @@ Quadratic Columns::column(double base) const { return combination(slice_.psi, ba
 
 double Columns::half_slope(const Piece& piece, const Interval::Place& place, const Quadratic& column) const {
   const bool has_branch_point = piece.interval.root_at_from || piece.interval.root_at_to;
-  const double d = has_branch_point ? value(piece.discriminant, place.fraction, place.rest) : discriminant(column);
+  const double d =
+      has_branch_point ? value(piece.discriminant, place.fraction, place.rest) : discriminant(column);
   return std::sqrt(std::max(0.0, d));
 }
 
@@ -216,8 +252,7 @@ std::vector<ReferencePoint<2>> Columns::material(const GaussRule& rule) const {
           for (int q = 0; q < n; ++q) {
             const double h = rule.points[q] < 0.5 ? bottom + (top - bottom) * rule.points[q]
                                                   : top - (top - bottom) * rule.points[n - 1 - q];
-            points.push_back(
-                {{place.x, h}, rule.weights[p] * place.dx * (top - bottom) * rule.weights[q]});
+            points.push_back({{place.x, h}, rule.weights[p] * place.dx * (top - bottom) * rule.weights[q]});
           }
         bottom = top;
       }
@@ -233,7 +268,8 @@ std::vector<BoundaryPoint> Columns::boundary(const GaussRule& rule) const {
       const auto from = piece.interval.at(0), to = piece.interval.at(1);
       const auto first = zeros(piece, from), last = zeros(piece, to);
       for (int j = 0; j < piece.crossings; ++j)
-        append_line(rule, {from.x, first[j].height}, {to.x - from.x, last[j].height - first[j].height}, points);
+        append_line(rule, {from.x, first[j].height}, {to.x - from.x, last[j].height - first[j].height},
+                    points);
       continue;
     }
     for (size_t p = 0; p < rule.points.size(); ++p) {

@@ -61,8 +61,13 @@ class Columns {
                    std::vector<BoundaryPoint>& points) const;
 
   std::vector<double> vertical_lines(const std::vector<double>& candidates) const;
+  /// The interval as a part of one that reaches to near branch points outside of it: so the rule does not
+  /// jump when the shape moves and a branch point leaves the square.
+  Interval up_to_branch_points(const Interval& interval) const;
   void append(const Interval& interval, double smallest_width);
   Piece piece_on(const Interval& interval) const;
+  /// Whether the piece's zero goes to infinity at a near pole, and not the other one.
+  bool is_pole_of(const Piece& piece, std::complex<double> place) const;
   bool is_resolved(const Piece& piece, double negligible) const;
   Quadratic column(double base) const;
   double half_slope(const Piece& piece, const Interval::Place& place, const Quadratic& column) const;

@@ -7,11 +7,11 @@ namespace wheelwright {
 namespace {
 
 /// How much smaller the last terms must be than the largest.
-constexpr double decay = 0.03;
+constexpr double decay = 0.003;
 
-/// With a branch point on the ellipse around [-1, 1] whose half axes add up to this, the error of the Gauss rule
-/// falls by its square with each point.
-constexpr double nearest_branch_point = 2.2;
+/// With a branch point on the ellipse around [-1, 1] whose half axes add up to this, the error of the Gauss
+/// rule falls by its square with each point.
+constexpr double nearest_branch_point = 5;
 
 /// The same for poles, most of which are weak or belong to zeros outside of the square: samples show whether
 /// they matter, if they are not nearer than this.
@@ -40,8 +40,8 @@ Interval::Place Interval::at(double u) const {
     slope = 2 * t;
   }
   const double width = to - from;
-  return {fraction < 0.5 ? from + width * fraction : to - width * rest, width * slope * (last - first), fraction,
-          rest};
+  return {fraction < 0.5 ? from + width * fraction : to - width * rest, width * slope * (last - first),
+          fraction, rest};
 }
 
 std::array<Interval, 2> Interval::halves() const {
@@ -50,16 +50,16 @@ std::array<Interval, 2> Interval::halves() const {
   return result;
 }
 
-/// Sum of the half axes of the ellipse through a place, around the substituted interval as [-1, 1].
-double Interval::ellipse_through(std::complex<double> place) const {
+std::complex<double> Interval::substituted(std::complex<double> place) const {
   const std::complex<double> x = (place - from) / (to - from);
-  std::complex<double> s = x;
-  if (root_at_from && root_at_to)
-    s = 0.5 - std::sin(std::asin(1.0 - 2.0 * x) / 3.0);
-  else if (root_at_from)
-    s = std::sqrt(x);
-  else if (root_at_to)
-    s = 1.0 - std::sqrt(1.0 - x);
+  if (root_at_from && root_at_to) return 0.5 - std::sin(std::asin(1.0 - 2.0 * x) / 3.0);
+  if (root_at_from) return std::sqrt(x);
+  return root_at_to ? 1.0 - std::sqrt(1.0 - x) : x;
+}
+
+/// Sum of the half axes of the ellipse through a place, around the part that is meant as [-1, 1].
+double Interval::ellipse_through(std::complex<double> place) const {
+  const std::complex<double> s = substituted(place);
   const std::complex<double> u = (2.0 * s - first - last) / (last - first);
   const std::complex<double> w = std::sqrt(u * u - 1.0);
   return std::max(std::abs(u + w), std::abs(u - w));
@@ -77,13 +77,9 @@ bool Interval::is_far_from_branch_points(std::span<const std::complex<double>> p
   return true;
 }
 
-bool Interval::is_far_from_poles(std::span<const std::complex<double>> places) const {
-  for (const auto& place : places) {
-    // A real pole within the interval is one of a zero that is not in the square.
-    const bool is_within = std::abs(place.imag()) < 1e-6 && place.real() > from && place.real() < to;
-    if (!is_within && ellipse_through(place) < nearest_pole) return false;
-  }
-  return true;
+bool Interval::is_far_from_pole(std::complex<double> place) const {
+  const bool is_within = std::abs(place.imag()) < 1e-6 && place.real() > from && place.real() < to;
+  return is_within || ellipse_through(place) >= nearest_pole;
 }
 
 Resolution::Resolution() : rule_(gauss_rule(n_samples)) {

@@ -16,18 +16,22 @@ struct Interval {
   double first = 0, last = 1;     ///< the part of the substituted interval that is meant
 
   struct Place {
-    double x, dx;          ///< dx/du
+    double x, dx;           ///< dx/du
     double fraction, rest;  ///< of the interval, before and behind x
   };
   Place at(double u) const;
   double width() const { return at(1).x - at(0).x; }
   std::array<Interval, 2> halves() const;
 
+  /// The substituted coordinate of a place: 0 at `from`, 1 at `to`.
+  std::complex<double> substituted(std::complex<double> place) const;
+
   /// Whether the branch points of the integrand, other than those at the ends, are so far that a Gauss rule
   /// converges fast.
   bool is_far_from_branch_points(std::span<const std::complex<double>> places) const;
-  /// Whether poles are so far that samples show them.
-  bool is_far_from_poles(std::span<const std::complex<double>> places) const;
+  /// Whether a pole is so far that samples show it, or within the interval, where only a zero outside of the
+  /// square has one.
+  bool is_far_from_pole(std::complex<double> place) const;
 
  private:
   double ellipse_through(std::complex<double> place) const;

@@ -64,7 +64,8 @@ Slabs::Slabs(const BernsteinForm<3>& psi, const std::array<int, 3>& axes, double
   std::sort(breaks.begin(), breaks.end(), [](const Break& a, const Break& b) { return a.place < b.place; });
   for (size_t i = 1; i < breaks.size(); ++i)
     if (breaks[i].place - breaks[i - 1].place > 1e-15)
-      append({breaks[i - 1].place, breaks[i].place, breaks[i - 1].is_branch_point, breaks[i].is_branch_point});
+      append(
+          {breaks[i - 1].place, breaks[i].place, breaks[i - 1].is_branch_point, breaks[i].is_branch_point});
 }
 
 Slice Slabs::slice(double across) const {

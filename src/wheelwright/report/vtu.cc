@@ -58,7 +58,8 @@ constexpr const char* vtk_type<std::uint8_t> = "UInt8";
 
 /// One array; `attributes`: more of them, as in XML.
 template <class Number>
-std::string data_array(std::string_view name, std::string_view attributes, const std::vector<Number>& numbers) {
+std::string data_array(std::string_view name, std::string_view attributes,
+                       const std::vector<Number>& numbers) {
   return fmt::format("    <DataArray type=\"{}\" Name=\"{}\"{} format=\"binary\">\n{}\n    </DataArray>\n",
                      vtk_type<Number>, name, attributes, encoded(numbers));
 }
@@ -121,7 +122,8 @@ struct VtuMesh::Sector {
 
   /// A cell whose corners are points that are still to come, counted from the next one.
   void append_cell(std::initializer_list<int> corners, std::uint8_t type) {
-    for (const int corner : corners) connectivity.push_back(static_cast<std::int32_t>(points.size()) + corner);
+    for (const int corner : corners)
+      connectivity.push_back(static_cast<std::int32_t>(points.size()) + corner);
     offsets.push_back(static_cast<std::int32_t>(connectivity.size()));
     types.push_back(type);
   }

@@ -11,9 +11,9 @@
 
 namespace wheelwright {
 
-/// The material of the full ring as cells for ParaView, with psi at their points. Full cells are divided by the
-/// lattice's degree; cut cells are clipped at {psi = 0} on a grid of `cut_subdivisions` squares along each axis.
-/// Files of the same shape share one.
+/// The material of the full ring as cells for ParaView, with psi at their points. Full cells are divided by
+/// the lattice's degree; cut cells are clipped at {psi = 0} on a grid of `cut_subdivisions` squares along
+/// each axis. Files of the same shape share one.
 class VtuMesh {
  public:
   /// `lattice` carries the fields, on psi's grid.

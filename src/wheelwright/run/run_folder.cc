@@ -4,13 +4,13 @@
 
 #include <algorithm>
 
-#include "wheelwright/run/provenance.h"
-#include "wheelwright/report/wheel_pictures.h"
 #include "wheelwright/case/write.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/report/pressure_plot.h"
 #include "wheelwright/report/solution_fields.h"
 #include "wheelwright/report/svg.h"
+#include "wheelwright/report/wheel_pictures.h"
+#include "wheelwright/run/provenance.h"
 
 namespace wheelwright {
 namespace {
