@@ -8,13 +8,13 @@
 #include <numeric>
 #include <optional>
 
+#include "summary.h"
+#include "tests/support.h"
+#include "wheelwright/base/blas_settings.h"
 #include "wheelwright/base/parallel.h"
 #include "wheelwright/base/stopwatch.h"
 #include "wheelwright/cut/measure.h"
 #include "wheelwright/evolution/evolver.h"
-#include "single_thread.h"
-#include "summary.h"
-#include "tests/support.h"
 
 namespace wheelwright::bench {
 namespace {
@@ -272,7 +272,7 @@ void add_benchmarks(Workshop& shop, Measurements& m) {
 
 int main(int count, char** arguments) {
   using namespace wheelwright::bench;
-  restart_single_threaded(arguments);
+  wheelwright::restart_with_blas_settings(arguments);
   const wheelwright::ThreadLimit one_thread(1);
   benchmark::Initialize(&count, arguments);
   if (benchmark::ReportUnrecognizedArguments(count, arguments)) return 2;

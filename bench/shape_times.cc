@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "wheelwright/base/parallel.h"
-#include "single_thread.h"
 #include "tests/support.h"
 #include "unavoidable_work.h"
+#include "wheelwright/base/blas_settings.h"
+#include "wheelwright/base/parallel.h"
 
 namespace wheelwright::bench {
 namespace {
@@ -68,7 +68,7 @@ int run(int radial_cells, int angular_cells, int n_positions, int repetitions) {
 }  // namespace wheelwright::bench
 
 int main(int count, char** arguments) {
-  wheelwright::bench::restart_single_threaded(arguments);
+  wheelwright::restart_with_blas_settings(arguments);
   const wheelwright::ThreadLimit one_thread(1);
   if (count != 5) {
     fmt::print(stderr, "usage: {} RADIAL_CELLS ANGULAR_CELLS POSITIONS REPETITIONS\n", arguments[0]);

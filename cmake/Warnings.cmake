@@ -1,5 +1,2 @@
 add_library(wheelwright_warnings INTERFACE)
 target_compile_options(wheelwright_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wno-unused-parameter)
-if(WHEELWRIGHT_NATIVE)
-  target_compile_options(wheelwright_warnings INTERFACE -march=native)
-endif()

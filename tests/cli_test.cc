@@ -1,4 +1,3 @@
-#include <dlfcn.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -13,13 +12,13 @@
 #include <sstream>
 #include <string>
 
+#include "tests/run_support.h"
 #include "wheelwright/app/commands/commands.h"
 #include "wheelwright/app/exit_code.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/read.h"
-#include "wheelwright/geometry/topology.h"
 #include "wheelwright/files/level_set_file.h"
-#include "tests/run_support.h"
+#include "wheelwright/geometry/topology.h"
 
 namespace wheelwright::testing {
 namespace {
@@ -263,29 +262,8 @@ positions = 1
   EXPECT_EQ(outcome.code, exit_done) << outcome.output;
 }
 
-TEST_F(CommandLine, WithoutTheSolversLibraryItIsFiveButForCommandsThatOnlyRead) {
-  const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "wheelwright";
-  std::filesystem::copy(program, folder() / "wheelwright");
-  const auto alone = [&](const std::string& arguments) {
-    const std::string command = fmt::format("cd '{}' && LD_LIBRARY_PATH= ./wheelwright {} >/dev/null 2>&1",
-                                            folder().string(), arguments);
-    const int status = std::system(command.c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  };
-  EXPECT_EQ(alone("check " + path_of_case("cases/holes16.toml")), exit_done);
-  EXPECT_EQ(alone("run " + path_of_case("cases/holes16.toml") + " --output run"), exit_input_output);
-  EXPECT_FALSE(std::filesystem::exists(folder() / "run"));
-}
-
 TEST_F(CommandLine, ABugIsOne) {
-  const auto library =
-      std::filesystem::read_symlink("/proc/self/exe").parent_path() / "libwheelwright_commands.so";
-  void* commands = dlopen(library.c_str(), RTLD_NOW);
-  ASSERT_TRUE(commands) << dlerror();
-  const auto command =
-      reinterpret_cast<decltype(&wheelwright_command)>(dlsym(commands, "wheelwright_command"));
-  const RunOptions none;
-  EXPECT_EQ(command("no such command", nullptr, &none), exit_bug);
+  EXPECT_EQ(run_command_named("no such command", Case{}, RunOptions{}), exit_bug);
 }
 
 constexpr const char* case_beyond_any_memory = R"([wheel]
@@ -479,12 +457,12 @@ TEST_F(CommandLine, OutputThatIsNotATerminalHasNoEscapeCodes) {
             std::string::npos);
 }
 
-TEST_F(CommandLine, TheProgramItselfDoesNotLoadTheSolversLibraries) {
+/// What a program loads before main() is most of the time that it takes to start.
+TEST_F(CommandLine, TheProgramLoadsFewLibraries) {
   setenv("LD_TRACE_LOADED_OBJECTS", "1", 1);
   const std::string libraries = wheelwright("").output;
   unsetenv("LD_TRACE_LOADED_OBJECTS");
-  for (const char* heavy : {"cholmod", "blas", "tbb"})
-    EXPECT_EQ(libraries.find(heavy), std::string::npos) << libraries;
+  EXPECT_LT(std::ranges::count(libraries, '\n'), 40) << libraries;
 }
 
 }  // namespace

@@ -13,11 +13,12 @@
 #include <system_error>
 
 #include "wheelwright/app/check.h"
+#include "wheelwright/app/commands/commands.h"
 #include "wheelwright/app/exit_code.h"
-#include "wheelwright/app/load_command.h"
 #include "wheelwright/app/load_list.h"
 #include "wheelwright/app/memory.h"
 #include "wheelwright/app/terminal.h"
+#include "wheelwright/base/blas_settings.h"
 #include "wheelwright/case/keys.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/shorten.h"
@@ -108,7 +109,7 @@ int compute(const std::string& command, const CommandLine& line) {
   print_warnings(stderr, c);
   RunOptions options{.case_file = line.case_file, .threads = line.threads};
   if (line.output_folder) options.output = *line.output_folder;
-  return load_and_run_command(command, c, options);
+  return run_command_named(command, c, options);
 }
 
 int resume(const CommandLine& line) {
@@ -122,8 +123,8 @@ int resume(const CommandLine& line) {
   Case& c = *result.value;
   if (line.iterations) c = with_iterations(std::move(c), *line.iterations);
   print_warnings(stderr, c);
-  return load_and_run_command(
-      "resume", c, {.case_file = case_file, .run_folder = line.run_folder, .threads = line.threads});
+  return run_command_named("resume", c,
+                           {.case_file = case_file, .run_folder = line.run_folder, .threads = line.threads});
 }
 
 int analyze(const CommandLine& line) {
@@ -135,7 +136,7 @@ int analyze(const CommandLine& line) {
   RunOptions options{.case_file = line.case_file, .threads = line.threads, .json = line.json};
   if (line.output_folder) options.output = *line.output_folder;
   if (!line.loads.empty()) options.loads = *parse_loads(line.loads);
-  return load_and_run_command("analyze", c, options);
+  return run_command_named("analyze", c, options);
 }
 
 Range range_of_iterations() {
@@ -254,6 +255,7 @@ int after_flushing(int code) {
 }  // namespace wheelwright
 
 int main(int argc, char** argv) {
+  wheelwright::restart_with_blas_settings(argv);
   try {
     return wheelwright::after_flushing(wheelwright::parse_and_dispatch(argc, argv));
   } catch (const std::system_error& error) {

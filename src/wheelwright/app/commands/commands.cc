@@ -4,7 +4,6 @@
 
 #include <exception>
 #include <new>
-#include <string_view>
 #include <system_error>
 
 #include "wheelwright/app/commands/analyze.h"
@@ -12,12 +11,12 @@
 #include "wheelwright/app/commands/run.h"
 #include "wheelwright/app/commands/verify.h"
 #include "wheelwright/app/exit_code.h"
+#include "wheelwright/app/memory.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/base/parallel.h"
 #include "wheelwright/files/output_error.h"
 
-using namespace wheelwright;
-
+namespace wheelwright {
 namespace {
 
 /// For the rest of the program: where a limit is lifted TBB starts threads, and ends the program when there
@@ -29,13 +28,17 @@ void limit_threads(int n_threads) {
 
 }  // namespace
 
-extern "C" int wheelwright_command(const char* name, const Case* c, const RunOptions* options) {
+int run_command_named(const std::string& name, const Case& c, const RunOptions& options) {
+  if (const auto lack = lack_of_memory(c, available_memory())) {
+    tell("wheelwright {}: {}: {}\n", name, options.case_file.string(), *lack);
+    return exit_refused;
+  }
   try {
-    if (options->threads) limit_threads(*options->threads);
-    if (std::string_view(name) == "run") return run_command(*c, *options);
-    if (std::string_view(name) == "resume") return resume_command(*c, *options);
-    if (std::string_view(name) == "analyze") return analyze_command(*c, *options);
-    if (std::string_view(name) == "verify") return verify_command(*c, *options);
+    if (options.threads) limit_threads(*options.threads);
+    if (name == "run") return run_command(c, options);
+    if (name == "resume") return resume_command(c, options);
+    if (name == "analyze") return analyze_command(c, options);
+    if (name == "verify") return verify_command(c, options);
     tell("wheelwright: no command {}\n", name);
   } catch (const OutputError& error) {
     tell("wheelwright {}: {}\n", name, error.what());
@@ -51,3 +54,5 @@ extern "C" int wheelwright_command(const char* name, const Case* c, const RunOpt
   }
   return exit_bug;
 }
+
+}  // namespace wheelwright

@@ -1,0 +1,18 @@
+#pragma once
+
+namespace wheelwright {
+
+/// For the first line of main(): sees to it that BLAS computes with one thread and with its fastest kernels.
+/// BLAS reads that from the environment before main() begins. If it stands there otherwise, this starts the
+/// program again, in the same process and with the same arguments, which end with a null pointer, as those of
+/// main() do.
+///
+/// One thread, whatever the environment says: the library shares work out itself, and sums of BLAS would be
+/// taken in an order that depends on the number of its threads. OpenBLAS may take a processor that is younger
+/// than it is for an older one without AVX-512, whose kernels cost a fifth of the speed: the same ones on all
+/// that have it, unless OPENBLAS_CORETYPE names others.
+///
+/// Returns if nothing is to be changed, or if the system cannot start the program again.
+void restart_with_blas_settings(char* const* arguments);
+
+}  // namespace wheelwright

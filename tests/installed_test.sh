@@ -1,0 +1,106 @@
+#!/usr/bin/env bash
+# Installs the build below a temporary root (DESTDIR), moves the installed tree, and checks there, with nothing else of
+# the build or its sources:
+# - each-header: that each header compiles on its own.
+# - all: that the headers include no others than those of the standard library and compile together; that a program
+#   outside of the project, examples/optimize_a_wheel, builds by CMake package and by pkg-config, improves a wheel at
+#   constant volume and finds what the installed program finds; that the library shows no names but its own.
+# usage: installed_test.sh all|each-header BUILD_FOLDER COMPILER [FLAG...]
+set -euo pipefail
+subject=$1 build=$2 compiler=$3 flags=("${@:4}")
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+
+fail() {
+  echo "$*" >&2
+  exit 1
+}
+
+DESTDIR=$folder/root cmake --install "$build" >"$folder/log" 2>&1 || fail "$(cat "$folder/log")"
+prefix=$folder/elsewhere
+program=$(find "$folder/root" -path '*/bin/wheelwright')
+mv "$(dirname "$(dirname "$program")")" "$prefix"
+library=$(find "$prefix" -name libwheelwright.so)
+documents=$prefix/share/doc/wheelwright
+
+export -n LD_LIBRARY_PATH
+export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
+
+# compiles HEADER...: as the only includes of a file.
+compiles() {
+  printf '#include "%s"\n' "$@" >"$folder/headers.cc"
+  "$compiler" "${flags[@]}" -std=c++20 -fsyntax-only -Wall -Wextra -Wno-unused-parameter -Werror -I"$prefix/include" \
+    "$folder/headers.cc"
+}
+
+# Prints includes that are neither of the standard library, whose names have no dot, nor installed themselves.
+foreign_includes() {
+  local header
+  grep -rh '^ *# *include' "$prefix/include" | grep -v '<[a-z_]*>' | sort -u | while IFS='"' read -r _ header _; do
+    [[ -f $prefix/include/$header ]] || echo "${header:-in angle brackets, with a dot}"
+  done
+}
+
+foreign_names() {
+  nm --dynamic --defined-only --extern-only "$library" | awk '$3 !~ /^_Z(N|NK|T.*N)11wheelwright/ { print $3 }'
+}
+
+# accepted_shapes HISTORY: number, objective and volume of every accepted shape.
+accepted_shapes() {
+  awk -F, '
+    NR == 1 { for (i = 1; i <= NF; ++i) { word = $i; sub(/ .*/, "", word); column[word] = i } next }
+    $column["accepted"] { print $column["iteration"], $column["objective"], $column["volume"] }' "$1"
+}
+
+# check_improvement SHAPES: the objective falls and the volume stays.
+check_improvement() {
+  awk '
+    NR == 1 { first = $2; volume = $3 }
+    { last = $2; change = $3 / volume - 1; if (change < 0) change = -change; if (change > 1e-6) exit wrong = 1 }
+    END { exit wrong || NR < 6 || !(last < 0.95 * first) }' "$1"
+}
+
+# check_agreement SHAPES SHAPES: as many shapes, with the same numbers up to 1e-12.
+check_agreement() {
+  paste -d ' ' "$1" "$2" | awk '
+    function differ(a, b) { d = a / b - 1; return d < -1e-12 || d > 1e-12 }
+    NF != 6 || $1 != $4 || differ($2, $5) || differ($3, $6) { print; wrong = 1 }
+    END { exit wrong || NR == 0 }'
+}
+
+mapfile -t headers < <(cd "$prefix/include" && find . -name '*.h' | sed 's,^./,,' | sort)
+if [[ $subject == each-header ]]; then
+  for header in "${headers[@]}"; do compiles "$header"; done
+  exit
+fi
+
+for file in LICENSE README.md CHANGELOG.md docs/method.md cases/holes16.toml; do
+  [[ -s $documents/$file ]] || fail "not installed: $file"
+done
+
+[[ -z $(foreign_includes) ]] || fail "headers include what is not public:" "$(foreign_includes)"
+compiles "${headers[@]}"
+[[ -z $(foreign_names) ]] || fail "the library shows names of others:" "$(foreign_names)"
+
+sed 's/^iterations = .*/iterations = 5/' "$documents/cases/holes16.toml" >"$folder/case.toml"
+"$prefix/bin/wheelwright" run "$folder/case.toml" --output "$folder/run" >"$folder/log" 2>&1 ||
+  fail "$(cat "$folder/log")"
+accepted_shapes "$folder/run/history.csv" >"$folder/shapes"
+
+cp -r "$documents/examples/optimize_a_wheel" "$folder/source"
+{
+  cmake -S "$folder/source" -B "$folder/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release \
+    -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS="${flags[*]}" &&
+    cmake --build "$folder/build"
+} >"$folder/log" 2>&1 || fail "$(cat "$folder/log")"
+loaded=$(LD_TRACE_LOADED_OBJECTS=1 "$folder/build/optimize_a_wheel")
+[[ $loaded == *"$prefix"*libwheelwright* ]] || fail "another library is loaded: $loaded"
+"$folder/build/optimize_a_wheel" "$folder/case.toml" >"$folder/shapes_of_example"
+check_improvement "$folder/shapes_of_example" || fail "not improved: $(cat "$folder/shapes_of_example")"
+check_agreement "$folder/shapes_of_example" "$folder/shapes" || fail "not what the installed program finds"
+
+export PKG_CONFIG_PATH=${library%/*}/pkgconfig
+read -ra package < <(pkg-config --cflags --libs wheelwright)
+"$compiler" "${flags[@]}" -std=c++20 "$folder/source/main.cc" -o "$folder/by_pkg_config" "${package[@]}"
+LD_LIBRARY_PATH=${library%/*} "$folder/by_pkg_config" "$folder/case.toml" >"$folder/shapes_by_pkg_config"
+cmp "$folder/shapes_by_pkg_config" "$folder/shapes_of_example"
