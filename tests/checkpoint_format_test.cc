@@ -4,9 +4,9 @@
 #include <limits>
 #include <random>
 
-#include "wheelwright/run/checkpoint.h"
-#include "wheelwright/files/level_set_file.h"
 #include "tests/checkpoint_sample.h"
+#include "wheelwright/files/level_set_file.h"
+#include "wheelwright/run/checkpoint.h"
 
 namespace wheelwright {
 namespace {

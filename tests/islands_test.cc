@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "wheelwright/run/study.h"
 #include "wheelwright/cut/measure.h"
 #include "wheelwright/evolution/evolver.h"
 #include "wheelwright/geometry/shapes.h"
+#include "wheelwright/run/study.h"
 
 using namespace wheelwright;
 
