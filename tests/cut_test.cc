@@ -89,9 +89,7 @@ TEST(Cut, BoundaryIntegralIsTheDerivativeOfTheMeasureOnCoarseGrids) {
     for (const double radius : {0.0215, 0.0259}) {
       const auto psi = testing::holes(grid, 2, {{centre, 0.5 * grid.sector_angle(), radius}});
       const auto direction = testing::smooth_direction(psi.lattice);
-      Evaluation<2> measure{};
-      measure.gradient = boundary_samples(psi);
-      const double derivative = directional_derivative<2>(measure, psi, direction, 2);
+      const double derivative = directional_derivative<2>(boundary_samples(psi), psi, direction, 2);
       const auto moved = [&](double t) {
         LevelSet<2> result = psi;
         for (size_t i = 0; i < direction.size(); ++i) result.values[i] += t * direction[i];
