@@ -1,13 +1,12 @@
-// Errors and times of the quadrature of random cut cells, kind by kind: `cut_cells 3 1000 4 8 16`. The errors are
-// those of the divergence theorem (unit vectors and position) and of the complement, where both sides fill the
-// cell; neither needs a reference solution.
-
-#include <ctime>
+// Errors and times of the quadrature of random cut cells, kind by kind: `cut_cells 3 1000 4 8 16`. The errors
+// are those of the divergence theorem (unit vectors and position) and of the complement, where both sides
+// fill the cell; neither needs a reference solution.
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <functional>
 #include <random>
 #include <string>
@@ -27,31 +26,48 @@ struct RandomCell {
 template <int dim>
 class Cells {
  public:
-  static constexpr std::array names{"nodal values, degree 2", "nodal values, degree 1", "spheres and distances",
-                                    "slivers",                "saddles",                "two zeros on an edge",
-                                    "small integers",         "small holes",            "tangent to a face",
-                                    "zeros on nodes",         "cylinders"};
+  static constexpr std::array names{"nodal values, degree 2",
+                                    "nodal values, degree 1",
+                                    "spheres and distances",
+                                    "slivers",
+                                    "saddles",
+                                    "two zeros on an edge",
+                                    "small integers",
+                                    "small holes",
+                                    "tangent to a face",
+                                    "zeros on nodes",
+                                    "cylinders"};
 
   explicit Cells(unsigned seed) : random_(seed) {}
 
   RandomCell<dim> draw(int kind) {
     const double sign = chance(0.5) ? -1 : 1;
     switch (kind) {
-      case 0: return nodes(2, [&] { return normal(); });
-      case 1: return nodes(1, [&] { return normal(); });
-      case 2: return sphere(sign);
-      case 3: return sliver(sign);
-      case 4: return saddle(sign);
-      case 5: return two_zeros(sign);
+      case 0:
+        return nodes(2, [&] { return normal(); });
+      case 1:
+        return nodes(1, [&] { return normal(); });
+      case 2:
+        return sphere(sign);
+      case 3:
+        return sliver(sign);
+      case 4:
+        return saddle(sign);
+      case 5:
+        return two_zeros(sign);
       case 6:
         return nodes(chance(0.7) ? 2 : 1, [&] {
           const double value = std::floor(5 * uniform()) - 2;
           return value == 0 ? (chance(0.5) ? -1e-9 : 1e-9) : value;
         });
-      case 7: return small_hole(sign);
-      case 8: return tangent(sign);
-      case 9: return nodes(chance(0.7) ? 2 : 1, [&] { return chance(0.3) ? 0 : normal(); });
-      default: return cylinder(sign);
+      case 7:
+        return small_hole(sign);
+      case 8:
+        return tangent(sign);
+      case 9:
+        return nodes(chance(0.7) ? 2 : 1, [&] { return chance(0.3) ? 0 : normal(); });
+      default:
+        return cylinder(sign);
     }
   }
 
@@ -114,8 +130,10 @@ class Cells {
   }
 
   RandomCell<dim> cylinder(double sign) {
-    const double radius = std::pow(10.0, 3 * uniform() - 1), angle = 6.3 * uniform(), offset = uniform() - 0.5;
-    const double cx = 0.5 + (radius + offset) * std::cos(angle), cy = 0.5 + (radius + offset) * std::sin(angle);
+    const double radius = std::pow(10.0, 3 * uniform() - 1), angle = 6.3 * uniform(),
+                 offset = uniform() - 0.5;
+    const double cx = 0.5 + (radius + offset) * std::cos(angle),
+                 cy = 0.5 + (radius + offset) * std::sin(angle);
     const int along = axis();
     return interpolated([&](const Vec<dim>& x) {
       return sign * (std::hypot(x[(along + 1) % dim] - cx, x[(along + 2) % dim] - cy) - radius);
@@ -177,11 +195,11 @@ class Cells {
   }
 
   RandomCell<dim> tangent(double sign) {
-    const double radius = 0.05 + 0.4 * uniform(), beyond = (chance(0.5) ? -1 : 1) * std::pow(10.0, -12 * uniform());
+    const double radius = 0.05 + 0.4 * uniform(),
+                 beyond = (chance(0.5) ? -1 : 1) * std::pow(10.0, -12 * uniform());
     Vec<dim> c = anywhere();
     c[axis()] = chance(0.5) ? radius + beyond : 1 - radius - beyond;
-    return interpolated(
-        [&](const Vec<dim>& x) { return sign * (squared_distance(x, c) - radius * radius); });
+    return interpolated([&](const Vec<dim>& x) { return sign * (squared_distance(x, c) - radius * radius); });
   }
 
   std::mt19937_64 random_;
@@ -204,7 +222,9 @@ struct Times {
 
 std::string percentiles(std::vector<double> errors) {
   std::sort(errors.begin(), errors.end());
-  const auto at = [&](double fraction) { return errors[static_cast<size_t>(fraction * (errors.size() - 1))]; };
+  const auto at = [&](double fraction) {
+    return errors[static_cast<size_t>(fraction * (errors.size() - 1))];
+  };
   char text[80];
   std::snprintf(text, sizeof text, "%8.0e %8.0e %8.0e", at(0.5), at(0.99), at(1));
   return text;
@@ -212,8 +232,9 @@ std::string percentiles(std::vector<double> errors) {
 
 template <int dim>
 void measure(int n_cells, int points) {
-  std::printf("%dD, %d points per direction: divergence theorem and complement, each median, 99 %%, largest\n", dim,
-              points);
+  std::printf(
+      "%dD, %d points per direction: divergence theorem and complement, each median, 99 %%, largest\n", dim,
+      points);
   for (size_t kind = 0; kind < Cells<dim>::names.size(); ++kind) {
     Cells<dim> cells(1000 + kind);
     std::vector<double> divergence, complement;

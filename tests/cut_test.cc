@@ -208,6 +208,21 @@ TEST(RandomCells, MeetTheDivergenceTheoremAndFillTheCell) { expect_identities(10
 
 TEST(RandomCells, SlowMeetTheDivergenceTheoremAndFillTheCell) { expect_identities(25000); }
 
+// The discriminant of the zeros along an axis vanishes exactly in the middle of the cell, simply or twice.
+TEST(Cut, ZerosThatMergeInTheMiddleOfACellAreFound) {
+  for (const std::vector<double>& values : {std::vector<double>{1, -1, 2, 1, 1, 1, 2, 2, 1e-9},
+                                            {-2, 2, 1, -1, 2, -1, -2, 2, -2},
+                                            {0.25, -0.33, -0.25, 0.33, 0, 0.33, -0.25, -0.33, 0.25},
+                                            {1e-9, -2, 2, 1, 1, 1, -2, 2, 2},
+                                            {-1e-9, -1, -1, 1, -1, 2, 2, -1, -2},
+                                            {-2, 2, 1, -1, -1, -1, -1, -1, 2}}) {
+    const auto cell = CellQuadrature<2>(2, 16).split(0, values);
+    ASSERT_TRUE(cell) << ::testing::PrintToString(values);
+    expect_divergence_theorem(*cell, values, 1e-12);
+    expect_complement(*cell, values, 1e-12);
+  }
+}
+
 TEST(RandomCells, MirrorImagesHaveTheMirrorImagesOfThePoints) {
   std::mt19937_64 random(5);
   const CellQuadrature<2> quadrature(2, 4);

@@ -123,14 +123,15 @@ std::optional<CutCell<dim>> CellQuadrature<dim>::split(int cell, std::span<const
   if (!std::isfinite(psi.variation(0))) return {};
   CutCell<dim> result{cell, {}, {}};
   append(psi, Box{}, result);
-  if (!(divergence_defect(result, nodal_values) <= largest_defect(static_cast<int>(rule_.points.size())))) return {};
+  if (!(divergence_defect(result, nodal_values) <= largest_defect(static_cast<int>(rule_.points.size()))))
+    return {};
   return result;
 }
 
 template <int dim>
 double CellQuadrature<dim>::divergence_defect(const CutCell<dim>& cell,
                                               std::span<const double> nodal_values) const {
-  Vec<dim> normals{};  // over the whole surface of the material
+  Vec<dim> normals{};           // over the whole surface of the material
   double volume = 0, flux = 0;  // of the position from the cell's centre
   for (const auto& q : cell.material) volume += q.weight;
   for (const auto& q : cell.boundary)
