@@ -13,7 +13,7 @@ enum class FailureReason {
   disconnected_material,  ///< some material is not attached to the rim
   tread_cut_off,          ///< holes join all round: the tread is not attached to the rim
   protected_band,         ///< a hole reaches the rows of cells kept full at the rim or the tread
-  cut_quadrature,         ///< a cut cell's quadrature does not add up to the cell
+  cut_quadrature,         ///< a cut cell's quadrature misses the divergence theorem
   not_positive_definite,  ///< the stiffness could not be factored
   newton_stalled,         ///< the contact iteration did not converge
   no_contact,             ///< no point touches the ground

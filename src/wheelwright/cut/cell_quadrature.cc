@@ -47,7 +47,7 @@ Slice slice(const BernsteinForm<2>& psi, int base) {
 }
 
 /// What the divergence theorem may be missed by: above the error of the rule on a smooth piece by far.
-double largest_defect(int points) { return 1e-6 + std::min(0.1, 1000 * std::pow(25.0, -points)); }
+double largest_defect(int points) { return 1e-3 + std::min(0.1, 1000 * std::pow(25.0, -points)); }
 
 /// Measure of {psi < 0} on a face, from its nodal values.
 template <int dim>

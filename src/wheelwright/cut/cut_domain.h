@@ -49,7 +49,7 @@ struct CutDomain {
 };
 
 /// Classifies the cells of psi's grid and builds the cut quadrature with `points` Gauss points a direction.
-/// Fails with cut_quadrature (a cell's parts do not add up) or not_finite.
+/// Fails with cut_quadrature (a cell misses the divergence theorem) or not_finite.
 template <int dim>
 Expected<CutDomain<dim>> cut_domain(const LevelSet<dim>& psi, int points);
 
