@@ -18,7 +18,7 @@ class Layers(unittest.TestCase):
         """In the row of the one folder and the column of the other; names give the places of both."""
         picture = Path("docs/images/layers.svg").read_text()
         names = {name: (float(x), float(y)) for x, y, name in
-                 re.findall(r'<text x="([0-9.]+)" y="([0-9.]+)">(\w+)</text>', picture)}
+                 re.findall(r'<text x="([0-9.]+)" y="([0-9.]+)">([\w.]+)</text>', picture)}
         self.assertEqual(list(names), list(EDGES))
         right, below = (names["base"][d] - 33 for d in (0, 1))  # of a name against its place on the diagonal
         dots = {(float(x), float(y)) for x, y in
@@ -28,11 +28,11 @@ class Layers(unittest.TestCase):
 
     def test_the_table_of_the_folders_is_complete_and_in_order(self):
         section = Path("CONTRIBUTING.md").read_text().split("## Layers")[1].split("\n## ")[0]
-        self.assertEqual(re.findall(r"^\| (\w+) \|", section, re.MULTILINE), ["folder", *EDGES])
+        self.assertEqual(re.findall(r"^\| ([\w.]+) \|", section, re.MULTILINE), ["folder", *EDGES])
 
-    def test_the_list_names_the_folders_of_the_sources(self):
-        folders = {path.name for path in Path("src/wheelwright").iterdir() if path.is_dir()}
-        self.assertEqual(folders, set(EDGES))
+    def test_the_list_names_the_folders_and_headers_of_the_sources(self):
+        names = {path.name for path in Path("src/wheelwright").iterdir() if path.is_dir() or path.suffix == ".h"}
+        self.assertEqual(names, set(EDGES))
 
 
 if __name__ == "__main__":
