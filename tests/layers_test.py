@@ -30,9 +30,9 @@ class Layers(unittest.TestCase):
         section = Path("CONTRIBUTING.md").read_text().split("## Layers")[1].split("\n## ")[0]
         self.assertEqual(re.findall(r"^\| ([\w.]+) \|", section, re.MULTILINE), ["folder", *EDGES])
 
-    def test_the_list_names_the_folders_and_the_headers_of_the_sources(self):
-        sources = {path.name for path in Path("src/wheelwright").iterdir() if path.is_dir() or path.suffix == ".h"}
-        self.assertEqual(sources, set(EDGES))
+    def test_the_list_names_the_folders_and_headers_of_the_sources(self):
+        names = {path.name for path in Path("src/wheelwright").iterdir() if path.is_dir() or path.suffix == ".h"}
+        self.assertEqual(names, set(EDGES))
 
 
 if __name__ == "__main__":

@@ -145,7 +145,7 @@ class Vtu:
             if n > 1:
                 values = list(zip(*[iter(values)] * n, strict=True))
             self.fields[attribute(tag, "Name")] = values
-        self.points = self.fields.pop(None)
+        self.points = self.fields.pop("Points")
         ends = self.fields.pop("offsets")
         corners = self.fields.pop("connectivity")
         self.cells = [corners[a:b] for a, b in zip((0, *ends[:-1]), ends, strict=True)]

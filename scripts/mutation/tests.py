@@ -15,7 +15,7 @@ from pathlib import Path
 
 MOST_MUTANTS = 4096  # as in mutants.h
 MEMORY, FILE_SIZE = 8 << 30, 1 << 30
-OF_THIS_SCRIPT = "mutation"  # the test of the sources as they are
+NOT_OF_A_COPY = ("mutation", "installed")  # tests of the sources and of the headers as they are
 ENVIRONMENT = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "OMP_THREAD_LIMIT": "1"}
 
 
@@ -42,7 +42,7 @@ def units_of(build, pattern):
             name = Path(program).name
         else:
             name = test["name"]
-        if name != OF_THIS_SCRIPT and re.search(pattern, name):
+        if name not in NOT_OF_A_COPY and re.search(pattern, name):
             folder = properties.get("WORKING_DIRECTORY", str(build))
             units.setdefault(name, Unit(name, [program, *arguments], folder))
     return list(units.values())

@@ -12,7 +12,7 @@ enum class FailureReason {
   disconnected_material,  ///< some material is not attached to the rim
   tread_cut_off,          ///< holes join around the whole wheel: the tread is not attached to the rim
   protected_band,         ///< a hole reaches the rows of cells kept full at the rim or the tread
-  cut_quadrature,         ///< the quadrature of a cut cell does not add up to the measure of the cell
+  cut_quadrature,         ///< the quadrature of a cut cell does not satisfy the divergence theorem
   not_positive_definite,  ///< the stiffness could not be factored
   newton_stalled,         ///< the contact iteration did not converge
   no_contact,             ///< no point touches the ground

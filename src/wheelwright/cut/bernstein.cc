@@ -31,26 +31,28 @@ std::array<Quartic, 2> parts(Quartic c, double x) {
   return result;
 }
 
-/// The only root of a polynomial with different signs at 0 and 1 (Illinois variant of regula falsi).
+double derivative(const Quartic& c, double x) {
+  std::array<double, 4> d;
+  for (int i = 0; i < 4; ++i) d[i] = 4 * (c[i + 1] - c[i]);
+  for (int level = 1; level < 4; ++level)
+    for (int i = 0; i + level < 4; ++i) d[i] = d[i] * (1 - x) + d[i + 1] * x;
+  return d[0];
+}
+
+/// The only root of a polynomial with different signs at 0 and 1, by Newton's method within a shrinking
+/// bracket. An end whose value is next to zero is not taken for the root: another one may lie just beyond it.
 double only_root(const Quartic& c) {
-  double a = 0, b = 1, at_a = c[0], at_b = c[4];
-  for (int iteration = 0; iteration < 100 && b - a > 1e-16; ++iteration) {
-    double x = iteration < 60 ? (a * at_b - b * at_a) / (at_b - at_a) : 0.5 * (a + b);
-    if (!(x > a && x < b)) break;
+  double a = 0, b = 1, x = 0.5;
+  for (int iteration = 0; iteration < 100; ++iteration) {
     const double at_x = wheelwright::value(c, x, 1 - x);
     if (at_x == 0) return x;
-    if ((at_x < 0) == (at_b < 0)) {
-      b = x;
-      at_b = at_x;
-      at_a *= 0.5;
-    } else {
-      a = x;
-      at_a = at_x;
-      at_b *= 0.5;
-    }
-    if (std::abs(at_x) < 1e-17 * (std::abs(c[0]) + std::abs(c[4]))) break;
+    ((at_x < 0) == (c[4] < 0) ? b : a) = x;
+    double next = x - at_x / derivative(c, x);
+    if (!(next >= a && next <= b)) next = 0.5 * (a + b);
+    if (std::abs(next - x) < 1e-16 || b - a < 1e-16) return next;
+    x = next;
   }
-  return (a * at_b - b * at_a) / (at_b - at_a);
+  return x;
 }
 
 void append_sign_changes(const Quartic& c, double from, double width, int halvings,

@@ -20,11 +20,18 @@ class CellQuadrature {
   CellKind classify(std::span<const double> nodal_values) const;
 
   /// Quadrature of a cell whose classify() is `cut`; its parts may be empty. Nothing when a value is not
-  /// finite. Mirror images of a cell's values give the mirror images of its points, up to rounding.
+  /// finite or the parts do not fit together, so that the quadrature would be wrong. Mirror images of a
+  /// cell's values give the mirror images of its points, up to rounding.
   std::optional<CutCell<dim>> split(int cell, std::span<const double> nodal_values) const;
+
+  /// By how much material, boundary and the material's part of the cell's faces miss the divergence theorem,
+  /// of the unit vectors and of the position; the faces are integrated on their own. NaN if they cannot be.
+  double divergence_defect(const CutCell<dim>& cell, std::span<const double> nodal_values) const;
 
  private:
   struct Box;
+  /// Measure of the material on the face at an end, 0 or 1, of an axis.
+  double face_measure(std::span<const double> nodal_values, int axis, int end) const;
   void append(const BernsteinForm<dim>& psi, const Box& box, CutCell<dim>& result) const;
   void append_cut(const BernsteinForm<dim>& psi, const Box& box, CutCell<dim>& result) const;
   void append_parts(const BernsteinForm<dim>& psi, const Box& box, CutCell<dim>& result) const;

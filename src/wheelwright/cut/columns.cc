@@ -141,7 +141,12 @@ void Columns::append(const Interval& interval, double smallest_width) {
 }
 
 Columns::Piece Columns::piece_on(const Interval& interval) const {
-  const Quadratic c = column(interval.at(0.5).x);
+  // Where the zeros are farthest from merging: at a crossing of two curves rounding would decide.
+  Quadratic c = column(interval.at(0.5).x);
+  for (const double u : {0.25, 0.75}) {
+    const Quadratic other = column(interval.at(u).x);
+    if (std::abs(discriminant(other)) > std::abs(discriminant(c))) c = other;
+  }
   Piece piece{interval, c[0] + c[1] + c[2] < 0, 0, false, {}};
   if (discriminant(c) < 0) return piece;
   const double half_slope = std::sqrt(discriminant(c));

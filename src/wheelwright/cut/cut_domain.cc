@@ -158,7 +158,7 @@ Expected<CutDomain<dim>> cut_domain(const LevelSet<dim>& given, int points) {
     if (!split)
       return Failure{
           FailureReason::cut_quadrature,
-          fmt::format("the quadrature of the cell at {} does not add up to the cell", place(grid, cell))};
+          fmt::format("the quadrature of the cell at {} misses the divergence theorem", place(grid, cell))};
     const double fraction = material_fraction(*split);
     if (fraction < smallest_fraction) {
       domain.kinds[cell] = CellKind::outside;

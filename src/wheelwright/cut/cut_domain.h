@@ -51,9 +51,8 @@ struct CutDomain {
   bool active(int cell) const { return kinds[cell] != CellKind::outside; }
 };
 
-/// Classifies the cells of the grid of psi and builds the quadrature of the cut cells with `points` Gauss
-/// points per direction. Fails with cut_quadrature if the parts of a cell do not add up to the cell, and with
-/// not_finite.
+/// Classifies the cells of psi's grid and builds the cut quadrature with `points` Gauss points per direction.
+/// Fails with cut_quadrature if the quadrature of a cell does not satisfy the divergence theorem, and with not_finite.
 template <int dim>
 Expected<CutDomain<dim>> cut_domain(const LevelSet<dim>& psi, int points);
 

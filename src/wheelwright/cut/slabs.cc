@@ -7,8 +7,8 @@ namespace wheelwright {
 namespace {
 
 /// The cube is divided into at most about this many slabs, none of which is divided below this thickness.
-constexpr int max_slabs = 12;
-constexpr double smallest_thickness = 1e-3;
+constexpr int max_slabs = 60;
+constexpr double smallest_thickness = 1e-8;
 
 struct Break {
   double place;

@@ -129,11 +129,11 @@ class Loads {
     if (std::all_of(functions_.begin(), functions_.end(), [](const auto& f) { return f.energy.empty(); }))
       return;
     s_.ring.sector_factor().eliminate(s_.sweep, ghost_);
-    const Matrix of_cases = product(s_.displacement.weights, Op::none, trailing(ghost_), Op::none);
+    const Matrix on_boundary = trailing(ghost_);
     for (size_t f = 0; f < functions_.size(); ++f) {
       if (functions_[f].energy.empty()) continue;
-      const Matrix loads =
-          s_.ring.boundary_loads(scaled_rows(by_load_case(s_, functions_[f].energy), of_cases));
+      const Matrix weights = scaled_rows(by_load_case(s_, functions_[f].energy), s_.displacement.weights);
+      const Matrix loads = s_.ring.boundary_loads(product(weights, Op::none, on_boundary, Op::none));
       double* to = boundary.column(static_cast<int>(f) * n_cases());
       for (size_t k = 0; k < loads.entries().size(); ++k) to[k] += loads.entries()[k];
     }
@@ -254,11 +254,11 @@ Expected<std::vector<Adjoint>> solve_adjoints(const RollingProblem<dim>& problem
 
   const Matrix outer =
       sum(without_contact, ring.outer_displacements(base_loads(tread, tread_loads(tread, contact->first))));
-  const Matrix of_cases = ring.trailing_displacements(ring.boundary_displacements(outer, interface));
-  const int n_cases = loads.n_cases();
+  const auto of_cases =
+      unstacked(ring.trailing_displacements(ring.boundary_displacements(outer, interface)), n_functions);
   std::vector<Matrix> of_functions = std::move(loads).core();
   for (int f = 0; f < n_functions; ++f) {
-    const Matrix trailing = on_modes(s, block(of_cases, f * n_cases, 0, n_cases, of_cases.columns()));
+    const Matrix trailing = on_modes(s, of_cases[f]);
     std::copy(trailing.entries().begin(), trailing.entries().end(),
               of_functions[f].column(ring.sector_factor().n_interior()));
   }
