@@ -8,7 +8,7 @@ namespace wheelwright {
 /// What the model holds at every load position.
 enum class Held { load, travel };
 
-/// The load positions of one sector under the model's load or travel, and what varies with them at a fixed
+/// The load positions of one sector under the model's load or travel, and what varies between them at a fixed
 /// load and at a fixed travel. Forces are per metre of width when dim = 2.
 struct RollingAnalysis {
   Held held;
@@ -19,7 +19,7 @@ struct RollingAnalysis {
 
   double load;                          ///< the model's, or the mean of the forces at its travel
   double travel;                        ///< the model's, or the mean of the travels under its load
-  std::vector<double> travel_at_load;   ///< the loaded radius runs out by them
+  std::vector<double> travel_at_load;   ///< its variation is the run-out of the loaded radius
   std::vector<double> force_at_travel;  ///< radial force
 };
 

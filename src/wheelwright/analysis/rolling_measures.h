@@ -26,13 +26,13 @@ ContactSummary contact_summary(const ContactPatch<dim>& contact);
 /// How a quantity varies while the wheel rolls.
 struct RollingVariation {
   double mean, least, greatest;
-  std::vector<double> harmonics;  ///< amplitudes of N_s, 2 N_s, ... waves a revolution
+  std::vector<double> harmonics;  ///< amplitudes of N_s, 2 N_s, ... waves per revolution
 
   double peak_to_peak() const { return greatest - least; }
 };
 
-/// From values at N load positions that divide one sector evenly: the harmonics below N / 2 are those that
-/// they tell apart.
+/// From values at N load positions that divide one sector evenly: only harmonics below N / 2 can be
+/// distinguished.
 RollingVariation rolling_variation(std::span<const double> values);
 
 /// The evenness of rolling in single numbers.
@@ -40,7 +40,7 @@ struct RollingMeasures {
   double mean_travel;      ///< [m]
   double run_out;          ///< peak to peak of the travel at fixed load [m]
   double peak_pressure;    ///< greatest over the positions [Pa]
-  double pressure_spread;  ///< of the positions' peaks: greatest less least, over their mean
+  double pressure_spread;  ///< of the positions' peaks: (greatest - least) / mean
 };
 
 /// Which quantity each of them is: what history.csv records in this order.

@@ -4,15 +4,15 @@
 
 namespace wheelwright {
 
-/// int_Gamma_m N(x) ds (46) over the moving boundary of one sector, whatever the load position. N is equal in all
-/// sectors. By (42) and (47) its shape derivative has the density kappa_m N + grad N . n, with kappa_m the mean curvature. It is the
-/// derivative for a smooth boundary: the kinks that the level set's boundary has on the faces of cells are left
-/// out, which is O(h^2).
+/// int_Gamma_m N(x) ds (46) over the moving boundary of one sector. It does not depend on the load position;
+/// N is the same in all sectors. By (42) and (47) its shape derivative has the density kappa_m N + grad N .
+/// n, with kappa_m the mean curvature. This is the derivative for a smooth boundary: it leaves out the kinks
+/// of the level set's boundary on the faces of cells, which are O(h^2).
 template <int dim>
 class BoundaryIntegral : public Functional<dim> {
  public:
-  FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi, const State<dim>& state,
-                                const Matrix& mean) const override;
+  FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
+                                const State<dim>& state, const Matrix& mean) const override;
 
  protected:
   struct Density {

@@ -15,29 +15,29 @@ struct FunctionalValue {
   double of_shape = 0;
   std::vector<double> gradient_of_shape = {};
 
-  /// The part that depends on the states: J_i of every position that was solved for, the same as that of the
-  /// position's mirror image; empty: zero. And how it depends on them.
+  /// The part that depends on the states, and its derivative: J_i of every position that was solved for,
+  /// which is also that of the position's mirror image. Empty: zero.
   std::vector<double> by_position = {};
   FunctionalDerivative<dim> derivative = {};
 
-  /// Whether the tread loads are derivatives with respect to deviations from the mean over the positions.
+  /// Whether the tread loads are derivatives with respect to the deviations from the mean over the positions.
   bool compares_with_mean = false;
 };
 
-/// A functional of the form (36): integrals over the material and over its boundary. It depends on the states of
-/// the load positions by way of the strain energy, of what the tread observes and of integrals over the
-/// material, and on the shape itself. To add one: a file with a class like this, its Taylor test, and its line in
-/// the list of functionals (run/functionals.cc).
+/// A functional of the form (36): integrals over the material and over its boundary. It depends on the shape
+/// itself, and on the states of the load positions through the strain energy, through what the tread observes
+/// and through integrals over the material. To add one, write a file with a class like this and its Taylor
+/// test, and add its line to objective_terms() (run/study.cc).
 template <int dim>
 class Functional {
  public:
   virtual ~Functional() = default;
 
-  /// As in the case file and in history files.
+  /// The name in case files and in history files.
   virtual std::string name() const = 0;
 
-  /// `mean`: what mean_observations() gives, of these states or held from an earlier shape. The derivative is that
-  /// at a held mean.
+  /// The value at a shape and its states. `mean` is the result of mean_observations() for these states, or
+  /// one held from an earlier shape. The derivative is taken at a fixed mean.
   virtual FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                         const State<dim>& state, const Matrix& mean) const = 0;
 };

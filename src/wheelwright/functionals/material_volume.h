@@ -4,14 +4,14 @@
 
 namespace wheelwright {
 
-/// The material of one sector, int_Omega 1 dx [m^2, or m^3 when dim = 3], whatever the load position. Its shape
-/// derivative has the density 1 (45).
+/// The measure of the material of one sector, int_Omega 1 dx [m^2, or m^3 when dim = 3]. It does not depend
+/// on the load position. Its shape derivative has the density 1 (45).
 template <int dim>
 class MaterialVolume : public Functional<dim> {
  public:
   std::string name() const override { return "volume"; }
-  FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi, const State<dim>& state,
-                                const Matrix& mean) const override;
+  FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
+                                const State<dim>& state, const Matrix& mean) const override;
 };
 
 }  // namespace wheelwright

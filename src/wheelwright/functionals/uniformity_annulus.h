@@ -5,7 +5,7 @@
 namespace wheelwright {
 
 /// J_p1 (60): int over the annulus Gamma_C^epsilon of L/(2 E epsilon) |sigma(u)n - p_mean|^2, n radial. The
-/// annulus is the tread of the model, whose TreadGrid must ask for annulus points.
+/// annulus is the tread of the model. Its TreadGrid::annulus_points must not be 0.
 template <int dim>
 class UniformityAnnulus : public Functional<dim> {
  public:
@@ -13,8 +13,8 @@ class UniformityAnnulus : public Functional<dim> {
   explicit UniformityAnnulus(double length) : length_(length) {}
 
   std::string name() const override { return std::string(wheelwright::name(Quantity::uniformity_annulus)); }
-  FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi, const State<dim>& state,
-                                const Matrix& mean) const override;
+  FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
+                                const State<dim>& state, const Matrix& mean) const override;
 
  private:
   double length_;

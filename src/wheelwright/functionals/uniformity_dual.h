@@ -4,8 +4,8 @@
 
 namespace wheelwright {
 
-/// J_p2 (61), (71): half the squared H^-1/2 norm of sigma(u)n - p_mean on Gamma_C, by the work of the traction on
-/// its Neumann-to-Dirichlet image.
+/// J_p2 (61), (71): half the squared H^-1/2 norm of sigma(u)n - p_mean on Gamma_C, computed as the work of
+/// the traction on its Neumann-to-Dirichlet image.
 template <int dim>
 class UniformityDual : public Functional<dim> {
  public:
@@ -16,8 +16,8 @@ class UniformityDual : public Functional<dim> {
       : neumann_to_dirichlet_(std::move(neumann_to_dirichlet)) {}
 
   std::string name() const override { return std::string(wheelwright::name(Quantity::uniformity_dual)); }
-  FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi, const State<dim>& state,
-                                const Matrix& mean) const override;
+  FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
+                                const State<dim>& state, const Matrix& mean) const override;
 
  private:
   TractionMap neumann_to_dirichlet_;

@@ -33,7 +33,7 @@ struct OptimizerOptions {
   std::optional<double> target_measure;  ///< of the material in one sector; absent: the initial shape's
 };
 
-/// The last accepted shape and all that the next one depends on: a run resumed from a copy proceeds
+/// The last accepted shape and all that the next one depends on: a run that is resumed from a copy continues
 /// identically.
 template <int dim>
 struct OptimizationState {
@@ -89,7 +89,7 @@ struct Trial {
 
 enum class StopReason {
   iterations,      ///< the number asked for is done
-  converged,       ///< the objective hardly falls any more
+  converged,       ///< the objective hardly decreases any more
   no_descent,      ///< shapes were evaluated, but none, with the step halved max_halvings times, is better
   gave_up,         ///< no step, halved max_halvings times, gave a shape that could be evaluated
   failed_start,    ///< the initial shape could not be evaluated

@@ -11,8 +11,8 @@ using PicturePoint = std::array<int, 2>;
 using PicturePolygon = std::vector<PicturePoint>;
 
 /// The outlines of a union of polygons with common sides: what two neighbours share is left out, so that a
-/// region of many cells becomes a few curves. Polygons must not overlap; they may run either way round.
-/// Closed curves, all of one sense around what they enclose; sides of no length are dropped.
+/// region of many cells becomes a few curves. Polygons must not overlap; their sense of rotation does not
+/// matter. Closed curves, all of one sense around what they enclose; sides of no length are dropped.
 std::vector<PicturePolygon> union_outlines(const std::vector<PicturePolygon>& polygons);
 
 /// Closed curves as the `d` attribute of an SVG path, in relative moves; those that enclose nothing, of less

@@ -15,7 +15,7 @@ struct ContactPoint {
   double gap;            ///< distance to the ground in the deformed state, negative: penetration [m]
 };
 
-/// Writes one row a point, in the order given, with the azimuth in degrees; atomically. Throws OutputError.
+/// Writes one row per point, in the order given, with the azimuth in degrees; atomically. Throws OutputError.
 void write_pressure_csv(const std::filesystem::path& path, std::span<const ContactPoint> points);
 
 }  // namespace wheelwright

@@ -14,14 +14,12 @@ struct PositionFields {
   double ground_azimuth;  ///< of n_y, body frame [rad]
 };
 
-PositionFields position_fields(const StateSolver<2>& solver, const State<2>& state,
-                               int position);
+PositionFields position_fields(const StateSolver<2>& solver, const State<2>& state, int position);
 
 /// Those of all load positions of a sector; images are reflected.
-std::vector<PositionFields> all_position_fields(const StateSolver<2>& solver,
-                                                const State<2>& solution);
+std::vector<PositionFields> all_position_fields(const StateSolver<2>& solver, const State<2>& solution);
 
-/// As they are named in files.
+/// Their names in files.
 std::vector<NamedField> named_fields(const PositionFields& fields);
 
 /// The lattice that carries these fields.
@@ -35,13 +33,12 @@ RingField vertical_field(const RingField& displacement, double ground_azimuth);
 RingField von_mises_field(const RollingModel<2>& model, const CutDomain<2>& domain,
                           const RingField& displacement);
 
-/// One value a node of a sector's level set lattice, as a field on the displacement's lattice, equal in all
+/// One value per node of a sector's level set lattice, as a field on the displacement's lattice, equal in all
 /// sectors.
 RingField repeated_field(const RollingModel<2>& model, const LevelSet<2>& sector_values);
 
 /// The contact zones of all load positions of a sector, those of images reflected; in each position the
 /// points follow each other along the ground by columns.
-std::vector<ContactPoint> contact_points(const StateSolver<2>& solver,
-                                         const State<2>& solution);
+std::vector<ContactPoint> contact_points(const StateSolver<2>& solver, const State<2>& solution);
 
 }  // namespace wheelwright

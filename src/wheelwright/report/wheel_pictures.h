@@ -11,7 +11,7 @@ namespace wheelwright {
 /// The load position with the largest strain energy.
 int worst_position(std::span<const double> strain_energy);
 
-/// How the pictures of a shape are called.
+/// The names of the pictures of a shape.
 struct PictureNames {
   std::string prefix;  ///< of the files
   std::string title;

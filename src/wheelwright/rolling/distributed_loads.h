@@ -5,12 +5,12 @@
 
 namespace wheelwright {
 
-/// Body force and pressure at all load positions. Load cases and columns as in RollingSolution; empty when there
-/// are none.
+/// Body force and pressure at all load positions. Load cases and columns as in RollingSolution; empty when
+/// there are none.
 struct AppliedLoads {
   SectorFields core;                 ///< modes: unit forces along a sector's axes, unit pressure
   Matrix tread;                      ///< on the tread's observations
-  std::vector<RimForce> on_the_rim;  ///< their work on the rim's motions, one a position
+  std::vector<RimForce> on_the_rim;  ///< their work on the rim's motions, one per position
 };
 
 template <int dim>

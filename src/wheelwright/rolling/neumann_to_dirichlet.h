@@ -6,14 +6,14 @@ namespace wheelwright {
 
 /// The operator g -> w[g] of (68) on the full ring B, which no shape changes: -div sigma(w) = 0, sigma(w)n =
 /// g on Gamma_C, w = 0 on the rim. Discretized on the model's own grid, tread refinement included. Built once
-/// a run.
+/// per run.
 template <int dim>
 class NeumannToDirichlet {
  public:
   static Expected<NeumannToDirichlet> create(const RollingModel<dim>& model);
 
-  /// w at the tread's points for tractions g there: dim rows a point (Cartesian, column frame), one column
-  /// for every (right-hand side, ring column).
+  /// w at the tread's points for tractions g there: dim rows per point (Cartesian, column frame), one
+  /// column per (right-hand side, ring column).
   Matrix operator()(const Matrix& tractions) const;
 
   /// 1/2 int_B A eps(w):eps(w) of every right-hand side, from the displacements in the whole ring.

@@ -7,7 +7,7 @@
 namespace wheelwright {
 
 /// The direct problems of some load positions for one shape. Load cases of the core are numbered position *
-/// n_sectors + sector; matrices of the tread have one column for every (position, ring column). Position i
+/// n_sectors + sector; matrices of the tread have one column per (position, ring column). Position i
 /// is solved with the ground turned to it, in the body frame; the field in sector s is also the field in
 /// sector 0 for the load position that lies s sectors back. The rim's motion is left out: u = v +
 /// motion.
@@ -39,8 +39,8 @@ std::vector<double> case_multiplicities(const RollingSolution<dim>& solution);
 template <int dim>
 SectorFields complete_displacement(const RollingSolution<dim>& solution);
 
-/// The rolling problem of a cyclic, linearly elastic ring: what no shape changes is built once; every shape is
-/// then one call.
+/// The rolling problem of a cyclic, linearly elastic ring: what no shape changes is built once; every shape
+/// is then one call.
 template <int dim>
 class RollingProblem : public StateSolver<dim> {
  public:
@@ -61,7 +61,7 @@ class RollingProblem : public StateSolver<dim> {
   int protected_rim_rows() const { return 1; }
   int protected_tread_rows() const { return model_.tread.rows + 1; }
 
-  /// Direct problems of all positions, or of some; states() without the interface.
+  /// The direct problems of all positions, or of some of them; as states(), with the solver's own solution.
   Expected<RollingSolution<dim>> solve(const LevelSet<dim>& psi) const {
     return solve(psi, this->all_positions());
   }
@@ -71,7 +71,7 @@ class RollingProblem : public StateSolver<dim> {
   /// Nitsche's symmetric term of the tread applied to what is observed: loads on the tractions.
   Matrix nitsche_loads(const Matrix& observations) const;
 
-  /// The factors -theta/gamma dS of that term, one an observation: zero but for tractions.
+  /// The factors -theta/gamma dS of that term, one per observation; zero for those that are no tractions.
   std::vector<double> nitsche_factors() const;
 
  private:
@@ -100,8 +100,8 @@ struct RolledContact {
 };
 
 /// The contact of one load position alone, on a ring that solve() has factored. The zone is widened until it
-/// holds the contact. `neighbour`: a solution to start from; `preload`: what other loads than the ground's
-/// do.
+/// holds the contact. `neighbour`: a solution to start from; `preload`: the effect of all
+/// loads but the ground's.
 template <int dim>
 Expected<RolledContact<dim>> roll_to(const RollingModel<dim>& model, const Tread<dim>& tread,
                                      const CyclicStiffness<dim>& ring, const SurfaceCompliance<dim>& surface,
@@ -109,8 +109,8 @@ Expected<RolledContact<dim>> roll_to(const RollingModel<dim>& model, const Tread
                                      const std::optional<ContactState<dim>>& neighbour,
                                      const Interrupt& interrupt = {});
 
-/// The same position under the loads or the travel of `model`, which differs in nothing else: next to free as
-/// long as the contact stays in the zone of `before`.
+/// The same position under the loads or the travel of `model`, which differs in nothing else. It costs
+/// little as long as the contact stays in the zone of `before`.
 template <int dim>
 Expected<RolledContact<dim>> reload(const RollingModel<dim>& model, const Tread<dim>& tread,
                                     const CyclicStiffness<dim>& ring, const SurfaceCompliance<dim>& surface,

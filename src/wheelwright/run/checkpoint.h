@@ -20,21 +20,21 @@ struct InitialShape {
   double measure;  ///< of the material, one sector
 };
 
-/// What the case expects a value of, as an earlier shape had it.
+/// A quantity that the case has an expectation for, and its value at an earlier shape.
 struct FoundQuantity {
   int iteration;
   std::string quantity;
   double value;
 };
 
-/// What a run depends on besides its state. A run may go on where the case is the same; on another program or
-/// machine its last digits may differ.
+/// What a run depends on besides its state. A run may be resumed if the case is the same; with another
+/// program or on another machine its last digits may differ.
 struct Provenance {
   std::string resolved_case;  ///< text of the keys that change what is computed
   std::string program;        ///< version, compiler and libraries
 };
 
-/// A run after an accepted shape: all that it needs to go on as if it had never stopped.
+/// A run after an accepted shape: all that it needs to continue as if it had never stopped.
 template <int dim>
 struct Checkpoint {
   Provenance provenance;

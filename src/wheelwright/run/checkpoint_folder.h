@@ -18,11 +18,11 @@ class CheckpointFolder {
   /// Whether any checkpoint has been written.
   bool exists() const { return !files().empty(); }
 
-  /// Says that a file is good, after it was read: it and the one before it are kept by the next save().
+  /// Marks a file as good after it was read: the next save() keeps it and the one before it.
   void keep(const std::filesystem::path& good);
 
-  /// Writes a checkpoint, then removes all but it and the last good one of another shape. Whatever happens in
-  /// between, a good one is there. Throws OutputError.
+  /// Writes a checkpoint, then removes all but it and the last good one of another shape. A good one
+  /// exists at every moment. Throws OutputError.
   void save(int iteration, std::string_view bytes);
 
  private:

@@ -63,7 +63,7 @@ struct Step {
   Obeyed obey(RunControl& run) const;
 };
 
-/// Other weights of the criteria; those that are absent stay.
+/// Other weights of the objective's terms; weights that are absent do not change.
 struct NewWeights {
   std::optional<double> strain_energy = {}, uniformity_annulus = {}, uniformity_dual = {}, uniformity_l2 = {};
 

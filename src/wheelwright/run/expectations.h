@@ -19,7 +19,7 @@ struct Finding {
   std::string text() const;
 };
 
-/// Watches the accepted shapes of a run for what its case expects of them.
+/// Notes those values of the accepted shapes that the case expects.
 template <int dim>
 class ExpectationWatch : public Observer<dim> {
  public:
@@ -33,13 +33,12 @@ class ExpectationWatch : public Observer<dim> {
   std::vector<FoundQuantity> found_;
 };
 
-/// The values of what is expected of this shape by its number. `solution` is the shape's, of all load
-/// positions or of those that stand for them.
+/// The values of the quantities that are expected of this shape, selected by its number. `solution` is that
+/// of the shape, at all load positions or at those that represent them.
 template <int dim>
 std::vector<FoundQuantity> found_quantities(const std::vector<Expectation>& expectations,
                                             const StateSolver<dim>& solver,
-                                            const OptimizationState<dim>& state,
-                                            const State<dim>& solution);
+                                            const OptimizationState<dim>& state, const State<dim>& solution);
 
 /// One finding for each expectation, in their order: from what was found along the way and from the last
 /// accepted shape. Without the last shape's solution, its stress is not computed.
@@ -48,7 +47,7 @@ std::vector<Finding> findings(const std::vector<Expectation>& expectations,
                               const std::vector<FoundQuantity>& found, const StateSolver<dim>& solver,
                               const OptimizationState<dim>& last, const State<dim>* solution);
 
-/// Whether any of them is about the stress, which only a solution can tell.
+/// Whether any of them is about the stress, which is only known from a solution.
 bool need_a_solution(const std::vector<Expectation>& expectations);
 
 }  // namespace wheelwright

@@ -15,9 +15,9 @@ inline constexpr const char *failure_report_file = "failure/report.txt",
 template <int dim>
 std::string failure_headline(const OptimizationState<dim>* last, std::span<const Trial<dim>> trials);
 
-/// Writes what is needed to look into a run that gave up to the folder `failure`: report.txt with every
-/// failed trial, a picture of the last one's shape, its level set and that of the last accepted shape, and
-/// the case. In 2D: it draws the shape.
+/// For a run that gave up, writes what is needed to find the reason to the folder `failure`: report.txt with
+/// every failed trial, a picture of the last one's shape, its level set and that of the last accepted shape,
+/// and the case. In 2D: it draws the shape.
 class FailureReport : public Observer<2> {
  public:
   void operator()(const Event<2>& event, const RunView<2>& run) override;

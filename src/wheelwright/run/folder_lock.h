@@ -9,8 +9,8 @@ namespace wheelwright {
 /// ends, so that no dead process blocks a folder.
 class FolderLock {
  public:
-  /// Makes the folder if need be, and the file run.lock in it. Nothing when another process holds the lock.
-  /// Throws OutputError.
+  /// Creates the folder, if it does not exist, and the file run.lock in it. Empty if another process holds
+  /// the lock. Throws OutputError.
   static std::optional<FolderLock> acquire(const std::filesystem::path& folder);
 
   FolderLock(FolderLock&& other) noexcept;

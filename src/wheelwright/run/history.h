@@ -23,8 +23,8 @@ struct HistoryColumns {
   std::vector<std::string> phases;  ///< one column each, in seconds, by the names of Evaluation::phases
 };
 
-/// One trial shape, accepted or not. What is NaN, and what a failed evaluation did not reach, stays an empty
-/// cell.
+/// One trial shape, accepted or not. NaN, and values that a failed evaluation did not reach, are written as
+/// empty cells.
 struct HistoryRow {
   int iteration;  ///< number of the shape that this trial wants to become
   int trial;      ///< counts the step halvings of one iteration
@@ -46,24 +46,24 @@ struct HistoryRow {
 /// The name of the file in a run's folder.
 inline constexpr const char* history_file = "history.csv";
 
-/// A place in a history file: behind its first bytes, known by their checksum.
+/// A place in a history file: the number of bytes before it, and their checksum.
 struct HistoryMark {
   std::uint64_t bytes = 0;
   std::uint32_t checksum = 0;
 };
 
-/// history.csv: a header that names the units, then one row a trial, on disk as soon as it is added. Numbers
-/// are the shortest that read back to the same double.
+/// history.csv: a header that names the units, then one row per trial, on disk as soon as it is added.
+/// Numbers have as few digits as read back to the same double.
 class History {
  public:
   /// Replaces the file. Throws OutputError.
   History(std::filesystem::path path, HistoryColumns columns);
 
-  /// Continues at a place of the file, which must hold it, and drops the rows behind it. The columns of
+  /// Continues at a place of the file, which must contain it, and drops the rows after it. The columns of
   /// criteria are those of the file, whatever `columns` says. Throws OutputError.
   History(std::filesystem::path path, HistoryColumns columns, const HistoryMark& end);
 
-  /// Whether the file begins with what the mark was taken of.
+  /// Whether the file begins with the bytes that the mark describes.
   static bool holds(const std::filesystem::path& path, const HistoryMark& mark);
 
   /// Throws OutputError.

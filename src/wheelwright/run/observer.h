@@ -12,9 +12,9 @@
 
 namespace wheelwright {
 
-// What happens in a run, as its observers are told. References and pointers are good during the call only.
+// What happens in a run, as its observers are told. References and pointers are valid during the call only.
 
-/// The run begins, or resumes after this shape.
+/// The run begins, or is resumed after this shape.
 struct RunStarted {
   std::optional<int> resumed_after;
 };
@@ -28,7 +28,7 @@ struct TrialDone {
   double seconds;  ///< of this trial
 };
 
-/// The last accepted shape should be saved now, unless it is.
+/// The last accepted shape should be saved now, unless it is saved already.
 template <int dim>
 struct SaveRequested {
   const OptimizationState<dim>& state;
@@ -50,7 +50,7 @@ template <int dim>
 struct RunEnded {
   StopReason reason;
   const OptimizationState<dim>* state;        ///< the last accepted shape; null after a failed start
-  const State<dim>* solution;       ///< its solution; null when there are no results to write
+  const State<dim>* solution;                 ///< its solution; null when there are no results to write
   std::span<const Trial<dim>> failed_trials;  ///< after the last accepted shape
 };
 

@@ -5,11 +5,11 @@
 
 namespace wheelwright {
 
-/// Version of the program, its compiler and its libraries, one line.
+/// The versions of the program, its compiler and its libraries, as one line.
 std::string program_text();
 
-/// What a run of the case depends on. Title, output, expectations and what only ends a run
-/// (optimizer.iterations and tolerance) are left out: they may change before a run goes on.
+/// What a run of the case depends on. Title, output, expectations and keys that only end a run
+/// (optimizer.iterations and tolerance) are left out: they may change before a run is resumed.
 Provenance provenance(const Case& c);
 
 }  // namespace wheelwright

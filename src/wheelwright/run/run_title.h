@@ -6,7 +6,7 @@
 
 namespace wheelwright {
 
-/// What the pictures of a run are called: the case's title, or else the name of the folder that it gives.
+/// The title in the pictures of a run: that of the case, or else the name of the case's output folder.
 std::string run_title(const Case& c);
 
 }  // namespace wheelwright

@@ -16,7 +16,7 @@ class ShapeFiles : public Observer<2> {
   void operator()(const Event<2>& event, const RunView<2>& run) override;
 
  private:
-  /// The files that are there of a run that is resumed; later ones are dropped from shapes.pvd.
+  /// Of a run that is resumed: the files that exist already. Later ones are dropped from shapes.pvd.
   void list_shapes(const std::filesystem::path& folder, int last_iteration);
   void write(const TrialDone<2>& done, const RunView<2>& run);
 

@@ -9,8 +9,8 @@
 namespace wheelwright {
 
 /// d/dt J(psi + t direction) at t = 0 from its shape gradient: the boundary moves with normal velocity
-/// -direction / |grad psi|. `direction` has one value a node of psi's lattice [m]; `map_degree` is the degree
-/// of the cells' geometry in the evaluation, the displacement's.
+/// -direction / |grad psi|. `direction` has one value per node of psi's lattice [m]; `map_degree` is the
+/// degree of the cells' geometry in the evaluation, the displacement's.
 template <int dim>
 double directional_derivative(const std::vector<SurfaceSample<dim>>& gradient, const LevelSet<dim>& psi,
                               std::span<const double> direction, int map_degree);
@@ -23,8 +23,9 @@ struct TaylorTest {
   std::vector<double> orders;  ///< log2 of successive remainders' ratios: 2 for an exact derivative
 };
 
-/// Of the function of that name. Halves the step `halvings` times. The basis functions do not move with the boundary, so the derivative is
-/// that of the discrete function as long as the same cells are cut: the caller chooses shape and step so.
+/// The test of the function of that name. Halves the step `halvings` times. The basis functions do not move
+/// with the boundary, so the derivative is that of the discrete function as long as the same cells are cut:
+/// the caller must choose shape and step accordingly.
 template <int dim>
 Expected<TaylorTest> taylor_test(
     const std::function<Expected<Evaluation<dim>>(const LevelSet<dim>&)>& evaluate, const LevelSet<dim>& psi,

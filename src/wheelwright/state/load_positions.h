@@ -34,7 +34,7 @@ struct LoadPositions {
 };
 
 /// Values of the positions that were solved for as values of all positions of the sector, in their order: an
-/// image has the value of the position that stands for it. Empty values stay empty.
+/// image has the value of the position that represents it. Empty values stay empty.
 std::vector<double> of_all(const LoadPositions& positions, const std::vector<double>& values);
 
 /// n positions that divide one sector evenly, the first at azimuth 0.

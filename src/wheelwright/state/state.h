@@ -39,8 +39,8 @@ struct ShapeGradients {
 };
 
 /// The states of one shape: the solutions of its contact problems (27) at some load positions. Position i is
-/// solved in the body frame, with the ground turned to it. The field in sector s is also the field in sector 0
-/// for the load position that lies s sectors back.
+/// solved in the body frame, with the ground turned to it. The field in sector s is also the field in sector
+/// 0 for the load position that lies s sectors back.
 template <int dim>
 class State {
  public:
@@ -48,7 +48,7 @@ class State {
 
   virtual const CutDomain<dim>& domain() const = 0;
 
-  /// The load positions that were solved for, and how many each stands for.
+  /// The load positions that were solved for, and how many positions each represents.
   virtual const LoadPositions& positions() const = 0;
 
   /// The contact of every position.
@@ -71,19 +71,20 @@ class State {
   virtual const std::vector<SurfacePoint<dim>>& boundary() const = 0;
 
   /// The densities at boundary() of the shape derivatives (42) of several functions, each summed over its
-  /// positions (as often as they count) and over the sectors: M(u) + sigma(u):eps(p) - f.p, and p_0 div p under
-  /// a pressure p_0. Their adjoint problems (79) are solved as one block of right-hand sides.
+  /// positions (as often as they count) and over the sectors: M(u) + sigma(u):eps(p) - f.p, and p_0 div p
+  /// under a pressure p_0. Their adjoint problems (79) are solved as one block of right-hand sides.
   virtual Expected<ShapeGradients> shape_gradients(
       std::span<const FunctionalDerivative<dim>> functions) const = 0;
 
-  /// The contacts of the same shape and positions under other models, which may differ from the solver's in the
-  /// loads or the travel of the rim alone: [model][position]. Each starts from the one before. Fails as the
-  /// contact problem does.
+  /// The contacts of the same shape and positions under other models, which may differ from the solver's in
+  /// the loads or the travel of the rim alone: [model][position]. Each starts from the one before. Fails as
+  /// the contact problem does.
   virtual Expected<std::vector<std::vector<ContactPatch<dim>>>> under(
       std::span<const RollingModel<dim>> models) const = 0;
 };
 
-/// Solves the states of shapes: all that a run knows of the mechanics. What no shape changes is built once.
+/// Solves the states of shapes: all that a run knows of the mechanics. What does not
+/// depend on the shape is built once.
 template <int dim>
 class StateSolver {
  public:
@@ -92,15 +93,16 @@ class StateSolver {
   virtual const RollingModel<dim>& model() const = 0;
   virtual const TreadSurface<dim>& tread_surface() const = 0;
 
-  /// The states of a shape at some load positions. `interrupt` is polled while the contact problems are solved;
-  /// once it asks, the failure is `interrupted`. Fails when the shape cannot be computed. The solver must
-  /// outlive the state.
-  virtual Expected<std::shared_ptr<const State<dim>>> states(const LevelSet<dim>& psi, LoadPositions positions,
+  /// The states of a shape at some load positions. `interrupt` is polled while the contact problems are
+  /// solved; once it asks, the failure is `interrupted`. Fails when the shape cannot be computed. The solver
+  /// must outlive the state.
+  virtual Expected<std::shared_ptr<const State<dim>>> states(const LevelSet<dim>& psi,
+                                                             LoadPositions positions,
                                                              const Interrupt& interrupt) const = 0;
 
   /// The operator g -> w[g] of (68) on the full ring, which no shape changes: tractions on the tread to the
-  /// displacement there. dim rows per contact point (Cartesian, column frame), one column per (right-hand side,
-  /// ring column), both ways. Fails as states() does.
+  /// displacement there. dim rows per contact point (Cartesian, column frame), one column per (right-hand
+  /// side, ring column), both ways. Fails as states() does.
   using TractionMap = std::function<Matrix(const Matrix& tractions)>;
   virtual Expected<TractionMap> neumann_to_dirichlet() const = 0;
 
