@@ -10,11 +10,12 @@
 #include <fstream>
 #include <regex>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 
 #include "tests/run_support.h"
-#include "wheelwright/app/commands/commands.h"
 #include "wheelwright/app/exit_code.h"
+#include "wheelwright/app/guarded.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/files/level_set_file.h"
@@ -263,7 +264,7 @@ positions = 1
 }
 
 TEST_F(CommandLine, ABugIsOne) {
-  EXPECT_EQ(run_command_named("no such command", Case{}, RunOptions{}), exit_bug);
+  EXPECT_EQ(guarded("test", []() -> int { throw std::logic_error("a bug"); }), exit_bug);
 }
 
 constexpr const char* case_beyond_any_memory = R"([wheel]

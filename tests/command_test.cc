@@ -5,6 +5,7 @@
 #include "tests/run_support.h"
 #include "wheelwright/base/stopwatch.h"
 #include "wheelwright/case/read.h"
+#include "wheelwright/files/atomic_file.h"
 #include "wheelwright/run/command_queue.h"
 #include "wheelwright/run/run.h"
 
@@ -282,8 +283,7 @@ TEST_F(RunTest, ACaseThatChangedIsResumedWithTheSameBytes) {
       if (done.trial.verdict != Verdict::accepted) return;
       const bool is_anew = done.trial.step == 0;
       if (done.state.iteration == 4 && !is_anew) commands.push(NewLoad{load});
-      // A stop that waits behind the new load would interrupt its evaluation.
-      if (done.state.iteration == stop_after && (stop_after != 4 || is_anew)) commands.push(Stop{});
+      if (done.state.iteration == stop_after && !is_anew) commands.push(Stop{});
     };
   };
   const fs::path straight = folder() / "changed";
@@ -293,11 +293,25 @@ TEST_F(RunTest, ACaseThatChangedIsResumedWithTheSameBytes) {
   for (int stop : {4, 5, 7}) {
     const fs::path stopped = folder() / std::to_string(stop);
     CommandQueue first, second;
-    execute(TheRun::begin(c, stopped), first, record, react(first, stop));
+    const auto result = execute(TheRun::begin(c, stopped), first, record, react(first, stop));
+    EXPECT_EQ(result.reason, StopReason::stop_requested);
+    EXPECT_EQ(result.state->iteration, stop);  // at 4 the stop waits behind the new load
     EXPECT_EQ(case_of(stopped).load, load);
     execute(TheRun::resume(case_of(stopped), stopped), second, record);
     expect_equal_results(straight, stopped);
   }
+  EXPECT_TRUE(record.refused.empty());
+}
+
+/// The cells of history.csv below a name.
+std::vector<std::string> column_of(const fs::path& run, const std::string& name) {
+  const auto lines = split(content(run / "history.csv"), '\n');
+  const auto header = split(lines.front(), ',');
+  const auto place = std::ranges::find(header, name) - header.begin();
+  EXPECT_LT(place, std::ssize(header)) << name;
+  std::vector<std::string> cells;
+  for (std::size_t k = 1; k < lines.size(); ++k) cells.push_back(split(lines[k], ',').at(place));
+  return cells;
 }
 
 TEST_F(RunTest, NewWeightsMayAddACriterion) {
@@ -313,7 +327,50 @@ TEST_F(RunTest, NewWeightsMayAddACriterion) {
   const double expected = objective_under(c, record.shapes[4]);
   EXPECT_NEAR(record.objectives[4], expected, 1e-12 * expected);
   EXPECT_EQ(case_of(run).objective, c.objective);
-  for (const std::string& line : split(content(run / "history.csv"), '\n')) EXPECT_FALSE(line.empty());
+  const auto column = column_of(run, "uniformity_dual [J/m]");
+  ASSERT_EQ(column.size(), 8u);
+  for (int row = 0; row < 8; ++row) EXPECT_EQ(column[row].empty(), row < 4) << row;
+  const auto energy = column_of(run, "strain_energy [J/m]"), objective = column_of(run, "objective [J/m]");
+  for (int row = 0; row < 4; ++row) EXPECT_EQ(energy[row], objective[row]);
+  for (int row = 4; row < 8; ++row)
+    EXPECT_NEAR(std::stod(objective[row]), 2 * std::stod(energy[row]) + 50 * std::stod(column[row]),
+                1e-12 * std::stod(objective[row]));
+}
+
+// Also when the run ended between the new columns and the checkpoint behind them.
+TEST_F(RunTest, ARunWithNewColumnsIsResumedWithTheSameBytes) {
+  const Case c = the_case(small_case(6));
+  const NewWeights weights{.strain_energy = 2.0, .uniformity_dual = 50.0};
+  const auto execute_and_stop = [&](const fs::path& run, int stop) {
+    CommandQueue commands;
+    Recorder::Record record;
+    execute(TheRun::begin(c, run), commands, record, [&](const TrialDone<2>& done) {
+      if (done.trial.verdict != Verdict::accepted || done.trial.step == 0) return;
+      if (done.state.iteration == 3) commands.push(weights);
+      if (done.state.iteration == stop) commands.push(Stop{});
+    });
+  };
+  const fs::path changed = folder() / "changed";
+  execute_and_stop(changed, -1);
+  for (int stop : {3, 5}) {
+    const fs::path stopped = folder() / std::to_string(stop);
+    execute_and_stop(stopped, stop);
+    CommandQueue none;
+    Recorder::Record record;
+    execute(TheRun::resume(case_of(stopped), stopped), none, record);
+    expect_equal_results(changed, stopped);
+  }
+
+  straight(small_case(6));
+  const fs::path killed = folder() / "killed";
+  execute_and_stop(killed, 3);
+  fs::remove(CheckpointFolder(killed).files().front());  // that of the new case
+  write_atomically(killed / "case.toml", content(folder() / "straight/case.toml"));
+  CommandQueue none;
+  Recorder::Record record;
+  execute(TheRun::resume(c, killed), none, record);
+  fs::remove(killed / "history.csv.before");
+  expect_equal_results(folder() / "straight", killed);
 }
 
 TEST_F(RunTest, ARefusedCommandChangesNothing) {

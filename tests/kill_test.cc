@@ -322,6 +322,23 @@ TEST_F(Killed, SignalsSaveAndStop) {
   }
 }
 
+// Nothing is saved yet, and the program does not say so; the run begins again.
+TEST_F(Killed, AStopWithinTheFirstShapeLetsItBeginAgain) {
+  const std::string slow =
+      "[wheel]\nsectors = 4\n[load]\npositions = 8\n[grid]\nradial_cells = 56\nangular_cells = 1536\n"
+      "[[holes.ring]]\ncount = 16\ncenter_radius = 0.27\nradius = 0.04\n[optimizer]\niterations = 0\n"
+      "[output]\nfolder = \"run\"\n";
+  const fs::path place = workplace("first", slow);
+  Program program(place, begin);
+  wait_until([&] { return fs::exists(place / "run/history.csv"); });
+  program.send(SIGINT);
+  ASSERT_EQ(program.wait(), exit_interrupted) << program.printed();
+  ASSERT_EQ(last_accepted(place / "run"), -1) << "the first shape was evaluated before the signal";
+  EXPECT_EQ(newest_good(place / "run"), -1);
+  EXPECT_EQ(program.printed().find(", saved"), std::string::npos) << program.printed();
+  expect_resumes_to(straight(slow), place);
+}
+
 TEST_F(Killed, ASecondSignalEndsItAtOnce) {
   const fs::path place = workplace("twice", endless);
   Program program(place, begin);

@@ -1,8 +1,6 @@
-#include "wheelwright/app/commands/resume.h"
-
 #include <csignal>
 
-#include "wheelwright/app/commands/run.h"
+#include "wheelwright/app/execute.h"
 #include "wheelwright/app/exit_code.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/run/checkpoint.h"
@@ -38,7 +36,7 @@ class Resume : public TemporaryFolder {
     return in(where, [&] {
       Case c = *parse_case(text, "case.toml").value;
       if (iterations) c.optimizer.iterations = *iterations;
-      return run_command(c, {});
+      return begin_run(c, c.output.folder);
     });
   }
 
@@ -46,7 +44,7 @@ class Resume : public TemporaryFolder {
     return in(where, [&] {
       Case c = *read_case("run/case.toml").value;
       if (iterations) c.optimizer.iterations = *iterations;
-      return resume_command(c, {.case_file = {}, .run_folder = "run"});
+      return resume_run(c, "run");
     });
   }
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "wheelwright/app/check.h"
+#include "wheelwright/app/case_report.h"
 #include "wheelwright/base/text.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/keys.h"

@@ -93,8 +93,8 @@ void print_summary(const RunResult<dim>& result, const fs::path& folder) {
   const PolarGrid<dim>& grid = last.shape.lattice.grid();
   fmt::print("objective  {:.6g} -> {:.6g} {} ({:+.2f} %) after {} shapes in {:.1f} s ({})\n", first.objective,
              last.evaluation.function("objective").value, unit<dim>(kind(Quantity::objective)),
-             100 * (last.evaluation.function("objective").value / first.objective - 1), last.iteration, result.elapsed_seconds,
-             to_string(result.reason));
+             100 * (last.evaluation.function("objective").value / first.objective - 1), last.iteration,
+             result.elapsed_seconds, to_string(result.reason));
   fmt::print("volume     {:.6f} -> {:.6f} of the ring\n", volume_fraction(grid, first.measure),
              volume_fraction(grid, last.measure));
   print_files(folder);
@@ -110,6 +110,18 @@ int report_failure(const RunResult<dim>& result, const fs::path& folder) {
   line(failure_report_file, "every failed trial, and what is in this folder");
   line(rejected_picture_file, "the shape that failed");
   return exit_no_solution;
+}
+
+template <int dim>
+void tell_stop(const RunResult<dim>& result, const fs::path& folder) {
+  if (result.state)
+    tell("stopped after {} shapes, saved; to go on: wheelwright resume {}\n", result.state->iteration,
+         folder.string());
+  else
+    tell(
+        "stopped before the first shape was evaluated, so nothing is saved; to begin again: wheelwright "
+        "resume {}\n",
+        folder.string());
 }
 
 ExitCode exit_code_of_stop(const Signals& signals) {
@@ -139,8 +151,7 @@ void report_resumption(const Resumption& resumption, const fs::path& folder) {
 template <int dim>
 int report_result(const RunResult<dim>& result, const fs::path& folder, const Signals& signals) {
   if (result.reason == StopReason::stop_requested) {
-    tell("stopped after {} shapes, saved; to go on: wheelwright resume {}\n",
-         result.state ? result.state->iteration : 0, folder.string());
+    tell_stop(result, folder);
     return exit_code_of_stop(signals);
   }
   if (result.reason == StopReason::failed_start) return report_failure(result, folder);

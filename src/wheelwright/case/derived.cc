@@ -115,7 +115,7 @@ double estimated_memory(const Case& c) {
   for (const HoleRing& ring : c.holes.rings) holes += ring.count / sectors;
 
   // The size of each array is known; how many of them exist at the peak is fitted to measurements.
-  const double libraries = 190e6;
+  const double libraries = 18e6;
   const double fields = number * (137 * cells + 0.6 * dofs * positions);
   const double factor = number * sector_dofs * std::log2(std::max(sector_dofs, 2.0));
   const double condensed = number * 3.5 * square(2 * radial_line + sector_line);

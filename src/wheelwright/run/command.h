@@ -44,7 +44,7 @@ struct Save {
   Obeyed obey(RunControl& run) const;
 };
 
-/// Ends the run, saved. Interrupts the evaluation of a shape.
+/// Ends the run, saved. Interrupts the evaluation of a trial shape, but no command before it.
 struct Stop {
   Obeyed obey(RunControl& run) const;
 };

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "wheelwright/base/quantity.h"
+#include "wheelwright/files/atomic_file.h"
 #include "wheelwright/files/checksum.h"
 #include "wheelwright/files/csv.h"
 #include "wheelwright/files/output_error.h"
@@ -31,6 +33,7 @@ std::string phase_cell(const std::vector<PhaseTime>& phases, const std::string& 
   return csv_number(seconds);
 }
 
+constexpr std::size_t cells_before_criteria = 5;  // up to the objective
 constexpr const char* volume_fraction_column = "volume fraction";
 
 /// What the file's header says between the objective and the column `next`.
@@ -52,6 +55,47 @@ std::vector<HistoryColumns::Quantity> criteria_columns(const std::filesystem::pa
   return criteria;
 }
 
+std::filesystem::path kept_file(const std::filesystem::path& path) { return path.string() + ".before"; }
+
+bool begins_with(const std::filesystem::path& path, const HistoryMark& mark) {
+  std::error_code error;
+  const auto size = std::filesystem::file_size(path, error);
+  if (error || size < mark.bytes) return false;
+  std::string start(mark.bytes, '\0');
+  std::ifstream file(path, std::ios::binary);
+  return file.read(start.data(), static_cast<std::streamsize>(start.size())) &&
+         checksum(start) == mark.checksum;
+}
+
+/// The history that the mark was taken of, back in its place if other columns were added since.
+const std::filesystem::path& put_back(const std::filesystem::path& path, const HistoryMark& mark) {
+  if (begins_with(path, mark)) return path;
+  std::error_code error;
+  std::filesystem::rename(kept_file(path), path, error);
+  if (error) throw OutputError(path, error.value());
+  return path;
+}
+
+/// CSV with other cells behind the first `place` cells of each line, which must hold no quotes; the header
+/// gets `names`, other lines empty cells.
+std::string with_cells(std::string_view csv, std::size_t place, const std::string& names) {
+  const std::string empty(static_cast<std::size_t>(std::ranges::count(names, ',')), ',');
+  std::string result;
+  std::size_t cell = 0;
+  bool is_quoted = false, is_header = true;
+  for (const char c : csv) {
+    if (c == '"') is_quoted = !is_quoted;
+    result += c;
+    if (is_quoted) continue;
+    if (c == ',' && ++cell == place) result += is_header ? names : empty;
+    if (c == '\n') {
+      cell = 0;
+      is_header = false;
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 History::History(std::filesystem::path path, HistoryColumns columns)
@@ -69,21 +113,32 @@ History::History(std::filesystem::path path, HistoryColumns columns)
 }
 
 History::History(std::filesystem::path path, HistoryColumns columns, const HistoryMark& end)
-    : path_(std::move(path)), columns_(std::move(columns)), file_(std::fopen(path_.c_str(), "a")), end_(end) {
+    : path_(put_back(path, end)),
+      columns_(std::move(columns)),
+      file_(std::fopen(path_.c_str(), "a")),
+      end_(end) {
   if (!file_ || ::ftruncate(::fileno(file_.get()), static_cast<off_t>(end.bytes)) != 0)
     throw OutputError(path_, errno);
   columns_.criteria = criteria_columns(
       path_, columns_.measures.empty() ? volume_fraction_column : columns_.measures.front().name);
 }
 
+void History::add_criteria(const std::vector<HistoryColumns::Quantity>& criteria) {
+  std::string names;
+  for (const auto& q : criteria) names += q.name + " [" + q.unit + "],";
+  std::ifstream file(path_, std::ios::binary);
+  const std::string before{std::istreambuf_iterator<char>(file), {}};
+  const std::string text = with_cells(before, cells_before_criteria + columns_.criteria.size(), names);
+  write_atomically(kept_file(path_), before);
+  write_atomically(path_, text);
+  file_.reset(std::fopen(path_.c_str(), "a"));
+  if (!file_) throw OutputError(path_, errno);
+  columns_.criteria.insert(columns_.criteria.end(), criteria.begin(), criteria.end());
+  end_ = {text.size(), checksum(text)};
+}
+
 bool History::holds(const std::filesystem::path& path, const HistoryMark& mark) {
-  std::error_code error;
-  const auto size = std::filesystem::file_size(path, error);
-  if (error || size < mark.bytes) return false;
-  std::string start(mark.bytes, '\0');
-  std::ifstream file(path, std::ios::binary);
-  return file.read(start.data(), static_cast<std::streamsize>(start.size())) &&
-         checksum(start) == mark.checksum;
+  return begins_with(path, mark) || begins_with(kept_file(path), mark);
 }
 
 void History::synchronize() {

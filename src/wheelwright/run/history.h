@@ -59,11 +59,17 @@ class History {
   /// Replaces the file. Throws OutputError.
   History(std::filesystem::path path, HistoryColumns columns);
 
-  /// Continues at a place of the file, which must contain it, and drops the rows after it. The columns of
-  /// criteria are those of the file, whatever `columns` says. Throws OutputError.
+  /// Continues at a place of the file, for which holds() is true, and drops the rows behind it. The columns
+  /// of criteria are those of the file, whatever `columns` says. Throws OutputError.
   History(std::filesystem::path path, HistoryColumns columns, const HistoryMark& end);
 
-  /// Whether the file begins with the bytes that the mark describes.
+  /// Adds empty columns behind those of the criteria. The file as it was is kept beside it, for a checkpoint
+  /// that was written before. Throws OutputError.
+  void add_criteria(const std::vector<HistoryColumns::Quantity>& criteria);
+
+  const HistoryColumns& columns() const { return columns_; }
+
+  /// Whether the file, or the one that add_criteria() kept, begins with what the mark was taken of.
   static bool holds(const std::filesystem::path& path, const HistoryMark& mark);
 
   /// Throws OutputError.

@@ -11,13 +11,20 @@ namespace {
 HistoryColumns::Quantity column(std::string name, const char* unit) { return {std::move(name), unit}; }
 
 template <int dim>
+std::vector<HistoryColumns::Quantity> criteria_columns(const ShapeFunction<dim>& objective) {
+  std::vector<HistoryColumns::Quantity> columns;
+  for (const auto& term : objective.terms)
+    columns.push_back(column(term.functional->name(), unit<dim>(UnitKind::energy)));
+  return columns;
+}
+
+template <int dim>
 HistoryColumns history_columns(const ShapeFunction<dim>& objective) {
   HistoryColumns columns{.objective_unit = unit<dim>(kind(Quantity::objective)),
                          .criteria = {},
                          .measures = {},
                          .phases = {phase_names.begin(), phase_names.end()}};
-  for (const auto& term : objective.terms)
-    columns.criteria.push_back(column(term.functional->name(), unit<dim>(UnitKind::energy)));
+  columns.criteria = criteria_columns(objective);
   for (const auto& [quantity, member] : rolling_quantities)
     columns.measures.push_back(column(std::string(name(quantity)), unit<dim>(kind(quantity))));
   return columns;
@@ -39,7 +46,10 @@ HistoryWriter<dim>::HistoryWriter(const std::optional<Checkpoint<dim>>& resumed)
 template <int dim>
 void HistoryWriter<dim>::operator()(const Event<dim>& event, const RunView<dim>& run) {
   if (std::holds_alternative<RunStarted>(event)) open(run);
-  if (const auto* changed = std::get_if<CaseChanged>(&event)) notes_.push_back(changed->text);
+  if (const auto* changed = std::get_if<CaseChanged>(&event)) {
+    notes_.push_back(changed->text);
+    add_missing_columns(run);
+  }
   if (const auto* done = std::get_if<TrialDone<dim>>(&event)) record(*done, run);
 }
 
@@ -57,6 +67,16 @@ void HistoryWriter<dim>::open(const RunView<dim>& run) {
     history_.emplace(path, std::move(columns), *resumed_at_);
   else
     history_.emplace(path, std::move(columns));
+}
+
+template <int dim>
+void HistoryWriter<dim>::add_missing_columns(const RunView<dim>& run) {
+  auto missing = criteria_columns(run.study.objective());
+  std::erase_if(missing, [&](const auto& wanted) {
+    const auto& there = history_->columns().criteria;
+    return std::ranges::find(there, wanted.name, &HistoryColumns::Quantity::name) != there.end();
+  });
+  if (!missing.empty()) history_->add_criteria(missing);
 }
 
 template <int dim>

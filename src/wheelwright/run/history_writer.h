@@ -8,7 +8,7 @@
 namespace wheelwright {
 
 /// Writes history.csv: one row per trial shape. A change of the case is an event of the row of the shape that
-/// is evaluated anew. The columns are those of the criteria that the run began with.
+/// is evaluated anew; a criterion that it adds gets a column, which is empty in the rows before.
 template <int dim>
 class HistoryWriter : public Observer<dim> {
  public:
@@ -19,6 +19,7 @@ class HistoryWriter : public Observer<dim> {
 
  private:
   void open(const RunView<dim>& run);
+  void add_missing_columns(const RunView<dim>& run);
   void record(const TrialDone<dim>& done, const RunView<dim>& run);
 
   std::optional<HistoryMark> resumed_at_;

@@ -241,15 +241,15 @@ std::optional<Refusal> RunLoop<dim>::change_case(const Case& changed, const std:
     return Refusal{"the shape stands on another grid than the case's"};
   auto study = make_study<dim>(*c);
   if (!study) return refusal(study.failure());
-  const auto work = make_work(*std::move(study));
-  const auto first = work->evaluate(initial_->shape, nullptr);
+  // Without interruption: a command to stop that comes later is obeyed later.
+  const auto first = evaluate_of(*study)(initial_->shape, nullptr);
   if (!first) return refusal(first.failure());
   std::optional<Trial<dim>> trial;
-  auto anew = work->optimizer.restart(
+  auto anew = optimizer_of(*study).restart(
       *state_, [&](const Trial<dim>& seen, const OptimizationState<dim>&) { trial = seen; });
   if (!anew) return refusal(anew.failure());
 
-  work_ = work;
+  work_ = make_work(*std::move(study));
   initial_->objective = first->evaluation.function("objective").value;
   state_ = *std::move(anew);
   notify(CaseChanged{what});

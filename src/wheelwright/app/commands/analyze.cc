@@ -1,8 +1,10 @@
-#include "wheelwright/app/commands/analyze.h"
-
 #include <fmt/format.h>
 
+#include "wheelwright/app/case_input.h"
+#include "wheelwright/app/commands/commands.h"
 #include "wheelwright/app/exit_code.h"
+#include "wheelwright/app/load_list.h"
+#include "wheelwright/app/shared_options.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/base/text.h"
 #include "wheelwright/files/atomic_file.h"
@@ -17,19 +19,19 @@ namespace {
 
 constexpr const char* result_file = "analysis.json";
 
-int give_up(const Failure& failure) {
-  tell("wheelwright analyze: {}: {}\n", to_string(failure.reason), failure.detail);
-  return exit_no_solution;
-}
-
-Expected<RollingReport> rolling_report(const Case& c, const RunOptions& options,
-                                       const StateSolver<2>& solver, const State<2>& solution) {
+/// `name` stands for a title that is missing; loads on the whole width [N].
+Expected<RollingReport> rolling_report(const Case& c, const std::string& name,
+                                       const std::vector<double>& loads, const StateSolver<2>& solver,
+                                       const State<2>& solution) {
   auto analysis = rolling_analysis(solver, solution);
   if (!analysis) return analysis.failure();
-  const std::string name = without_control_characters(options.case_file.stem().string());
-  RollingReport report{
-      c.title.empty() ? name : c.title, c.wheel.width, c.wheel.sectors, *std::move(analysis), {}, {}};
-  for (const double load : options.loads) report.loads.push_back(load / c.wheel.width);
+  RollingReport report{.title = c.title.empty() ? name : c.title,
+                       .width = c.wheel.width,
+                       .n_sectors = c.wheel.sectors,
+                       .analysis = *std::move(analysis),
+                       .loads = {},
+                       .under_loads = {}};
+  for (const double load : loads) report.loads.push_back(load / c.wheel.width);
   auto under = under_loads<2>(solver, solution, report.loads);
   if (!under) return under.failure();
   report.under_loads = *std::move(under);
@@ -51,31 +53,82 @@ void write_folder(const std::filesystem::path& folder, const RollingReport& repo
   write_atomically(folder / result_file, rolling_json(report));
 }
 
-}  // namespace
+std::string check_loads(const std::string& text) {
+  return parse_loads(text) ? "" : "must be loads > 0, as in 1000,2000 or 500:3000:6";
+}
 
-int analyze_command(const Case& c, const RunOptions& options) {
-  if (options.output && std::filesystem::exists(*options.output / result_file)) {
-    tell("{}: holds an analysis already; choose another folder, or remove it\n", options.output->string());
-    return exit_refused;
+class AnalyzeCommand : public Subcommand {
+ public:
+  AnalyzeCommand() : Subcommand("analyze", "Report stiffness, contact, stress and run-out of one shape") {}
+
+  void declare(Options& options) override {
+    constexpr int most_positions = 1000;
+    add_case(options, case_file_);
+    options.number("--positions", positions_, {1, most_positions}, "Load positions per sector");
+    options.text("--loads", "P1,P2,... | FROM:TO:NUMBER", loads_, check_loads,
+                 "Report the deflection under these loads on the whole width [N]");
+    add_output(options, output_, "Folder for JSON and plots; without it only the table is printed");
+    options.flag("--json", json_, "Print JSON instead of the table");
+    add_threads(options, threads_);
   }
-  const auto made = make_solver(rolling_model<2>(c));
-  if (!made) return give_up(made.failure());
-  const StateSolver<2>& solver = **made;
-  const LevelSet<2> shape = initial_shape<2>(c);
-  const auto solved = solver.states(shape, solver.all_positions(), Interrupt());
-  if (!solved) return give_up(solved.failure());
-  const State<2>& states = **solved;
-  const auto report = rolling_report(c, options, solver, states);
-  if (!report) return give_up(report.failure());
-  fmt::print("{}", options.json
-                       ? rolling_json(*report)
-                       : without_control_characters(report->title) + "\n\n" + rolling_table(*report));
-  if (options.output) {
-    write_folder(*options.output, *report, contact_points(solver, states));
-    write_wheel_pictures(*options.output, {.prefix = "", .title = report->title}, shape, states.domain(),
+
+  int run() override {
+    auto c = read_or_tell(case_file_);
+    if (!c) return exit_usage;
+    c->load.positions = positions_;
+    if (!may_compute(name(), *c, case_file_, threads_)) return exit_refused;
+    if (output_ && std::filesystem::exists(folder() / result_file)) {
+      tell("{}: holds an analysis already; choose another folder, or remove it\n", *output_);
+      return exit_refused;
+    }
+    return analyze(*c);
+  }
+
+ private:
+  std::filesystem::path folder() const { return *output_; }
+
+  /// Computes the case's initial shape at its load positions and tells what an engineer asks of a wheel.
+  int analyze(const Case& c) const {
+    const auto made = make_solver(rolling_model<2>(c));
+    if (!made) return tell_failure(name(), made.failure());
+    const StateSolver<2>& solver = **made;
+    const LevelSet<2> shape = initial_shape<2>(c);
+    const auto solved = solver.states(shape, solver.all_positions(), Interrupt());
+    if (!solved) return tell_failure(name(), solved.failure());
+    const auto report = rolling_report(c, name_of_case(), loads(), solver, **solved);
+    if (!report) return tell_failure(name(), report.failure());
+    print(*report);
+    if (output_) write(*report, shape, solver, **solved);
+    return exit_done;
+  }
+
+  std::string name_of_case() const {
+    return without_control_characters(std::filesystem::path(case_file_).stem().string());
+  }
+
+  std::vector<double> loads() const { return loads_ ? *parse_loads(*loads_) : std::vector<double>(); }
+
+  void print(const RollingReport& report) const {
+    fmt::print("{}", json_ ? rolling_json(report)
+                           : without_control_characters(report.title) + "\n\n" + rolling_table(report));
+  }
+
+  void write(const RollingReport& report, const LevelSet<2>& shape, const StateSolver<2>& solver,
+             const State<2>& states) const {
+    write_folder(folder(), report, contact_points(solver, states));
+    write_wheel_pictures(folder(), {.prefix = "", .title = report.title}, shape, states.domain(),
                          position_fields(solver, states, worst_position(states.strain_energy())));
   }
-  return exit_done;
-}
+
+  std::string case_file_;
+  int positions_ = 64;
+  std::optional<std::string> loads_, output_;
+  std::optional<int> threads_;
+  bool json_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Subcommand> make_analyze() { return std::make_unique<AnalyzeCommand>(); }
 
 }  // namespace wheelwright

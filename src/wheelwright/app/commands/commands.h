@@ -1,14 +1,14 @@
 #pragma once
 
-#include <string>
+#include <memory>
+#include <vector>
 
-#include "wheelwright/app/commands/run_options.h"
-#include "wheelwright/case/case.h"
+#include "wheelwright/app/subcommand.h"
 
 namespace wheelwright {
 
-/// Runs the command of that name ("run", "resume", "analyze" or "verify") and returns its exit code;
-/// exit_refused, before anything is written, if the case needs more memory than is available. Throws nothing.
-int run_command_named(const std::string& name, const Case& c, const RunOptions& options);
+/// All commands of the program, in the order of --help. To add one: a file here like those of the others, and
+/// its name in the list of commands.cc.
+std::vector<std::unique_ptr<Subcommand>> make_commands();
 
 }  // namespace wheelwright

@@ -1,19 +1,44 @@
-#include "wheelwright/app/commands/resume.h"
-
-#include "wheelwright/app/commands/execute.h"
-#include "wheelwright/app/run_messages.h"
+#include "wheelwright/app/case_input.h"
+#include "wheelwright/app/commands/commands.h"
+#include "wheelwright/app/execute.h"
+#include "wheelwright/app/exit_code.h"
+#include "wheelwright/app/shared_options.h"
+#include "wheelwright/app/terminal.h"
+#include "wheelwright/case/shorten.h"
 
 namespace wheelwright {
+namespace {
 
-int resume_command(const Case& c, const RunOptions& options) {
-  const std::filesystem::path& folder = options.run_folder;
-  return in_dimension_of(c, [&](auto dim) {
-    Signals signals;
-    auto run = Run<dim>::resume(c, folder);
-    if (!run) return report_not_begun<dim>(run.failure(), folder);
-    report_resumption(run->resumption(), folder);
-    return execute(*run, signals);
-  });
-}
+class ResumeCommand : public Subcommand {
+ public:
+  ResumeCommand() : Subcommand("resume", "Resume a run that was stopped") {}
+
+  void declare(Options& options) override {
+    options.argument("DIR", folder_, not_empty, "folder of the run");
+    add_iterations(options, iterations_);
+    add_threads(options, threads_);
+  }
+
+  int run() override {
+    const std::filesystem::path case_file = std::filesystem::path(folder_) / "case.toml";
+    if (!std::filesystem::exists(case_file)) {
+      tell("{}: this folder holds no run; there is no {}\n", folder_, case_file.string());
+      return exit_usage;
+    }
+    auto c = read_or_tell(case_file);
+    if (!c) return exit_usage;
+    if (iterations_) c = with_iterations(*std::move(c), *iterations_);
+    if (!may_compute(name(), *c, case_file, threads_)) return exit_refused;
+    return resume_run(*c, folder_);
+  }
+
+ private:
+  std::string folder_;
+  std::optional<int> iterations_, threads_;
+};
+
+}  // namespace
+
+std::unique_ptr<Subcommand> make_resume() { return std::make_unique<ResumeCommand>(); }
 
 }  // namespace wheelwright

@@ -1,12 +1,13 @@
-#include "wheelwright/app/commands/verify.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "wheelwright/app/case_input.h"
+#include "wheelwright/app/commands/commands.h"
 #include "wheelwright/app/exit_code.h"
+#include "wheelwright/app/shared_options.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/cut/measure.h"
 #include "wheelwright/run/study.h"
@@ -128,31 +129,52 @@ Expected<bool> report_taylor(const Case& c, const StateSolver<2>& solver, const 
   return report_order(*exact);
 }
 
-int give_up(const Failure& failure) {
-  tell("wheelwright verify: {}: {}\n", to_string(failure.reason), failure.detail);
-  return exit_no_solution;
-}
+class VerifyCommand : public Subcommand {
+ public:
+  VerifyCommand() : Subcommand("verify", "Test the shape gradient and the balance of forces on a case") {}
+
+  void declare(Options& options) override {
+    add_case(options, case_file_);
+    add_threads(options, threads_);
+  }
+
+  int run() override {
+    const auto c = read_or_tell(case_file_);
+    if (!c) return exit_usage;
+    if (!may_compute(name(), *c, case_file_, threads_)) return exit_refused;
+    const auto passed = verify(*c);
+    if (!passed) return tell_failure(name(), passed.failure());
+    return *passed ? exit_done : exit_no_solution;
+  }
+
+ private:
+  /// Whether the case passes both tests.
+  static Expected<bool> verify(const Case& c) {
+    const auto made = make_solver(rolling_model<2>(c));
+    if (!made) return made.failure();
+    const StateSolver<2>& solver = **made;
+    const LevelSet<2> initial = initial_shape<2>(c);
+    const auto direction = test_direction(initial.lattice);
+    const double step = 1e-3 * initial.lattice.grid().resolution();
+    const auto shape = generic_shape(initial, direction, step);
+    if (!shape || boundary_samples(*shape).empty())
+      return Failure{FailureReason::empty_shape,
+                     "the case has no boundary that can move without changing its cut cells"};
+
+    const auto taylor = report_taylor(c, solver, *shape, direction, step);
+    if (!taylor) return taylor.failure();
+    const auto states = solver.states(*shape, solver.all_positions(), Interrupt());
+    if (!states) return states.failure();
+    const bool balance = report_balance(**states, rim_control(solver.model()));
+    return *taylor && balance;
+  }
+
+  std::string case_file_;
+  std::optional<int> threads_;
+};
 
 }  // namespace
 
-int verify_command(const Case& c, const RunOptions&) {
-  const auto made = make_solver(rolling_model<2>(c));
-  if (!made) return give_up(made.failure());
-  const StateSolver<2>& solver = **made;
-  const LevelSet<2> initial = initial_shape<2>(c);
-  const auto direction = test_direction(initial.lattice);
-  const double step = 1e-3 * initial.lattice.grid().resolution();
-  const auto shape = generic_shape(initial, direction, step);
-  if (!shape || boundary_samples(*shape).empty())
-    return give_up({FailureReason::empty_shape,
-                    "the case has no boundary that can move without changing its cut cells"});
-
-  const auto taylor = report_taylor(c, solver, *shape, direction, step);
-  if (!taylor) return give_up(taylor.failure());
-  const auto states = solver.states(*shape, solver.all_positions(), Interrupt());
-  if (!states) return give_up(states.failure());
-  const bool balance = report_balance(**states, rim_control(solver.model()));
-  return *taylor && balance ? exit_done : exit_no_solution;
-}
+std::unique_ptr<Subcommand> make_verify() { return std::make_unique<VerifyCommand>(); }
 
 }  // namespace wheelwright

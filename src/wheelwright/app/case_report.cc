@@ -1,4 +1,4 @@
-#include "wheelwright/app/check.h"
+#include "wheelwright/app/case_report.h"
 
 #include <fmt/format.h>
 

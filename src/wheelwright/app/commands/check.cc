@@ -1,0 +1,39 @@
+#include <fmt/format.h>
+
+#include "wheelwright/app/case_input.h"
+#include "wheelwright/app/case_report.h"
+#include "wheelwright/app/commands/commands.h"
+#include "wheelwright/app/exit_code.h"
+#include "wheelwright/app/memory.h"
+#include "wheelwright/app/shared_options.h"
+#include "wheelwright/app/terminal.h"
+
+namespace wheelwright {
+namespace {
+
+class CheckCommand : public Subcommand {
+ public:
+  CheckCommand() : Subcommand("check", "Report all problems of a case, or the numbers derived from it") {}
+
+  void declare(Options& options) override { add_case(options, case_file_); }
+
+  int run() override {
+    const auto c = read_or_tell(case_file_);
+    if (!c) return exit_usage;
+    fmt::print("{}\n", styled(stdout, Style::green, case_file_ + ": no problems"));
+    fmt::print("{}", derived_report(*c));
+    print_warnings(stdout, *c);
+    if (const auto lack = lack_of_memory(*c, available_memory()))
+      print_warning(stdout, "this case cannot run here: " + *lack);
+    return exit_done;
+  }
+
+ private:
+  std::string case_file_;
+};
+
+}  // namespace
+
+std::unique_ptr<Subcommand> make_check() { return std::make_unique<CheckCommand>(); }
+
+}  // namespace wheelwright

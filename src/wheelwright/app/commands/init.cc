@@ -1,0 +1,54 @@
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "wheelwright/app/commands/commands.h"
+#include "wheelwright/app/exit_code.h"
+#include "wheelwright/app/terminal.h"
+#include "wheelwright/case/write.h"
+
+namespace wheelwright {
+namespace {
+
+/// Whether all of the text was written; closes the file.
+bool write_and_close(int file, const std::string& text) {
+  std::FILE* stream = fdopen(file, "w");
+  const bool written = std::fwrite(text.data(), 1, text.size(), stream) == text.size();
+  return std::fclose(stream) == 0 && written;
+}
+
+class InitCommand : public Subcommand {
+ public:
+  InitCommand() : Subcommand("init", "Write a commented case file to start from") {}
+
+  void declare(Options& options) override {
+    options.optional_argument("FILE", file_, "File to write; an existing file is never overwritten");
+  }
+
+  int run() override {
+    const int file = open(file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file < 0) {
+      const int reason = errno;
+      tell("{}: {}\n", file_, std::strerror(reason));
+      return reason == EEXIST ? exit_refused : exit_input_output;
+    }
+    if (!write_and_close(file, case_template())) {
+      tell("{}: cannot be written\n", file_);
+      return exit_input_output;
+    }
+    fmt::print("wrote {0}; next: wheelwright check {0}\n", file_);
+    return exit_done;
+  }
+
+ private:
+  std::string file_ = "case.toml";
+};
+
+}  // namespace
+
+std::unique_ptr<Subcommand> make_init() { return std::make_unique<InitCommand>(); }
+
+}  // namespace wheelwright

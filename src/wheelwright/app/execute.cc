@@ -1,0 +1,38 @@
+#include "wheelwright/app/execute.h"
+
+#include "wheelwright/app/run_messages.h"
+#include "wheelwright/app/terminal_observer.h"
+
+namespace wheelwright {
+namespace {
+
+template <int dim>
+int execute(Run<dim>& run, Signals& signals) {
+  CommandQueue commands;
+  commands.add_source([&signals] { return signals.next_command(); });
+  run.add(std::make_unique<TerminalObserver<dim>>());
+  return report_result(run.execute(commands), run.folder(), signals);
+}
+
+}  // namespace
+
+int begin_run(const Case& c, const std::filesystem::path& folder) {
+  return in_dimension_of(c, [&](auto dim) {
+    Signals signals;
+    auto run = Run<dim>::begin(c, folder);
+    if (!run) return report_not_begun<dim>(run.failure(), folder);
+    return execute(*run, signals);
+  });
+}
+
+int resume_run(const Case& c, const std::filesystem::path& folder) {
+  return in_dimension_of(c, [&](auto dim) {
+    Signals signals;
+    auto run = Run<dim>::resume(c, folder);
+    if (!run) return report_not_begun<dim>(run.failure(), folder);
+    report_resumption(run->resumption(), folder);
+    return execute(*run, signals);
+  });
+}
+
+}  // namespace wheelwright

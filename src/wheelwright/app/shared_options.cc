@@ -1,0 +1,38 @@
+#include "wheelwright/app/shared_options.h"
+
+#include "wheelwright/case/keys.h"
+
+namespace wheelwright {
+namespace {
+
+Options::Limits limits_of_iterations() {
+  const auto* key = find_key(optimizer_section().keys, "iterations");
+  const Range range = std::get<IntegerField<Optimizer>>(key->field).range;
+  return {static_cast<int>(range.low), static_cast<int>(range.high)};
+}
+
+}  // namespace
+
+void add_case(Options& options, std::string& file) { options.argument("CASE", file, "case file"); }
+
+void add_threads(Options& options, std::optional<int>& threads) {
+  constexpr int most_threads = 1024;
+  options.number(
+      "--threads", threads, {1, most_threads},
+      "Number of threads, at most the number of processors, which is the default. The results do not "
+      "depend on it");
+}
+
+void add_iterations(Options& options, std::optional<int>& iterations) {
+  options.number("--iterations", iterations, limits_of_iterations(),
+                 "Number of shapes instead of the case's optimizer.iterations; expectations of later shapes, "
+                 "or of the last one, are not checked");
+}
+
+void add_output(Options& options, std::optional<std::string>& folder, const std::string& meaning) {
+  options.text("--output", "DIR", folder, not_empty, meaning);
+}
+
+std::string not_empty(const std::string& text) { return text.empty() ? "must not be empty" : ""; }
+
+}  // namespace wheelwright

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "wheelwright/app/options.h"
+
+namespace wheelwright {
+
+// Options that several commands have. They mean the same everywhere.
+
+/// CASE, a file.
+void add_case(Options& options, std::string& file);
+
+/// --threads
+void add_threads(Options& options, std::optional<int>& threads);
+
+/// --iterations
+void add_iterations(Options& options, std::optional<int>& iterations);
+
+/// --output, a folder; `meaning` is what the command writes there.
+void add_output(Options& options, std::optional<std::string>& folder, const std::string& meaning);
+
+/// A check for names: what is wrong with an empty one.
+std::string not_empty(const std::string& text);
+
+}  // namespace wheelwright
