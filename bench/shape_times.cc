@@ -31,9 +31,8 @@ std::string to_json(int n_unknowns, const State<2>& states, const std::vector<Ph
                     states.contacts()[i].newton_iterations));
   for (const PhaseTime& phase : phases)
     seconds.push_back(fmt::format(R"("{}": {})", phase.phase, phase.seconds));
-  return fmt::format("{{\"unknowns\": {},\n \"positions\": [{}],\n \"seconds\": {{{}}}}}\n",
-                     n_unknowns, fmt::join(positions, ",\n  "),
-                     fmt::join(seconds, ", "));
+  return fmt::format("{{\"unknowns\": {},\n \"positions\": [{}],\n \"seconds\": {{{}}}}}\n", n_unknowns,
+                     fmt::join(positions, ",\n  "), fmt::join(seconds, ", "));
 }
 
 int run(int radial_cells, int angular_cells, int n_positions, int repetitions) {

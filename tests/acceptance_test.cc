@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
+#include "tests/support.h"
 #include "wheelwright/cut/measure.h"
 #include "wheelwright/geometry/shapes.h"
 #include "wheelwright/optimize/optimizer.h"
-#include "tests/support.h"
 
 namespace wheelwright {
 namespace {

@@ -4,11 +4,11 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "tests/support.h"
 #include "wheelwright/analysis/rolling_analysis.h"
 #include "wheelwright/analysis/stress_peak.h"
 #include "wheelwright/report/rolling_report.h"
 #include "wheelwright/report/solution_fields.h"
-#include "tests/support.h"
 
 namespace wheelwright {
 namespace {
@@ -202,8 +202,8 @@ TEST(Analysis, PatchAndPressureOfAThickRingGrowAsHertzSays) {
   const ContactSummary &quarter = (*curve)[0][0], &whole = (*curve)[1][0];
   EXPECT_NEAR(whole.patch_length / quarter.patch_length, 2, 0.02);
   EXPECT_NEAR(whole.peak_pressure / quarter.peak_pressure, 2, 0.04);
-  const double half_width =
-      2 * std::sqrt(model.load * model.grid.outer_radius / (pi * model.materials.at_tread().plane_strain_modulus()));
+  const double half_width = 2 * std::sqrt(model.load * model.grid.outer_radius /
+                                          (pi * model.materials.at_tread().plane_strain_modulus()));
   EXPECT_NEAR(whole.patch_length / (2 * half_width), 1, 0.02);
   EXPECT_NEAR(whole.peak_pressure / (2 * model.load / (pi * half_width)), 1, 0.02);
 }
@@ -250,7 +250,8 @@ TEST(Analysis, PeakStressIsThatOfTheDisplacementField) {
             for (int e = 0; e < 2; ++e)
               for (int g = 0; g < 2; ++g) du[d][e] += gradient[d][g] * inverse[g][e];
           const Voigt<2> strain{du[0][0], du[1][1], du[0][1] + du[1][0]};
-          peak = std::max(peak, von_mises<2>(model.materials.at_tread(), stress<2>(model.materials.at_tread(), strain)));
+          peak = std::max(
+              peak, von_mises<2>(model.materials.at_tread(), stress<2>(model.materials.at_tread(), strain)));
         }
       }
     EXPECT_NEAR(a.peak_von_mises[position] / peak, 1, 1e-8);

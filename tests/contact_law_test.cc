@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "wheelwright/elasticity/contact_form.h"
-
 #include <algorithm>
 #include <random>
 

@@ -2,14 +2,14 @@
 
 #include <numeric>
 
+#include "tests/support.h"
 #include "wheelwright/functionals/mean_contact_stress.h"
-#include "wheelwright/rolling/neumann_to_dirichlet.h"
 #include "wheelwright/functionals/strain_energy.h"
 #include "wheelwright/functionals/uniformity_annulus.h"
 #include "wheelwright/functionals/uniformity_dual.h"
 #include "wheelwright/functionals/uniformity_l2.h"
+#include "wheelwright/rolling/neumann_to_dirichlet.h"
 #include "wheelwright/sensitivity/taylor_test.h"
-#include "tests/support.h"
 
 namespace wheelwright {
 namespace {
@@ -56,8 +56,8 @@ TEST(Uniformity, GradientsPassTheTaylorTest) {
     for (const Matrix* mean : {static_cast<const Matrix*>(nullptr), &held}) {
       const WeightedSum<2> objective{{1, criterion}};
       const auto test = taylor_test<2>(
-          [&](const LevelSet<2>& shape) { return evaluate_objective<2>(*problem, objective, shape, mean); }, psi,
-          direction, model.degree, 2e-5, 3);
+          [&](const LevelSet<2>& shape) { return evaluate_objective<2>(*problem, objective, shape, mean); },
+          psi, direction, model.degree, 2e-5, 3);
       ASSERT_TRUE(test) << test.failure().detail;
       for (double order : test->orders)
         EXPECT_GT(order, 1.9) << criterion->name() << (mean ? " held" : " own");

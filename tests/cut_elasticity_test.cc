@@ -155,8 +155,8 @@ class LoadedSector {
         const auto at = element(cut.cell).at(q.xi);
         const auto surface = map_surface<2>(at.jacobian, q.normal);
         const double angle = azimuth(cut.cell);
-        const auto sigma =
-            stress<2>(table_.materials().at_tread(), strain_of(exact.gradient(rotated<2>(at.position, angle))));
+        const auto sigma = stress<2>(table_.materials().at_tread(),
+                                     strain_of(exact.gradient(rotated<2>(at.position, angle))));
         const Vec<2> t = traction<2>(sigma, rotated<2>(surface.normal, angle));
         add(cut.cell, at, scaled(rotated<2>(t, -angle), q.weight * surface.scale));
       }

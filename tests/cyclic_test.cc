@@ -6,9 +6,9 @@
 #include <numeric>
 #include <random>
 
-#include "wheelwright/ring/nested_dissection.h"
-#include "wheelwright/linalg/sparse_spd.h"
 #include "tests/support.h"
+#include "wheelwright/linalg/sparse_spd.h"
+#include "wheelwright/ring/nested_dissection.h"
 
 namespace wheelwright {
 namespace {
@@ -92,9 +92,9 @@ class PlainRing {
     for (int cell = 0; cell < grid.n_cells(); ++cell) {
       const int row = grid.cell_position(cell)[0];
       if (row >= core_rows || !domain.active(cell)) continue;
-      add(nodes(cell), cut[cell]
-                           ? cell_stiffness<2>(table.element(row), table.materials().at_tread(), cut[cell]->material)
-                           : table.full_cell_stiffness(row));
+      add(nodes(cell),
+          cut[cell] ? cell_stiffness<2>(table.element(row), table.materials().at_tread(), cut[cell]->material)
+                    : table.full_cell_stiffness(row));
     }
     for (const GhostFace& face : domain.ghost_faces) {
       if (grid.cell_position(face.plus)[0] >= core_rows) continue;

@@ -121,7 +121,8 @@ TEST(VonMisesField, FollowsTheStressFromPlaceToPlace) {
     const Vec<2> x = cartesian<2>({radius, azimuth});
     const Mat<2> gradient{{{k * x[1], k * x[0]}, {k * (2 * x[0] + x[1]), k * (-6 * x[1] + x[0])}}};
     const double expected = von_mises_of(problem.model().materials.at_tread(), gradient);
-    EXPECT_NEAR(stress.values[node], expected, 2e-2 * k * problem.model().materials.at_tread().youngs_modulus * 0.3)
+    EXPECT_NEAR(stress.values[node], expected,
+                2e-2 * k * problem.model().materials.at_tread().youngs_modulus * 0.3)
         << radius << ' ' << azimuth;
   });
 }

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <random>
 
+#include "tests/support.h"
 #include "wheelwright/rolling/adjoint.h"
 #include "wheelwright/sensitivity/taylor_test.h"
-#include "tests/support.h"
 
 namespace wheelwright {
 namespace {
@@ -169,7 +169,8 @@ TEST(Friction, TheAdjointIsTheTransposeOfTheTangent) {
     ASSERT_TRUE(problem);
     const auto s = problem->solve(paper_holes(model.grid));
     ASSERT_TRUE(s) << s.failure().detail;
-    const int n_rows = problem->tread().n_observations(), n_contact = problem->tread().observation_rows().n_contact();
+    const int n_rows = problem->tread().n_observations(),
+              n_contact = problem->tread().observation_rows().n_contact();
     const int n_columns = model.grid.ring_columns();
     for (const int position : {1, 2, 4}) {
       const ReducedContact<2>& contact = s->contacts[position];
@@ -193,7 +194,8 @@ TEST(Friction, TheAdjointIsTheTransposeOfTheTangent) {
       }
       const auto adjoint = contact.adjoints(s->states[position], std::span(&observed, 1));
       ASSERT_TRUE(adjoint);
-      const double direct = product(observed, difference), transposed = product(adjoint->front().loads, change);
+      const double direct = product(observed, difference),
+                   transposed = product(adjoint->front().loads, change);
       EXPECT_NEAR(direct, transposed, 1e-10 * std::abs(direct));
     }
   }

@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <numbers>
 
+#include "tests/support.h"
+#include "wheelwright/cut/measure.h"
 #include "wheelwright/functionals/boundary_integral.h"
 #include "wheelwright/functionals/material_volume.h"
 #include "wheelwright/functionals/perimeter.h"
 #include "wheelwright/functionals/uniformity_l2.h"
-#include "wheelwright/cut/measure.h"
 #include "wheelwright/geometry/curvature.h"
 #include "wheelwright/sensitivity/taylor_test.h"
 #include "wheelwright/state/material_integral.h"
-#include "tests/support.h"
 
 namespace wheelwright {
 namespace {
@@ -36,9 +36,9 @@ RollingModel<2> lopsided_model() {
   return model;
 }
 
-/// The fourth power of the von Mises stress over a yield stress of 1 MPa, integrated over the material: a function
-/// whose adjoint load acts everywhere in the material. This file adds it to the program: a class and, in a run,
-/// one line in the list of functionals.
+/// The fourth power of the von Mises stress over a yield stress of 1 MPa, integrated over the material: a
+/// function whose adjoint load acts everywhere in the material. This file adds it to the program: a class
+/// and, in a run, one line in the list of functionals.
 class StressPower : public Functional<2>, MaterialDensity<2> {
  public:
   std::string name() const override { return "stress_power"; }
@@ -88,7 +88,8 @@ class EdgeMoment : public BoundaryIntegral<2> {
   Density density(const Vec<2>& x) const override { return {dot<2>(x, x), {2 * x[0], 2 * x[1]}}; }
 };
 
-Expected<Evaluation<2>> evaluation_of(const StateSolver<2>& solver, const std::vector<ShapeFunction<2>>& functions,
+Expected<Evaluation<2>> evaluation_of(const StateSolver<2>& solver,
+                                      const std::vector<ShapeFunction<2>>& functions,
                                       const LevelSet<2>& psi) {
   auto evaluated = evaluate<2>(solver, functions, psi);
   if (!evaluated) return evaluated.failure();
@@ -97,8 +98,8 @@ Expected<Evaluation<2>> evaluation_of(const StateSolver<2>& solver, const std::v
 
 Expected<TaylorTest> taylor(const StateSolver<2>& solver, const std::vector<ShapeFunction<2>>& functions,
                             const LevelSet<2>& psi, std::string_view name) {
-  return taylor_test<2>([&](const LevelSet<2>& shape) { return evaluation_of(solver, functions, shape); }, psi,
-                        smooth_direction(psi.lattice), solver.model().degree, 2e-5, 3, name);
+  return taylor_test<2>([&](const LevelSet<2>& shape) { return evaluation_of(solver, functions, shape); },
+                        psi, smooth_direction(psi.lattice), solver.model().degree, 2e-5, 3, name);
 }
 
 void expect_second_order(const Expected<TaylorTest>& test, double lowest = 1.9) {
@@ -118,16 +119,16 @@ TEST(Functions, AStressFunctionPassesTheTaylorTest) {
   }
 }
 
-// The tread's share of the integral is known at the grid's own nodes only, without refinement it is all of it.
+// The tread's share of the integral is known at the grid's own nodes only, without refinement it is all of
+// it.
 TEST(Functions, TheStrainEnergyAsAnIntegralIsTheStrainEnergy) {
   for (auto model : {paper_model(14, 192), lopsided_model()}) {
     model.ghost.xi = 1e-9;
     model.cut_points = 4;
     const auto problem = RollingProblem<2>::create(model);
     ASSERT_TRUE(problem);
-    const std::vector<ShapeFunction<2>> functions{
-        {"integral", {{1, std::make_shared<EnergyDensity>()}}},
-        {"energy", {{1, std::make_shared<StrainEnergy<2>>()}}}};
+    const std::vector<ShapeFunction<2>> functions{{"integral", {{1, std::make_shared<EnergyDensity>()}}},
+                                                  {"energy", {{1, std::make_shared<StrainEnergy<2>>()}}}};
     const auto evaluation = evaluation_of(*problem, functions, lopsided_holes(model.grid));
     ASSERT_TRUE(evaluation) << evaluation.failure().detail;
     const auto &integral = evaluation->functions[0], &energy = evaluation->functions[1];
@@ -161,7 +162,7 @@ TEST(Functions, SeveralTogetherAreEachAlone) {
     EXPECT_NEAR(a.value, b.value, 1e-12 * std::abs(a.value)) << function.name;
     EXPECT_LT(testing::relative_difference(b.gradient, a.gradient), 1e-9) << function.name;
   }
-  const auto &g = together->functions;
+  const auto& g = together->functions;
   const auto unweighted = evaluation_of(*problem, {{"stress", {{1, stress}}}}, psi);
   for (size_t q = 0; q < together->boundary.size(); ++q)
     EXPECT_NEAR(g[3].gradient[q],
@@ -178,12 +179,11 @@ TEST(Functions, WeightsPerPositionPassTheTaylorTest) {
   const WeightedSum<2> terms{{1, std::make_shared<StrainEnergy<2>>()},
                              {1e-3, std::make_shared<StressPower>()},
                              {10, std::make_shared<UniformityL2<2>>(0.01)}};
-  expect_second_order(
-      taylor(*problem, {{"weighted", terms, weights}}, generic_hole(model.grid), "weighted"));
+  expect_second_order(taylor(*problem, {{"weighted", terms, weights}}, generic_hole(model.grid), "weighted"));
 }
 
-// The value is the weighted sum over all positions of the sector, images included; weights that differ between
-// mirror images need all positions.
+// The value is the weighted sum over all positions of the sector, images included; weights that differ
+// between mirror images need all positions.
 TEST(Functions, WeightsPerPositionAreFactorsOfTheirPositions) {
   auto model = paper_model(14, 192);
   model.n_positions = 5;
@@ -237,7 +237,8 @@ TEST(Functions, BoundsAreHandedOn) {
   const auto problem = RollingProblem<2>::create(model);
   ASSERT_TRUE(problem);
   const auto e = evaluation_of(
-      *problem, {{.name = "volume", .terms = {{1, std::make_shared<MaterialVolume<2>>()}}, .bounds = {0.1, 0.2}}},
+      *problem,
+      {{.name = "volume", .terms = {{1, std::make_shared<MaterialVolume<2>>()}}, .bounds = {0.1, 0.2}}},
       generic_hole(model.grid));
   ASSERT_TRUE(e);
   EXPECT_EQ(e->functions[0].bounds.lower, 0.1);
@@ -277,8 +278,8 @@ TEST(ShapeFunctions, TheCurvatureOfACircleIsOneOverItsRadius) {
   for (int k = 1; k < 3; ++k) EXPECT_GT(std::log2(errors[k - 1] / errors[k]), 0.9);
 }
 
-// The derivative leaves out the kinks of the discrete boundary on the faces of cells: it tends to the difference
-// quotient with the grid. The perimeter of the holes is exact to O(h^3).
+// The derivative leaves out the kinks of the discrete boundary on the faces of cells: it tends to the
+// difference quotient with the grid. The perimeter of the holes is exact to O(h^3).
 TEST(ShapeFunctions, PerimeterAndEdgeIntegralsTendToTheirDerivatives) {
   const auto perimeter = std::make_shared<Perimeter<2>>();
   const auto moment = std::make_shared<EdgeMoment>();

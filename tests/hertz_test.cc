@@ -2,8 +2,8 @@
 
 #include <numbers>
 
-#include "wheelwright/contact/contact_solver.h"
 #include "tests/support.h"
+#include "wheelwright/contact/contact_solver.h"
 
 namespace wheelwright {
 namespace {

@@ -13,8 +13,8 @@
 #include <string_view>
 #include <vector>
 
-#include "wheelwright/app/exit_code.h"
 #include "tests/run_support.h"
+#include "wheelwright/app/exit_code.h"
 
 // What a run takes from its surroundings, and what it leaves there: it writes into its folder alone, shows a
 // title as text, and knows no locale.

@@ -4,9 +4,9 @@
 #include <numbers>
 #include <random>
 
+#include "tests/support.h"
 #include "wheelwright/cut/measure.h"
 #include "wheelwright/sensitivity/taylor_test.h"
-#include "tests/support.h"
 
 namespace wheelwright {
 namespace {

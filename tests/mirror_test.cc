@@ -4,13 +4,13 @@
 
 #include <numeric>
 
+#include "tests/support.h"
+#include "wheelwright/evolution/evolver.h"
 #include "wheelwright/functionals/mean_contact_stress.h"
 #include "wheelwright/functionals/uniformity_annulus.h"
 #include "wheelwright/functionals/uniformity_dual.h"
 #include "wheelwright/functionals/uniformity_l2.h"
-#include "wheelwright/evolution/evolver.h"
 #include "wheelwright/geometry/shapes.h"
-#include "tests/support.h"
 
 namespace wheelwright {
 namespace {
@@ -186,9 +186,9 @@ TEST(MirrorSymmetry, GradientPassesTheTaylorTest) {
   ASSERT_TRUE(problem);
   const auto objective = all_criteria(model);
   const auto psi = holes(model.grid, 2, {{0.2681, 0.5 * model.grid.sector_angle(), 0.0373}});
-  const auto test =
-      taylor_test<2>([&](const LevelSet<2>& shape) { return testing::evaluate_objective<2>(*problem, objective, shape); }, psi,
-                     testing::smooth_direction(psi.lattice), model.degree, 2e-5, 3);
+  const auto test = taylor_test<2>(
+      [&](const LevelSet<2>& shape) { return testing::evaluate_objective<2>(*problem, objective, shape); },
+      psi, testing::smooth_direction(psi.lattice), model.degree, 2e-5, 3);
   ASSERT_TRUE(test) << test.failure().detail;
   for (const double order : test->orders) EXPECT_GT(order, 1.9);
 }
@@ -244,7 +244,9 @@ TEST(MirrorSymmetry, LoadsOrShapesThatAreNotSymmetricNeedAllPositions) {
   };
   const Matrix own = mean_of(psi), other = mean_of(generic_hole(model.grid));
   for (const auto& [mean, n] : {std::pair{&own, 3}, {&other, 4}})
-    EXPECT_EQ(testing::evaluate_objective<2>(*problem, testing::strain_energy_alone(), psi, mean)->newton_iterations.size(), n);
+    EXPECT_EQ(testing::evaluate_objective<2>(*problem, testing::strain_energy_alone(), psi, mean)
+                  ->newton_iterations.size(),
+              n);
   auto braking = model;
   braking.distributed.body_force = {0, 1e3};
   EXPECT_EQ(n_solved(braking, psi), 8);

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "wheelwright/contact/contact_solver.h"
 #include "tests/support.h"
+#include "wheelwright/contact/contact_solver.h"
 
 namespace wheelwright {
 namespace {

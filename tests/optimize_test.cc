@@ -96,7 +96,8 @@ TEST(Bowl, HasTheShapeDerivativeThatItReturns) {
     return evaluate_bowl(shifted).function("objective").value;
   };
   double derivative = 0;
-  for (const auto& sample : evaluate_bowl(psi).gradient("objective")) derivative += sample.weight * sample.value;
+  for (const auto& sample : evaluate_bowl(psi).gradient("objective"))
+    derivative += sample.weight * sample.value;
   const double step = 1e-5;
   EXPECT_NEAR((moved(step) - moved(-step)) / (2 * step), derivative, 1e-4 * derivative);
 }
@@ -116,7 +117,8 @@ TEST(ShapeOptimizer, ConvergesToTheLevelLineAtConstantMeasure) {
   double last = record.trials.front().evaluation->function("objective").value;
   for (const auto& trial : record.trials) {
     if (trial.verdict != Verdict::accepted) continue;
-    EXPECT_LE(trial.evaluation->function("objective").value, last + options.accepted_increase * std::abs(last));
+    EXPECT_LE(trial.evaluation->function("objective").value,
+              last + options.accepted_increase * std::abs(last));
     EXPECT_NEAR(trial.measure, outcome.state->target_measure, 1e-6 * trial.measure);
     last = trial.evaluation->function("objective").value;
   }

@@ -59,7 +59,8 @@ void expect_what_solving_all_gives(int n, const std::vector<testing::Hole>& hole
   ASSERT_EQ((*distinct)->positions().size(), n / 2 + 1);
   ASSERT_EQ((*all)->positions().size(), n);
 
-  const auto expected = all_position_fields(*problem, **all), found = all_position_fields(*problem, **distinct);
+  const auto expected = all_position_fields(*problem, **all),
+             found = all_position_fields(*problem, **distinct);
   ASSERT_EQ(found.size(), size_t(n));
   const auto expected_points = contact_points(*problem, **all), points = contact_points(*problem, **distinct);
   for (int i = 0; i < n; ++i) {
@@ -108,7 +109,8 @@ TEST(WheelWithoutSymmetry, HasNoReflectedPositions) {
   const LevelSet<2> psi = testing::holes(problem->model().grid, 2, {{0.26, 0.4 * sector, 0.02}});
   const auto states = problem->states(psi, problem->distinct_positions(psi), Interrupt());
   ASSERT_TRUE(states);
-  for (const PositionSource& source : position_sources((*states)->positions(), 4)) EXPECT_FALSE(source.is_image);
+  for (const PositionSource& source : position_sources((*states)->positions(), 4))
+    EXPECT_FALSE(source.is_image);
   const auto fields = all_position_fields(*problem, **states);
   ASSERT_EQ(fields.size(), 4u);
   for (int i = 0; i < 4; ++i)

@@ -1,12 +1,12 @@
 #include <csignal>
 
+#include "tests/run_support.h"
 #include "wheelwright/app/execute.h"
 #include "wheelwright/app/exit_code.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/run/checkpoint.h"
 #include "wheelwright/run/checkpoint_folder.h"
 #include "wheelwright/run/folder_lock.h"
-#include "tests/run_support.h"
 
 namespace wheelwright::testing {
 namespace {

@@ -5,9 +5,9 @@
 #include <random>
 #include <string>
 
+#include "tests/support.h"
 #include "wheelwright/cut/cell_quadrature.h"
 #include "wheelwright/rolling/ring_state.h"
-#include "tests/support.h"
 
 namespace wheelwright {
 namespace {

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
+#include "tests/support.h"
 #include "wheelwright/functionals/strain_energy.h"
 #include "wheelwright/geometry/shapes.h"
 #include "wheelwright/sensitivity/evaluate.h"
 #include "wheelwright/sensitivity/taylor_test.h"
-#include "tests/support.h"
 
 namespace wheelwright {
 namespace {
@@ -35,9 +35,11 @@ TEST(Rolling3D, ShapeGradientPassesTheTaylorTest) {
     psi.values[i] += 0.002 * std::cos(20 * p[2]);
     direction.push_back(1 + 0.4 * std::cos(16 * p[1]) + 0.3 * std::sin(15 * p[2]));
   }
-  const auto test =
-      taylor_test<3>([&](const LevelSet<3>& shape) { return testing::evaluate_objective<3>(*problem, strain_energy, shape); },
-                     psi, direction, model.degree, 2e-5, 3);
+  const auto test = taylor_test<3>(
+      [&](const LevelSet<3>& shape) {
+        return testing::evaluate_objective<3>(*problem, strain_energy, shape);
+      },
+      psi, direction, model.degree, 2e-5, 3);
   ASSERT_TRUE(test) << test.failure().detail;
   for (double order : test->orders) EXPECT_GT(order, 1.9);
 }

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/support.h"
 #include "wheelwright/base/parallel.h"
 #include "wheelwright/sensitivity/taylor_test.h"
-#include "tests/support.h"
 
 namespace wheelwright {
 namespace {
@@ -39,8 +39,8 @@ TEST(Rolling, ContactQuadratureMatters) {
   model.ghost = {GhostPenaltyKind::paper, 1e-3};
   for (const auto& [points, expected] : {std::pair{4, 44.0876}, {12, 44.0473}}) {
     model.contact_points = points;
-    const auto e =
-        testing::evaluate_objective<2>(*RollingProblem<2>::create(model), strain_energy_alone(), paper_holes(model.grid));
+    const auto e = testing::evaluate_objective<2>(*RollingProblem<2>::create(model), strain_energy_alone(),
+                                                  paper_holes(model.grid));
     ASSERT_TRUE(e);
     EXPECT_NEAR(e->function("objective").value, expected, 2e-5 * expected) << points;
   }
@@ -68,8 +68,10 @@ TEST(Rolling, ShapeGradientIsExactOnACoarseGridButForTheQuadrature) {
   for (const double centre : {0.26, 0.27}) {
     const auto psi = holes(model.grid, 2, {{centre, 0.5 * model.grid.sector_angle(), 0.0259}});
     const auto test = taylor_test<2>(
-        [&](const LevelSet<2>& shape) { return testing::evaluate_objective<2>(*problem, strain_energy_alone(), shape); }, psi,
-        testing::smooth_direction(psi.lattice), model.degree, 1e-5, 3);
+        [&](const LevelSet<2>& shape) {
+          return testing::evaluate_objective<2>(*problem, strain_energy_alone(), shape);
+        },
+        psi, testing::smooth_direction(psi.lattice), model.degree, 1e-5, 3);
     ASSERT_TRUE(test) << test.failure().detail;
     for (double order : test->orders) EXPECT_GT(order, 1.99) << centre;
   }
@@ -119,7 +121,8 @@ TEST(Rolling, TheSameBytesOnOneAndOnManyThreads) {
   const auto psi = testing::paper_holes(model.grid);
   const auto evaluate_on = [&](int n_threads) {
     const ThreadLimit limit(n_threads);
-    return testing::evaluate_objective<2>(*problem, testing::strain_energy_alone(), psi)->function("objective");
+    return testing::evaluate_objective<2>(*problem, testing::strain_energy_alone(), psi)
+        ->function("objective");
   };
   const auto one = evaluate_on(1), many = evaluate_on(4);
   EXPECT_EQ(one.value, many.value);

@@ -186,8 +186,8 @@ TEST(ObjectiveOfACase, IsTheWeightedSumOfItsCriteria) {
   for (const auto& value : e.terms)
     if (value.name != "volume")
       sum += value.value * (value.name == name(Quantity::strain_energy)     ? 2
-                          : value.name == name(Quantity::uniformity_dual) ? 30
-                                                                          : 5);
+                            : value.name == name(Quantity::uniformity_dual) ? 30
+                                                                            : 5);
   EXPECT_NEAR(e.function("objective").value, sum, 1e-13 * sum);
   ASSERT_TRUE(evaluated->state);
   EXPECT_EQ(evaluated->state->positions().size(), 5);
@@ -209,7 +209,8 @@ TEST(ObjectiveOfACase, ComparesWithThePreviousMeanWhenItIsHeld) {
   ASSERT_TRUE(first) << first.failure().detail;
   const auto own = held(other, nullptr), compared = held(other, &first->evaluation);
   ASSERT_TRUE(own && compared);
-  EXPECT_EQ(held(other, nullptr)->evaluation.function("objective").value, own->evaluation.function("objective").value);
+  EXPECT_EQ(held(other, nullptr)->evaluation.function("objective").value,
+            own->evaluation.function("objective").value);
   // The own mean is the best one in the norm of the criterion.
   EXPECT_GT(compared->evaluation.function("objective").value, own->evaluation.function("objective").value);
   const auto direct =

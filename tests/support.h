@@ -110,8 +110,9 @@ inline std::vector<double> smooth_direction(const Lattice<2>& lattice) {
 inline Expected<TaylorTest> generic_taylor_test(const RollingProblem<2>& problem,
                                                 const WeightedSum<2>& terms) {
   const auto psi = generic_hole(problem.model().grid);
-  return taylor_test<2>([&](const LevelSet<2>& shape) { return evaluate_objective<2>(problem, terms, shape); }, psi,
-                        smooth_direction(psi.lattice), problem.model().degree, 2e-5, 3);
+  return taylor_test<2>(
+      [&](const LevelSet<2>& shape) { return evaluate_objective<2>(problem, terms, shape); }, psi,
+      smooth_direction(psi.lattice), problem.model().degree, 2e-5, 3);
 }
 
 /// The evaluation of an objective with this value and this gradient.

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <random>
 
-#include "wheelwright/geometry/contour.h"
 #include "tests/support.h"
+#include "wheelwright/geometry/contour.h"
 
 namespace wheelwright {
 namespace {

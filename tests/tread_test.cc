@@ -3,8 +3,8 @@
 #include <numeric>
 #include <random>
 
-#include "wheelwright/ring/tread_ring.h"
 #include "tests/support.h"
+#include "wheelwright/ring/tread_ring.h"
 
 namespace wheelwright {
 namespace {

@@ -1,8 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "wheelwright/rolling/rolling_problem.h"
-
 #include "wheelwright/case/read.h"
+#include "wheelwright/rolling/rolling_problem.h"
 #include "wheelwright/run/study.h"
 
 namespace wheelwright {
@@ -53,7 +52,8 @@ std::pair<double, double> hole_extent(const LevelSet<2>& psi) {
 }
 
 void expect_stiffer_at_constant_volume(const Course& run) {
-  EXPECT_LT(run.last.evaluation.function("objective").value, 0.83 * run.initial.evaluation.function("objective").value);
+  EXPECT_LT(run.last.evaluation.function("objective").value,
+            0.83 * run.initial.evaluation.function("objective").value);
   EXPECT_LT(run.worst_volume_error, 1e-3);
   const auto [radial0, azimuthal0] = hole_extent(run.initial.shape);
   const auto [radial, azimuthal] = hole_extent(run.last.shape);

@@ -1,13 +1,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/fuzz/target.h"
 #include "wheelwright/app/case_report.h"
 #include "wheelwright/base/text.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/keys.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/write.h"
-#include "tests/fuzz/target.h"
 
 using namespace wheelwright;
 using namespace wheelwright::testing;

@@ -1,11 +1,11 @@
 #include <algorithm>
 
-#include "wheelwright/run/checkpoint.h"
+#include "tests/checkpoint_sample.h"
+#include "tests/fuzz/target.h"
 #include "wheelwright/files/checksum.h"
 #include "wheelwright/files/level_set_file.h"
 #include "wheelwright/files/little_endian.h"
-#include "tests/checkpoint_sample.h"
-#include "tests/fuzz/target.h"
+#include "wheelwright/run/checkpoint.h"
 
 using namespace wheelwright;
 using namespace wheelwright::testing;

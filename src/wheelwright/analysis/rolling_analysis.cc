@@ -83,9 +83,9 @@ Expected<std::vector<std::vector<ContactSummary>>> under_loads(const StateSolver
   return under<dim>(state, models);
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                    \
-  template Expected<RollingAnalysis> rolling_analysis(const StateSolver<dim>&, const State<dim>&);      \
-  template Expected<std::vector<std::vector<ContactSummary>>> under_loads(                              \
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                               \
+  template Expected<RollingAnalysis> rolling_analysis(const StateSolver<dim>&, const State<dim>&); \
+  template Expected<std::vector<std::vector<ContactSummary>>> under_loads(                         \
       const StateSolver<dim>&, const State<dim>&, std::span<const double>);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)

@@ -6,8 +6,8 @@
 namespace wheelwright {
 namespace {
 
-/// e:e - (tr e)^2 / 3, the square of the strain's deviator: the von Mises stress is mu sqrt(6) times its root.
-/// With e_33 = 0 when dim = 2.
+/// e:e - (tr e)^2 / 3, the square of the strain's deviator: the von Mises stress is mu sqrt(6) times its
+/// root. With e_33 = 0 when dim = 2.
 template <int dim>
 double squared_deviator(const double* strain) {
   double trace = 0, square = 0;

@@ -218,8 +218,7 @@ NewtonEnd<dim> newton_in_load_steps(const ReducedContact<dim>& contact, const Co
   NewtonEnd<dim> end{cold_start(1.0 / n_steps)};
   int iterations = 0;
   for (int k = 1; k <= n_steps; ++k) {
-    end = newton(contact, std::move(end.x), static_cast<double>(k) / n_steps, Damping::residual,
-                 interrupt);
+    end = newton(contact, std::move(end.x), static_cast<double>(k) / n_steps, Damping::residual, interrupt);
     iterations += end.iterations;
     if (!end.converged) break;
   }
@@ -251,9 +250,11 @@ Expected<ContactState<dim>> solve_contact(const ReducedContact<dim>& contact,
     iterations += end.iterations;
   };
   if (warm_start)
-    attempt("a neighbouring solution", [&] { return newton(contact, *warm_start, 1, Damping::residual, interrupt); });
+    attempt("a neighbouring solution",
+            [&] { return newton(contact, *warm_start, 1, Damping::residual, interrupt); });
   attempt("a cold start", [&] { return newton(contact, cold_start(1), 1, Damping::residual, interrupt); });
-  attempt("a damped contact set", [&] { return newton(contact, cold_start(1), 1, Damping::contact_set, interrupt); });
+  attempt("a damped contact set",
+          [&] { return newton(contact, cold_start(1), 1, Damping::contact_set, interrupt); });
   for (const int n_steps : {2, 4, 8})
     attempt(fmt::format("{} load steps", n_steps),
             [&] { return newton_in_load_steps(contact, cold_start, n_steps, interrupt); });
@@ -270,7 +271,7 @@ Expected<ContactState<dim>> solve_contact(const ReducedContact<dim>& contact,
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                    \
   template Expected<ContactState<dim>> solve_contact(const ReducedContact<dim>&, const ColdStart<dim>&, \
-                                                     const std::optional<ContactUnknowns<dim>>&, \
+                                                     const std::optional<ContactUnknowns<dim>>&,        \
                                                      const Interrupt&);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)

@@ -2,11 +2,11 @@
 
 #include <optional>
 
+#include "wheelwright/contact/contact_law.h"
+#include "wheelwright/ring/surface_compliance.h"
+#include "wheelwright/state/contact_patch.h"
 #include "wheelwright/state/load_positions.h"
 #include "wheelwright/state/rim.h"
-#include "wheelwright/contact/contact_law.h"
-#include "wheelwright/state/contact_patch.h"
-#include "wheelwright/ring/surface_compliance.h"
 
 namespace wheelwright {
 
@@ -103,8 +103,8 @@ class ReducedContact {
   /// Loads on the zone's observations (rows as in Tread, one column per zone column): -Te^T W Phi.
   Matrix contact_loads(const ContactState<dim>& state) const;
 
-  /// The multipliers of several functions' adjoint problems (79): the transpose of Newton's last linear system,
-  /// factored once. `observations` of every p without the contact part, in the zone.
+  /// The multipliers of several functions' adjoint problems (79): the transpose of Newton's last linear
+  /// system, factored once. `observations` of every p without the contact part, in the zone.
   Expected<std::vector<ContactAdjoint>> adjoints(const ContactState<dim>& state,
                                                  std::span<const Matrix> observations) const;
 

@@ -52,7 +52,8 @@ struct CutDomain {
 };
 
 /// Classifies the cells of psi's grid and builds the cut quadrature with `points` Gauss points per direction.
-/// Fails with cut_quadrature if the quadrature of a cell does not satisfy the divergence theorem, and with not_finite.
+/// Fails with cut_quadrature if the quadrature of a cell does not satisfy the divergence theorem, and with
+/// not_finite.
 template <int dim>
 Expected<CutDomain<dim>> cut_domain(const LevelSet<dim>& psi, int points);
 

@@ -18,8 +18,8 @@ ElementTable<dim>::ElementTable(const PolarGrid<dim>& grid, int degree, const Ma
     for (int axis = 0; axis < dim; ++axis) {
       const int plus = axis == 0 ? std::min(radial + 1, grid.cells[0] - 1) : radial;
       ghosts_.push_back(ghost_stiffness<dim>(elements_[radial], elements_[plus], axis,
-                                             axis == 1 ? column_angle : 0.0,
-                                             materials.in_row(radial), ghost));
+                                             axis == 1 ? column_angle : 0.0, materials.in_row(radial),
+                                             ghost));
     }
   }
 }

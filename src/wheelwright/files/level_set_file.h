@@ -4,9 +4,9 @@
 #include <string>
 #include <string_view>
 
-#include "wheelwright/geometry/level_set.h"
 #include "wheelwright/files/block_file.h"
 #include "wheelwright/files/byte_stream.h"
+#include "wheelwright/geometry/level_set.h"
 
 namespace wheelwright {
 

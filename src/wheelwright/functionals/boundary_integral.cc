@@ -14,8 +14,8 @@ FunctionalValue<dim> BoundaryIntegral<dim>::evaluate(const StateSolver<dim>& sol
   for (const SurfacePoint<dim>& point : state.boundary()) {
     const auto place = grid.cell_position(point.cell);
     const CellMap<dim> map(grid, degree, place);
-    const Vec<dim> x = rotated<dim>(map.position(ShapeFunctions<dim>(degree, point.xi)),
-                                    place[1] * grid.cell_size()[1]);
+    const Vec<dim> x =
+        rotated<dim>(map.position(ShapeFunctions<dim>(degree, point.xi)), place[1] * grid.cell_size()[1]);
     const auto [n, gradient] = density(x);
     value.of_shape += point.weight * n;
     value.gradient_of_shape.push_back(mean_curvature<dim>(psi, degree, point.cell, point.xi) * n +

@@ -49,8 +49,8 @@ Matrix mean_over_positions(const TreadSurface<dim>& tread, const LoadPositions& 
   for (int i = 0; i < positions.size(); ++i) {
     const double weight = positions.multiplicities[i] / n_all;
     for (int g = 0; g < tread.n_columns; ++g) {
-      const double* x = observations.column(i * tread.n_columns +
-                                            ring_column(positions.grounds[i], g, tread.n_columns));
+      const double* x =
+          observations.column(i * tread.n_columns + ring_column(positions.grounds[i], g, tread.n_columns));
       for (int row = 0; row < mean.rows(); ++row) mean(row, g) += weight * x[row];
     }
   }
@@ -69,20 +69,20 @@ bool is_mirror_symmetric(const TreadSurface<dim>& tread, const Matrix& mean) {
 }
 
 template <int dim>
-Matrix deviation_from_mean(const TreadSurface<dim>& tread, const LoadPositions& positions, Matrix observations,
-                           const Matrix& mean) {
+Matrix deviation_from_mean(const TreadSurface<dim>& tread, const LoadPositions& positions,
+                           Matrix observations, const Matrix& mean) {
   for (int i = 0; i < positions.size(); ++i)
     for (int g = 0; g < tread.n_columns; ++g) {
-      double* x = observations.column(i * tread.n_columns +
-                                   ring_column(positions.grounds[i], g, tread.n_columns));
+      double* x =
+          observations.column(i * tread.n_columns + ring_column(positions.grounds[i], g, tread.n_columns));
       for (int row = 0; row < mean.rows(); ++row) x[row] -= mean(row, g);
     }
   return observations;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                      \
-  template Matrix mean_observations(const TreadSurface<dim>&, const State<dim>&);         \
-  template bool is_mirror_symmetric(const TreadSurface<dim>&, const Matrix&);             \
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                                  \
+  template Matrix mean_observations(const TreadSurface<dim>&, const State<dim>&);                     \
+  template bool is_mirror_symmetric(const TreadSurface<dim>&, const Matrix&);                         \
   template Matrix mean_over_positions(const TreadSurface<dim>&, const LoadPositions&, const Matrix&); \
   template Matrix deviation_from_mean(const TreadSurface<dim>&, const LoadPositions&, Matrix, const Matrix&);
 WHEELWRIGHT_INSTANTIATE(2)

@@ -15,8 +15,8 @@ struct WeightedFunctional {
 template <int dim>
 using WeightedSum = std::vector<WeightedFunctional<dim>>;
 
-/// A function of the shape: a weighted sum of functionals, summed over the load positions of one sector. Whether
-/// it is the objective, a constraint or only watched is the optimizer's business.
+/// A function of the shape: a weighted sum of functionals, summed over the load positions of one sector.
+/// Whether it is the objective, a constraint or only watched is the optimizer's business.
 template <int dim>
 struct ShapeFunction {
   std::string name;

@@ -9,8 +9,8 @@ template <int dim>
 class StrainEnergy : public Functional<dim> {
  public:
   std::string name() const override { return std::string(wheelwright::name(Quantity::strain_energy)); }
-  FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi, const State<dim>& state,
-                                const Matrix& mean) const override;
+  FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
+                                const State<dim>& state, const Matrix& mean) const override;
 };
 
 }  // namespace wheelwright

@@ -11,10 +11,9 @@ FunctionalValue<dim> UniformityL2<dim>::evaluate(const StateSolver<dim>& solver,
   const ObservationRows<dim> rows = tread.rows();
   const Matrix deviation = deviation_from_mean(tread, state.positions(), state.observations(), mean);
   const double scale = length_ / solver.model().materials.at_tread().youngs_modulus;
-  FunctionalValue<dim> value{
-      .by_position = std::vector<double>(state.positions().size()),
-      .derivative = {.tread_loads = Matrix(deviation.rows(), deviation.columns())},
-      .compares_with_mean = true};
+  FunctionalValue<dim> value{.by_position = std::vector<double>(state.positions().size()),
+                             .derivative = {.tread_loads = Matrix(deviation.rows(), deviation.columns())},
+                             .compares_with_mean = true};
   for (int j = 0; j < deviation.columns(); ++j) {
     const double* observed = deviation.column(j);
     double* load = value.derivative.tread_loads.column(j);

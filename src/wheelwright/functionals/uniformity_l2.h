@@ -13,8 +13,8 @@ class UniformityL2 : public Functional<dim> {
   explicit UniformityL2(double length) : length_(length) {}
 
   std::string name() const override { return std::string(wheelwright::name(Quantity::uniformity_l2)); }
-  FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi, const State<dim>& state,
-                                const Matrix& mean) const override;
+  FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
+                                const State<dim>& state, const Matrix& mean) const override;
 
  private:
   double length_;

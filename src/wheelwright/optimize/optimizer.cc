@@ -243,8 +243,8 @@ Trial<dim> ShapeOptimizer<dim>::attempt(const OptimizationState<dim>& state, std
   if (trial.failure) return trial;
   evaluate(trial, &state.evaluation);
   if (trial.failure) return trial;
-  const double foretold =
-      evolver_.first_order_change(state.evaluation.gradient(options_.objective), velocity, step * lattice_.grid().resolution());
+  const double foretold = evolver_.first_order_change(state.evaluation.gradient(options_.objective), velocity,
+                                                      step * lattice_.grid().resolution());
   trial.failure = check_jump(objective_of(state.evaluation), objective_of(*trial.evaluation), foretold);
   if (trial.failure) return trial;
   const double best = *std::min_element(state.history.begin(), state.history.end());

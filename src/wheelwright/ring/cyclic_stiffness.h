@@ -3,10 +3,10 @@
 #include <memory>
 #include <optional>
 
-#include "wheelwright/ring/harmonics.h"
 #include "wheelwright/elasticity/sector_stiffness.h"
 #include "wheelwright/linalg/partial_cholesky.h"
 #include "wheelwright/linalg/two_block_cholesky.h"
+#include "wheelwright/ring/harmonics.h"
 
 namespace wheelwright {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "wheelwright/ring/tread.h"
 #include "wheelwright/ring/cyclic_stiffness.h"
+#include "wheelwright/ring/tread.h"
 
 namespace wheelwright {
 

@@ -95,7 +95,8 @@ Expected<Tread<dim>> Tread<dim>::condense(const ElementTable<dim>& table, const 
   const Matrix stiffness_on_base = block(own.stiffness, 0, 0, own.stiffness.rows(), n_base);
   const Matrix observed = block(own.observation, 0, 0, n_contact, own.observation.columns());
   const Matrix sampling = contact_rows<dim>(
-      own.surface.points, [&](const auto&) { return form.tau(); }, [](const auto& point) { return point.gamma; });
+      own.surface.points, [&](const auto&) { return form.tau(); },
+      [](const auto& point) { return point.gamma; });
   const Matrix testing = contact_rows<dim>(
       own.surface.points, [&](const auto& point) { return form.theta() / point.gamma; },
       [](const auto&) { return 1.0; });

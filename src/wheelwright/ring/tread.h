@@ -1,8 +1,8 @@
 #pragma once
 
-#include "wheelwright/ring/tread_column.h"
-#include "wheelwright/ring/harmonics.h"
 #include "wheelwright/linalg/cyclic_chain.h"
+#include "wheelwright/ring/harmonics.h"
+#include "wheelwright/ring/tread_column.h"
 
 namespace wheelwright {
 

@@ -66,8 +66,8 @@ void add_line_loads(const Matrix& loads, int first_row, std::span<const int> col
   }
 }
 
-/// Adds what loads (one column per entry of loads.columns) do, the retained unknowns fixed, to what is observed
-/// in `columns`.
+/// Adds what loads (one column per entry of loads.columns) do, the retained unknowns fixed, to what is
+/// observed in `columns`.
 void add_response(const Matrix& compliance, Op op, const TreadLoads& loads, const Matrix& values,
                   std::span<const int> columns, Matrix& observed) {
   if (values.columns() == 0) return;

@@ -9,8 +9,8 @@ namespace wheelwright {
 /// (see Tread) have n_line() rows. Those of the core's outer line are as in CyclicStiffness: one column for
 /// every (right-hand side, sector).
 
-/// Loads on the tread: on its observations, and on the nodes of the grid in it. One column per (right-hand side,
-/// ring column); an empty matrix is zero.
+/// Loads on the tread: on its observations, and on the nodes of the grid in it. One column per (right-hand
+/// side, ring column); an empty matrix is zero.
 struct TreadForces {
   Matrix on_observations;
   Matrix on_base;   ///< rows as the base of TreadColumn

@@ -85,16 +85,16 @@ class Loads {
       if (functions_[f].energy.empty())
         loads.emplace_back(ghost_.rows(), ghost_.columns());
       else
-        loads.push_back(energy_weighted(
-            s_, functions_[f].energy, f + 1 == functions_.size() ? std::move(ghost_) : Matrix(ghost_)));
+        loads.push_back(energy_weighted(s_, functions_[f].energy,
+                                        f + 1 == functions_.size() ? std::move(ghost_) : Matrix(ghost_)));
       if (materials_[f]) loads.back() = sum(std::move(loads.back()), on_modes(s_, *materials_[f]));
     }
     return loads;
   }
 
  private:
-  /// The tread's own loads, and what the strain energy leaves there: dJ_e/dv is K v less the ghost penalty and
-  /// Nitsche's symmetric term.
+  /// The tread's own loads, and what the strain energy leaves there: dJ_e/dv is K v less the ghost penalty
+  /// and Nitsche's symmetric term.
   void add_on_observations(const RollingProblem<dim>& problem, int f) {
     materials_.emplace_back();
     const int per_function = s_.observations.columns(), n_columns = per_function / s_.positions.size();
@@ -146,11 +146,12 @@ class Loads {
 
   std::span<const FunctionalDerivative<dim>> functions_;
   const RollingSolution<dim>& s_;
-  Matrix ghost_;                                 ///< ghost penalty applied to the modes of v, eliminated
+  Matrix ghost_;                                  ///< ghost penalty applied to the modes of v, eliminated
   std::vector<std::optional<Matrix>> materials_;  ///< of every function, by load cases, eliminated
 };
 
-/// The columns of all functions' observations in the contact zones, one function and position after the other.
+/// The columns of all functions' observations in the contact zones, one function and position after the
+/// other.
 template <int dim>
 std::vector<int> zone_columns(const RollingSolution<dim>& s, int n_functions, int n_columns) {
   std::vector<int> columns;
@@ -163,8 +164,8 @@ std::vector<int> zone_columns(const RollingSolution<dim>& s, int n_functions, in
   return columns;
 }
 
-/// The multiplier loads -S^T m of all functions and positions, all round, and the rim's motions [function], from
-/// what is observed of p without them in `columns`, those of zone_columns().
+/// The multiplier loads -S^T m of all functions and positions, all round, and the rim's motions [function],
+/// from what is observed of p without them in `columns`, those of zone_columns().
 template <int dim>
 Expected<std::pair<Matrix, std::vector<std::vector<RimMotion>>>> contact_adjoints(
     const RollingSolution<dim>& s, int n_functions, const Matrix& observed, std::span<const int> columns) {
@@ -207,7 +208,8 @@ void subtract_states(const RollingSolution<dim>& s, std::span<const FunctionalDe
 
 /// Takes the energy-weighted modes of the displacement off those of q: p = q - energy v.
 template <int dim>
-void subtract_energy_weighted(const RollingSolution<dim>& s, const std::vector<double>& energy, Matrix& modes) {
+void subtract_energy_weighted(const RollingSolution<dim>& s, const std::vector<double>& energy,
+                              Matrix& modes) {
   if (energy.empty()) return;
   const Matrix& states = s.displacement.modes;
   if (all_equal(energy)) {
@@ -273,11 +275,10 @@ Expected<std::vector<Adjoint>> solve_adjoints(const RollingProblem<dim>& problem
   return adjoints;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                    \
-  template Matrix energy_weighted(const RollingSolution<dim>&, const std::vector<double>&, Matrix);     \
-  template Expected<std::vector<Adjoint>> solve_adjoints(const RollingProblem<dim>&,                    \
-                                                         const RollingSolution<dim>&,                   \
-                                                         std::span<const FunctionalDerivative<dim>>);
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                                \
+  template Matrix energy_weighted(const RollingSolution<dim>&, const std::vector<double>&, Matrix); \
+  template Expected<std::vector<Adjoint>> solve_adjoints(                                           \
+      const RollingProblem<dim>&, const RollingSolution<dim>&, std::span<const FunctionalDerivative<dim>>);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)
 #undef WHEELWRIGHT_INSTANTIATE

@@ -14,8 +14,8 @@ struct Adjoint {
 };
 
 /// The displacement's modes v_k weighted by a function's energy factors e_i: row k is sum_j m_j e_j w_jk v_j,
-/// with w the weights of load case j and m_j its multiplicity. When all factors are equal it is e v_k. `modes`
-/// holds one row per mode.
+/// with w the weights of load case j and m_j its multiplicity. When all factors are equal it is e v_k.
+/// `modes` holds one row per mode.
 template <int dim>
 Matrix energy_weighted(const RollingSolution<dim>& solution, const std::vector<double>& energy, Matrix modes);
 

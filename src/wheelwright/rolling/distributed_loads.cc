@@ -136,7 +136,8 @@ AppliedLoads applied_loads(const DistributedLoads<dim>& loads, const CutDomain<d
     for (int c = 0; c < n_columns; ++c) {
       const double to_column = ground - c * grid.cell_size()[1];
       const Vec<dim> force = rotated<dim>(loads.body_force, to_column);
-      for (int d = 0; d < dim; ++d) applied.tread(tread.observation_rows().integral() + d, i * n_columns + c) = force[d];
+      for (int d = 0; d < dim; ++d)
+        applied.tread(tread.observation_rows().integral() + d, i * n_columns + c) = force[d];
       on_the_rim = sum(on_the_rim, body_resultant<dim>(loads.body_force, tread.column().volume,
                                                        rotated<dim>(tread.column().moment, -to_column)));
     }

@@ -84,8 +84,8 @@ MaterialLoads material_loads(const RollingProblem<dim>& problem, const RollingSo
   return loads;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                      \
-  template MaterialLoads material_loads(const RollingProblem<dim>&, const RollingSolution<dim>&,          \
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                             \
+  template MaterialLoads material_loads(const RollingProblem<dim>&, const RollingSolution<dim>&, \
                                         std::span<const typename FunctionalDerivative<dim>::Integral>);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)

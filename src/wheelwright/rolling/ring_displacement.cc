@@ -102,8 +102,8 @@ RingField RingDisplacement<dim>::at_nodes(int position) const {
         const auto v = at_node(core, position, sector, place);
         if (!v) continue;
         const double radius = lattice_.polar_point(place)[0];
-        const Vec<dim> of_rim = from_ground.back(
-            wheelwright::displacement<dim>(rim, from_ground.forward(Vec<dim>{radius})));
+        const Vec<dim> of_rim =
+            from_ground.back(wheelwright::displacement<dim>(rim, from_ground.forward(Vec<dim>{radius})));
         Vec<dim> polar = *v;
         for (int d = 0; d < dim; ++d) polar[d] += of_rim[d];
         const Vec<dim> u = from_polar.forward(polar);
@@ -142,7 +142,8 @@ Matrix RingDisplacement<dim>::strains(int cell, std::span<const Vec<dim>> points
   for (size_t q = 0; q < points.size(); ++q) {
     const auto at = element.at(points[q]);
     for (int j = 0; j < element.n_dofs(); ++j)
-      for (int k = 0; k < n_strains<dim>; ++k) map(n_strains<dim> * static_cast<int>(q) + k, j) = at.strain[k][j];
+      for (int k = 0; k < n_strains<dim>; ++k)
+        map(n_strains<dim> * static_cast<int>(q) + k, j) = at.strain[k][j];
   }
   return product(map, Op::none, cell_displacements(cell), Op::none);
 }

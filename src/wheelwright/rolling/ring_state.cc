@@ -36,7 +36,8 @@ class RingState : public State<dim> {
     if (!adjoints) return adjoints.failure();
     const double adjoint_seconds = watch.lap();
     auto densities = wheelwright::shape_gradients<dim>(problem_, solution_, functions, *adjoints);
-    return ShapeGradients{std::move(densities), {{phase::adjoint, adjoint_seconds}, {phase::gradient, watch.lap()}}};
+    return ShapeGradients{std::move(densities),
+                          {{phase::adjoint, adjoint_seconds}, {phase::gradient, watch.lap()}}};
   }
 
   Expected<std::vector<std::vector<ContactPatch<dim>>>> under(
@@ -90,7 +91,7 @@ Expected<typename StateSolver<dim>::TractionMap> RollingProblem<dim>::neumann_to
   return typename StateSolver<dim>::TractionMap([map](const Matrix& tractions) { return (*map)(tractions); });
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                      \
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                                       \
   template std::shared_ptr<const State<dim>> ring_state(const RollingProblem<dim>&, RollingSolution<dim>); \
   template Expected<std::shared_ptr<const State<dim>>> RollingProblem<dim>::states(                        \
       const LevelSet<dim>&, LoadPositions, const Interrupt&) const;                                        \

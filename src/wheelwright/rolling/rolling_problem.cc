@@ -81,10 +81,10 @@ double line_load(const RollingModel<dim>& model) {
 template <int dim>
 int columns_in_contact(const RollingModel<dim>& model) {
   const PolarGrid<dim>& grid = model.grid;
-  const double half_width = model.travel
-                                ? 0.5 * std::sqrt(2 * grid.outer_radius * std::max(*model.travel, 0.0))
-                                : 2 * std::sqrt(line_load(model) * grid.outer_radius /
-                                                (std::numbers::pi * model.materials.at_tread().plane_strain_modulus()));
+  const double half_width =
+      model.travel ? 0.5 * std::sqrt(2 * grid.outer_radius * std::max(*model.travel, 0.0))
+                   : 2 * std::sqrt(line_load(model) * grid.outer_radius /
+                                   (std::numbers::pi * model.materials.at_tread().plane_strain_modulus()));
   return static_cast<int>(std::ceil(half_width / (grid.outer_radius * grid.cell_size()[1]))) + 2;
 }
 
@@ -251,9 +251,8 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& p
   const CondensedLoads preloaded = preload(s);
   std::optional<ContactState<dim>> neighbour;
   for (int i = 0; i < n_positions; ++i) {
-    auto rolled =
-        roll_to(model_, tread_, s.ring, s.surface, s.positions.grounds[i], s.preloads[i], neighbour,
-                interrupt);
+    auto rolled = roll_to(model_, tread_, s.ring, s.surface, s.positions.grounds[i], s.preloads[i], neighbour,
+                          interrupt);
     if (!rolled) return rolled.failure();
     neighbour = rolled->state;
     const ContactZone& zone = rolled->contact.zone();

@@ -90,8 +90,8 @@ struct CellBoundary {
   BoundaryRule<dim> rule;
 };
 
-/// The cells in which gradients are given for one cut cell: it alone; or it and its image, when positions stand
-/// for their images too; nothing for the image itself.
+/// The cells in which gradients are given for one cut cell: it alone; or it and its image, when positions
+/// stand for their images too; nothing for the image itself.
 template <int dim>
 std::vector<CellBoundary<dim>> cells_of(const RollingSolution<dim>& s, const CutCell<dim>& cut) {
   if (!s.positions.stand_for_images()) return {{cut.cell, cut.boundary}};
@@ -104,11 +104,11 @@ std::vector<CellBoundary<dim>> cells_of(const RollingSolution<dim>& s, const Cut
   return cells;
 }
 
-/// sum over the load cases of m_j factor_i M(u_j), from the strains of all load cases at one point (one row per
-/// component, one column per case).
+/// sum over the load cases of m_j factor_i M(u_j), from the strains of all load cases at one point (one row
+/// per component, one column per case).
 template <int dim>
-double integrand(const RollingSolution<dim>& s, const Material& material, const Matrix& strains, int first_row,
-                 std::span<const typename FunctionalDerivative<dim>::Integral> integrals) {
+double integrand(const RollingSolution<dim>& s, const Material& material, const Matrix& strains,
+                 int first_row, std::span<const typename FunctionalDerivative<dim>::Integral> integrals) {
   const int n_sectors = s.ring.n_sectors();
   double sum = 0;
   for (int j = 0; j < strains.columns(); ++j) {
@@ -165,8 +165,8 @@ class Densities {
   std::vector<double> energy_and_work(const std::vector<double>& energy, const Material& material,
                                       const Matrix& strain_u, const Matrix& strain_p) const {
     const int n_modes = strain_u.rows(), n_points = strain_u.columns() / n_strains<dim>;
-    const Matrix weighted = energy.empty() ? Matrix(n_modes, strain_u.columns())
-                                           : energy_weighted(s_, energy, strain_u);
+    const Matrix weighted =
+        energy.empty() ? Matrix(n_modes, strain_u.columns()) : energy_weighted(s_, energy, strain_u);
     std::vector<double> densities(n_points, 0.0);
     for (int q = 0; q < n_points; ++q) {
       const int first = n_strains<dim> * q;
@@ -250,10 +250,10 @@ std::vector<std::vector<double>> shape_gradients(const RollingProblem<dim>& prob
   return gradients;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                     \
-  template std::vector<SurfacePoint<dim>> boundary_points(const RollingProblem<dim>&,                    \
-                                                          const RollingSolution<dim>&);                  \
-  template std::vector<std::vector<double>> shape_gradients(                                             \
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                                       \
+  template std::vector<SurfacePoint<dim>> boundary_points(const RollingProblem<dim>&,                      \
+                                                          const RollingSolution<dim>&);                    \
+  template std::vector<std::vector<double>> shape_gradients(                                               \
       const RollingProblem<dim>&, const RollingSolution<dim>&, std::span<const FunctionalDerivative<dim>>, \
       std::span<const Adjoint>);
 WHEELWRIGHT_INSTANTIATE(2)

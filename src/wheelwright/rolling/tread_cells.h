@@ -10,8 +10,8 @@ class TreadCells {
  public:
   TreadCells(const Tread<dim>& tread, const PolarGrid<dim>& grid, int degree);
 
-  /// Displacements of a cell (`radial` a row of the grid in the tread) in every (right-hand side, ring column):
-  /// one row per dof of the cell. `nodal` is what nodal_displacements() gives.
+  /// Displacements of a cell (`radial` a row of the grid in the tread) in every (right-hand side, ring
+  /// column): one row per dof of the cell. `nodal` is what nodal_displacements() gives.
   Matrix displacements(int radial, int axial, const TreadField& field, const Matrix& nodal) const;
 
   /// Adds loads on a cell's dofs, laid out in the same way.
@@ -27,7 +27,7 @@ class TreadCells {
  private:
   /// Where the first component of a node of a column's cell stands.
   struct Place {
-    bool on_base;         ///< among the rows of the base, else among those of the nodes above it
+    bool on_base;  ///< among the rows of the base, else among those of the nodes above it
     int row;
     bool in_next_column;  ///< in the field of the next ring column
   };

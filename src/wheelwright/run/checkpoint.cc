@@ -136,7 +136,8 @@ std::vector<int> read_integers(ByteReader& reader, std::string_view name) {
 
 template <int dim>
 void append(const Evaluation<dim>& evaluation, ByteWriter& writer) {
-  const auto& [functions, terms, boundary, newton_iterations, mean_observations, phases, measures] = evaluation;
+  const auto& [functions, terms, boundary, newton_iterations, mean_observations, phases, measures] =
+      evaluation;
   append(functions, writer);
   append(terms, writer);
   append(boundary, writer);

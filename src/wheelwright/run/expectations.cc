@@ -70,8 +70,7 @@ void ExpectationWatch<dim>::add_to(Checkpoint<dim>& checkpoint) {
 template <int dim>
 std::vector<FoundQuantity> found_quantities(const std::vector<Expectation>& expectations,
                                             const StateSolver<dim>& solver,
-                                            const OptimizationState<dim>& state,
-                                            const State<dim>& solution) {
+                                            const OptimizationState<dim>& state, const State<dim>& solution) {
   std::vector<FoundQuantity> result;
   for (const Expectation& expectation : expectations)
     if (expectation.iteration == state.iteration)
@@ -105,11 +104,11 @@ bool need_a_solution(const std::vector<Expectation>& expectations) {
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                         \
   template class ExpectationWatch<dim>;                                                                      \
-  template std::vector<FoundQuantity> found_quantities(                                                      \
-      const std::vector<Expectation>&, const StateSolver<dim>&, const OptimizationState<dim>&,            \
-      const State<dim>&);                                                                          \
+  template std::vector<FoundQuantity> found_quantities(const std::vector<Expectation>&,                      \
+                                                       const StateSolver<dim>&,                              \
+                                                       const OptimizationState<dim>&, const State<dim>&);    \
   template std::vector<Finding> findings(const std::vector<Expectation>&, const std::vector<FoundQuantity>&, \
-                                         const StateSolver<dim>&, const OptimizationState<dim>&,          \
+                                         const StateSolver<dim>&, const OptimizationState<dim>&,             \
                                          const State<dim>*);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)

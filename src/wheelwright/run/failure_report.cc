@@ -63,8 +63,8 @@ std::string picture(const RunEnded<2>& failure) {
   const Trial<2>& trial = failure.failed_trials.back();
   const PolarGrid<2>& grid = trial.shape.lattice.grid();
   const std::string reason = to_string(trial.failure->reason);
-  const double objective =
-      trial.evaluation ? trial.evaluation->function("objective").value : std::numeric_limits<double>::quiet_NaN();
+  const double objective = trial.evaluation ? trial.evaluation->function("objective").value
+                                            : std::numeric_limits<double>::quiet_NaN();
   const WheelState rejected =
       wheel("rejected: " + reason, trial.shape, objective, material_measure(trial.shape));
   if (!failure.state) return shape_svg(grid, rejected.contours, rejected.heading);

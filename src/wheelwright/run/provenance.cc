@@ -7,9 +7,7 @@
 
 namespace wheelwright {
 
-std::string program_text() {
-  return fmt::format("wheelwright {}, compiled by {}", version(), __VERSION__);
-}
+std::string program_text() { return fmt::format("wheelwright {}, compiled by {}", version(), __VERSION__); }
 
 Provenance provenance(const Case& c) {
   Case computed = c;

@@ -167,7 +167,9 @@ void RunLoop<dim>::observe(const Trial<dim>& trial, const OptimizationState<dim>
   elapsed_ += seconds;
   if (trial.verdict == Verdict::accepted) {
     failed_trials_.clear();
-    if (!initial_) initial_ = InitialShape<dim>{state.shape, work_->optimizer.objective_of(state.evaluation), state.measure};
+    if (!initial_)
+      initial_ =
+          InitialShape<dim>{state.shape, work_->optimizer.objective_of(state.evaluation), state.measure};
     last_solution_ = reason_to_stop(work_->study.optimizer, state) ? trial.solution : nullptr;
   } else if (trial.verdict == Verdict::failed) {
     failed_trials_.push_back(trial);

@@ -49,7 +49,8 @@ void ShapeFiles::write(const TrialDone<2>& done, const RunView<2>& run) {
   const PositionFields worst = position_fields(solver, solution, worst_position(solution.strain_energy()));
   auto fields = named_fields(worst);
   if (const auto gradient = shape_gradient_field(done.state, run.evolver))
-    fields.push_back({"shape_gradient", unit<2>(UnitKind::stress), repeated_field(solver.model(), *gradient)});
+    fields.push_back(
+        {"shape_gradient", unit<2>(UnitKind::stress), repeated_field(solver.model(), *gradient)});
   const int iteration = done.state.iteration;
   make_folder(run.folder / "shapes");
   VtuMesh(done.state.shape, worst.lattice, vtu_cut_subdivisions)

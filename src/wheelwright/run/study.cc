@@ -70,8 +70,8 @@ namespace {
 
 /// alpha_1 from alpha_2 by (83), on the initial shape.
 template <int dim>
-Expected<double> matching_weight(const Case& c, const StateSolver<dim>& solver, const Functional<dim>& annulus,
-                                 const Functional<dim>& dual) {
+Expected<double> matching_weight(const Case& c, const StateSolver<dim>& solver,
+                                 const Functional<dim>& annulus, const Functional<dim>& dual) {
   const LevelSet<dim> shape = initial_shape<dim>(c);
   const auto states = solver.states(shape, solver.all_positions(), Interrupt());
   if (!states) return states.failure();
@@ -215,19 +215,19 @@ ShapeOptimizer<dim> optimizer_of(const Study<dim>& study, Interrupt interrupt) {
   return {study.initial.lattice, study.evolution, study.optimizer, evaluate_of(study, std::move(interrupt))};
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                  \
-  template PolarGrid<dim> polar_grid(const Case&);                                    \
-  template RollingModel<dim> rolling_model(const Case&);                              \
-  template LevelSet<dim> initial_shape(const Case&);                                  \
-  template OptimizerOptions optimizer_options<dim>(const Case&);                      \
-  template Expected<std::shared_ptr<const StateSolver<dim>>> make_solver(const RollingModel<dim>&); \
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                                        \
+  template PolarGrid<dim> polar_grid(const Case&);                                                          \
+  template RollingModel<dim> rolling_model(const Case&);                                                    \
+  template LevelSet<dim> initial_shape(const Case&);                                                        \
+  template OptimizerOptions optimizer_options<dim>(const Case&);                                            \
+  template Expected<std::shared_ptr<const StateSolver<dim>>> make_solver(const RollingModel<dim>&);         \
   template Expected<std::vector<ShapeFunction<dim>>> shape_functions(const Case&, const StateSolver<dim>&); \
-  template struct Study<dim>; \
-  template std::vector<ShapeEvent<dim>> lost_on_the_grid(const Case&);                \
-  template double volume_fraction(const PolarGrid<dim>&, double);                     \
-  template std::string load_text(const RollingModel<dim>&);                           \
-  template Expected<Study<dim>> make_study(const Case&);                              \
-  template ShapeOptimizer<dim>::Evaluate evaluate_of(const Study<dim>&, Interrupt); \
+  template struct Study<dim>;                                                                               \
+  template std::vector<ShapeEvent<dim>> lost_on_the_grid(const Case&);                                      \
+  template double volume_fraction(const PolarGrid<dim>&, double);                                           \
+  template std::string load_text(const RollingModel<dim>&);                                                 \
+  template Expected<Study<dim>> make_study(const Case&);                                                    \
+  template ShapeOptimizer<dim>::Evaluate evaluate_of(const Study<dim>&, Interrupt);                         \
   template ShapeOptimizer<dim> optimizer_of(const Study<dim>&, Interrupt);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)

@@ -25,8 +25,8 @@ EvolutionOptions evolution_options(const Case& c);
 template <int dim>
 OptimizerOptions optimizer_options(const Case& c);
 
-/// What solves the states of a model's shapes. Fails with not_positive_definite when theta and gamma_0 do not go
-/// together.
+/// What solves the states of a model's shapes. Fails with not_positive_definite when theta and gamma_0 do not
+/// go together.
 template <int dim>
 Expected<std::shared_ptr<const StateSolver<dim>>> make_solver(const RollingModel<dim>& model);
 
@@ -69,9 +69,9 @@ struct Study {
 template <int dim>
 Expected<Study<dim>> make_study(const Case& c);
 
-/// Evaluates the study's functions at a shape, for the loop. With `objective.mean = "held"` it compares with the mean
-/// contact stress of the previous shape, otherwise with that of the shape itself. Keeps what it needs of the
-/// study.
+/// Evaluates the study's functions at a shape, for the loop. With `objective.mean = "held"` it compares with
+/// the mean contact stress of the previous shape, otherwise with that of the shape itself. Keeps what it
+/// needs of the study.
 template <int dim>
 typename ShapeOptimizer<dim>::Evaluate evaluate_of(const Study<dim>& study, Interrupt interrupt = {});
 

@@ -52,8 +52,8 @@ struct WeightedValues {
   FunctionalDerivative<dim> derivative;
 };
 
-/// Takes the mean's own derivative into account: d(t_i - m) with m the mean of the t_i. When all positions count
-/// alike, deviations sum to zero over them, and with them their loads: then nothing is left of it.
+/// Takes the mean's own derivative into account: d(t_i - m) with m the mean of the t_i. When all positions
+/// count alike, deviations sum to zero over them, and with them their loads: then nothing is left of it.
 template <int dim>
 void add_derivative_of_mean(const TreadSurface<dim>& tread, const LoadPositions& positions, Matrix& loads) {
   const Matrix mean = mean_over_positions(tread, positions, loads);
@@ -171,11 +171,10 @@ template <int dim>
 Expected<Evaluated<dim>> evaluate(const StateSolver<dim>& solver,
                                   std::span<const ShapeFunction<dim>> functions, const LevelSet<dim>& psi,
                                   const Matrix* held_mean, const Interrupt& interrupt) {
-  const bool compares_images_alike =
-      weights_are_mirror_symmetric(functions) &&
-      (!held_mean || is_mirror_symmetric(solver.tread_surface(), *held_mean));
-  auto state = solver.states(psi, compares_images_alike ? solver.distinct_positions(psi) : solver.all_positions(),
-                             interrupt);
+  const bool compares_images_alike = weights_are_mirror_symmetric(functions) &&
+                                     (!held_mean || is_mirror_symmetric(solver.tread_surface(), *held_mean));
+  auto state = solver.states(
+      psi, compares_images_alike ? solver.distinct_positions(psi) : solver.all_positions(), interrupt);
   if (!state) return state.failure();
   auto evaluation = differentiate(solver, functions, psi, **state, held_mean);
   if (!evaluation) return evaluation.failure();

@@ -12,10 +12,10 @@ struct Evaluated {
   std::shared_ptr<const State<dim>> state;
 };
 
-/// Values and shape gradients (42) of the functions from the states of one shape. The adjoints of all functions
-/// are one block of right-hand sides. `held_mean`: the mean of the contact stress that uniformity functionals
-/// compare with (Evaluation::mean_observations of an earlier shape, as the paper does); null for the shape's own,
-/// whose derivative is exact. Fails as the adjoint problems do, or with not_finite.
+/// Values and shape gradients (42) of the functions from the states of one shape. The adjoints of all
+/// functions are one block of right-hand sides. `held_mean`: the mean of the contact stress that uniformity
+/// functionals compare with (Evaluation::mean_observations of an earlier shape, as the paper does); null for
+/// the shape's own, whose derivative is exact. Fails as the adjoint problems do, or with not_finite.
 template <int dim>
 Expected<Evaluation<dim>> differentiate(const StateSolver<dim>& solver,
                                         std::span<const ShapeFunction<dim>> functions,

@@ -11,8 +11,8 @@
 
 namespace wheelwright {
 
-/// A functional's value at one shape, before weighting. Sums run over the N_d load positions of one sector; the
-/// paper's sum over all N_l = N_d N_s positions is N_s times that.
+/// A functional's value at one shape, before weighting. Sums run over the N_d load positions of one sector;
+/// the paper's sum over all N_l = N_d N_s positions is N_s times that.
 struct TermValue {
   std::string name;                 ///< as in the case file, e.g. "strain_energy"
   double value;                     ///< summed over the positions; per metre of width when dim = 2
@@ -39,9 +39,9 @@ template <int dim>
 struct Evaluation {
   std::vector<FunctionValue> functions;     ///< in the order of the problem's functions
   std::vector<TermValue> terms;             ///< the functionals that they are made of, each once
-  std::vector<SurfacePoint<dim>> boundary;  ///< DJ(Theta) = sum weight gradient Theta.n over these points, for a
-                                            ///< Theta that is equal in all sectors
-  std::vector<int> newton_iterations;       ///< one per position that was solved for
+  std::vector<SurfacePoint<dim>> boundary;  ///< DJ(Theta) = sum weight gradient Theta.n over these points,
+                                            ///< for a Theta that is equal in all sectors
+  std::vector<int> newton_iterations;  ///< one per position that was solved for
   Matrix mean_observations;  ///< of the tread over the positions (functionals/mean_contact_stress.h)
   std::vector<PhaseTime> phases;
   std::vector<MeasureValue> measures;  ///< RollingMeasures, by its names

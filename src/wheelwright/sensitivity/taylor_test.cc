@@ -62,11 +62,11 @@ Expected<TaylorTest> taylor_test(
   return test;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                          \
-  template double directional_derivative(const std::vector<SurfaceSample<dim>>&, const LevelSet<dim>&,        \
-                                         std::span<const double>, int);                                       \
-  template Expected<TaylorTest> taylor_test(                                                                  \
-      const std::function<Expected<Evaluation<dim>>(const LevelSet<dim>&)>&, const LevelSet<dim>&,            \
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                                   \
+  template double directional_derivative(const std::vector<SurfaceSample<dim>>&, const LevelSet<dim>&, \
+                                         std::span<const double>, int);                                \
+  template Expected<TaylorTest> taylor_test(                                                           \
+      const std::function<Expected<Evaluation<dim>>(const LevelSet<dim>&)>&, const LevelSet<dim>&,     \
       std::span<const double>, int, double, int, std::string_view);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)

@@ -6,8 +6,8 @@
 
 namespace wheelwright {
 
-/// The contact at one load position: what the ground does to the wheel near the point where it touches. Vectors
-/// are in the ground frame: component 0 along n_y, towards the ground, 1 along it.
+/// The contact at one load position: what the ground does to the wheel near the point where it touches.
+/// Vectors are in the ground frame: component 0 along n_y, towards the ground, 1 along it.
 template <int dim>
 struct ContactPatch {
   /// A contact quadrature point of the tread.

@@ -18,16 +18,14 @@ std::vector<double> material_integral(const StateSolver<dim>& solver, const Stat
         std::vector<double> weights;
         for (const auto& point : points) {
           xi.push_back(point.xi);
-          weights.push_back(
-              point.weight *
-              determinant<dim>(map.jacobian(ShapeFunctions<dim>(model.degree, point.xi))));
+          weights.push_back(point.weight *
+                            determinant<dim>(map.jacobian(ShapeFunctions<dim>(model.degree, point.xi))));
         }
         const Material& material = model.materials.in_row(place[0]);
-        for_each_strain<dim>(displacement->strains(cell, xi),
-                             [&](int load_case, int q, const Voigt<dim>& strain) {
-                               integrals[load_case / model.grid.n_sectors] +=
-                                   weights[q] * density.at(strain, material).density;
-                             });
+        for_each_strain<dim>(displacement->strains(cell, xi), [&](int load_case, int q,
+                                                                  const Voigt<dim>& strain) {
+          integrals[load_case / model.grid.n_sectors] += weights[q] * density.at(strain, material).density;
+        });
       });
   return integrals;
 }

@@ -10,7 +10,8 @@ template <int dim>
 std::vector<double> material_integral(const StateSolver<dim>& solver, const State<dim>& state,
                                       const MaterialDensity<dim>& density);
 
-/// Calls visit(load case, point of the cell, strain) for some points of a cell; load case = position * n_sectors
+/// Calls visit(load case, point of the cell, strain) for some points of a cell; load case = position *
+/// n_sectors
 /// + sector.
 template <int dim, class Visit>
 void for_each_strain(const Matrix& strains, Visit visit) {

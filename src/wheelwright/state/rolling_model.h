@@ -11,12 +11,13 @@
 namespace wheelwright {
 
 /// The outermost rows of cells, which no shape cuts, and their grid: it is halved `levels` times towards the
-/// tread. The lower half of the rows is halved once, the next quarter twice and so on; the last part is halved
-/// `levels` times. Nodes that hang on coarser cells are constrained to them.
+/// tread. The lower half of the rows is halved once, the next quarter twice and so on; the last part is
+/// halved `levels` times. Nodes that hang on coarser cells are constrained to them.
 struct TreadGrid {
-  int rows = 1;            ///< radial cells of the level set's grid
-  int levels = 0;          ///< L
-  int annulus_points = 0;  ///< Gauss points per direction in every cell at which sigma(u)n is observed; 0: none
+  int rows = 1;    ///< radial cells of the level set's grid
+  int levels = 0;  ///< L
+  int annulus_points =
+      0;  ///< Gauss points per direction in every cell at which sigma(u)n is observed; 0: none
 };
 
 /// The loads of (1) on the structure itself.

@@ -16,16 +16,16 @@ struct TreadPoint {
   double gamma;   ///< gamma_0 E / h_T [Pa/m], with h_T the diameter of the cell at the tread
 };
 
-/// The tread as the functions of the contact see it: a ring of equal columns, one per angular cell of the level
-/// set's grid.
+/// The tread as the functions of the contact see it: a ring of equal columns, one per angular cell of the
+/// level set's grid.
 template <int dim>
 struct TreadSurface {
   std::vector<TreadPoint<dim>> points;  ///< contact quadrature points of a column
   std::vector<double> annulus_weights;  ///< dx of a column's quadrature points in the annulus [m^2 or m^3]
   double annulus_thickness = 0;         ///< epsilon of (60) [m]
 
-  /// The observation that takes the place of each one in the mirror image of a column. Observations are counted
-  /// as vectors of dim rows.
+  /// The observation that takes the place of each one in the mirror image of a column. Observations are
+  /// counted as vectors of dim rows.
   std::vector<int> mirror_images;
   int n_columns = 0;  ///< round the whole ring
 
