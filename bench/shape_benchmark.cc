@@ -44,10 +44,12 @@ class Wheel {
   const RollingProblem<2>& problem() const { return problem_; }
   const LevelSet<2>& psi() const { return psi_; }
   Evaluation<2> evaluate() const {
-    return value_of(wheelwright::evaluate(problem_, testing::strain_energy_alone(), psi_));
+    return value_of(testing::evaluate_objective<2>(problem_, testing::strain_energy_alone(), psi_));
   }
   Evaluation<2> evaluate_all_positions() const {
-    return value_of(differentiate(problem_, testing::strain_energy_alone(), value_of(problem_.solve(psi_))));
+    const ShapeFunction<2> function = objective(testing::strain_energy_alone());
+    const auto states = value_of(testing::all_states<2>(problem_, psi_));
+    return value_of(differentiate<2>(problem_, std::span(&function, 1), psi_, *states));
   }
 
  private:
@@ -170,7 +172,7 @@ class Evolution {
   explicit Evolution(const Wheel& wheel)
       : wheel_(wheel),
         evolver_(wheel.psi().lattice, options(wheel)),
-        gradient_(wheel.evaluate().gradient),
+        gradient_(wheel.evaluate().gradient("objective")),
         velocity_(value_of(evolver_.measure_preserving_velocity(gradient_))),
         moved_(move()) {}
 

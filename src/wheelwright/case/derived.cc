@@ -115,14 +115,14 @@ double estimated_memory(const Case& c) {
   for (const HoleRing& ring : c.holes.rings) holes += ring.count / sectors;
 
   // The size of each array is known; how many of them exist at the peak is fitted to measurements.
-  const double libraries = 18e6;
-  const double fields = number * (137 * cells + 0.6 * dofs * positions);
-  const double factor = number * sector_dofs * std::log2(std::max(sector_dofs, 2.0));
+  const double libraries = 20e6;
+  const double fields = number * (56 * cells + 1.4 * dofs * positions);
+  const double factor = number * 0.6 * sector_dofs * std::log2(std::max(sector_dofs, 2.0));
   const double condensed = number * 3.5 * square(2 * radial_line + sector_line);
-  const double harmonics = complex * 1.6 * (sectors / 2 + 1) * square(radial_line + sector_line);
-  const double compliance = number * 8.3 * square(ring_line) / sectors;
-  const double surface = number * 1.05 * (2 * zone_columns - 1) * columns / sectors * square(tractions);
-  const double tread = number * (60 * square(observations) + 4.5 * observations * columns * positions);
+  const double harmonics = complex * 1.8 * (sectors / 2 + 1) * square(radial_line + sector_line);
+  const double compliance = number * 7.6 * square(ring_line) / sectors;
+  const double surface = number * 1.2 * (2 * zone_columns - 1) * columns / sectors * square(tractions);
+  const double tread = number * (64 * square(observations) + 1.8 * observations * columns * positions);
   const double zones = number * 0.6 * positions * square(zone_columns * tractions);
   const double shape = number * 10 * holes;
   const double rings = wants_dual(c) ? 2 : 1;  // the dual norm has its own ring
