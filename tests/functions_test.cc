@@ -182,6 +182,34 @@ TEST(Functions, WeightsPerPositionPassTheTaylorTest) {
   expect_second_order(taylor(*problem, {{"weighted", terms, weights}}, generic_hole(model.grid), "weighted"));
 }
 
+// Each alone, where the others cannot hide it. With weights the deviations from the mean do not sum to zero
+// over the positions, so that the mean's own derivative counts: little, which only small steps show.
+TEST(Functions, TheGradientsOfWeightedTermsAreThoseOfDifferences) {
+  auto model = paper_model(14, 192);
+  model.n_positions = 4;
+  const auto problem = RollingProblem<2>::create(model);
+  ASSERT_TRUE(problem);
+  const auto psi = generic_hole(model.grid);
+  const auto direction = smooth_direction(psi.lattice);
+  const std::vector<double> weights{0.3, 2, 0, -1};
+  const std::vector<ShapeFunction<2>> functions{
+      {"naive", {{1, std::make_shared<UniformityL2<2>>(0.01)}}, weights},
+      {"stress", {{1, std::make_shared<StressPower>()}}, weights}};
+  const auto at = [&](double t) {
+    auto moved = psi;
+    for (size_t i = 0; i < direction.size(); ++i) moved.values[i] += t * direction[i];
+    return *evaluation_of(*problem, functions, moved);
+  };
+  const double t = 1e-6;
+  const auto before = at(-t), here = at(0), after = at(t);
+  for (const auto& function : functions) {
+    const double difference =
+        (after.function(function.name).value - before.function(function.name).value) / (2 * t);
+    const double derivative = directional_derivative<2>(here.gradient(function.name), psi, direction, 2);
+    EXPECT_NEAR(derivative / difference, 1, 2e-5) << function.name;  // the error of the material's quadrature
+  }
+}
+
 // The value is the weighted sum over all positions of the sector, images included; weights that differ
 // between mirror images need all positions.
 TEST(Functions, WeightsPerPositionAreFactorsOfTheirPositions) {

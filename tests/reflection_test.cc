@@ -68,6 +68,10 @@ void expect_what_solving_all_gives(int n, const std::vector<testing::Hole>& hole
     EXPECT_EQ(found[i].ground_azimuth, (*all)->positions().grounds[i].azimuth(problem->model().grid));
     expect_equal(found[i].displacement, expected[i].displacement, tolerances.displacement);
     expect_equal(found[i].von_mises, expected[i].von_mises, tolerances.stress);
+    const auto alone = position_fields(*problem, **distinct, i);
+    EXPECT_EQ(alone.ground_azimuth, found[i].ground_azimuth);
+    expect_equal(alone.displacement, expected[i].displacement, tolerances.displacement);
+    expect_equal(alone.von_mises, expected[i].von_mises, tolerances.stress);
     const auto a = touching(points, i), b = touching(expected_points, i);
     ASSERT_EQ(a.size(), b.size());
     ASSERT_GT(a.size(), 3u);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "wheelwright/case/read.h"
 #include "wheelwright/evolution/volume.h"
 #include "wheelwright/functionals/strain_energy.h"
@@ -191,6 +193,25 @@ TEST(ObjectiveOfACase, IsTheWeightedSumOfItsCriteria) {
   EXPECT_NEAR(e.function("objective").value, sum, 1e-13 * sum);
   ASSERT_TRUE(evaluated->state);
   EXPECT_EQ(evaluated->state->positions().size(), 5);
+}
+
+// (83): on the initial shape the term of the annulus is the given multiple of the dual one, whatever their
+// sizes.
+TEST(ObjectiveOfACase, MatchesTheAnnulusWithTheDualTerm) {
+  Case c = uneven_case();
+  c.objective.strain_energy = 0;
+  c.objective.uniformity_dual = 0.7;
+  c.objective.annulus = 3 * (0.37 - 0.21) / 16;
+  c.objective.annulus_matches_dual = 23;
+  const auto study = make_study<2>(c);
+  ASSERT_TRUE(study);
+  const auto evaluated = evaluate_of(*study)(study->initial, nullptr);
+  ASSERT_TRUE(evaluated) << evaluated.failure().detail;
+  const Evaluation<2>& e = evaluated->evaluation;
+  const auto dual = std::ranges::find(e.terms, name(Quantity::uniformity_dual), &TermValue::name);
+  ASSERT_NE(dual, e.terms.end());
+  ASSERT_GT(dual->value, 0);
+  EXPECT_NEAR(e.function("objective").value, (0.7 + 23) * dual->value, 1e-10 * dual->value);
 }
 
 // With a held mean the objective depends on the previous shape's mean alone, and on nothing that was

@@ -89,7 +89,8 @@ def make(root, folder, texts, kept, choose, targets, jobs, tell):
         write_copy(root, copy, texts, mutants)
         configure(copy, build)
         tell(f"compiling {len(kept)} kept and {len(chosen)} random breaks")
-        output = compile_copy(build, targets, jobs)
+        # The program first: what does not compile mostly shows there, before the tests are compiled in vain.
+        output = compile_copy(build, targets[:1], jobs) or compile_copy(build, targets, jobs)
         if not output:
             return mutants
         places = broken_lines(copy, output)
