@@ -6,7 +6,7 @@
 
 namespace wheelwright {
 
-/// Where the state of a load position is found: a position that was solved for, or the mirror image of that
+/// The source of a load position's state: a position that was solved for, or the mirror image of that
 /// state in the plane of azimuth 0.
 struct PositionSource {
   int solved;     ///< index of a solved position
