@@ -133,7 +133,7 @@ struct VtuMesh::Sector {
       offsets.push_back(static_cast<std::int32_t>(connectivity.size()));
       types.push_back(type);
     }
-    patches.push_back({cell_nodes(c), points.size()});
+    patches.push_back({ring_cell_nodes<2>(lattice_, c), points.size()});
   }
 
   void append_point(const CellMap<2>& map, int column, const std::vector<double>& nodal, const Vec<2>& xi) {
@@ -142,16 +142,6 @@ struct VtuMesh::Sector {
     for (std::size_t a = 0; a < nodal.size(); ++a) value += geometry.value[a] * nodal[a];
     points.push_back({rotated<2>(map.position(geometry), column * lattice_.grid().cell_size()[1]),
                       static_cast<float>(value), fields.value});
-  }
-
-  std::array<std::size_t, 9> cell_nodes(const std::array<int, 2>& cell) const {
-    std::array<std::size_t, 9> nodes{};
-    for (int a = 0; a < nodes_per_cell<2>(lattice_.degree()); ++a) {
-      auto p = local_node_position<2>(lattice_.degree(), a);
-      for (int d = 0; d < 2; ++d) p[d] += lattice_.degree() * cell[d];
-      nodes[a] = ring_node<2>(lattice_, p);
-    }
-    return nodes;
   }
 
   const LevelSet<2>& psi_;
