@@ -86,9 +86,8 @@ struct VtuMesh::Sector {
   };
   /// Points that are evaluated in the same cell.
   struct Patch {
-    std::array<std::size_t, 9>
-        nodes;        ///< of the cell, as in a RingField; those of the next sector may follow
-    std::size_t end;  ///< number of the point behind its last one
+    RingCellNodes<2> nodes;  ///< of that cell in sector 0
+    std::size_t end;         ///< number of the point behind its last one
   };
 
   std::vector<Point> points;

@@ -225,13 +225,14 @@ typename RollingProblem<dim>::CondensedLoads RollingProblem<dim>::preload(Rollin
 }
 
 template <int dim>
-Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& psi, LoadPositions positions,
+Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const CutShape<dim>& shape, LoadPositions positions,
                                                           const Interrupt& interrupt) const {
   const int n_positions = positions.size(), n_columns = model_.grid.ring_columns();
   std::vector<PhaseTime> phases;
   Stopwatch watch;
 
-  auto domain = cut_domain(psi, model_.cut_points.value_or(model_.degree + 2));
+  auto domain = shape.domain ? Expected<CutDomain<dim>>(*shape.domain)
+                             : cut_domain(shape.psi, model_.points_in_cut_cells());
   if (!domain) return domain.failure();
   if (auto failure = check_attached(*domain, protected_rim_rows(), protected_tread_rows())) return *failure;
   phases.push_back({phase::cut, watch.lap()});
