@@ -11,7 +11,7 @@ struct CutShape {
   const LevelSet<dim>& psi;
   const CutDomain<dim>* domain;  ///< cut_domain() of psi; null: not made yet
 
-  CutShape(const LevelSet<dim>& psi, const CutDomain<dim>* domain = nullptr) : psi(psi), domain(domain) {}
+  CutShape(const LevelSet<dim>& shape, const CutDomain<dim>* cells = nullptr) : psi(shape), domain(cells) {}
 };
 
 }  // namespace wheelwright
