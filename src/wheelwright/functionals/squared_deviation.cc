@@ -9,7 +9,9 @@ FunctionalValue<dim> squared_deviation(const TreadSurface<dim>& tread, const Sta
                                        const Matrix& mean, std::span<const WeightedTraction> tractions) {
   const Matrix deviation = deviation_from_mean(tread, state.positions(), state.observations(), mean);
   FunctionalValue<dim> value{.by_position = std::vector<double>(state.positions().size()),
-                             .derivative = {.tread_loads = Matrix(deviation.rows(), deviation.columns())},
+                             .derivative = {.energy = {},
+                                            .tread_loads = Matrix(deviation.rows(), deviation.columns()),
+                                            .integrals = {}},
                              .compares_with_mean = true};
   for (int j = 0; j < deviation.columns(); ++j) {
     const double* observed = deviation.column(j);

@@ -247,7 +247,19 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const CutShape<dim>& s
   RollingSolution<dim> s{.domain = *std::move(domain),
                          .ring = *std::move(factored),
                          .surface = std::move(surface),
-                         .positions = std::move(positions)};
+                         .positions = std::move(positions),
+                         .contacts = {},
+                         .states = {},
+                         .sweep = {},
+                         .displacement = {},
+                         .outer_line = {},
+                         .core_loads = {},
+                         .tread_loads = {},
+                         .preloads = {},
+                         .observations = {},
+                         .ghost_loads = {},
+                         .strain_energy = {},
+                         .phases = {}};
   s.tread_loads = Matrix(tread_.n_observations(), n_positions * n_columns);
   const CondensedLoads preloaded = preload(s);
   std::optional<ContactState<dim>> neighbour;
