@@ -244,7 +244,7 @@ HistoryRow history_row() {
           true,
           "",
           0.1,
-          {{"strain_energy", 1.0 / 3}},
+          {{"strain_energy", 1.0 / 3, {}}},
           {{"run_out", 2e-4}},
           0.75,
           0.002,
@@ -268,7 +268,7 @@ TEST_F(HistoryFile, EveryRowIsOnDiskAndHasTheColumnsOfTheHeader) {
   failed.accepted = false;
   failed.reason = "newton_stalled";
   failed.objective = NAN;
-  failed.criteria.clear();
+  failed.terms.clear();
   failed.measures.clear();
   failed.phases.clear();
   history.add(failed);
@@ -427,6 +427,37 @@ TEST(MeshSvg, CellsInsideAndTheMaterialOfCutCellsAreTheMaterialOfASector) {
   EXPECT_NEAR(16 * material / (metre * metre) / material_area, 1, 1e-3);
   EXPECT_GT(path_area(svg, "#fbdcc0"), path_area(svg, "#e8833a"));
   EXPECT_EQ(count(svg, "<use "), 15);
+}
+
+TEST(MeshSvg, CirclesAndRaysRunAlongTheSidesOfTheCells) {
+  const auto psi = holes_level_set(2, 1.0);
+  const std::string svg = mesh_svg(psi, *cut_domain(psi, 3), "mesh");
+  const double metre = 20 * 360 / 0.34;  // units of the picture
+  static const std::regex line("<path fill=\"none\"[^>]* d=\"([^\"]*)\""),
+      ray("M(-?[0-9]+) (-?[0-9]+)L(-?[0-9]+) (-?[0-9]+)"),
+      circle(
+          "M(-?[0-9]+) (-?[0-9]+)A([0-9]+) ([0-9]+) 0 0 0 (-?[0-9]+) (-?[0-9]+)A([0-9]+) ([0-9]+) 0 0 0 "
+          "(-?[0-9]+) (-?[0-9]+)");
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(svg, found, line));
+  const std::string path = found[1];
+  const auto expect_at = [&](const std::smatch& m, int k, double radius, double azimuth) {
+    EXPECT_NEAR(std::stod(m[k]), radius * std::cos(azimuth) * metre, 0.5001);
+    EXPECT_NEAR(std::stod(m[k + 1]), -radius * std::sin(azimuth) * metre, 0.5001);
+  };
+  int rays = 0, circles = 0;
+  for (std::sregex_iterator it(path.begin(), path.end(), ray), end; it != end; ++it, ++rays)
+    for (int k : {1, 3})
+      expect_at(*it, k, k == 1 ? wheel_grid.inner_radius : wheel_grid.outer_radius,
+                rays * wheel_grid.cell_size()[1]);
+  for (std::sregex_iterator it(path.begin(), path.end(), circle), end; it != end; ++it, ++circles) {
+    const double radius = wheel_grid.inner_radius + circles * wheel_grid.cell_size()[0];
+    for (int half = 0; half <= 2; ++half)
+      expect_at(*it, 1 + 4 * half, radius, 0.5 * half * wheel_grid.sector_angle());
+    for (int k : {3, 4, 7, 8}) EXPECT_NEAR(std::stod((*it)[k]), radius * metre, 0.5001);
+  }
+  EXPECT_EQ(rays, wheel_grid.columns());
+  EXPECT_EQ(circles, wheel_grid.cells[0] + 1);
 }
 
 TEST(DeformedSvg, AWindowShowsThePartAtTheContact) {
