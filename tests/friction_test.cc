@@ -210,7 +210,8 @@ TEST(Friction, TheAdjointPredictsTheEffectOfTheLoad) {
     const auto problem = RollingProblem<2>::create(model);
     const auto s = problem->solve(psi);
     ASSERT_TRUE(s) << s.failure().detail;
-    const FunctionalDerivative<2> energy{.energy = std::vector<double>(s->positions.size(), 1.0)};
+    const FunctionalDerivative<2> energy{
+        .energy = std::vector<double>(s->positions.size(), 1.0), .tread_loads = {}, .integrals = {}};
     const auto adjoints = solve_adjoints<2>(*problem, *s, std::span(&energy, 1));
     ASSERT_TRUE(adjoints);
     double derivative = 0;

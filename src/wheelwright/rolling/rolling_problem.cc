@@ -241,13 +241,14 @@ typename RollingProblem<dim>::CondensedLoads RollingProblem<dim>::preload(Rollin
 }
 
 template <int dim>
-Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& psi, LoadPositions positions,
+Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const CutShape<dim>& shape, LoadPositions positions,
                                                           const Interrupt& interrupt) const {
   const int n_positions = positions.size(), n_columns = model_.grid.ring_columns();
   std::vector<PhaseTime> phases;
   Stopwatch watch;
 
-  auto domain = cut_domain(psi, model_.cut_points.value_or(model_.degree + 2));
+  auto domain = shape.domain ? Expected<CutDomain<dim>>(*shape.domain)
+                             : cut_domain(shape.psi, model_.points_in_cut_cells());
   if (!domain) return domain.failure();
   if (auto failure = check_attached(*domain, protected_rim_rows(), protected_tread_rows())) return *failure;
   phases.push_back({phase::cut, watch.lap()});
@@ -262,7 +263,19 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& p
   RollingSolution<dim> s{.domain = *std::move(domain),
                          .ring = *std::move(factored),
                          .surface = std::move(surface),
-                         .positions = std::move(positions)};
+                         .positions = std::move(positions),
+                         .contacts = {},
+                         .states = {},
+                         .sweep = {},
+                         .displacement = {},
+                         .outer_line = {},
+                         .core_loads = {},
+                         .tread_loads = {},
+                         .preloads = {},
+                         .observations = {},
+                         .ghost_loads = {},
+                         .strain_energy = {},
+                         .phases = {}};
   s.tread_loads = Matrix(tread_.n_observations(), n_positions * n_columns);
   const CondensedLoads preloaded = preload(s);
   std::optional<ContactState<dim>> neighbour;
