@@ -32,10 +32,10 @@ Expected<ContactState<2>> solved_in(const RollingProblem<2>& problem, const Roll
   const auto& model = problem.model();
   return solve_contact<2>(contact,
                           [&](double fraction) {
-                            return model.travel ? contact.undeformed_start(fraction)
-                                                : contact.hertz_start(
-                                                      fraction * model.load, model.grid.outer_radius,
-                                                      model.materials.at_tread().plane_strain_modulus());
+                            return model.travel
+                                       ? contact.undeformed_start(fraction)
+                                       : contact.hertz_start(fraction * model.load, model.grid.outer_radius,
+                                                             model.materials.at_tread().contact_modulus());
                           },
                           {});
 }

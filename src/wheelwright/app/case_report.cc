@@ -27,7 +27,7 @@ std::string load_report(const Case& c) {
 std::string material_report(const Case& c) {
   return line("lambda", fmt::format("{:.6g} MPa", c.material.lambda() / 1e6)) +
          line("mu", fmt::format("{:.6g} MPa", c.material.mu() / 1e6)) +
-         line("E / (1 - nu^2)", fmt::format("{:.6g} MPa", c.material.plane_strain_modulus() / 1e6));
+         line("E* of the contact", fmt::format("{:.6g} MPa", c.material.contact_modulus() / 1e6));
 }
 
 /// Estimates for a given load.

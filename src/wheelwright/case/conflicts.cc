@@ -169,7 +169,7 @@ void check_nitsche(const Case& c, Conflicts& found) {
   const double least = least_gamma_0(c.contact.theta, c.material);
   if (c.contact.gamma_0 >= least) return;
   found.push_back(
-      {{"contact.gamma_0", "contact.theta", "contact.method", "material.poissons_ratio"},
+      {{"contact.gamma_0", "contact.theta", "contact.method", "material.poissons_ratio", "material.plane"},
        fmt::format("too small for theta = {} and poissons_ratio = {}: the stiffness may not be positive "
                    "definite",
                    c.contact.theta, c.material.poissons_ratio),

@@ -11,7 +11,7 @@ FunctionalValue<dim> UniformityAnnulus<dim>::evaluate(const StateSolver<dim>& so
   const ObservationRows<dim> rows = tread.rows();
   const Matrix deviation = deviation_from_mean(tread, state.positions(), state.observations(), mean);
   const double scale =
-      length_ / (solver.model().materials.at_tread().youngs_modulus * tread.annulus_thickness);
+      length_ / (solver.model().materials.at_tread().scaling_modulus() * tread.annulus_thickness);
   FunctionalValue<dim> value{.by_position = std::vector<double>(state.positions().size()),
                              .derivative = {.tread_loads = Matrix(deviation.rows(), deviation.columns())},
                              .compares_with_mean = true};

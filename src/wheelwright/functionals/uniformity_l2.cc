@@ -10,7 +10,7 @@ FunctionalValue<dim> UniformityL2<dim>::evaluate(const StateSolver<dim>& solver,
   const TreadSurface<dim>& tread = solver.tread_surface();
   const ObservationRows<dim> rows = tread.rows();
   const Matrix deviation = deviation_from_mean(tread, state.positions(), state.observations(), mean);
-  const double scale = length_ / solver.model().materials.at_tread().youngs_modulus;
+  const double scale = length_ / solver.model().materials.at_tread().scaling_modulus();
   FunctionalValue<dim> value{.by_position = std::vector<double>(state.positions().size()),
                              .derivative = {.tread_loads = Matrix(deviation.rows(), deviation.columns())},
                              .compares_with_mean = true};

@@ -310,7 +310,7 @@ class ColumnAssembly {
   }
 
   void add_contact_face(ColumnCell<dim>& cell) {
-    const double gamma = form_.gamma_0 * cell.material.youngs_modulus / cell.element.diameter();
+    const double gamma = form_.gamma_0 * cell.material.scaling_modulus() / cell.element.diameter();
     append_images(mirror_images(face_rule_, 0), cell, point_images_);
     for (const auto& q : face_rule_) {
       Vec<dim> xi{}, outward{};
