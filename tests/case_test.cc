@@ -745,11 +745,11 @@ TEST(Conflicts, ExpectationsReachToTheLastShape) {
   }
 }
 
-TEST(Conflicts, AngularCellsMustHoldWholeTurns) {
+TEST(Conflicts, AngularCellsMustHoldEqualSectors) {
   for (int cells = 1; cells <= 1000; ++cells) {
     Case c;
     c.grid.angular_cells = cells;
-    EXPECT_EQ(conflicts(c).empty(), cells % 128 == 0);
+    EXPECT_EQ(conflicts(c).empty(), cells % 16 == 0);
   }
 }
 

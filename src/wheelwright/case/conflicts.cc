@@ -84,15 +84,12 @@ void check_travel(const Case& c, Conflicts& found) {
 }
 
 void check_angular_cells(const Case& c, Conflicts& found) {
-  const int cells = c.grid.angular_cells;
-  const int positions = total_load_positions(c);
-  if (cells % positions == 0) return;
-  const int below = cells / positions * positions;
-  const int above = below + positions;
+  const int cells = c.grid.angular_cells, sectors = c.wheel.sectors;
+  if (cells % sectors == 0) return;
+  const int below = cells / sectors * sectors, above = below + sectors;
   const std::string fitting = below > 0 ? fmt::format("{} or {}", below, above) : fmt::format("{}", above);
-  found.push_back({{"grid.angular_cells", "wheel.sectors", "load.positions"},
-                   fmt::format("must be a multiple of sectors * positions = {} * {} = {}", c.wheel.sectors,
-                               c.load.positions, positions),
+  found.push_back({{"grid.angular_cells", "wheel.sectors"},
+                   fmt::format("must be a multiple of wheel.sectors = {}", sectors),
                    fmt::format("nearest valid: {}", fitting)});
 }
 

@@ -50,6 +50,10 @@ bool wants_annulus(const Case& c) {
   return c.objective.uniformity_annulus > 0 || c.objective.annulus_matches_dual.has_value();
 }
 
+bool wants_uniformity(const Case& c) {
+  return wants_annulus(c) || c.objective.uniformity_dual > 0 || c.objective.uniformity_l2 > 0;
+}
+
 double annulus_thickness(const Case& c) { return c.objective.annulus.value_or(radial_cell(c)); }
 
 double characteristic_length(const Case& c) { return c.objective.length.value_or(annulus_thickness(c)); }

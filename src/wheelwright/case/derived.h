@@ -46,6 +46,9 @@ int tread_rows(const Case& c);
 /// Whether J_p1 is part of the objective.
 bool wants_annulus(const Case& c);
 
+/// Whether any criterion compares the contact stress of the load positions.
+bool wants_uniformity(const Case& c);
+
 /// epsilon and L of the uniformity criteria [m].
 double annulus_thickness(const Case& c);
 double characteristic_length(const Case& c);

@@ -137,7 +137,7 @@ const Section<Load>& load_section() {
                {.name = "positions",
                 .unit = "",
                 .field = IntegerField<Load>{&Load::positions, between(1, 1000)},
-                .meaning = "N_d: number of load positions per sector"}}};
+                .meaning = "N_d: number of load positions per sector, any on any grid"}}};
   return section;
 }
 
@@ -235,7 +235,7 @@ const Section<Grid>& grid_section() {
           {.name = "angular_cells",
            .unit = "",
            .field = IntegerField<Grid>{&Grid::angular_cells, cell_count},
-           .meaning = "number of cells round the full ring, a multiple of wheel.sectors * load.positions"},
+           .meaning = "number of cells round the full ring, a multiple of wheel.sectors"},
           {.name = "degree",
            .unit = "",
            .field = IntegerField<Grid>{&Grid::degree, between(1, 2)},
