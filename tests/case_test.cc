@@ -610,7 +610,7 @@ TEST(Derived, ThePapersWheel) {
   EXPECT_NEAR(load_per_metre(c), 24525, 1e-9);
   EXPECT_NEAR(c.material.mu(), 67.567568e6, 1);
   EXPECT_NEAR(c.material.lambda(), 1621.62162e6, 10);
-  EXPECT_NEAR(c.material.plane_strain_modulus(), 259.875260e6, 1);
+  EXPECT_NEAR(c.material.contact_modulus(), 259.875260e6, 1);
   EXPECT_NEAR(hertz_half_width(c), 6.39170e-3, 1e-8);
   EXPECT_NEAR(hertz_peak_pressure(c), 2.442714e6, 1);
   EXPECT_NEAR(cells_per_contact_patch(c), 2.3, 0.01);
@@ -646,6 +646,16 @@ TEST(Derived, LeastGammaAtThePapersThetas) {
   EXPECT_NEAR(least_gamma_0(1, material), 100, 0.5);
   const Material stiffer{.youngs_modulus = 1, .poissons_ratio = 0.48};
   EXPECT_DOUBLE_EQ(least_gamma_0(1, stiffer), least_gamma_0(1, material));
+}
+
+TEST(Derived, InPlaneStressAreThoseOfTheEquivalentMaterial) {
+  Case sheet, equivalent;
+  sheet.material = {.youngs_modulus = 70e6, .poissons_ratio = 0.4, .plane = Plane::stress};
+  equivalent.material = sheet.material.plane_strain_equivalent();
+  EXPECT_DOUBLE_EQ(sheet.material.contact_modulus(), 70e6);
+  EXPECT_DOUBLE_EQ(hertz_half_width(sheet), hertz_half_width(equivalent));
+  for (const double theta : {-1.0, 0.0, 0.3, 1.0})
+    EXPECT_DOUBLE_EQ(least_gamma_0(theta, sheet.material), least_gamma_0(theta, equivalent.material));
 }
 
 TEST(Derived, HolesOfOneSector) {
@@ -743,11 +753,11 @@ TEST(Conflicts, ExpectationsReachToTheLastShape) {
   }
 }
 
-TEST(Conflicts, AngularCellsMustHoldWholeTurns) {
+TEST(Conflicts, AngularCellsMustHoldEqualSectors) {
   for (int cells = 1; cells <= 1000; ++cells) {
     Case c;
     c.grid.angular_cells = cells;
-    EXPECT_EQ(conflicts(c).empty(), cells % 128 == 0);
+    EXPECT_EQ(conflicts(c).empty(), cells % 16 == 0);
   }
 }
 

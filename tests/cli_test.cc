@@ -247,6 +247,25 @@ TEST_F(CommandLine, VerifyTestsTheGradientOfTheCasesShape) {
   EXPECT_GE(orders, 3);
 }
 
+// 14 x 192 cells have 12 columns per sector: 8 positions stand between them. check warns where that matters.
+TEST_F(CommandLine, PositionsNeedNotStandOnColumns) {
+  std::string text =
+      "[[holes.ring]]\ncount = 16\ncenter_radius = 0.27\nradius = 0.034\n"
+      "[grid]\nradial_cells = 14\nangular_cells = 192\n[optimizer]\niterations = 2\n";
+  std::ofstream(folder() / "energy.toml") << text;
+  std::ofstream(folder() / "even.toml") << text + "[objective]\nuniformity_dual = 10\n";
+  const char* warning = "between columns";
+  EXPECT_EQ(wheelwright("check energy.toml", folder()).output.find(warning), std::string::npos);
+  EXPECT_NE(wheelwright("check even.toml", folder()).output.find(warning), std::string::npos);
+  for (const char* name : {"energy", "even"}) {
+    const Outcome verified = wheelwright(fmt::format("verify {}.toml", name), folder());
+    EXPECT_EQ(verified.code, exit_done) << verified.output;
+    const Outcome ran = wheelwright(fmt::format("run {0}.toml --output {0}", name), folder());
+    EXPECT_EQ(ran.code, exit_done) << ran.output;
+    EXPECT_EQ(wheelwright(fmt::format("resume {} --iterations 3", name), folder()).code, exit_done);
+  }
+}
+
 // Where the rule on cut cells is too coarse for the test, one that is not shows the gradient's order.
 TEST_F(CommandLine, VerifyTellsTheGradientFromTheQuadratureOfCutCells) {
   std::ofstream(folder() / "coarse.toml") << R"([[holes.ring]]

@@ -33,7 +33,7 @@ Expected<ContactState<2>> solved_in(const RollingProblem<2>& problem, const Roll
   const ContactUnknowns<2> start =
       model.travel ? contact.undeformed_start()
                    : contact.hertz_start(model.load, model.grid.outer_radius,
-                                         model.materials.at_tread().plane_strain_modulus());
+                                         model.materials.at_tread().contact_modulus());
   return solve_contact<2>(contact, std::span(&start, 1));
 }
 

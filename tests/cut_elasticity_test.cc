@@ -226,8 +226,7 @@ double smallest_material_fraction(const CutDomain<2>& domain) {
 
 PolarGrid<2> small_sector(int n) { return {0.20, 0.34, 0.12, 12, {n, n}}; }
 
-TEST(CutElasticity, PassesThePatchTestOnSlivers) {
-  const Material material{200e6, 0.48};
+void expect_patch_test(const Material& material) {
   const Mat<2> a{{{0.3, -0.4}, {1.1, 0.7}}};
   const ExactSolution linear{
       [&](const Vec<2>& x) {
@@ -259,6 +258,10 @@ TEST(CutElasticity, PassesThePatchTestOnSlivers) {
         }
   EXPECT_LT(smallest, 2e-12);
 }
+
+TEST(CutElasticity, PassesThePatchTestOnSlivers) { expect_patch_test({200e6, 0.48}); }
+
+TEST(CutElasticity, PassesThePatchTestInPlaneStress) { expect_patch_test({200e6, 0.48, Plane::stress}); }
 
 // The penalty bounds the energy of a sliver from below by xi times that of a full cell: so 1/xi bounds the
 // condition number, and scaling to a unit diagonal, which a Cholesky factorization is invariant to, takes

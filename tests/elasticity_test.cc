@@ -185,6 +185,46 @@ TYPED_TEST(Element, StressIsThatOfTheLameParameters) {
   EXPECT_NEAR((traction<dim>(of_shear, normal)[0]), 67.567568e6, 1);
 }
 
+/// The law in the plane against that in three dimensions, with what is zero along the axle put in.
+class InThePlane : public ::testing::TestWithParam<Plane> {};
+INSTANTIATE_TEST_SUITE_P(StrainAndStress, InThePlane, ::testing::Values(Plane::strain, Plane::stress));
+
+TEST_P(InThePlane, StressIsThatOfThreeDimensions) {
+  const Material in_plane{200e6, 0.48, GetParam()}, in_space{200e6, 0.48};
+  const Voigt<2> e{0.3, -0.7, 0.4};
+  const double axial = in_plane.axial_strain_ratio() * (e[0] + e[1]);
+  const Voigt<2> s2 = stress<2>(in_plane, e);
+  const Voigt<3> s3 = stress<3>(in_space, {e[0], e[1], axial, 0, 0, e[2]});
+  EXPECT_EQ(GetParam() == Plane::strain, axial == 0);
+  if (GetParam() == Plane::stress) {
+    EXPECT_NEAR(s3[2], 0, 1e-12 * std::abs(s3[0]));
+  }
+  EXPECT_NEAR(s2[0], s3[0], 1e-12 * std::abs(s3[0]));
+  EXPECT_NEAR(s2[1], s3[1], 1e-12 * std::abs(s3[1]));
+  EXPECT_NEAR(s2[2], s3[5], 1e-12 * std::abs(s3[5]));
+  EXPECT_NEAR(in_plane.axial_stress_ratio() * (s2[0] + s2[1]), s3[2], 1e-12 * std::abs(s3[0]));
+  EXPECT_NEAR(von_mises<2>(in_plane, s2), von_mises<3>(in_space, s3), 1e-12 * std::abs(s3[0]));
+}
+
+TEST(PlaneStress, AUniaxialStressStretchesByYoungsModulus) {
+  const Material sheet{200e6, 0.48, Plane::stress};
+  const Voigt<2> s = stress<2>(sheet, {1, -0.48, 0});
+  EXPECT_NEAR(s[0], 200e6, 1e-12 * 200e6);
+  EXPECT_NEAR(s[1], 0, 1e-12 * 200e6);
+  EXPECT_NEAR(von_mises<2>(sheet, s), 200e6, 1e-12 * 200e6);
+  EXPECT_NEAR(sheet.contact_modulus(), 200e6, 1e-12 * 200e6);
+}
+
+TEST(PlaneStress, HasAnEquivalentInPlaneStrain) {
+  const Material sheet{200e6, 0.48, Plane::stress}, equivalent = sheet.plane_strain_equivalent();
+  EXPECT_EQ(equivalent.plane, Plane::strain);
+  EXPECT_NEAR(equivalent.youngs_modulus, 200e6 * 1.96 / (1.48 * 1.48), 1e-12 * 200e6);
+  EXPECT_NEAR(equivalent.poissons_ratio, 0.48 / 1.48, 1e-15);
+  EXPECT_NEAR(equivalent.mu(), sheet.mu(), 1e-12 * sheet.mu());
+  const Material wide{200e6, 0.48};
+  EXPECT_EQ(wide.plane_strain_equivalent(), wide);
+}
+
 /// Both cells of a face in mid-grid.
 template <int dim>
 struct Face {

@@ -101,6 +101,13 @@ mean = "held"
                                   6);
 }
 
+TEST_F(Resume, PositionsBetweenColumnsGoOnTheSame) {
+  std::string text = small_case(4, "[objective]\nstrain_energy = 1\nuniformity_dual = 10\n");
+  const std::string positions = "positions = 2";
+  text.replace(text.find(positions), positions.size(), "positions = 7");
+  expect_the_same_from_every_stop(text, 4);
+}
+
 TEST_F(Resume, ThePapersRuleAndItsWeightsGoOnTheSame) {
   expect_the_same_from_every_stop(small_case(5, R"(
 [objective]

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "tests/support.h"
@@ -247,10 +248,28 @@ TEST(Ring, BondedRingUnderPressureIsLames) {
   EXPECT_NEAR(ring.rim_stress(), -1.02580205e6, 1e-3 * 1.03e6);
 }
 
+/// Lame's solution u = A r + B / r of a bonded ring in plane stress, in E and nu:
+/// sigma_rr = E / (1 - nu) A - E / (1 + nu) B / r^2, u(R_i) = 0.
+TEST(Ring, BondedRingOfSheetUnderPressureIsLames) {
+  auto model = pressed_model(16);
+  model.materials = Material{200e6, 0.48, Plane::stress};
+  const PressedRing ring(model, solid(model.grid));
+  constexpr double young = 200e6, nu = 0.48, inner = 0.20, outer = 0.34;
+  // B = -A Ri^2 at the rim, sigma_rr = -pressure at the tread.
+  constexpr double a = -pressure / (young / (1 - nu) + young / (1 + nu) * inner * inner / (outer * outer));
+  constexpr double moved = a * (outer - inner * inner / outer);
+  constexpr double at_rim = young / (1 - nu) * a + young / (1 + nu) * a;
+  constexpr double energy = -std::numbers::pi * outer * pressure * moved;
+  EXPECT_NEAR(ring.outer_displacement(), moved, 1e-6 * std::abs(moved));
+  EXPECT_NEAR(ring.strain_energy(), energy, 1e-6 * energy);
+  EXPECT_NEAR(ring.rim_stress(), at_rim, 1e-3 * std::abs(at_rim));
+}
+
 /// A free inner edge at 0.20 m, a level set that crosses the cells of one row at this fraction of their
 /// height; the material covers `radial_cells` cells, the cut ones included.
-PressedRing free_ring(int radial_cells, double fraction) {
+PressedRing free_ring(int radial_cells, double fraction, Plane plane = Plane::strain) {
   auto model = pressed_model(radial_cells);
+  model.materials = Material{200e6, 0.48, plane};
   const double height = 0.14 / (radial_cells - fraction);
   model.grid.cells[0] = radial_cells + 2;
   model.grid.inner_radius = model.grid.outer_radius - model.grid.cells[0] * height;
@@ -265,6 +284,20 @@ TEST(Ring, FreeRingUnderPressureIsLames) {
     const PressedRing ring = free_ring(16, fraction);
     EXPECT_NEAR(ring.outer_displacement(), -1.48510561e-3, 1e-5 * 1.49e-3);
     EXPECT_NEAR(ring.strain_energy(), 1586.30294, 1e-5 * 1586);
+    EXPECT_LT(ring.hoop_stress_error(-3.05820106e6), 0.01 * 3.06e6);
+  }
+}
+
+/// The stresses in the plane do not depend on nu; u(R_e) = R_e sigma_tt(R_e) / E + nu p R_e / E.
+TEST(Ring, FreeRingOfSheetUnderPressureIsLames) {
+  constexpr double young = 200e6, nu = 0.48, inner2 = 0.20 * 0.20, outer2 = 0.34 * 0.34;
+  constexpr double hoop_outside = -pressure * (outer2 + inner2) / (outer2 - inner2);
+  constexpr double moved = 0.34 / young * (hoop_outside + nu * pressure);
+  for (double fraction : {0.1, 0.63, 0.999}) {
+    SCOPED_TRACE(fraction);
+    const PressedRing ring = free_ring(16, fraction, Plane::stress);
+    EXPECT_NEAR(ring.outer_displacement(), moved, 1e-5 * std::abs(moved));
+    EXPECT_NEAR(ring.strain_energy(), -std::numbers::pi * 0.34 * pressure * moved, 1e-5 * 2100);
     EXPECT_LT(ring.hoop_stress_error(-3.05820106e6), 0.01 * 3.06e6);
   }
 }

@@ -17,7 +17,7 @@ constexpr double tiny = 1e-14;
 Case uneven_case() {
   Case c;
   c.wheel = {.inner_radius = 0.21, .outer_radius = 0.37, .width = 0.125, .sectors = 12};
-  c.material = {3e6, 0.31};
+  c.material = {3e6, 0.31, Plane::stress};
   c.load = {.force = 1000,
             .travel = {},
             .horizontal_force = 70,
@@ -62,6 +62,7 @@ void expect_common_keys(const RollingModel<dim>& model, const Case& c) {
   EXPECT_EQ(model.degree, 1);
   EXPECT_EQ(model.materials.at_tread().youngs_modulus, 3e6);
   EXPECT_EQ(model.materials.at_tread().poissons_ratio, 0.31);
+  EXPECT_EQ(model.materials.at_tread().plane, Plane::stress);
   EXPECT_EQ(model.ghost.kind, c.ghost_penalty.kind);
   EXPECT_EQ(model.ghost.xi, 0.37);
   EXPECT_EQ(model.contact.method, ContactMethod::nitsche);

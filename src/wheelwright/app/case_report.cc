@@ -27,7 +27,7 @@ std::string load_report(const Case& c) {
 std::string material_report(const Case& c) {
   return line("lambda", fmt::format("{:.6g} MPa", c.material.lambda() / 1e6)) +
          line("mu", fmt::format("{:.6g} MPa", c.material.mu() / 1e6)) +
-         line("E / (1 - nu^2)", fmt::format("{:.6g} MPa", c.material.plane_strain_modulus() / 1e6));
+         line("E* of the contact", fmt::format("{:.6g} MPa", c.material.contact_modulus() / 1e6));
 }
 
 /// Estimates for a given load.
@@ -63,6 +63,11 @@ std::vector<std::string> warnings(const Case& c) {
         "pressures are not; with grid.tread_levels = {} it is {:.1f} cells wide",
         cells, c.grid.tread_levels + more, cells * (1 << more)));
   }
+  if (wants_uniformity(c) && c.grid.angular_cells % total_load_positions(c) != 0)
+    result.push_back(fmt::format(
+        "load positions between columns of cells see other points of the tread: the uniformity criteria also "
+        "measure that; with grid.angular_cells a multiple of sectors * positions = {} they do not",
+        total_load_positions(c)));
   if (c.holes.rings.empty() && c.holes.circles.empty())
     result.push_back("there are no holes, so no boundary can move");
   if (const double cells = smallest_hole_in_cells(c);

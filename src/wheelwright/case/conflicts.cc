@@ -84,15 +84,12 @@ void check_travel(const Case& c, Conflicts& found) {
 }
 
 void check_angular_cells(const Case& c, Conflicts& found) {
-  const int cells = c.grid.angular_cells;
-  const int positions = total_load_positions(c);
-  if (cells % positions == 0) return;
-  const int below = cells / positions * positions;
-  const int above = below + positions;
+  const int cells = c.grid.angular_cells, sectors = c.wheel.sectors;
+  if (cells % sectors == 0) return;
+  const int below = cells / sectors * sectors, above = below + sectors;
   const std::string fitting = below > 0 ? fmt::format("{} or {}", below, above) : fmt::format("{}", above);
-  found.push_back({{"grid.angular_cells", "wheel.sectors", "load.positions"},
-                   fmt::format("must be a multiple of sectors * positions = {} * {} = {}", c.wheel.sectors,
-                               c.load.positions, positions),
+  found.push_back({{"grid.angular_cells", "wheel.sectors"},
+                   fmt::format("must be a multiple of wheel.sectors = {}", sectors),
                    fmt::format("nearest valid: {}", fitting)});
 }
 
@@ -169,7 +166,7 @@ void check_nitsche(const Case& c, Conflicts& found) {
   const double least = least_gamma_0(c.contact.theta, c.material);
   if (c.contact.gamma_0 >= least) return;
   found.push_back(
-      {{"contact.gamma_0", "contact.theta", "contact.method", "material.poissons_ratio"},
+      {{"contact.gamma_0", "contact.theta", "contact.method", "material.poissons_ratio", "material.plane"},
        fmt::format("too small for theta = {} and poissons_ratio = {}: the stiffness may not be positive "
                    "definite",
                    c.contact.theta, c.material.poissons_ratio),

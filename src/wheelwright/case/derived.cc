@@ -12,7 +12,7 @@ using std::numbers::pi;
 double load_per_metre(const Case& c) { return c.load.force / c.wheel.width; }
 
 double hertz_half_width(const Case& c) {
-  return 2 * std::sqrt(load_per_metre(c) * c.wheel.outer_radius / (pi * c.material.plane_strain_modulus()));
+  return 2 * std::sqrt(load_per_metre(c) * c.wheel.outer_radius / (pi * c.material.contact_modulus()));
 }
 
 double hertz_peak_pressure(const Case& c) { return 2 * load_per_metre(c) / (pi * hertz_half_width(c)); }
@@ -48,6 +48,10 @@ double least_tread_band(const Case& c) { return (tread_rows(c) + 1) * radial_cel
 
 bool wants_annulus(const Case& c) {
   return c.objective.uniformity_annulus > 0 || c.objective.annulus_matches_dual.has_value();
+}
+
+bool wants_uniformity(const Case& c) {
+  return wants_annulus(c) || c.objective.uniformity_dual > 0 || c.objective.uniformity_l2 > 0;
 }
 
 double annulus_thickness(const Case& c) { return c.objective.annulus.value_or(radial_cell(c)); }
@@ -132,7 +136,7 @@ double estimated_memory(const Case& c) {
 
 double least_gamma_0(double theta, const Material& material) {
   constexpr double reference = 8.8;  // (lambda + 2 mu) / E at nu = 0.48, where 10 and 100 were found
-  const double stiffness = (material.lambda() + 2 * material.mu()) / material.youngs_modulus / reference;
+  const double stiffness = (material.lambda() + 2 * material.mu()) / material.scaling_modulus() / reference;
   return stiffness * (10 * (1 + theta) * (1 + theta) + 60 * std::max(theta, 0.0));
 }
 

@@ -7,7 +7,7 @@
 
 namespace wheelwright {
 
-// Numbers that follow from a case without a solve. Plane strain, per metre of width.
+// Numbers that follow from a case without a solve. Per metre of width.
 
 /// P [N/m].
 double load_per_metre(const Case& c);
@@ -46,6 +46,9 @@ int tread_rows(const Case& c);
 /// Whether J_p1 is part of the objective.
 bool wants_annulus(const Case& c);
 
+/// Whether any criterion compares the contact stress of the load positions.
+bool wants_uniformity(const Case& c);
+
 /// epsilon and L of the uniformity criteria [m].
 double annulus_thickness(const Case& c);
 double characteristic_length(const Case& c);
@@ -72,9 +75,10 @@ long long dof_bound(const Case& c);
 /// zones.
 double estimated_memory(const Case& c);
 
-/// The minimum gamma_0 for which Nitsche's method is safe with this theta and nu. At nu = 0.48 it is 0 for
-/// theta = -1, about 10 for theta = 0 and 100 for theta = 1. In between it is 10 (1 + theta)^2 for the lack
-/// of symmetry plus 60 theta for the indefinite boundary term, scaled by (lambda + 2 mu) / E.
+/// The minimum gamma_0 for which Nitsche's method is safe with this theta and material. At nu = 0.48 in plane
+/// strain it is 0 for theta = -1, about 10 for theta = 0 and 100 for theta = 1. In between it is
+/// 10 (1 + theta)^2 for the lack of symmetry plus 60 theta for the indefinite boundary term, scaled by
+/// (lambda + 2 mu) / E with E = Material::scaling_modulus().
 double least_gamma_0(double theta, const Material& material);
 
 }  // namespace wheelwright

@@ -78,7 +78,7 @@ const Section<Wheel>& wheel_section() {
 const Section<Material>& material_section() {
   static const Section<Material> section{
       .name = "material",
-      .meaning = "linear isotropic elasticity, plane strain",
+      .meaning = "linear isotropic elasticity",
       .in = [](Case& c) -> Material& { return c.material; },
       .keys = {{.name = "youngs_modulus",
                 .unit = "Pa",
@@ -87,7 +87,12 @@ const Section<Material>& material_section() {
                {.name = "poissons_ratio",
                 .unit = "",
                 .field = NumberField<Material>{&Material::poissons_ratio, at_least_and_below(0, 0.5)},
-                .meaning = "nu: Poisson's ratio"}}};
+                .meaning = "nu: Poisson's ratio"},
+               {.name = "plane",
+                .unit = "",
+                .field = choice<&Material::plane>({"strain", "stress"}),
+                .meaning = "strain: no strain along the axle, for wide wheels; stress: no stress along the "
+                           "axle, for wheels cut from sheet"}}};
   return section;
 }
 
@@ -132,7 +137,7 @@ const Section<Load>& load_section() {
                {.name = "positions",
                 .unit = "",
                 .field = IntegerField<Load>{&Load::positions, between(1, 1000)},
-                .meaning = "N_d: number of load positions per sector"}}};
+                .meaning = "N_d: number of load positions per sector, any on any grid"}}};
   return section;
 }
 
@@ -152,7 +157,8 @@ const Section<Contact>& contact_section() {
                {.name = "gamma_0",
                 .unit = "",
                 .field = NumberField<Contact>{&Contact::gamma_0, above(0, 1e9)},
-                .meaning = "gamma = gamma_0 E / h_T, where h_T is the diameter of the contact cell"},
+                .meaning = "gamma = gamma_0 E / h_T, where h_T is the diameter of the contact cell; in plane "
+                           "stress with E (1 + 2 nu) / (1 + nu)^2 for E"},
                {.name = "friction",
                 .unit = "",
                 .field = NumberField<Contact>{&Contact::friction, between(0, 10)},
@@ -229,7 +235,7 @@ const Section<Grid>& grid_section() {
           {.name = "angular_cells",
            .unit = "",
            .field = IntegerField<Grid>{&Grid::angular_cells, cell_count},
-           .meaning = "number of cells round the full ring, a multiple of wheel.sectors * load.positions"},
+           .meaning = "number of cells round the full ring, a multiple of wheel.sectors"},
           {.name = "degree",
            .unit = "",
            .field = IntegerField<Grid>{&Grid::degree, between(1, 2)},

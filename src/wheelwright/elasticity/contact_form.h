@@ -16,7 +16,7 @@ enum class ContactMethod {
 struct ContactForm {
   ContactMethod method = ContactMethod::nitsche;
   double theta_nitsche = -1;  ///< theta; ignored by the penalty method
-  double gamma_0 = 1;         ///< gamma = gamma_0 E / h_T [Pa/m]
+  double gamma_0 = 1;         ///< gamma = gamma_0 E / h_T [Pa/m], with E = Material::scaling_modulus()
   double friction = 0;        ///< coefficient F of Coulomb's friction
 
   double tau() const { return method == ContactMethod::nitsche ? 1 : 0; }

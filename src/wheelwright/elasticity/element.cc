@@ -44,7 +44,7 @@ template <int dim>
 double von_mises(const Material& material, const Voigt<dim>& s) {
   double s11 = s[0], s22 = s[1], s33, shear = 0;
   if constexpr (dim == 2)
-    s33 = material.poissons_ratio * (s11 + s22);
+    s33 = material.axial_stress_ratio() * (s11 + s22);
   else
     s33 = s[2];
   for (int k = dim; k < n_strains<dim>; ++k) shear += s[k] * s[k];
@@ -174,7 +174,7 @@ template <int dim>
 Matrix ghost_stiffness(const ElasticElement<dim>& minus, const ElasticElement<dim>& plus, int axis,
                        double angle, const Material& material, const GhostPenalty& ghost) {
   const int n_minus = minus.n_dofs(), n = n_minus + plus.n_dofs();
-  const double h = 0.5 * (minus.diameter() + plus.diameter()), modulus = material.youngs_modulus;
+  const double h = 0.5 * (minus.diameter() + plus.diameter()), modulus = material.scaling_modulus();
   Matrix k(n, n);
   std::array<std::vector<double>, dim> jump;
   for (auto& row : jump) row.resize(n);

@@ -28,8 +28,8 @@ Voigt<dim> stress(const Material& material, const Voigt<dim>& strain);
 template <int dim>
 Vec<dim> traction(const Voigt<dim>& stress, const Vec<dim>& normal);
 
-/// The von Mises stress sqrt(3/2 s:s), with s the stress deviator. For dim = 2 it includes the out-of-plane
-/// stress of plane strain.
+/// The von Mises stress sqrt(3/2 s:s), with s the stress deviator. For dim = 2 it includes the stress along
+/// the axle, which is not zero in plane strain.
 template <int dim>
 double von_mises(const Material& material, const Voigt<dim>& stress);
 
@@ -88,8 +88,9 @@ Matrix cell_stiffness(const ElasticElement<dim>& element, const Material& materi
 
 /// The ghost penalty of one face F on the dofs (minus cell, plus cell): 1/2 int_F xi h_F / E [[sigma
 /// n]].[[sigma n]] as in (81), and for GhostPenaltyKind::full also 1/2 int_F xi h_F^3 E [[d_nn u]].[[d_nn
-/// u]], where h_F is the mean diameter of the two cells. `axis` is the axis normal to the face, and `angle`
-/// is the azimuth of the frame of the plus cell minus that of the minus cell [rad].
+/// u]], where h_F is the mean diameter of the two cells and E is Material::scaling_modulus(). `axis` is the
+/// axis normal to the face, and `angle` is the azimuth of the frame of the plus cell minus that of the minus
+/// cell [rad].
 template <int dim>
 Matrix ghost_stiffness(const ElasticElement<dim>& minus, const ElasticElement<dim>& plus, int axis,
                        double angle, const Material& material, const GhostPenalty& ghost);

@@ -2,18 +2,50 @@
 
 namespace wheelwright {
 
-/// Isotropic linear elasticity (2); plane strain when dim = 2.
+/// What is zero along the axle when dim = 2.
+enum class Plane {
+  strain,  ///< the strain: a wheel that is wide compared with its thickness
+  stress,  ///< the stress: a wheel cut from sheet
+};
+
+/// Isotropic linear elasticity (2). When dim = 2, in plane strain or plane stress, and nothing else knows
+/// which: the law in the plane is the same for both, with the constants of plane_strain_equivalent().
 struct Material {
   double youngs_modulus = 200e6;  ///< E [Pa]
   double poissons_ratio = 0.48;   ///< nu, 0 <= nu < 1/2
+  Plane plane = Plane::strain;    ///< must be strain when dim = 3
 
+  /// The material that answers strains in the plane with the same stresses in plane strain: itself, or for
+  /// plane stress E' = E (1 + 2 nu) / (1 + nu)^2 and nu' = nu / (1 + nu).
+  Material plane_strain_equivalent() const {
+    if (plane == Plane::strain) return *this;
+    const double nu = poissons_ratio;
+    return {youngs_modulus * (1 + 2 * nu) / ((1 + nu) * (1 + nu)), nu / (1 + nu)};
+  }
+
+  /// Lame's parameters of the law sigma = lambda tr(eps) I + 2 mu eps in the model's dimension [Pa]. In plane
+  /// stress lambda is E nu / (1 - nu^2).
   double lambda() const {
-    return youngs_modulus * poissons_ratio / ((1 + poissons_ratio) * (1 - 2 * poissons_ratio));
+    const auto [e, nu, in_strain] = plane_strain_equivalent();
+    return e * nu / ((1 + nu) * (1 - 2 * nu));
   }
   double mu() const { return youngs_modulus / (2 * (1 + poissons_ratio)); }
 
-  /// E / (1 - nu^2) [Pa], the modulus E* of plane-strain contact.
-  double plane_strain_modulus() const { return youngs_modulus / (1 - poissons_ratio * poissons_ratio); }
+  /// E* of Hertz's theory [Pa]: E / (1 - nu^2) in plane strain, E in plane stress.
+  double contact_modulus() const {
+    const auto [e, nu, in_strain] = plane_strain_equivalent();
+    return e / (1 - nu * nu);
+  }
+
+  /// The modulus by which the contact parameter, the ghost penalty and the criteria are scaled [Pa]: E in
+  /// plane strain, E' in plane stress.
+  double scaling_modulus() const { return plane_strain_equivalent().youngs_modulus; }
+
+  /// sigma_33 / (sigma_11 + sigma_22) and eps_33 / (eps_11 + eps_22), with 3 along the axle, when dim = 2.
+  double axial_stress_ratio() const { return plane == Plane::strain ? poissons_ratio : 0; }
+  double axial_strain_ratio() const {
+    return plane == Plane::strain ? 0 : -poissons_ratio / (1 - poissons_ratio);
+  }
 
   bool operator==(const Material&) const = default;
 };

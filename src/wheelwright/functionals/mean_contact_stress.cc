@@ -4,6 +4,9 @@
 #include <numbers>
 #include <numeric>
 
+#include "wheelwright/base/periodic.h"
+#include "wheelwright/functionals/column_shift.h"
+
 namespace wheelwright {
 
 namespace {
@@ -29,9 +32,56 @@ Matrix mirrored(const TreadSurface<dim>& tread, const Matrix& observations) {
   return image;
 }
 
-/// The ring column of the body that is `column` columns from the ground position.
-int ring_column(const GroundPosition& ground, int column, int n_columns) {
-  return (column + ground.column) % n_columns;
+/// A turn by any angle of what is observed all round: by whole columns, then by a part of one.
+template <int dim>
+class Turn {
+ public:
+  /// Turns what the body observes into the ground's frame, or back.
+  static Turn to_ground(const TreadSurface<dim>& tread, const GroundPosition& ground) {
+    return {tread, ground.column, ground.offset};
+  }
+  static Turn to_body(const TreadSurface<dim>& tread, const GroundPosition& ground) {
+    if (ground.offset == 0) return {tread, -ground.column, 0};
+    return {tread, -ground.column - 1, 1 - ground.offset};
+  }
+
+  /// Adds `factor` times the turned observations; both begin at the ring's first column.
+  void add(double factor, const double* from, Matrix& to, int first = 0) const {
+    for (int g = 0; g < n_columns_; ++g)
+      shift_.add(factor, from + column(g), from + column(g + 1), to.column(first + g));
+  }
+
+  /// The transpose, from loads on the turned observations.
+  void add_transposed(double factor, const Matrix& from, int first, double* to) const {
+    for (int g = 0; g < n_columns_; ++g)
+      shift_.add_transposed(factor, from.column(first + g), to + column(g), to + column(g + 1));
+  }
+
+ private:
+  Turn(const TreadSurface<dim>& tread, int columns, double fraction)
+      : shift_(tread, fraction),
+        columns_(columns),
+        n_columns_(tread.n_columns),
+        n_rows_(tread.rows().size()) {}
+
+  /// Where the numbers of the column begin that lies at turned column g.
+  std::size_t column(int g) const { return std::size_t(n_rows_) * wrap(g + columns_, n_columns_); }
+
+  ColumnShift<dim> shift_;
+  int columns_, n_columns_, n_rows_;
+};
+
+/// The same for a wheel whose positions stand for their mirror images too. Its own transpose.
+template <int dim>
+Matrix averaged_with_image(const TreadSurface<dim>& tread, const LoadPositions& positions, Matrix mean) {
+  if (!positions.stand_for_images()) return mean;
+  mean = sum(mirrored(tread, mean), mean);
+  for (double& x : mean.entries()) x /= 2;
+  return mean;
+}
+
+double count(const LoadPositions& positions) {
+  return std::accumulate(positions.multiplicities.begin(), positions.multiplicities.end(), 0.0);
 }
 
 }  // namespace
@@ -44,20 +94,11 @@ Matrix mean_observations(const TreadSurface<dim>& tread, const State<dim>& state
 template <int dim>
 Matrix mean_over_positions(const TreadSurface<dim>& tread, const LoadPositions& positions,
                            const Matrix& observations) {
-  const double n_all = std::accumulate(positions.multiplicities.begin(), positions.multiplicities.end(), 0.0);
   Matrix mean(observations.rows(), tread.n_columns);
-  for (int i = 0; i < positions.size(); ++i) {
-    const double weight = positions.multiplicities[i] / n_all;
-    for (int g = 0; g < tread.n_columns; ++g) {
-      const double* x =
-          observations.column(i * tread.n_columns + ring_column(positions.grounds[i], g, tread.n_columns));
-      for (int row = 0; row < mean.rows(); ++row) mean(row, g) += weight * x[row];
-    }
-  }
-  if (!positions.stand_for_images()) return mean;
-  mean = sum(mirrored(tread, mean), mean);
-  for (double& x : mean.entries()) x /= 2;
-  return mean;
+  for (int i = 0; i < positions.size(); ++i)
+    Turn<dim>::to_ground(tread, positions.grounds[i])
+        .add(positions.multiplicities[i] / count(positions), observations.column(i * tread.n_columns), mean);
+  return averaged_with_image(tread, positions, std::move(mean));
 }
 
 template <int dim>
@@ -72,18 +113,28 @@ template <int dim>
 Matrix deviation_from_mean(const TreadSurface<dim>& tread, const LoadPositions& positions,
                            Matrix observations, const Matrix& mean) {
   for (int i = 0; i < positions.size(); ++i)
-    for (int g = 0; g < tread.n_columns; ++g) {
-      double* x =
-          observations.column(i * tread.n_columns + ring_column(positions.grounds[i], g, tread.n_columns));
-      for (int row = 0; row < mean.rows(); ++row) x[row] -= mean(row, g);
-    }
+    Turn<dim>::to_body(tread, positions.grounds[i]).add(-1, mean.data(), observations, i * tread.n_columns);
   return observations;
+}
+
+template <int dim>
+void add_derivative_of_mean(const TreadSurface<dim>& tread, const LoadPositions& positions, Matrix& loads) {
+  Matrix on_mean(loads.rows(), tread.n_columns);
+  for (int i = 0; i < positions.size(); ++i)
+    Turn<dim>::to_body(tread, positions.grounds[i])
+        .add_transposed(positions.multiplicities[i] / count(positions), loads, i * tread.n_columns,
+                        on_mean.data());
+  on_mean = averaged_with_image(tread, positions, std::move(on_mean));
+  for (int i = 0; i < positions.size(); ++i)
+    Turn<dim>::to_ground(tread, positions.grounds[i])
+        .add_transposed(-1, on_mean, 0, loads.column(i * tread.n_columns));
 }
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                  \
   template Matrix mean_observations(const TreadSurface<dim>&, const State<dim>&);                     \
-  template bool is_mirror_symmetric(const TreadSurface<dim>&, const Matrix&);                         \
   template Matrix mean_over_positions(const TreadSurface<dim>&, const LoadPositions&, const Matrix&); \
+  template bool is_mirror_symmetric(const TreadSurface<dim>&, const Matrix&);                         \
+  template void add_derivative_of_mean(const TreadSurface<dim>&, const LoadPositions&, Matrix&);      \
   template Matrix deviation_from_mean(const TreadSurface<dim>&, const LoadPositions&, Matrix, const Matrix&);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)

@@ -10,7 +10,7 @@ FunctionalValue<dim> UniformityAnnulus<dim>::evaluate(const StateSolver<dim>& so
   const TreadSurface<dim>& tread = solver.tread_surface();
   const ObservationRows<dim> rows = tread.rows();
   const double scale =
-      length_ / (solver.model().materials.at_tread().youngs_modulus * tread.annulus_thickness);
+      length_ / (solver.model().materials.at_tread().scaling_modulus() * tread.annulus_thickness);
   std::vector<WeightedTraction> tractions;
   for (int q = 0; q < rows.n_annulus_points; ++q)
     tractions.push_back({rows.annulus_traction(q), scale * tread.annulus_weights[q]});

@@ -9,7 +9,7 @@ FunctionalValue<dim> UniformityL2<dim>::evaluate(const StateSolver<dim>& solver,
                                                  const State<dim>& state, const Matrix& mean) const {
   const TreadSurface<dim>& tread = solver.tread_surface();
   const ObservationRows<dim> rows = tread.rows();
-  const double scale = length_ / solver.model().materials.at_tread().youngs_modulus;
+  const double scale = length_ / solver.model().materials.at_tread().scaling_modulus();
   std::vector<WeightedTraction> tractions;
   for (int q = 0; q < rows.n_points; ++q)
     tractions.push_back({rows.traction(q), scale * tread.points[q].weight});

@@ -222,6 +222,8 @@ class ColumnAssembly {
         nodes_(nodes),
         form_(form),
         degree_(table.degree()),
+        contact_points_(points_per_direction),
+        annulus_points_(tread.annulus_points),
         volume_rule_(unit_cell_rule<dim>(degree_ + 2)),
         face_rule_(unit_cell_rule<dim - 1>(points_per_direction)),
         annulus_rule_(unit_cell_rule<dim>(tread.annulus_points)) {
@@ -258,6 +260,7 @@ class ColumnAssembly {
     const Material& material = materials_.in_row(static_cast<int>(height / grid_.cell_size()[0]));
     const Matrix stiffness = cell_stiffness<dim>(element, material, volume_rule_);
     const bool at_tread = &layer == &nodes_.all_layers().back() && row + 1 == layer.rows;
+    add_face_rows(1 << layer.level, at_tread);
     for (int axial = 0; axial < axial_cells_; ++axial)
       for (int across = 0; across < (1 << layer.level); ++across) {
         ColumnCell<dim> cell{.element = element,
@@ -272,6 +275,27 @@ class ColumnAssembly {
         add_volume(cell);
         add_stiffness<dim>(cell.stiffness, cell.nodes, column_.stiffness);
       }
+  }
+
+  /// TreadSurface::face_rows of the cells that are added next.
+  void add_face_rows(int cells_across, bool at_tread) {
+    auto& rows = column_.surface.face_rows;
+    const int axial_lines = dim == 3 ? annulus_points_ : 1, per_cell = static_cast<int>(annulus_rule_.size());
+    const int first = rows_.annulus_traction(static_cast<int>(column_.surface.annulus_weights.size())) / dim;
+    for (int axial = 0; axial < axial_cells_; ++axial) {
+      for (int line = 0; line < axial_lines; ++line)
+        for (int radial = 0; radial < annulus_points_; ++radial)
+          rows.push_back({cells_across, annulus_points_,
+                          first + axial * cells_across * per_cell + power(annulus_points_, 2) * line + radial,
+                          per_cell, annulus_points_});
+      if (!at_tread) continue;
+      const int per_face = static_cast<int>(face_rule_.size());
+      for (int line = 0; line < per_face / contact_points_; ++line)
+        for (const int part : {0, 1})
+          rows.push_back({cells_across, contact_points_,
+                          2 * (axial * cells_across * per_face + contact_points_ * line) + part, 2 * per_face,
+                          2});
+    }
   }
 
   std::vector<NodeMap<dim>> cell_nodes(int layer, int row, int across, int axial) const {
@@ -303,7 +327,7 @@ class ColumnAssembly {
   }
 
   void add_contact_face(ColumnCell<dim>& cell) {
-    const double gamma = form_.gamma_0 * cell.material.youngs_modulus / cell.element.diameter();
+    const double gamma = form_.gamma_0 * cell.material.scaling_modulus() / cell.element.diameter();
     append_images(mirror_images(face_rule_, 0), cell, point_images_);
     for (const auto& q : face_rule_) {
       Vec<dim> xi{}, outward{};
@@ -358,7 +382,7 @@ class ColumnAssembly {
   const Materials& materials_;
   const ColumnNodes<dim>& nodes_;
   const ContactForm& form_;
-  int degree_, axial_cells_ = 1;
+  int degree_, contact_points_, annulus_points_, axial_cells_ = 1;
   ObservationRows<dim> rows_;
   std::vector<ReferencePoint<dim>> volume_rule_;
   std::vector<ReferencePoint<dim - 1>> face_rule_;

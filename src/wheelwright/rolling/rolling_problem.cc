@@ -84,7 +84,7 @@ int columns_in_contact(const RollingModel<dim>& model) {
   const double half_width =
       model.travel ? 0.5 * std::sqrt(2 * grid.outer_radius * std::max(*model.travel, 0.0))
                    : 2 * std::sqrt(line_load(model) * grid.outer_radius /
-                                   (std::numbers::pi * model.materials.at_tread().plane_strain_modulus()));
+                                   (std::numbers::pi * model.materials.at_tread().contact_modulus()));
   return static_cast<int>(std::ceil(half_width / (grid.outer_radius * grid.cell_size()[1]))) + 2;
 }
 
@@ -132,6 +132,8 @@ RollingProblem<dim>::RollingProblem(const RollingModel<dim>& model,
 
 template <int dim>
 Expected<RollingProblem<dim>> RollingProblem<dim>::create(const RollingModel<dim>& model) {
+  if (dim == 3 && model.materials.at_tread().plane == Plane::stress)
+    return Failure{FailureReason::unsupported_model, "plane stress is for two dimensions only"};
   auto elements = std::make_unique<ElementTable<dim>>(model.grid, model.degree, model.materials, model.ghost);
   auto tread = Tread<dim>::condense(*elements, model.tread, model.contact, model.contact_points);
   if (!tread) return tread.failure();
@@ -148,7 +150,7 @@ Expected<ContactState<dim>> solve_in_zone(const RollingModel<dim>& model, const 
   if (known) starts.push_back(contact.start_from(*known));
   starts.push_back(model.travel ? contact.undeformed_start()
                                 : contact.hertz_start(line_load(model), model.grid.outer_radius,
-                                                      model.materials.at_tread().plane_strain_modulus()));
+                                                      model.materials.at_tread().contact_modulus()));
   return solve_contact<dim>(contact, starts, interrupt);
 }
 

@@ -44,7 +44,8 @@ SectorFields complete_displacement(const RollingSolution<dim>& solution);
 template <int dim>
 class RollingProblem : public StateSolver<dim> {
  public:
-  /// Fails with not_positive_definite when theta and gamma_0 do not go together.
+  /// Fails with not_positive_definite when theta and gamma_0 do not go together, and with unsupported_model
+  /// for plane stress when dim = 3.
   static Expected<RollingProblem> create(const RollingModel<dim>& model);
 
   const RollingModel<dim>& model() const override { return model_; }

@@ -26,7 +26,7 @@ template <int dim>
 OptimizerOptions optimizer_options(const Case& c);
 
 /// What solves the states of a model's shapes. Fails with not_positive_definite when theta and gamma_0 do not
-/// go together.
+/// go together, and with unsupported_model for what the solver has no equations for.
 template <int dim>
 Expected<std::shared_ptr<const StateSolver<dim>>> make_solver(const RollingModel<dim>& model);
 

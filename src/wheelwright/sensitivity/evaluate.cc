@@ -52,12 +52,11 @@ struct WeightedValues {
   FunctionalDerivative<dim> derivative;
 };
 
-/// Takes the mean's own derivative into account: d(t_i - m) with m the mean of the t_i. When all positions
-/// count alike, deviations sum to zero over them, and with them their loads: then nothing is left of it.
+/// Whether the deviations from the positions' own mean, and with them their loads, sum to zero: then the
+/// mean's derivative vanishes.
 template <int dim>
-void add_derivative_of_mean(const TreadSurface<dim>& tread, const LoadPositions& positions, Matrix& loads) {
-  const Matrix mean = mean_over_positions(tread, positions, loads);
-  loads = deviation_from_mean(tread, positions, std::move(loads), mean);
+bool deviations_sum_to_zero(const ShapeFunction<dim>& function, const LoadPositions& positions) {
+  return function.position_weights.empty() && positions.stand_on_columns();
 }
 
 template <int dim>
@@ -81,7 +80,7 @@ WeightedValues<dim> weighted(const ShapeFunction<dim>& function, const Functiona
       if (!function.position_weights.empty()) factors[i] *= function.position_weights[i];
       by_position[i] += factors[i] * term.by_position[i];
     }
-    if (term.compares_with_mean && !mean_is_held && !function.position_weights.empty()) {
+    if (term.compares_with_mean && !mean_is_held && !deviations_sum_to_zero(function, positions)) {
       FunctionalDerivative<dim> derivative;
       add(term.derivative, factors, derivative);
       add_derivative_of_mean(solver.tread_surface(), positions, derivative.tread_loads);

@@ -27,6 +27,10 @@ struct LoadPositions {
   std::vector<double> multiplicities;  ///< number of a sector's positions that each represents
 
   int size() const { return static_cast<int>(grounds.size()); }
+  /// Whether the ground touches at the first azimuth of a column in all of them.
+  bool stand_on_columns() const {
+    return std::all_of(grounds.begin(), grounds.end(), [](const auto& ground) { return ground.offset == 0; });
+  }
   /// Whether some also represent their mirror image in the plane of azimuth 0.
   bool stand_for_images() const {
     return std::any_of(multiplicities.begin(), multiplicities.end(), [](double m) { return m > 1; });

@@ -45,7 +45,7 @@ struct RollingModel {
   double torque = 0;            ///< M on the rim about the axle; if not 0, it turns
   std::optional<double> travel;  ///< of the rim towards the ground [m], instead of the load
   DistributedLoads<dim> distributed;
-  int n_positions = 8;  ///< N_d, load positions of one sector; means over them need a divisor of its columns
+  int n_positions = 8;  ///< N_d, load positions of one sector
 
   int points_in_cut_cells() const { return cut_points.value_or(degree + 2); }
 };

@@ -16,6 +16,20 @@ struct TreadPoint {
   double gamma;   ///< gamma_0 E / h_T [Pa/m], with h_T the diameter of the cell at the tread
 };
 
+/// Equal faces side by side across a column that carry the same Gauss points: one line of points of one kind
+/// of observation, at one radius and one place along the axle.
+struct FaceRow {
+  int faces;            ///< from the column's first azimuth to its last
+  int points_per_face;  ///< of the Gauss rule along the azimuth
+
+  /// The first point's observation, and how many there are from face to face and from point to point.
+  /// Observations are counted as vectors of dim rows.
+  int first, per_face, per_point;
+
+  /// The observation at a face's Gauss point.
+  int observation(int face, int point) const { return first + per_face * face + per_point * point; }
+};
+
 /// The tread as the functions of the contact see it: a ring of equal columns, one per angular cell of the
 /// level set's grid.
 template <int dim>
@@ -27,6 +41,9 @@ struct TreadSurface {
   /// The observation that takes the place of each one in the mirror image of a column. Observations are
   /// counted as vectors of dim rows.
   std::vector<int> mirror_images;
+
+  /// All observations but the integral of u, by their lines of points.
+  std::vector<FaceRow> face_rows;
   int n_columns = 0;  ///< round the whole ring
 
   ObservationRows<dim> rows() const {
