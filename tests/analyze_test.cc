@@ -3,6 +3,7 @@
 #include <complex>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <sstream>
 
 #include "tests/support.h"
 #include "wheelwright/analysis/rolling_analysis.h"
@@ -219,7 +220,10 @@ TEST(Analysis, PeakStressIsThatOfTheDisplacementField) {
     double peak = 0;
     for (int sector = 0; sector < model.grid.n_sectors; ++sector)
       for (int cell = 0; cell < model.grid.n_cells(); ++cell) {
-        const CellMap<2> map(model.grid, model.degree, model.grid.cell_position(cell));
+        const auto c = model.grid.cell_position(cell);
+        const CellMap<2> map(model.grid, model.degree, c);
+        const auto nodes = ring_cell_nodes<2>(lattice, {c[0], c[1] + sector * model.grid.columns()});
+        const int n_nodes = nodes_per_cell<2>(model.degree);
         for (const auto& q : points) {
           Mat<2> gradient{}, jacobian{};  // by xi
           for (int g = 0; g < 2; ++g) {
@@ -233,8 +237,8 @@ TEST(Analysis, PeakStressIsThatOfTheDisplacementField) {
                                  model.grid.cell_position(cell)[1] * model.grid.cell_size()[1];
             Vec<2> du{};
             for (int d = 0; d < 2; ++d)
-              du[d] = (interpolate<2>(lattice, field, sector, cell, to, d) -
-                       interpolate<2>(lattice, field, sector, cell, from, d)) /
+              du[d] = (interpolate(field, nodes, std::span(to.value).first(n_nodes), d) -
+                       interpolate(field, nodes, std::span(from.value).first(n_nodes), d)) /
                       (2 * h);
             du = rotated<2>(du, -angle);
             for (int d = 0; d < 2; ++d) {
@@ -259,6 +263,33 @@ TEST(Analysis, PeakStressIsThatOfTheDisplacementField) {
 }
 
 // --- Report --------------------------------------------------------------------------------------------
+
+TEST(Report, TheTableShowsEveryPositionsNumbers) {
+  const RollingModel<2> model = coarse_model(5);
+  auto [problem, state, a] = analyzed(model, one_hole);
+  std::istringstream table(rolling_table({"wheel", 1, 16, a, {}, {}}));
+  std::vector<std::vector<double>> rows;
+  for (std::string line; std::getline(table, line);) {
+    std::istringstream cells(line);
+    std::vector<double> row;
+    for (double x; cells >> x;) row.push_back(x);
+    if (row.size() == 8) rows.push_back(row);
+  }
+  ASSERT_EQ(rows.size(), 5u);
+  for (size_t i = 0; i < 5; ++i) {
+    const ContactSummary& p = a.positions[i];
+    const std::vector<double> expected{a.azimuths[i] * 180 / std::numbers::pi,
+                                       p.radial_force / p.travel * 1e-3,
+                                       p.peak_pressure * 1e-6,
+                                       p.patch_length * 1e3,
+                                       a.peak_von_mises[i] * 1e-6,
+                                       a.strain_energy[i],
+                                       a.travel_at_load[i] * 1e3,
+                                       a.force_at_travel[i]};
+    for (size_t k = 0; k < 8; ++k) EXPECT_NEAR(rows[i][k], expected[k], k == 1 || k == 7 ? 6e-3 : 6e-4) << k;
+  }
+  EXPECT_GT(std::abs(a.peak_von_mises[2] - a.peak_von_mises[0]), 1e4);  // which the table can tell apart
+}
 
 TEST(Report, JsonReadsBackToTheSameNumbers) {
   const RollingModel<2> model = coarse_model(5);

@@ -111,6 +111,14 @@ Case with_holes() {
   return c;
 }
 
+TEST(Syntax, WrongBytesAreReportedOnceALineWhereTheyStand) {
+  const auto problems = parse_case("[wheel]\n# caf\xe9 \xe9\n# fine\n#  \xff\n", "case.toml").problems;
+  std::vector<std::pair<int, int>> places;
+  for (const Diagnostic& d : problems)
+    if (d.kind == Diagnostic::Kind::syntax) places.emplace_back(d.line, d.column);
+  EXPECT_EQ(places, (std::vector<std::pair<int, int>>{{2, 6}, {4, 4}}));
+}
+
 TEST(CaseFile, EveryProblemOfEveryBadCaseIsReportedOnItsLine) {
   const auto files = toml_files(source / "tests" / "bad_cases");
   ASSERT_FALSE(files.empty());

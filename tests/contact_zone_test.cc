@@ -30,14 +30,11 @@ Expected<ContactState<2>> solved_in(const RollingProblem<2>& problem, const Roll
   const ReducedContact<2> contact(surface, problem.tread(), problem.model().grid,
                                   s.positions.grounds[position], zone, rim);
   const auto& model = problem.model();
-  return solve_contact<2>(contact,
-                          [&](double fraction) {
-                            return model.travel ? contact.undeformed_start(fraction)
-                                                : contact.hertz_start(
-                                                      fraction * model.load, model.grid.outer_radius,
-                                                      model.materials.at_tread().plane_strain_modulus());
-                          },
-                          {});
+  const ContactUnknowns<2> start =
+      model.travel ? contact.undeformed_start()
+                   : contact.hertz_start(model.load, model.grid.outer_radius,
+                                         model.materials.at_tread().plane_strain_modulus());
+  return solve_contact<2>(contact, std::span(&start, 1));
 }
 
 /// Columns from the ground's to the farthest that carries pressure, on either side.

@@ -388,7 +388,7 @@ TEST(MeasureByShift, ReachesTheTarget) {
     const auto psi = make_level_set<2>(lattice, one_hole);
     for (double factor : {0.97, 0.9999, 1.0, 1.01, 1.15}) {
       const double target = factor * material_measure(psi);
-      const auto shifted = with_measure<2>(psi, bands, target, 2 * std::numbers::pi * hole_radius);
+      const auto shifted = with_measure<2>(psi, bands, target, 2 * std::numbers::pi * hole_radius, 4);
       ASSERT_TRUE(shifted) << factor;
       EXPECT_NEAR(material_measure(shifted->shape), target, 1e-6 * target);
       EXPECT_EQ(shifted->measure, material_measure(shifted->shape));
@@ -404,7 +404,7 @@ TEST(MeasureByShift, NamesAnUnreachableTarget) {
   const auto lattice = lattice_of(2);
   const ProtectedBands<2> bands(lattice, 0.01, 0.01);
   const auto psi = make_level_set<2>(lattice, one_hole);
-  const auto shifted = with_measure<2>(psi, bands, 1.5 * sector_measure<2>(lattice.grid()), 0.25);
+  const auto shifted = with_measure<2>(psi, bands, 1.5 * sector_measure<2>(lattice.grid()), 0.25, 4);
   ASSERT_FALSE(shifted);
   EXPECT_EQ(shifted.failure().reason, FailureReason::empty_shape);
 }

@@ -146,8 +146,8 @@ Matrix loads_under(const RollingProblem<2>& problem, const RollingSolution<2>& s
   EXPECT_TRUE(rolled) << rolled.failure().detail;
   EXPECT_EQ(rolled->contact.n_points(), s.contacts[position].n_points());
   for (int q = 0; q < rolled->contact.n_points(); ++q)
-    EXPECT_EQ(contact_status<2>(rolled->state.augmented[q], rolled->contact.friction()),
-              contact_status<2>(s.states[position].augmented[q], rolled->contact.friction()));
+    EXPECT_TRUE(contact_status<2>(rolled->state.augmented[q], rolled->contact.friction()) ==
+                contact_status<2>(s.states[position].augmented[q], rolled->contact.friction()));
   return rolled->contact.contact_loads(rolled->state);
 }
 
@@ -210,7 +210,8 @@ TEST(Friction, TheAdjointPredictsTheEffectOfTheLoad) {
     const auto problem = RollingProblem<2>::create(model);
     const auto s = problem->solve(psi);
     ASSERT_TRUE(s) << s.failure().detail;
-    const FunctionalDerivative<2> energy{.energy = std::vector<double>(s->positions.size(), 1.0)};
+    const FunctionalDerivative<2> energy{
+        .energy = std::vector<double>(s->positions.size(), 1.0), .tread_loads = {}, .integrals = {}};
     const auto adjoints = solve_adjoints<2>(*problem, *s, std::span(&energy, 1));
     ASSERT_TRUE(adjoints);
     double derivative = 0;

@@ -6,12 +6,12 @@
 #include "tests/support.h"
 #include "wheelwright/cut/measure.h"
 #include "wheelwright/functionals/boundary_integral.h"
+#include "wheelwright/functionals/material_density_integral.h"
 #include "wheelwright/functionals/material_volume.h"
 #include "wheelwright/functionals/perimeter.h"
 #include "wheelwright/functionals/uniformity_l2.h"
 #include "wheelwright/geometry/curvature.h"
 #include "wheelwright/sensitivity/taylor_test.h"
-#include "wheelwright/state/material_integral.h"
 
 namespace wheelwright {
 namespace {
@@ -39,16 +39,9 @@ RollingModel<2> lopsided_model() {
 /// The fourth power of the von Mises stress over a yield stress of 1 MPa, integrated over the material: a
 /// function whose adjoint load acts everywhere in the material. This file adds it to the program: a class
 /// and, in a run, one line in the list of functionals.
-class StressPower : public Functional<2>, MaterialDensity<2> {
+class StressPower : public MaterialDensityIntegral<2> {
  public:
   std::string name() const override { return "stress_power"; }
-
-  FunctionalValue<2> evaluate(const StateSolver<2>& solver, const LevelSet<2>&, const State<2>& state,
-                              const Matrix&) const override {
-    FunctionalValue<2> value{.by_position = material_integral<2>(solver, state, *this)};
-    value.derivative.integrals.push_back({this, std::vector<double>(value.by_position.size(), 1.0)});
-    return value;
-  }
 
  private:
   /// With s^2 = 6 mu^2 (e:e - (tr e)^2 / 3) in plane strain.
@@ -62,15 +55,9 @@ class StressPower : public Functional<2>, MaterialDensity<2> {
 };
 
 /// Half of sigma:eps as an integral over the material: the strain energy by another way.
-class EnergyDensity : public Functional<2>, MaterialDensity<2> {
+class EnergyDensity : public MaterialDensityIntegral<2> {
  public:
   std::string name() const override { return "energy_density"; }
-  FunctionalValue<2> evaluate(const StateSolver<2>& solver, const LevelSet<2>&, const State<2>& state,
-                              const Matrix&) const override {
-    FunctionalValue<2> value{.by_position = material_integral<2>(solver, state, *this)};
-    value.derivative.integrals.push_back({this, std::vector<double>(value.by_position.size(), 1.0)});
-    return value;
-  }
 
  private:
   Value at(const Voigt<2>& e, const Material& material) const override {

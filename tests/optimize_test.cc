@@ -128,6 +128,32 @@ TEST(ShapeOptimizer, ConvergesToTheLevelLineAtConstantMeasure) {
   RecordProperty("iterations", outcome.state->iteration);
 }
 
+// The cells that the measure was computed on, for both ways to hold it.
+TEST(ShapeOptimizer, HandsOnTheCellsOfEveryShape) {
+  for (const auto control : {MeasureControl::exact, MeasureControl::proportional}) {
+    OptimizerOptions options;
+    options.iterations = 3;
+    options.measure_control = control;
+    auto points = evolution;
+    points.cut_points = 5;
+    int shapes = 0;
+    const auto evaluate = [&](const CutShape<2>& shape, const Evaluation<2>*) -> Expected<Evaluated<2>> {
+      EXPECT_NE(shape.domain, nullptr);
+      const auto cells = cut_domain(shape.psi, 5);
+      EXPECT_EQ(shape.domain->kinds, cells->kinds);
+      EXPECT_EQ(material_measure(*shape.domain, 2), material_measure(*cells, 2));
+      ++shapes;
+      return Evaluated<2>{*bowl_objective(shape.psi), nullptr};
+    };
+    const ShapeOptimizer<2> optimizer(lattice, points, options, evaluate);
+    Record record;
+    optimize<2>(optimizer, displaced_hole(), record.observer(), never);
+    EXPECT_GT(shapes, 3);
+    for (const auto& trial : record.trials)
+      EXPECT_EQ(trial.measure, material_measure(*cut_domain(trial.shape, 5), 2));
+  }
+}
+
 TEST(ShapeOptimizer, ReachesAGivenMeasure) {
   OptimizerOptions options;
   options.iterations = 3;

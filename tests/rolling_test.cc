@@ -58,6 +58,18 @@ TEST(Rolling, ShapeGradientPassesTheTaylorTest) {
   }
 }
 
+TEST(Rolling, TheCellsOfAShapeCanBeGiven) {
+  const auto problem = RollingProblem<2>::create(paper_model(14, 192));
+  ASSERT_TRUE(problem);
+  const auto psi = testing::paper_holes(problem->model().grid);
+  const auto usual = cut_domain(psi, problem->model().points_in_cut_cells()), finer = cut_domain(psi, 8);
+  const auto own = problem->solve(psi), given = problem->solve({psi, &*usual}),
+             other = problem->solve({psi, &*finer});
+  ASSERT_TRUE(own && given && other);
+  EXPECT_EQ(given->strain_energy, own->strain_energy);
+  EXPECT_NE(other->strain_energy, own->strain_energy);
+}
+
 // Three cells across a hole: the boundary bends much in a cell, and yet the usual rule knows the derivative.
 TEST(Rolling, ShapeGradientIsExactOnACoarseGrid) {
   const auto model = paper_model(7, 128);

@@ -130,8 +130,8 @@ Evaluation<dim> evaluation_with(double objective, const std::vector<SurfaceSampl
 /// An objective that depends on the shape alone and hands out no solution, for the loop.
 template <int dim, class EvaluateShape>
 typename ShapeOptimizer<dim>::Evaluate objective_of_shape(EvaluateShape evaluate) {
-  return [evaluate](const LevelSet<dim>& psi, const Evaluation<dim>*) mutable -> Expected<Evaluated<dim>> {
-    auto evaluation = evaluate(psi);
+  return [evaluate](const CutShape<dim>& shape, const Evaluation<dim>*) mutable -> Expected<Evaluated<dim>> {
+    auto evaluation = evaluate(shape.psi);
     if (!evaluation) return evaluation.failure();
     return Evaluated<dim>{*std::move(evaluation), nullptr};
   };

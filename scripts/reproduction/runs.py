@@ -112,7 +112,7 @@ class Run:
         itself has the largest [Pa]."""
         largest = 0.0
         for file in sorted((self.folder / "rolling").glob("*.vtu")):
-            points, stress = read_array(file, None), read_array(file, "von_mises")
+            points, stress = read_array(file, "Points"), read_array(file, "von_mises")
             for k, value in enumerate(stress):
                 if value > largest and math.hypot(points[3 * k], points[3 * k + 1]) < 0.315:
                     largest = value
@@ -125,7 +125,7 @@ class Run:
         nothing outside the material takes part."""
         largest: list[float] = []
         for file in sorted((self.folder / "rolling").glob("*.vtu")):
-            points, moves = read_array(file, None), read_array(file, "displacement")
+            points, moves = read_array(file, "Points"), read_array(file, "displacement")
             if not largest:
                 pieces = [p for p in read_polygons(file) if _is_small_and_near(p, points)]
                 largest = [0.0] * len(pieces)

@@ -1,37 +1,17 @@
 """Nodal values of the VTU files that the program writes."""
 
-import base64
 import re
 import struct
-import zlib
 from pathlib import Path
 
 
-def _decode(text: str) -> bytes:
-    """The bytes of one binary, zlib-compressed data array: counts and sizes, then the blocks."""
-    raw = text.strip()
-    n_blocks = struct.unpack("<I", base64.b64decode(raw[:8])[:4])[0]
-    header_length = 4 * (3 + n_blocks)
-    header_characters = 4 * ((header_length + 2) // 3)
-    header = base64.b64decode(raw[:header_characters])
-    sizes = struct.unpack(f"<{n_blocks}I", header[12:header_length])
-    data = base64.b64decode(raw[header_characters:])
-    result = b""
-    for size in sizes:
-        result += zlib.decompress(data[:size])
-        data = data[size:]
-    return result
-
-
-def read_array(path: Path, name: str | None) -> list:
-    """All numbers of an array; `None` for the coordinates, three a point."""
-    text = path.read_text()
-    start = text.index("<Points>") if name is None else text.index(f'Name="{name}"')
-    tag = re.compile(r'<DataArray type="(\w+)"[^>]*format="binary"[^>]*>').search(text, text.rindex("<", 0, start + 1))
-    content = text[tag.end() : text.index("</DataArray>", tag.end())]
-    data = _decode(content)
-    code, size = {"Float32": ("f", 4), "Int32": ("i", 4)}[tag[1]]
-    return list(struct.unpack(f"<{len(data) // size}{code}", data))
+def read_array(path: Path, name: str) -> list:
+    """All numbers of an array; of "Points", the coordinates, three a point."""
+    xml, data = path.read_bytes().split(b'<AppendedData encoding="raw">\n_', 1)
+    kind, offset = re.search(rf'<DataArray type="(\w+)" Name="{name}"[^>]* offset="(\d+)"', xml.decode()).groups()
+    (size,) = struct.unpack_from("<Q", data, int(offset))
+    code = {"Float32": "f", "Int32": "i"}[kind]
+    return list(struct.unpack_from(f"<{size // 4}{code}", data, int(offset) + 8))
 
 
 def read_polygons(path: Path) -> list[list[int]]:

@@ -58,14 +58,37 @@ ContactResponse<dim> contact_response(const Vec<dim>& z, double friction) {
   return r;
 }
 
-/// The contact status of a point, by its augmented traction.
-enum class ContactStatus { open, sticks, slides };
+/// Contact with given friction (Tresca's law): the tangential traction is z_t projected onto the ball of
+/// radius `threshold`, in contact or not. The problem is then monotone: it has one solution.
+template <int dim>
+ContactResponse<dim> given_friction_response(const Vec<dim>& z, double threshold) {
+  ContactResponse<dim> r{};
+  const double pressure = negative_part(z[0]), tangential = tangential_norm<dim>(z);
+  r.traction[0] = -pressure;
+  r.tangent[0][0] = pressure > 0;
+  if (threshold <= 0) return r;
+  const bool sticks = tangential <= threshold;
+  for (int i = 1; i < dim; ++i) {
+    r.traction[i] = sticks ? z[i] : threshold * z[i] / tangential;
+    for (int j = 1; j < dim; ++j)
+      r.tangent[i][j] =
+          sticks ? (i == j) : threshold / tangential * ((i == j) - z[i] * z[j] / (tangential * tangential));
+  }
+  return r;
+}
 
+/// The status of a point by its augmented traction: whether it touches, and whether its tangential traction
+/// has reached the threshold.
+struct ContactStatus {
+  bool touches, slides;
+  bool operator==(const ContactStatus&) const = default;
+};
+
+/// Under Coulomb's law; a point that does not touch does not slide either.
 template <int dim>
 ContactStatus contact_status(const Vec<dim>& z, double friction) {
-  if (z[0] >= 0) return ContactStatus::open;
-  return tangential_norm<dim>(z) <= friction * negative_part(z[0]) ? ContactStatus::sticks
-                                                                   : ContactStatus::slides;
+  const bool touches = z[0] < 0;
+  return {touches, touches && friction > 0 && tangential_norm<dim>(z) > friction * negative_part(z[0])};
 }
 
 }  // namespace wheelwright

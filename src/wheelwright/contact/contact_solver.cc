@@ -1,22 +1,19 @@
 #include "wheelwright/contact/contact_solver.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace wheelwright {
 namespace {
 
 constexpr double tolerance = 1e-12, balance_tolerance = 1e-11;
-constexpr int max_residual_halvings = 5, max_contact_set_halvings = 30;
+constexpr int max_iterations = 400;
 
-/// The criterion that shortens a Newton step.
-enum class Damping {
-  residual,     ///< it must lower the residual
-  contact_set,  ///< at most a quarter of the touching points may change between open, sticking and sliding
-};
+/// Full steps that are taken although they do not lower the number of points that change.
+constexpr int patience = 8;
 
 /// The last iterate of Newton's method.
 template <int dim>
@@ -27,6 +24,7 @@ struct NewtonEnd {
   bool converged = false;
 };
 
+/// x minus a part of a step.
 template <int dim>
 ContactUnknowns<dim> moved(const ContactUnknowns<dim>& x, double length, const ContactUnknowns<dim>& step) {
   ContactUnknowns<dim> result = x;
@@ -34,11 +32,6 @@ ContactUnknowns<dim> moved(const ContactUnknowns<dim>& x, double length, const C
     for (int d = 0; d < dim; ++d) result.augmented[i][d] -= length * step.augmented[i][d];
   for (size_t k = 0; k < x.rim.size(); ++k) result.rim[k] -= length * step.rim[k];
   return result;
-}
-
-template <int dim>
-bool touches(const ContactUnknowns<dim>& x) {
-  return std::any_of(x.augmented.begin(), x.augmented.end(), [](const Vec<dim>& z) { return z[0] < 0; });
 }
 
 /// The norm of residuals: balances of force are converted to a pressure on the contact of the initial guess.
@@ -90,57 +83,32 @@ class ResidualNorm {
   std::vector<double> balance_, stiffness_;
 };
 
+template <int dim>
+bool touches(const ContactUnknowns<dim>& x) {
+  return std::any_of(x.augmented.begin(), x.augmented.end(), [](const Vec<dim>& z) { return z[0] < 0; });
+}
+
 /// Whether a step reversed the sliding direction of a point.
 template <int dim>
-bool turned(const Vec<dim>& before, const Vec<dim>& after, double friction) {
-  return contact_status<dim>(before, friction) == ContactStatus::slides &&
-         contact_status<dim>(after, friction) == ContactStatus::slides &&
+bool turned(const ReducedContact<dim>& contact, int point, const Vec<dim>& before, const Vec<dim>& after) {
+  return contact.status(point, before).slides && contact.status(point, after).slides &&
          tangential_dot<dim>(before, after) < 0;
 }
 
+/// The points whose contact status differs between two iterates.
 template <int dim>
-int changed_points(const ContactUnknowns<dim>& a, const ContactUnknowns<dim>& b, double friction) {
-  int changed = 0;
-  for (size_t i = 0; i < a.augmented.size(); ++i) {
+std::vector<int> changed_points(const ReducedContact<dim>& contact, const ContactUnknowns<dim>& a,
+                                const ContactUnknowns<dim>& b) {
+  std::vector<int> changed;
+  for (int i = 0; i < contact.n_points(); ++i) {
     const Vec<dim>&before = a.augmented[i], &after = b.augmented[i];
-    changed += turned<dim>(before, after, friction) ||
-               contact_status<dim>(before, friction) != contact_status<dim>(after, friction);
+    if (turned<dim>(contact, i, before, after) || contact.status(i, before) != contact.status(i, after))
+      changed.push_back(i);
   }
   return changed;
 }
 
-template <int dim>
-int changes_allowed(const ContactUnknowns<dim>& x) {
-  const auto touching =
-      std::count_if(x.augmented.begin(), x.augmented.end(), [](const Vec<dim>& z) { return z[0] < 0; });
-  return std::max(1, static_cast<int>(touching) / 4);
-}
-
-/// The step, shortened until it changes the contact status of few points.
-template <int dim>
-ContactUnknowns<dim> contact_set_search(const ContactUnknowns<dim>& x, const ContactUnknowns<dim>& step,
-                                        double friction) {
-  const int allowed = changes_allowed(x);
-  double length = 1;
-  ContactUnknowns<dim> trial = moved(x, length, step);
-  for (int k = 0; k < max_contact_set_halvings && changed_points(x, trial, friction) > allowed; ++k)
-    trial = moved(x, length /= 2, step);
-  return trial;
-}
-
-/// The step, shortened until it lowers the residual, or the last one tried.
-template <int dim>
-ContactUnknowns<dim> residual_search(const ReducedContact<dim>& contact, const ResidualNorm<dim>& norm,
-                                     double fraction, double residual, const ContactUnknowns<dim>& x,
-                                     const ContactUnknowns<dim>& step) {
-  double length = 1;
-  ContactUnknowns<dim> trial = moved(x, length, step);
-  for (int k = 0; k < max_residual_halvings && !(norm(contact.residual(trial, fraction)) < residual); ++k)
-    trial = moved(x, length /= 2, step);
-  return trial;
-}
-
-/// Whether every touching point slides in the same direction although friction must hold the rim.
+/// Whether friction must hold the rim although no touching point sticks.
 template <int dim>
 bool slides(const ReducedContact<dim>& contact, const ContactUnknowns<dim>& x) {
   const auto& free = contact.rim().free;
@@ -148,15 +116,9 @@ bool slides(const ReducedContact<dim>& contact, const ContactUnknowns<dim>& x) {
         return motion.direction.along_ground != 0 || motion.direction.rotation != 0;
       }))
     return false;
-  const Vec<dim>* first = nullptr;
-  for (const Vec<dim>& z : x.augmented) {
-    const ContactStatus status = contact_status<dim>(z, contact.friction());
-    if (status == ContactStatus::sticks) return false;
-    if (status == ContactStatus::open) continue;
-    if (!first) first = &z;
-    if (tangential_dot<dim>(z, *first) < 0) return false;
-  }
-  return first;
+  for (int i = 0; i < contact.n_points(); ++i)
+    if (const auto status = contact.status(i, x.augmented[i]); status.touches && !status.slides) return false;
+  return true;
 }
 
 template <int dim>
@@ -164,65 +126,121 @@ void stick(Vec<dim>& z) {
   std::fill(z.begin() + 1, z.end(), 0.0);
 }
 
-/// Makes every touching point stick, where the tangent is singular because all points slide.
+/// The tangential traction that a sliding point lacks to stick.
 template <int dim>
-void stick_all(ContactUnknowns<dim>& x) {
-  for (Vec<dim>& z : x.augmented)
-    if (z[0] < 0) stick<dim>(z);
+double lack_of_friction(const ReducedContact<dim>& contact, int point, const Vec<dim>& z) {
+  return tangential_norm<dim>(z) - tangential_norm<dim>(contact.response(point, z).traction);
+}
+
+/// Where every touching point of x slides, the tangent is singular: makes the one stick that lacks least. A
+/// point that stuck in the iterate before and is torn off keeps sliding if another can take over, one that
+/// slides against it.
+template <int dim>
+void stick_one(const ReducedContact<dim>& contact, const ContactUnknowns<dim>& before,
+               ContactUnknowns<dim>& x) {
+  const auto stuck = [&](int i) {
+    const auto status = contact.status(i, before.augmented[i]);
+    return status.touches && !status.slides;
+  };
+  Vec<dim> torn_off{};
+  for (int i = 0; i < contact.n_points(); ++i)
+    if (stuck(i) && contact.status(i, x.augmented[i]).slides)
+      for (int d = 0; d < dim; ++d) torn_off[d] += x.augmented[i][d];
+  int chosen = -1;
+  std::pair<bool, double> best{true, std::numeric_limits<double>::infinity()};
+  for (int i = 0; i < contact.n_points(); ++i) {
+    const Vec<dim>& z = x.augmented[i];
+    const auto status = contact.status(i, z);
+    if (!status.touches || !status.slides) continue;
+    const std::pair<bool, double> rank{stuck(i) || tangential_dot<dim>(z, torn_off) > 0,
+                                       lack_of_friction<dim>(contact, i, z)};
+    if (rank >= best) continue;
+    best = rank;
+    chosen = i;
+  }
+  if (chosen >= 0) stick<dim>(x.augmented[chosen]);
 }
 
 /// Makes the points stick whose sliding direction a step reversed: between the two directions they come to
 /// rest.
 template <int dim>
-void stick_turned(const ContactUnknowns<dim>& before, double friction, ContactUnknowns<dim>& x) {
-  for (size_t i = 0; i < x.augmented.size(); ++i)
-    if (turned<dim>(before.augmented[i], x.augmented[i], friction)) stick<dim>(x.augmented[i]);
+void stick_turned(const ReducedContact<dim>& contact, const ContactUnknowns<dim>& before,
+                  ContactUnknowns<dim>& x) {
+  for (int i = 0; i < contact.n_points(); ++i)
+    if (turned<dim>(contact, i, before.augmented[i], x.augmented[i])) stick<dim>(x.augmented[i]);
+}
+
+/// What Newton's method does when full steps no longer lower the number of points that change.
+enum class Cycling { give_up, change_one };
+
+/// Takes back all changes but the last n.
+template <int dim>
+void keep_all_but(const std::vector<int>& changed, size_t n, const ContactUnknowns<dim>& before,
+                  ContactUnknowns<dim>& x) {
+  for (size_t k = 0; k + n < changed.size(); ++k) x.augmented[changed[k]] = before.augmented[changed[k]];
 }
 
 template <int dim>
-NewtonEnd<dim> newton(const ReducedContact<dim>& contact, ContactUnknowns<dim> start, double fraction,
-                      Damping damping, const Interrupt& interrupt) {
+NewtonEnd<dim> newton(const ReducedContact<dim>& contact, ContactUnknowns<dim> start, Cycling when_cycling,
+                      const Interrupt& interrupt) {
   NewtonEnd<dim> end{std::move(start)};
   if (!touches(end.x)) return end;
+  if (slides(contact, end.x)) stick_one(contact, ContactUnknowns<dim>(end.x), end.x);
   const ResidualNorm<dim> norm(contact, end.x);
-  const int max_iterations = damping == Damping::residual ? 60 : 200;
-  ContactUnknowns<dim> residual = contact.residual(end.x, fraction);
-  end.residual = norm(residual);
-  while (end.iterations < max_iterations && std::isfinite(end.residual) && !interrupt.requested()) {
-    auto step = contact.newton_step(end.x, residual);
-    if (!step) {
-      stick_all(end.x);
-      residual = contact.residual(end.x, fraction);
-      end.residual = norm(residual);
-      step = contact.newton_step(end.x, residual);
-    }
+  size_t fewest_changes = end.x.augmented.size() + 1;
+  int without_progress = 0;
+  while (end.iterations < max_iterations && !interrupt.requested()) {
+    const auto step = contact.newton_step(end.x, contact.residual(end.x));
     if (!step) return end;
     ++end.iterations;
-    const ContactUnknowns<dim> before = std::move(end.x);
-    end.x = damping == Damping::residual
-                ? residual_search(contact, norm, fraction, end.residual, before, *step)
-                : contact_set_search(before, *step, contact.friction());
-    if (contact.friction() > 0) stick_turned(before, contact.friction(), end.x);
-    if (slides(contact, end.x)) stick_all(end.x);
-    residual = contact.residual(end.x, fraction);
+    ContactUnknowns<dim> next = moved(end.x, 1, *step);
+    const ContactUnknowns<dim> residual = contact.residual(next);
     end.residual = norm(residual);
-    end.converged = norm.vanishes(residual, end.x);
-    if (end.converged) return end;
+    end.converged = norm.vanishes(residual, next);
+    if (end.converged) end.x = std::move(next);
+    if (end.converged || !std::isfinite(end.residual)) return end;
+    stick_turned<dim>(contact, end.x, next);
+    if (slides(contact, next)) stick_one(contact, end.x, next);
+
+    const auto changed = changed_points(contact, end.x, next);
+    if (changed.size() < fewest_changes) {
+      fewest_changes = changed.size();
+      without_progress = 0;
+    } else if (++without_progress > patience) {
+      if (when_cycling == Cycling::give_up) return end;
+      keep_all_but(changed, std::max<size_t>(1, changed.size() >> (without_progress / patience)), end.x,
+                   next);
+    }
+    end.x = std::move(next);
   }
   return end;
 }
 
+/// The thresholds of Coulomb's law for the pressures of x.
 template <int dim>
-NewtonEnd<dim> newton_in_load_steps(const ReducedContact<dim>& contact, const ColdStart<dim>& cold_start,
-                                    int n_steps, const Interrupt& interrupt) {
-  NewtonEnd<dim> end{cold_start(1.0 / n_steps)};
-  int iterations = 0;
-  for (int k = 1; k <= n_steps; ++k) {
-    end = newton(contact, std::move(end.x), static_cast<double>(k) / n_steps, Damping::residual, interrupt);
-    iterations += end.iterations;
-    if (!end.converged) break;
+std::vector<double> thresholds(const ReducedContact<dim>& contact, const ContactUnknowns<dim>& x) {
+  std::vector<double> result;
+  for (const Vec<dim>& z : x.augmented) result.push_back(contact.friction() * negative_part(z[0]));
+  return result;
+}
+
+/// Coulomb's friction as a sequence of problems with given friction: each takes its thresholds from the
+/// pressures of the one before, until Newton's method for Coulomb's law itself converges from there.
+template <int dim>
+NewtonEnd<dim> newton_by_given_friction(const ReducedContact<dim>& contact, ContactUnknowns<dim> start,
+                                        const Interrupt& interrupt) {
+  constexpr int max_problems = 60;
+  NewtonEnd<dim> end{std::move(start)};
+  std::vector<double> given = thresholds(contact, end.x);
+  for (int k = 0; k < max_problems && !end.converged && !interrupt.requested(); ++k) {
+    auto solved = newton(contact.with_given_friction(given), end.x, Cycling::change_one, interrupt);
+    solved.iterations += end.iterations;
+    if (!solved.converged) return {std::move(solved.x), solved.iterations, solved.residual, false};
+    given = thresholds(contact, solved.x);
+    end = newton(contact, solved.x, Cycling::give_up, interrupt);
+    end.iterations += solved.iterations;
+    if (!end.converged) end.x = std::move(solved.x);
   }
-  end.iterations = iterations;
   return end;
 }
 
@@ -236,43 +254,33 @@ Failure no_contact(const ReducedContact<dim>& contact, const ContactUnknowns<dim
 
 template <int dim>
 Expected<ContactState<dim>> solve_contact(const ReducedContact<dim>& contact,
-                                          const ColdStart<dim>& cold_start,
-                                          const std::optional<ContactUnknowns<dim>>& warm_start,
+                                          std::span<const ContactUnknowns<dim>> starts,
                                           const Interrupt& interrupt) {
-  if (const auto start = cold_start(1); !touches(start)) return no_contact(contact, start);
+  const bool has_friction = contact.friction() > 0;
   NewtonEnd<dim> end;
-  std::vector<std::string> tried;
   int iterations = 0;
-  const auto attempt = [&](std::string name, const auto& solve) {
-    if (end.converged || interrupt.requested()) return;
-    end = solve();
-    tried.push_back(std::move(name));
+  for (const ContactUnknowns<dim>& start : starts) {
+    if (end.converged || interrupt.requested()) break;
+    end = newton(contact, contact.touching(start), has_friction ? Cycling::give_up : Cycling::change_one,
+                 interrupt);
     iterations += end.iterations;
-  };
-  if (warm_start)
-    attempt("a neighbouring solution",
-            [&] { return newton(contact, *warm_start, 1, Damping::residual, interrupt); });
-  attempt("a cold start", [&] { return newton(contact, cold_start(1), 1, Damping::residual, interrupt); });
-  attempt("a damped contact set",
-          [&] { return newton(contact, cold_start(1), 1, Damping::contact_set, interrupt); });
-  for (const int n_steps : {2, 4, 8})
-    attempt(fmt::format("{} load steps", n_steps),
-            [&] { return newton_in_load_steps(contact, cold_start, n_steps, interrupt); });
-
+  }
+  if (!end.converged && has_friction && !interrupt.requested()) {
+    end = newton_by_given_friction(contact, contact.touching(starts.back()), interrupt);
+    iterations += end.iterations;
+  }
   if (end.converged && touches(end.x)) return contact.state(end.x, iterations);
   if (interrupt.requested()) return Failure{FailureReason::interrupted, "while the contact was solved"};
   if (!touches(end.x)) return no_contact(contact, end.x);
-  return Failure{
-      FailureReason::newton_stalled,
-      fmt::format("contact: residual {:.3g} Pa after {} iterations, {} points{}; tried {}", end.residual,
-                  iterations, contact.n_points(),
-                  slides(contact, end.x) ? ", and every touching one slides" : "", fmt::join(tried, ", "))};
+  return Failure{FailureReason::newton_stalled,
+                 fmt::format("contact: residual {:.3g} Pa after {} iterations from {} starts, {} points{}",
+                             end.residual, iterations, starts.size(), contact.n_points(),
+                             slides(contact, end.x) ? ", and all touching ones slide" : "")};
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                    \
-  template Expected<ContactState<dim>> solve_contact(const ReducedContact<dim>&, const ColdStart<dim>&, \
-                                                     const std::optional<ContactUnknowns<dim>>&,        \
-                                                     const Interrupt&);
+#define WHEELWRIGHT_INSTANTIATE(dim)                  \
+  template Expected<ContactState<dim>> solve_contact( \
+      const ReducedContact<dim>&, std::span<const ContactUnknowns<dim>>, const Interrupt&);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)
 #undef WHEELWRIGHT_INSTANTIATE

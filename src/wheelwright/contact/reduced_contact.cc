@@ -58,14 +58,17 @@ ReducedContact<dim>::ReducedContact(const SurfaceCompliance<dim>& surface, const
     }
 
   const int n = n_points() * components();
-  flexibility_ = Matrix(n, n);
+  Matrix flexibility(n, n);
   for (int from = 0; from < zone.n_columns; ++from)
     for (int to = 0; to < zone.n_columns; ++to)
-      set_flexibility(to, from, surface.block(wrap(zone.first_column + from, tread.n_columns()), to - from));
+      set_flexibility(to, from, surface.block(wrap(zone.first_column + from, tread.n_columns()), to - from),
+                      flexibility);
+  flexibility_ = std::make_shared<const Matrix>(std::move(flexibility));
 }
 
 template <int dim>
-void ReducedContact<dim>::set_flexibility(int to_column, int from_column, const Matrix& block) {
+void ReducedContact<dim>::set_flexibility(int to_column, int from_column, const Matrix& block,
+                                          Matrix& flexibility) const {
   const int n_components = components();
   const int first_to = per_column() * to_column, first_from = per_column() * from_column;
   const auto to_axes = ground_axes<dim>(points_[first_to].angle);
@@ -77,7 +80,7 @@ void ReducedContact<dim>::set_flexibility(int to_column, int from_column, const 
         for (int k = 0; k < dim; ++k)
           for (int i = 0; i < dim; ++i) sample[i] += block(dim * to + i, dim * from + k) * from_axes[j][k];
         for (int i = 0; i < n_components; ++i)
-          flexibility_(n_components * (first_to + to) + i, n_components * (first_from + from) + j) =
+          flexibility(n_components * (first_to + to) + i, n_components * (first_from + from) + j) =
               dot<dim>(to_axes[i], sample);
       }
 }
@@ -87,6 +90,25 @@ ReducedContact<dim> ReducedContact<dim>::under(const RimControl& rim) const {
   ReducedContact contact = *this;
   contact.rim_ = rim;
   return contact;
+}
+
+template <int dim>
+ReducedContact<dim> ReducedContact<dim>::with_given_friction(std::vector<double> thresholds) const {
+  ReducedContact contact = *this;
+  contact.thresholds_ = std::move(thresholds);
+  return contact;
+}
+
+template <int dim>
+ContactResponse<dim> ReducedContact<dim>::response(int point, const Vec<dim>& z) const {
+  return thresholds_.empty() ? contact_response<dim>(z, friction_)
+                             : given_friction_response<dim>(z, thresholds_[point]);
+}
+
+template <int dim>
+ContactStatus ReducedContact<dim>::status(int point, const Vec<dim>& z) const {
+  if (thresholds_.empty()) return contact_status<dim>(z, friction_);
+  return {z[0]<0, thresholds_[point]> 0 && tangential_norm<dim>(z) > thresholds_[point]};
 }
 
 template <int dim>
@@ -103,9 +125,9 @@ ContactUnknowns<dim> ReducedContact<dim>::hertz_start(double load, double radius
 }
 
 template <int dim>
-ContactUnknowns<dim> ReducedContact<dim>::undeformed_start(double fraction) const {
+ContactUnknowns<dim> ReducedContact<dim>::undeformed_start() const {
   ContactUnknowns<dim> x{{}, std::vector<double>(n_free())};
-  const RimMotion rim = rim_motion(x.rim, fraction);
+  const RimMotion rim = rim_motion(x.rim);
   for (const Point& point : points_) {
     Vec<dim> z = displacement<dim>(rim, point.position);
     z[0] -= point.gap;
@@ -131,37 +153,59 @@ ContactUnknowns<dim> ReducedContact<dim>::start_from(const ContactState<dim>& ot
 }
 
 template <int dim>
-RimMotion ReducedContact<dim>::rim_motion(const std::vector<double>& free, double fraction) const {
-  RimMotion motion = combined({}, fraction, rim_.prescribed);
+ContactUnknowns<dim> ReducedContact<dim>::touching(ContactUnknowns<dim> guess) const {
+  const auto presses = [](const FreeMotion& motion) { return motion.direction.towards_ground != 0; };
+  const auto motion = std::ranges::find_if(rim_.free, presses);
+  const auto touches = [](const Vec<dim>& z) { return z[0] < 0; };
+  if (motion == rim_.free.end() || std::ranges::any_of(guess.augmented, touches)) return guess;
+  const double load = motion->force + work(preload_resultant_, motion->direction);
+  int nearest = 0;
+  const auto distance = [&](int i) {
+    return points_[i].gap + (preload_.empty() ? 0.0 : preload_[i][0] / points_[i].gamma);
+  };
+  for (int i = 1; i < n_points(); ++i)
+    if (distance(i) < distance(nearest)) nearest = i;
+  guess.augmented[nearest][0] = -load / points_[nearest].weight;
+  return guess;
+}
+
+template <int dim>
+RimMotion ReducedContact<dim>::rim_motion(const std::vector<double>& free) const {
+  RimMotion motion = rim_.prescribed;
   for (int k = 0; k < n_free(); ++k) motion = combined(motion, free[k], rim_.free[k].direction);
   return motion;
 }
 
 template <int dim>
-ContactUnknowns<dim> ReducedContact<dim>::residual(const ContactUnknowns<dim>& x, double fraction) const {
+ContactUnknowns<dim> ReducedContact<dim>::residual(const ContactUnknowns<dim>& x) const {
   const int nc = components(), n = n_points() * nc;
-  Matrix force(n, 1), response(n, 1);
+  Matrix force(n, 1), reply(n, 1);
   ContactUnknowns<dim> result{std::vector<Vec<dim>>(points_.size(), Vec<dim>{}), {}};
   for (const FreeMotion& motion : rim_.free)
-    result.rim.push_back(-fraction * (motion.force + work(preload_resultant_, motion.direction)));
+    result.rim.push_back(-motion.force - work(preload_resultant_, motion.direction));
   for (int i = 0; i < n_points(); ++i) {
-    const Vec<dim> traction = contact_response<dim>(x.augmented[i], friction_).traction;
-    if (traction[0] == 0) continue;
+    const Vec<dim> traction = response(i, x.augmented[i]).traction;
+    if (!is_active(i, x.augmented[i])) continue;
     for (int d = 0; d < nc; ++d) force(nc * i + d, 0) = points_[i].weight * traction[d];
     for (int k = 0; k < n_free(); ++k)
       result.rim[k] -= points_[i].weight *
                        dot<dim>(traction, displacement<dim>(rim_.free[k].direction, points_[i].position));
   }
-  multiply(1, flexibility_, Op::none, force, Op::none, 0, response);
-  const RimMotion rim = rim_motion(x.rim, fraction);
+  multiply(1, *flexibility_, Op::none, force, Op::none, 0, reply);
+  const RimMotion rim = rim_motion(x.rim);
   for (int i = 0; i < n_points(); ++i) {
     Vec<dim> approach = displacement<dim>(rim, points_[i].position);
     approach[0] -= points_[i].gap;
     for (int d = 0; d < nc; ++d)
-      result.augmented[i][d] = x.augmented[i][d] - response(nc * i + d, 0) + points_[i].gamma * approach[d] -
-                               (preload_.empty() ? 0.0 : fraction * preload_[i][d]);
+      result.augmented[i][d] = x.augmented[i][d] - reply(nc * i + d, 0) + points_[i].gamma * approach[d] -
+                               (preload_.empty() ? 0.0 : preload_[i][d]);
   }
   return result;
+}
+
+template <int dim>
+bool ReducedContact<dim>::is_active(int point, const Vec<dim>& z) const {
+  return z[0] < 0 || (!thresholds_.empty() && thresholds_[point] > 0);
 }
 
 /// The points that carry traction: the columns of all others are unit vectors in the Newton matrix.
@@ -170,7 +214,7 @@ std::vector<int> ReducedContact<dim>::active_rows(const std::vector<Vec<dim>>& z
   const int nc = components();
   std::vector<int> rows;
   for (int i = 0; i < n_points(); ++i)
-    if (z[i][0] < 0)
+    if (is_active(i, z[i]))
       for (int d = 0; d < nc; ++d) rows.push_back(nc * i + d);
   return rows;
 }
@@ -183,11 +227,11 @@ Matrix ReducedContact<dim>::response_tangent(const std::vector<Vec<dim>>& z,
   Matrix tangent(n, static_cast<int>(active.size()));
   for (int column = 0; column < tangent.columns(); ++column) {
     const int point = active[column] / nc, component = active[column] % nc;
-    const auto r = contact_response<dim>(z[point], friction_);
+    const auto r = response(point, z[point]);
     for (int k = 0; k < nc; ++k) {
       const double weight = points_[point].weight * r.tangent[k][component];
       if (weight == 0) continue;
-      const double* f = flexibility_.column(nc * point + k);
+      const double* f = flexibility_->column(nc * point + k);
       double* t = tangent.column(column);
       for (int i = 0; i < n; ++i) t[i] += weight * f[i];
     }
@@ -205,7 +249,7 @@ Matrix ReducedContact<dim>::active_system(const std::vector<Vec<dim>>& z, const 
     for (int i = 0; i < n; ++i) a(i, j) = (i == j) - tangent(active[i], j);
     const int component = active[j] % nc;
     const Point& point = points_[active[j] / nc];
-    const auto r = contact_response<dim>(z[active[j] / nc], friction_);
+    const auto r = response(active[j] / nc, z[active[j] / nc]);
     for (int k = 0; k < n_free(); ++k) {
       const Vec<dim> motion = displacement<dim>(rim_.free[k].direction, point.position);
       for (int d = 0; d < nc; ++d) a(n + k, j) -= point.weight * r.tangent[d][component] * motion[d];
@@ -248,10 +292,10 @@ std::optional<ContactUnknowns<dim>> ReducedContact<dim>::newton_step(
 
 template <int dim>
 ContactState<dim> ReducedContact<dim>::state(const ContactUnknowns<dim>& x, int newton_iterations) const {
-  ContactState<dim> state{zone_, x.augmented, {}, rim_motion(x.rim, 1), {}, newton_iterations};
+  ContactState<dim> state{zone_, x.augmented, {}, rim_motion(x.rim), {}, newton_iterations};
   state.rim_force = scaled(-1, preload_resultant_);
   for (int i = 0; i < n_points(); ++i) {
-    state.traction.push_back(contact_response<dim>(x.augmented[i], friction_).traction);
+    state.traction.push_back(response(i, x.augmented[i]).traction);
     const RimForce force = resultant<dim>(state.traction.back(), points_[i].position);
     state.rim_force = sum(state.rim_force, scaled(-points_[i].weight, force));
   }
@@ -307,7 +351,7 @@ Expected<std::vector<ContactAdjoint>> ReducedContact<dim>::adjoints(
   for (int k = 0; k < n_active; ++k) {
     const int i = active[k] / nc, component = active[k] % nc, q = point_of_column(i);
     const Point& point = points_[i];
-    const auto r = contact_response<dim>(state.augmented[i], friction_);
+    const auto r = response(i, state.augmented[i]);
     for (int f = 0; f < n_functions; ++f) {
       const double* observed = observations[f].column(zone_column(i));
       Vec<dim> tested;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "wheelwright/contact/contact_law.h"
@@ -61,6 +62,13 @@ class ReducedContact {
   /// The same zone with another rim control.
   ReducedContact under(const RimControl& rim) const;
 
+  /// The same problem with given friction (Tresca's law): one threshold per point [Pa].
+  ReducedContact with_given_friction(std::vector<double> thresholds) const;
+
+  /// The contact law at a point, and the point's status.
+  ContactResponse<dim> response(int point, const Vec<dim>& z) const;
+  ContactStatus status(int point, const Vec<dim>& z) const;
+
   const ContactZone& zone() const { return zone_; }
   const RimControl& rim() const { return rim_; }
   double friction() const { return friction_; }
@@ -77,14 +85,18 @@ class ReducedContact {
   const std::vector<Point>& points() const { return points_; }
 
   /// Initial guesses for Newton's method: the pressure of the Hertz contact of a solid disc; the undeformed
-  /// tread under a fraction of the rim's prescribed motion; the solution of another zone, where both zones
-  /// are centred on their ground position.
+  /// tread under the rim's prescribed motion; the solution of another zone, where both zones are centred on
+  /// their ground position.
   ContactUnknowns<dim> hertz_start(double load, double radius, double reduced_modulus) const;
-  ContactUnknowns<dim> undeformed_start(double fraction) const;
+  ContactUnknowns<dim> undeformed_start() const;
   ContactUnknowns<dim> start_from(const ContactState<dim>& other) const;
 
-  /// The residual under a fraction of all loads and prescribed motions.
-  ContactUnknowns<dim> residual(const ContactUnknowns<dim>& x, double fraction) const;
+  /// The guess itself if it touches the ground, or if the travel of the rim is prescribed; else the guess in
+  /// which the point nearest to the ground carries the load: every load that presses the wheel down finds
+  /// the ground.
+  ContactUnknowns<dim> touching(ContactUnknowns<dim> guess) const;
+
+  ContactUnknowns<dim> residual(const ContactUnknowns<dim>& x) const;
 
   /// Newton's step, to be subtracted. Empty if the tangent is singular or the rim would move farther than the
   /// tread's radius.
@@ -119,9 +131,11 @@ class ReducedContact {
   int point_of_column(int point) const { return point % per_column(); }
   ObservationRows<dim> observation_rows() const { return {per_column(), 0}; }
   int n_free() const { return static_cast<int>(rim_.free.size()); }
-  /// The block of the flexibility between two columns of the zone; `block` is in the columns' frames.
-  void set_flexibility(int to_column, int from_column, const Matrix& block);
-  RimMotion rim_motion(const std::vector<double>& free, double fraction) const;
+  /// Adds the block between two columns of the zone to the flexibility; `block` is in the columns' frames.
+  void set_flexibility(int to_column, int from_column, const Matrix& block, Matrix& flexibility) const;
+  RimMotion rim_motion(const std::vector<double>& free) const;
+  /// Whether a point may carry traction.
+  bool is_active(int point, const Vec<dim>& z) const;
   std::vector<int> active_rows(const std::vector<Vec<dim>>& z) const;
   Matrix response_tangent(const std::vector<Vec<dim>>& z, const std::vector<int>& active) const;
   Matrix active_system(const std::vector<Vec<dim>>& z, const std::vector<int>& active,
@@ -131,8 +145,9 @@ class ReducedContact {
   int ring_columns_;
   RimControl rim_;
   double friction_, tau_, theta_;
+  std::vector<double> thresholds_;  ///< of given friction; empty: Coulomb's law
   std::vector<Point> points_;
-  Matrix flexibility_;
+  std::shared_ptr<const Matrix> flexibility_;
   std::vector<Vec<dim>> preload_;  ///< z_0; empty: zero
   RimForce preload_resultant_;
 };

@@ -4,7 +4,6 @@
 
 #include "wheelwright/cut/cell_quadrature.h"
 #include "wheelwright/geometry/cell_map.h"
-#include "wheelwright/geometry/finite.h"
 
 namespace wheelwright {
 namespace {
@@ -19,39 +18,13 @@ double cell_measure(const CellMap<dim>& map, int degree, const std::vector<Refer
   return sum;
 }
 
-/// Calls visit(cell, kind, split) for each cell. `split` is the quadrature of a cut cell; it is empty if that
-/// failed, and for other cells.
-template <int dim, class Visit>
-void for_each_cell(const LevelSet<dim>& psi, Visit visit) {
-  CellQuadrature<dim> quadrature(psi.lattice.degree(), gauss_points);
-  for (int cell = 0; cell < psi.lattice.grid().n_cells(); ++cell) {
-    const auto values = psi.cell_values(cell);
-    const CellKind kind = quadrature.classify(values);
-    visit(cell, kind, kind == CellKind::cut ? quadrature.split(cell, values) : std::nullopt);
-  }
-}
-
 }  // namespace
 
 template <int dim>
 double material_measure(const LevelSet<dim>& psi) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  if (check_finite<dim>(psi.lattice, psi.values, "")) return unknown;
-  const PolarGrid<dim>& grid = psi.lattice.grid();
-  const int degree = psi.lattice.degree();
-  std::vector<double> full_cell(grid.cells[0]);
-  for (int radial = 0; radial < grid.cells[0]; ++radial) {
-    const CellMap<dim> map(grid, degree, {radial});
-    full_cell[radial] = cell_measure<dim>(map, degree, unit_cell_rule<dim>(gauss_points));
-  }
-  double sum = 0;
-  for_each_cell(psi, [&](int cell, CellKind kind, const std::optional<CutCell<dim>>& split) {
-    const auto position = grid.cell_position(cell);
-    if (kind == CellKind::inside) sum += full_cell[position[0]];
-    if (kind == CellKind::cut && !split) sum = unknown;
-    if (split) sum += cell_measure<dim>(CellMap<dim>(grid, degree, position), degree, split->material);
-  });
-  return sum;
+  const auto domain = cut_domain(psi, gauss_points);
+  return domain ? material_measure(*domain, psi.lattice.degree()) : unknown;
 }
 
 template <int dim>
@@ -75,8 +48,12 @@ std::vector<SurfaceSample<dim>> boundary_samples(const LevelSet<dim>& psi) {
   const PolarGrid<dim>& grid = psi.lattice.grid();
   const int degree = psi.lattice.degree();
   std::vector<SurfaceSample<dim>> samples;
-  for_each_cell(psi, [&](int cell, CellKind, const std::optional<CutCell<dim>>& split) {
-    if (!split) return;
+  CellQuadrature<dim> quadrature(degree, gauss_points);
+  for (int cell = 0; cell < grid.n_cells(); ++cell) {
+    const auto values = psi.cell_values(cell);
+    if (quadrature.classify(values) != CellKind::cut) continue;
+    const auto split = quadrature.split(cell, values);
+    if (!split) continue;
     const auto position = grid.cell_position(cell);
     const CellMap<dim> map(grid, degree, position);
     for (const auto& point : split->boundary) {
@@ -86,7 +63,7 @@ std::vector<SurfaceSample<dim>> boundary_samples(const LevelSet<dim>& psi) {
                           point.weight * surface.scale},
                          1});
     }
-  });
+  }
   return samples;
 }
 

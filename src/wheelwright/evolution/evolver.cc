@@ -25,7 +25,8 @@ template <int dim>
 Evolver<dim>::Evolver(const Lattice<dim>& lattice, const EvolutionOptions& options)
     : lattice_(lattice),
       bands_(lattice, options.rim_band, options.tread_band),
-      extension_(make_velocity_extension<dim>(lattice, bands_, options.velocity)) {
+      extension_(make_velocity_extension<dim>(lattice, bands_, options.velocity)),
+      cut_points_(options.cut_points) {
   if (options.smoothing > 0)
     smoother_.emplace(lattice, std::sqrt(options.smoothing) * lattice.grid().resolution());
 }
@@ -104,9 +105,14 @@ LevelSet<dim> Evolver<dim>::keep_bands(const LevelSet<dim>& psi) const {
 }
 
 template <int dim>
+Expected<MeasuredShape<dim>> Evolver<dim>::measured(LevelSet<dim> psi) const {
+  return wheelwright::measured(std::move(psi), cut_points_);
+}
+
+template <int dim>
 Expected<MeasuredShape<dim>> Evolver<dim>::with_measure(const LevelSet<dim>& psi, double target,
                                                         double boundary_measure) const {
-  return wheelwright::with_measure<dim>(psi, bands_, target, boundary_measure);
+  return wheelwright::with_measure<dim>(psi, bands_, target, boundary_measure, cut_points_);
 }
 
 template <int dim>

@@ -17,6 +17,7 @@ struct EvolutionOptions {
   double smoothing = 0;
   double rim_band = 0;    ///< width of the protected band at the rim [m]
   double tread_band = 0;  ///< width of the protected band at the tread [m]
+  int cut_points = 4;     ///< Gauss points per direction in cut cells; those of a solver that uses them again
 };
 
 /// Moves shapes on one lattice. Matrices that depend only on the lattice are factored once. All returned
@@ -50,6 +51,7 @@ class Evolver {
   LevelSet<dim> keep_bands(const LevelSet<dim>& psi) const;
 
   /// As the free functions with these names.
+  Expected<MeasuredShape<dim>> measured(LevelSet<dim> psi) const;
   Expected<MeasuredShape<dim>> with_measure(const LevelSet<dim>& psi, double target,
                                             double boundary_measure) const;
   Expected<AttachedShape<dim>> without_islands(const LevelSet<dim>& psi, double largest) const;
@@ -69,6 +71,7 @@ class Evolver {
   ProtectedBands<dim> bands_;
   std::unique_ptr<VelocityExtension<dim>> extension_;
   std::optional<Smoother<dim>> smoother_;
+  int cut_points_;
 };
 
 }  // namespace wheelwright

@@ -30,19 +30,27 @@ struct Bracket {
 }  // namespace
 
 template <int dim>
+Expected<MeasuredShape<dim>> measured(LevelSet<dim> psi, int points) {
+  auto domain = cut_domain(psi, points);
+  if (!domain) return domain.failure();
+  const double measure = material_measure(*domain, psi.lattice.degree());
+  if (!std::isfinite(measure)) return Failure{FailureReason::cut_quadrature, "the measure of the material"};
+  return MeasuredShape<dim>{std::move(psi), *std::move(domain), measure};
+}
+
+template <int dim>
 Expected<MeasuredShape<dim>> with_measure(const LevelSet<dim>& psi, const ProtectedBands<dim>& bands,
-                                          double target, double boundary_measure) {
+                                          double target, double boundary_measure, int points) {
   if (auto failure = check_finite<dim>(psi.lattice, psi.values, "the level set")) return *failure;
   const auto& grid = psi.lattice.grid();
   const double reach = grid.outer_radius - grid.inner_radius;
   Bracket bracket{-reach, reach};
   double shift = 0, slope = -boundary_measure, last_shift = 0, last_error = 0;
   for (int k = 0; k < max_evaluations; ++k) {
-    LevelSet<dim> candidate = shifted(psi, bands, shift);
-    const double measure = material_measure(candidate), error = measure - target;
-    if (!std::isfinite(error)) return Failure{FailureReason::cut_quadrature, "the measure of the material"};
-    if (std::abs(error) <= relative_tolerance * target)
-      return MeasuredShape<dim>{std::move(candidate), measure};
+    auto candidate = measured(shifted(psi, bands, shift), points);
+    if (!candidate) return candidate.failure();
+    const double error = candidate->measure - target;
+    if (std::abs(error) <= relative_tolerance * target) return candidate;
     (error > 0 ? bracket.too_small : bracket.too_large) = shift;
     if (k > 0) slope = (error - last_error) / (shift - last_shift);
     last_shift = shift;
@@ -74,10 +82,12 @@ double proportional_multiplier(std::span<const SurfaceSample<dim>> gradient, dou
   return 8 * (high->value - low->value) * (target_ratio - ratio);
 }
 
+template Expected<MeasuredShape<2>> measured<2>(LevelSet<2>, int);
+template Expected<MeasuredShape<3>> measured<3>(LevelSet<3>, int);
 template Expected<MeasuredShape<2>> with_measure<2>(const LevelSet<2>&, const ProtectedBands<2>&, double,
-                                                    double);
+                                                    double, int);
 template Expected<MeasuredShape<3>> with_measure<3>(const LevelSet<3>&, const ProtectedBands<3>&, double,
-                                                    double);
+                                                    double, int);
 template double sector_measure<2>(const PolarGrid<2>&);
 template double sector_measure<3>(const PolarGrid<3>&);
 template double proportional_multiplier<2>(std::span<const SurfaceSample<2>>, double, double);

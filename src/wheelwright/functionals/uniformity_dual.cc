@@ -22,9 +22,10 @@ FunctionalValue<dim> UniformityDual<dim>::evaluate(const StateSolver<dim>& solve
   const ObservationRows<dim> rows = tread.rows();
   const Matrix tractions = traction_deviation(tread, state, mean);
   const Matrix image = neumann_to_dirichlet_(tractions);
-  FunctionalValue<dim> value{.by_position = std::vector<double>(state.positions().size()),
-                             .derivative = {.tread_loads = Matrix(rows.size(), tractions.columns())},
-                             .compares_with_mean = true};
+  FunctionalValue<dim> value{
+      .by_position = std::vector<double>(state.positions().size()),
+      .derivative = {.energy = {}, .tread_loads = Matrix(rows.size(), tractions.columns()), .integrals = {}},
+      .compares_with_mean = true};
   for (int j = 0; j < tractions.columns(); ++j)
     for (int q = 0; q < rows.n_points; ++q)
       for (int d = 0; d < dim; ++d) {

@@ -5,7 +5,7 @@
 namespace wheelwright {
 namespace {
 
-/// Values of psi at the nodes of a finer lattice.
+/// Signs of psi at the nodes of a finer lattice.
 template <int dim>
 class Samples {
  public:
@@ -17,28 +17,17 @@ class Samples {
       for (int d = 0; d < dim; ++d) xi[d] = static_cast<double>(p[d]) / per_cell;
       shape.emplace_back(psi.lattice.degree(), xi);
     }
-    values_.resize(lattice_.n_nodes());
+    material_.resize(lattice_.n_nodes());
     for (int cell = 0; cell < grid().n_cells(); ++cell) {
       const auto c = grid().cell_position(cell);
       const auto nodal = psi.cell_values(cell);
-      for (std::size_t k = 0; k < shape.size(); ++k)
-        values_[lattice_.node_index(lattice_.cell_node(c, static_cast<int>(k)))] = value(shape[k], nodal);
+      for (int k = 0; k < static_cast<int>(shape.size()); ++k)
+        material_[lattice_.node_index(lattice_.cell_node(c, k))] = value(shape[k], nodal) < 0;
     }
   }
 
   const Lattice<dim>& lattice() const { return lattice_; }
-  bool is_material(int sample) const { return values_[sample] < 0; }
-  bool is_material(const std::array<int, dim>& p) const { return is_material(index(p)); }
-
-  /// As Lattice::node_index(), but faster for azimuths near the sector.
-  int index(std::array<int, dim> p) const {
-    const int period = lattice_.nodes()[1];
-    while (p[1] < 0) p[1] += period;
-    while (p[1] >= period) p[1] -= period;
-    int index = p[1];
-    if constexpr (dim == 3) index = index * lattice_.nodes()[2] + p[2];
-    return index * lattice_.nodes()[0] + p[0];
-  }
+  bool is_material(int sample) const { return material_[sample]; }
 
   /// Whether psi < 0 at the centre of the square that p spans with its neighbours along the axes a and b.
   bool is_material_between(std::array<int, dim> p, int a, int b, int step_a, int step_b) const {
@@ -69,18 +58,20 @@ class Samples {
 
   const LevelSet<dim>& psi_;
   Lattice<dim> lattice_;
-  std::vector<double> values_;
+  std::vector<char> material_;
 };
 
 template <int dim>
 class FloodFill {
  public:
-  using Position = std::array<int, dim>;
-
   explicit FloodFill(const Samples<dim>& samples)
       : samples_(samples),
         lattice_(samples.lattice()),
+        spacing_(lattice_.spacing()),
         result_{lattice_, std::vector<int>(lattice_.n_nodes(), -1), {}} {
+    stride_[0] = 1;
+    if constexpr (dim == 3) stride_[2] = lattice_.nodes()[0];
+    stride_[1] = lattice_.nodes_per_line();
     for (int first = 0; first < lattice_.n_nodes(); ++first)
       if (result_.of_sample[first] < 0) fill(first);
   }
@@ -88,16 +79,17 @@ class FloodFill {
   Components<dim> result() && { return std::move(result_); }
 
  private:
-  bool exists(const Position& p) const {
-    for (int d = 0; d < dim; ++d)
-      if (d != 1 && (p[d] < 0 || p[d] >= lattice_.nodes()[d])) return false;
-    return true;
-  }
+  /// Azimuthal positions are not wrapped at the faces of the sector, so that an image stays in one piece; the
+  /// index is that of the sample in the sector.
+  struct Place {
+    std::array<int, dim> position;
+    int index;
+  };
 
-  /// Collects the component of a sample. Azimuthal positions are not wrapped at the faces of the sector, so
-  /// that the image stays in one piece.
+  /// Collects the component of a sample.
   void fill(int first) {
-    const Vec<dim> origin = lattice_.polar_point(first);
+    const Place begin{lattice_.node_position(first), first};
+    const Vec<dim> origin = polar_point(begin.position);
     Component<dim> component{.is_material = samples_.is_material(first),
                              .measure = 0,
                              .centre = {},
@@ -105,14 +97,12 @@ class FloodFill {
                              .outermost = origin,
                              .at_rim = false,
                              .at_tread = false};
-    mark(lattice_.node_position(first));
+    mark(begin);
     while (!front_.empty()) {
-      const Position p = front_.back();
+      const Place place = front_.back();
       front_.pop_back();
-      add(p, component);
-      for_each_neighbour(p, [&](const Position& next) {
-        if (result_.of_sample[samples_.index(next)] < 0) mark(next);
-      });
+      add(place.position, component);
+      mark_neighbours(place, component.is_material);
     }
     for (double& x : component.centre) x /= component.measure;
     for (Vec<dim>* point : {&component.centre, &component.innermost, &component.outermost})
@@ -120,52 +110,76 @@ class FloodFill {
     result_.all.push_back(component);
   }
 
-  void mark(const Position& p) {
-    result_.of_sample[samples_.index(p)] = static_cast<int>(result_.all.size());
-    front_.push_back(p);
+  void mark(const Place& place) {
+    result_.of_sample[place.index] = static_cast<int>(result_.all.size());
+    front_.push_back(place);
+  }
+  bool is_marked(int sample) const { return result_.of_sample[sample] >= 0; }
+
+  bool has_neighbour(const Place& place, int axis, int step) const {
+    const int p = place.position[axis] + step;
+    return axis == 1 || (p >= 0 && p < lattice_.nodes()[axis]);
   }
 
-  template <class Visit>
-  void for_each_neighbour(const Position& p, Visit visit) const {
-    const bool material = samples_.is_material(p);
+  /// The index of the neighbour of a sample along an axis.
+  int neighbour(int sample, int axis, int step) const {
+    const int next = sample + step * stride_[axis];
+    if (axis != 1) return next;
+    return next < 0                     ? next + lattice_.n_nodes()
+           : next >= lattice_.n_nodes() ? next - lattice_.n_nodes()
+                                        : next;
+  }
+
+  Place moved(Place place, int axis, int step) const {
+    place.index = neighbour(place.index, axis, step);
+    place.position[axis] += step;
+    return place;
+  }
+
+  void mark_neighbours(const Place& place, bool material) {
     bool at_edge = false;
     for (int a = 0; a < dim; ++a)
       for (int step : {-1, 1}) {
-        const Position next = moved(p, a, step);
-        if (!exists(next)) continue;
-        if (samples_.is_material(next) == material)
-          visit(next);
-        else
+        if (!has_neighbour(place, a, step)) continue;
+        const int next = neighbour(place.index, a, step);
+        if (samples_.is_material(next) != material)
           at_edge = true;
+        else if (!is_marked(next))
+          mark(moved(place, a, step));
       }
     if (!at_edge) return;
     for (int a = 0; a < dim; ++a)
       for (int b = a + 1; b < dim; ++b)
         for (int step_a : {-1, 1})
           for (int step_b : {-1, 1})
-            if (joined_diagonally(p, a, b, step_a, step_b)) visit(moved(moved(p, a, step_a), b, step_b));
+            if (joined_diagonally(place, material, a, b, step_a, step_b)) {
+              const Place across = moved(moved(place, a, step_a), b, step_b);
+              if (!is_marked(across.index)) mark(across);
+            }
   }
 
-  bool joined_diagonally(const Position& p, int a, int b, int step_a, int step_b) const {
-    const bool material = samples_.is_material(p);
-    const Position along_a = moved(p, a, step_a), along_b = moved(p, b, step_b),
-                   across = moved(along_a, b, step_b);
-    return exists(across) && samples_.is_material(across) == material &&
+  bool joined_diagonally(const Place& place, bool material, int a, int b, int step_a, int step_b) const {
+    if (!has_neighbour(place, a, step_a) || !has_neighbour(place, b, step_b)) return false;
+    const int along_a = neighbour(place.index, a, step_a), along_b = neighbour(place.index, b, step_b);
+    return samples_.is_material(neighbour(along_a, b, step_b)) == material &&
            samples_.is_material(along_a) != material && samples_.is_material(along_b) != material &&
-           samples_.is_material_between(p, a, b, step_a, step_b) == material;
+           samples_.is_material_between(place.position, a, b, step_a, step_b) == material;
   }
 
-  static Position moved(Position p, int axis, int step) {
-    p[axis] += step;
-    return p;
+  /// As Lattice::polar_point().
+  Vec<dim> polar_point(const std::array<int, dim>& p) const {
+    Vec<dim> x;
+    for (int d = 0; d < dim; ++d) x[d] = p[d] * spacing_[d];
+    x[0] += lattice_.grid().inner_radius;
+    return x;
   }
 
-  void add(const Position& p, Component<dim>& component) const {
-    const Vec<dim> x = lattice_.polar_point(p);
+  void add(const std::array<int, dim>& p, Component<dim>& component) const {
+    const Vec<dim> x = polar_point(p);
     double share = x[0];
     for (int d = 0; d < dim; ++d) {
       const bool at_end = d != 1 && (p[d] == 0 || p[d] + 1 == lattice_.nodes()[d]);
-      share *= lattice_.spacing()[d] * (at_end ? 0.5 : 1);
+      share *= spacing_[d] * (at_end ? 0.5 : 1);
     }
     component.measure += share;
     for (int d = 0; d < dim; ++d) component.centre[d] += share * x[d];
@@ -183,7 +197,9 @@ class FloodFill {
 
   const Samples<dim>& samples_;
   const Lattice<dim>& lattice_;
-  std::vector<Position> front_;
+  Vec<dim> spacing_;
+  std::array<int, dim> stride_;  ///< of the samples' indices
+  std::vector<Place> front_;
   Components<dim> result_;
 };
 

@@ -100,6 +100,16 @@ Matrix sum(Matrix a, const Matrix& b) {
   return a;
 }
 
+Matrix transposed(const Matrix& a) {
+  constexpr int tile = 32;  // fits the cache, by rows and by columns
+  Matrix result(a.columns(), a.rows());
+  for (int j0 = 0; j0 < a.columns(); j0 += tile)
+    for (int i0 = 0; i0 < a.rows(); i0 += tile)
+      for (int j = j0; j < std::min(j0 + tile, a.columns()); ++j)
+        for (int i = i0; i < std::min(i0 + tile, a.rows()); ++i) result(j, i) = a(i, j);
+  return result;
+}
+
 Matrix product(const Matrix& a, Op op_a, const Matrix& b, Op op_b) {
   auto c =
       Matrix::unfilled(op_a == Op::none ? a.rows() : a.columns(), op_b == Op::none ? b.columns() : b.rows());

@@ -114,15 +114,16 @@ bool take(Expected<LevelSet<dim>> shape, Trial<dim>& trial) {
   return !trial.failure;
 }
 
+/// The same; the shape's cells.
 template <int dim>
-bool take(Expected<MeasuredShape<dim>> measured, Trial<dim>& trial) {
+std::optional<CutDomain<dim>> take(Expected<MeasuredShape<dim>> measured, Trial<dim>& trial) {
   if (!measured) {
     trial.failure = measured.failure();
-    return false;
+    return {};
   }
   trial.shape = std::move(measured->shape);
   trial.measure = measured->measure;
-  return true;
+  return std::move(measured->domain);
 }
 
 }  // namespace
@@ -145,8 +146,8 @@ Expected<OptimizationState<dim>> ShapeOptimizer<dim>::start(const LevelSet<dim>&
                                                             const Observer& observer) const {
   if (auto failure = check_finite<dim>(lattice_, initial.values, "the initial level set")) return *failure;
   Trial<dim> trial = trial_at_rest<dim>(0, evolver_.keep_bands(initial));
-  finish(trial, options_.target_measure, boundary_measure(boundary_samples<dim>(trial.shape)));
-  if (!trial.failure) evaluate(trial, nullptr);
+  auto cells = finish(trial, options_.target_measure, boundary_measure(boundary_samples<dim>(trial.shape)));
+  if (!trial.failure) evaluate(trial, std::move(cells), nullptr);
   if (trial.failure) return *trial.failure;
   trial.verdict = Verdict::accepted;
   add_changes(initial, trial);
@@ -167,8 +168,7 @@ template <int dim>
 Expected<OptimizationState<dim>> ShapeOptimizer<dim>::restart(const OptimizationState<dim>& state,
                                                               const Observer& observer) const {
   Trial<dim> trial = trial_at_rest<dim>(state.iteration, state.shape);
-  trial.measure = state.measure;
-  evaluate(trial, nullptr);
+  evaluate(trial, {}, nullptr);
   if (trial.failure) return *trial.failure;
   trial.verdict = Verdict::accepted;
   OptimizationState<dim> anew = state;
@@ -238,10 +238,10 @@ Trial<dim> ShapeOptimizer<dim>::attempt(const OptimizationState<dim>& state, std
   const double step = state.step * std::pow(step_reduction, halvings);
   Trial<dim> trial = failed_trial(state, halvings, step, {});
   trial.max_velocity = largest_magnitude(velocity);
-  evolve(state, velocity, trial);
+  auto cells = evolve(state, velocity, trial);
   trial.evolution_seconds = seconds_since(start);
   if (trial.failure) return trial;
-  evaluate(trial, &state.evaluation);
+  evaluate(trial, std::move(cells), &state.evaluation);
   if (trial.failure) return trial;
   const double foretold = evolver_.first_order_change(state.evaluation.gradient(options_.objective), velocity,
                                                       step * lattice_.grid().resolution());
@@ -259,39 +259,44 @@ Trial<dim> ShapeOptimizer<dim>::attempt(const OptimizationState<dim>& state, std
 
 /// Makes the trial's shape from the state's; where a stage fails, the shape stays what the stage before made.
 template <int dim>
-void ShapeOptimizer<dim>::evolve(const OptimizationState<dim>& state, std::span<const double> velocity,
-                                 Trial<dim>& trial) const {
+typename ShapeOptimizer<dim>::MadeCells ShapeOptimizer<dim>::evolve(const OptimizationState<dim>& state,
+                                                                    std::span<const double> velocity,
+                                                                    Trial<dim>& trial) const {
   const bool redistances = is_due(options_.redistance_every, state.since_redistance, trial.halvings),
              smooths = is_due(options_.smooth_every, state.since_smoothing, trial.halvings);
   if (take(evolver_.move(state.shape, velocity, trial.step * lattice_.grid().resolution()), trial) &&
       (!redistances || take(evolver_.redistance(trial.shape), trial)) &&
       (!smooths || take(evolver_.smooth(trial.shape), trial)))
-    finish(trial, state.target_measure, boundary_measure(state.evaluation.boundary));
+    return finish(trial, state.target_measure, boundary_measure(state.evaluation.boundary));
+  return {};
 }
 
 /// Gives the trial's shape the target measure, if that is held exactly, and removes islands: one after the
 /// other, for the shift makes up for islands that were removed, and can make new ones.
 template <int dim>
-void ShapeOptimizer<dim>::finish(Trial<dim>& trial, std::optional<double> target,
-                                 double boundary_measure) const {
+typename ShapeOptimizer<dim>::MadeCells ShapeOptimizer<dim>::finish(Trial<dim>& trial,
+                                                                    std::optional<double> target,
+                                                                    double boundary_measure) const {
   const double largest = options_.largest_island * sector_measure<dim>(lattice_.grid());
   for (int k = 0; k < max_removals; ++k) {
     trial.measure = unknown;
-    if (target && options_.measure_control == MeasureControl::exact &&
-        !take(evolver_.with_measure(trial.shape, *target, boundary_measure), trial))
-      return;
+    MadeCells cells;
+    if (target && options_.measure_control == MeasureControl::exact)
+      cells = take(evolver_.with_measure(trial.shape, *target, boundary_measure), trial);
+    if (trial.failure) return {};
     auto attached = evolver_.without_islands(trial.shape, largest);
     if (!attached) {
       trial.failure = attached.failure();
-      return;
+      return {};
     }
-    if (attached->removed.empty()) return;
+    if (attached->removed.empty()) return cells;
     trial.shape = std::move(attached->psi);
     trial.events.insert(trial.events.end(), attached->removed.begin(), attached->removed.end());
   }
   trial.failure = Failure{FailureReason::disconnected_material,
                           fmt::format("islands come back as often as they are removed, the last at {}",
                                       place_text<dim>(trial.events.back().place))};
+  return {};
 }
 
 template <int dim>
@@ -299,15 +304,13 @@ void ShapeOptimizer<dim>::add_changes(const LevelSet<dim>& before, Trial<dim>& t
   for (const auto& event : evolver_.changes(before, trial.shape)) trial.events.push_back(event);
 }
 
-/// The trial's measure is computed unless the shift to the target has done so.
+/// The trial's shape is cut and measured unless the shift to the target has done so.
 template <int dim>
-void ShapeOptimizer<dim>::evaluate(Trial<dim>& trial, const Evaluation<dim>* previous) const {
-  if (std::isnan(trial.measure)) trial.measure = material_measure(trial.shape);
-  if (!std::isfinite(trial.measure)) {
-    trial.failure = Failure{FailureReason::cut_quadrature, "the measure of the material"};
-    return;
-  }
-  auto evaluated = evaluate_(trial.shape, previous);
+void ShapeOptimizer<dim>::evaluate(Trial<dim>& trial, MadeCells cells,
+                                   const Evaluation<dim>* previous) const {
+  if (!cells) cells = take(evolver_.measured(trial.shape), trial);
+  if (trial.failure) return;
+  auto evaluated = evaluate_({trial.shape, &*cells}, previous);
   if (!evaluated) {
     trial.failure = evaluated.failure();
     return;

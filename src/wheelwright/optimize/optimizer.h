@@ -131,7 +131,7 @@ class ShapeOptimizer {
   /// `previous` is the evaluation of the last accepted shape; null for the first. A failure `interrupted` is
   /// no failed trial: the trial is forgotten and the loop stops as if asked to.
   using Evaluate =
-      std::function<Expected<Evaluated<dim>>(const LevelSet<dim>&, const Evaluation<dim>* previous)>;
+      std::function<Expected<Evaluated<dim>>(const CutShape<dim>&, const Evaluation<dim>* previous)>;
   /// Sees every trial, accepted or rejected, and the state after it.
   using Observer = std::function<void(const Trial<dim>&, const OptimizationState<dim>&)>;
 
@@ -164,12 +164,14 @@ class ShapeOptimizer {
 
  private:
   Expected<std::vector<double>> descent_velocity(const OptimizationState<dim>& state) const;
+  using MadeCells = std::optional<CutDomain<dim>>;  ///< of the trial's shape; empty: not made yet
   Trial<dim> attempt(const OptimizationState<dim>& state, std::span<const double> velocity,
                      int halvings) const;
-  void evolve(const OptimizationState<dim>& state, std::span<const double> velocity, Trial<dim>& trial) const;
-  void finish(Trial<dim>& trial, std::optional<double> target, double boundary_measure) const;
+  MadeCells evolve(const OptimizationState<dim>& state, std::span<const double> velocity,
+                   Trial<dim>& trial) const;
+  MadeCells finish(Trial<dim>& trial, std::optional<double> target, double boundary_measure) const;
   void add_changes(const LevelSet<dim>& before, Trial<dim>& trial) const;
-  void evaluate(Trial<dim>& trial, const Evaluation<dim>* previous) const;
+  void evaluate(Trial<dim>& trial, MadeCells cells, const Evaluation<dim>* previous) const;
   bool is_due(int every, int since, int halvings) const;
   double next_step(const OptimizationState<dim>& state, const Trial<dim>& trial) const;
   OptimizationState<dim> successor(const OptimizationState<dim>& state, const Trial<dim>& trial) const;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "wheelwright/geometry/cell_map.h"
 #include "wheelwright/geometry/contour.h"
@@ -30,25 +31,72 @@ struct Piece {
   double scalar;
 };
 
-Piece deformed_piece(const LevelSet<2>& psi, const Lattice<2>& lattice, const DeformedPicture& picture,
-                     int sector, int cell, const MaterialPolygon& polygon) {
-  const PolarGrid<2>& grid = lattice.grid();
-  const auto c = grid.cell_position(cell);
-  const CellMap<2> map(grid, psi.lattice.degree(), c);
-  const double azimuth = sector * grid.sector_angle() + c[1] * grid.cell_size()[1];
-  const double turn = -0.5 * std::numbers::pi - picture.contact_azimuth;
-  Piece piece{{}, 0};
-  for (const Vec<2>& xi : polygon) {
-    Vec<2> x = rotated<2>(map.position(ShapeFunctions<2>(psi.lattice.degree(), xi)), azimuth);
-    const ShapeFunctions<2> shape(lattice.degree(), xi);
-    for (int d = 0; d < 2; ++d)
-      x[d] += picture.magnification * interpolate<2>(lattice, picture.displacement, sector, cell, shape, d);
-    x = rotated<2>(x, turn);
-    piece.corners.push_back({x[0], -x[1]});
-    piece.scalar += interpolate<2>(lattice, picture.scalar.field, sector, cell, shape, 0) / polygon.size();
+struct Rotation {
+  double cosine, sine;
+  explicit Rotation(double angle) : cosine(std::cos(angle)), sine(std::sin(angle)) {}
+  Vec<2> operator()(const Vec<2>& x) const {
+    return {cosine * x[0] - sine * x[1], sine * x[0] + cosine * x[1]};
   }
-  return piece;
-}
+};
+
+/// A polygon of a cell in all sectors.
+struct CellPolygon {
+  int cell;
+  MaterialPolygon in_cell;
+  std::vector<Vec<2>> corners;                ///< Cartesian, in the sector's own frame
+  std::vector<std::array<double, 9>> shapes;  ///< values of the field's shape functions there
+};
+
+/// Moves the material as the picture shows it.
+class Deformation {
+ public:
+  Deformation(const LevelSet<2>& psi, const Lattice<2>& lattice, const DeformedPicture& picture)
+      : psi_(psi),
+        lattice_(lattice),
+        picture_(picture),
+        turn_(-0.5 * std::numbers::pi - picture.contact_azimuth) {
+    for (int sector = 0; sector < lattice.grid().n_sectors; ++sector)
+      to_sector_.emplace_back(sector * lattice.grid().sector_angle());
+  }
+
+  CellPolygon polygon(int cell, const MaterialPolygon& polygon) const {
+    const PolarGrid<2>& grid = lattice_.grid();
+    const auto c = grid.cell_position(cell);
+    const CellMap<2> map(grid, psi_.lattice.degree(), c);
+    CellPolygon result{cell, polygon, {}, {}};
+    for (const Vec<2>& xi : polygon) {
+      result.corners.push_back(
+          rotated<2>(map.position(ShapeFunctions<2>(psi_.lattice.degree(), xi)), c[1] * grid.cell_size()[1]));
+      result.shapes.push_back(ShapeFunctions<2>(lattice_.degree(), xi).value);
+    }
+    return result;
+  }
+
+  Piece piece(int sector, const CellPolygon& polygon) const {
+    auto c = lattice_.grid().cell_position(polygon.cell);
+    c[1] += sector * lattice_.grid().columns();
+    const auto nodes = ring_cell_nodes<2>(lattice_, c);
+    Piece piece{{}, 0};
+    piece.corners.reserve(polygon.corners.size());
+    for (size_t k = 0; k < polygon.corners.size(); ++k) {
+      const std::span shape(polygon.shapes[k].data(), nodes_per_cell<2>(lattice_.degree()));
+      Vec<2> x = to_sector_[sector](polygon.corners[k]);
+      for (int d = 0; d < 2; ++d)
+        x[d] += picture_.magnification * interpolate(picture_.displacement, nodes, shape, d);
+      x = turn_(x);
+      piece.corners.push_back({x[0], -x[1]});
+      piece.scalar += interpolate(picture_.scalar.field, nodes, shape, 0) / polygon.corners.size();
+    }
+    return piece;
+  }
+
+ private:
+  const LevelSet<2>& psi_;
+  const Lattice<2>& lattice_;
+  const DeformedPicture& picture_;
+  Rotation turn_;
+  std::vector<Rotation> to_sector_;
+};
 
 /// The part of the plane that is drawn, in picture coordinates.
 struct View {
@@ -84,19 +132,22 @@ std::vector<MaterialPolygon> divided(const MaterialPolygon& polygon, int n) {
 
 std::vector<Piece> deformed_pieces(const LevelSet<2>& psi, const Lattice<2>& lattice,
                                    const DeformedPicture& picture, const View& view) {
-  const PolarGrid<2>& grid = lattice.grid();
+  const Deformation deformation(psi, lattice, picture);
   const auto polygons = material_polygons(psi, 2);
+  std::vector<CellPolygon> wholes;
+  for (int cell = 0; cell < lattice.grid().n_cells(); ++cell)
+    for (const MaterialPolygon& polygon : polygons[cell])
+      wholes.push_back(deformation.polygon(cell, polygon));
   std::vector<Piece> pieces;
-  for (int sector = 0; sector < grid.n_sectors; ++sector)
-    for (int cell = 0; cell < grid.n_cells(); ++cell)
-      for (const MaterialPolygon& polygon : polygons[cell]) {
-        Piece piece = deformed_piece(psi, lattice, picture, sector, cell, polygon);
-        if (!picture.window)
-          pieces.push_back(std::move(piece));
-        else if (view.shows(piece))
-          for (const MaterialPolygon& part : divided(polygon, parts_in_window))
-            pieces.push_back(deformed_piece(psi, lattice, picture, sector, cell, part));
-      }
+  for (int sector = 0; sector < lattice.grid().n_sectors; ++sector)
+    for (const CellPolygon& whole : wholes) {
+      Piece piece = deformation.piece(sector, whole);
+      if (!picture.window)
+        pieces.push_back(std::move(piece));
+      else if (view.shows(piece))
+        for (const MaterialPolygon& part : divided(whole.in_cell, parts_in_window))
+          pieces.push_back(deformation.piece(sector, deformation.polygon(whole.cell, part)));
+    }
   return pieces;
 }
 

@@ -25,18 +25,6 @@ RingField vertical_field(const RingField& displacement, double ground_azimuth) {
 
 namespace {
 
-/// The nodes of the full ring that a cell of a row of cells has, in local order.
-std::vector<size_t> cell_nodes(const Lattice<2>& lattice, int radial, int ring_column) {
-  std::vector<size_t> nodes;
-  for (int a = 0; a < nodes_per_cell<2>(lattice.degree()); ++a) {
-    auto p = local_node_position<2>(lattice.degree(), a);
-    p[0] += lattice.degree() * radial;
-    p[1] += lattice.degree() * ring_column;
-    nodes.push_back(ring_node<2>(lattice, p));
-  }
-  return nodes;
-}
-
 /// Strains at the nodes of a cell of this row as a linear map of its dofs: n_strains rows a node.
 Matrix strains_at_nodes(const ElasticElement<2>& element) {
   const int degree = element.degree();
@@ -80,18 +68,18 @@ RingField von_mises_field(const RollingModel<2>& model, const CutDomain<2>& doma
   for (int radial = 0; radial < grid.cells[0]; ++radial) {
     const ElasticElement<2> element(grid, model.degree, {radial});
     const Material& material = model.materials.in_row(radial);
-    std::vector<std::vector<size_t>> cells;
+    std::vector<RingCellNodes<2>> cells;
     for (int column = 0; column < grid.ring_columns(); ++column)
       if (domain.active(grid.cell_index({radial, column % grid.columns()})))
-        cells.push_back(cell_nodes(lattice, radial, column));
+        cells.push_back(ring_cell_nodes<2>(lattice, {radial, column}));
     Matrix dofs(element.n_dofs(), static_cast<int>(cells.size()));
     for (size_t c = 0; c < cells.size(); ++c)
-      for (size_t a = 0; a < cells[c].size(); ++a)
+      for (int a = 0; a < element.n_nodes(); ++a)
         std::copy_n(&polar[2 * cells[c][a]], 2, dofs.column(static_cast<int>(c)) + 2 * a);
     const Matrix strains = product(strains_at_nodes(element), Op::none, dofs, Op::none);
     for (size_t c = 0; c < cells.size(); ++c) {
       const double* strain = strains.column(static_cast<int>(c));
-      for (const size_t node : cells[c]) {
+      for (const size_t node : std::span(cells[c]).first(element.n_nodes())) {
         sum[node] += von_mises<2>(material, stress<2>(material, {strain[0], strain[1], strain[2]}));
         ++count[node];
         strain += n_strains<2>;

@@ -1,12 +1,14 @@
 #include "wheelwright/report/vtu.h"
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <limits>
+#include <map>
+#include <numeric>
 #include <stdexcept>
 
 #include "wheelwright/files/atomic_file.h"
+#include "wheelwright/files/little_endian.h"
 #include "wheelwright/geometry/cell_map.h"
 #include "wheelwright/geometry/contour.h"
 
@@ -15,37 +17,6 @@ namespace {
 
 /// VTK's numbers for the kinds of cells.
 constexpr std::uint8_t vtk_triangle = 5, vtk_quadrilateral = 9;
-
-std::string base64(std::string_view bytes) {
-  static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group = group << 8 | (k < n ? static_cast<unsigned char>(bytes[i + k]) : 0);
-    for (std::size_t k = 0; k < 4; ++k) text += k <= n ? digits[group >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
-
-/// Numbers as VTK's inline binary data: a header of four counts, then one block, compressed.
-template <class Number>
-std::string encoded(const std::vector<Number>& numbers) {
-  const uLong size = numbers.size() * sizeof(Number);
-  if (size > std::numeric_limits<std::uint32_t>::max())
-    throw std::length_error("the arrays of a VTU file hold at most 4 GB");
-  std::string block(compressBound(size), '\0');
-  uLong compressed_size = block.size();
-  if (compress2(reinterpret_cast<Bytef*>(block.data()), &compressed_size,
-                reinterpret_cast<const Bytef*>(numbers.data()), size, Z_BEST_SPEED) != Z_OK)
-    throw std::bad_alloc();
-  block.resize(compressed_size);
-  const std::uint32_t header[] = {1, static_cast<std::uint32_t>(size), static_cast<std::uint32_t>(size),
-                                  static_cast<std::uint32_t>(compressed_size)};
-  return base64({reinterpret_cast<const char*>(header), sizeof header}) + base64(block);
-}
 
 template <class Number>
 constexpr const char* vtk_type = nullptr;
@@ -56,17 +27,49 @@ constexpr const char* vtk_type<std::int32_t> = "Int32";
 template <>
 constexpr const char* vtk_type<std::uint8_t> = "UInt8";
 
-/// One array; `attributes`: more of them, as in XML.
-template <class Number>
-std::string data_array(std::string_view name, std::string_view attributes,
-                       const std::vector<Number>& numbers) {
-  return fmt::format("    <DataArray type=\"{}\" Name=\"{}\"{} format=\"binary\">\n{}\n    </DataArray>\n",
-                     vtk_type<Number>, name, attributes, encoded(numbers));
-}
+/// The arrays' bytes, which follow the XML as they are: each array behind its size.
+class AppendedArrays {
+ public:
+  /// `begin`: bytes of other arrays that come before.
+  explicit AppendedArrays(std::size_t begin) : begin_(begin) {}
+
+  /// Adds an array; its tag for the XML. `attributes`: more of them, as in XML.
+  template <class Number>
+  std::string add(std::string_view name, std::string_view attributes, const std::vector<Number>& numbers) {
+    const std::size_t offset = begin_ + bytes_.size();
+    append_little_endian(std::uint64_t{numbers.size() * sizeof(Number)}, bytes_);
+    bytes_.append(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number));
+    return fmt::format("    <DataArray type=\"{}\" Name=\"{}\"{} format=\"appended\" offset=\"{}\"/>\n",
+                       vtk_type<Number>, name, attributes, offset);
+  }
+
+  const std::string& bytes() const& { return bytes_; }
+  std::string bytes() && { return std::move(bytes_); }
+
+ private:
+  std::size_t begin_;
+  std::string bytes_;
+};
 
 constexpr std::string_view three_components = " NumberOfComponents=\"3\"";
 
 std::string unit_attribute(std::string_view unit) { return fmt::format(" units=\"{}\"", unit); }
+
+/// Vectors in the plane as ParaView's in space.
+std::vector<float> with_zeros(const std::vector<float>& x, const std::vector<float>& y) {
+  std::vector<float> vectors;
+  vectors.reserve(3 * x.size());
+  for (std::size_t k = 0; k < x.size(); ++k) vectors.insert(vectors.end(), {x[k], y[k], 0});
+  return vectors;
+}
+
+std::vector<MaterialPolygon> triangles(const std::vector<MaterialPolygon>& polygons) {
+  std::vector<MaterialPolygon> result;
+  for (const MaterialPolygon& polygon : polygons)
+    for (std::size_t k = 2; k < polygon.size(); ++k)
+      result.push_back({polygon[0], polygon[k - 1], polygon[k]});
+  return result;
+}
 
 bool is_full(const std::vector<MaterialPolygon>& polygons) {
   return polygons.size() == 1 && polygons[0] == MaterialPolygon{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
@@ -81,9 +84,10 @@ struct VtuMesh::Sector {
     float psi;
     std::array<double, 9> shape;  ///< values of the fields' shape functions
   };
+  /// Points that are evaluated in the same cell.
   struct Patch {
-    int cell;
-    std::size_t end;  ///< number of the point behind its last one
+    RingCellNodes<2> nodes;  ///< of that cell in sector 0
+    std::size_t end;         ///< number of the point behind its last one
   };
 
   std::vector<Point> points;
@@ -91,58 +95,57 @@ struct VtuMesh::Sector {
   std::vector<std::int32_t> connectivity, offsets;
   std::vector<std::uint8_t> types;
 
-  Sector(const LevelSet<2>& psi, const Lattice<2>& lattice, int cut_subdivisions) {
+  Sector(const LevelSet<2>& psi, const Lattice<2>& lattice, int cut_subdivisions)
+      : psi_(psi), lattice_(lattice) {
     const auto polygons = material_polygons(psi, cut_subdivisions);
-    for (int cell = 0; cell < psi.lattice.grid().n_cells(); ++cell) {
+    const std::vector<MaterialPolygon> squares = parts_of_full_cell(lattice.degree());
+    for (int cell = 0; cell < psi.lattice.grid().n_cells(); ++cell)
       if (is_full(polygons[cell]))
-        append_full_cell(psi, lattice, cell);
+        append_cells(cell, squares, vtk_quadrilateral);
       else
-        for (const MaterialPolygon& polygon : polygons[cell])
-          for (std::size_t k = 2; k < polygon.size(); ++k) {
-            append_cell({0, 1, 2}, vtk_triangle);
-            append_points(psi, lattice, cell, {polygon[0], polygon[k - 1], polygon[k]});
-          }
-    }
+        append_cells(cell, triangles(polygons[cell]), vtk_triangle);
   }
 
  private:
   /// The whole cell, divided by the lattice's degree.
-  void append_full_cell(const LevelSet<2>& psi, const Lattice<2>& lattice, int cell) {
-    const int n = lattice.degree();
-    std::vector<Vec<2>> xi;
-    for (int j = 0; j <= n; ++j)
-      for (int i = 0; i <= n; ++i) xi.push_back({double(i) / n, double(j) / n});
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i) {
-        const int corner = i + (n + 1) * j;
-        append_cell({corner, corner + 1, corner + n + 2, corner + n + 1}, vtk_quadrilateral);
+  static std::vector<MaterialPolygon> parts_of_full_cell(int degree) {
+    const auto corner = [&](int i, int j) { return Vec<2>{double(i) / degree, double(j) / degree}; };
+    std::vector<MaterialPolygon> parts;
+    for (int j = 0; j < degree; ++j)
+      for (int i = 0; i < degree; ++i)
+        parts.push_back({corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)});
+    return parts;
+  }
+
+  /// Adds polygons of the unit cell, with their points that are not there yet.
+  void append_cells(int cell, const std::vector<MaterialPolygon>& polygons, std::uint8_t type) {
+    const auto c = lattice_.grid().cell_position(cell);
+    const CellMap<2> map(lattice_.grid(), psi_.lattice.degree(), c);
+    const std::vector<double> nodal = psi_.cell_values(cell);
+    for (const MaterialPolygon& polygon : polygons) {
+      for (const Vec<2>& xi : polygon) {
+        const auto [known, is_new] =
+            numbers_.try_emplace({c[0] + xi[0], c[1] + xi[1]}, static_cast<std::int32_t>(points.size()));
+        if (is_new) append_point(map, c[1], nodal, xi);
+        connectivity.push_back(known->second);
       }
-    append_points(psi, lattice, cell, xi);
-  }
-
-  /// A cell whose corners are points that are still to come, counted from the next one.
-  void append_cell(std::initializer_list<int> corners, std::uint8_t type) {
-    for (const int corner : corners)
-      connectivity.push_back(static_cast<std::int32_t>(points.size()) + corner);
-    offsets.push_back(static_cast<std::int32_t>(connectivity.size()));
-    types.push_back(type);
-  }
-
-  void append_points(const LevelSet<2>& psi, const Lattice<2>& lattice, int cell,
-                     const std::vector<Vec<2>>& xi) {
-    const PolarGrid<2>& grid = lattice.grid();
-    const auto c = grid.cell_position(cell);
-    const CellMap<2> map(grid, psi.lattice.degree(), c);
-    const std::vector<double> nodal = psi.cell_values(cell);
-    for (const Vec<2>& x : xi) {
-      const ShapeFunctions<2> geometry(psi.lattice.degree(), x), fields(lattice.degree(), x);
-      double value = 0;
-      for (std::size_t a = 0; a < nodal.size(); ++a) value += geometry.value[a] * nodal[a];
-      points.push_back({rotated<2>(map.position(geometry), c[1] * grid.cell_size()[1]),
-                        static_cast<float>(value), fields.value});
+      offsets.push_back(static_cast<std::int32_t>(connectivity.size()));
+      types.push_back(type);
     }
-    patches.push_back({cell, points.size()});
+    patches.push_back({ring_cell_nodes<2>(lattice_, c), points.size()});
   }
+
+  void append_point(const CellMap<2>& map, int column, const std::vector<double>& nodal, const Vec<2>& xi) {
+    const ShapeFunctions<2> geometry(psi_.lattice.degree(), xi), fields(lattice_.degree(), xi);
+    double value = 0;
+    for (std::size_t a = 0; a < nodal.size(); ++a) value += geometry.value[a] * nodal[a];
+    points.push_back({rotated<2>(map.position(geometry), column * lattice_.grid().cell_size()[1]),
+                      static_cast<float>(value), fields.value});
+  }
+
+  const LevelSet<2>& psi_;
+  const Lattice<2>& lattice_;
+  std::map<Vec<2>, std::int32_t> numbers_;  ///< of the points, by their places in units of cells
 };
 
 VtuMesh::VtuMesh(const LevelSet<2>& psi, const Lattice<2>& lattice, int cut_subdivisions)
@@ -166,62 +169,59 @@ VtuMesh::VtuMesh(const LevelSet<2>& psi, const Lattice<2>& lattice, int cut_subd
     for (const std::int32_t offset : sector_->offsets) offsets.push_back(first_corner + offset);
     types.insert(types.end(), sector_->types.begin(), sector_->types.end());
   }
+  AppendedArrays arrays(0);
+  const std::string point_tags = arrays.add("Points", three_components, points),
+                    cell_tags = arrays.add("connectivity", "", connectivity) +
+                                arrays.add("offsets", "", offsets) + arrays.add("types", "", types),
+                    psi_tag = arrays.add("psi", unit_attribute("m"), level);
   beginning_ = fmt::format(
       "<?xml version=\"1.0\"?>\n"
-      "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" compressor=\"vtkZLibDataCompressor\" "
-      "byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n"
-      "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n  <Points>\n{}  </Points>\n  <Cells>\n{}{}{}"
+      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+      "header_type=\"UInt64\">\n<UnstructuredGrid>\n"
+      "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n  <Points>\n{}  </Points>\n  <Cells>\n{}"
       "  </Cells>\n  <PointData Scalars=\"psi\">\n{}",
-      n_points, types.size(), data_array("Points", three_components, points),
-      data_array("connectivity", "", connectivity), data_array("offsets", "", offsets),
-      data_array("types", "", types), data_array("psi", unit_attribute("m"), level));
+      n_points, types.size(), point_tags, cell_tags, psi_tag);
+  arrays_ = std::move(arrays).bytes();
 }
 
 VtuMesh::~VtuMesh() = default;
 
 std::vector<float> VtuMesh::values(const RingField& field, int component) const {
-  const PolarGrid<2>& grid = lattice_.grid();
-  const int n_nodes = nodes_per_cell<2>(lattice_.degree());
+  const int n_sectors = lattice_.grid().n_sectors, n_nodes = nodes_per_cell<2>(lattice_.degree());
+  const std::size_t sector_nodes = lattice_.n_nodes(), ring_nodes = sector_nodes * n_sectors;
   std::vector<float> result;
-  result.reserve(sector_->points.size() * grid.n_sectors);
-  for (int sector = 0; sector < grid.n_sectors; ++sector) {
-    std::size_t point = 0;
+  result.reserve(sector_->points.size() * n_sectors);
+  for (int sector = 0; sector < n_sectors; ++sector) {
+    auto point = sector_->points.begin();
     for (const Sector::Patch& patch : sector_->patches) {
       std::array<double, 9> nodal;
-      for (int a = 0; a < n_nodes; ++a)
-        nodal[a] = node_value<2>(lattice_, field, sector, patch.cell, a, component);
-      for (; point < patch.end; ++point) {
-        double value = 0;
-        for (int a = 0; a < n_nodes; ++a) value += sector_->points[point].shape[a] * nodal[a];
-        result.push_back(static_cast<float>(value));
+      for (int a = 0; a < n_nodes; ++a) {
+        const std::size_t node = (patch.nodes[a] + sector * sector_nodes) % ring_nodes;
+        nodal[a] = field.values[component + field.components * node];
       }
+      for (; point != sector_->points.begin() + patch.end; ++point)
+        result.push_back(static_cast<float>(
+            std::inner_product(nodal.begin(), nodal.begin() + n_nodes, point->shape.begin(), 0.0)));
     }
   }
   return result;
 }
 
-std::string VtuMesh::data_arrays(const NamedField& f) const {
-  const int n_components = f.field.components;
-  if (n_components == 2) {
-    const auto x = values(f.field, 0), y = values(f.field, 1);
-    std::vector<float> vectors(3 * x.size());
-    for (std::size_t k = 0; k < x.size(); ++k) {
-      vectors[3 * k] = x[k];
-      vectors[3 * k + 1] = y[k];
-    }
-    return data_array(f.name, std::string(three_components) + unit_attribute(f.unit), vectors);
-  }
-  std::string arrays;
-  for (int c = 0; c < n_components; ++c)
-    arrays += data_array(n_components == 1 ? f.name : fmt::format("{}_{}", f.name, c), unit_attribute(f.unit),
-                         values(f.field, c));
-  return arrays;
-}
-
 void VtuMesh::write(const std::filesystem::path& path, std::span<const NamedField> fields) const {
-  std::string content = beginning_;
-  for (const NamedField& f : fields) content += data_arrays(f);
-  write_atomically(path, content + "  </PointData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
+  AppendedArrays arrays(arrays_.size());
+  std::string tags;
+  for (const auto& [name, unit, field] : fields)
+    if (field.components == 2)
+      tags += arrays.add(name, std::string(three_components) + unit_attribute(unit),
+                         with_zeros(values(field, 0), values(field, 1)));
+    else
+      for (int c = 0; c < field.components; ++c)
+        tags += arrays.add(field.components == 1 ? name : fmt::format("{}_{}", name, c), unit_attribute(unit),
+                           values(field, c));
+  write_atomically(path,
+                   beginning_ + tags +
+                       "  </PointData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_" +
+                       arrays_ + arrays.bytes() + "\n</AppendedData>\n</VTKFile>\n");
 }
 
 void write_pvd(const std::filesystem::path& path, std::span<const PvdEntry> entries) {

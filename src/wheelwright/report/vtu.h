@@ -14,9 +14,10 @@ namespace wheelwright {
 /// Fine enough for ParaView: at 28 x 384 cells a piece of a cut cell is about a millimetre wide.
 inline constexpr int vtu_cut_subdivisions = 4;
 
-/// The material of the full ring as cells for ParaView, with psi at their points. Full cells are divided by
-/// the lattice's degree; cut cells are clipped at {psi = 0} on a grid of `cut_subdivisions` squares along
-/// each axis. Files of the same shape share one.
+/// The material of the full ring as cells for ParaView, with psi at their points, which the cells of a sector
+/// share. Full cells are divided by the lattice's degree; cut cells are clipped at {psi = 0} on a grid of
+/// `cut_subdivisions` squares along each axis and divided into triangles. Files of the same shape share one
+/// mesh.
 class VtuMesh {
  public:
   /// `lattice` carries the fields, on psi's grid.
@@ -31,11 +32,11 @@ class VtuMesh {
   struct Sector;
 
   std::vector<float> values(const RingField& field, int component) const;
-  std::string data_arrays(const NamedField& field) const;
 
   Lattice<2> lattice_;
   std::unique_ptr<Sector> sector_;
-  std::string beginning_;  ///< of every file: the cells and psi
+  std::string beginning_;  ///< of every file: what it says of the cells and psi
+  std::string arrays_;     ///< their numbers
 };
 
 /// One file of a ParaView time collection.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <functional>
 
 #include "wheelwright/base/parallel.h"
 #include "wheelwright/base/periodic.h"
@@ -51,7 +52,7 @@ Matrix on_base_columns(const Tread<dim>& tread, int n_columns, Kernel kernel) {
 
 template <int dim>
 SurfaceCompliance<dim>::SurfaceCompliance(const CyclicStiffness<dim>& ring, const Tread<dim>& tread,
-                                          int width)
+                                          int width, const std::vector<bool>& loaded)
     : columns_per_sector_(tread.columns_per_sector()), width_(width) {
   // -S (C + T G T^T) Te^T with the tread's compliance C and transfer T and the core's compliance G.
   const int reach = tread.reach(), n_together = std::min(group_size, columns_per_sector_);
@@ -60,16 +61,18 @@ SurfaceCompliance<dim>::SurfaceCompliance(const CyclicStiffness<dim>& ring, cons
       on_base_columns(tread, n_together, [&](int d) -> const Matrix& { return tread.tests(d); });
   const Matrix sample =
       on_base_columns(tread, n_sampled, [&](int d) -> const Matrix& { return tread.samples(d); });
-  blocks_.resize(size_t(2 * width + 1) * columns_per_sector_, Matrix(block, block));
+  blocks_.resize(size_t(2 * width + 1) * columns_per_sector_);
   const int n_groups = (columns_per_sector_ + n_together - 1) / n_together;
   parallel_for(n_groups, [&](int group) {
-    const int first = group * n_together;
+    const int first = group * n_together, last = std::min(first + n_together, columns_per_sector_);
+    if (std::none_of(loaded.begin() + first, loaded.begin() + last, std::identity())) return;
     const Matrix g = outer_compliance(ring, tread, first - width - reach, n_sampled + 2 * reach + 1,
                                       first - reach, n_together + 2 * reach + 1);
     const Matrix sampled = product(sample, Op::none, product(g, Op::none, test, Op::transpose), Op::none);
-    for (int from = first; from < std::min(first + n_together, columns_per_sector_); ++from)
-      for (int d = -width; d <= width; ++d) {
+    for (int from = first; from < last; ++from)
+      for (int d = -width; loaded[from] && d <= width; ++d) {
         Matrix& result = blocks_[(2 * width + 1) * from + d + width];
+        result = Matrix(block, block);
         for (int j = 0; j < block; ++j)
           for (int i = 0; i < block; ++i) {
             result(i, j) = -sampled(block * (from - first + d + width) + i, block * (from - first) + j);

@@ -10,14 +10,19 @@ namespace wheelwright {
 template <int dim>
 class SurfaceCompliance {
  public:
-  /// For columns up to `width` apart.
-  SurfaceCompliance(const CyclicStiffness<dim>& ring, const Tread<dim>& tread, int width);
+  /// For columns up to `width` apart, and tractions on some columns of a sector (and of all others).
+  SurfaceCompliance(const CyclicStiffness<dim>& ring, const Tread<dim>& tread, int width,
+                    const std::vector<bool>& loaded);
+
+  /// For tractions anywhere.
+  SurfaceCompliance(const CyclicStiffness<dim>& ring, const Tread<dim>& tread, int width)
+      : SurfaceCompliance(ring, tread, width, std::vector<bool>(tread.columns_per_sector(), true)) {}
 
   int width() const { return width_; }
 
   /// The sample z = tau sigma(u)n - gamma u on ring column from + difference for a unit traction (times dS)
-  /// on column `from`, applied as the weak form (28) does, with theta; |difference| <= width(). dim rows and
-  /// columns per point, column frames.
+  /// on the loaded column `from`, applied as the weak form (28) does, with theta; |difference| <= width().
+  /// dim rows and columns per point, column frames.
   const Matrix& block(int from, int difference) const {
     return blocks_[(2 * width_ + 1) * (from % columns_per_sector_) + difference + width_];
   }

@@ -45,20 +45,24 @@ std::vector<Matrix> line_responses(const CyclicChain& lines, int n_line) {
   return responses;
 }
 
-/// Rows that map observations on Gamma_C to samples z = tau sigma(u)n - gamma u, or to tests
-/// theta/gamma sigma(u)n - u.
+/// Traces of what is observed on Gamma_C (rows as in ObservationRows): samples z = tau sigma(u)n - gamma u,
+/// or tests theta/gamma sigma(u)n - u.
 template <int dim, class OfTraction, class OfDisplacement>
-Matrix contact_rows(const std::vector<TreadPoint<dim>>& points, OfTraction of_traction,
-                    OfDisplacement of_displacement) {
+Matrix traces(const std::vector<TreadPoint<dim>>& points, OfTraction of_traction,
+              OfDisplacement of_displacement, const Matrix& observed) {
   const int n_points = static_cast<int>(points.size());
-  const ObservationRows<dim> observed{n_points, 0};
-  Matrix rows(dim * n_points, observed.n_contact());
-  for (int q = 0; q < n_points; ++q)
-    for (int d = 0; d < dim; ++d) {
-      rows(dim * q + d, observed.displacement(q) + d) = -of_displacement(points[q]);
-      rows(dim * q + d, observed.traction(q) + d) = of_traction(points[q]);
+  const ObservationRows<dim> rows{n_points, 0};
+  Matrix result(dim * n_points, observed.columns());
+  for (int j = 0; j < observed.columns(); ++j) {
+    const double* o = observed.column(j);
+    double* trace = result.column(j);
+    for (int q = 0; q < n_points; ++q) {
+      const double traction = of_traction(points[q]), displacement = of_displacement(points[q]);
+      for (int d = 0; d < dim; ++d)
+        trace[dim * q + d] = traction * o[rows.traction(q) + d] - displacement * o[rows.displacement(q) + d];
     }
-  return rows;
+  }
+  return result;
 }
 
 }  // namespace
@@ -94,13 +98,17 @@ Expected<Tread<dim>> Tread<dim>::condense(const ElementTable<dim>& table, const 
   const int n_base = own.n_base, n_line = own.n_line, n_contact = own.surface.rows().n_contact();
   const Matrix stiffness_on_base = block(own.stiffness, 0, 0, own.stiffness.rows(), n_base);
   const Matrix observed = block(own.observation, 0, 0, n_contact, own.observation.columns());
-  const Matrix sampling = contact_rows<dim>(
-      own.surface.points, [&](const auto&) { return form.tau(); },
-      [](const auto& point) { return point.gamma; });
-  const Matrix testing = contact_rows<dim>(
-      own.surface.points, [&](const auto& point) { return form.theta() / point.gamma; },
-      [](const auto&) { return 1.0; });
-  Matrix line_load_of_base[2], base_rows[2], observation_rows[2];
+  const auto samples = [&](const Matrix& seen) {
+    return traces<dim>(
+        own.surface.points, [&](const auto&) { return form.tau(); },
+        [](const auto& point) { return point.gamma; }, seen);
+  };
+  const auto tests = [&](const Matrix& seen) {
+    return traces<dim>(
+        own.surface.points, [&](const auto& point) { return form.theta() / point.gamma; },
+        [](const auto&) { return 1.0; }, seen);
+  };
+  Matrix line_load_of_base[2], base_rows[2], sample_rows[2], test_rows[2];
   for (int side = 0; side < 2; ++side) {
     line_load_of_base[side] = Matrix(n_line, n_base);
     for (int j = 0; j < n_base; ++j)
@@ -109,31 +117,36 @@ Expected<Tread<dim>> Tread<dim>::condense(const ElementTable<dim>& table, const 
     base_rows[side] = Matrix(n_base, n_line);
     for (int j = 0; j < n_line; ++j)
       for (int i = 0; i < n_base; ++i) base_rows[side](i, j) = -line_load_of_base[side](j, i);
-    observation_rows[side] = on_line(own, observed, side);
+    sample_rows[side] = samples(on_line(own, observed, side));
+    test_rows[side] = tests(on_line(own, observed, side));
   }
+  const int n_traces = sample_rows[0].rows();
   for (int d = -reach; d <= reach; ++d) {
-    Matrix base(n_base, n_base), transfer(n_contact, n_base), compliance(n_contact, n_contact);
+    Matrix base(n_base, n_base), sampled(n_traces, n_base), tested(n_traces, n_base),
+        compliance(n_traces, n_traces);
     if (d == 0) {
+      const Matrix own_observation = block(own.observation, 0, 0, n_contact, n_base);
       base = block(own.stiffness, 0, 0, n_base, n_base);
-      transfer = block(own.observation, 0, 0, n_contact, n_base);
-      compliance = block(own.compliance, 0, 0, n_contact, n_contact);
+      sampled = samples(own_observation);
+      tested = tests(own_observation);
+      compliance = samples(transposed(tests(transposed(block(own.compliance, 0, 0, n_contact, n_contact)))));
     }
     for (int seen = 0; seen < 2; ++seen) {
-      Matrix of_base(n_line, n_base), of_observations(n_line, n_contact);
+      Matrix of_base(n_line, n_base), of_tests(n_line, n_traces);
       for (int loaded = 0; loaded < 2; ++loaded) {
         const Matrix& seen_lines = response(d + seen - loaded);
         multiply(1, seen_lines, Op::none, line_load_of_base[loaded], Op::none, 1, of_base);
-        multiply(1, seen_lines, Op::none, observation_rows[loaded], Op::transpose, 1, of_observations);
+        multiply(1, seen_lines, Op::none, test_rows[loaded], Op::transpose, 1, of_tests);
       }
       multiply(1, base_rows[seen], Op::none, of_base, Op::none, 1, base);
-      multiply(1, observation_rows[seen], Op::none, of_base, Op::none, 1, transfer);
-      multiply(1, observation_rows[seen], Op::none, of_observations, Op::none, 1, compliance);
+      multiply(1, sample_rows[seen], Op::none, of_base, Op::none, 1, sampled);
+      multiply(1, test_rows[seen], Op::none, of_base, Op::none, 1, tested);
+      multiply(1, sample_rows[seen], Op::none, of_tests, Op::none, 1, compliance);
     }
     tread.base_stiffness_.push_back(std::move(base));
-    tread.samples_.push_back(product(sampling, Op::none, transfer, Op::none));
-    tread.tests_.push_back(product(testing, Op::none, transfer, Op::none));
-    const Matrix tested = product(compliance, Op::none, testing, Op::transpose);
-    tread.compliance_.push_back(product(sampling, Op::none, tested, Op::none));
+    tread.samples_.push_back(std::move(sampled));
+    tread.tests_.push_back(std::move(tested));
+    tread.compliance_.push_back(std::move(compliance));
   }
   return tread;
 }

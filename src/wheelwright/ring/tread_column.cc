@@ -159,13 +159,6 @@ void add_stiffness(const Matrix& k, std::span<const NodeMap<dim>> nodes, Matrix&
     for (int i = 0; i < free.rows(); ++i) result(dofs[i], dofs[j]) += free(i, j);
 }
 
-Matrix transposed(const Matrix& a) {
-  Matrix result(a.columns(), a.rows());
-  for (int j = 0; j < a.columns(); ++j)
-    for (int i = 0; i < a.rows(); ++i) result(j, i) = a(i, j);
-  return result;
-}
-
 /// The uncondensed column.
 template <int dim>
 struct FreeColumn {

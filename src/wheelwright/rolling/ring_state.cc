@@ -75,10 +75,10 @@ std::shared_ptr<const State<dim>> ring_state(const RollingProblem<dim>& problem,
 }
 
 template <int dim>
-Expected<std::shared_ptr<const State<dim>>> RollingProblem<dim>::states(const LevelSet<dim>& psi,
+Expected<std::shared_ptr<const State<dim>>> RollingProblem<dim>::states(const CutShape<dim>& shape,
                                                                         LoadPositions positions,
                                                                         const Interrupt& interrupt) const {
-  auto solution = solve(psi, std::move(positions), interrupt);
+  auto solution = solve(shape, std::move(positions), interrupt);
   if (!solution) return solution.failure();
   return ring_state(*this, *std::move(solution));
 }
@@ -94,7 +94,7 @@ Expected<typename StateSolver<dim>::TractionMap> RollingProblem<dim>::neumann_to
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                       \
   template std::shared_ptr<const State<dim>> ring_state(const RollingProblem<dim>&, RollingSolution<dim>); \
   template Expected<std::shared_ptr<const State<dim>>> RollingProblem<dim>::states(                        \
-      const LevelSet<dim>&, LoadPositions, const Interrupt&) const;                                        \
+      const CutShape<dim>&, LoadPositions, const Interrupt&) const;                                        \
   template Expected<StateSolver<dim>::TractionMap> RollingProblem<dim>::neumann_to_dirichlet() const;
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)

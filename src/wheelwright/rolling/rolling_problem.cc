@@ -98,6 +98,23 @@ bool touches_edge(const ContactState<dim>& state) {
          touches(state.traction.end() - per_column, state.traction.end());
 }
 
+/// The columns of the sector in the contact zones of some positions, `half` columns to either side.
+template <int dim>
+std::vector<bool> columns_in_zones(const PolarGrid<dim>& grid, const LoadPositions& positions, int half) {
+  std::vector<bool> result(grid.columns(), false);
+  for (const GroundPosition& ground : positions.grounds)
+    for (int c = ground.column - half; c < ground.column + half; ++c) result[wrap(c, grid.columns())] = true;
+  return result;
+}
+
+/// The surface's compliance for contact zones at some positions, `half` columns to either side.
+template <int dim>
+SurfaceCompliance<dim> surface_compliance(const CyclicStiffness<dim>& ring, const Tread<dim>& tread,
+                                          const PolarGrid<dim>& grid, const LoadPositions& positions,
+                                          int half) {
+  return {ring, tread, 2 * half - 1, columns_in_zones(grid, positions, half)};
+}
+
 bool all_finite(const Matrix& a) {
   return std::all_of(a.entries().begin(), a.entries().end(), [](double x) { return std::isfinite(x); });
 }
@@ -127,14 +144,12 @@ template <int dim>
 Expected<ContactState<dim>> solve_in_zone(const RollingModel<dim>& model, const ReducedContact<dim>& contact,
                                           const std::optional<ContactState<dim>>& known,
                                           const Interrupt& interrupt) {
-  const auto cold_start = [&](double fraction) {
-    return model.travel ? contact.undeformed_start(fraction)
-                        : contact.hertz_start(fraction * line_load(model), model.grid.outer_radius,
-                                              model.materials.at_tread().plane_strain_modulus());
-  };
-  std::optional<ContactUnknowns<dim>> warm_start;
-  if (known) warm_start = contact.start_from(*known);
-  return solve_contact<dim>(contact, cold_start, warm_start, interrupt);
+  std::vector<ContactUnknowns<dim>> starts;
+  if (known) starts.push_back(contact.start_from(*known));
+  starts.push_back(model.travel ? contact.undeformed_start()
+                                : contact.hertz_start(line_load(model), model.grid.outer_radius,
+                                                      model.materials.at_tread().plane_strain_modulus()));
+  return solve_contact<dim>(contact, starts, interrupt);
 }
 
 }  // namespace
@@ -153,7 +168,8 @@ Expected<RolledContact<dim>> roll_to(const RollingModel<dim>& model, const Tread
   while (true) {
     half = std::min(half, (grid.ring_columns() - 1) / 2);
     const int width = 2 * half - 1;
-    if (width > (wider ? *wider : surface).width()) wider.emplace(ring, tread, width);
+    if (width > (wider ? *wider : surface).width())
+      wider = surface_compliance<dim>(ring, tread, grid, {{ground}, {1}}, half);
     ReducedContact<dim> contact(wider ? *wider : surface, tread, grid, ground,
                                 {ground.column - half, 2 * half}, rim_control(model), preload);
     auto state = solve_in_zone(model, contact, known, interrupt);
@@ -225,13 +241,14 @@ typename RollingProblem<dim>::CondensedLoads RollingProblem<dim>::preload(Rollin
 }
 
 template <int dim>
-Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& psi, LoadPositions positions,
+Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const CutShape<dim>& shape, LoadPositions positions,
                                                           const Interrupt& interrupt) const {
   const int n_positions = positions.size(), n_columns = model_.grid.ring_columns();
   std::vector<PhaseTime> phases;
   Stopwatch watch;
 
-  auto domain = cut_domain(psi, model_.cut_points.value_or(model_.degree + 2));
+  auto domain = shape.domain ? Expected<CutDomain<dim>>(*shape.domain)
+                             : cut_domain(shape.psi, model_.points_in_cut_cells());
   if (!domain) return domain.failure();
   if (auto failure = check_attached(*domain, protected_rim_rows(), protected_tread_rows())) return *failure;
   phases.push_back({phase::cut, watch.lap()});
@@ -241,12 +258,24 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& p
   if (!factored) return factored.failure();
   phases.push_back({phase::factorization, watch.lap()});
 
-  const int likely_width = 2 * std::min(columns_in_contact(model_), (n_columns - 1) / 2) - 1;
-  SurfaceCompliance<dim> surface(*factored, tread_, likely_width);
+  const int likely_half = std::min(columns_in_contact(model_), (n_columns - 1) / 2);
+  auto surface = surface_compliance(*factored, tread_, model_.grid, positions, likely_half);
   RollingSolution<dim> s{.domain = *std::move(domain),
                          .ring = *std::move(factored),
                          .surface = std::move(surface),
-                         .positions = std::move(positions)};
+                         .positions = std::move(positions),
+                         .contacts = {},
+                         .states = {},
+                         .sweep = {},
+                         .displacement = {},
+                         .outer_line = {},
+                         .core_loads = {},
+                         .tread_loads = {},
+                         .preloads = {},
+                         .observations = {},
+                         .ghost_loads = {},
+                         .strain_energy = {},
+                         .phases = {}};
   s.tread_loads = Matrix(tread_.n_observations(), n_positions * n_columns);
   const CondensedLoads preloaded = preload(s);
   std::optional<ContactState<dim>> neighbour;
@@ -257,7 +286,7 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const LevelSet<dim>& p
     neighbour = rolled->state;
     const ContactZone& zone = rolled->contact.zone();
     if (zone.n_columns > s.surface.width() + 1)
-      s.surface = SurfaceCompliance<dim>(s.ring, tread_, zone.n_columns - 1);
+      s.surface = surface_compliance(s.ring, tread_, model_.grid, s.positions, zone.n_columns / 2);
     const Matrix loads = rolled->contact.contact_loads(rolled->state);
     for (int c = 0; c < zone.n_columns; ++c)
       std::copy_n(loads.column(c), loads.rows(),

@@ -49,7 +49,7 @@ class RollingProblem : public StateSolver<dim> {
 
   const RollingModel<dim>& model() const override { return model_; }
   const TreadSurface<dim>& tread_surface() const override { return tread_.surface(); }
-  Expected<std::shared_ptr<const State<dim>>> states(const LevelSet<dim>& psi, LoadPositions positions,
+  Expected<std::shared_ptr<const State<dim>>> states(const CutShape<dim>& shape, LoadPositions positions,
                                                      const Interrupt& interrupt) const override;
   Expected<typename StateSolver<dim>::TractionMap> neumann_to_dirichlet() const override;
 
@@ -62,10 +62,10 @@ class RollingProblem : public StateSolver<dim> {
   int protected_tread_rows() const { return model_.tread.rows + 1; }
 
   /// The direct problems of all positions, or of some of them; as states(), with the solver's own solution.
-  Expected<RollingSolution<dim>> solve(const LevelSet<dim>& psi) const {
-    return solve(psi, this->all_positions());
+  Expected<RollingSolution<dim>> solve(const CutShape<dim>& shape) const {
+    return solve(shape, this->all_positions());
   }
-  Expected<RollingSolution<dim>> solve(const LevelSet<dim>& psi, LoadPositions positions,
+  Expected<RollingSolution<dim>> solve(const CutShape<dim>& shape, LoadPositions positions,
                                        const Interrupt& interrupt = {}) const;
 
   /// Nitsche's symmetric term of the tread applied to what is observed: loads on the tractions.

@@ -15,24 +15,39 @@ constexpr int largest_int = std::numeric_limits<int>::max();
 // Every value is taken apart by a structured binding: a member that is added to one of these types and not
 // saved does not compile.
 
+/// The number of the values, then each as append_one(value) writes it.
+template <class Value, class AppendOne>
+void append_all(const std::vector<Value>& values, ByteWriter& writer, AppendOne append_one) {
+  writer.integer(static_cast<std::int64_t>(values.size()));
+  for (const Value& value : values) append_one(value);
+}
+
+/// What append_all() wrote, each value as read_one(value) reads it from `least_bytes_each` or more.
+template <class Value, class ReadOne>
+std::vector<Value> read_all(ByteReader& reader, std::size_t least_bytes_each, ReadOne read_one) {
+  std::vector<Value> values(reader.count(least_bytes_each));
+  for (Value& value : values) read_one(value);
+  return values;
+}
+
+constexpr std::size_t count_size = sizeof(std::int64_t), number_size = sizeof(double);
+
 template <class NamedValue>
 void append_named(const std::vector<NamedValue>& values, ByteWriter& writer) {
-  writer.integer(static_cast<std::int64_t>(values.size()));
-  for (const auto& [name, value] : values) {
+  append_all(values, writer, [&](const NamedValue& named) {
+    const auto& [name, value] = named;
     writer.text(name);
     writer.number(value);
-  }
+  });
 }
 
 template <class NamedValue>
 std::vector<NamedValue> read_named(ByteReader& reader) {
-  constexpr std::size_t bytes_each = sizeof(std::int64_t) + sizeof(double);
-  std::vector<NamedValue> values(reader.count(bytes_each));
-  for (auto& [name, value] : values) {
+  return read_all<NamedValue>(reader, count_size + number_size, [&](NamedValue& named) {
+    auto& [name, value] = named;
     name = reader.text();
     value = reader.number();
-  }
-  return values;
+  });
 }
 
 void append(const Matrix& matrix, ByteWriter& writer) {
@@ -55,83 +70,76 @@ Matrix read_matrix(ByteReader& reader) {
 
 template <int dim>
 void append(const std::vector<SurfacePoint<dim>>& points, ByteWriter& writer) {
-  writer.integer(static_cast<std::int64_t>(points.size()));
-  for (const auto& [cell, xi, normal, weight] : points) {
+  append_all(points, writer, [&](const SurfacePoint<dim>& one) {
+    const auto& [cell, xi, normal, weight] = one;
     writer.integer(cell);
     for (const double x : xi) writer.number(x);
     for (const double x : normal) writer.number(x);
     writer.number(weight);
-  }
+  });
 }
 
 template <int dim>
 std::vector<SurfacePoint<dim>> read_points(ByteReader& reader) {
-  constexpr std::size_t bytes_each = sizeof(std::int64_t) + (2 * dim + 1) * sizeof(double);
-  std::vector<SurfacePoint<dim>> points(reader.count(bytes_each));
-  for (auto& [cell, xi, normal, weight] : points) {
-    cell = static_cast<int>(reader.integer(0, largest_int, "the cell of a point of the boundary"));
-    for (double& x : xi) x = reader.finite_number("a point of the boundary");
-    for (double& x : normal) x = reader.finite_number("a normal of the boundary");
-    weight = reader.finite_number("a weight of the boundary");
-  }
-  return points;
+  return read_all<SurfacePoint<dim>>(
+      reader, count_size + (2 * dim + 1) * number_size, [&](SurfacePoint<dim>& one) {
+        auto& [cell, xi, normal, weight] = one;
+        cell = static_cast<int>(reader.integer(0, largest_int, "the cell of a point of the boundary"));
+        for (double& x : xi) x = reader.finite_number("a point of the boundary");
+        for (double& x : normal) x = reader.finite_number("a normal of the boundary");
+        weight = reader.finite_number("a weight of the boundary");
+      });
 }
 
 void append(const std::vector<FunctionValue>& functions, ByteWriter& writer) {
-  writer.integer(static_cast<std::int64_t>(functions.size()));
-  for (const auto& [name, value, by_position, gradient, bounds] : functions) {
+  append_all(functions, writer, [&](const FunctionValue& one) {
+    const auto& [name, value, by_position, gradient, bounds] = one;
     writer.text(name);
     writer.number(value);
     writer.numbers(by_position);
     writer.numbers(gradient);
     writer.number(bounds.lower);
     writer.number(bounds.upper);
-  }
+  });
 }
 
 std::vector<FunctionValue> read_functions(ByteReader& reader) {
-  constexpr std::size_t least_bytes_each = 3 * sizeof(std::int64_t) + 3 * sizeof(double);
-  std::vector<FunctionValue> functions(reader.count(least_bytes_each));
-  for (auto& [name, value, by_position, gradient, bounds] : functions) {
+  return read_all<FunctionValue>(reader, 3 * count_size + 3 * number_size, [&](FunctionValue& one) {
+    auto& [name, value, by_position, gradient, bounds] = one;
     name = reader.text();
     value = reader.finite_number("the value of a function");
     by_position = reader.finite_numbers("the values of a function by position");
     gradient = reader.finite_numbers("the gradient of a function");
     bounds.lower = reader.number();
     bounds.upper = reader.number();
-  }
-  return functions;
+  });
 }
 
 void append(const std::vector<TermValue>& terms, ByteWriter& writer) {
-  writer.integer(static_cast<std::int64_t>(terms.size()));
-  for (const auto& [name, value, by_position] : terms) {
+  append_all(terms, writer, [&](const TermValue& one) {
+    const auto& [name, value, by_position] = one;
     writer.text(name);
     writer.number(value);
     writer.numbers(by_position);
-  }
+  });
 }
 
 std::vector<TermValue> read_terms(ByteReader& reader) {
-  constexpr std::size_t least_bytes_each = 2 * sizeof(std::int64_t) + sizeof(double);
-  std::vector<TermValue> terms(reader.count(least_bytes_each));
-  for (auto& [name, value, by_position] : terms) {
+  return read_all<TermValue>(reader, 2 * count_size + number_size, [&](TermValue& one) {
+    auto& [name, value, by_position] = one;
     name = reader.text();
     value = reader.finite_number("the value of a term");
     by_position = reader.finite_numbers("the values of a term by position");
-  }
-  return terms;
+  });
 }
 
 void append(const std::vector<int>& values, ByteWriter& writer) {
-  writer.integer(static_cast<std::int64_t>(values.size()));
-  for (const int value : values) writer.integer(value);
+  append_all(values, writer, [&](int value) { writer.integer(value); });
 }
 
 std::vector<int> read_integers(ByteReader& reader, std::string_view name) {
-  std::vector<int> values(reader.count(sizeof(std::int64_t)));
-  for (int& value : values) value = static_cast<int>(reader.integer(0, largest_int, name));
-  return values;
+  return read_all<int>(reader, count_size,
+                       [&](int& value) { value = static_cast<int>(reader.integer(0, largest_int, name)); });
 }
 
 template <int dim>
@@ -242,23 +250,21 @@ std::optional<InitialShape<dim>> read_initial(ByteReader& reader) {
 }
 
 void append(const std::vector<FoundQuantity>& found, ByteWriter& writer) {
-  writer.integer(static_cast<std::int64_t>(found.size()));
-  for (const auto& [iteration, quantity, value] : found) {
+  append_all(found, writer, [&](const FoundQuantity& one) {
+    const auto& [iteration, quantity, value] = one;
     writer.integer(iteration);
     writer.text(quantity);
     writer.number(value);
-  }
+  });
 }
 
 std::vector<FoundQuantity> read_found(ByteReader& reader) {
-  constexpr std::size_t bytes_each = 2 * sizeof(std::int64_t) + sizeof(double);
-  std::vector<FoundQuantity> found(reader.count(bytes_each));
-  for (auto& [iteration, quantity, value] : found) {
+  return read_all<FoundQuantity>(reader, 2 * count_size + number_size, [&](FoundQuantity& one) {
+    auto& [iteration, quantity, value] = one;
     iteration = static_cast<int>(reader.integer(0, largest_int, "the shape of a value that was found"));
     quantity = reader.text();
     value = reader.number();
-  }
-  return found;
+  });
 }
 
 }  // namespace

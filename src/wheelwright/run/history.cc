@@ -33,26 +33,26 @@ std::string phase_cell(const std::vector<PhaseTime>& phases, const std::string& 
   return csv_number(seconds);
 }
 
-constexpr std::size_t cells_before_criteria = 5;  // up to the objective
+constexpr std::size_t cells_before_terms = 5;  // up to the objective
 constexpr const char* volume_fraction_column = "volume fraction";
 
 /// What the file's header says between the objective and the column `next`.
-std::vector<HistoryColumns::Quantity> criteria_columns(const std::filesystem::path& path,
-                                                       const std::string& next) {
+std::vector<HistoryColumns::Quantity> term_columns(const std::filesystem::path& path,
+                                                   const std::string& next) {
   std::ifstream file(path);
   std::string line;
   std::getline(file, line);
   std::istringstream header(line);
-  std::vector<HistoryColumns::Quantity> criteria;
-  bool is_criterion = false;
+  std::vector<HistoryColumns::Quantity> terms;
+  bool is_term = false;
   for (std::string cell; std::getline(header, cell, ',');) {
     const std::size_t open = cell.find(" [");
     const std::string word = cell.substr(0, open);
     if (word == next) break;
-    if (is_criterion) criteria.push_back({word, cell.substr(open + 2, cell.size() - open - 3)});
-    is_criterion = is_criterion || word == name(Quantity::objective);
+    if (is_term) terms.push_back({word, cell.substr(open + 2, cell.size() - open - 3)});
+    is_term = is_term || word == name(Quantity::objective);
   }
-  return criteria;
+  return terms;
 }
 
 std::filesystem::path kept_file(const std::filesystem::path& path) { return path.string() + ".before"; }
@@ -103,7 +103,7 @@ History::History(std::filesystem::path path, HistoryColumns columns)
   if (!file_) throw OutputError(path_, errno);
   std::vector<std::string> header{"iteration", "trial", "accepted", "reason",
                                   "objective [" + columns_.objective_unit + "]"};
-  for (const auto* quantities : {&columns_.criteria, &columns_.measures})
+  for (const auto* quantities : {&columns_.terms, &columns_.measures})
     for (const auto& q : *quantities) header.push_back(q.name + " [" + q.unit + "]");
   header.push_back(std::string(volume_fraction_column) + " [-]");
   for (const char* name : {"step [m]", "max velocity [Pa]", "max newton iterations"}) header.push_back(name);
@@ -119,21 +119,21 @@ History::History(std::filesystem::path path, HistoryColumns columns, const Histo
       end_(end) {
   if (!file_ || ::ftruncate(::fileno(file_.get()), static_cast<off_t>(end.bytes)) != 0)
     throw OutputError(path_, errno);
-  columns_.criteria = criteria_columns(
+  columns_.terms = term_columns(
       path_, columns_.measures.empty() ? volume_fraction_column : columns_.measures.front().name);
 }
 
-void History::add_criteria(const std::vector<HistoryColumns::Quantity>& criteria) {
+void History::add_terms(const std::vector<HistoryColumns::Quantity>& terms) {
   std::string names;
-  for (const auto& q : criteria) names += q.name + " [" + q.unit + "],";
+  for (const auto& q : terms) names += q.name + " [" + q.unit + "],";
   std::ifstream file(path_, std::ios::binary);
   const std::string before{std::istreambuf_iterator<char>(file), {}};
-  const std::string text = with_cells(before, cells_before_criteria + columns_.criteria.size(), names);
+  const std::string text = with_cells(before, cells_before_terms + columns_.terms.size(), names);
   write_atomically(kept_file(path_), before);
   write_atomically(path_, text);
   file_.reset(std::fopen(path_.c_str(), "a"));
   if (!file_) throw OutputError(path_, errno);
-  columns_.criteria.insert(columns_.criteria.end(), criteria.begin(), criteria.end());
+  columns_.terms.insert(columns_.terms.end(), terms.begin(), terms.end());
   end_ = {text.size(), checksum(text)};
 }
 
@@ -148,7 +148,7 @@ void History::synchronize() {
 void History::add(const HistoryRow& row) {
   std::vector<std::string> cells{std::to_string(row.iteration), std::to_string(row.trial),
                                  row.accepted ? "1" : "0", row.reason, csv_number(row.objective)};
-  for (const auto& c : columns_.criteria) cells.push_back(value_cell(row.criteria, c.name));
+  for (const auto& c : columns_.terms) cells.push_back(value_cell(row.terms, c.name));
   for (const auto& m : columns_.measures) cells.push_back(value_cell(row.measures, m.name));
   for (const double value : {row.volume_fraction, row.step, row.max_velocity})
     cells.push_back(csv_number(value));

@@ -18,7 +18,7 @@ struct HistoryColumns {
     std::string unit;
   };
   std::string objective_unit;       ///< e.g. "J/m"
-  std::vector<Quantity> criteria;   ///< one column each, by the names of Evaluation::terms
+  std::vector<Quantity> terms;      ///< one column each, by the names of Evaluation::terms
   std::vector<Quantity> measures;   ///< one column each, by the names of Evaluation::measures
   std::vector<std::string> phases;  ///< one column each, in seconds, by the names of Evaluation::phases
 };
@@ -31,7 +31,7 @@ struct HistoryRow {
   bool accepted;
   std::string reason;  ///< why it was rejected, e.g. "newton_stalled"; empty when accepted
   double objective;
-  std::vector<TermValue> criteria;
+  std::vector<TermValue> terms;
   std::vector<MeasureValue> measures;
   double volume_fraction;     ///< material area over the area of the full ring
   double step;                ///< farthest that the boundary travelled [m]
@@ -60,16 +60,16 @@ class History {
   History(std::filesystem::path path, HistoryColumns columns);
 
   /// Continues at a place of the file, for which holds() is true, and drops the rows behind it. The columns
-  /// of criteria are those of the file, whatever `columns` says. Throws OutputError.
+  /// of terms are those of the file, whatever `columns` says. Throws OutputError.
   History(std::filesystem::path path, HistoryColumns columns, const HistoryMark& end);
 
-  /// Adds empty columns behind those of the criteria. The file as it was is kept beside it, for a checkpoint
+  /// Adds empty columns behind those of the terms. The file as it was is kept beside it, for a checkpoint
   /// that was written before. Throws OutputError.
-  void add_criteria(const std::vector<HistoryColumns::Quantity>& criteria);
+  void add_terms(const std::vector<HistoryColumns::Quantity>& terms);
 
   const HistoryColumns& columns() const { return columns_; }
 
-  /// Whether the file, or the one that add_criteria() kept, begins with what the mark was taken of.
+  /// Whether the file, or the one that add_terms() kept, begins with what the mark was taken of.
   static bool holds(const std::filesystem::path& path, const HistoryMark& mark);
 
   /// Throws OutputError.

@@ -11,7 +11,7 @@ namespace {
 HistoryColumns::Quantity column(std::string name, const char* unit) { return {std::move(name), unit}; }
 
 template <int dim>
-std::vector<HistoryColumns::Quantity> criteria_columns(const ShapeFunction<dim>& objective) {
+std::vector<HistoryColumns::Quantity> term_columns(const ShapeFunction<dim>& objective) {
   std::vector<HistoryColumns::Quantity> columns;
   for (const auto& term : objective.terms)
     columns.push_back(column(term.functional->name(), unit<dim>(UnitKind::energy)));
@@ -21,10 +21,10 @@ std::vector<HistoryColumns::Quantity> criteria_columns(const ShapeFunction<dim>&
 template <int dim>
 HistoryColumns history_columns(const ShapeFunction<dim>& objective) {
   HistoryColumns columns{.objective_unit = unit<dim>(kind(Quantity::objective)),
-                         .criteria = {},
+                         .terms = {},
                          .measures = {},
                          .phases = {phase_names.begin(), phase_names.end()}};
-  columns.criteria = criteria_columns(objective);
+  columns.terms = term_columns(objective);
   for (const auto& [quantity, member] : rolling_quantities)
     columns.measures.push_back(column(std::string(name(quantity)), unit<dim>(kind(quantity))));
   return columns;
@@ -71,12 +71,12 @@ void HistoryWriter<dim>::open(const RunView<dim>& run) {
 
 template <int dim>
 void HistoryWriter<dim>::add_missing_columns(const RunView<dim>& run) {
-  auto missing = criteria_columns(run.study.objective());
+  auto missing = term_columns(run.study.objective());
   std::erase_if(missing, [&](const auto& wanted) {
-    const auto& there = history_->columns().criteria;
+    const auto& there = history_->columns().terms;
     return std::ranges::find(there, wanted.name, &HistoryColumns::Quantity::name) != there.end();
   });
-  if (!missing.empty()) history_->add_criteria(missing);
+  if (!missing.empty()) history_->add_terms(missing);
 }
 
 template <int dim>
@@ -88,7 +88,7 @@ void HistoryWriter<dim>::record(const TrialDone<dim>& done, const RunView<dim>& 
                  .accepted = trial.verdict == Verdict::accepted,
                  .reason = reason(trial),
                  .objective = std::numeric_limits<double>::quiet_NaN(),
-                 .criteria = {},
+                 .terms = {},
                  .measures = {},
                  .volume_fraction = volume_fraction(grid, trial.measure),
                  .step = trial.step * grid.resolution(),
@@ -103,7 +103,7 @@ void HistoryWriter<dim>::record(const TrialDone<dim>& done, const RunView<dim>& 
   if (trial.evaluation) {
     const auto& newton = trial.evaluation->newton_iterations;
     row.objective = trial.evaluation->function("objective").value;
-    row.criteria = trial.evaluation->terms;
+    row.terms = trial.evaluation->terms;
     row.measures = trial.evaluation->measures;
     row.max_newton_iterations = newton.empty() ? 0 : *std::max_element(newton.begin(), newton.end());
     row.phases = trial.evaluation->phases;

@@ -192,11 +192,13 @@ Expected<Study<dim>> make_study(const Case& c) {
   if (!solver) return solver.failure();
   auto functions = shape_functions<dim>(c, **solver);
   if (!functions) return functions.failure();
+  EvolutionOptions evolution = evolution_options(c);
+  evolution.cut_points = (*solver)->model().points_in_cut_cells();
   return Study<dim>{.source = c,
                     .solver = *std::move(solver),
                     .functions = *std::move(functions),
                     .initial = initial_shape<dim>(c),
-                    .evolution = evolution_options(c),
+                    .evolution = evolution,
                     .optimizer = optimizer_options<dim>(c)};
 }
 
@@ -204,9 +206,9 @@ template <int dim>
 typename ShapeOptimizer<dim>::Evaluate evaluate_of(const Study<dim>& study, Interrupt interrupt) {
   const bool holds_mean = study.source.objective.mean == MeanStress::held;
   return [solver = study.solver, functions = study.functions, holds_mean, interrupt = std::move(interrupt)](
-             const LevelSet<dim>& psi, const Evaluation<dim>* previous) {
+             const CutShape<dim>& shape, const Evaluation<dim>* previous) {
     const Matrix* held_mean = holds_mean && previous ? &previous->mean_observations : nullptr;
-    return evaluate<dim>(*solver, functions, psi, held_mean, interrupt);
+    return evaluate<dim>(*solver, functions, shape, held_mean, interrupt);
   };
 }
 

@@ -169,14 +169,15 @@ Expected<Evaluation<dim>> differentiate(const StateSolver<dim>& solver,
 
 template <int dim>
 Expected<Evaluated<dim>> evaluate(const StateSolver<dim>& solver,
-                                  std::span<const ShapeFunction<dim>> functions, const LevelSet<dim>& psi,
+                                  std::span<const ShapeFunction<dim>> functions, const CutShape<dim>& shape,
                                   const Matrix* held_mean, const Interrupt& interrupt) {
   const bool compares_images_alike = weights_are_mirror_symmetric(functions) &&
                                      (!held_mean || is_mirror_symmetric(solver.tread_surface(), *held_mean));
   auto state = solver.states(
-      psi, compares_images_alike ? solver.distinct_positions(psi) : solver.all_positions(), interrupt);
+      shape, compares_images_alike ? solver.distinct_positions(shape.psi) : solver.all_positions(),
+      interrupt);
   if (!state) return state.failure();
-  auto evaluation = differentiate(solver, functions, psi, **state, held_mean);
+  auto evaluation = differentiate(solver, functions, shape.psi, **state, held_mean);
   if (!evaluation) return evaluation.failure();
   return Evaluated<dim>{*std::move(evaluation), *std::move(state)};
 }
@@ -186,7 +187,7 @@ Expected<Evaluated<dim>> evaluate(const StateSolver<dim>& solver,
                                                    std::span<const ShapeFunction<dim>>,                     \
                                                    const LevelSet<dim>&, const State<dim>&, const Matrix*); \
   template Expected<Evaluated<dim>> evaluate(const StateSolver<dim>&, std::span<const ShapeFunction<dim>>,  \
-                                             const LevelSet<dim>&, const Matrix*, const Interrupt&);
+                                             const CutShape<dim>&, const Matrix*, const Interrupt&);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)
 #undef WHEELWRIGHT_INSTANTIATE

@@ -26,7 +26,7 @@ Expected<Evaluation<dim>> differentiate(const StateSolver<dim>& solver,
 /// for when the functions' weights or the held mean are not their own mirror image.
 template <int dim>
 Expected<Evaluated<dim>> evaluate(const StateSolver<dim>& solver,
-                                  std::span<const ShapeFunction<dim>> functions, const LevelSet<dim>& psi,
+                                  std::span<const ShapeFunction<dim>> functions, const CutShape<dim>& shape,
                                   const Matrix* held_mean = nullptr, const Interrupt& interrupt = {});
 
 }  // namespace wheelwright

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -59,26 +60,26 @@ RingField mirror_image(const Lattice<dim>& lattice, const RingField& field) {
   return image;
 }
 
-/// One component of the field at a node of a sector's cell.
+/// The nodes of a cell of the full ring, in local order.
 template <int dim>
-double node_value(const Lattice<dim>& lattice, const RingField& field, int sector, int cell, int local_node,
-                  int component) {
-  const auto c = lattice.grid().cell_position(cell);
-  auto p = local_node_position<dim>(lattice.degree(), local_node);
-  for (int d = 0; d < dim; ++d) p[d] += lattice.degree() * c[d];
-  const int node_sector = (sector + p[1] / lattice.nodes()[1]) % lattice.grid().n_sectors;
-  const std::size_t node = lattice.node_index(p) + static_cast<std::size_t>(lattice.n_nodes()) * node_sector;
-  return field.values[component + field.components * node];
+using RingCellNodes = std::array<std::size_t, ShapeFunctions<dim>::max_nodes>;
+
+/// cell[1] counts columns round the ring.
+template <int dim>
+RingCellNodes<dim> ring_cell_nodes(const Lattice<dim>& lattice, const std::array<int, dim>& cell) {
+  RingCellNodes<dim> nodes{};
+  for (int a = 0; a < nodes_per_cell<dim>(lattice.degree()); ++a)
+    nodes[a] = ring_node<dim>(lattice, lattice.cell_node(cell, a));
+  return nodes;
 }
 
-/// One component of the field at a point of a sector's cell; `shape` is that point's, of the lattice's
-/// degree.
-template <int dim>
-double interpolate(const Lattice<dim>& lattice, const RingField& field, int sector, int cell,
-                   const ShapeFunctions<dim>& shape, int component) {
+/// One component of the field at a point of a cell with these nodes; `shape`: values of the shape functions
+/// there, one per node.
+inline double interpolate(const RingField& field, std::span<const std::size_t> nodes,
+                          std::span<const double> shape, int component) {
   double value = 0;
-  for (int a = 0; a < nodes_per_cell<dim>(lattice.degree()); ++a)
-    value += shape.value[a] * node_value<dim>(lattice, field, sector, cell, a, component);
+  for (std::size_t a = 0; a < shape.size(); ++a)
+    value += shape[a] * field.values[component + field.components * nodes[a]];
   return value;
 }
 

@@ -46,6 +46,8 @@ struct RollingModel {
   std::optional<double> travel;  ///< of the rim towards the ground [m], instead of the load
   DistributedLoads<dim> distributed;
   int n_positions = 8;  ///< N_d, load positions of one sector; means over them need a divisor of its columns
+
+  int points_in_cut_cells() const { return cut_points.value_or(degree + 2); }
 };
 
 /// What a model does to its rim.

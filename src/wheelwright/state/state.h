@@ -7,7 +7,7 @@
 #include "wheelwright/base/expected.h"
 #include "wheelwright/base/interrupt.h"
 #include "wheelwright/base/phase_time.h"
-#include "wheelwright/cut/cut_domain.h"
+#include "wheelwright/cut/cut_shape.h"
 #include "wheelwright/state/contact_patch.h"
 #include "wheelwright/state/functional_derivative.h"
 #include "wheelwright/state/load_positions.h"
@@ -93,10 +93,10 @@ class StateSolver {
   virtual const RollingModel<dim>& model() const = 0;
   virtual const TreadSurface<dim>& tread_surface() const = 0;
 
-  /// The states of a shape at some load positions. `interrupt` is polled while the contact problems are
-  /// solved; once it asks, the failure is `interrupted`. Fails when the shape cannot be computed. The solver
-  /// must outlive the state.
-  virtual Expected<std::shared_ptr<const State<dim>>> states(const LevelSet<dim>& psi,
+  /// The states of a shape at some load positions. Its cells are cut unless it brings them. `interrupt` is
+  /// polled while the contact problems are solved; once it asks, the failure is `interrupted`. Fails when the
+  /// shape cannot be computed. The solver must outlive the state.
+  virtual Expected<std::shared_ptr<const State<dim>>> states(const CutShape<dim>& shape,
                                                              LoadPositions positions,
                                                              const Interrupt& interrupt) const = 0;
 
