@@ -63,6 +63,7 @@ radius = 0.028
 [grid]
 radial_cells = 13
 angular_cells = 189
+tread_levels = 0
 [optimizer]
 iterations = 0
 [output]

@@ -29,6 +29,7 @@ radius = 0.03
 [grid]
 radial_cells = 8
 angular_cells = 96
+tread_levels = 0
 )";
 
 /// A case of `iterations` shapes of it, with redistancing, smoothing and rejected trials. `more` is appended

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <iterator>
 #include <numbers>
 #include <numeric>
 
@@ -15,20 +16,37 @@ struct GroundPoint {
   double augmented;  ///< normal component of z [Pa], negative in contact
 };
 
-double zero_between(const GroundPoint& in_contact, const GroundPoint& open) {
-  return in_contact.along +
-         in_contact.augmented / (in_contact.augmented - open.augmented) * (open.along - in_contact.along);
+bool touches(const GroundPoint& p) { return p.augmented < 0; }
+
+/// The end of the contact behind the last of the points that touches. The pressure falls like the root of the
+/// distance to the end, so that its square is a straight line: the one through the outer points with 0.1 to
+/// 0.5 of the peak, because the discrete pressure is smeared in the last cell.
+double end_of_contact(std::span<const GroundPoint> points) {
+  const auto last = std::find_if(points.rbegin(), points.rend(), touches).base() - 1;
+  if (last + 1 == points.end()) return last->along;
+  const double peak = -std::ranges::min(points, {}, &GroundPoint::augmented).augmented;
+  double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
+  for (auto p = std::reverse_iterator(last + 1); p != points.rend() && -p->augmented < 0.5 * peak; ++p) {
+    if (-p->augmented < 0.1 * peak) continue;
+    const double x = p->along - last->along, y = p->augmented * p->augmented;
+    n += 1;
+    sx += x;
+    sy += y;
+    sxx += x * x;
+    sxy += x * y;
+  }
+  const double spread = n * sxx - sx * sx, slope = (n * sxy - sx * sy) / spread;
+  if (!(n >= 2 && slope < 0)) return 0.5 * (last->along + (last + 1)->along);
+  return last->along - (sy - slope * sx) / n / slope;
 }
 
 double patch_length(std::vector<GroundPoint> points) {
+  if (std::ranges::none_of(points, touches)) return 0;
   std::ranges::sort(points, {}, &GroundPoint::along);
-  const auto touches = [](const GroundPoint& p) { return p.augmented < 0; };
-  const auto first = std::ranges::find_if(points, touches);
-  if (first == points.end()) return 0;
-  const auto last = std::find_if(points.rbegin(), points.rend(), touches).base() - 1;
-  const double begin = first == points.begin() ? first->along : zero_between(*first, *(first - 1));
-  const double end = last + 1 == points.end() ? last->along : zero_between(*last, *(last + 1));
-  return end - begin;
+  const double end = end_of_contact(points);
+  for (GroundPoint& p : points) p.along = -p.along;
+  std::ranges::reverse(points);
+  return end + end_of_contact(points);
 }
 
 double mean(std::span<const double> values) {

@@ -18,8 +18,7 @@ struct ContactSummary {
   double patch_length;   ///< from the first to the last point in contact, along the ground [m]
 };
 
-/// The patch ends where the augmented traction between the last point in contact and the next one is zero,
-/// interpolated linearly.
+/// The patch ends where the square of the pressure, extrapolated from the outer points in contact, is zero.
 template <int dim>
 ContactSummary contact_summary(const ContactPatch<dim>& contact);
 

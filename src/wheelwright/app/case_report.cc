@@ -30,10 +30,12 @@ std::string material_report(const Case& c) {
          line("E* of the contact", fmt::format("{:.6g} MPa", c.material.contact_modulus() / 1e6));
 }
 
-/// Estimates for a given load.
+/// How the tread is refined, and estimates for a given load.
 std::string contact_report(const Case& c) {
-  if (c.load.travel) return "";
-  return line("Hertz half-width", fmt::format("{:.4g} mm", hertz_half_width(c) * 1e3)) +
+  const std::string levels = line(
+      "tread levels", fmt::format("{} in a run, {} in results", tread_levels(c), tread_levels_of_results(c)));
+  if (c.load.travel) return levels;
+  return levels + line("Hertz half-width", fmt::format("{:.4g} mm", hertz_half_width(c) * 1e3)) +
          line("Hertz peak pressure", fmt::format("{:.4g} MPa", hertz_peak_pressure(c) / 1e6)) +
          line("cells in the contact",
               fmt::format("{:.1f} of {:.4g} mm", cells_per_contact_patch(c), tread_cell_width(c) * 1e3));
@@ -47,6 +49,31 @@ std::string size_report(const Case& c) {
          line("memory", fmt::format("about {:.0f} MB", std::ceil(estimated_memory(c) / 1e6)));
 }
 
+/// What a patch of too few cells means, and what would help. Below the grid, the contact is a line load on a
+/// cell, whose indentation has the logarithm of the cell's width where the true one has that of the patch.
+std::string coarse_contact_warning(const Case& c, double cells) {
+  const Case finest = with_levels_of_results([&] {
+    Case automatic = c;
+    automatic.grid.tread_levels.reset();
+    return automatic;
+  }());
+  const double reachable = cells_per_contact_patch(finest);
+  std::string text = fmt::format("the contact patch is only {:.2g} cells wide: ", cells);
+  if (cells < 1)
+    text += fmt::format(
+        "pressures are not resolved, and the travel and the strain energy lack part of the local "
+        "indentation, "
+        "about {:.2g} mm",
+        -std::log(cells) * 2 * load_per_metre(c) / (std::numbers::pi * c.material.contact_modulus()) * 1e3);
+  else
+    text += "pressures are not resolved; energies are accurate to about one percent";
+  if (reachable >= least_cells_per_contact_patch)
+    return text + fmt::format("; with grid.tread_levels = {} it is {:.1f} cells wide",
+                              *finest.grid.tread_levels, reachable);
+  return text + fmt::format("; grid.angular_cells >= {:.0f} would resolve it",
+                            std::ceil(c.grid.angular_cells * least_cells_per_contact_patch / reachable));
+}
+
 }  // namespace
 
 std::string derived_report(const Case& c) {
@@ -55,14 +82,8 @@ std::string derived_report(const Case& c) {
 
 std::vector<std::string> warnings(const Case& c) {
   std::vector<std::string> result;
-  if (const double cells = cells_per_contact_patch(c);
-      !c.load.travel && cells < least_cells_per_contact_patch) {
-    const int more = static_cast<int>(std::ceil(std::log2(least_cells_per_contact_patch / cells)));
-    result.push_back(fmt::format(
-        "the contact patch is only {:.1f} cells wide: energies are accurate to about one percent, "
-        "pressures are not; with grid.tread_levels = {} it is {:.1f} cells wide",
-        cells, c.grid.tread_levels + more, cells * (1 << more)));
-  }
+  if (const double cells = cells_per_contact_patch(c); cells < least_cells_per_contact_patch)
+    result.push_back(coarse_contact_warning(c, cells));
   if (wants_uniformity(c) && c.grid.angular_cells % total_load_positions(c) != 0)
     result.push_back(fmt::format(
         "load positions between columns of cells see other points of the tread: the uniformity criteria also "

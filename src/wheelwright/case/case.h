@@ -71,7 +71,7 @@ struct Grid {
   int angular_cells = 384;  ///< round the full ring
   int degree = 2;           ///< of the displacement
   int level_set_degree = 2;
-  int tread_levels = 0;  ///< halvings of the cells at the tread
+  std::optional<int> tread_levels;  ///< halvings of the cells at the tread; absent: as the contact needs
   bool operator==(const Grid&) const = default;
 };
 

@@ -173,6 +173,44 @@ void check_nitsche(const Case& c, Conflicts& found) {
        fmt::format("take gamma_0 >= {:.6g}, or theta = -1", rounded_up(least))});
 }
 
+/// Under such a load a solid disc would be strained by a quarter and more.
+void check_load(const Case& c, Conflicts& found) {
+  if (c.load.travel || c.wheel.inner_radius >= c.wheel.outer_radius) return;
+  const double largest = 0.5 * c.wheel.outer_radius, half_width = hertz_half_width(c);
+  if (half_width <= largest) return;
+  const double advised = 0.1 * c.wheel.outer_radius, factor = advised / half_width;  // strains of 5 %
+  found.push_back(
+      {{"load.force", "load.mass", "material.youngs_modulus", "wheel.width"},
+       fmt::format("too large: a solid disc would touch the ground on {:.3g} m and be strained by "
+                   "about {:.0f} %, far beyond linear elasticity",
+                   2 * half_width, 100 * half_width / (2 * c.wheel.outer_radius)),
+       fmt::format("take at most {:.3g} N, or a stiffer material", c.load.force * factor * factor)});
+}
+
+/// The contact of one position is a dense problem.
+void check_contact_points(const Case& c, Conflicts& found) {
+  constexpr double most = 2500;
+  const auto unknowns = [](const Case& shown) {
+    return cells_per_contact_patch(shown) * shown.contact.quadrature_points *
+           (shown.contact.friction > 0 ? 2 : 1);
+  };
+  const Case shown = with_levels_of_results(c);
+  const double n = unknowns(shown);
+  if (n <= most) return;
+  const int fewer = static_cast<int>(std::ceil(std::log2(n / most)));
+  const std::string remedy =
+      *shown.grid.tread_levels >= fewer
+          ? fmt::format("take grid.tread_levels = {}", *shown.grid.tread_levels - fewer)
+          : fmt::format("take contact.quadrature_points = {}",
+                        std::max(1, static_cast<int>(c.contact.quadrature_points * most / n)));
+  found.push_back(
+      {{"grid.tread_levels", "contact.quadrature_points", "grid.angular_cells", "load.force"},
+       fmt::format("about {:.0f} unknowns in the contact of one position; at most {:.0f} are solved "
+                   "in reasonable time",
+                   n, most),
+       remedy});
+}
+
 /// Friction must resist the force or torque that moves or turns the rim.
 void check_friction(const Case& c, Conflicts& found) {
   const Load& load = c.load;
@@ -255,6 +293,8 @@ std::vector<Conflict> conflicts(const Case& c) {
   check_ring_counts(c, found);
   check_holes(c, found);
   check_nitsche(c, found);
+  check_load(c, found);
+  check_contact_points(c, found);
   check_friction(c, found);
   check_annulus(c, found);
   check_objective(c, found);

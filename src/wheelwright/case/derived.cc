@@ -17,8 +17,36 @@ double hertz_half_width(const Case& c) {
 
 double hertz_peak_pressure(const Case& c) { return 2 * load_per_metre(c) / (pi * hertz_half_width(c)); }
 
+double likely_half_width(const Case& c) {
+  // A travel d makes a patch of about sqrt(0.4 R_e d): the logarithm in the compliance of a roller is near 5.
+  return c.load.travel ? std::sqrt(0.4 * c.wheel.outer_radius * *c.load.travel) : hertz_half_width(c);
+}
+
+namespace {
+
+/// The smallest number of halvings that gives so many cells per patch, within so many points per column.
+int levels_for(const Case& c, double cells_per_patch, int most_points) {
+  const double cell = 2 * pi * c.wheel.outer_radius / c.grid.angular_cells;
+  int levels = 0;
+  while (2 * likely_half_width(c) * (1 << levels) < cells_per_patch * cell &&
+         c.contact.quadrature_points * (2 << levels) <= most_points)
+    ++levels;
+  return levels;
+}
+
+}  // namespace
+
+int tread_levels(const Case& c) { return c.grid.tread_levels.value_or(levels_for(c, 8, 80)); }
+
+int tread_levels_of_results(const Case& c) { return c.grid.tread_levels.value_or(levels_for(c, 18, 160)); }
+
+Case with_levels_of_results(Case c) {
+  c.grid.tread_levels = tread_levels_of_results(c);
+  return c;
+}
+
 double tread_cell_width(const Case& c) {
-  return 2 * pi * c.wheel.outer_radius / c.grid.angular_cells / (1 << c.grid.tread_levels);
+  return 2 * pi * c.wheel.outer_radius / c.grid.angular_cells / (1 << tread_levels(c));
 }
 
 double smallest_hole_in_cells(const Case& c) {
@@ -30,7 +58,7 @@ double smallest_hole_in_cells(const Case& c) {
   return 2 * smallest / std::max(radial, azimuthal);
 }
 
-double cells_per_contact_patch(const Case& c) { return 2 * hertz_half_width(c) / tread_cell_width(c); }
+double cells_per_contact_patch(const Case& c) { return 2 * likely_half_width(c) / tread_cell_width(c); }
 
 double sector_angle(const Case& c) { return 2 * pi / c.wheel.sectors; }
 
@@ -113,7 +141,8 @@ double estimated_memory(const Case& c) {
   const double dofs = static_cast<double>(dof_bound(c)), sector_dofs = dofs / sectors;
   const double radial_line = 2 * (c.grid.degree * c.grid.radial_cells + 1);
   const double ring_line = 2 * c.grid.degree * columns, sector_line = ring_line / sectors;
-  const double tractions = 2.0 * c.contact.quadrature_points * (1 << c.grid.tread_levels);  // per column
+  const double tractions =
+      2.0 * c.contact.quadrature_points * (1 << tread_levels_of_results(c));  // per column
   const double observations = 2 * tractions, zone_columns = contact_columns(c);
   double holes = 0;
   for (const HoleRing& ring : c.holes.rings) holes += ring.count / sectors;
@@ -125,11 +154,13 @@ double estimated_memory(const Case& c) {
   const double condensed = number * 3.5 * square(2 * radial_line + sector_line);
   const double harmonics = complex * 1.8 * (sectors / 2 + 1) * square(radial_line + sector_line);
   const double compliance = number * 7.6 * square(ring_line) / sectors;
-  const double surface = number * 1.2 * (2 * zone_columns - 1) * columns / sectors * square(tractions);
-  const double tread = number * (64 * square(observations) + 1.8 * observations * columns * positions);
+  const double loaded_columns = std::min(columns / sectors, positions * zone_columns);
+  const double surface = number * 1.2 * (2 * zone_columns - 1) * loaded_columns * square(tractions);
+  const double tread = number * (24 * square(observations) + 1.8 * observations * columns * positions);
   const double zones = number * 0.6 * positions * square(zone_columns * tractions);
   const double shape = number * 10 * holes;
-  const double rings = wants_dual(c) ? 2 : 1;  // the dual norm has its own ring
+  // The dual norm has its own ring, and so has a finer tread of the results.
+  const double rings = 1 + wants_dual(c) + (tread_levels_of_results(c) > tread_levels(c));
   return libraries + fields + rings * (factor + condensed + harmonics) + compliance + surface + tread +
          zones + shape;
 }

@@ -19,6 +19,18 @@ double hertz_half_width(const Case& c);
 /// p_0 = 2 P / (pi a) [Pa].
 double hertz_peak_pressure(const Case& c);
 
+/// Half of the likely contact patch [m]: Hertz's under a load, and an estimate from the travel if that is
+/// given.
+double likely_half_width(const Case& c);
+
+/// Halvings of the cells at the tread in a run and in results: the case's own, or as many as give 8 and 18
+/// cells across the likely contact patch, as far as the number of contact points stays reasonable.
+int tread_levels(const Case& c);
+int tread_levels_of_results(const Case& c);
+
+/// The case with as many levels as its results have.
+Case with_levels_of_results(Case c);
+
 /// Arc length of the smallest cells, which are at the tread [m].
 double tread_cell_width(const Case& c);
 

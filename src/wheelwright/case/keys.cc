@@ -103,11 +103,11 @@ const Section<Load>& load_section() {
       .in = [](Case& c) -> Load& { return c.load; },
       .keys = {{.name = "mass",
                 .unit = "kg",
-                .field = NumberField<Load>{&Load::force, above(0, 1e9), standard_gravity},
+                .field = NumberField<Load>{&Load::force, between(1e-9, 1e9), standard_gravity},
                 .meaning = "mass carried by the whole width, under 9.81 m/s^2"},
                {.name = "force",
                 .unit = "N",
-                .field = NumberField<Load>{&Load::force, above(0, 1e10)},
+                .field = NumberField<Load>{&Load::force, between(1e-8, 1e10)},
                 .meaning = "force carried by the whole width",
                 .instead_of = "mass"},
                {.name = "travel",
@@ -246,7 +246,10 @@ const Section<Grid>& grid_section() {
            .meaning = "polynomial degree of the level set"},
           {.name = "tread_levels",
            .unit = "",
-           .field = IntegerField<Grid>{&Grid::tread_levels, between(0, 6)},
+           .field = OptionalIntegerField<Grid>{&Grid::tread_levels, between(0, 6),
+                                               "8 cells across the contact patch in a run, 18 in an analysis "
+                                               "and in the results of a run",
+                                               "auto"},
            .meaning =
                "how many times the cells at the tread are halved, for accurate contact pressures; the level "
                "set's grid and the cost of the cut cells do not change"}}};

@@ -57,12 +57,13 @@ struct IntegerField {
   Range range;
 };
 
-/// A whole number whose default is described by a text.
+/// A whole number whose default is described by a text, or has a word of its own.
 template <class Struct>
 struct OptionalIntegerField {
   std::optional<int> Struct::*member;
   Range range;
   std::string_view default_text;
+  std::string_view default_word = {};  ///< e.g. auto; empty: the default cannot be written
 };
 
 enum class TextRule {

@@ -139,6 +139,11 @@ template <class Struct, class Field>
 requires std::same_as<Field, IntegerField<Struct>> || std::same_as<Field, OptionalIntegerField<Struct>>
     std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>& key, const Field& field,
                                         Struct& out) {
+  if constexpr (requires { field.default_word; })
+    if (!field.default_word.empty() && node.value<std::string>() == field.default_word) {
+      out.*field.member = std::nullopt;
+      return {};
+    }
   if (!node.is_integer()) return wrong_type("a whole number", "write it without quotes or decimal point");
   double value = 0;
   auto complaint = read_number(node, key.unit, field.range, value);

@@ -63,7 +63,8 @@ std::string value_text(const IntegerField<Struct>& field, const Struct& s) {
 template <class Struct>
 std::string value_text(const OptionalIntegerField<Struct>& field, const Struct& s) {
   const auto& value = s.*field.member;
-  return value ? fmt::format("{}", *value) : "";
+  if (!value) return field.default_word.empty() ? "" : quoted(field.default_word);
+  return fmt::format("{}", *value);
 }
 
 template <class Struct>
@@ -95,6 +96,8 @@ std::string accepted_text(const Key<Struct>& key) {
       [](const auto& field) -> std::string {
         if constexpr (requires { field.words; })
           return fmt::format("\"{}\"", fmt::join(field.words, "\" or \""));
+        else if constexpr (requires { field.default_word; })
+          return (field.default_word.empty() ? "" : quoted(field.default_word) + " or ") + field.range.text();
         else if constexpr (requires { field.range; })
           return field.range.text();
         else

@@ -32,16 +32,16 @@ Matrix outer_compliance(const CyclicStiffness<dim>& ring, const Tread<dim>& trea
   return g;
 }
 
-/// `kernel(difference)` of `n_columns` neighbouring columns on all base columns that reach them: a band of
-/// blocks, the first base column `reach` columns before the first column.
-template <int dim, class Kernel>
-Matrix on_base_columns(const Tread<dim>& tread, int n_columns, Kernel kernel) {
+/// The coordinates of traces in `n_columns` neighbouring columns on all base columns that reach them: a band
+/// of blocks, the first base column `reach` columns before the first column.
+template <int dim>
+Matrix on_base_columns(const Tread<dim>& tread, int n_columns, const TraceKernel& kernel) {
   const int reach = tread.reach(), per_column = tread.base_per_column();
-  const int block = kernel(0).rows();
+  const int block = kernel.basis.columns();
   Matrix band(block * n_columns, per_column * (n_columns + 2 * reach + 1));
   for (int c = 0; c < n_columns; ++c)
     for (int d = -reach; d <= reach; ++d) {
-      const Matrix& k = kernel(d);
+      const Matrix& k = kernel.coordinates[d + reach];
       for (int j = 0; j < k.columns(); ++j)
         for (int i = 0; i < block; ++i) band(block * c + i, per_column * (c - d + reach) + j) += k(i, j);
     }
@@ -56,11 +56,11 @@ SurfaceCompliance<dim>::SurfaceCompliance(const CyclicStiffness<dim>& ring, cons
     : columns_per_sector_(tread.columns_per_sector()), width_(width) {
   // -S (C + T G T^T) Te^T with the tread's compliance C and transfer T and the core's compliance G.
   const int reach = tread.reach(), n_together = std::min(group_size, columns_per_sector_);
-  const int n_sampled = n_together + 2 * width, block = tread.compliance(0).rows();
-  const Matrix test =
-      on_base_columns(tread, n_together, [&](int d) -> const Matrix& { return tread.tests(d); });
-  const Matrix sample =
-      on_base_columns(tread, n_sampled, [&](int d) -> const Matrix& { return tread.samples(d); });
+  const int n_sampled = n_together + 2 * width;
+  const TraceKernel &samples = tread.samples(), &tests = tread.tests();
+  const int n_samples = samples.basis.columns(), n_tests = tests.basis.columns();
+  const Matrix test = on_base_columns(tread, n_together, tests);
+  const Matrix sample = on_base_columns(tread, n_sampled, samples);
   blocks_.resize(size_t(2 * width + 1) * columns_per_sector_);
   const int n_groups = (columns_per_sector_ + n_together - 1) / n_together;
   parallel_for(n_groups, [&](int group) {
@@ -69,16 +69,20 @@ SurfaceCompliance<dim>::SurfaceCompliance(const CyclicStiffness<dim>& ring, cons
     const Matrix g = outer_compliance(ring, tread, first - width - reach, n_sampled + 2 * reach + 1,
                                       first - reach, n_together + 2 * reach + 1);
     const Matrix sampled = product(sample, Op::none, product(g, Op::none, test, Op::transpose), Op::none);
-    for (int from = first; from < last; ++from)
-      for (int d = -width; loaded[from] && d <= width; ++d) {
+    for (int from = first; from < last; ++from) {
+      if (!loaded[from]) continue;
+      const Matrix of_column =
+          product(wheelwright::block(sampled, 0, n_tests * (from - first), sampled.rows(), n_tests), Op::none,
+                  tests.basis, Op::transpose);
+      for (int d = -width; d <= width; ++d) {
+        const Matrix coordinates = wheelwright::block(of_column, n_samples * (from - first + d + width), 0,
+                                                      n_samples, of_column.columns());
         Matrix& result = blocks_[(2 * width + 1) * from + d + width];
-        result = Matrix(block, block);
-        for (int j = 0; j < block; ++j)
-          for (int i = 0; i < block; ++i) {
-            result(i, j) = -sampled(block * (from - first + d + width) + i, block * (from - first) + j);
-            if (std::abs(d) <= reach) result(i, j) -= tread.compliance(d)(i, j);
-          }
+        result =
+            std::abs(d) <= reach ? tread.compliance(d) : Matrix(samples.basis.rows(), tests.basis.rows());
+        multiply(-1, samples.basis, Op::none, coordinates, Op::none, -1, result);
       }
+    }
   });
 }
 

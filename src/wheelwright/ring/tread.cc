@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "wheelwright/base/periodic.h"
+#include "wheelwright/linalg/column_basis.h"
 
 namespace wheelwright {
 namespace {
@@ -65,6 +66,20 @@ Matrix traces(const std::vector<TreadPoint<dim>>& points, OfTraction of_traction
   return result;
 }
 
+/// The coordinates of the traces of all differences in one basis, up to rounding.
+TraceKernel trace_kernel(const std::vector<Matrix>& traces) {
+  const int rows = traces.front().rows(), columns = traces.front().columns();
+  Matrix all(rows, columns * static_cast<int>(traces.size()));
+  for (size_t k = 0; k < traces.size(); ++k)
+    std::copy_n(traces[k].data(), traces[k].entries().size(), all.column(columns * static_cast<int>(k)));
+  ColumnBasis found = column_basis(all, negligible);
+  TraceKernel kernel{std::move(found.basis), {}};
+  for (size_t k = 0; k < traces.size(); ++k)
+    kernel.coordinates.push_back(
+        block(found.coordinates, 0, columns * static_cast<int>(k), found.coordinates.rows(), columns));
+  return kernel;
+}
+
 }  // namespace
 
 template <int dim>
@@ -121,6 +136,7 @@ Expected<Tread<dim>> Tread<dim>::condense(const ElementTable<dim>& table, const 
     test_rows[side] = tests(on_line(own, observed, side));
   }
   const int n_traces = sample_rows[0].rows();
+  std::vector<Matrix> all_sampled, all_tested;
   for (int d = -reach; d <= reach; ++d) {
     Matrix base(n_base, n_base), sampled(n_traces, n_base), tested(n_traces, n_base),
         compliance(n_traces, n_traces);
@@ -144,10 +160,12 @@ Expected<Tread<dim>> Tread<dim>::condense(const ElementTable<dim>& table, const 
       multiply(1, sample_rows[seen], Op::none, of_tests, Op::none, 1, compliance);
     }
     tread.base_stiffness_.push_back(std::move(base));
-    tread.samples_.push_back(std::move(sampled));
-    tread.tests_.push_back(std::move(tested));
+    all_sampled.push_back(std::move(sampled));
+    all_tested.push_back(std::move(tested));
     tread.compliance_.push_back(std::move(compliance));
   }
+  tread.samples_ = trace_kernel(all_sampled);
+  tread.tests_ = trace_kernel(all_tested);
   return tread;
 }
 

@@ -6,6 +6,12 @@
 
 namespace wheelwright {
 
+/// Traces in columns that differ by -reach to reach, as coordinates in a basis that all of them share.
+struct TraceKernel {
+  Matrix basis;                     ///< traces x coordinates, orthonormal columns
+  std::vector<Matrix> coordinates;  ///< of every difference, ascending from -reach: coordinates x n_base()
+};
+
 /// The tread: the outermost rows of cells, eliminated by static condensation once per run. It is attached to
 /// the core along its base, the core's outer line. It is a ring of equal columns (one angular cell each), so
 /// that the response of one column and its rotations describe it completely. See TreadColumn for the order of
@@ -43,8 +49,10 @@ class Tread {
   /// ("tests"), with dim rows per point, in the column frame: values in column c + difference for a unit
   /// displacement of the base of column c; |difference| <= reach(). Transposed tests: the load on the base of
   /// column c from a unit traction (times dS) on column c + difference.
-  const Matrix& samples(int difference) const { return samples_[difference + reach_]; }
-  const Matrix& tests(int difference) const { return tests_[difference + reach_]; }
+  ///
+  /// Fine points see little of a coarse base: traces = basis * coordinates, with few coordinates.
+  const TraceKernel& samples() const { return samples_; }
+  const TraceKernel& tests() const { return tests_; }
 
   /// Samples of column c + difference for a unit test load on column c, base fixed; |difference| <= reach().
   const Matrix& compliance(int difference) const { return compliance_[difference + reach_]; }
@@ -59,7 +67,8 @@ class Tread {
   TreadColumn<dim> column_;
   int degree_ = 0, n_columns_ = 0, columns_per_sector_ = 0, reach_ = 0;
   std::optional<CyclicChain> lines_;
-  std::vector<Matrix> compliance_, samples_, tests_, base_stiffness_;
+  TraceKernel samples_, tests_;
+  std::vector<Matrix> compliance_, base_stiffness_;
 };
 
 }  // namespace wheelwright

@@ -51,6 +51,7 @@ struct RunEnded {
   StopReason reason;
   const OptimizationState<dim>* state;        ///< the last accepted shape; null after a failed start
   const State<dim>* solution;                 ///< its solution; null when there are no results to write
+  const StateSolver<dim>* solver;             ///< of that solution; its tread may be finer than the study's
   std::span<const Trial<dim>> failed_trials;  ///< after the last accepted shape
 };
 

@@ -9,8 +9,8 @@
 namespace wheelwright {
 namespace {
 
-void write(const RunView<2>& run, const State<2>& solution, const std::string& name) {
-  const StateSolver<2>& solver = *run.study.solver;
+void write(const RunView<2>& run, const StateSolver<2>& solver, const State<2>& solution,
+           const std::string& name) {
   const auto points = contact_points(solver, solution);
   std::vector<double> azimuths;
   for (const GroundPosition& ground : solver.all_positions().grounds)
@@ -26,9 +26,9 @@ void write(const RunView<2>& run, const State<2>& solution, const std::string& n
 void PressureFiles::operator()(const Event<2>& event, const RunView<2>& run) {
   if (const auto* done = std::get_if<TrialDone<2>>(&event);
       done && done->trial.verdict == Verdict::accepted && done->state.iteration == 0 && done->trial.solution)
-    write(run, *done->trial.solution, "initial");
+    write(run, *run.study.solver, *done->trial.solution, "initial");
   if (const auto* ended = std::get_if<RunEnded<2>>(&event); ended && ended->solution)
-    write(run, *ended->solution, "final");
+    write(run, *ended->solver, *ended->solution, "final");
 }
 
 }  // namespace wheelwright

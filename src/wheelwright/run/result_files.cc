@@ -58,7 +58,7 @@ void ResultFiles::operator()(const Event<2>& event, const RunView<2>& run) {
   const LevelSet<2>& shape = ended->state->shape;
   const State<2>& solution = *ended->solution;
   write_shapes(run, *ended->state);
-  const auto positions = all_position_fields(*run.study.solver, solution);
+  const auto positions = all_position_fields(*ended->solver, solution);
   write_rolling(run, shape, positions);
   write_wheel_pictures(run.folder, {.prefix = "", .title = run_title(run.study.source)}, shape,
                        solution.domain(), positions[worst_position(solution.strain_energy())]);

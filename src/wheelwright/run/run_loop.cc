@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "wheelwright/case/derived.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/write.h"
 #include "wheelwright/files/atomic_file.h"
@@ -95,11 +96,12 @@ RunResult<dim> RunLoop<dim>::end(StopReason reason) {
   save();
   stop_file_->remove();
   if (reason == StopReason::stop_requested) {
-    notify(RunEnded<dim>{reason, &*state_, nullptr, {}});
+    notify(RunEnded<dim>{reason, &*state_, nullptr, nullptr, {}});
     return result(reason);
   }
   const SharedSolution solution = final_solution();
-  notify(RunEnded<dim>{reason, &*state_, solution.get(), failed_trials_});
+  const auto [solver, shown] = solution_of_results(solution);
+  notify(RunEnded<dim>{reason, &*state_, shown.get(), solver.get(), failed_trials_});
   RunResult<dim> ended = result(reason);
   ended.findings = findings_at_the_end(solution.get());
   return ended;
@@ -109,7 +111,7 @@ template <int dim>
 RunResult<dim> RunLoop<dim>::end_without_a_shape(const Failure& failure) {
   stop_file_->remove();
   if (failure.reason == FailureReason::interrupted) {
-    notify(RunEnded<dim>{StopReason::stop_requested, nullptr, nullptr, {}});
+    notify(RunEnded<dim>{StopReason::stop_requested, nullptr, nullptr, nullptr, {}});
     return result(StopReason::stop_requested);
   }
   failed_trials_ = {{.iteration = 0,
@@ -121,7 +123,7 @@ RunResult<dim> RunLoop<dim>::end_without_a_shape(const Failure& failure) {
                      .measure = 0,
                      .verdict = Verdict::failed,
                      .failure = failure}};
-  notify(RunEnded<dim>{StopReason::failed_start, nullptr, nullptr, failed_trials_});
+  notify(RunEnded<dim>{StopReason::failed_start, nullptr, nullptr, nullptr, failed_trials_});
   return result(StopReason::failed_start);
 }
 
@@ -159,6 +161,21 @@ typename RunLoop<dim>::SharedSolution RunLoop<dim>::final_solution() {
   const StateSolver<dim>& solver = *work_->study.solver;
   auto states = solver.states(state_->shape, solver.distinct_positions(state_->shape), Interrupt());
   return states ? *std::move(states) : nullptr;
+}
+
+/// What the files of results show: the last shape on a finer tread, where the case lets the program choose,
+/// else the loop's own solution.
+template <int dim>
+std::pair<typename RunLoop<dim>::SharedSolver, typename RunLoop<dim>::SharedSolution>
+RunLoop<dim>::solution_of_results(const SharedSolution& own) {
+  const Study<dim>& study = work_->study;
+  const Case& c = study.source;
+  if (!own || tread_levels_of_results(c) == tread_levels(c)) return {study.solver, own};
+  const auto finer = make_solver(rolling_model<dim>(with_levels_of_results(c)));
+  if (!finer) return {study.solver, own};
+  auto states = (*finer)->states(state_->shape, (*finer)->distinct_positions(state_->shape), Interrupt());
+  if (!states) return {study.solver, own};
+  return {*finer, *std::move(states)};
 }
 
 template <int dim>

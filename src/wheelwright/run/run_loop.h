@@ -20,6 +20,7 @@ class RunLoop : private RunControl {
 
  private:
   using SharedSolution = std::shared_ptr<const State<dim>>;
+  using SharedSolver = std::shared_ptr<const StateSolver<dim>>;
 
   /// What the loop works on. A change of the case replaces it as a whole.
   struct Work {
@@ -44,6 +45,7 @@ class RunLoop : private RunControl {
   std::vector<Finding> findings_at_the_end(const State<dim>* solution);
   RunResult<dim> result(StopReason reason) const;
   SharedSolution final_solution();
+  std::pair<SharedSolver, SharedSolution> solution_of_results(const SharedSolution& own);
 
   void observe(const Trial<dim>& trial, const OptimizationState<dim>& state);
   bool must_yield();

@@ -54,7 +54,7 @@ RollingModel<dim> rolling_model(const Case& c) {
                    .gamma_0 = c.contact.gamma_0,
                    .friction = c.contact.friction};
   model.contact_points = c.contact.quadrature_points;
-  model.tread = {tread_rows(c), c.grid.tread_levels, wants_annulus(c) ? c.grid.degree + 1 : 0};
+  model.tread = {tread_rows(c), tread_levels(c), wants_annulus(c) ? c.grid.degree + 1 : 0};
   model.load = on_model_width<dim>(c.load.force, c);
   model.horizontal_force = on_model_width<dim>(c.load.horizontal_force, c);
   model.torque = on_model_width<dim>(c.load.torque, c);

@@ -8,6 +8,7 @@
 #include "wheelwright/app/shared_options.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/base/text.h"
+#include "wheelwright/case/derived.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/report/pressure_plot.h"
 #include "wheelwright/report/rolling_report.h"
@@ -90,7 +91,7 @@ class AnalyzeCommand : public Subcommand {
 
   /// Computes the case's initial shape at its load positions and tells what an engineer asks of a wheel.
   int analyze(const Case& c) const {
-    const auto made = make_solver(rolling_model<2>(c));
+    const auto made = make_solver(rolling_model<2>(with_levels_of_results(c)));
     if (!made) return tell_failure(name(), made.failure());
     const StateSolver<2>& solver = **made;
     const LevelSet<2> shape = initial_shape<2>(c);

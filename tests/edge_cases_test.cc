@@ -1,0 +1,150 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "wheelwright/analysis/deformation_size.h"
+#include "wheelwright/analysis/rolling_analysis.h"
+#include "wheelwright/case/derived.h"
+#include "wheelwright/case/read.h"
+#include "wheelwright/run/study.h"
+
+namespace wheelwright {
+namespace {
+
+/// A case of tests/edge_cases as `analyze` computes it.
+struct Analyzed {
+  Case source;
+  std::shared_ptr<const StateSolver<2>> solver;
+  LevelSet<2> shape;
+  std::shared_ptr<const State<2>> state;
+  RollingAnalysis analysis;
+};
+
+CaseResult read(const std::string& name) {
+  return read_case(WHEELWRIGHT_SOURCE_DIR "/tests/edge_cases/" + name + ".toml");
+}
+
+Analyzed analyzed(const Case& c) {
+  const auto solver = make_solver(rolling_model<2>(with_levels_of_results(c)));
+  EXPECT_TRUE(solver);
+  LevelSet<2> shape = initial_shape<2>(c);
+  const auto state = (*solver)->states(shape, (*solver)->all_positions(), Interrupt());
+  if (!state) throw std::runtime_error(state.failure().detail);
+  const auto analysis = rolling_analysis(**solver, **state);
+  if (!analysis) throw std::runtime_error(analysis.failure().detail);
+  return {c, *solver, std::move(shape), *state, *analysis};
+}
+
+Analyzed analyzed(const std::string& name) { return analyzed(*read(name).value); }
+
+void expect_refused(const std::string& name, const std::string& key) {
+  const CaseResult result = read(name);
+  ASSERT_FALSE(result.value) << name;
+  EXPECT_TRUE(std::ranges::any_of(result.problems, [&](const Diagnostic& d) { return d.key == key; }))
+      << result.problems.front().text();
+}
+
+TEST(EdgeCases, LoadsBeyondLinearElasticityAreRefused) {
+  expect_refused("overload", "load.mass");
+  expect_refused("wide_contact_friction_2", "load.force");
+  expect_refused("light2", "load.mass");
+}
+
+TEST(EdgeCases, HolesThatAreCrushedAreAFailureWithAName) {
+  Case c = *read("base").value;
+  c.load.travel = 0.07;
+  const auto solver = make_solver(rolling_model<2>(c));
+  const LevelSet<2> shape = initial_shape<2>(c);
+  const auto state = (*solver)->states(shape, (*solver)->all_positions(), Interrupt());
+  ASSERT_TRUE(state) << state.failure().detail;
+  const auto overlap = material_overlaps(**solver, shape, **state);
+  ASSERT_TRUE(overlap);
+  EXPECT_EQ(overlap->reason, FailureReason::material_overlaps);
+  const auto made = make_study<2>(c);
+  const auto evaluated = evaluate_of(*made)(shape, nullptr);
+  ASSERT_FALSE(evaluated);
+  EXPECT_EQ(evaluated.failure().reason, FailureReason::material_overlaps);
+}
+
+TEST(EdgeCases, ARimUnderTheGroundIsAFailureWithAName) {
+  Case c = *read("base").value;
+  c.material.youngs_modulus = 2e4;
+  c.load.force = 600;
+  c.holes.rings.front().radius = 0.055;
+  c.wheel.inner_radius = 0.15;
+  c.holes.rings.front().center_radius = 0.245;
+  const auto solver = make_solver(rolling_model<2>(c));
+  const LevelSet<2> shape = initial_shape<2>(c);
+  const auto state = (*solver)->states(shape, (*solver)->all_positions(), Interrupt());
+  ASSERT_FALSE(state);
+  EXPECT_EQ(state.failure().reason, FailureReason::rim_under_ground);
+}
+
+// Linear elasticity without friction: a light load deforms less, and the nearer to the ground the more of it.
+TEST(EdgeCases, LightLoadsAndStiffMaterialsAreSolved) {
+  for (const std::string name : {"light", "steel", "steel16"}) {
+    SCOPED_TRACE(name);
+    const Analyzed a = analyzed(name);
+    for (const ContactSummary& position : a.analysis.positions) {
+      EXPECT_NEAR(position.radial_force, load_per_metre(a.source), 1e-9 * load_per_metre(a.source));
+      EXPECT_GT(position.travel, 0);
+    }
+    const auto [least, greatest] = std::ranges::minmax(a.analysis.travel_at_load);
+    EXPECT_LT(greatest, 3 * least);
+  }
+}
+
+// Under a thousandth of the load, a wheel travels about a thousandth, but for the logarithm of the patch.
+TEST(EdgeCases, TravelIsNearlyProportionalToTheLoad) {
+  Case c = *read("base").value;
+  c.load.positions = 2;
+  const double heavy = analyzed(c).analysis.positions[0].travel;
+  c.load.force /= 1000;
+  const double light = analyzed(c).analysis.positions[0].travel;
+  EXPECT_GT(light, heavy / 1000);
+  EXPECT_LT(light, 2 * heavy / 1000);
+}
+
+TEST(EdgeCases, LargeDeformationIsTold) {
+  const Analyzed scooter = analyzed("scooter_tpu");
+  const DeformationSize size = deformation_size(*scooter.solver, scooter.shape, *scooter.state);
+  EXPECT_GT(size.strain, small_strain);
+  EXPECT_NE(deformation_warning(size), "");
+  const Analyzed tram = analyzed("tram");
+  EXPECT_EQ(deformation_warning(deformation_size(*tram.solver, tram.shape, *tram.state)), "");
+}
+
+TEST(EdgeCases, WideContactWithFrictionTakesFewIterations) {
+  Case c = *read("wide_contact_friction_1").value;
+  c.load.positions = 1;
+  const auto solver = make_solver(rolling_model<2>(c));
+  const auto state = (*solver)->states(initial_shape<2>(c), (*solver)->all_positions(), Interrupt());
+  ASSERT_TRUE(state) << state.failure().detail;
+  EXPECT_LE((*state)->contacts().front().newton_iterations, 120);
+}
+
+/// A solid roller of 5 cm on a rigid plane, with a rim of 1 mm and no key of the grid set.
+Case solid_roller(double force) {
+  const std::string text =
+      "[wheel]\ninner_radius = 0.001\nouter_radius = 0.05\nwidth = 1\nsectors = 8\n"
+      "[material]\nyoungs_modulus = 52.5e9\npoissons_ratio = 0.3\n[load]\nforce = " +
+      std::to_string(force) + "\n";
+  return *parse_case(text, "roller.toml").value;
+}
+
+TEST(EdgeCases, TheSolidRollerIsResolvedWithoutAnyKeyOfTheGrid) {
+  for (const ContactSummary& position : analyzed(solid_roller(35e6)).analysis.positions) {
+    EXPECT_NEAR(position.peak_pressure, 3612e6, 0.003 * 3612e6);
+    EXPECT_NEAR(position.patch_length, 12.32e-3, 0.003 * 12.32e-3);
+  }
+  const Case light = solid_roller(35e4);
+  for (const ContactSummary& position : analyzed(light).analysis.positions) {
+    EXPECT_NEAR(position.peak_pressure, hertz_peak_pressure(light), 0.01 * hertz_peak_pressure(light));
+    EXPECT_NEAR(position.patch_length, 2 * hertz_half_width(light), 0.02 * hertz_half_width(light));
+  }
+}
+
+}  // namespace
+}  // namespace wheelwright

@@ -1,0 +1,106 @@
+#include "tests/random_wheels.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <regex>
+
+#include "wheelwright/analysis/deformation_size.h"
+#include "wheelwright/case/read.h"
+#include "wheelwright/case/write.h"
+#include "wheelwright/run/study.h"
+
+namespace wheelwright {
+namespace {
+
+using testing::RandomWheels;
+
+/// The case changed as the first problem's remedy says: "take KEY = VALUE" or "take at most LOAD N".
+std::optional<Case> mended(Case c, const std::vector<Diagnostic>& problems) {
+  std::smatch match;
+  const std::string remedy = problems.front().remedy;
+  if (std::regex_search(remedy, match, std::regex(R"(grid\.tread_levels = (\d+))")))
+    c.grid.tread_levels = std::stoi(match[1]);
+  else if (std::regex_search(remedy, match, std::regex(R"(contact\.quadrature_points = (\d+))")))
+    c.contact.quadrature_points = std::stoi(match[1]);
+  else if (std::regex_search(remedy, match, std::regex(R"(grid\.degree = (\d))")))
+    c.grid.degree = std::stoi(match[1]);
+  else if (std::regex_search(remedy, match, std::regex(R"(at most ([0-9.e+-]+) N)"))) {
+    const double factor = std::stod(match[1]) / c.load.force;
+    c.load.force *= factor;
+    c.load.horizontal_force *= factor;
+    c.load.torque *= factor;
+  } else
+    return {};
+  return c;
+}
+
+/// How one wheel ended, and what is wrong with that; empty: nothing.
+struct End {
+  enum Kind { solved, refused, failed } kind;
+  std::string complaint;
+};
+
+std::string unbalanced(const State<2>& state, double load) {
+  for (const auto& contact : state.contacts()) {
+    double force = 0;
+    for (const auto& point : contact.points) force -= point.weight * point.traction[0];
+    if (!(std::abs(force - load) <= 1e-9 * load))
+      return "the contact carries " + std::to_string(force / load);
+  }
+  return "";
+}
+
+End end_of(const Case& drawn) {
+  const CaseResult read = parse_case(to_toml(drawn), "random.toml");
+  if (!read.value) {
+    const std::string text = read.problems.front().text();
+    const auto changed = mended(drawn, read.problems);
+    if (!changed) return {End::refused, "no remedy that can be followed: " + text};
+    const End after = end_of(*changed);
+    return {End::refused, after.kind == End::solved ? "" : text + ", then " + after.complaint};
+  }
+  const Case& c = *read.value;
+  const auto solver = make_solver(rolling_model<2>(c));
+  if (!solver) return {End::failed, to_string(solver.failure().reason)};
+  const LevelSet<2> shape = initial_shape<2>(c);
+  const auto state = (*solver)->states(shape, (*solver)->distinct_positions(shape), Interrupt());
+  if (state) {
+    if (const auto failure = material_overlaps(**solver, shape, **state)) return {End::failed, ""};
+    return {End::solved, unbalanced(**state, (*solver)->model().load)};
+  }
+  const Failure& failure = state.failure();
+  switch (failure.reason) {
+    case FailureReason::rim_under_ground:
+    case FailureReason::tread_cut_off:
+    case FailureReason::disconnected_material:
+    case FailureReason::protected_band:
+      return {End::failed, ""};
+    default:
+      return {End::failed, std::string(to_string(failure.reason)) + ": " + failure.detail};
+  }
+}
+
+/// Every wheel is solved and balanced, refused with a remedy that helps, or fails for a physical reason.
+void expect_an_end_of_each(int n, unsigned seed) {
+  RandomWheels wheels(seed);
+  std::map<End::Kind, int> count;
+  for (int k = 0; k < n; ++k) {
+    const Case c = wheels.draw();
+    const End end = end_of(c);
+    ++count[end.kind];
+    EXPECT_EQ(end.complaint, "") << "wheel " << k << ":\n" << to_toml(c);
+  }
+  ::testing::Test::RecordProperty("solved", count[End::solved]);
+  ::testing::Test::RecordProperty("refused", count[End::refused]);
+  EXPECT_GE(count[End::solved], 0.8 * n);
+  EXPECT_LE(count[End::refused], 0.1 * n);
+}
+
+TEST(RandomWheels, AreSolvedOrRefusedWithAReason) { expect_an_end_of_each(12, 2); }
+
+TEST(RandomWheels, AreSolvedOrRefusedWithAReasonSlow) { expect_an_end_of_each(300, 1); }
+
+}  // namespace
+}  // namespace wheelwright
