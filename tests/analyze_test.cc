@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "tests/support.h"
+#include "wheelwright/analysis/deformation_size.h"
 #include "wheelwright/analysis/rolling_analysis.h"
 #include "wheelwright/analysis/strain_peaks.h"
 #include "wheelwright/report/rolling_report.h"
@@ -15,7 +16,10 @@ namespace wheelwright {
 namespace {
 
 using std::numbers::pi;
+using testing::all_states;
 using testing::Hole;
+using testing::paper_holes;
+using testing::paper_model;
 
 /// A case solved and analyzed.
 struct Analyzed {
@@ -77,6 +81,67 @@ TEST(RollingVariation, OneOrTwoValuesHaveNoHarmonics) {
 }
 
 // --- The plain ring ------------------------------------------------------------------------------------
+
+/// Hertz's pressure on a patch of half-width a about c at points a distance h apart.
+ContactPatch<2> hertz_patch(double a, double c, double h) {
+  ContactPatch<2> patch{};
+  for (double x = -2 * a; x < 2 * a; x += h) {
+    const double s = (x - c) / a, p = std::abs(s) < 1 ? std::sqrt(1 - s * s) : 0;
+    patch.points.push_back({});
+    patch.points.back().position = {0, x};
+    patch.points.back().weight = h;
+    patch.points.back().augmented = {p > 0 ? -p : 0.1 * (std::abs(s) - 1), 0};
+    patch.points.back().traction = {-p, 0};
+  }
+  return patch;
+}
+
+TEST(Analysis, ThePatchEndsWhereTheSquareOfThePressureIsZero) {
+  for (const double points : {20, 37, 80})
+    EXPECT_NEAR(contact_summary(hertz_patch(6e-3, 0.3e-3, 12e-3 / points)).patch_length, 12e-3, 0.002 * 12e-3)
+        << points;
+  EXPECT_EQ(contact_summary(ContactPatch<2>{}).patch_length, 0);
+}
+
+// Strains by their principal values and axes, turned.
+TEST(Analysis, PrincipalStrainsAreTheEigenvalues) {
+  const double a = 0.03, b = -0.01, angle = 0.7, c = std::cos(angle), s = std::sin(angle);
+  const double plane[3] = {a * c * c + b * s * s, a * s * s + b * c * c, 2 * (a - b) * c * s};
+  auto found = principal_strains<2>(plane, -0.5);
+  std::ranges::sort(found);
+  EXPECT_NEAR(found[0], -0.01, 1e-15);
+  EXPECT_NEAR(found[1], -0.01, 1e-15);
+  EXPECT_NEAR(found[2], 0.03, 1e-15);
+  // The same in space, about the first axis: the shear strains are 23, 13, 12.
+  const double space[6] = {0.02, plane[0], plane[1], plane[2], 0, 0};
+  found = principal_strains<3>(space, 0);
+  std::ranges::sort(found);
+  EXPECT_NEAR(found[0], -0.01, 1e-12);
+  EXPECT_NEAR(found[1], 0.02, 1e-12);
+  EXPECT_NEAR(found[2], 0.03, 1e-12);
+}
+
+// A rigid turn of the material inside the rim is what the rotation measures; the paper's wheel turns little.
+TEST(Analysis, DeformationOfThePapersWheelIsSmall) {
+  const auto model = paper_model(14, 192);
+  const auto problem = RollingProblem<2>::create(model);
+  ASSERT_TRUE(problem);
+  const auto psi = paper_holes(model.grid);
+  const auto state = all_states<2>(*problem, psi);
+  ASSERT_TRUE(state);
+  const DeformationSize size = deformation_size<2>(*problem, psi, **state);
+  EXPECT_FALSE(size.edges_overlap);
+  EXPECT_EQ(deformation_warning(size), "");
+  EXPECT_EQ(size.strain, std::ranges::max(strain_peaks<2>(*problem, **state).principal));
+  // Twice the load deforms nearly twice as much: the contact alone is not linear.
+  auto doubled = model;
+  doubled.load *= 2;
+  const auto other = RollingProblem<2>::create(doubled);
+  const auto more = all_states<2>(*other, psi);
+  const DeformationSize twice = deformation_size<2>(*other, psi, **more);
+  EXPECT_NEAR(twice.rotation / size.rotation, 2, 0.2);
+  EXPECT_NEAR(twice.travel / size.travel, 2, 0.1);
+}
 
 TEST(Analysis, RingRunsTrueAtThePositionsOfColumns) {
   const auto [problem, state, a] = analyzed(coarse_model(12), no_holes);

@@ -76,6 +76,30 @@ TYPED_TEST(ContactLaw, TangentIsTheDerivative) {
       }
 }
 
+// Given friction: the same law where its threshold is the one that Coulomb's law has, and its own derivative.
+TYPED_TEST(ContactLaw, GivenFrictionAgreesWithCoulombsAtItsThreshold) {
+  constexpr int dim = TypeParam::value;
+  constexpr double step = 1e-6;
+  Tractions<dim> tractions;
+  for (Regime regime : {Regime::separated, Regime::sticking, Regime::sliding})
+    for (int k = 0; k < 50; ++k) {
+      const Vec<dim> z = tractions.draw(regime);
+      const double threshold = friction * negative_part(z[0]);
+      const auto response = given_friction_response<dim>(z, threshold);
+      const auto coulomb = contact_response<dim>(z, friction).traction;
+      for (int i = 0; i < dim; ++i) EXPECT_NEAR(response.traction[i], coulomb[i], 1e-15);
+      for (int j = 0; j < dim; ++j) {
+        Vec<dim> forward = z, backward = z;
+        forward[j] += step;
+        backward[j] -= step;
+        const auto after = given_friction_response<dim>(forward, threshold).traction,
+                   before = given_friction_response<dim>(backward, threshold).traction;
+        for (int i = 0; i < dim; ++i)
+          EXPECT_NEAR(response.tangent[i][j], (after[i] - before[i]) / (2 * step), 1e-6);
+      }
+    }
+}
+
 TYPED_TEST(ContactLaw, NormalTractionIsTheNegativePart) {
   constexpr int dim = TypeParam::value;
   Tractions<dim> tractions;

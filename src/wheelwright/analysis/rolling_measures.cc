@@ -18,17 +18,29 @@ struct GroundPoint {
 
 bool touches(const GroundPoint& p) { return p.augmented < 0; }
 
-/// The end of the contact behind the last of the points that touches. The pressure falls like the root of the
-/// distance to the end, so that its square is a straight line: the one through the outer points with 0.1 to
-/// 0.5 of the peak, because the discrete pressure is smeared in the last cell.
+/// The centre of the pressure.
+double centre_of_pressure(std::span<const GroundPoint> points) {
+  double sum = 0, moment = 0;
+  for (const GroundPoint& p : points) {
+    const double pressure = std::max(-p.augmented, 0.0);
+    sum += pressure;
+    moment += pressure * p.along;
+  }
+  return moment / sum;
+}
+
+/// The end of the contact behind the last of the points that touches. The square of Hertz's pressure is a
+/// straight line over the square of the distance to the centre: here the one through the outer points with
+/// 0.1 to 0.6 of the peak, because the discrete pressure is smeared in the last cell.
 double end_of_contact(std::span<const GroundPoint> points) {
   const auto last = std::find_if(points.rbegin(), points.rend(), touches).base() - 1;
   if (last + 1 == points.end()) return last->along;
   const double peak = -std::ranges::min(points, {}, &GroundPoint::augmented).augmented;
+  const double centre = centre_of_pressure(points);
   double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
-  for (auto p = std::reverse_iterator(last + 1); p != points.rend() && -p->augmented < 0.5 * peak; ++p) {
+  for (auto p = std::reverse_iterator(last + 1); p != points.rend() && -p->augmented < 0.6 * peak; ++p) {
     if (-p->augmented < 0.1 * peak) continue;
-    const double x = p->along - last->along, y = p->augmented * p->augmented;
+    const double x = (p->along - centre) * (p->along - centre), y = p->augmented * p->augmented;
     n += 1;
     sx += x;
     sy += y;
@@ -37,7 +49,7 @@ double end_of_contact(std::span<const GroundPoint> points) {
   }
   const double spread = n * sxx - sx * sx, slope = (n * sxy - sx * sy) / spread;
   if (!(n >= 2 && slope < 0)) return 0.5 * (last->along + (last + 1)->along);
-  return last->along - (sy - slope * sx) / n / slope;
+  return centre + std::sqrt((sx - sy / slope) / n);
 }
 
 double patch_length(std::vector<GroundPoint> points) {
