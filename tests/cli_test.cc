@@ -233,6 +233,27 @@ TEST_F(CommandLine, AShapeThatCannotBeSolvedIsThree) {
     EXPECT_EQ(wheelwright(command, folder()).code, exit_no_solution) << command;
 }
 
+// The volume at which a run ends may not be its target's yet, or a target that no wheel survives: the end
+// names the key.
+TEST_F(CommandLine, AVolumeThatIsNotReachedIsNamed) {
+  const auto run = [&](const std::string& name, const std::string& volume) {
+    std::ofstream(folder() / (name + ".toml"))
+        << "[[holes.ring]]\ncount = 16\ncenter_radius = 0.27\nradius = 0.03\n"
+           "[grid]\nradial_cells = 7\nangular_cells = 128\n[optimizer]\niterations = 2\n[volume]\n"
+        << volume;
+    return wheelwright(fmt::format("run {0}.toml --output {0}", name), folder());
+  };
+  const Outcome early = run("early", "target = 0.7\n");
+  EXPECT_EQ(early.code, exit_done) << early.output;
+  EXPECT_NE(early.output.find("volume.target = 0.7"), std::string::npos) << early.output;
+  const Outcome there = run("there", "target = 0.8\nrate = 0.1\n");
+  EXPECT_EQ(there.code, exit_done) << there.output;
+  EXPECT_EQ(there.output.find("volume.target"), std::string::npos) << there.output;
+  const Outcome apart = run("apart", "target = 0.46\nrate = 1\n");
+  EXPECT_EQ(apart.code, exit_no_solution) << apart.output;
+  EXPECT_NE(apart.output.find("volume.target = 0.46"), std::string::npos) << apart.output;
+}
+
 // A Taylor test finds order 2 for a hole; without one nothing can move.
 TEST_F(CommandLine, VerifyTestsTheGradientOfTheCasesShape) {
   std::ofstream(folder() / "full.toml") << "[grid]\nradial_cells = 7\nangular_cells = 128\n";

@@ -36,6 +36,7 @@ Case uneven_case() {
   c.ghost_penalty.xi = 0.37;
   c.objective.strain_energy = 41;
   c.volume.target = 0.43;
+  c.volume.rate = 0.0071;
   c.optimizer = {.iterations = 47,
                  .velocity = VelocityKind::harmonic,
                  .velocity_length = 2.3,
@@ -133,6 +134,7 @@ TEST(LoopOfACase, HasItsOptions) {
   EXPECT_EQ(options.measure_control, MeasureControl::exact);
   const double ring = std::numbers::pi * (0.37 * 0.37 - 0.21 * 0.21);
   EXPECT_NEAR(*options.target_measure, 0.43 * ring / 12, tiny);
+  EXPECT_EQ(options.measure_rate, 0.0071);
   EXPECT_NEAR(*optimizer_options<3>(c).target_measure, 0.43 * ring / 12 * 0.125, tiny);
   const EvolutionOptions evolution = evolution_options(c);
   EXPECT_EQ(evolution.velocity.kind, ExtensionKind::harmonic);

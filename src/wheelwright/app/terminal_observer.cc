@@ -52,7 +52,7 @@ void TerminalObserver<dim>::show(const TrialDone<dim>& done, const RunView<dim>&
   progress_.show({.shape = state.iteration,
                   .n_shapes = run.study.optimizer.iterations,
                   .objective = state.evaluation.function("objective").value,
-                  .initial_objective = state.history.front(),
+                  .initial_objective = run.initial->objective,
                   .volume_fraction = volume_fraction(grid, state.measure),
                   .step = trial.step * grid.resolution(),
                   .elapsed_seconds = run.elapsed_seconds});

@@ -102,6 +102,7 @@ enum class VolumeControl {
 struct Volume {
   VolumeControl control = VolumeControl::exact;
   std::optional<double> target;  ///< material as a fraction of the ring; absent: that of the initial shape
+  double rate = 0.01;  ///< largest change on the way to the target, per shape, as a fraction of the ring
   bool operator==(const Volume&) const = default;
 };
 

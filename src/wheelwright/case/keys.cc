@@ -328,12 +328,19 @@ const Section<Volume>& volume_section() {
           {.name = "control",
            .unit = "",
            .field = choice<&Volume::control>({"exact", "paper"}),
-           .meaning = "exact: every shape has the target volume; paper: the rule lambda_k of section 4.2, "
+           .meaning = "exact: every shape has the target volume, once it is reached; paper: the rule "
+                      "lambda_k of section 4.2, "
                       "which lets the volume drift"},
           {.name = "target",
            .unit = "",
            .field = OptionalNumberField<Volume>{&Volume::target, above(0, 1), "that of the initial shape"},
-           .meaning = "material as a fraction of the ring"}}};
+           .meaning = "material as a fraction of the ring; the run moves the volume there from that of the "
+                      "initial shape"},
+          {.name = "rate",
+           .unit = "",
+           .field = NumberField<Volume>{&Volume::rate, above(0, 1)},
+           .meaning = "on the way to the target the volume changes by at most this fraction of the ring per "
+                      "shape; only with control = \"exact\""}}};
   return section;
 }
 
