@@ -315,14 +315,41 @@ TEST(ShapeOptimizer, HalvesTheStepWhereTheEvaluationFails) {
   EXPECT_LT(outcome.state->evaluation.function("objective").value, outcome.state->history.front());
 }
 
+/// The bowl at shapes whose values differ from the first one's by no more than this, a failure elsewhere.
+auto bowl_near_the_first(double farthest) {
+  return
+      [farthest, first = std::vector<double>()](const LevelSet<2>& psi) mutable -> Expected<Evaluation<2>> {
+        if (first.empty()) first = psi.values;
+        double change = 0;
+        for (std::size_t k = 0; k < first.size(); ++k)
+          change = std::max(change, std::abs(psi.values[k] - first[k]));
+        if (change > farthest) return Failure{FailureReason::no_contact, "too far"};
+        return evaluate_bowl(psi);
+      };
+}
+
 TEST(ShapeOptimizer, GivesUpWhereEveryTrialFails) {
-  int calls = 0;
-  const auto only_once = [&calls](const LevelSet<2>& psi) -> Expected<Evaluation<2>> {
-    if (calls++ > 0) return Failure{FailureReason::no_contact, ""};
+  OptimizerOptions options;
+  options.max_halvings = 3;
+  const ShapeOptimizer<2> optimizer(
+      lattice, evolution, options,
+      wheelwright::testing::objective_of_shape<2>(bowl_near_the_first(0.05 * h)));
+  Record record;
+  const auto outcome = optimize<2>(optimizer, displaced_hole(), record.observer(), never);
+  EXPECT_EQ(outcome.reason, StopReason::gave_up);
+  EXPECT_EQ(outcome.state->iteration, 0);
+  ASSERT_EQ(record.trials.size(), 5u);
+  EXPECT_EQ(record.trials.back().step, options.step / 8);
+}
+
+// A failure of the shape that does not move is no matter of the step.
+TEST(ShapeOptimizer, HalvesTheStepInVainOnlyWhereTheShapeAtRestCanBeComputed) {
+  const auto only_once = [calls = 0](const LevelSet<2>& psi) mutable -> Expected<Evaluation<2>> {
+    if (calls++ > 0) return Failure{FailureReason::no_contact, "nothing there"};
     return evaluate_bowl(psi);
   };
   OptimizerOptions options;
-  options.max_halvings = 3;
+  options.max_halvings = 20;
   const ShapeOptimizer<2> optimizer(lattice, evolution, options,
                                     wheelwright::testing::objective_of_shape<2>(only_once));
   Record record;
@@ -330,7 +357,30 @@ TEST(ShapeOptimizer, GivesUpWhereEveryTrialFails) {
   EXPECT_EQ(outcome.reason, StopReason::gave_up);
   EXPECT_EQ(outcome.state->iteration, 0);
   ASSERT_EQ(record.trials.size(), 5u);
-  EXPECT_EQ(record.trials.back().step, options.step / 8);
+  const Trial<2>& last = record.trials.back();
+  EXPECT_EQ(last.step, 0);
+  EXPECT_EQ(last.halvings, 3);
+  EXPECT_EQ(last.failure->reason, FailureReason::no_contact);
+  EXPECT_TRUE(last.failure->detail.starts_with("nothing there"));
+}
+
+// Shapes that were evaluated, and rejected, do not make up for one that cannot be.
+TEST(ShapeOptimizer, GivesUpWhereTheShapeAtRestFailsAfterARise) {
+  const auto worse_then_none = [calls = 0](const LevelSet<2>& psi) mutable -> Expected<Evaluation<2>> {
+    if (calls > 2) return Failure{FailureReason::newton_stalled, "no way"};
+    auto evaluation = evaluate_bowl(psi);
+    evaluation.functions[0].value += 0.1 * calls++ * std::abs(evaluation.functions[0].value);
+    return evaluation;
+  };
+  const ShapeOptimizer<2> optimizer(lattice, evolution, {},
+                                    wheelwright::testing::objective_of_shape<2>(worse_then_none));
+  Record record;
+  const auto outcome = optimize<2>(optimizer, displaced_hole(), record.observer(), never);
+  EXPECT_EQ(outcome.reason, StopReason::gave_up);
+  ASSERT_EQ(record.trials.size(), 5u);
+  EXPECT_EQ(record.trials[1].verdict, Verdict::objective_rose);
+  EXPECT_EQ(record.trials[2].verdict, Verdict::objective_rose);
+  EXPECT_EQ(record.trials[4].step, 0);
 }
 
 TEST(ShapeOptimizer, RejectsARiseOfTheObjective) {

@@ -42,8 +42,8 @@ template <int dim>
 void TerminalObserver<dim>::show(const TrialDone<dim>& done, const RunView<dim>& run) {
   const auto& [trial, state, seconds] = done;
   if (trial.verdict != Verdict::accepted) {
-    progress_.note(
-        fmt::format("shape {}: {}, step {:.3g} cells halved", trial.iteration, reason(trial), trial.step));
+    const std::string halved = trial.step > 0 ? fmt::format(", step {:.3g} cells halved", trial.step) : "";
+    progress_.note(fmt::format("shape {}: {}{}", trial.iteration, reason(trial), halved));
     return;
   }
   for (const auto& event : trial.events)

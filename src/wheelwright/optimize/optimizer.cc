@@ -19,6 +19,7 @@ constexpr double step_growth = 1.5;
 constexpr double step_reduction = 0.5;
 constexpr std::size_t convergence_window = 10;
 constexpr int max_removals = 4;
+constexpr int halvings_before_rest = 2;  // they mend most failures; then the step 0 tells whether others can
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -204,7 +205,7 @@ std::optional<StopReason> ShapeOptimizer<dim>::advance(OptimizationState<dim>& s
     return StopReason::gave_up;
   }
   if (largest_magnitude(*velocity) == 0) return StopReason::no_descent;
-  bool all_failed = true;
+  bool all_failed = true, is_sound = false;
   for (int halvings = 0; halvings <= options_.max_halvings; ++halvings) {
     const double step = state.step * std::pow(step_reduction, halvings);
     const Trial<dim> trial = attempt(state, *velocity, step, halvings);
@@ -214,8 +215,27 @@ std::optional<StopReason> ShapeOptimizer<dim>::advance(OptimizationState<dim>& s
     if (trial.verdict == Verdict::accepted) return std::nullopt;
     all_failed = all_failed && trial.verdict == Verdict::failed;
     if (stop_requested()) return StopReason::stop_requested;
+    if (trial.verdict == Verdict::failed && halvings >= halvings_before_rest && !is_sound) {
+      const Trial<dim> at_rest = attempt_at_rest(state, *velocity, halvings + 1);
+      if (was_interrupted(at_rest)) return StopReason::stop_requested;
+      is_sound = !at_rest.failure;
+      if (is_sound) continue;
+      observer(at_rest, state);
+      return StopReason::gave_up;
+    }
   }
   return all_failed ? StopReason::gave_up : StopReason::no_descent;
+}
+
+/// A trial of the step 0: what fails there fails with every smaller step.
+template <int dim>
+Trial<dim> ShapeOptimizer<dim>::attempt_at_rest(const OptimizationState<dim>& state,
+                                                std::span<const double> velocity, int halvings) const {
+  Trial<dim> trial = attempt(state, velocity, 0, halvings);
+  if (trial.failure)
+    trial.failure->detail +=
+        "; it fails even where the boundary does not move, so that no smaller step helps";
+  return trial;
 }
 
 template <int dim>

@@ -77,7 +77,7 @@ template <int dim>
 struct Trial {
   int iteration;        ///< number of the shape that it wants to become; 0 for the initial shape
   int halvings;         ///< of the step, so far, for this iteration
-  double step;          ///< [cells]; 0 for the initial shape
+  double step;          ///< [cells]; 0 for the initial shape, and where the boundary was not to move
   double max_velocity;  ///< fastest node, in units of the gradient density; 0 for the initial shape
   double evolution_seconds;
   LevelSet<dim> shape;  ///< as far as it could be built; at worst the last accepted one
@@ -96,7 +96,8 @@ enum class StopReason {
   iterations,      ///< the number asked for is done
   converged,       ///< the objective hardly decreases any more
   no_descent,      ///< shapes were evaluated, but none, with the step halved max_halvings times, is better
-  gave_up,         ///< no step, halved max_halvings times, gave a shape that could be evaluated
+  gave_up,         ///< no step, halved max_halvings times, gave a shape that could be evaluated, or not
+                   ///< even the step 0 did
   failed_start,    ///< the initial shape could not be evaluated
   stop_requested,  ///< by the caller
 };
@@ -179,6 +180,8 @@ class ShapeOptimizer {
   using MadeCells = std::optional<CutDomain<dim>>;  ///< of the trial's shape; empty: not made yet
   Trial<dim> attempt(const OptimizationState<dim>& state, std::span<const double> velocity, double step,
                      int halvings) const;
+  Trial<dim> attempt_at_rest(const OptimizationState<dim>& state, std::span<const double> velocity,
+                             int halvings) const;
   MadeCells evolve(const OptimizationState<dim>& state, std::span<const double> velocity,
                    Trial<dim>& trial) const;
   MadeCells finish(Trial<dim>& trial, std::optional<double> target, double boundary_measure) const;
