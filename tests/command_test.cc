@@ -315,7 +315,7 @@ std::vector<std::string> column_of(const fs::path& run, const std::string& name)
   return cells;
 }
 
-TEST_F(RunTest, NewWeightsMayAddACriterion) {
+TEST_F(RunTest, NewWeightsMayAddAFunctional) {
   Case c = the_case(small_case(6));
   CommandQueue commands;
   Recorder::Record record;

@@ -112,7 +112,7 @@ TEST(ModelOfACase, HoldsTheTravelWhenOneIsGiven) {
   EXPECT_EQ(rolling_model<2>(c).travel, 0.0019);
 }
 
-TEST(ModelOfACase, CondensesTheAnnulusOfItsCriterion) {
+TEST(ModelOfACase, CondensesTheAnnulusOfItsFunctional) {
   Case c = uneven_case();
   c.objective.uniformity_annulus = 1;
   c.objective.annulus = 3 * (0.37 - 0.21) / 16;
@@ -176,7 +176,7 @@ TEST(ShapeOfACase, HasItsHole) {
   expect_the_hole<3>(initial_shape<3>(uneven_case()));
 }
 
-TEST(ObjectiveOfACase, IsTheWeightedSumOfItsCriteria) {
+TEST(ObjectiveOfACase, IsTheWeightedSumOfItsFunctionals) {
   Case c = uneven_case();
   c.objective.strain_energy = 2;
   c.objective.uniformity_dual = 30;
@@ -235,7 +235,7 @@ TEST(ObjectiveOfACase, ComparesWithThePreviousMeanWhenItIsHeld) {
   ASSERT_TRUE(own && compared);
   EXPECT_EQ(held(other, nullptr)->evaluation.function("objective").value,
             own->evaluation.function("objective").value);
-  // The own mean is the best one in the norm of the criterion.
+  // The own mean is the best one in the norm of the functional.
   EXPECT_GT(compared->evaluation.function("objective").value, own->evaluation.function("objective").value);
   const auto direct =
       evaluate<2>(*study->solver, study->functions, other, &first->evaluation.mean_observations);

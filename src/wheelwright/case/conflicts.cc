@@ -260,8 +260,8 @@ void check_expectations(const Case& c, Conflicts& found) {
   for (std::size_t i = 0; i < c.expectations.size(); ++i) {
     const Expectation& expectation = c.expectations[i];
     const auto key = [&](std::string_view name) { return fmt::format("expect[{}].{}", i + 1, name); };
-    const auto criterion = computed.find(expectation.quantity);
-    if (criterion != computed.end() && !criterion->second)
+    const auto functional = computed.find(expectation.quantity);
+    if (functional != computed.end() && !functional->second)
       found.push_back({{key("quantity"), fmt::format("objective.{}", name(expectation.quantity))},
                        "it has no weight in the objective, so the run does not compute it",
                        "give it a weight, however small, or expect another quantity"});

@@ -275,7 +275,8 @@ const Section<Objective>& objective_section() {
   static const Section<Objective> section{
       .name = "objective",
       .meaning =
-          "weights of the criteria in the objective J, which is summed over all load positions and minimized",
+          "weights of the functionals in the objective J, which is summed over all load positions and "
+          "minimized",
       .in = [](Case& c) -> Objective& { return c.objective; },
       .keys = {
           {.name = "strain_energy",
@@ -295,7 +296,7 @@ const Section<Objective>& objective_section() {
           {.name = "uniformity_l2",
            .unit = "",
            .field = NumberField<Objective>{&Objective::uniformity_l2, between(0, 1e9)},
-           .meaning = "weight of J_p (4), the naive uniformity criterion; for comparison"},
+           .meaning = "weight of J_p (4), the naive uniformity functional; for comparison"},
           {.name = "annulus_matches_dual",
            .unit = "",
            .field = OptionalNumberField<Objective>{&Objective::annulus_matches_dual, above(0, 1e9),
