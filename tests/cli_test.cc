@@ -422,7 +422,7 @@ std::size_t n_pieces(const std::filesystem::path& file) {
 
 // Far too little material is asked for: the holes grow until there is nothing left that holds the tread.
 TEST_F(CommandLine, ARunThatGivesUpIsThreeAndLeavesWhatIsNeededToSeeWhy) {
-  std::ofstream(folder() / "c.toml") << case_with_thin_spokes("control = \"paper\"\ntarget = 0.2", 1);
+  std::ofstream(folder() / "c.toml") << case_with_thin_spokes("control = \"paper\"\ntarget = 0.24", 1);
   const Outcome run = wheelwright(fmt::format("run {} --output {}", in_folder("c.toml"), in_folder("run")));
   EXPECT_EQ(run.code, exit_no_solution);
   EXPECT_NE(run.output.find((folder() / "run/failure/report.txt").string()), std::string::npos) << run.output;
@@ -437,7 +437,7 @@ TEST_F(CommandLine, ARunThatGivesUpIsThreeAndLeavesWhatIsNeededToSeeWhy) {
 
 // It goes on from the last accepted shape, tries the next as before and fails as before.
 TEST_F(CommandLine, ResumeOfARunThatGaveUpGivesUpTheSame) {
-  std::ofstream(folder() / "c.toml") << case_with_thin_spokes("control = \"paper\"\ntarget = 0.2", 1);
+  std::ofstream(folder() / "c.toml") << case_with_thin_spokes("control = \"paper\"\ntarget = 0.24", 1);
   ASSERT_EQ(wheelwright("run c.toml --output run", folder()).code, exit_no_solution);
   const auto before = results(folder() / "run");
   ASSERT_TRUE(before.contains("failure/report.txt"));
@@ -449,7 +449,7 @@ TEST_F(CommandLine, ResumeOfARunThatGaveUpGivesUpTheSame) {
 }
 
 TEST_F(CommandLine, AnInitialShapeThatFallsApartIsThreeAndIsDrawn) {
-  std::ofstream(folder() / "c.toml") << case_with_thin_spokes("target = 0.3", 1);
+  std::ofstream(folder() / "c.toml") << case_with_thin_spokes("target = 0.3\nrate = 1", 1);
   const Outcome run = wheelwright(fmt::format("run {} --output {}", in_folder("c.toml"), in_folder("run")));
   EXPECT_EQ(run.code, exit_no_solution);
   for (const char* file : {"report.txt", "rejected.svg", "rejected.levelset"})
