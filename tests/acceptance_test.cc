@@ -2,6 +2,7 @@
 
 #include "tests/support.h"
 #include "wheelwright/cut/measure.h"
+#include "wheelwright/evolution/volume.h"
 #include "wheelwright/geometry/shapes.h"
 #include "wheelwright/optimize/optimizer.h"
 
@@ -37,8 +38,10 @@ struct ScriptedRun {
 };
 
 ScriptedRun run_with(std::vector<double> objectives, int iterations,
-                     MeasureControl control = MeasureControl::exact) {
+                     MeasureControl control = MeasureControl::exact,
+                     std::optional<double> target_measure = {}) {
   OptimizerOptions options;
+  options.target_measure = target_measure;
   options.iterations = iterations;
   options.accepted_increase = 0.01;
   options.tolerance = 0;
@@ -92,6 +95,17 @@ TEST(Acceptance, TheStepFollowsTheVerdicts) {
   const ScriptedRun r = run_with({1, 1.005, 0.9, 0.95, 0.89, 0.88, 0.87}, 5);
   EXPECT_EQ(r.verdicts, (std::vector{accepted, accepted, accepted, rose, accepted, accepted, accepted}));
   EXPECT_EQ(r.steps, (std::vector<double>{0, 0.5, 0.25, 0.375, 0.1875, 0.28125, 0.421875}));
+}
+
+// Two and a half shapes of the rate away: objectives are compared from the third shape on, with the third.
+TEST(Acceptance, ObjectivesAtOtherMeasuresAreNotCompared) {
+  const double target =
+      material_measure(one_hole()) - 2.5 * OptimizerOptions().measure_rate * sector_measure<2>(grid);
+  const ScriptedRun r = run_with({1, 1.1, 0.9, 1.3, 1.32, 1.31, 1.2}, 5, MeasureControl::exact, target);
+  EXPECT_EQ(r.verdicts, (std::vector{accepted, accepted, accepted, accepted, rose, accepted, accepted}));
+  EXPECT_EQ(r.state.history, (std::vector<double>{1.3, 1.31, 1.2}));
+  EXPECT_EQ(r.state.history_begin, 3);
+  EXPECT_EQ(r.steps, (std::vector<double>{0, 0.5, 0.5, 0.5, 0.5, 0.25, 0.125}));
 }
 
 }  // namespace

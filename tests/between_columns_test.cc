@@ -31,7 +31,7 @@ RollingModel<2> model_with(int n_positions, int levels = 1, int rows = 1) {
   return model;
 }
 
-WeightedSum<2> uniformity_criteria(const StateSolver<2>& solver) {
+WeightedSum<2> uniformity_functionals(const StateSolver<2>& solver) {
   auto image = solver.neumann_to_dirichlet();
   EXPECT_TRUE(image);
   return {{1, std::make_shared<UniformityL2<2>>(0.01)},
@@ -143,7 +143,7 @@ TEST(BetweenColumns, GradientsPassTheTaylorTest) {
     const auto problem = RollingProblem<2>::create(model_with(n_positions));
     ASSERT_TRUE(problem);
     ASSERT_FALSE(problem->all_positions().stand_on_columns());
-    auto objective = uniformity_criteria(*problem);
+    auto objective = uniformity_functionals(*problem);
     objective.push_back({1, std::make_shared<StrainEnergy<2>>()});
     for (const auto& term : objective) {
       const auto test = testing::generic_taylor_test(*problem, {term});
@@ -160,7 +160,7 @@ TEST(BetweenColumns, AHeldMeanPassesTheTaylorTest) {
   const auto earlier = all_states<2>(*problem, testing::paper_holes(problem->model().grid));
   ASSERT_TRUE(earlier);
   const Matrix held = mean_observations(problem->tread_surface(), **earlier);
-  for (const auto& term : uniformity_criteria(*problem)) {
+  for (const auto& term : uniformity_functionals(*problem)) {
     const auto test = taylor_test<2>(
         [&](const LevelSet<2>& shape) { return evaluate_objective<2>(*problem, {term}, shape, &held); }, psi,
         testing::smooth_direction(psi.lattice), 2, 2e-5, 3);
@@ -201,7 +201,7 @@ TEST(BetweenColumns, TheDerivativeOfTheMeanCounts) {
 }
 
 // A ring without holes rolls evenly. Positions in the middle of a column see other points of the tread, so
-// that its criteria are not zero but tend to zero with the cells.
+// that its functionals are not zero but tend to zero with the cells.
 TEST(BetweenColumns, AUniformRingTendsToBeUniform) {
   const auto values = [](int refinement) {
     auto model = model_with(8 * refinement, 1, refinement);
@@ -214,8 +214,8 @@ TEST(BetweenColumns, AUniformRingTendsToBeUniform) {
     EXPECT_TRUE(s);
     const Matrix mean = mean_observations(problem->tread_surface(), **s);
     std::vector<double> result;
-    for (const auto& [weight, criterion] : uniformity_criteria(*problem))
-      result.push_back(value_of<2>(*criterion, *problem, solid, **s, mean) / model.n_positions);
+    for (const auto& [weight, functional] : uniformity_functionals(*problem))
+      result.push_back(value_of<2>(*functional, *problem, solid, **s, mean) / model.n_positions);
     return result;
   };
   const auto coarse = values(1), fine = values(2);
@@ -233,7 +233,7 @@ TEST(BetweenColumns, TheDualNormIsThatOfAGridThatFits) {
     const auto s = all_states<2>(*problem, psi);
     EXPECT_TRUE(s);
     const Matrix mean = mean_observations(problem->tread_surface(), **s);
-    return value_of<2>(*uniformity_criteria(*problem)[2].functional, *problem, psi, **s, mean);
+    return value_of<2>(*uniformity_functionals(*problem)[2].functional, *problem, psi, **s, mean);
   };
   const double between = dual_of(192), fitting = dual_of(256);
   EXPECT_NEAR(between, fitting, 0.02 * fitting);

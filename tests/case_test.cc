@@ -680,6 +680,29 @@ TEST(Conflicts, HolesMayTouchTheBandsButNotEnterThem) {
   EXPECT_EQ(conflicts(c).size(), 1u);
 }
 
+// The bands of the default grid are one and two of its cells, 5 mm each, of a ring from 200 to 340 mm.
+TEST(Conflicts, TheTargetVolumeLiesBetweenTheBandsAndAFullRing) {
+  Case c;
+  c.holes.rings = {{.count = 16, .center_radius = 0.27, .radius = 0.03, .phase = {}}};
+  c.optimizer.rim_band = 0.005;
+  c.optimizer.tread_band = 0.010;
+  const double bands =
+      (0.205 * 0.205 - 0.20 * 0.20 + 0.34 * 0.34 - 0.33 * 0.33) / (0.34 * 0.34 - 0.20 * 0.20);
+  const double one_cell = 16.0 / (28 * 384);
+  for (const auto& [target, is_possible] : {std::pair{bands - 1e-9, false},
+                                            {bands + 1e-9, true},
+                                            {1 - one_cell - 1e-9, true},
+                                            {1.0, false},
+                                            {1 - one_cell + 1e-9, false}}) {
+    c.volume.target = target;
+    EXPECT_EQ(conflicts(c).empty(), is_possible) << target;
+  }
+  c.volume.target = 0.5;
+  EXPECT_TRUE(conflicts(c).empty());
+  c.holes = {};
+  EXPECT_EQ(conflicts(c).size(), 1u);
+}
+
 TEST(Conflicts, NitscheNeedsALargeGammaForThetaZeroAndOneOnly) {
   for (const auto& [theta, enough, too_small] : {std::tuple{0.0, 10.0, 9.9}, std::tuple{1.0, 100.0, 99.0}}) {
     Case c;

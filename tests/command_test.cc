@@ -1,6 +1,7 @@
 #include <atomic>
 #include <ctime>
 #include <thread>
+#include <utility>
 
 #include "tests/run_support.h"
 #include "wheelwright/base/stopwatch.h"
@@ -314,7 +315,7 @@ std::vector<std::string> column_of(const fs::path& run, const std::string& name)
   return cells;
 }
 
-TEST_F(RunTest, NewWeightsMayAddACriterion) {
+TEST_F(RunTest, NewWeightsMayAddAFunctional) {
   Case c = the_case(small_case(6));
   CommandQueue commands;
   Recorder::Record record;
@@ -441,6 +442,18 @@ TEST(CommandQueue, KeepsTheOrderAndAsksItsSources) {
   EXPECT_EQ(queue.waiting_stops(), 0);
   EXPECT_TRUE(std::holds_alternative<Save>(*queue.take()));
   EXPECT_FALSE(queue.take());
+}
+
+// However short ago the others were asked: a stop that waits when a run begins is known from the beginning.
+TEST(CommandQueue, ANewSourceIsAskedAtOnce) {
+  CommandQueue queue;
+  EXPECT_EQ(queue.waiting_stops(), 0);
+  for (int stops = 1; stops <= 2; ++stops) {
+    queue.add_source([is_asked = false]() mutable -> std::optional<Command> {
+      return std::exchange(is_asked, true) ? std::nullopt : std::optional<Command>(Stop{});
+    });
+    EXPECT_EQ(queue.waiting_stops(), stops);
+  }
 }
 
 TEST(CommandQueue, LosesNothingBetweenThreads) {

@@ -81,7 +81,7 @@ void expect_the_same_of_all(const RollingModel<dim>& model, const WeightedSum<di
             1e-6);
 }
 
-WeightedSum<2> all_criteria(const RollingModel<2>& model) {
+WeightedSum<2> all_functionals(const RollingModel<2>& model) {
   auto image = RollingProblem<2>::create(model)->neumann_to_dirichlet();
   EXPECT_TRUE(image);
   return {{1, std::make_shared<StrainEnergy<2>>()},
@@ -129,12 +129,12 @@ TEST(MirrorSymmetry, PositionsWithoutImagesStandForAll) {
   }
 }
 
-TEST(MirrorSymmetry, HalfOfThePositionsGiveAllCriteriaAndTheirGradient) {
+TEST(MirrorSymmetry, HalfOfThePositionsGiveAllFunctionalsAndTheirGradient) {
   for (const int levels : {0, 2}) {
     auto model = paper_model(14, 192);
     model.tread = {1, levels, 3};
     model.n_positions = 4;
-    expect_the_same_of_all(model, all_criteria(model), symmetric_holes(model.grid), 3);
+    expect_the_same_of_all(model, all_functionals(model), symmetric_holes(model.grid), 3);
   }
 }
 
@@ -143,7 +143,7 @@ TEST(MirrorSymmetry, OddNumbersOfColumnsAndPositions) {
   auto model = paper_model(14, 16 * 15);
   model.tread = {1, 1, 3};
   model.n_positions = 5;
-  expect_the_same_of_all(model, all_criteria(model), symmetric_holes(model.grid), 3);
+  expect_the_same_of_all(model, all_functionals(model), symmetric_holes(model.grid), 3);
 }
 
 // With 8 positions on 12 columns, points of the tread meet the edges of its faces.
@@ -153,7 +153,7 @@ TEST(MirrorSymmetry, PositionsBetweenColumns) {
       auto model = paper_model(14, 192);
       model.tread = {1, levels, 3};
       model.n_positions = n;
-      expect_the_same_of_all(model, all_criteria(model), symmetric_holes(model.grid), n / 2 + 1);
+      expect_the_same_of_all(model, all_functionals(model), symmetric_holes(model.grid), n / 2 + 1);
     }
 }
 
@@ -186,7 +186,7 @@ TEST(MirrorSymmetry, GradientPassesTheTaylorTest) {
   model.n_positions = 4;
   const auto problem = RollingProblem<2>::create(model);
   ASSERT_TRUE(problem);
-  const auto objective = all_criteria(model);
+  const auto objective = all_functionals(model);
   const auto psi = holes(model.grid, 2, {{0.2681, 0.5 * model.grid.sector_angle(), 0.0373}});
   const auto test = taylor_test<2>(
       [&](const LevelSet<2>& shape) { return testing::evaluate_objective<2>(*problem, objective, shape); },

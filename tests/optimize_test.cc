@@ -5,6 +5,7 @@
 
 #include "tests/support.h"
 #include "wheelwright/cut/measure.h"
+#include "wheelwright/evolution/volume.h"
 #include "wheelwright/geometry/cell_map.h"
 #include "wheelwright/geometry/shapes.h"
 #include "wheelwright/optimize/optimizer.h"
@@ -167,6 +168,99 @@ TEST(ShapeOptimizer, ReachesAGivenMeasure) {
     EXPECT_NEAR(trial.measure, *options.target_measure, 1e-6 * trial.measure);
 }
 
+// J falls with the measure here: on the way up it rises from shape to shape.
+TEST(ShapeOptimizer, ReachesAFarMeasureByItsRateAndThenOptimizes) {
+  const double whole = sector_measure<2>(grid), initial = material_measure(displaced_hole());
+  for (const double target : {initial - 0.083 * whole, initial + 0.047 * whole}) {
+    OptimizerOptions options;
+    options.iterations = 40;
+    options.target_measure = target;
+    options.measure_rate = 0.02;
+    options.tolerance = 1;  // as soon as there are objectives to compare
+    const ShapeOptimizer<2> optimizer(lattice, evolution, options,
+                                      wheelwright::testing::objective_of_shape<2>(bowl_objective));
+    Record record;
+    const auto outcome = optimize<2>(optimizer, displaced_hole(), record.observer(), never);
+    const double most = options.measure_rate * whole;
+    const int arrival = static_cast<int>(std::ceil(std::abs(target - initial) / most));
+    EXPECT_NEAR(record.trials[0].measure, initial, 1e-12 * whole);
+    for (int k = 0; k <= arrival; ++k) {
+      const Trial<2>& trial = record.trials[k];
+      ASSERT_EQ(trial.verdict, Verdict::accepted);
+      EXPECT_EQ(trial.iteration, k);
+      const double reached = std::min(k * most, std::abs(target - initial));
+      EXPECT_NEAR(trial.measure, initial + std::copysign(reached, target - initial), 1e-5 * initial);
+    }
+    for (std::size_t k = arrival; k < record.trials.size(); ++k) {
+      EXPECT_NEAR(record.trials[k].measure, target, 1e-6 * target);
+    }
+    const auto objective = [&](int k) { return record.trials[k].evaluation->function("objective").value; };
+    EXPECT_EQ(objective(arrival) > objective(0), target > initial);
+    EXPECT_EQ(outcome.reason, StopReason::converged);
+    EXPECT_EQ(outcome.state->history_begin, arrival);
+    EXPECT_EQ(outcome.state->history.front(), objective(arrival));
+    EXPECT_EQ(outcome.state->iteration, arrival + 10);
+    EXPECT_LT(outcome.state->history.back(), outcome.state->history.front());
+  }
+}
+
+// What fails where the measure changes quickly may succeed where it changes slowly; the failure names the
+// key.
+TEST(ShapeOptimizer, MovesTheMeasureInProportionToTheStep) {
+  const double whole = sector_measure<2>(grid), initial = material_measure(displaced_hole());
+  double last = initial;
+  const auto brittle = [&last, whole](const LevelSet<2>& psi) -> Expected<Evaluation<2>> {
+    const double measure = material_measure(psi);
+    if (std::abs(measure - last) > 0.006 * whole) return Failure{FailureReason::newton_stalled, "too much"};
+    last = measure;
+    return evaluate_bowl(psi);
+  };
+  OptimizerOptions options;
+  options.iterations = 6;
+  options.target_measure = initial - 0.1 * whole;
+  const ShapeOptimizer<2> optimizer(lattice, evolution, options,
+                                    wheelwright::testing::objective_of_shape<2>(brittle));
+  Record record;
+  const auto outcome = optimize<2>(optimizer, displaced_hole(), record.observer(), never);
+  EXPECT_EQ(outcome.reason, StopReason::iterations);
+  EXPECT_TRUE(is_approaching(options, *outcome.state));
+  double before = initial;
+  int failures = 0;
+  for (const auto& trial : record.trials) {
+    EXPECT_NEAR(before - trial.measure, options.measure_rate * whole * trial.step / options.step,
+                1e-5 * whole);
+    if (trial.verdict == Verdict::accepted)
+      before = trial.measure;
+    else
+      ++failures;
+    if (trial.failure) {
+      EXPECT_NE(trial.failure->detail.find("volume.target"), std::string::npos);
+    }
+  }
+  EXPECT_GE(failures, 2);
+}
+
+// A target that the first shape reaches, and does not survive.
+TEST(ShapeOptimizer, NamesTheTargetOfAFailedStart) {
+  const double initial = material_measure(displaced_hole());
+  const auto brittle = [initial](const LevelSet<2>& psi) -> Expected<Evaluation<2>> {
+    if (material_measure(psi) < 0.995 * initial) return Failure{FailureReason::no_contact, ""};
+    return evaluate_bowl(psi);
+  };
+  OptimizerOptions options;
+  options.iterations = 0;
+  for (const double share : {0.99, 0.98}) {  // the second is not in reach
+    options.target_measure = share * initial;
+    const ShapeOptimizer<2> optimizer(lattice, evolution, options,
+                                      wheelwright::testing::objective_of_shape<2>(brittle));
+    const auto outcome = optimize<2>(optimizer, displaced_hole(), Record().observer(), never);
+    EXPECT_EQ(outcome.reason, share == 0.99 ? StopReason::failed_start : StopReason::iterations);
+    if (outcome.failure) {
+      EXPECT_NE(outcome.failure->detail.find("volume.target"), std::string::npos);
+    }
+  }
+}
+
 TEST(ShapeOptimizer, FollowsThePapersRule) {
   OptimizerOptions options;
   options.iterations = 18;  // later the growing holes would join all round
@@ -221,14 +315,41 @@ TEST(ShapeOptimizer, HalvesTheStepWhereTheEvaluationFails) {
   EXPECT_LT(outcome.state->evaluation.function("objective").value, outcome.state->history.front());
 }
 
+/// The bowl at shapes whose values differ from the first one's by no more than this, a failure elsewhere.
+auto bowl_near_the_first(double farthest) {
+  return
+      [farthest, first = std::vector<double>()](const LevelSet<2>& psi) mutable -> Expected<Evaluation<2>> {
+        if (first.empty()) first = psi.values;
+        double change = 0;
+        for (std::size_t k = 0; k < first.size(); ++k)
+          change = std::max(change, std::abs(psi.values[k] - first[k]));
+        if (change > farthest) return Failure{FailureReason::no_contact, "too far"};
+        return evaluate_bowl(psi);
+      };
+}
+
 TEST(ShapeOptimizer, GivesUpWhereEveryTrialFails) {
-  int calls = 0;
-  const auto only_once = [&calls](const LevelSet<2>& psi) -> Expected<Evaluation<2>> {
-    if (calls++ > 0) return Failure{FailureReason::no_contact, ""};
+  OptimizerOptions options;
+  options.max_halvings = 3;
+  const ShapeOptimizer<2> optimizer(
+      lattice, evolution, options,
+      wheelwright::testing::objective_of_shape<2>(bowl_near_the_first(0.05 * h)));
+  Record record;
+  const auto outcome = optimize<2>(optimizer, displaced_hole(), record.observer(), never);
+  EXPECT_EQ(outcome.reason, StopReason::gave_up);
+  EXPECT_EQ(outcome.state->iteration, 0);
+  ASSERT_EQ(record.trials.size(), 5u);
+  EXPECT_EQ(record.trials.back().step, options.step / 8);
+}
+
+// A failure of the shape that does not move is no matter of the step.
+TEST(ShapeOptimizer, HalvesTheStepInVainOnlyWhereTheShapeAtRestCanBeComputed) {
+  const auto only_once = [calls = 0](const LevelSet<2>& psi) mutable -> Expected<Evaluation<2>> {
+    if (calls++ > 0) return Failure{FailureReason::no_contact, "nothing there"};
     return evaluate_bowl(psi);
   };
   OptimizerOptions options;
-  options.max_halvings = 3;
+  options.max_halvings = 20;
   const ShapeOptimizer<2> optimizer(lattice, evolution, options,
                                     wheelwright::testing::objective_of_shape<2>(only_once));
   Record record;
@@ -236,7 +357,30 @@ TEST(ShapeOptimizer, GivesUpWhereEveryTrialFails) {
   EXPECT_EQ(outcome.reason, StopReason::gave_up);
   EXPECT_EQ(outcome.state->iteration, 0);
   ASSERT_EQ(record.trials.size(), 5u);
-  EXPECT_EQ(record.trials.back().step, options.step / 8);
+  const Trial<2>& last = record.trials.back();
+  EXPECT_EQ(last.step, 0);
+  EXPECT_EQ(last.halvings, 3);
+  EXPECT_EQ(last.failure->reason, FailureReason::no_contact);
+  EXPECT_TRUE(last.failure->detail.starts_with("nothing there"));
+}
+
+// Shapes that were evaluated, and rejected, do not make up for one that cannot be.
+TEST(ShapeOptimizer, GivesUpWhereTheShapeAtRestFailsAfterARise) {
+  const auto worse_then_none = [calls = 0](const LevelSet<2>& psi) mutable -> Expected<Evaluation<2>> {
+    if (calls > 2) return Failure{FailureReason::newton_stalled, "no way"};
+    auto evaluation = evaluate_bowl(psi);
+    evaluation.functions[0].value += 0.1 * calls++ * std::abs(evaluation.functions[0].value);
+    return evaluation;
+  };
+  const ShapeOptimizer<2> optimizer(lattice, evolution, {},
+                                    wheelwright::testing::objective_of_shape<2>(worse_then_none));
+  Record record;
+  const auto outcome = optimize<2>(optimizer, displaced_hole(), record.observer(), never);
+  EXPECT_EQ(outcome.reason, StopReason::gave_up);
+  ASSERT_EQ(record.trials.size(), 5u);
+  EXPECT_EQ(record.trials[1].verdict, Verdict::objective_rose);
+  EXPECT_EQ(record.trials[2].verdict, Verdict::objective_rose);
+  EXPECT_EQ(record.trials[4].step, 0);
 }
 
 TEST(ShapeOptimizer, RejectsARiseOfTheObjective) {

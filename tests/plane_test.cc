@@ -33,7 +33,7 @@ RollingModel<2> wheel_of(const Material& material) {
   return model;
 }
 
-WeightedSum<2> all_criteria(const RollingProblem<2>& problem) {
+WeightedSum<2> all_functionals(const RollingProblem<2>& problem) {
   auto image = problem.neumann_to_dirichlet();
   EXPECT_TRUE(image);
   return {{1, std::make_shared<StrainEnergy<2>>()},
@@ -42,14 +42,14 @@ WeightedSum<2> all_criteria(const RollingProblem<2>& problem) {
           {10, std::make_shared<UniformityDual<2>>(*std::move(image))}};
 }
 
-// The equations in the plane are the same: stiffness, ghost penalty, contact and criteria.
+// The equations in the plane are the same: stiffness, ghost penalty, contact and functionals.
 TEST(PlaneStress, IsPlaneStrainOfTheEquivalentMaterial) {
   const auto in_stress = RollingProblem<2>::create(wheel_of(sheet)),
              in_strain = RollingProblem<2>::create(wheel_of(sheet.plane_strain_equivalent()));
   ASSERT_TRUE(in_stress && in_strain);
   const LevelSet<2> psi = generic_hole(in_stress->model().grid);
-  const auto a = evaluate_objective<2>(*in_stress, all_criteria(*in_stress), psi),
-             b = evaluate_objective<2>(*in_strain, all_criteria(*in_strain), psi);
+  const auto a = evaluate_objective<2>(*in_stress, all_functionals(*in_stress), psi),
+             b = evaluate_objective<2>(*in_strain, all_functionals(*in_strain), psi);
   ASSERT_TRUE(a && b);
   const auto &objective = a->function("objective"), &other = b->function("objective");
   EXPECT_NEAR(objective.value, other.value, 1e-12 * other.value);
@@ -64,15 +64,16 @@ TEST(PlaneStress, IsPlaneStrainOfTheEquivalentMaterial) {
       if (!std::isnan(v.values[k])) EXPECT_NEAR(u.values[k], v.values[k], 1e-13);
     }
   }
-  const auto stresses = strain_peaks<2>(*in_stress, **s).von_mises, others = strain_peaks<2>(*in_strain, **t).von_mises;
+  const auto stresses = strain_peaks<2>(*in_stress, **s).von_mises,
+             others = strain_peaks<2>(*in_strain, **t).von_mises;
   for (size_t i = 0; i < stresses.size(); ++i) EXPECT_GT(stresses[i], 1.01 * others[i]);
 }
 
 TEST(PlaneStress, GradientsPassTheTaylorTest) {
   const auto problem = RollingProblem<2>::create(wheel_of(sheet));
   ASSERT_TRUE(problem);
-  const auto criteria = all_criteria(*problem);
-  for (const auto& term : criteria) {
+  const auto functionals = all_functionals(*problem);
+  for (const auto& term : functionals) {
     const auto test = testing::generic_taylor_test(*problem, {term});
     ASSERT_TRUE(test) << test.failure().detail;
     for (const double order : test->orders) EXPECT_GT(order, 1.9) << term.functional->name();

@@ -119,6 +119,16 @@ control = "paper"
                                   5);
 }
 
+// On the way to the target, at it, and after it: 81 % of the ring become 75 % in four shapes.
+TEST_F(Resume, AVolumeOnItsWayGoesOnTheSame) {
+  expect_the_same_from_every_stop(small_case(6, "[volume]\ntarget = 0.75\nrate = 0.02\n"), 6);
+  const auto history = split(content(folder() / "straight/run/history.csv"), '\n');
+  const auto header = split(history.front(), ',');
+  const auto column = std::ranges::find(header, "volume fraction [-]") - header.begin();
+  EXPECT_GT(std::stod(split(history[1], ',')[column]), 0.8);
+  EXPECT_NEAR(std::stod(split(history.back(), ',')[column]), 0.75, 1e-6);
+}
+
 TEST_F(Resume, KeepsTheLastTwoAndTakesTheOlderWhenTheNewestIsDamaged) {
   const fs::path straight = workplace("straight"), damaged = workplace("damaged");
   ASSERT_EQ(run(straight, small_case(8)), exit_done);

@@ -36,6 +36,7 @@ Case uneven_case() {
   c.ghost_penalty.xi = 0.37;
   c.objective.strain_energy = 41;
   c.volume.target = 0.43;
+  c.volume.rate = 0.0071;
   c.optimizer = {.iterations = 47,
                  .velocity = VelocityKind::harmonic,
                  .velocity_length = 2.3,
@@ -111,7 +112,7 @@ TEST(ModelOfACase, HoldsTheTravelWhenOneIsGiven) {
   EXPECT_EQ(rolling_model<2>(c).travel, 0.0019);
 }
 
-TEST(ModelOfACase, CondensesTheAnnulusOfItsCriterion) {
+TEST(ModelOfACase, CondensesTheAnnulusOfItsFunctional) {
   Case c = uneven_case();
   c.objective.uniformity_annulus = 1;
   c.objective.annulus = 3 * (0.37 - 0.21) / 16;
@@ -133,6 +134,7 @@ TEST(LoopOfACase, HasItsOptions) {
   EXPECT_EQ(options.measure_control, MeasureControl::exact);
   const double ring = std::numbers::pi * (0.37 * 0.37 - 0.21 * 0.21);
   EXPECT_NEAR(*options.target_measure, 0.43 * ring / 12, tiny);
+  EXPECT_EQ(options.measure_rate, 0.0071);
   EXPECT_NEAR(*optimizer_options<3>(c).target_measure, 0.43 * ring / 12 * 0.125, tiny);
   const EvolutionOptions evolution = evolution_options(c);
   EXPECT_EQ(evolution.velocity.kind, ExtensionKind::harmonic);
@@ -174,7 +176,7 @@ TEST(ShapeOfACase, HasItsHole) {
   expect_the_hole<3>(initial_shape<3>(uneven_case()));
 }
 
-TEST(ObjectiveOfACase, IsTheWeightedSumOfItsCriteria) {
+TEST(ObjectiveOfACase, IsTheWeightedSumOfItsFunctionals) {
   Case c = uneven_case();
   c.objective.strain_energy = 2;
   c.objective.uniformity_dual = 30;
@@ -233,7 +235,7 @@ TEST(ObjectiveOfACase, ComparesWithThePreviousMeanWhenItIsHeld) {
   ASSERT_TRUE(own && compared);
   EXPECT_EQ(held(other, nullptr)->evaluation.function("objective").value,
             own->evaluation.function("objective").value);
-  // The own mean is the best one in the norm of the criterion.
+  // The own mean is the best one in the norm of the functional.
   EXPECT_GT(compared->evaluation.function("objective").value, own->evaluation.function("objective").value);
   const auto direct =
       evaluate<2>(*study->solver, study->functions, other, &first->evaluation.mean_observations);

@@ -90,7 +90,7 @@ double pressure_spread(const Case& c, const LevelSet<2>& shape) {
   return (high - low) / (sum / static_cast<double>(solution->states.size()));
 }
 
-double criterion_value(const OptimizationState<2>& state, const std::string& name) {
+double functional_value(const OptimizationState<2>& state, const std::string& name) {
   for (const auto& value : state.evaluation.terms)
     if (value.name == name) return value.value;
   ADD_FAILURE() << name;
@@ -99,13 +99,13 @@ double criterion_value(const OptimizationState<2>& state, const std::string& nam
 
 // Figs 16 to 21: more weight on J_p2 makes the contact more even and the wheel softer; J_p2 falls
 // proportionally more than J_p1.
-TEST(PapersWheel, SlowUniformityCriteriaEvenOutTheContact) {
+TEST(PapersWheel, SlowUniformityFunctionalsEvenOutTheContact) {
   double last_spread = 1, last_energy = 0;
   for (const char* name : {"je", "jp2_10", "jp2_100", "jp2_1000"}) {
     const Case c = read(std::string("paper/uniform_") + name + ".toml");
     const Course run = optimize_case(c);
     const double spread = pressure_spread(c, run.last.shape);
-    const double energy = criterion_value(run.last, "strain_energy");
+    const double energy = functional_value(run.last, "strain_energy");
     EXPECT_LT(spread, last_spread) << name;
     EXPECT_GT(energy, last_energy) << name;
     EXPECT_LT(spread, 0.5 * pressure_spread(c, run.initial.shape)) << name;
@@ -115,7 +115,7 @@ TEST(PapersWheel, SlowUniformityCriteriaEvenOutTheContact) {
   const Course annulus = optimize_case(read("paper/uniform_jp1.toml")),
                dual = optimize_case(read("paper/uniform_jp2_100.toml"));
   const auto ratio = [](const Course& run, const std::string& name) {
-    return criterion_value(run.last, name) / criterion_value(run.initial, name);
+    return functional_value(run.last, name) / functional_value(run.initial, name);
   };
   EXPECT_LT(ratio(dual, "uniformity_dual"), ratio(annulus, "uniformity_annulus"));
 }

@@ -86,7 +86,8 @@ std::vector<std::string> warnings(const Case& c) {
     result.push_back(coarse_contact_warning(c, cells));
   if (wants_uniformity(c) && c.grid.angular_cells % total_load_positions(c) != 0)
     result.push_back(fmt::format(
-        "load positions between columns of cells see other points of the tread: the uniformity criteria also "
+        "load positions between columns of cells see other points of the tread: the uniformity functionals "
+        "also "
         "measure that; with grid.angular_cells a multiple of sectors * positions = {} they do not",
         total_load_positions(c)));
   if (c.holes.rings.empty() && c.holes.circles.empty())

@@ -97,6 +97,10 @@ void print_summary(const RunResult<dim>& result, const fs::path& folder) {
              result.elapsed_seconds, to_string(result.reason));
   fmt::print("volume     {:.6f} -> {:.6f} of the ring\n", volume_fraction(grid, first.measure),
              volume_fraction(grid, last.measure));
+  if (result.is_approaching)
+    fmt::print(
+        "           volume.target = {:.6g} is not reached: it takes more shapes, or a larger volume.rate\n",
+        volume_fraction(grid, last.target_measure));
   print_files(folder);
 }
 

@@ -53,8 +53,8 @@ template <int dim>
 void TerminalObserver<dim>::show(const TrialDone<dim>& done, const RunView<dim>& run) {
   const auto& [trial, state, seconds] = done;
   if (trial.verdict != Verdict::accepted) {
-    progress_.note(
-        fmt::format("shape {}: {}, step {:.3g} cells halved", trial.iteration, reason(trial), trial.step));
+    const std::string halved = trial.step > 0 ? fmt::format(", step {:.3g} cells halved", trial.step) : "";
+    progress_.note(fmt::format("shape {}: {}{}", trial.iteration, reason(trial), halved));
     return;
   }
   for (const auto& event : trial.events)
@@ -64,7 +64,7 @@ void TerminalObserver<dim>::show(const TrialDone<dim>& done, const RunView<dim>&
   progress_.show({.shape = state.iteration,
                   .n_shapes = run.study.optimizer.iterations,
                   .objective = state.evaluation.function("objective").value,
-                  .initial_objective = state.history.front(),
+                  .initial_objective = run.initial->objective,
                   .volume_fraction = volume_fraction(grid, state.measure),
                   .step = trial.step * grid.resolution(),
                   .elapsed_seconds = run.elapsed_seconds});

@@ -14,11 +14,11 @@ struct PhaseTime {
 /// The phases of one trial shape, in the order in which they come: the one place for their names.
 namespace phase {
 inline constexpr const char *cut = "cut", *assembly = "assembly", *factorization = "factorization",
-                            *contact = "contact", *recovery = "recovery", *criteria = "criteria",
+                            *contact = "contact", *recovery = "recovery", *functionals = "functionals",
                             *adjoint = "adjoint", *gradient = "gradient", *evolution = "evolution";
 }
 inline constexpr std::array<const char*, 9> phase_names{phase::cut,     phase::assembly, phase::factorization,
-                                                        phase::contact, phase::recovery, phase::criteria,
+                                                        phase::contact, phase::recovery, phase::functionals,
                                                         phase::adjoint, phase::gradient, phase::evolution};
 
 }  // namespace wheelwright

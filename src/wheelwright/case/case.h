@@ -75,18 +75,18 @@ struct Grid {
   bool operator==(const Grid&) const = default;
 };
 
-/// The mean contact stress p_mean (73) that the uniformity criteria compare with.
+/// The mean contact stress p_mean (73) that the uniformity functionals compare with.
 enum class MeanStress {
   exact,  ///< that of the shape itself
   held,   ///< that of the last accepted shape, as the paper does
 };
 
-/// Weights of the criteria in J, and parameters of the criteria.
+/// Weights of the functionals in J, and parameters of the functionals.
 struct Objective {
   double strain_energy = 1;
   double uniformity_annulus = 0;               ///< alpha_1 of J_p1
   double uniformity_dual = 0;                  ///< alpha_2 of J_p2
-  double uniformity_l2 = 0;                    ///< of the naive criterion (4)
+  double uniformity_l2 = 0;                    ///< of the naive functional (4)
   std::optional<double> annulus_matches_dual;  ///< alpha_2 from which (83) gives alpha_1
   std::optional<double> annulus;               ///< epsilon; absent: one radial cell
   std::optional<double> length;                ///< L; absent: epsilon
@@ -102,6 +102,7 @@ enum class VolumeControl {
 struct Volume {
   VolumeControl control = VolumeControl::exact;
   std::optional<double> target;  ///< material as a fraction of the ring; absent: that of the initial shape
+  double rate = 0.01;  ///< largest change on the way to the target, per shape, as a fraction of the ring
   bool operator==(const Volume&) const = default;
 };
 

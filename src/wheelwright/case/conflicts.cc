@@ -259,6 +259,34 @@ void check_objective(const Case& c, Conflicts& found) {
                    "give at least one weight > 0"});
 }
 
+constexpr double square(double x) { return x * x; }
+
+/// The bands at rim and tread stay material, and the rest of the ring is not full: a hole of one cell in
+/// every sector is the least.
+void check_volume(const Case& c, Conflicts& found) {
+  const Wheel& w = c.wheel;
+  const double low = w.inner_radius + rim_band(c), high = w.outer_radius - tread_band(c);
+  if (!c.volume.target || low >= high) return;
+  if (c.holes.rings.empty() && c.holes.circles.empty()) {
+    found.push_back({{"volume.target"},
+                     "there are no holes that could grow or shrink",
+                     "give holes, or leave the key out"});
+    return;
+  }
+  const double ring = square(w.outer_radius) - square(w.inner_radius);
+  const double least = 1 - (square(high) - square(low)) / ring;
+  const double most = 1 - double(w.sectors) / (double(c.grid.radial_cells) * c.grid.angular_cells);
+  if (*c.volume.target <= least)
+    found.push_back(
+        {with_ring_shape({"volume.target"}),
+         fmt::format("the bands at rim and tread, which stay material, are {:.6g} of the ring", least),
+         fmt::format("take more than {:.3g}, or thinner bands", rounded_up(least))});
+  if (*c.volume.target > most)
+    found.push_back({{"volume.target", "grid.radial_cells", "grid.angular_cells", "wheel.sectors"},
+                     "holes of one cell in every sector leave less material than that",
+                     fmt::format("take at most {:.9g}, or a finer grid", std::floor(most * 1e9) / 1e9)});
+}
+
 /// Finds expected quantities that the run does not compute, and shapes that it does not reach.
 void check_expectations(const Case& c, Conflicts& found) {
   const Objective& o = c.objective;
@@ -270,8 +298,8 @@ void check_expectations(const Case& c, Conflicts& found) {
   for (std::size_t i = 0; i < c.expectations.size(); ++i) {
     const Expectation& expectation = c.expectations[i];
     const auto key = [&](std::string_view name) { return fmt::format("expect[{}].{}", i + 1, name); };
-    const auto criterion = computed.find(expectation.quantity);
-    if (criterion != computed.end() && !criterion->second)
+    const auto functional = computed.find(expectation.quantity);
+    if (functional != computed.end() && !functional->second)
       found.push_back({{key("quantity"), fmt::format("objective.{}", name(expectation.quantity))},
                        "it has no weight in the objective, so the run does not compute it",
                        "give it a weight, however small, or expect another quantity"});
@@ -298,6 +326,7 @@ std::vector<Conflict> conflicts(const Case& c) {
   check_friction(c, found);
   check_annulus(c, found);
   check_objective(c, found);
+  check_volume(c, found);
   check_expectations(c, found);
   return found;
 }

@@ -52,16 +52,16 @@ double sector_angle(const Case& c);
 /// N_l = N_d N_s: load positions of the full wheel.
 int total_load_positions(const Case& c);
 
-/// Number of radial cells of the annulus of J_p1, condensed once per run; 1 without that criterion.
+/// Number of radial cells of the annulus of J_p1, condensed once per run; 1 without that functional.
 int tread_rows(const Case& c);
 
 /// Whether J_p1 is part of the objective.
 bool wants_annulus(const Case& c);
 
-/// Whether any criterion compares the contact stress of the load positions.
+/// Whether any functional compares the contact stress of the load positions.
 bool wants_uniformity(const Case& c);
 
-/// epsilon and L of the uniformity criteria [m].
+/// epsilon and L of the uniformity functionals [m].
 double annulus_thickness(const Case& c);
 double characteristic_length(const Case& c);
 

@@ -278,7 +278,8 @@ const Section<Objective>& objective_section() {
   static const Section<Objective> section{
       .name = "objective",
       .meaning =
-          "weights of the criteria in the objective J, which is summed over all load positions and minimized",
+          "weights of the functionals in the objective J, which is summed over all load positions and "
+          "minimized",
       .in = [](Case& c) -> Objective& { return c.objective; },
       .keys = {
           {.name = "strain_energy",
@@ -298,7 +299,7 @@ const Section<Objective>& objective_section() {
           {.name = "uniformity_l2",
            .unit = "",
            .field = NumberField<Objective>{&Objective::uniformity_l2, between(0, 1e9)},
-           .meaning = "weight of J_p (4), the naive uniformity criterion; for comparison"},
+           .meaning = "weight of J_p (4), the naive uniformity functional; for comparison"},
           {.name = "annulus_matches_dual",
            .unit = "",
            .field = OptionalNumberField<Objective>{&Objective::annulus_matches_dual, above(0, 1e9),
@@ -331,12 +332,19 @@ const Section<Volume>& volume_section() {
           {.name = "control",
            .unit = "",
            .field = choice<&Volume::control>({"exact", "paper"}),
-           .meaning = "exact: every shape has the target volume; paper: the rule lambda_k of section 4.2, "
+           .meaning = "exact: every shape has the target volume, once it is reached; paper: the rule "
+                      "lambda_k of section 4.2, "
                       "which lets the volume drift"},
           {.name = "target",
            .unit = "",
            .field = OptionalNumberField<Volume>{&Volume::target, above(0, 1), "that of the initial shape"},
-           .meaning = "material as a fraction of the ring"}}};
+           .meaning = "material as a fraction of the ring; the run moves the volume there from that of the "
+                      "initial shape"},
+          {.name = "rate",
+           .unit = "",
+           .field = NumberField<Volume>{&Volume::rate, above(0, 1)},
+           .meaning = "on the way to the target the volume changes by at most this fraction of the ring per "
+                      "shape; only with control = \"exact\""}}};
   return section;
 }
 

@@ -37,7 +37,7 @@ struct Material {
     return e / (1 - nu * nu);
   }
 
-  /// The modulus by which the contact parameter, the ghost penalty and the criteria are scaled [Pa]: E in
+  /// The modulus by which the contact parameter, the ghost penalty and the functionals are scaled [Pa]: E in
   /// plane strain, E' in plane stress.
   double scaling_modulus() const { return plane_strain_equivalent().youngs_modulus; }
 

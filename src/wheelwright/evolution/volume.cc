@@ -9,7 +9,6 @@ namespace wheelwright {
 
 namespace {
 
-constexpr double relative_tolerance = 1e-6;
 constexpr int max_evaluations = 60;
 
 template <int dim>
@@ -50,7 +49,7 @@ Expected<MeasuredShape<dim>> with_measure(const LevelSet<dim>& psi, const Protec
     auto candidate = measured(shifted(psi, bands, shift), points);
     if (!candidate) return candidate.failure();
     const double error = candidate->measure - target;
-    if (std::abs(error) <= relative_tolerance * target) return candidate;
+    if (std::abs(error) <= measure_tolerance * target) return candidate;
     (error > 0 ? bracket.too_small : bracket.too_large) = shift;
     if (k > 0) slope = (error - last_error) / (shift - last_shift);
     last_shift = shift;

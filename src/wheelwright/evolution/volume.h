@@ -8,6 +8,9 @@
 
 namespace wheelwright {
 
+/// How well with_measure() reaches its target, relative.
+inline constexpr double measure_tolerance = 1e-6;
+
 /// A shape, its cells, and the measure of its material in one sector [m^2, or m^3 when dim = 3].
 template <int dim>
 struct MeasuredShape {
@@ -21,9 +24,9 @@ template <int dim>
 Expected<MeasuredShape<dim>> measured(LevelSet<dim> psi, int points);
 
 /// Returns psi + c with the constant c for which the material of one sector has the area `target` [m^2], or
-/// the volume [m^3] when dim = 3, up to a relative error of 1e-6. Nodes in the bands keep their values.
-/// `boundary_measure` is an estimate of the length (or area) of {psi = 0} in one sector; it is the initial
-/// slope of the secant method. `points`: as for measured(). Fails with empty_shape if no c within the
+/// the volume [m^3] when dim = 3, up to a relative error of measure_tolerance. Nodes in the bands keep their
+/// values. `boundary_measure` is an estimate of the length (or area) of {psi = 0} in one sector; it is the
+/// initial slope of the secant method. `points`: as for measured(). Fails with empty_shape if no c within the
 /// thickness of the ring gives this measure, with cut_quadrature if the measure jumps across the target or
 /// cannot be computed, and with not_finite.
 template <int dim>

@@ -4,7 +4,7 @@
 
 namespace wheelwright {
 
-/// The naive uniformity criterion (4): int_Gamma_C L/(2E) |sigma(u)n - p_mean|^2. Not continuous in the data
+/// The naive uniformity functional (4): int_Gamma_C L/(2E) |sigma(u)n - p_mean|^2. Not continuous in the data
 /// of the problem; for comparison.
 template <int dim>
 class UniformityL2 : public Functional<dim> {

@@ -19,6 +19,7 @@ constexpr double step_growth = 1.5;
 constexpr double step_reduction = 0.5;
 constexpr std::size_t convergence_window = 10;
 constexpr int max_removals = 4;
+constexpr int halvings_before_rest = 2;  // they mend most failures; then the step 0 tells whether others can
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -129,6 +130,12 @@ std::optional<CutDomain<dim>> take(Expected<MeasuredShape<dim>> measured, Trial<
 }  // namespace
 
 template <int dim>
+bool is_approaching(const OptimizerOptions& options, const OptimizationState<dim>& state) {
+  return options.measure_control == MeasureControl::exact &&
+         std::abs(state.measure - state.target_measure) > measure_tolerance * state.target_measure;
+}
+
+template <int dim>
 std::optional<StopReason> reason_to_stop(const OptimizerOptions& options,
                                          const OptimizationState<dim>& state) {
   if (state.iteration >= options.iterations) return StopReason::iterations;
@@ -146,9 +153,14 @@ Expected<OptimizationState<dim>> ShapeOptimizer<dim>::start(const LevelSet<dim>&
                                                             const Observer& observer) const {
   if (auto failure = check_finite<dim>(lattice_, initial.values, "the initial level set")) return *failure;
   Trial<dim> trial = trial_at_rest<dim>(0, evolver_.keep_bands(initial));
-  auto cells = finish(trial, options_.target_measure, boundary_measure(boundary_samples<dim>(trial.shape)));
+  const double given = material_measure(trial.shape);
+  const auto target = is_in_reach(given) ? options_.target_measure : std::nullopt;
+  auto cells = finish(trial, target, boundary_measure(boundary_samples<dim>(trial.shape)));
   if (!trial.failure) evaluate(trial, std::move(cells), nullptr);
-  if (trial.failure) return *trial.failure;
+  if (trial.failure) {
+    if (target) name_target(given, *target, *target, *trial.failure);
+    return *trial.failure;
+  }
   trial.verdict = Verdict::accepted;
   add_changes(initial, trial);
   OptimizationState<dim> state{.shape = trial.shape,
@@ -193,17 +205,37 @@ std::optional<StopReason> ShapeOptimizer<dim>::advance(OptimizationState<dim>& s
     return StopReason::gave_up;
   }
   if (largest_magnitude(*velocity) == 0) return StopReason::no_descent;
-  bool all_failed = true;
+  bool all_failed = true, is_sound = false;
   for (int halvings = 0; halvings <= options_.max_halvings; ++halvings) {
-    const Trial<dim> trial = attempt(state, *velocity, halvings);
+    const double step = state.step * std::pow(step_reduction, halvings);
+    const Trial<dim> trial = attempt(state, *velocity, step, halvings);
     if (was_interrupted(trial)) return StopReason::stop_requested;
     if (trial.verdict == Verdict::accepted) state = successor(state, trial);
     observer(trial, state);
     if (trial.verdict == Verdict::accepted) return std::nullopt;
     all_failed = all_failed && trial.verdict == Verdict::failed;
     if (stop_requested()) return StopReason::stop_requested;
+    if (trial.verdict == Verdict::failed && halvings >= halvings_before_rest && !is_sound) {
+      const Trial<dim> at_rest = attempt_at_rest(state, *velocity, halvings + 1);
+      if (was_interrupted(at_rest)) return StopReason::stop_requested;
+      is_sound = !at_rest.failure;
+      if (is_sound) continue;
+      observer(at_rest, state);
+      return StopReason::gave_up;
+    }
   }
   return all_failed ? StopReason::gave_up : StopReason::no_descent;
+}
+
+/// A trial of the step 0: what fails there fails with every smaller step.
+template <int dim>
+Trial<dim> ShapeOptimizer<dim>::attempt_at_rest(const OptimizationState<dim>& state,
+                                                std::span<const double> velocity, int halvings) const {
+  Trial<dim> trial = attempt(state, velocity, 0, halvings);
+  if (trial.failure)
+    trial.failure->detail +=
+        "; it fails even where the boundary does not move, so that no smaller step helps";
+  return trial;
 }
 
 template <int dim>
@@ -233,28 +265,72 @@ Expected<std::vector<double>> ShapeOptimizer<dim>::descent_velocity(
 
 template <int dim>
 Trial<dim> ShapeOptimizer<dim>::attempt(const OptimizationState<dim>& state, std::span<const double> velocity,
-                                        int halvings) const {
+                                        double step, int halvings) const {
   const auto start = std::chrono::steady_clock::now();
-  const double step = state.step * std::pow(step_reduction, halvings);
   Trial<dim> trial = failed_trial(state, halvings, step, {});
   trial.max_velocity = largest_magnitude(velocity);
   auto cells = evolve(state, velocity, trial);
   trial.evolution_seconds = seconds_since(start);
-  if (trial.failure) return trial;
-  evaluate(trial, std::move(cells), &state.evaluation);
-  if (trial.failure) return trial;
-  const double foretold = evolver_.first_order_change(state.evaluation.gradient(options_.objective), velocity,
-                                                      step * lattice_.grid().resolution());
-  trial.failure = check_jump(objective_of(state.evaluation), objective_of(*trial.evaluation), foretold);
-  if (trial.failure) return trial;
-  const double best = *std::min_element(state.history.begin(), state.history.end());
-  const double bound = best + options_.accepted_increase * std::abs(best);
-  const bool accepted =
-      options_.measure_control == MeasureControl::proportional || objective_of(*trial.evaluation) <= bound;
-  trial.verdict = accepted ? Verdict::accepted : Verdict::objective_rose;
-  if (!accepted) return trial;
-  add_changes(state.shape, trial);
+  if (!trial.failure) evaluate(trial, std::move(cells), &state.evaluation);
+  if (!trial.failure)
+    trial.failure = check_jump(objective_of(state.evaluation), objective_of(*trial.evaluation),
+                               foretold_change(state, velocity, step));
+  if (trial.failure) {
+    name_target(state.measure, next_measure(state, step), state.target_measure, *trial.failure);
+    return trial;
+  }
+  trial.verdict = is_acceptable(state, trial) ? Verdict::accepted : Verdict::objective_rose;
+  if (trial.verdict == Verdict::accepted) add_changes(state.shape, trial);
   return trial;
+}
+
+/// Tells in the failure of a trial that its measure was to change, if it was [m^2, or m^3 when dim = 3].
+template <int dim>
+void ShapeOptimizer<dim>::name_target(double from, double to, double target, Failure& failure) const {
+  if (options_.measure_control != MeasureControl::exact || failure.reason == FailureReason::interrupted ||
+      std::abs(to - from) <= measure_tolerance * target)
+    return;
+  const double whole = sector_measure<dim>(lattice_.grid());
+  failure.detail += fmt::format(
+      "; the volume was to change from {:.6g} to {:.6g} of the ring, on its way to volume.target = {:.6g}: "
+      "take a target nearer to these, or a smaller volume.rate",
+      from / whole, to / whole, target / whole);
+}
+
+/// Whether one full step brings this measure to the given target.
+template <int dim>
+bool ShapeOptimizer<dim>::is_in_reach(double measure) const {
+  const double most = options_.measure_rate * sector_measure<dim>(lattice_.grid());
+  return options_.target_measure && std::abs(*options_.target_measure - measure) <= most;
+}
+
+/// The measure of the next shape, when its boundary moves by `step` cells.
+template <int dim>
+double ShapeOptimizer<dim>::next_measure(const OptimizationState<dim>& state, double step) const {
+  const double most = options_.measure_rate * sector_measure<dim>(lattice_.grid()) * step / options_.step;
+  return std::clamp(state.target_measure, state.measure - most, state.measure + most);
+}
+
+/// First-order change of the objective under the motion by the velocity and the shift to the next measure,
+/// by which all of the boundary moves as far.
+template <int dim>
+double ShapeOptimizer<dim>::foretold_change(const OptimizationState<dim>& state,
+                                            std::span<const double> velocity, double step) const {
+  const auto gradient = state.evaluation.gradient(options_.objective);
+  const double by_motion =
+      evolver_.first_order_change(gradient, velocity, step * lattice_.grid().resolution());
+  if (!is_approaching(options_, state)) return by_motion;
+  double sum = 0;
+  for (const auto& sample : gradient) sum += sample.weight * sample.value;
+  return by_motion + (next_measure(state, step) - state.measure) * sum / boundary_measure(gradient);
+}
+
+template <int dim>
+bool ShapeOptimizer<dim>::is_acceptable(const OptimizationState<dim>& state, const Trial<dim>& trial) const {
+  if (options_.measure_control == MeasureControl::proportional || is_approaching(options_, state))
+    return true;
+  const double best = *std::min_element(state.history.begin(), state.history.end());
+  return objective_of(*trial.evaluation) <= best + options_.accepted_increase * std::abs(best);
 }
 
 /// Makes the trial's shape from the state's; where a stage fails, the shape stays what the stage before made.
@@ -267,7 +343,7 @@ typename ShapeOptimizer<dim>::MadeCells ShapeOptimizer<dim>::evolve(const Optimi
   if (take(evolver_.move(state.shape, velocity, trial.step * lattice_.grid().resolution()), trial) &&
       (!redistances || take(evolver_.redistance(trial.shape), trial)) &&
       (!smooths || take(evolver_.smooth(trial.shape), trial)))
-    return finish(trial, state.target_measure, boundary_measure(state.evaluation.boundary));
+    return finish(trial, next_measure(state, trial.step), boundary_measure(state.evaluation.boundary));
   return {};
 }
 
@@ -331,6 +407,7 @@ bool ShapeOptimizer<dim>::is_due(int every, int since, int halvings) const {
 template <int dim>
 double ShapeOptimizer<dim>::next_step(const OptimizationState<dim>& state, const Trial<dim>& trial) const {
   const bool overshot = options_.measure_control == MeasureControl::exact &&
+                        !is_approaching(options_, state) &&
                         objective_of(*trial.evaluation) > objective_of(state.evaluation);
   const double step = trial.step * (overshot ? step_reduction : step_growth);
   return std::clamp(step, std::ldexp(options_.step, -options_.max_halvings), options_.step);
@@ -352,6 +429,10 @@ OptimizationState<dim> ShapeOptimizer<dim>::successor(const OptimizationState<di
                               .since_smoothing = count(options_.smooth_every, state.since_smoothing),
                               .history = state.history,
                               .history_begin = state.history_begin};
+  if (is_approaching(options_, state)) {
+    next.history.clear();
+    next.history_begin = next.iteration;
+  }
   next.history.push_back(objective_of(*trial.evaluation));
   return next;
 }
@@ -366,6 +447,8 @@ Outcome<dim> optimize(const ShapeOptimizer<dim>& optimizer, const LevelSet<dim>&
   return {reason, *std::move(state), {}};
 }
 
+template bool is_approaching(const OptimizerOptions&, const OptimizationState<2>&);
+template bool is_approaching(const OptimizerOptions&, const OptimizationState<3>&);
 template std::optional<StopReason> reason_to_stop(const OptimizerOptions&, const OptimizationState<2>&);
 template std::optional<StopReason> reason_to_stop(const OptimizerOptions&, const OptimizationState<3>&);
 template class ShapeOptimizer<2>;

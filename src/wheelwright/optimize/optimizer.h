@@ -31,6 +31,9 @@ struct OptimizerOptions {
   int smooth_every = 0;      ///< accepted shapes; 0: never
   MeasureControl measure_control = MeasureControl::exact;
   std::optional<double> target_measure;  ///< of the material in one sector; absent: the initial shape's
+  /// How far the measure moves towards the target in one shape at the full step, as a fraction of the whole
+  /// sector; only when it is held exactly.
+  double measure_rate = 0.01;
 };
 
 /// The last accepted shape and all that the next one depends on: a run that is resumed from a copy continues
@@ -46,7 +49,9 @@ struct OptimizationState {
   int since_redistance;  ///< accepted shapes since the last redistancing
   int since_smoothing;
   std::vector<double> history;  ///< the objective of every accepted shape from history_begin on
-  int history_begin = 0;        ///< the shape that the objective was last changed at; 0 if it never was
+  /// The last shape whose objective is not compared with those before it: the first, one at which the
+  /// objective was changed, or one whose measure had not been the target's yet.
+  int history_begin = 0;
 };
 
 enum class Verdict {
@@ -72,7 +77,7 @@ template <int dim>
 struct Trial {
   int iteration;        ///< number of the shape that it wants to become; 0 for the initial shape
   int halvings;         ///< of the step, so far, for this iteration
-  double step;          ///< [cells]; 0 for the initial shape
+  double step;          ///< [cells]; 0 for the initial shape, and where the boundary was not to move
   double max_velocity;  ///< fastest node, in units of the gradient density; 0 for the initial shape
   double evolution_seconds;
   LevelSet<dim> shape;  ///< as far as it could be built; at worst the last accepted one
@@ -91,7 +96,8 @@ enum class StopReason {
   iterations,      ///< the number asked for is done
   converged,       ///< the objective hardly decreases any more
   no_descent,      ///< shapes were evaluated, but none, with the step halved max_halvings times, is better
-  gave_up,         ///< no step, halved max_halvings times, gave a shape that could be evaluated
+  gave_up,         ///< no step, halved max_halvings times, gave a shape that could be evaluated, or not
+                   ///< even the step 0 did
   failed_start,    ///< the initial shape could not be evaluated
   stop_requested,  ///< by the caller
 };
@@ -114,6 +120,10 @@ constexpr const char* to_string(StopReason reason) {
   return "unknown";
 }
 
+/// Whether the measure is held exactly, but has not reached its target yet.
+template <int dim>
+bool is_approaching(const OptimizerOptions& options, const OptimizationState<dim>& state);
+
 /// Why a run with these options goes no further than this state, if its number of shapes or its objectives
 /// tell.
 template <int dim>
@@ -122,6 +132,9 @@ std::optional<StopReason> reason_to_stop(const OptimizerOptions& options,
 
 /// Gradient descent on shapes: velocity, transport, redistancing and smoothing when due, measure, removal of
 /// islands, evaluation.
+/// A measure that is not the target's moves towards it in every shape by measure_rate at most, in proportion
+/// to the step. Objectives at different measures are not compared: until the target is reached, every shape
+/// that can be evaluated, and whose objective does not jump, is accepted.
 /// The step is halved when a trial is rejected, and for the next shape when the objective rose within bounds;
 /// it grows back by half after a fall. Redistancing and smoothing wait for the next shape when a trial with
 /// them is rejected.
@@ -138,8 +151,8 @@ class ShapeOptimizer {
   ShapeOptimizer(const Lattice<dim>& lattice, const EvolutionOptions& evolution,
                  const OptimizerOptions& options, Evaluate evaluate);
 
-  /// Evaluates the initial shape, cut off at the protected bands and shifted to the target measure, if one is
-  /// given and held exactly. The observer sees it as iteration 0.
+  /// Evaluates the initial shape, cut off at the protected bands. It is shifted to the target measure, if
+  /// that is given, held exactly, and no farther than measure_rate. The observer sees it as iteration 0.
   Expected<OptimizationState<dim>> start(const LevelSet<dim>& initial, const Observer& observer) const;
 
   /// The state's shape evaluated by this objective, in place of another one under which the shape was found.
@@ -165,11 +178,19 @@ class ShapeOptimizer {
  private:
   Expected<std::vector<double>> descent_velocity(const OptimizationState<dim>& state) const;
   using MadeCells = std::optional<CutDomain<dim>>;  ///< of the trial's shape; empty: not made yet
-  Trial<dim> attempt(const OptimizationState<dim>& state, std::span<const double> velocity,
+  Trial<dim> attempt(const OptimizationState<dim>& state, std::span<const double> velocity, double step,
                      int halvings) const;
+  Trial<dim> attempt_at_rest(const OptimizationState<dim>& state, std::span<const double> velocity,
+                             int halvings) const;
   MadeCells evolve(const OptimizationState<dim>& state, std::span<const double> velocity,
                    Trial<dim>& trial) const;
   MadeCells finish(Trial<dim>& trial, std::optional<double> target, double boundary_measure) const;
+  bool is_in_reach(double measure) const;
+  double next_measure(const OptimizationState<dim>& state, double step) const;
+  double foretold_change(const OptimizationState<dim>& state, std::span<const double> velocity,
+                         double step) const;
+  void name_target(double from, double to, double target, Failure& failure) const;
+  bool is_acceptable(const OptimizationState<dim>& state, const Trial<dim>& trial) const;
   void add_changes(const LevelSet<dim>& before, Trial<dim>& trial) const;
   void evaluate(Trial<dim>& trial, MadeCells cells, const Evaluation<dim>* previous) const;
   bool is_due(int every, int since, int halvings) const;

@@ -8,7 +8,7 @@ namespace wheelwright {
 namespace {
 
 constexpr std::string_view file_kind = "CKPT";
-constexpr std::uint32_t version = 2;
+constexpr std::uint32_t version = 3;
 
 constexpr int largest_int = std::numeric_limits<int>::max();
 

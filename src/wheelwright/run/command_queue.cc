@@ -21,10 +21,11 @@ void CommandQueue::push(Command command) {
 void CommandQueue::add_source(Source source) {
   const std::scoped_lock lock(mutex_);
   sources_.push_back(std::move(source));
+  ask_again_ = Clock::time_point::min();
 }
 
 void CommandQueue::ask_sources() {
-  asked_ = Clock::now();
+  ask_again_ = Clock::now() + between_questions;
   for (const Source& source : sources_)
     while (auto command = source()) commands_.push_back(*std::move(command));
 }
@@ -48,7 +49,7 @@ Command CommandQueue::wait() {
 
 int CommandQueue::waiting_stops() {
   const std::scoped_lock lock(mutex_);
-  if (Clock::now() - asked_ >= between_questions) ask_sources();
+  if (Clock::now() >= ask_again_) ask_sources();
   return static_cast<int>(std::ranges::count_if(
       commands_, [](const Command& command) { return std::holds_alternative<Stop>(command); }));
 }

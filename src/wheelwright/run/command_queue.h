@@ -21,7 +21,7 @@ class CommandQueue {
   using Source = std::function<std::optional<Command>()>;
 
   void push(Command command);
-  /// A source must not touch the queue.
+  /// The source is asked at the next call of any of the functions below. It must not touch the queue.
   void add_source(Source source);
 
   /// The next command, if there is one.
@@ -41,7 +41,7 @@ class CommandQueue {
   std::condition_variable pushed_;
   std::deque<Command> commands_;
   std::vector<Source> sources_;
-  Clock::time_point asked_ = Clock::now();
+  Clock::time_point ask_again_ = Clock::time_point::min();  ///< from when on waiting_stops() asks the sources
 };
 
 }  // namespace wheelwright

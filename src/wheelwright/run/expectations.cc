@@ -25,7 +25,7 @@ std::optional<double> value_of(Quantity quantity, const StateSolver<dim>& solver
   if (quantity == Quantity::peak_von_mises)
     return solution ? std::optional(std::ranges::max(strain_peaks(solver, *solution).von_mises))
                     : std::nullopt;
-  if (const auto criterion = named_value(evaluation.terms, name(quantity))) return criterion;
+  if (const auto functional = named_value(evaluation.terms, name(quantity))) return functional;
   return named_value(evaluation.measures, name(quantity));
 }
 

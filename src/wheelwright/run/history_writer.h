@@ -8,7 +8,7 @@
 namespace wheelwright {
 
 /// Writes history.csv: one row per trial shape. A change of the case is an event of the row of the shape that
-/// is evaluated anew; a criterion that it adds gets a column, which is empty in the rows before.
+/// is evaluated anew; a functional that it adds gets a column, which is empty in the rows before.
 template <int dim>
 class HistoryWriter : public Observer<dim> {
  public:

@@ -51,6 +51,7 @@ struct RunResult {
   std::vector<Trial<dim>> failed_trials;  ///< after the last accepted shape
   std::vector<Finding> findings;          ///< for what the case expects; of a run that ended by itself
   double elapsed_seconds;
+  bool is_approaching = false;  ///< whether the volume has not reached its target yet
 };
 
 /// One optimization of a case in its folder, from its beginning or from its newest checkpoint to its end. The

@@ -134,7 +134,8 @@ RunResult<dim> RunLoop<dim>::result(StopReason reason) const {
           .initial = initial_,
           .failed_trials = failed_trials_,
           .findings = {},
-          .elapsed_seconds = elapsed_};
+          .elapsed_seconds = elapsed_,
+          .is_approaching = state_ && is_approaching(work_->study.optimizer, *state_)};
 }
 
 template <int dim>

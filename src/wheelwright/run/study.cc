@@ -172,6 +172,7 @@ OptimizerOptions optimizer_options(const Case& c) {
   options.smooth_every = c.optimizer.smoothing > 0 ? c.optimizer.smooth_every : 0;
   options.measure_control =
       c.volume.control == VolumeControl::exact ? MeasureControl::exact : MeasureControl::proportional;
+  options.measure_rate = c.volume.rate;
   if (c.volume.target) options.target_measure = *c.volume.target * sector_measure<dim>(polar_grid<dim>(c));
   return options;
 }

@@ -153,7 +153,7 @@ Expected<Evaluation<dim>> differentiate(const StateSolver<dim>& solver,
     }
     evaluation.functions.push_back(std::move(value));
   }
-  evaluation.phases.push_back({phase::criteria, watch.lap()});
+  evaluation.phases.push_back({phase::functionals, watch.lap()});
 
   const auto gradients = state.shape_gradients(derivatives);
   if (!gradients) return gradients.failure();

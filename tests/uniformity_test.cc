@@ -36,7 +36,7 @@ std::shared_ptr<const NeumannToDirichlet<2>> image_of(const RollingModel<2>& mod
   return std::make_shared<const NeumannToDirichlet<2>>(*std::move(created));
 }
 
-std::vector<std::shared_ptr<const Functional<2>>> uniformity_criteria(const RollingModel<2>& model) {
+std::vector<std::shared_ptr<const Functional<2>>> uniformity_functionals(const RollingModel<2>& model) {
   return {std::make_shared<UniformityL2<2>>(0.01), std::make_shared<UniformityAnnulus<2>>(0.01),
           std::make_shared<UniformityDual<2>>(*image_of(model))};
 }
@@ -52,15 +52,15 @@ TEST(Uniformity, GradientsPassTheTaylorTest) {
   ASSERT_TRUE(earlier);
   const Matrix held = mean_observations(problem->tread_surface(), **earlier);
   const auto direction = smooth_direction(psi.lattice);
-  for (const auto& criterion : uniformity_criteria(model)) {
+  for (const auto& functional : uniformity_functionals(model)) {
     for (const Matrix* mean : {static_cast<const Matrix*>(nullptr), &held}) {
-      const WeightedSum<2> objective{{1, criterion}};
+      const WeightedSum<2> objective{{1, functional}};
       const auto test = taylor_test<2>(
           [&](const LevelSet<2>& shape) { return evaluate_objective<2>(*problem, objective, shape, mean); },
           psi, direction, model.degree, 2e-5, 3);
       ASSERT_TRUE(test) << test.failure().detail;
       for (double order : test->orders)
-        EXPECT_GT(order, 1.9) << criterion->name() << (mean ? " held" : " own");
+        EXPECT_GT(order, 1.9) << functional->name() << (mean ? " held" : " own");
     }
   }
 }
@@ -71,20 +71,20 @@ TEST(Uniformity, AUniformRingIsUniform) {
   LevelSet<2> solid{Lattice<2>(model.grid, 2), {}};
   solid.values.assign(solid.lattice.n_nodes(), -1.0);
   const LevelSet<2> holed = paper_holes(model.grid);
-  const auto value = [&](const Functional<2>& criterion, const LevelSet<2>& psi) {
+  const auto value = [&](const Functional<2>& functional, const LevelSet<2>& psi) {
     const auto s = all_states<2>(*problem, psi);
     EXPECT_TRUE(s);
-    return value_of<2>(criterion, *problem, psi, **s, mean_observations(problem->tread_surface(), **s));
+    return value_of<2>(functional, *problem, psi, **s, mean_observations(problem->tread_surface(), **s));
   };
-  for (const auto& criterion : uniformity_criteria(model)) {
-    const double uniform = value(*criterion, solid), uneven = value(*criterion, holed);
-    EXPECT_GT(uneven, 0) << criterion->name();
-    EXPECT_LT(std::abs(uniform), 1e-15 * uneven) << criterion->name();
+  for (const auto& functional : uniformity_functionals(model)) {
+    const double uniform = value(*functional, solid), uneven = value(*functional, holed);
+    EXPECT_GT(uneven, 0) << functional->name();
+    EXPECT_LT(std::abs(uniform), 1e-15 * uneven) << functional->name();
   }
 }
 
 // (71): the energy of w in the whole ring, half the work of the traction on w, and the value of the
-// criterion.
+// functional.
 TEST(Uniformity, TheDualNormIsTheEnergyOfItsImage) {
   for (int levels : {0, 2}) {
     const auto model = annulus_model(14, 192, levels);
