@@ -7,7 +7,7 @@
 
 #include "tests/support.h"
 #include "wheelwright/analysis/rolling_analysis.h"
-#include "wheelwright/analysis/stress_peak.h"
+#include "wheelwright/analysis/strain_peaks.h"
 #include "wheelwright/report/rolling_report.h"
 #include "wheelwright/report/solution_fields.h"
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support.h"
-#include "wheelwright/analysis/stress_peak.h"
+#include "wheelwright/analysis/strain_peaks.h"
 #include "wheelwright/geometry/mirror.h"
 #include "wheelwright/report/solution_fields.h"
 

@@ -1,6 +1,6 @@
 #include "wheelwright/analysis/rolling_analysis.h"
 
-#include "wheelwright/analysis/stress_peak.h"
+#include "wheelwright/analysis/strain_peaks.h"
 
 namespace wheelwright {
 namespace {
@@ -52,7 +52,9 @@ Expected<RollingAnalysis> rolling_analysis(const StateSolver<dim>& solver, const
     analysis.azimuths.push_back(ground.azimuth(model.grid));
   analysis.positions = summaries(state.contacts());
   analysis.strain_energy = state.strain_energy();
-  analysis.peak_von_mises = peak_von_mises(solver, state);
+  auto peaks = strain_peaks(solver, state);
+  analysis.peak_von_mises = std::move(peaks.von_mises);
+  analysis.peak_strain = std::move(peaks.principal);
 
   if (analysis.held == Held::travel) {
     analysis.force_at_travel = values(analysis.positions, &ContactSummary::radial_force);

@@ -16,6 +16,7 @@ struct RollingAnalysis {
   std::vector<ContactSummary> positions;  ///< under the model's load or travel
   std::vector<double> strain_energy;      ///< J_e [J/m]
   std::vector<double> peak_von_mises;     ///< [Pa]
+  std::vector<double> peak_strain;        ///< absolute value of a principal strain
 
   double load;                          ///< the model's, or the mean of the forces at its travel
   double travel;                        ///< the model's, or the mean of the travels under its load

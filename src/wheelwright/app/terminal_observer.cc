@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "wheelwright/analysis/deformation_size.h"
 #include "wheelwright/app/terminal.h"
 
 namespace wheelwright {
@@ -27,7 +28,10 @@ void TerminalObserver<dim>::operator()(const Event<dim>& event, const RunView<di
   if (const auto* done = std::get_if<TrialDone<dim>>(&event)) show(*done, run);
   if (const auto* command = std::get_if<CommandDone>(&event); command && !command->text.empty())
     progress_.note((command->was_obeyed ? "" : "refused: ") + command->text);
-  if (std::holds_alternative<RunEnded<dim>>(event)) progress_.end();
+  if (const auto* ended = std::get_if<RunEnded<dim>>(&event)) {
+    if (ended->solution) warn(run, ended->state->shape, *ended->solution);
+    progress_.end();
+  }
 }
 
 template <int dim>
@@ -36,6 +40,13 @@ void TerminalObserver<dim>::begin(const RunStarted& started, const RunView<dim>&
   if (started.resumed_after) return;
   for (const auto& event : lost_on_the_grid<dim>(run.study.source))
     progress_.note("warning: the grid is too coarse for the case's holes: " + text(event));
+}
+
+template <int dim>
+void TerminalObserver<dim>::warn(const RunView<dim>& run, const LevelSet<dim>& shape,
+                                 const State<dim>& solution) {
+  const auto warning = deformation_warning(deformation_size(*run.study.solver, shape, solution));
+  if (!warning.empty()) progress_.note("warning: " + warning);
 }
 
 template <int dim>
@@ -48,6 +59,7 @@ void TerminalObserver<dim>::show(const TrialDone<dim>& done, const RunView<dim>&
   }
   for (const auto& event : trial.events)
     progress_.note(fmt::format("shape {}: {}", trial.iteration, text(event)));
+  if (state.iteration == 0 && trial.solution) warn(run, trial.shape, *trial.solution);
   const PolarGrid<dim>& grid = run.study.grid();
   progress_.show({.shape = state.iteration,
                   .n_shapes = run.study.optimizer.iterations,

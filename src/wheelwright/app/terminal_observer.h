@@ -17,6 +17,9 @@ class TerminalObserver : public Observer<dim> {
   void begin(const RunStarted& started, const RunView<dim>& run);
   void show(const TrialDone<dim>& done, const RunView<dim>& run);
 
+  /// Tells when a solution is beyond what linear elasticity describes.
+  void warn(const RunView<dim>& run, const LevelSet<dim>& shape, const State<dim>& solution);
+
   Progress progress_;
 };
 

@@ -16,6 +16,8 @@ enum class FailureReason {
   not_positive_definite,  ///< the stiffness could not be factored
   newton_stalled,         ///< the contact iteration did not converge
   no_contact,             ///< no point touches the ground
+  rim_under_ground,       ///< the rim travels farther than the ring is thick
+  material_overlaps,      ///< deformed edges of holes or tread cross each other
   not_finite,             ///< a NaN or an infinity appeared
   inaccurate_solution,    ///< the residual of a solve is too large
   negative_energy,        ///< a strain energy came out negative
@@ -42,6 +44,10 @@ constexpr const char* to_string(FailureReason reason) {
       return "newton_stalled";
     case FailureReason::no_contact:
       return "no_contact";
+    case FailureReason::rim_under_ground:
+      return "rim_under_ground";
+    case FailureReason::material_overlaps:
+      return "material_overlaps";
     case FailureReason::not_finite:
       return "not_finite";
     case FailureReason::inaccurate_solution:

@@ -10,8 +10,9 @@ namespace wheelwright {
 /// Solves the contact problem of one load position by a semi-smooth Newton method, from each of the starts
 /// until one leads to a solution. A step changes the contact status of all points that ask for it, as long as
 /// their number falls; then of the last one alone, which ends cycles (block principal pivoting: Judice and
-/// Pires, Computers & Operations Research 21, 1994). Fails with newton_stalled, with no_contact, which gives
-/// the smallest gap, or with interrupted once `interrupt`, which is polled before every step, asks for it.
+/// Pires, Computers & Operations Research 21, 1994). A wheel
+/// whose rim is held may stay off the ground. Fails with newton_stalled, with no_contact if other loads lift
+/// the wheel, or with interrupted once `interrupt`, which is polled before every step, asks for it.
 template <int dim>
 Expected<ContactState<dim>> solve_contact(const ReducedContact<dim>& contact,
                                           std::span<const ContactUnknowns<dim>> starts,

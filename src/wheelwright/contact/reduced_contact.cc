@@ -126,15 +126,22 @@ ContactUnknowns<dim> ReducedContact<dim>::hertz_start(double load, double radius
 
 template <int dim>
 ContactUnknowns<dim> ReducedContact<dim>::undeformed_start() const {
-  ContactUnknowns<dim> x{{}, std::vector<double>(n_free())};
-  const RimMotion rim = rim_motion(x.rim);
-  for (const Point& point : points_) {
+  const std::vector<double> free(n_free());
+  return {without_contact(free), free};
+}
+
+template <int dim>
+std::vector<Vec<dim>> ReducedContact<dim>::without_contact(const std::vector<double>& free) const {
+  const RimMotion rim = rim_motion(free);
+  std::vector<Vec<dim>> result;
+  for (int i = 0; i < n_points(); ++i) {
+    const Point& point = points_[i];
     Vec<dim> z = displacement<dim>(rim, point.position);
     z[0] -= point.gap;
-    for (double& component : z) component *= -point.gamma;
-    x.augmented.push_back(z);
+    for (int d = 0; d < dim; ++d) z[d] = (preload_.empty() ? 0.0 : preload_[i][d]) - point.gamma * z[d];
+    result.push_back(z);
   }
-  return x;
+  return result;
 }
 
 template <int dim>
@@ -303,9 +310,9 @@ ContactState<dim> ReducedContact<dim>::state(const ContactUnknowns<dim>& x, int 
 }
 
 template <int dim>
-double ReducedContact<dim>::smallest_gap(const ContactUnknowns<dim>& x) const {
+double ReducedContact<dim>::smallest_gap(const ContactState<dim>& state) const {
   double gap = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < n_points(); ++i) gap = std::min(gap, x.augmented[i][0] / points_[i].gamma);
+  for (int i = 0; i < n_points(); ++i) gap = std::min(gap, state.augmented[i][0] / points_[i].gamma);
   return gap;
 }
 

@@ -106,8 +106,11 @@ class ReducedContact {
   /// The contact state for a solution x under the full loads.
   ContactState<dim> state(const ContactUnknowns<dim>& x, int newton_iterations) const;
 
-  /// The minimum distance to the ground at x, if no point touches [m].
-  double smallest_gap(const ContactUnknowns<dim>& x) const;
+  /// z where no point touches, under these coefficients of the rim's free motions.
+  std::vector<Vec<dim>> without_contact(const std::vector<double>& free) const;
+
+  /// The minimum distance to the ground, if no point touches [m].
+  double smallest_gap(const ContactState<dim>& state) const;
 
   /// The maximum displacement of a point that moves with the rim.
   double amplitude(const RimMotion& motion) const;

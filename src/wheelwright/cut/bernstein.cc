@@ -6,108 +6,103 @@
 namespace wheelwright {
 namespace {
 
-/// Of two roots closer than this a place between them is returned: deeper, rounding decides.
-constexpr int max_halvings = 26;
-
-int sign_variations(const Quartic& c) {
-  int variations = 0;
-  double before = 0;
-  for (const double x : c) {
-    if (x == 0) continue;
-    if (before != 0 && (before < 0) != (x < 0)) ++variations;
-    before = x;
-  }
-  return variations;
-}
-
-/// De Casteljau's algorithm: the polynomial on [0, x] and on [x, 1].
-std::array<Quartic, 2> parts(Quartic c, double x) {
-  std::array<Quartic, 2> result;
-  for (int level = 0; level < 5; ++level) {
-    result[0][level] = c[0];
-    result[1][4 - level] = c[4 - level];
-    for (int i = 0; i + level < 4; ++i) c[i] = c[i] * (1 - x) + c[i + 1] * x;
-  }
-  return result;
-}
-
-double derivative(const Quartic& c, double x) {
-  std::array<double, 4> d;
-  for (int i = 0; i < 4; ++i) d[i] = 4 * (c[i + 1] - c[i]);
-  for (int level = 1; level < 4; ++level)
-    for (int i = 0; i + level < 4; ++i) d[i] = d[i] * (1 - x) + d[i + 1] * x;
-  return d[0];
-}
-
-/// The only root of a polynomial with different signs at 0 and 1, by Newton's method within a shrinking
-/// bracket. An end whose value is next to zero is not taken for the root: another one may lie just beyond it.
-double only_root(const Quartic& c) {
-  double a = 0, b = 1, x = 0.5;
-  for (int iteration = 0; iteration < 100; ++iteration) {
-    const double at_x = wheelwright::value(c, x, 1 - x);
-    if (at_x == 0) return x;
-    ((at_x < 0) == (c[4] < 0) ? b : a) = x;
-    double next = x - at_x / derivative(c, x);
-    if (!(next >= a && next <= b)) next = 0.5 * (a + b);
-    if (std::abs(next - x) < 1e-16 || b - a < 1e-16) return next;
-    x = next;
-  }
-  return x;
-}
-
-void append_sign_changes(const Quartic& c, double from, double width, int halvings,
-                         std::vector<double>& result) {
-  const int variations = sign_variations(c);
-  if (variations == 0) return;
-  if (variations == 1 && c[0] != 0 && c[4] != 0) {
-    result.push_back(from + width * only_root(c));
-    return;
-  }
-  if (halvings == max_halvings) {
-    result.push_back(from + 0.5 * width);
-    return;
-  }
-  const auto [left, right] = parts(c, 0.5);
-  append_sign_changes(left, from, 0.5 * width, halvings + 1, result);
-  if (left[4] == 0 && sign_variations(left) == 0) result.push_back(from + 0.5 * width);
-  append_sign_changes(right, from + 0.5 * width, 0.5 * width, halvings + 1, result);
-}
-
 Quartic product(const Quadratic& a, const Quadratic& b) {
   return {a[0] * b[0], 0.5 * (a[0] * b[1] + a[1] * b[0]), ((a[0] * b[2] + a[2] * b[0]) + 4 * a[1] * b[1]) / 6,
           0.5 * (a[1] * b[2] + a[2] * b[1]), a[2] * b[2]};
 }
 
+using Complex = std::complex<double>;
+
+/// A polynomial in powers of y, the constant first.
+using Powers = std::array<double, 5>;
+
+/// Durand and Kerner's simultaneous iteration.
+std::vector<Complex> rough_zeros(const Powers& p, int degree) {
+  std::vector<Complex> zeros;
+  for (int i = 0; i < degree; ++i) zeros.push_back(std::pow(Complex(0.4, 0.9), i));
+  for (int iteration = 0; iteration < 80; ++iteration) {
+    double change = 0;
+    for (int i = 0; i < degree; ++i) {
+      Complex value = p[degree], others = p[degree];
+      for (int k = degree - 1; k >= 0; --k) value = value * zeros[i] + p[k];
+      for (int j = 0; j < degree; ++j)
+        if (j != i) others *= zeros[i] - zeros[j];
+      const Complex step = value / others;
+      if (!std::isfinite(std::abs(step))) continue;
+      zeros[i] -= step;
+      change = std::max(change, std::abs(step) / (1e-3 + std::abs(zeros[i])));
+    }
+    if (change < 1e-9) break;
+  }
+  return zeros;
+}
+
+/// Quotient of a polynomial and y^2 - r y - s, from place 2 on, and its remainder before.
+Powers divided(const Powers& p, double r, double s) {
+  Powers b = p;
+  b[3] += r * b[4];
+  for (int k = 2; k >= 0; --k) b[k] += r * b[k + 1] + s * b[k + 2];
+  return b;
+}
+
+/// Of the zeros of a quartic the places of two that are zeros of a real quadratic, as the others then are:
+/// each other's conjugates, or real and close to each other. Of two such pairs it is the one closer to 0.
+std::array<int, 2> real_pair(const std::vector<Complex>& zeros) {
+  const auto distance = [&](int i, int j) {  // on the sphere, where infinity is a point
+    return std::abs(zeros[i] - std::conj(zeros[j])) / ((1 + std::abs(zeros[i])) * (1 + std::abs(zeros[j])));
+  };
+  const auto total = [&](const auto& p) { return distance(p[0], p[1]) * distance(p[2], p[3]); };
+  std::array<int, 4> best{0, 1, 2, 3};
+  for (const std::array<int, 4>& other : {std::array{0, 2, 1, 3}, std::array{0, 3, 1, 2}})
+    if (total(other) < total(best)) best = other;
+  const auto size = [&](int i, int j) { return std::abs(zeros[i]) + std::abs(zeros[j]); };
+  if (size(best[2], best[3]) < size(best[0], best[1])) return {best[2], best[3]};
+  return {best[0], best[1]};
+}
+
+/// The zeros of a polynomial of degree 3 or 4. Two of them are made zeros of a real quadratic that divides
+/// the polynomial (Bairstow's method), which is known to rounding even if the two zeros are not.
+std::vector<Complex> paired_zeros(const Powers& p, int degree) {
+  auto rough = rough_zeros(p, degree);
+  if (degree == 3) rough.push_back(1e100);
+  const auto pair = real_pair(rough);
+  double r = (rough[pair[0]] + rough[pair[1]]).real(), s = -(rough[pair[0]] * rough[pair[1]]).real();
+  for (int iteration = 0; iteration < 6; ++iteration) {
+    const Powers b = divided(p, r, s), c = divided(b, r, s);
+    const double determinant = c[2] * c[2] - c[3] * c[1];
+    const double dr = (c[3] * b[0] - c[2] * b[1]) / determinant,
+                 ds = (c[1] * b[1] - c[2] * b[0]) / determinant;
+    if (!std::isfinite(dr + ds)) break;
+    r += dr;
+    s += ds;
+  }
+  const auto [first, second] = zeros_of(r, s);
+  const Powers b = divided(p, r, s);
+  if (degree == 3) return {first, second, -b[2] / b[3]};
+  const auto [third, fourth] = zeros_of(-b[3] / b[4], -b[2] / b[4]);
+  return {first, second, third, fourth};
+}
+
 }  // namespace
+
+std::array<std::complex<double>, 2> zeros_of(double r, double s) {
+  const double squared = std::fma(0.5 * r, 0.5 * r, s);
+  if (squared < 0)
+    return {std::complex<double>(0.5 * r, std::sqrt(-squared)),
+            std::complex<double>(0.5 * r, -std::sqrt(-squared))};
+  const double larger = 0.5 * r + std::copysign(std::sqrt(squared), r);
+  return {larger, larger == 0 ? 0 : -s / larger};
+}
 
 Root root(const Quadratic& c, double half_slope, bool rising) {
   if (rising) return c[1] <= 0 ? Root{half_slope - c[1], c[2]} : Root{-c[0], half_slope + c[1]};
   return c[1] >= 0 ? Root{-(half_slope + c[1]), c[2]} : Root{c[0], half_slope - c[1]};
 }
 
-Quartic part_of(const Quartic& c, double from, double to) {
-  if (from < 1 - to) return parts(parts(c, to)[0], from / to)[1];
-  return parts(parts(c, from)[1], (to - from) / (1 - from))[0];
-}
-
-double value(Quartic c, double x, double rest) {
-  for (int level = 1; level < 5; ++level)
-    for (int i = 0; i + level < 5; ++i) c[i] = c[i] * rest + c[i + 1] * x;
-  return c[0];
-}
-
 Quartic discriminant_of(const std::array<Quadratic, 3>& c) {
   const Quartic square = product(c[1], c[1]), ends = product(c[0], c[2]);
   Quartic result;
   for (int i = 0; i < 5; ++i) result[i] = square[i] - ends[i];
-  return result;
-}
-
-std::vector<double> sign_changes(const Quartic& c, double noise) {
-  std::vector<double> result;
-  const auto [low, high] = std::minmax_element(c.begin(), c.end());
-  if (*low >= -noise && *high <= noise) return result;
-  append_sign_changes(c, 0, 1, 0, result);
   return result;
 }
 
@@ -123,35 +118,24 @@ std::vector<double> sign_changes(const Quadratic& c) {
   return result;
 }
 
-std::vector<std::complex<double>> complex_zeros(const Quartic& c) {
+Factors factors_of(const Quartic& c) {
   // In powers of y = x - 1/2, which a reflection only changes in sign.
-  const std::array<double, 5> p{((c[0] + c[4]) + 4 * (c[1] + c[3]) + 6 * c[2]) / 16,
-                                ((c[4] - c[0]) + 2 * (c[3] - c[1])) / 2, 1.5 * ((c[0] + c[4]) - 2 * c[2]),
-                                2 * ((c[4] - c[0]) - 2 * (c[3] - c[1])),
-                                (c[0] + c[4]) - 4 * (c[1] + c[3]) + 6 * c[2]};
+  Powers p{((c[0] + c[4]) + 4 * (c[1] + c[3]) + 6 * c[2]) / 16, ((c[4] - c[0]) + 2 * (c[3] - c[1])) / 2,
+           1.5 * ((c[0] + c[4]) - 2 * c[2]), 2 * ((c[4] - c[0]) - 2 * (c[3] - c[1])),
+           (c[0] + c[4]) - 4 * (c[1] + c[3]) + 6 * c[2]};
   double largest = 0;
   for (const double x : p) largest = std::max(largest, std::abs(x));
   int degree = 4;
-  while (degree > 0 && std::abs(p[degree]) <= 1e-10 * largest) --degree;
-  // Durand and Kerner's simultaneous iteration.
-  std::vector<std::complex<double>> zeros;
-  for (int i = 0; i < degree; ++i) zeros.push_back(std::pow(std::complex(0.4, 0.9), i));
-  for (int iteration = 0; iteration < 60; ++iteration) {
-    double change = 0;
-    for (int i = 0; i < degree; ++i) {
-      std::complex<double> value = p[degree], others = p[degree];
-      for (int k = degree - 1; k >= 0; --k) value = value * zeros[i] + p[k];
-      for (int j = 0; j < degree; ++j)
-        if (j != i) others *= zeros[i] - zeros[j];
-      const auto step = value / others;
-      if (!std::isfinite(std::abs(step))) continue;
-      zeros[i] -= step;
-      change = std::max(change, std::abs(step));
-    }
-    if (change < 1e-12) break;
+  for (; degree > 0 && std::abs(p[degree]) <= 1e-15 * largest; --degree) p[degree] = 0;
+  Factors result{p[degree], {}};
+  if (degree == 1) result.zeros = {-p[0] / p[1]};
+  if (degree == 2) {
+    const auto pair = zeros_of(-p[1] / p[2], -p[0] / p[2]);
+    result.zeros = {pair[0], pair[1]};
   }
-  for (auto& zero : zeros) zero += 0.5;
-  return zeros;
+  if (degree > 2) result.zeros = paired_zeros(p, degree);
+  for (auto& zero : result.zeros) zero += 0.5;
+  return result;
 }
 
 template <int dim>
@@ -196,26 +180,6 @@ BernsteinForm<dim>::BernsteinForm(int degree, std::span<const double> nodal_valu
 }
 
 template <int dim>
-BernsteinForm<dim> BernsteinForm<dim>::part(const std::array<int, dim>& third) const {
-  BernsteinForm result = *this;
-  for (int d = 0; d < dim; ++d)
-    for_each_line(d, [&](int a, int stride) {
-      double &c0 = result.coefficients_[a], &c1 = result.coefficients_[a + stride],
-             &c2 = result.coefficients_[a + 2 * stride];
-      const Quadratic c{c0, c1, c2};
-      // Its blossom, which gives the coefficients on every part.
-      const auto blossom = [&](int x, int y) {  // in thirds
-        return ((3 - x) * (3 - y) * c[0] + x * y * c[2] + ((3 - x) * y + x * (3 - y)) * c[1]) / 9;
-      };
-      const int from = third[d], to = from + 1;
-      c0 = blossom(from, from);
-      c1 = blossom(from, to);
-      c2 = blossom(to, to);
-    });
-  return result;
-}
-
-template <int dim>
 double BernsteinForm<dim>::operator[](const std::array<int, dim>& index) const {
   int a = 0;
   for (int d = dim - 1; d >= 0; --d) a = 3 * a + index[d];
@@ -230,11 +194,6 @@ double BernsteinForm<dim>::largest() const {
 template <int dim>
 double BernsteinForm<dim>::smallest() const {
   return *std::min_element(coefficients_.begin(), coefficients_.end());
-}
-
-template <int dim>
-double BernsteinForm<dim>::magnitude() const {
-  return std::max(largest(), -smallest());
 }
 
 template <int dim>

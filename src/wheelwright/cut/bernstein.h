@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <complex>
 #include <span>
 #include <vector>
@@ -24,8 +25,12 @@ inline double derivative(const Quadratic& c, double x) {
   return 2 * ((c[1] - c[0]) * (1 - x) + (c[2] - c[1]) * x);
 }
 
-/// The square of half the derivative at the roots; negative where they are complex.
-inline double discriminant(const Quadratic& c) { return c[1] * c[1] - c[0] * c[2]; }
+/// The square of half the derivative at the roots, to the last digits (Kahan's algorithm); negative where
+/// they are complex.
+inline double discriminant(const Quadratic& c) {
+  const double ends = c[0] * c[2];
+  return std::fma(c[1], c[1], -ends) + std::fma(-c[0], c[2], ends);
+}
 
 /// A root u / (u + v), kept as two numbers because both that ratio and its complement may be tiny.
 struct Root {
@@ -41,20 +46,20 @@ Root root(const Quadratic& c, double half_slope, bool rising);
 /// themselves, in that parameter.
 Quartic discriminant_of(const std::array<Quadratic, 3>& c);
 
-/// The places in (0, 1) where the polynomial changes its sign, ascending, and a place between two such that
-/// are closer than 1e-8 to each other. A polynomial below `noise` has none.
-std::vector<double> sign_changes(const Quartic& c, double noise);
+/// The places in (0, 1) where the polynomial changes its sign, ascending.
 std::vector<double> sign_changes(const Quadratic& c);
 
-/// The polynomial on the part [from, to] of its interval.
-Quartic part_of(const Quartic& c, double from, double to);
+/// Zeros of y^2 - r y - s: real, or each other's conjugates.
+std::array<std::complex<double>, 2> zeros_of(double r, double s);
 
-/// The value at x; `rest` is 1 - x, to the last digit where x is next to 1.
-double value(Quartic c, double x, double rest);
-
-/// All zeros of the polynomial but those that are next to infinity, to about the square root of the rounding
-/// error where they are double.
-std::vector<std::complex<double>> complex_zeros(const Quartic& c);
+/// A polynomial as a product: leading * (x - zeros[0]) * (x - zeros[1]) ... Real zeros have no imaginary
+/// part, others come with their conjugates. The product agrees with the polynomial to rounding also where
+/// zeros are double and therefore known to the square root of that only.
+struct Factors {
+  double leading;
+  std::vector<std::complex<double>> zeros;  ///< without those that are next to infinity
+};
+Factors factors_of(const Quartic& c);
 
 /// A tensor product of quadratics on the unit cell; axis 0 is the fastest in `coefficients`.
 template <int dim>
@@ -63,14 +68,10 @@ class BernsteinForm {
   /// `degree`: 1 or 2, that of the nodal values.
   BernsteinForm(int degree, std::span<const double> nodal_values);
 
-  /// On one of the 3^dim equal boxes that the cell is divided into; `third`: its place, 0 to 2 on each axis.
-  BernsteinForm part(const std::array<int, dim>& third) const;
-
   double operator[](const std::array<int, dim>& index) const;
 
   double largest() const;   ///< of the coefficients
   double smallest() const;  ///< of the coefficients
-  double magnitude() const;
 
   /// Bounds of the derivative along an axis, divided by the degree 2: its smallest and its largest
   /// coefficient.

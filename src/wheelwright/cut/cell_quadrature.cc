@@ -46,6 +46,52 @@ Slice slice(const BernsteinForm<2>& psi, int base) {
   return result;
 }
 
+/// The axes along which a cell is reflected.
+template <int dim>
+using Reflection = std::array<bool, dim>;
+
+template <int dim>
+std::vector<double> reflected(int degree, std::span<const double> nodal_values,
+                              const Reflection<dim>& reflection) {
+  std::vector<double> result;
+  for (int a = 0; a < static_cast<int>(nodal_values.size()); ++a) {
+    auto node = local_node_position<dim>(degree, a);
+    int b = 0;
+    for (int d = dim - 1; d >= 0; --d) b = b * (degree + 1) + (reflection[d] ? degree - node[d] : node[d]);
+    result.push_back(nodal_values[b]);
+  }
+  return result;
+}
+
+/// The reflection to that one of a cell's mirror images which stands for them all. What is computed of it and
+/// reflected back does not depend on the image that was given.
+template <int dim>
+Reflection<dim> to_standard(int degree, std::span<const double> nodal_values) {
+  Reflection<dim> best{};
+  std::vector<double> smallest(nodal_values.begin(), nodal_values.end());
+  for (int image = 1; image < power(2, dim); ++image) {
+    Reflection<dim> reflection;
+    for (int d = 0; d < dim; ++d) reflection[d] = (image >> d) % 2 == 1;
+    auto values = reflected<dim>(degree, nodal_values, reflection);
+    if (values >= smallest) continue;
+    smallest = std::move(values);
+    best = reflection;
+  }
+  return best;
+}
+
+template <int dim>
+void reflect(CutCell<dim>& cell, const Reflection<dim>& reflection) {
+  for (int d = 0; d < dim; ++d) {
+    if (!reflection[d]) continue;
+    for (auto& q : cell.material) q.xi[d] = 1 - q.xi[d];
+    for (auto& q : cell.boundary) {
+      q.xi[d] = 1 - q.xi[d];
+      q.normal[d] = -q.normal[d];
+    }
+  }
+}
+
 /// What the divergence theorem may be missed by: above the error of the rule on a smooth piece by far.
 double largest_defect(int points) { return 1e-3 + std::min(0.1, 1000 * std::pow(25.0, -points)); }
 
@@ -85,32 +131,11 @@ struct FaceMeasure<1> {
 
 }  // namespace
 
-/// A part of the unit cell.
-template <int dim>
-struct CellQuadrature<dim>::Box {
-  Vec<dim> origin{};
-  double size = 1;
-  int divisions = 0;
-
-  Vec<dim> point(const Vec<dim>& xi) const {
-    Vec<dim> x;
-    for (int d = 0; d < dim; ++d) x[d] = origin[d] + size * xi[d];
-    return x;
-  }
-
-  Box part(const std::array<int, dim>& third) const {
-    Box result{origin, size / 3, divisions + 1};
-    for (int d = 0; d < dim; ++d) result.origin[d] += third[d] * result.size;
-    return result;
-  }
-};
-
 template <int dim>
 CellQuadrature<dim>::CellQuadrature(int degree, int points)
-    : degree_(degree),
-      rule_(gauss_rule(points)),
-      full_rule_(unit_cell_rule<dim>(points)),
-      smallest_width_(std::clamp(std::pow(10.0, -2 * points), 1e-8, 1e-6)) {}
+    : degree_(degree), rule_(gauss_rule(points)), base_rule_(gauss_rule(points + 2)) {
+  if (degree == 2) inner_nodes_ = {0.5};
+}
 
 template <int dim>
 CellKind CellQuadrature<dim>::classify(std::span<const double> nodal_values) const {
@@ -119,10 +144,12 @@ CellKind CellQuadrature<dim>::classify(std::span<const double> nodal_values) con
 
 template <int dim>
 std::optional<CutCell<dim>> CellQuadrature<dim>::split(int cell, std::span<const double> nodal_values) const {
-  const BernsteinForm<dim> psi(degree_, nodal_values);
+  const auto reflection = to_standard<dim>(degree_, nodal_values);
+  const BernsteinForm<dim> psi(degree_, reflected<dim>(degree_, nodal_values, reflection));
   if (!std::isfinite(psi.variation(0))) return {};
   CutCell<dim> result{cell, {}, {}};
-  append(psi, Box{}, result);
+  append(psi, result);
+  reflect<dim>(result, reflection);
   if (!(divergence_defect(result, nodal_values) <= largest_defect(static_cast<int>(rule_.points.size()))))
     return {};
   return result;
@@ -157,75 +184,41 @@ double CellQuadrature<dim>::face_measure(std::span<const double> nodal_values, i
   return FaceMeasure<dim - 1>{degree_, static_cast<int>(rule_.points.size())}(values);
 }
 
-template <int dim>
-void CellQuadrature<dim>::append_parts(const BernsteinForm<dim>& psi, const Box& box,
-                                       CutCell<dim>& result) const {
-  for (int part = 0; part < power(3, dim); ++part) {
-    const auto third = local_node_position<dim>(2, part);
-    append(psi.part(third), box.part(third), result);
-  }
-}
-
-template <int dim>
-void CellQuadrature<dim>::append(const BernsteinForm<dim>& psi, const Box& box, CutCell<dim>& result) const {
-  const CellKind kind = kind_of<dim>(psi);
-  if (kind == CellKind::inside)
-    for (const auto& q : full_rule_)
-      result.material.push_back({box.point(q.xi), q.weight * std::pow(box.size, dim)});
-  if (kind == CellKind::cut) append_cut(psi, box, result);
-}
-
-/// A square without a resolved direction is divided while it is larger than the smallest width by this, and
-/// the cell has fewer points than this many full cells.
-constexpr double smallest_square = 10;
-constexpr size_t max_full_cells = 1000;
-
 template <>
-void CellQuadrature<2>::append_cut(const BernsteinForm<2>& psi, const Box& box, CutCell<2>& result) const {
+void CellQuadrature<2>::append(const BernsteinForm<2>& psi, CutCell<2>& result) const {
   const auto axes = by_variation<2>(psi);
   int height = axes[0];
-  Columns columns(slice(psi, 1 - height), smallest_width_);
+  Columns columns(slice(psi, 1 - height));
   if (!is_monotone<2>(psi, height)) {
-    Columns other(slice(psi, height), smallest_width_);
+    Columns other(slice(psi, height));
     if (other.cost() < columns.cost()) {
       columns = std::move(other);
       height = axes[1];
     }
   }
-  if (!columns.is_resolved() && box.size > smallest_square * smallest_width_ &&
-      result.material.size() < max_full_cells * full_rule_.size())
-    return append_parts(psi, box, result);
-  for (const auto& point : columns.material(rule_)) {
+  for (const auto& point : columns.material(rule_, base_rule_)) {
     Vec<2> xi;
     xi[1 - height] = point.xi[0];
     xi[height] = point.xi[1];
-    result.material.push_back({box.point(xi), point.weight * box.size * box.size});
+    result.material.push_back({xi, point.weight});
   }
-  for (const auto& point : columns.boundary(rule_)) {
+  for (const auto& point : columns.boundary(base_rule_, inner_nodes_)) {
     Vec<2> xi, normal;
     const double slope = std::hypot(point.gradient[0], point.gradient[1]);
     xi[1 - height] = point.base;
     xi[height] = point.height;
     normal[1 - height] = point.gradient[0] / slope;
     normal[height] = point.gradient[1] / slope;
-    result.boundary.push_back({box.point(xi), normal, point.weight * box.size});
+    result.boundary.push_back({xi, normal, point.weight});
   }
 }
 
-/// How often a box is divided in which the boundary is not certain to be a graph.
-constexpr int max_divisions = 2;
-
 template <>
-void CellQuadrature<3>::append_cut(const BernsteinForm<3>& psi, const Box& box, CutCell<3>& result) const {
-  auto axes = by_variation<3>(psi);
-  const auto height = std::find_if(axes.begin(), axes.end(), [&](int d) { return is_monotone<3>(psi, d); });
-  if (height == axes.end() && box.divisions < max_divisions) return append_parts(psi, box, result);
-  if (height != axes.end()) std::rotate(axes.begin(), height, height + 1);
-  const Slabs slabs(psi, {axes[1], axes[0], axes[2]}, smallest_width_);
-  for (const auto& q : slabs.material(rule_))
-    result.material.push_back({box.point(q.xi), q.weight * std::pow(box.size, 3)});
-  for (const auto& q : slabs.boundary(rule_))
-    result.boundary.push_back({box.point(q.xi), q.normal, q.weight * box.size * box.size});
+void CellQuadrature<3>::append(const BernsteinForm<3>& psi, CutCell<3>& result) const {
+  const auto axes = by_variation<3>(psi);
+  const Slabs slabs(psi, {axes[1], axes[0], axes[2]});
+  result.material = slabs.material(rule_);
+  result.boundary = slabs.boundary(rule_);
 }
 
 template class CellQuadrature<2>;

@@ -12,7 +12,9 @@ namespace wheelwright {
 template <int dim>
 class CellQuadrature {
  public:
-  /// `points` Gauss points a direction on every smooth piece; `degree` (1 or 2) of the level set.
+  /// `points` Gauss points a direction on every smooth piece; in 2D two more along the bases of the columns
+  /// that a cell is divided into, where integrands are no polynomials. `degree`: 1 or 2, that of the level
+  /// set.
   CellQuadrature(int degree, int points);
 
   /// Sign pattern of a cell's polynomial from its Bernstein coefficients: `inside` and `outside` are certain,
@@ -21,7 +23,9 @@ class CellQuadrature {
 
   /// Quadrature of a cell whose classify() is `cut`; its parts may be empty. Nothing when a value is not
   /// finite or the parts do not fit together, so that the quadrature would be wrong. Mirror images of a
-  /// cell's values give the mirror images of its points, up to rounding.
+  /// cell's values give the mirror images of its points, up to rounding. In 2D the boundary is divided where
+  /// it passes the lines through the level set's nodes, so that functions with kinks there are integrated as
+  /// well.
   std::optional<CutCell<dim>> split(int cell, std::span<const double> nodal_values) const;
 
   /// By how much material, boundary and the material's part of the cell's faces miss the divergence theorem,
@@ -29,17 +33,14 @@ class CellQuadrature {
   double divergence_defect(const CutCell<dim>& cell, std::span<const double> nodal_values) const;
 
  private:
-  struct Box;
   /// Measure of the material on the face at an end, 0 or 1, of an axis.
   double face_measure(std::span<const double> nodal_values, int axis, int end) const;
-  void append(const BernsteinForm<dim>& psi, const Box& box, CutCell<dim>& result) const;
-  void append_cut(const BernsteinForm<dim>& psi, const Box& box, CutCell<dim>& result) const;
-  void append_parts(const BernsteinForm<dim>& psi, const Box& box, CutCell<dim>& result) const;
+  void append(const BernsteinForm<dim>& psi, CutCell<dim>& result) const;
 
   int degree_;
   GaussRule rule_;
-  std::vector<ReferencePoint<dim>> full_rule_;
-  double smallest_width_;
+  GaussRule base_rule_;              ///< for the bases of 2D columns, where integrands are no polynomials
+  std::vector<double> inner_nodes_;  ///< of the level set, on an axis
 };
 
 }  // namespace wheelwright

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "wheelwright/cut/bernstein.h"
@@ -27,21 +28,18 @@ struct BoundaryPoint {
 /// neither appear nor vanish, so that their heights are smooth functions of the base.
 class Columns {
  public:
-  /// Intervals are divided until zeros are resolved, but not below `smallest_width`: in such a one a zero's
-  /// curve is taken for its chord.
-  Columns(const Slice& slice, double smallest_width);
-
-  /// Whether no zero's curve was taken for its chord, and none stands upright on the base.
-  bool is_resolved() const;
+  explicit Columns(const Slice& slice);
 
   /// What the pieces cost in quadrature points.
   int cost() const;
 
-  /// Quadrature of {psi < 0}: points (base, height).
-  std::vector<ReferencePoint<2>> material(const GaussRule& rule) const;
+  /// Quadrature of {psi < 0}: points (base, height); `rule` along the heights, `base_rule` on every interval
+  /// of the base.
+  std::vector<ReferencePoint<2>> material(const GaussRule& rule, const GaussRule& base_rule) const;
 
-  /// Quadrature of {psi = 0}.
-  std::vector<BoundaryPoint> boundary(const GaussRule& rule) const;
+  /// Quadrature of {psi = 0}, also of functions that are not smooth where the base or the height is one of
+  /// `kinks`.
+  std::vector<BoundaryPoint> boundary(const GaussRule& rule, std::span<const double> kinks) const;
 
  private:
   struct Piece {
@@ -49,7 +47,6 @@ class Columns {
     bool inside_at_bottom;
     int crossings;
     bool is_chord;
-    Quartic discriminant;  ///< on the interval, without rounding at a branch point; unless there is none
   };
   struct Zero {
     double height, slope;  ///< slope: of psi along the height
@@ -61,17 +58,37 @@ class Columns {
                    std::vector<BoundaryPoint>& points) const;
 
   std::vector<double> vertical_lines(const std::vector<double>& candidates) const;
-  /// The interval as a part of one that reaches to near branch points outside of it: so the rule does not
-  /// jump when the shape moves and a branch point leaves the square.
-  Interval up_to_branch_points(const Interval& interval) const;
-  void append(const Interval& interval, double smallest_width);
-  Piece piece_on(const Interval& interval) const;
-  /// Whether the piece's zero goes to infinity at a near pole, and not the other one.
+  /// A place where the columns change.
+  struct Break {
+    double place;
+    bool is_branch_point;
+  };
+  void append(const Break& from, const Break& to, Piece piece);
+  Piece piece_on(double from, double to) const;
+  /// With the substitution that suits the branch points and poles next to it.
+  Interval substituted(const Break& from, const Break& to, const Piece& piece) const;
+  /// Whether the piece's zero goes to infinity at a pole, and not the other one.
   bool is_pole_of(const Piece& piece, std::complex<double> place) const;
-  bool is_resolved(const Piece& piece, double negligible) const;
+  bool is_resolved(const Piece& piece) const;
+  void sharpen_double_zeros();
   Quadratic column(double base) const;
-  double half_slope(const Piece& piece, const Interval::Place& place, const Quadratic& column) const;
+  /// Derivative of psi along the base, as a quadratic in the height.
+  Quadratic slope_along_base(double base) const;
+  double half_slope(const Interval::Place& place, const Quadratic& column) const;
   std::array<Zero, 2> zeros(const Piece& piece, const Interval::Place& place) const;
+  /// Whether the whole column is zero.
+  bool is_upright(double base) const;
+  /// How far rounding may move a zero.
+  double uncertainty(double base, double slope) const;
+  /// Heights of the zeros at an end of a curve. Where that is an edge of the square, they lie on it. NaN
+  /// where rounding hides them.
+  std::array<double, 2> heights(const Piece& piece, double base) const;
+  /// Values of the interval's u between which zeros' curves cross no kink.
+  std::vector<double> parts_at(const Piece& piece, std::span<const double> kinks) const;
+  /// Points on the part of a zero's curve between two values of the interval's u. The normals are such that
+  /// they integrate the rise of the curve exactly.
+  void append_curve(const Piece& piece, int crossing, const GaussRule& rule, double first, double last,
+                    std::vector<BoundaryPoint>& points) const;
   /// The height of the two zeros at a base where they merge.
   std::complex<double> double_root(std::complex<double> base) const;
   Gradient gradient(double base, double height) const;
@@ -79,7 +96,7 @@ class Columns {
 
   Slice slice_;
   double magnitude_;
-  Quartic discriminant_;  ///< of the quadratics in the height, over the base
+  Factors discriminant_;  ///< of the quadratics in the height, over the base
   /// Complex places of the base where zeros merge at a height near the square.
   std::vector<std::complex<double>> branch_points_;
   std::vector<std::complex<double>> poles_;  ///< where one of the zeros is infinitely far, and perhaps others

@@ -1,40 +1,71 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <complex>
-#include <span>
+#include <vector>
 
 #include "wheelwright/geometry/gauss.h"
 
 namespace wheelwright {
 
-/// An interval of integration, substituted by u in [0, 1] so that a square root's branch point at an end
-/// leaves a smooth integrand.
-struct Interval {
-  double from, to;
-  bool root_at_from, root_at_to;  ///< a branch point lies there
-  double first = 0, last = 1;     ///< the part of the substituted interval that is meant
+/// An interval of integration with a substitution x(t) after which an integrand is smooth that was not: at
+/// the branch points of square roots, or close to singular points in the complex plane. On the interval, t is
+/// first + (last - first) u with u in [0, 1].
+class Interval {
+ public:
+  /// x = t.
+  static Interval linear(double from, double to);
+  /// Square roots vanish at both ends: x = centre + scale sin(t).
+  static Interval between_roots(double from, double to);
+  /// A square root vanishes at `root`, which is not within the interval, and perhaps another one at
+  /// `partner` behind it: x = centre +- scale cosh(t).
+  static Interval beyond_root(double from, double to, double root, double partner);
+  /// A logarithm at an end, `root`: x = root +- width t^4.
+  static Interval beyond_logarithm(double from, double to, double root);
+  /// Singular points at centre +- i scale: x = centre + scale sinh(t).
+  static Interval near(double from, double to, double centre, double scale);
+
+  double from() const { return from_; }
+  double to() const { return to_; }
+  double width() const { return to_ - from_; }
+
+  /// How much t varies, if x is a trigonometric or hyperbolic function of it.
+  double span() const {
+    return substitution_ == Substitution::linear || substitution_ == Substitution::power ? 0 : last_ - first_;
+  }
 
   struct Place {
-    double x, dx;           ///< dx/du
-    double fraction, rest;  ///< of the interval, before and behind x
+    double x, weight;  ///< weight: dx/du, or that of a quadrature point
+    std::array<double, 2> roots{NAN, NAN};
+    std::array<double, 2> to_roots{};  ///< distances, to the last digit
   };
   Place at(double u) const;
-  double width() const { return at(1).x - at(0).x; }
-  std::array<Interval, 2> halves() const;
+  /// The points of a rule on [0, 1], on the part of the interval between two values of u. Their weights add
+  /// up to the part's width.
+  std::vector<Place> places(const GaussRule& rule, double first = 0, double last = 1) const;
+  /// u of a place in the interval.
+  double fraction(double x) const;
 
-  /// The substituted coordinate of a place: 0 at `from`, 1 at `to`.
-  std::complex<double> substituted(std::complex<double> place) const;
+  /// Whether a singular point is among those that the substitution is for.
+  bool is_smooth_at(std::complex<double> place) const;
 
-  /// Whether the branch points of the integrand, other than those at the ends, are so far that a Gauss rule
-  /// converges fast.
-  bool is_far_from_branch_points(std::span<const std::complex<double>> places) const;
-  /// Whether a pole is so far that samples show it, or within the interval, where only a zero outside of the
-  /// square has one.
-  bool is_far_from_pole(std::complex<double> place) const;
+  /// Sum of the half axes of the ellipse through a singular point, around the interval of t as [-1, 1]: by
+  /// its square the error of a Gauss rule falls with every point.
+  double ellipse_through(std::complex<double> place) const;
 
  private:
-  double ellipse_through(std::complex<double> place) const;
+  enum class Substitution { linear, sine, hyperbolic_sine, cosh_to_the_right, cosh_to_the_left, power };
+  Interval(Substitution substitution, double from, double to, double centre, double scale,
+           std::array<double, 2> roots = {NAN, NAN});
+  /// t at x.
+  double coordinate(double x) const;
+  std::complex<double> coordinate(std::complex<double> x) const;
+
+  Substitution substitution_;
+  double from_, to_, centre_, scale_;
+  std::array<double, 2> roots_;  ///< where square roots vanish that are smooth after the substitution
+  double first_, last_;
 };
 
 /// Tells from samples of a function whether a Gauss rule integrates it well: whether its Legendre series on
@@ -51,8 +82,8 @@ class Resolution {
 
   /// Whether the last terms are small beside those that vary, or below `negligible`.
   bool varies_smoothly(const Samples& f, double negligible) const;
-  /// Whether the last terms are small beside the mean.
-  bool is_smooth(const Samples& f) const;
+  /// Whether the last terms are small beside the mean, or below `negligible`.
+  bool is_smooth(const Samples& f, double negligible) const;
 
  private:
   Samples series(const Samples& f) const;

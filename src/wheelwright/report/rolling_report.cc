@@ -125,6 +125,7 @@ Json positions_json(const RollingReport& report) {
                          {"peak_pressure_Pa", p.peak_pressure},
                          {"patch_length_m", p.patch_length},
                          {"peak_von_mises_Pa", a.peak_von_mises[i]},
+                         {"peak_strain", a.peak_strain[i]},
                          {"strain_energy_J_per_m", a.strain_energy[i]},
                          {"travel_at_load_m", a.travel_at_load[i]},
                          {"force_at_travel_N", a.force_at_travel[i] * report.width}});

@@ -115,6 +115,26 @@ SurfaceCompliance<dim> surface_compliance(const CyclicStiffness<dim>& ring, cons
   return {ring, tread, 2 * half - 1, columns_in_zones(grid, positions, half)};
 }
 
+/// A travel may be too small to reach the ground, or to be seen by the quadrature points.
+template <int dim>
+std::optional<Failure> no_contact(const RolledContact<dim>& rolled) {
+  const auto touches = [](const Vec<dim>& z) { return z[0] < 0; };
+  if (std::ranges::any_of(rolled.state.augmented, touches)) return {};
+  return Failure{FailureReason::no_contact,
+                 fmt::format("no point touches the ground: the smallest gap is {:.4g} m",
+                             rolled.contact.smallest_gap(rolled.state))};
+}
+
+template <int dim>
+std::optional<Failure> rim_under_ground(const PolarGrid<dim>& grid, const RimMotion& rim) {
+  const double thickness = grid.outer_radius - grid.inner_radius;
+  if (rim.towards_ground < thickness) return {};
+  return Failure{FailureReason::rim_under_ground,
+                 fmt::format("the rim would travel {:.4g} m, but the ring is {:.4g} m thick: the load is too "
+                             "large for this material and shape",
+                             rim.towards_ground, thickness)};
+}
+
 bool all_finite(const Matrix& a) {
   return std::all_of(a.entries().begin(), a.entries().end(), [](double x) { return std::isfinite(x); });
 }
@@ -285,6 +305,8 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const CutShape<dim>& s
     auto rolled = roll_to(model_, tread_, s.ring, s.surface, s.positions.grounds[i], s.preloads[i], neighbour,
                           interrupt);
     if (!rolled) return rolled.failure();
+    if (auto failure = rim_under_ground(model_.grid, rolled->state.rim)) return *failure;
+    if (auto failure = no_contact(*rolled)) return *failure;
     neighbour = rolled->state;
     const ContactZone& zone = rolled->contact.zone();
     if (zone.n_columns > s.surface.width() + 1)

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "wheelwright/analysis/stress_peak.h"
+#include "wheelwright/analysis/strain_peaks.h"
 
 namespace wheelwright {
 namespace {
@@ -23,7 +23,7 @@ std::optional<double> value_of(Quantity quantity, const StateSolver<dim>& solver
   if (quantity == Quantity::objective) return evaluation.function("objective").value;
   if (quantity == Quantity::volume_fraction) return volume_fraction(solver.model().grid, state.measure);
   if (quantity == Quantity::peak_von_mises)
-    return solution ? std::optional(std::ranges::max(peak_von_mises(solver, *solution))) : std::nullopt;
+    return solution ? std::optional(std::ranges::max(strain_peaks(solver, *solution).von_mises)) : std::nullopt;
   if (const auto criterion = named_value(evaluation.terms, name(quantity))) return criterion;
   return named_value(evaluation.measures, name(quantity));
 }

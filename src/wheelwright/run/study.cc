@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "wheelwright/analysis/deformation_size.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/evolution/volume.h"
 #include "wheelwright/functionals/material_volume.h"
@@ -206,9 +207,12 @@ template <int dim>
 typename ShapeOptimizer<dim>::Evaluate evaluate_of(const Study<dim>& study, Interrupt interrupt) {
   const bool holds_mean = study.source.objective.mean == MeanStress::held;
   return [solver = study.solver, functions = study.functions, holds_mean, interrupt = std::move(interrupt)](
-             const CutShape<dim>& shape, const Evaluation<dim>* previous) {
+             const CutShape<dim>& shape, const Evaluation<dim>* previous) -> Expected<Evaluated<dim>> {
     const Matrix* held_mean = holds_mean && previous ? &previous->mean_observations : nullptr;
-    return evaluate<dim>(*solver, functions, shape, held_mean, interrupt);
+    auto evaluated = evaluate<dim>(*solver, functions, shape, held_mean, interrupt);
+    if (!evaluated) return evaluated;
+    if (auto failure = material_overlaps(*solver, shape.psi, *evaluated->state)) return *failure;
+    return evaluated;
   };
 }
 

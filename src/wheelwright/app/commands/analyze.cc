@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "wheelwright/analysis/deformation_size.h"
 #include "wheelwright/app/case_input.h"
 #include "wheelwright/app/commands/commands.h"
 #include "wheelwright/app/exit_code.h"
@@ -95,9 +96,14 @@ class AnalyzeCommand : public Subcommand {
     const LevelSet<2> shape = initial_shape<2>(c);
     const auto solved = solver.states(shape, solver.all_positions(), Interrupt());
     if (!solved) return tell_failure(name(), solved.failure());
+    if (const auto failure = material_overlaps(solver, shape, **solved))
+      return tell_failure(name(), *failure);
     const auto report = rolling_report(c, name_of_case(), loads(), solver, **solved);
     if (!report) return tell_failure(name(), report.failure());
     print(*report);
+    const auto size = deformation_size(solver, shape, **solved);
+    if (const std::string warning = deformation_warning(size); !warning.empty())
+      tell("warning: {}\n", warning);
     if (output_) write(*report, shape, solver, **solved);
     return exit_done;
   }

@@ -19,7 +19,6 @@ namespace {
 constexpr double least_order = 1.9;
 constexpr double balance_tolerance = 1e-9;
 constexpr int halvings = 3;
-constexpr int exact_cut_points = 12;
 
 /// A direction with several wave lengths, equal in all sectors, of size 1.
 std::vector<double> test_direction(const Lattice<2>& lattice) {
@@ -107,26 +106,13 @@ Expected<TaylorTest> test_gradient(const Case& c, const StateSolver<2>& solver, 
   return taylor_test<2>(evaluation, shape, direction, c.grid.degree, step, halvings);
 }
 
-/// The rule on cut cells leaves an error in the gradient that shows where a hole is a few cells wide. Then
-/// the test is made once more with a rule that knows the discrete problem exactly: the bar is for the
-/// gradient.
+/// With the quadrature of a run.
 Expected<bool> report_taylor(const Case& c, const StateSolver<2>& solver, const LevelSet<2>& shape,
                              const std::vector<double>& direction, double step) {
   const auto test = test_gradient(c, solver, shape, direction, step);
   if (!test) return test.failure();
   report_remainders(*test);
-  if (lowest_order(*test) > least_order) return report_order(*test);
-  RollingModel<2> model = solver.model();
-  model.cut_points = exact_cut_points;
-  const auto exact_solver = make_solver(model);
-  if (!exact_solver) return exact_solver.failure();
-  const auto exact = test_gradient(c, **exact_solver, shape, direction, step);
-  if (!exact) return exact.failure();
-  fmt::print(
-      "  lowest order {:.4f}: is it the quadrature of cut cells? Once more with {} points a direction\n",
-      lowest_order(*test), exact_cut_points);
-  report_remainders(*exact);
-  return report_order(*exact);
+  return report_order(*test);
 }
 
 class VerifyCommand : public Subcommand {

@@ -1,0 +1,206 @@
+#include "wheelwright/analysis/deformation_size.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <unordered_map>
+
+#include "wheelwright/analysis/strain_peaks.h"
+#include "wheelwright/geometry/cell_map.h"
+#include "wheelwright/geometry/contour.h"
+
+namespace wheelwright {
+namespace {
+
+template <int dim>
+Lattice<dim> displacement_lattice(const StateSolver<dim>& solver) {
+  return {solver.model().grid, solver.model().degree};
+}
+
+/// The rotation of the material about the axle at the middle of a cell of the ring, from the antisymmetric
+/// part of grad u.
+template <int dim>
+double rotation_in_cell(const RingField& u, const Lattice<dim>& lattice, const std::array<int, dim>& cell) {
+  Vec<dim> middle;
+  middle.fill(0.5);
+  const ShapeFunctions<dim> shape(lattice.degree(), middle);
+  const CellMap<dim> map(lattice.grid(), lattice.degree(), cell);
+  const Mat<dim> inverse_jacobian = inverse<dim>(map.jacobian(shape));
+  const auto nodes = ring_cell_nodes<dim>(lattice, cell);
+  const double azimuth = cell[1] * lattice.grid().cell_size()[1];
+  Mat<dim> gradient{};  // d u_i / d x_j, both in the cell's frame
+  for (int a = 0; a < nodes_per_cell<dim>(lattice.degree()); ++a) {
+    const Vec<dim> slope = transpose_times<dim>(inverse_jacobian, shape.gradient[a]);
+    Vec<dim> value;
+    std::copy_n(&u.values[dim * nodes[a]], dim, value.begin());
+    value = rotated<dim>(value, -azimuth);
+    for (int i = 0; i < dim; ++i)
+      for (int j = 0; j < dim; ++j) gradient[i][j] += value[i] * slope[j];
+  }
+  return 0.5 * (gradient[1][0] - gradient[0][1]);
+}
+
+template <int dim>
+double largest_rotation(const StateSolver<dim>& solver, const State<dim>& state,
+                        const Displacement<dim>& displacement) {
+  const Lattice<dim> lattice = displacement_lattice(solver);
+  const PolarGrid<dim>& grid = lattice.grid();
+  double largest = 0;
+  for (int position = 0; position < state.positions().size(); ++position) {
+    const RingField u = displacement.at_nodes(position);
+    const double rim = state.contacts()[position].rim.rotation;
+    for (int k = 0; k < grid.n_cells(); ++k) {
+      if (!state.domain().active(k)) continue;
+      auto cell = grid.cell_position(k);
+      for (int sector = 0; sector < grid.n_sectors; ++sector, cell[1] += grid.columns())
+        largest = std::max(largest, std::abs(rotation_in_cell<dim>(u, lattice, cell) - rim));
+    }
+  }
+  return largest;
+}
+
+/// The deformed place of a point of the ring.
+Vec<2> deformed(const Vec<2>& x, const RingField& u, const Lattice<2>& lattice) {
+  const PolarGrid<2>& grid = lattice.grid();
+  const Vec<2> size = grid.cell_size();
+  const double azimuth = std::atan2(x[1], x[0]),
+               turn = azimuth < 0 ? azimuth + 2 * std::numbers::pi : azimuth;
+  const double along[2] = {(norm<2>(x) - grid.inner_radius) / size[0], turn / size[1]};
+  const int cells[2] = {grid.cells[0], grid.ring_columns()};
+  std::array<int, 2> cell;
+  Vec<2> xi;
+  for (int d = 0; d < 2; ++d) {
+    cell[d] = std::clamp(static_cast<int>(along[d]), 0, cells[d] - 1);
+    xi[d] = std::clamp(along[d] - cell[d], 0.0, 1.0);
+  }
+  const ShapeFunctions<2> shape(lattice.degree(), xi);
+  const auto nodes = ring_cell_nodes<2>(lattice, cell);
+  const auto n = static_cast<size_t>(nodes_per_cell<2>(lattice.degree()));
+  Vec<2> result = x;
+  for (int d = 0; d < 2; ++d)
+    result[d] += interpolate(u, std::span(nodes.data(), n), std::span(shape.value.data(), n), d);
+  return result;
+}
+
+struct Side {
+  Vec<2> from, to;
+  size_t curve, index;  ///< of its curve, and along it
+};
+
+double turn(const Vec<2>& a, const Vec<2>& b, const Vec<2>& c) {
+  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+/// Whether the inner parts of two sides cross.
+bool cross(const Side& a, const Side& b) {
+  return turn(a.from, a.to, b.from) * turn(a.from, a.to, b.to) < 0 &&
+         turn(b.from, b.to, a.from) * turn(b.from, b.to, a.to) < 0;
+}
+
+/// Whether sides of closed polylines cross, other than neighbours. Sides are sorted into squares as wide as
+/// the longest of them, so that each meets those of nine squares at most.
+bool any_cross(const std::vector<std::vector<Vec<2>>>& curves) {
+  std::vector<Side> sides;
+  double longest = 0;
+  for (size_t c = 0; c < curves.size(); ++c)
+    for (size_t k = 0; k < curves[c].size(); ++k) {
+      const Side side{curves[c][k], curves[c][(k + 1) % curves[c].size()], c, k};
+      longest = std::max(longest, std::hypot(side.to[0] - side.from[0], side.to[1] - side.from[1]));
+      sides.push_back(side);
+    }
+  const auto square = [&](double x) { return static_cast<std::int64_t>(std::floor(x / longest)); };
+  const auto key = [](std::int64_t i, std::int64_t j) { return i * 4294967291 + j; };
+  std::unordered_map<std::int64_t, std::vector<size_t>> squares;
+  for (size_t s = 0; s < sides.size(); ++s) {
+    const std::int64_t i = square(sides[s].from[0]), j = square(sides[s].from[1]);
+    for (int di = -1; di <= 1; ++di)
+      for (int dj = -1; dj <= 1; ++dj)
+        if (const auto found = squares.find(key(i + di, j + dj)); found != squares.end())
+          for (const size_t t : found->second)
+            if (cross(sides[s], sides[t])) return true;
+    squares[key(i, j)].push_back(s);
+  }
+  return false;
+}
+
+}  // namespace
+
+template <>
+bool edges_overlap<2>(const StateSolver<2>& solver, const LevelSet<2>& psi, const State<2>& state) {
+  const auto contours = material_contours(psi, 2);
+  const auto displacement = state.displacement();
+  const Lattice<2> lattice = displacement_lattice(solver);
+  for (int position = 0; position < state.positions().size(); ++position) {
+    const RingField u = displacement->at_nodes(position);
+    std::vector<std::vector<Vec<2>>> curves;
+    for (const Contour& contour : contours) {
+      curves.emplace_back();
+      for (const Vec<2>& x : contour.points) curves.back().push_back(deformed(x, u, lattice));
+    }
+    if (any_cross(curves)) return true;
+  }
+  return false;
+}
+
+template <>
+bool edges_overlap<3>(const StateSolver<3>&, const LevelSet<3>&, const State<3>&) {
+  return false;
+}
+
+template <int dim>
+double travel_by_thickness(const StateSolver<dim>& solver, const State<dim>& state) {
+  double largest = 0;
+  for (const ContactPatch<dim>& contact : state.contacts())
+    largest = std::max(largest, std::abs(contact.rim.towards_ground));
+  const PolarGrid<dim>& grid = solver.model().grid;
+  return largest / (grid.outer_radius - grid.inner_radius);
+}
+
+template <int dim>
+DeformationSize deformation_size(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
+                                 const State<dim>& state) {
+  return {.strain = std::ranges::max(strain_peaks(solver, state).principal),
+          .rotation = largest_rotation(solver, state, *state.displacement()),
+          .travel = travel_by_thickness(solver, state),
+          .edges_overlap = edges_overlap<dim>(solver, psi, state)};
+}
+
+template <int dim>
+std::optional<Failure> material_overlaps(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
+                                         const State<dim>& state) {
+  constexpr double least_travel = 0.05;
+  const double travel = travel_by_thickness(solver, state);
+  if (travel < least_travel || !edges_overlap<dim>(solver, psi, state)) return {};
+  return Failure{FailureReason::material_overlaps,
+                 fmt::format("deformed edges of holes cross each other where the rim travels {:.3g} % of the "
+                             "ring's thickness: the load is too large for this material and shape",
+                             100 * travel)};
+}
+
+std::string deformation_warning(const DeformationSize& size) {
+  if (size.strain <= small_strain && size.travel <= small_travel && !size.edges_overlap) return "";
+  return fmt::format(
+      "large deformation: strains reach {:.2g} %, the material turns by up to {:.2g} deg, and the rim "
+      "travels "
+      "{:.2g} % of the ring's thickness{}. Linear elasticity holds up to about {:.0f} % of strain and {:.0f} "
+      "% "
+      "of travel; beyond, travel, pressures and stresses of the real wheel are different. A smaller load or "
+      "a stiffer material helps.",
+      100 * size.strain, size.rotation * 180 / std::numbers::pi, 100 * size.travel,
+      size.edges_overlap ? ", and edges of holes cross each other" : "", 100 * small_strain,
+      100 * small_travel);
+}
+
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                               \
+  template double travel_by_thickness(const StateSolver<dim>&, const State<dim>&);                 \
+  template std::optional<Failure> material_overlaps(const StateSolver<dim>&, const LevelSet<dim>&, \
+                                                    const State<dim>&);                            \
+  template DeformationSize deformation_size(const StateSolver<dim>&, const LevelSet<dim>&, const State<dim>&);
+WHEELWRIGHT_INSTANTIATE(2)
+WHEELWRIGHT_INSTANTIATE(3)
+#undef WHEELWRIGHT_INSTANTIATE
+
+}  // namespace wheelwright

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <array>
+
+#include "wheelwright/state/state.h"
+
+namespace wheelwright {
+
+/// The largest values of every load position, over the quadrature points of the material. The tread is seen
+/// through the nodes of the level set's grid, without its refinement.
+struct StrainPeaks {
+  std::vector<double> von_mises;  ///< stress [Pa]
+  std::vector<double> principal;  ///< absolute value of a principal strain
+};
+
+template <int dim>
+StrainPeaks strain_peaks(const StateSolver<dim>& solver, const State<dim>& state);
+
+/// The principal strains; `strain`: n_strains entries, shear strains as angles. When dim = 2, the one along
+/// the axle is `axial_strain_ratio` times the trace in the plane.
+template <int dim>
+std::array<double, 3> principal_strains(const double* strain, double axial_strain_ratio);
+
+}  // namespace wheelwright
