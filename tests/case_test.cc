@@ -648,6 +648,14 @@ TEST(Derived, LeastGammaAtThePapersThetas) {
   EXPECT_DOUBLE_EQ(least_gamma_0(1, stiffer), least_gamma_0(1, material));
 }
 
+TEST(Derived, LeastGammaOfNearlyIncompressibleMaterialGrowsForPositiveThetaAlone) {
+  const Material last{.youngs_modulus = 200e6, .poissons_ratio = 0.485},
+      rubber{.youngs_modulus = 200e6, .poissons_ratio = 0.4999};
+  for (const double theta : {-1.0, -0.5, 0.0})
+    EXPECT_NEAR(least_gamma_0(theta, rubber), least_gamma_0(theta, last), 0.01 * least_gamma_0(theta, last));
+  EXPECT_GT(least_gamma_0(0.24, rubber), 100 * least_gamma_0(0.24, last));
+}
+
 TEST(Derived, InPlaneStressAreThoseOfTheEquivalentMaterial) {
   Case sheet, equivalent;
   sheet.material = {.youngs_modulus = 70e6, .poissons_ratio = 0.4, .plane = Plane::stress};
@@ -701,6 +709,23 @@ TEST(Conflicts, TheTargetVolumeLiesBetweenTheBandsAndAFullRing) {
   EXPECT_TRUE(conflicts(c).empty());
   c.holes = {};
   EXPECT_EQ(conflicts(c).size(), 1u);
+}
+
+// Degree 2 takes all, and so does plane stress, where nothing is nearly incompressible.
+TEST(Conflicts, NearlyIncompressibleMaterialNeedsDegreeTwo) {
+  for (const auto& [nu, degree, plane, n] : {std::tuple{0.485, 1, Plane::strain, 0},
+                                             {0.486, 1, Plane::strain, 1},
+                                             {0.486, 2, Plane::strain, 0},
+                                             {0.49999, 2, Plane::strain, 0},
+                                             {0.499995, 2, Plane::strain, 1},
+                                             {0.499995, 1, Plane::strain, 2},
+                                             {0.499995, 1, Plane::stress, 0}}) {
+    Case c;
+    c.material.poissons_ratio = nu;
+    c.material.plane = plane;
+    c.grid.degree = degree;
+    EXPECT_EQ(conflicts(c).size(), static_cast<std::size_t>(n)) << nu << ", degree " << degree;
+  }
 }
 
 TEST(Conflicts, NitscheNeedsALargeGammaForThetaZeroAndOneOnly) {

@@ -17,7 +17,7 @@ PolarGrid<dim> coarse_grid(int refinement = 1) {
   return grid;
 }
 
-const Material material{200e6, 0.48};
+const Material material{200e6, 0.48}, rubber{200e6, 0.4999};
 
 /// A displacement, Cartesian in the frame of the first column.
 template <int dim>
@@ -105,14 +105,17 @@ class Element : public ::testing::Test {};
 using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(Element, Dimensions);
 
+/// Degree and material: the last is of projected dilatation.
+const std::pair<int, Material> elements[] = {{1, material}, {2, material}, {2, rubber}};
+
 TYPED_TEST(Element, RigidMotionsHaveNoEnergy) {
   constexpr int dim = TypeParam::value;
   const auto grid = coarse_grid<dim>();
-  for (int degree : {1, 2}) {
+  for (const auto& [degree, made_of] : elements) {
     std::array<int, dim> cell{};
     cell[1] = 1;
-    const ElasticElement<dim> element(grid, degree, cell);
-    const Matrix k = cell_stiffness<dim>(element, material, unit_cell_rule<dim>(degree + 2));
+    const ElasticElement<dim> element(grid, degree, cell, made_of);
+    const Matrix k = cell_stiffness<dim>(element, made_of, unit_cell_rule<dim>(degree + 2));
     for (const auto& motion : rigid_motions<dim>()) {
       const auto u = interpolate<dim>(grid, degree, cell, motion);
       EXPECT_LT(std::abs(energy(k, u)), 1e-13 * energy_scale(k, u));
@@ -126,9 +129,9 @@ TYPED_TEST(Element, StrainOfALinearFieldIsExact) {
   constexpr int dim = TypeParam::value;
   const auto grid = coarse_grid<dim>();
   const Mat<dim> a = some_gradient<dim>();
-  for (int degree : {1, 2}) {
+  for (const auto& [degree, made_of] : elements) {
     const std::array<int, dim> cell{1};  // of the first column: its frame is that of the field
-    const ElasticElement<dim> element(grid, degree, cell);
+    const ElasticElement<dim> element(grid, degree, cell, made_of);
     const auto u = interpolate<dim>(grid, degree, cell, [&](const Vec<dim>& x) { return times<dim>(a, x); });
     for (const auto& q : unit_cell_rule<dim>(3)) {
       const auto at = element.at(q.xi);
@@ -152,18 +155,100 @@ TYPED_TEST(Element, EnergyOfALinearFieldIsExact) {
   constexpr int dim = TypeParam::value;
   const auto grid = coarse_grid<dim>();
   const Mat<dim> a = some_gradient<dim>();
-  const Voigt<dim> e = strain_of<dim>(a), sigma = stress<dim>(material, e);
-  double density = 0;
-  for (int s = 0; s < n_strains<dim>; ++s) density += sigma[s] * e[s];
-  for (int degree : {1, 2}) {
+  const Voigt<dim> e = strain_of<dim>(a);
+  for (const auto& [degree, made_of] : elements) {
     const std::array<int, dim> cell{1};
-    const ElasticElement<dim> element(grid, degree, cell);
+    const ElasticElement<dim> element(grid, degree, cell, made_of);
     const auto rule = unit_cell_rule<dim>(degree + 2);
-    double measure = 0;
+    const Voigt<dim> sigma = stress<dim>(made_of, e);
+    double density = 0, measure = 0;
+    for (int s = 0; s < n_strains<dim>; ++s) density += sigma[s] * e[s];
     for (const auto& q : rule) measure += q.weight * element.at(q.xi).determinant;
     const auto u = interpolate<dim>(grid, degree, cell, [&](const Vec<dim>& x) { return times<dim>(a, x); });
-    EXPECT_NEAR(energy(cell_stiffness<dim>(element, material, rule), u), density * measure,
+    EXPECT_NEAR(energy(cell_stiffness<dim>(element, made_of, rule), u), density * measure,
                 1e-11 * density * measure);
+  }
+}
+
+/// In a nearly incompressible material: what is left of div u is orthogonal to the linear functions of x, in
+/// the whole cell and in a part of it; the rest of the strain is that of u.
+TYPED_TEST(Element, TheDilatationIsProjectedOnLinearFunctions) {
+  constexpr int dim = TypeParam::value;
+  const auto grid = coarse_grid<dim>();
+  const std::array<int, dim> cell{1};
+  const ElasticElement<dim> element(grid, 2, cell, rubber), plain(grid, 2, cell, material);
+  EXPECT_TRUE(element.projects_dilatation());
+  EXPECT_FALSE(plain.projects_dilatation());
+  const auto whole = unit_cell_rule<dim>(4);
+  for (int dof = 0; dof < element.n_dofs(); ++dof) {
+    std::array<double, dim + 1> moments{}, scale{};
+    for (const auto& q : whole) {
+      const auto at = element.at(q.xi), of_u = plain.at(q.xi);
+      double trace = 0, dilatation = 0;
+      for (int d = 0; d < dim; ++d) {
+        trace += at.strain[d][dof];
+        dilatation += of_u.strain[d][dof];
+      }
+      EXPECT_NEAR(at.dilatation[dof], dilatation, 1e-12 * (1 + std::abs(dilatation)));
+      for (int s = 0; s < n_strains<dim>; ++s) {
+        const double share = s < dim ? 1.0 / dim : 0;
+        EXPECT_NEAR(at.strain[s][dof] - share * trace, of_u.strain[s][dof] - share * dilatation, 1e-11);
+      }
+      for (int a = 0; a <= dim; ++a) {
+        const double weight = q.weight * at.determinant * (a == 0 ? 1 : at.position[a - 1]);
+        moments[a] += weight * (trace - dilatation);
+        scale[a] += std::abs(weight * dilatation);
+      }
+    }
+    for (int a = 0; a <= dim; ++a) EXPECT_LT(std::abs(moments[a]), 1e-10 * scale[a]);
+  }
+}
+
+/// A layer of this thickness, in parts of the cell: quadrature points and weights.
+template <int dim>
+std::vector<ReferencePoint<dim>> layer(double thickness) {
+  auto rule = unit_cell_rule<dim>(4);
+  for (auto& q : rule) {
+    q.xi[0] *= thickness;
+    q.weight *= thickness;
+  }
+  return rule;
+}
+
+TYPED_TEST(Element, TheDilatationOfAPartOfTheCellIsProjectedOnIt) {
+  constexpr int dim = TypeParam::value;
+  const auto grid = coarse_grid<dim>();
+  const std::array<int, dim> cell{1};
+  const ElasticElement<dim> element(grid, 2, cell, rubber);
+  const auto linear =
+      interpolate<dim>(grid, 2, cell, [&](const Vec<dim>& x) { return times<dim>(some_gradient<dim>(), x); });
+  double dilatation = 0;
+  for (int d = 0; d < dim; ++d) dilatation += some_gradient<dim>()[d][d];
+  for (const double thickness : {1.0, 0.3, 1e-3, 1e-6, 1e-9, 1e-12}) {
+    const auto part = layer<dim>(thickness);
+    const auto projection = element.project_dilatation(part);
+    const auto value = [&](const std::vector<double>& u, const auto& at) {
+      const auto functions = element.linear_functions(at.position);
+      double sum = 0;
+      for (int i = 0; i < element.n_dofs(); ++i)
+        for (int a = 0; a <= dim; ++a) sum += functions[a] * projection.coefficients(a, i) * u[i];
+      return sum;
+    };
+    for (const auto& q : part)
+      EXPECT_NEAR(value(linear, element.at(q.xi)), dilatation, 1e-9 * std::abs(dilatation)) << thickness;
+    std::vector<double> u(element.n_dofs());
+    u[0] = 1;
+    std::array<double, dim + 1> moments{}, scale{};
+    for (const auto& q : part) {
+      const auto at = element.at(q.xi);
+      const auto functions = element.linear_functions(at.position);
+      for (int a = 0; a <= dim; ++a) {
+        const double weight = q.weight * at.determinant * functions[a];
+        moments[a] += weight * (value(u, at) - at.dilatation[0]);
+        scale[a] += std::abs(weight * at.dilatation[0]);
+      }
+    }
+    for (int a = 0; a <= dim; ++a) EXPECT_LT(std::abs(moments[a]), 1e-7 * scale[a]) << thickness;
   }
 }
 
@@ -249,12 +334,13 @@ TYPED_TEST(Element, GhostPenaltyDoesNotFeelLinearFields) {
   constexpr int dim = TypeParam::value;
   const auto grid = coarse_grid<dim>();
   const Mat<dim> a = some_gradient<dim>();
-  for (int degree : {1, 2})
+  for (const auto& [degree, made_of] : elements)
     for (GhostPenaltyKind kind : {GhostPenaltyKind::full, GhostPenaltyKind::paper})
       for (int axis = 0; axis < dim; ++axis) {
         const Face<dim> face(grid, axis);
-        const ElasticElement<dim> minus(grid, degree, face.minus), plus(grid, degree, face.plus);
-        const Matrix k = ghost_stiffness<dim>(minus, plus, axis, face.angle, material, {kind, 1});
+        const ElasticElement<dim> minus(grid, degree, face.minus, made_of),
+            plus(grid, degree, face.plus, made_of);
+        const Matrix k = ghost_stiffness<dim>(minus, plus, axis, face.angle, made_of, {kind, 1});
         const auto u =
             face.interpolate_both(grid, degree, [&](const Vec<dim>& x) { return times<dim>(a, x); });
         EXPECT_LT(std::abs(energy(k, u)), 1e-13 * energy_scale(k, u)) << degree << axis;
@@ -267,7 +353,8 @@ TEST(Ghost, PenalizesTheJumpOfTheStress) {
   for (int degree : {1, 2}) {
     const auto grid = coarse_grid<2>(16);
     const Face<2> face(grid, 0);
-    const ElasticElement<2> minus(grid, degree, face.minus), plus(grid, degree, face.plus);
+    const ElasticElement<2> minus(grid, degree, face.minus, material),
+        plus(grid, degree, face.plus, material);
     const double radius = grid.inner_radius + grid.cell_size()[0], xi = 0.37;
     const Field<2> kink = [&](const Vec<2>& x) {
       const double r = norm<2>(x), u = std::max(r - radius, 0.0) / r;
@@ -286,7 +373,7 @@ TEST(Ghost, PenalizesTheJumpOfTheSecondDerivative) {
   // u_r = 1/2 max(r - r_face, 0)^2 jumps by one in its second normal derivative, and not in its first.
   const auto grid = coarse_grid<2>(16);
   const Face<2> face(grid, 0);
-  const ElasticElement<2> minus(grid, 2, face.minus), plus(grid, 2, face.plus);
+  const ElasticElement<2> minus(grid, 2, face.minus, material), plus(grid, 2, face.plus, material);
   const double radius = grid.inner_radius + grid.cell_size()[0], xi = 0.37;
   const Field<2> bend = [&](const Vec<2>& x) {
     const double r = norm<2>(x), s = std::max(r - radius, 0.0), u = 0.5 * s * s / r;
@@ -310,7 +397,7 @@ TEST(Ghost, QuadraticFieldsJumpByTheOrderOfTheGeometry) {
     for (int refinement : {2, 4, 8, 16}) {
       const auto grid = coarse_grid<2>(refinement);
       const Face<2> face(grid, axis);
-      const ElasticElement<2> minus(grid, 2, face.minus), plus(grid, 2, face.plus);
+      const ElasticElement<2> minus(grid, 2, face.minus, material), plus(grid, 2, face.plus, material);
       const Matrix k =
           ghost_stiffness<2>(minus, plus, axis, face.angle, material, {GhostPenaltyKind::full, 1});
       const auto u = face.interpolate_both(grid, 2, quadratic);

@@ -89,7 +89,8 @@ TEST(Ring, ErrorsOfNitscheAndPenaltyAreTheListedOnes) {
                                       << listed.gamma_0 << ", " << listed.angular_cells << " cells");
     auto model = ring_model(listed.angular_cells);
     const double length = model.grid.outer_radius * model.grid.cell_size()[1];
-    const ElasticElement<2> outermost(model.grid, 2, {model.grid.cells[0] - 1, 0});
+    const ElasticElement<2> outermost(model.grid, 2, {model.grid.cells[0] - 1, 0},
+                                      model.materials.at_tread());
     model.contact.method = listed.method;
     model.contact.gamma_0 = listed.gamma_0 * outermost.diameter() / length;
     model.contact_points = 6;
@@ -267,9 +268,9 @@ TEST(Ring, BondedRingOfSheetUnderPressureIsLames) {
 
 /// A free inner edge at 0.20 m, a level set that crosses the cells of one row at this fraction of their
 /// height; the material covers `radial_cells` cells, the cut ones included.
-PressedRing free_ring(int radial_cells, double fraction, Plane plane = Plane::strain) {
+PressedRing free_ring(int radial_cells, double fraction, const Material& material = {200e6, 0.48}) {
   auto model = pressed_model(radial_cells);
-  model.materials = Material{200e6, 0.48, plane};
+  model.materials = material;
   const double height = 0.14 / (radial_cells - fraction);
   model.grid.cells[0] = radial_cells + 2;
   model.grid.inner_radius = model.grid.outer_radius - model.grid.cells[0] * height;
@@ -288,6 +289,41 @@ TEST(Ring, FreeRingUnderPressureIsLames) {
   }
 }
 
+/// sigma_rr = A (1 - R_i^2 / r^2) does not depend on nu; u = (1 + nu) / E ((1 - 2 nu) A r + A R_i^2 / r).
+TEST(Ring, FreeRingOfNearlyIncompressibleMaterialIsLames) {
+  constexpr double young = 200e6, inner = 0.20, outer = 0.34;
+  constexpr double a = -pressure * outer * outer / (outer * outer - inner * inner);
+  for (const double nu : {0.49, 0.4999})
+    for (const double fraction : {0.1, 0.37, 0.63, 0.9, 0.999, 1 - 1e-6}) {
+      SCOPED_TRACE(::testing::Message() << nu << ", " << fraction);
+      const double moved = (1 + nu) / young * ((1 - 2 * nu) * a * outer + a * inner * inner / outer);
+      const PressedRing ring = free_ring(16, fraction, {young, nu});
+      EXPECT_NEAR(ring.outer_displacement(), moved, 1e-5 * std::abs(moved));
+      const double energy = -std::numbers::pi * outer * pressure * moved;
+      EXPECT_NEAR(ring.strain_energy(), energy, 1e-5 * energy);
+    }
+}
+
+/// The ring bonded to the rim: u = C (r - R_i^2 / r), which vanishes with 1 - 2 nu.
+TEST(Ring, BondedRingOfNearlyIncompressibleMaterialIsLames) {
+  for (const double nu : {0.49, 0.4999}) {
+    SCOPED_TRACE(nu);
+    auto model = pressed_model(16);
+    const Material rubber{200e6, nu};
+    model.materials = rubber;
+    const PressedRing ring(model, solid(model.grid));
+    constexpr double inner = 0.20, outer = 0.34;
+    const double bulk = rubber.lambda() + rubber.mu();
+    const double c = -pressure / (2 * bulk + 2 * rubber.mu() * inner * inner / (outer * outer));
+    const double moved = c * (outer - inner * inner / outer),
+                 energy = -std::numbers::pi * outer * pressure * moved;
+    EXPECT_NEAR(ring.outer_displacement(), moved, 1e-5 * std::abs(moved));
+    EXPECT_NEAR(ring.strain_energy(), energy, 1e-5 * energy);
+    const double at_rim = 2 * (bulk + rubber.mu()) * c;
+    EXPECT_NEAR(ring.rim_stress(), at_rim, 1e-3 * std::abs(at_rim));
+  }
+}
+
 /// The stresses in the plane do not depend on nu; u(R_e) = R_e sigma_tt(R_e) / E + nu p R_e / E.
 TEST(Ring, FreeRingOfSheetUnderPressureIsLames) {
   constexpr double young = 200e6, nu = 0.48, inner2 = 0.20 * 0.20, outer2 = 0.34 * 0.34;
@@ -295,7 +331,7 @@ TEST(Ring, FreeRingOfSheetUnderPressureIsLames) {
   constexpr double moved = 0.34 / young * (hoop_outside + nu * pressure);
   for (double fraction : {0.1, 0.63, 0.999}) {
     SCOPED_TRACE(fraction);
-    const PressedRing ring = free_ring(16, fraction, Plane::stress);
+    const PressedRing ring = free_ring(16, fraction, {young, nu, Plane::stress});
     EXPECT_NEAR(ring.outer_displacement(), moved, 1e-5 * std::abs(moved));
     EXPECT_NEAR(ring.strain_energy(), -std::numbers::pi * 0.34 * pressure * moved, 1e-5 * 2100);
     EXPECT_LT(ring.hoop_stress_error(-3.05820106e6), 0.01 * 3.06e6);

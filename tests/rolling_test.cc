@@ -58,6 +58,41 @@ TEST(Rolling, ShapeGradientPassesTheTaylorTest) {
   }
 }
 
+/// J_e and mean travel of the paper's wheel.
+std::pair<double, double> energy_and_travel(RollingModel<2> model, double nu, int tread_levels) {
+  model.materials = Material{200e6, nu};
+  model.tread.levels = tread_levels;
+  const auto s = RollingProblem<2>::create(model)->solve(testing::paper_holes(model.grid));
+  double energy = 0, travel = 0;
+  for (const double e : s->strain_energy) energy += e;
+  for (const auto& state : s->states) travel += state.rim.towards_ground / double(s->states.size());
+  return {energy, travel};
+}
+
+// Free of locking: also on coarse grids the wheel is as soft as it is.
+TEST(Rolling, NearlyIncompressibleWheelsAgreeWithFinerGrids) {
+  for (const double nu : {0.49, 0.499, 0.4999})
+    for (const int levels : {0, 2}) {
+      const auto coarse = energy_and_travel(paper_model(28, 384), nu, levels);
+      const auto fine = energy_and_travel(paper_model(56, 768), nu, levels);
+      EXPECT_NEAR(coarse.first, fine.first, 3e-3 * fine.first) << nu << ", " << levels << " levels";
+      EXPECT_NEAR(coarse.second, fine.second, 2e-3 * fine.second) << nu << ", " << levels << " levels";
+    }
+}
+
+TEST(Rolling, ShapeGradientIsExactForNearlyIncompressibleMaterial) {
+  for (const double nu : {0.49, 0.4999})
+    for (const double theta : {-1.0, 0.0}) {
+      auto model = with_theta(paper_model(14, 192), theta);
+      model.materials = Material{200e6, nu};
+      model.tread.levels = 1;
+      model.cut_points = 12;
+      const auto test = generic_taylor_test(*RollingProblem<2>::create(model), strain_energy_alone());
+      ASSERT_TRUE(test) << test.failure().detail;
+      for (const double order : test->orders) EXPECT_GT(order, 1.95) << nu << ", theta " << theta;
+    }
+}
+
 TEST(Rolling, TheCellsOfAShapeCanBeGiven) {
   const auto problem = RollingProblem<2>::create(paper_model(14, 192));
   ASSERT_TRUE(problem);

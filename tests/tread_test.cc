@@ -32,6 +32,37 @@ TEST(TreadRefinement, PressuresConvergeOnTheBaseGrid) {
   }
 }
 
+/// Largest contact pressure of all positions.
+double peak_pressure(const RollingSolution<2>& s) {
+  double peak = 0;
+  for (const auto& state : s.states)
+    for (const auto& traction : state.traction) peak = std::max(peak, -traction[0]);
+  return peak;
+}
+
+// Hertz's peak pressure is proportional to sqrt(E*), E* = E / (1 - nu^2): 2.445 MPa at nu = 0.48. Positions
+// at and between holes: there pressures would fall back between cells if nothing penalized their jumps.
+TEST(TreadRefinement, PressuresOfNearlyIncompressibleMaterialAreHertzs) {
+  auto model = paper_model();
+  LevelSet<2> solid{Lattice<2>(model.grid, 2), {}};
+  solid.values.assign(solid.lattice.n_nodes(), -1.0);
+  for (const double nu : {0.49, 0.499, 0.4999}) {
+    const std::vector shapes{solid, testing::paper_holes(model.grid)};
+    const double expected = 2.445e6 * std::sqrt((1 - 0.48 * 0.48) / (1 - nu * nu));
+    for (const int levels : {2, 3}) {
+      model.materials = Material{200e6, nu};
+      model.tread.levels = levels;
+      const auto problem = RollingProblem<2>::create(model);
+      ASSERT_TRUE(problem);
+      for (const auto& psi : shapes) {
+        const auto s = problem->solve(psi);
+        ASSERT_TRUE(s) << s.failure().detail;
+        EXPECT_NEAR(peak_pressure(*s), expected, 0.01 * expected) << nu << ", " << levels << " levels";
+      }
+    }
+  }
+}
+
 // Inner unknowns come from a Cholesky solve, whose rounding is at most n eps kappa of them: n = 4, 24, 160
 // inner unknowns, and kappa = 2.9e2, 2.2e3, 2.0e4 the condition of their stiffness, scaled to a unit
 // diagonal. Without a defect about eps kappa is left, 4e-12 for the last. A weight of a hanging node that is

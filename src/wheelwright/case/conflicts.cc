@@ -211,6 +211,21 @@ void check_contact_points(const Case& c, Conflicts& found) {
        remedy});
 }
 
+/// Elements of degree 1 lock; rounding, divided by 1 - 2 nu, spoils those of degree 2.
+void check_incompressible(const Case& c, Conflicts& found) {
+  if (!c.material.nearly_incompressible()) return;
+  if (c.grid.degree == 1)
+    found.push_back({{"grid.degree", "material.poissons_ratio", "material.plane"},
+                     fmt::format("elements of degree 1 are much too stiff for poissons_ratio = {}",
+                                 c.material.poissons_ratio),
+                     "take degree = 2"});
+  constexpr double largest = 0.49999;
+  if (c.material.poissons_ratio > largest)
+    found.push_back({{"material.poissons_ratio", "material.plane"},
+                     "so near to 1/2 that rounding would spoil the solution",
+                     fmt::format("take at most {}: the difference to 1/2 does not matter", largest)});
+}
+
 /// Friction must resist the force or torque that moves or turns the rim.
 void check_friction(const Case& c, Conflicts& found) {
   const Load& load = c.load;
@@ -323,6 +338,7 @@ std::vector<Conflict> conflicts(const Case& c) {
   check_nitsche(c, found);
   check_load(c, found);
   check_contact_points(c, found);
+  check_incompressible(c, found);
   check_friction(c, found);
   check_annulus(c, found);
   check_objective(c, found);

@@ -168,6 +168,8 @@ double estimated_memory(const Case& c) {
 double least_gamma_0(double theta, const Material& material) {
   constexpr double reference = 8.8;  // (lambda + 2 mu) / E at nu = 0.48, where 10 and 100 were found
   const double stiffness = (material.lambda() + 2 * material.mu()) / material.scaling_modulus() / reference;
+  // Without the indefinite term a projected pressure needs no more than the last material without projection.
+  if (theta <= 0 && material.nearly_incompressible()) return 13.2 * (1 + theta) * (1 + theta);
   return stiffness * (10 * (1 + theta) * (1 + theta) + 60 * std::max(theta, 0.0));
 }
 

@@ -87,7 +87,8 @@ const Section<Material>& material_section() {
                {.name = "poissons_ratio",
                 .unit = "",
                 .field = NumberField<Material>{&Material::poissons_ratio, at_least_and_below(0, 0.5)},
-                .meaning = "nu: Poisson's ratio"},
+                .meaning = "nu: Poisson's ratio; at most 0.49999 and, above 0.485, with grid.degree = 2, "
+                           "if plane = \"strain\""},
                {.name = "plane",
                 .unit = "",
                 .field = choice<&Material::plane>({"strain", "stress"}),

@@ -15,6 +15,10 @@ constexpr std::array<std::array<int, 2>, n_strains<dim>> voigt_indices() {
     return {{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
 }
 
+/// Variance of the linear functions, in units of h_T^2, below which a part of a cell is too thin to tell the
+/// slope of div u across it. Rounding of the variance is 1e-16.
+constexpr double smallest_variance = 1e-12;
+
 }  // namespace
 
 template <int dim>
@@ -53,7 +57,8 @@ double von_mises(const Material& material, const Voigt<dim>& s) {
 }
 
 template <int dim>
-ElasticElement<dim>::ElasticElement(const PolarGrid<dim>& grid, int degree, const std::array<int, dim>& cell)
+ElasticElement<dim>::ElasticElement(const PolarGrid<dim>& grid, int degree, const std::array<int, dim>& cell,
+                                    const Material& material)
     : degree_(degree), map_(grid, degree, cell) {
   const double spacing = grid.cell_size()[1] / degree;
   for (int a = 0; a < n_nodes(); ++a) {
@@ -79,17 +84,63 @@ ElasticElement<dim>::ElasticElement(const PolarGrid<dim>& grid, int degree, cons
       diameter_ = std::max(diameter_, norm<dim>(difference));
     }
   }
+  if (degree == 2 && material.nearly_incompressible())
+    dilatation_ = project_dilatation(unit_cell_rule<dim>(degree + 2)).coefficients;
+}
+
+template <int dim>
+std::array<double, dim + 1> ElasticElement<dim>::linear_functions(const Vec<dim>& x) const {
+  Vec<dim> middle;
+  middle.fill(0.5);
+  const Vec<dim> centre = map_.position(ShapeFunctions<dim>(degree_, middle));
+  std::array<double, dim + 1> values{1};
+  for (int d = 0; d < dim; ++d) values[d + 1] = (x[d] - centre[d]) / diameter_;
+  return values;
+}
+
+template <int dim>
+auto ElasticElement<dim>::project_dilatation(std::span<const ReferencePoint<dim>> part) const -> Dilatation {
+  Matrix mass(dim + 1, dim + 1), moments(dim + 1, n_dofs());
+  for (const auto& q : part) {
+    const Point at = with_pointwise_strain(q.xi);
+    const double weight = q.weight * at.determinant;
+    const auto linear = linear_functions(at.position);
+    for (int a = 0; a <= dim; ++a) {
+      for (int b = 0; b <= dim; ++b) mass(a, b) += weight * linear[a] * linear[b];
+      for (int dof = 0; dof < n_dofs(); ++dof) moments(a, dof) += weight * linear[a] * at.dilatation[dof];
+    }
+  }
+  for (int a = 1; a <= dim; ++a) mass(a, a) += smallest_variance * mass(0, 0);
+  if (!cholesky(mass)) return {moments, Matrix(dim + 1, n_dofs())};  // no volume
+  Matrix coefficients = moments;
+  cholesky_solve(mass, coefficients);
+  return {std::move(moments), std::move(coefficients)};
 }
 
 template <int dim>
 auto ElasticElement<dim>::at(const Vec<dim>& xi) const -> Point {
+  Point point = with_pointwise_strain(xi);
+  if (!projects_dilatation()) return point;
+  const auto linear = linear_functions(point.position);
+  for (int dof = 0; dof < n_dofs(); ++dof) {
+    double dilatation = 0;
+    for (int a = 0; a <= dim; ++a) dilatation += dilatation_(a, dof) * linear[a];
+    const double change = (dilatation - point.dilatation[dof]) / dim;
+    for (int d = 0; d < dim; ++d) point.strain[d][dof] += change;
+  }
+  return point;
+}
+
+template <int dim>
+auto ElasticElement<dim>::with_pointwise_strain(const Vec<dim>& xi) const -> Point {
   const ShapeFunctions<dim> shape(degree_, xi);
   const Mat<dim> jacobian = map_.jacobian(shape);
   Point point{.position = map_.position(shape),
               .jacobian = jacobian,
               .determinant = determinant<dim>(jacobian),
               .strain = {},
-              .displacement = {}};
+              .displacement = {},
+              .dilatation = {}};
   const Mat<dim> inverse_jacobian = inverse<dim>(jacobian);
   constexpr auto indices = voigt_indices<dim>();
   for (int a = 0; a < n_nodes(); ++a) {
@@ -102,6 +153,7 @@ auto ElasticElement<dim>::at(const Vec<dim>& xi) const -> Point {
         point.strain[s][k] = frames_[a][i][c] * gradient[j];
         if (i != j) point.strain[s][k] += frames_[a][j][c] * gradient[i];
       }
+      for (int d = 0; d < dim; ++d) point.dilatation[k] += point.strain[d][k];
     }
   }
   return point;
@@ -145,7 +197,8 @@ template <int dim>
 Matrix cell_stiffness(const ElasticElement<dim>& element, const Material& material,
                       std::span<const ReferencePoint<dim>> points) {
   const int n = element.n_dofs();
-  const double lambda = material.lambda(), mu = material.mu();
+  const double mu = material.mu();
+  const double lambda = element.projects_dilatation() ? -2 * mu / dim : material.lambda();
   Matrix k(n, n);
   std::array<std::array<double, ElasticElement<dim>::max_dofs>, n_strains<dim>> weighted_stress;
   for (const auto& q : points) {
@@ -164,6 +217,11 @@ Matrix cell_stiffness(const ElasticElement<dim>& element, const Material& materi
         double* column = k.column(j);
         for (int i = j; i < n; ++i) column[i] += point.strain[s][i] * value;
       }
+  }
+  if (element.projects_dilatation()) {
+    const auto dilatation = element.project_dilatation(points);
+    const double bulk = material.lambda() + 2 * mu / dim;
+    multiply(bulk, dilatation.moments, Op::transpose, dilatation.coefficients, Op::none, 1, k);
   }
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < j; ++i) k(i, j) = k(j, i);

@@ -33,9 +33,16 @@ Vec<dim> traction(const Voigt<dim>& stress, const Vec<dim>& normal);
 template <int dim>
 double von_mises(const Material& material, const Voigt<dim>& stress);
 
-/// The displacement element of the cells in one row of the grid. Its dofs are the nodal displacements in the
-/// polar components (radial, azimuthal[, axial]) at each node, numbered by dof(). All results are in the
-/// Cartesian frame of the cell: its first axis is radial at the first azimuth of the cell.
+/// The displacement element of the cells in one row of the grid, which hold one material. Its dofs are the
+/// nodal displacements in the polar components (radial, azimuthal[, axial]) at each node, numbered by dof().
+/// All results are in the Cartesian frame of the cell: its first axis is radial at the first azimuth of the
+/// cell.
+///
+/// In a nearly incompressible material the strain of the element of degree 2 is that of u with its trace div
+/// u replaced by its L2 projection on the linear functions of x in the cell: the mixed element of quadratic
+/// displacement and discontinuous, linear pressure, which does not lock, with its pressure eliminated. at()
+/// projects on the whole cell, also where the cell is cut; the energy of a part of a cell takes the
+/// projection on that part (docs/method.md).
 template <int dim>
 class ElasticElement {
  public:
@@ -43,7 +50,8 @@ class ElasticElement {
   static constexpr int max_dofs = dim * max_nodes;
 
   /// `cell` is a position on the grid; its azimuthal part does not matter.
-  ElasticElement(const PolarGrid<dim>& grid, int degree, const std::array<int, dim>& cell);
+  ElasticElement(const PolarGrid<dim>& grid, int degree, const std::array<int, dim>& cell,
+                 const Material& material);
 
   int degree() const { return degree_; }
   int n_nodes() const { return nodes_per_cell<dim>(degree_); }
@@ -59,6 +67,7 @@ class ElasticElement {
     double determinant;
     std::array<std::array<double, max_dofs>, n_strains<dim>> strain;  ///< rows: Voigt components
     std::array<std::array<double, max_dofs>, dim> displacement;       ///< rows: components
+    std::array<double, max_dofs> dilatation;                          ///< div u, never projected
   };
   Point at(const Vec<dim>& xi) const;
 
@@ -67,11 +76,28 @@ class ElasticElement {
   std::array<std::array<double, max_dofs>, dim> second_derivative(const Vec<dim>& xi,
                                                                   const Vec<dim>& n) const;
 
+  /// Whether the strain's trace is projected.
+  bool projects_dilatation() const { return dilatation_.rows() > 0; }
+
+  /// The linear functions of x, on which div u is projected: 1 and the components of (x - x_c) / h_T, with
+  /// x_c the middle of the cell.
+  std::array<double, dim + 1> linear_functions(const Vec<dim>& x) const;
+
+  /// div u against the linear functions in a part of the cell, given by quadrature points.
+  struct Dilatation {
+    Matrix moments;       ///< integrals of the linear functions times div u, one column a dof
+    Matrix coefficients;  ///< of the projected div u
+  };
+  Dilatation project_dilatation(std::span<const ReferencePoint<dim>> part) const;
+
  private:
+  Point with_pointwise_strain(const Vec<dim>& xi) const;
+
   int degree_;
   CellMap<dim> map_;
   std::array<Mat<dim>, max_nodes> frames_;  ///< polar to Cartesian components at each node
   double diameter_;
+  Matrix dilatation_;  ///< coefficients of div u projected on the whole cell; empty if it is not projected
 };
 
 /// The traction sigma n as a linear map of the dofs (rows: components).

@@ -10,7 +10,7 @@ ElementTable<dim>::ElementTable(const PolarGrid<dim>& grid, int degree, const Ma
     : grid_(grid), degree_(degree), materials_(materials), ghost_(ghost) {
   const auto rule = unit_cell_rule<dim>(degree + 2);
   for (int radial = 0; radial < grid.cells[0]; ++radial) {
-    elements_.emplace_back(grid, degree, std::array<int, dim>{radial});
+    elements_.emplace_back(grid, degree, std::array<int, dim>{radial}, materials.in_row(radial));
     stiffness_.push_back(cell_stiffness<dim>(elements_.back(), materials.in_row(radial), rule));
   }
   const double column_angle = grid.cell_size()[1];

@@ -66,8 +66,8 @@ RingField von_mises_field(const RollingModel<2>& model, const CutDomain<2>& doma
   std::vector<double> sum(polar.size() / 2, 0.0);
   std::vector<int> count(sum.size(), 0);
   for (int radial = 0; radial < grid.cells[0]; ++radial) {
-    const ElasticElement<2> element(grid, model.degree, {radial});
     const Material& material = model.materials.in_row(radial);
+    const ElasticElement<2> element(grid, model.degree, {radial}, material);
     std::vector<RingCellNodes<2>> cells;
     for (int column = 0; column < grid.ring_columns(); ++column)
       if (domain.active(grid.cell_index({radial, column % grid.columns()})))

@@ -255,9 +255,9 @@ class ColumnAssembly {
     fine.outer_radius = layer.outer_radius;
     fine.cells[0] = layer.rows;
     fine.cells[1] <<= layer.level;
-    const ElasticElement<dim> element(fine, degree_, {row});
     const double height = layer.inner_radius + (row + 0.5) * fine.cell_size()[0] - grid_.inner_radius;
     const Material& material = materials_.in_row(static_cast<int>(height / grid_.cell_size()[0]));
+    const ElasticElement<dim> element(fine, degree_, {row}, material);
     const Matrix stiffness = cell_stiffness<dim>(element, material, volume_rule_);
     const bool at_tread = &layer == &nodes_.all_layers().back() && row + 1 == layer.rows;
     add_face_rows(1 << layer.level, at_tread);
@@ -271,10 +271,30 @@ class ColumnAssembly {
                              .axial = axial,
                              .stiffness = stiffness};
         if (at_tread) add_contact_face(cell);
+        if (at_tread && element.projects_dilatation())
+          add_pressure_jumps(cell, layer_index, row, across, fine);
         add_annulus(cell);
         add_volume(cell);
         add_stiffness<dim>(cell.stiffness, cell.nodes, column_.stiffness);
       }
+  }
+
+  /// The penalty of the traction's jump on the faces between a cell at the tread and the next ones in the
+  /// column. Where contact holds the normal displacement, pressures that rise by the same slope in every cell
+  /// and fall back between them do no work on it: without the penalty they grow with lambda.
+  void add_pressure_jumps(const ColumnCell<dim>& cell, int layer, int row, int across,
+                          const PolarGrid<dim>& fine) {
+    constexpr GhostPenalty penalty{GhostPenaltyKind::paper, 0.1};
+    for (int axis = 1; axis < dim; ++axis) {
+      const int next_across = across + (axis == 1 ? 1 : 0), next_axial = cell.axial + (axis == 2 ? 1 : 0);
+      if (next_across == 1 << nodes_.all_layers()[layer].level || next_axial == axial_cells_) continue;
+      const Matrix jump = ghost_stiffness<dim>(cell.element, cell.element, axis,
+                                               axis == 1 ? fine.cell_size()[1] : 0.0, cell.material, penalty);
+      auto nodes = cell.nodes;
+      const auto next = cell_nodes(layer, row, next_across, next_axial);
+      nodes.insert(nodes.end(), next.begin(), next.end());
+      add_stiffness<dim>(jump, nodes, column_.stiffness);
+    }
   }
 
   /// TreadSurface::face_rows of the cells that are added next.

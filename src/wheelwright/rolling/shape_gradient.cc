@@ -21,6 +21,27 @@ Matrix strain_columns(const ElasticElement<dim>& element,
   return strains;
 }
 
+/// Linear maps from a cell's dofs, one column each, in threes for every point of its moving boundary: the
+/// trace of the strain, div u, and div u projected on the part of the cell that `material` holds.
+template <int dim>
+Matrix dilatation_columns(const ElasticElement<dim>& element, std::span<const ReferencePoint<dim>> material,
+                          std::span<const typename ElasticElement<dim>::Point> points) {
+  const Matrix projection = element.project_dilatation(material).coefficients;
+  Matrix columns(element.n_dofs(), 3 * static_cast<int>(points.size()));
+  for (size_t q = 0; q < points.size(); ++q) {
+    double* trace = columns.column(3 * static_cast<int>(q));
+    double* dilatation = trace + columns.rows();
+    double* projected = dilatation + columns.rows();
+    const auto linear = element.linear_functions(points[q].position);
+    for (int dof = 0; dof < element.n_dofs(); ++dof) {
+      for (int d = 0; d < dim; ++d) trace[dof] += points[q].strain[d][dof];
+      dilatation[dof] = points[q].dilatation[dof];
+      for (int a = 0; a <= dim; ++a) projected[dof] += projection(a, dof) * linear[a];
+    }
+  }
+  return columns;
+}
+
 /// The work of body force and pressure in the adjoint problem, at a point of the moving boundary, summed over
 /// positions and sectors.
 template <int dim>
@@ -33,10 +54,8 @@ class WorkOfLoads {
                           s.core_loads.weights, Op::none);
   }
 
-  /// p_0 div p - f.p; `p`: modes on the cell's dofs, `strain_p`: their strains at the point, `angle`: the
-  /// cell's azimuth in the sector.
-  double density(const typename ElasticElement<dim>::Point& at, double angle, const Matrix& p,
-                 const double* strain_p) const {
+  /// p_0 div p - f.p; `p`: modes on the cell's dofs, `angle`: the cell's azimuth in the sector.
+  double density(const typename ElasticElement<dim>::Point& at, double angle, const Matrix& p) const {
     if (s_.core_loads.empty()) return 0;
     double density = 0;
     for (int k = 0; k < p.rows(); ++k) {
@@ -44,8 +63,8 @@ class WorkOfLoads {
       for (int d = 0; d < dim; ++d) {
         for (int i = 0; i < p.columns(); ++i) value[d] += at.displacement[d][i] * p(k, i);
         force[d] = on_modes_(k, d);
-        density += on_modes_(k, dim) * strain_p[d * p.rows() + k];
       }
+      for (int i = 0; i < p.columns(); ++i) density += on_modes_(k, dim) * at.dilatation[i] * p(k, i);
       density -= dot<dim>(force, rotated<dim>(value, angle));
     }
     return density - work_on_rim(at.position, angle);
@@ -83,21 +102,29 @@ BoundaryRule<dim> mirrored(BoundaryRule<dim> rule) {
   return rule;
 }
 
-/// The moving boundary in one cell, each of its points as often as it counts.
+template <int dim>
+std::vector<ReferencePoint<dim>> mirrored(std::vector<ReferencePoint<dim>> rule) {
+  for (auto& q : rule) q.xi[1] = 1 - q.xi[1];
+  return rule;
+}
+
+/// The moving boundary in one cell, each of its points as often as it counts, and the material of the cell.
 template <int dim>
 struct CellBoundary {
   int cell;
   BoundaryRule<dim> rule;
+  std::vector<ReferencePoint<dim>> material;
 };
 
 /// The cells in which gradients are given for one cut cell: it alone; or it and its image, when positions
 /// stand for their images too; nothing for the image itself.
 template <int dim>
 std::vector<CellBoundary<dim>> cells_of(const RollingSolution<dim>& s, const CutCell<dim>& cut) {
-  if (!s.positions.stand_for_images()) return {{cut.cell, cut.boundary}};
+  if (!s.positions.stand_for_images()) return {{cut.cell, cut.boundary, cut.material}};
   const int image = mirror_image(s.domain.grid, cut.cell);
   if (image < cut.cell) return {};
-  std::vector<CellBoundary<dim>> cells{{cut.cell, cut.boundary}, {image, mirrored<dim>(cut.boundary)}};
+  std::vector<CellBoundary<dim>> cells{{cut.cell, cut.boundary, cut.material},
+                                       {image, mirrored<dim>(cut.boundary), mirrored<dim>(cut.material)}};
   if (image == cut.cell)
     for (auto& cell : cells)
       for (auto& q : cell.rule) q.weight /= 2;
@@ -145,15 +172,17 @@ class Densities {
     Matrix u(s_.displacement.modes.rows(), element.n_dofs()), p = u;
     gather(s_.ring, nodes, s_.displacement.modes, u);
     const Matrix strain_u = product(u, Op::none, strains, Op::none);
+    const bool projected = element.projects_dilatation();
+    const Matrix dilatations =
+        projected ? dilatation_columns<dim>(element, boundary.material, points) : Matrix();
 
     std::vector<std::vector<double>> densities;
     for (size_t f = 0; f < functions_.size(); ++f) {
       gather(s_.ring, nodes, adjoints_[f].modes, p);
       const Matrix strain_p = product(p, Op::none, strains, Op::none);
       densities.push_back(energy_and_work(functions_[f].energy, material, strain_u, strain_p));
-      for (size_t q = 0; q < points.size(); ++q)
-        densities[f][q] +=
-            loads_[f].density(points[q], angle, p, strain_p.column(n_strains<dim> * static_cast<int>(q)));
+      for (size_t q = 0; q < points.size(); ++q) densities[f][q] += loads_[f].density(points[q], angle, p);
+      if (projected) add_projection(functions_[f].energy, material, u, p, dilatations, densities[f]);
       if (!functions_[f].integrals.empty()) add_integrands(f, material, strain_u, densities[f]);
     }
     return densities;
@@ -179,6 +208,30 @@ class Densities {
       }
     }
     return densities;
+  }
+
+  /// What the projection of div u in a cut cell changes in energy_and_work(), whose strains have the trace t.
+  /// The energy of the cell is the maximum, over linear pressures K q, of the integral of K (q div u - q^2 /
+  /// 2) over its material, with K = lambda + 2 mu / dim. At the maximum q is the projection of div u, and the
+  /// derivative to the shape is that of the integral for this q: K (q_u div p + q_p div u - q_u q_p) takes
+  /// the place of K t_u t_p.
+  void add_projection(const std::vector<double>& energy, const Material& material, const Matrix& u,
+                      const Matrix& p, const Matrix& dilatations, std::vector<double>& densities) const {
+    const double bulk = material.lambda() + 2 * material.mu() / dim;
+    const Matrix of_u = product(u, Op::none, dilatations, Op::none);
+    Matrix of_p = product(p, Op::none, dilatations, Op::none);
+    if (!energy.empty()) {
+      const Matrix weighted = energy_weighted(s_, energy, of_u);
+      for (size_t i = 0; i < of_p.entries().size(); ++i) of_p.data()[i] += 0.5 * weighted.data()[i];
+    }
+    for (size_t q = 0; q < densities.size(); ++q) {
+      const int trace = 3 * static_cast<int>(q), dilatation = trace + 1, projected = trace + 2;
+      for (int mode = 0; mode < u.rows(); ++mode)
+        densities[q] +=
+            bulk *
+            (of_u(mode, projected) * of_p(mode, dilatation) + of_p(mode, projected) * of_u(mode, dilatation) -
+             of_u(mode, projected) * of_p(mode, projected) - of_u(mode, trace) * of_p(mode, trace));
+    }
   }
 
   void add_integrands(size_t f, const Material& material, const Matrix& strain_u,
@@ -221,7 +274,7 @@ std::vector<SurfacePoint<dim>> boundary_points(const RollingProblem<dim>& proble
   const PolarGrid<dim>& grid = s.domain.grid;
   std::vector<SurfacePoint<dim>> points;
   for (const CutCell<dim>& cut : s.domain.cut)
-    for (const auto& [cell, rule] : cells_of(s, cut)) {
+    for (const auto& [cell, rule, material] : cells_of(s, cut)) {
       const auto place = grid.cell_position(cell);
       const CellMap<dim> map(grid, problem.model().degree, place);
       for (const auto& q : rule) {
