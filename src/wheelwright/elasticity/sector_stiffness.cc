@@ -3,6 +3,17 @@
 #include "wheelwright/base/parallel.h"
 
 namespace wheelwright {
+namespace {
+
+/// The material whose stress the ghost penalty takes. It must control displacements on slivers, for which the
+/// stress of a compressible material is enough: that of lambda itself would stiffen cells far more, and J
+/// would jump where faces with ghost penalty appear.
+Material for_ghost_penalty(Material material) {
+  if (material.nearly_incompressible()) material.poissons_ratio = 0.48;
+  return material;
+}
+
+}  // namespace
 
 template <int dim>
 ElementTable<dim>::ElementTable(const PolarGrid<dim>& grid, int degree, const Materials& materials,
@@ -18,8 +29,8 @@ ElementTable<dim>::ElementTable(const PolarGrid<dim>& grid, int degree, const Ma
     for (int axis = 0; axis < dim; ++axis) {
       const int plus = axis == 0 ? std::min(radial + 1, grid.cells[0] - 1) : radial;
       ghosts_.push_back(ghost_stiffness<dim>(elements_[radial], elements_[plus], axis,
-                                             axis == 1 ? column_angle : 0.0, materials.in_row(radial),
-                                             ghost));
+                                             axis == 1 ? column_angle : 0.0,
+                                             for_ghost_penalty(materials.in_row(radial)), ghost));
     }
   }
 }
