@@ -61,7 +61,9 @@ TEST(PlaneStress, IsPlaneStrainOfTheEquivalentMaterial) {
   for (int i = 0; i < (*s)->positions().size(); ++i) {
     const auto u = (*s)->displacement()->at_nodes(i), v = (*t)->displacement()->at_nodes(i);
     for (size_t k = 0; k < u.values.size(); ++k) {
-      if (!std::isnan(v.values[k])) EXPECT_NEAR(u.values[k], v.values[k], 1e-13);
+      if (!std::isnan(v.values[k])) {
+        EXPECT_NEAR(u.values[k], v.values[k], 1e-13);
+      }
     }
   }
   const auto stresses = strain_peaks<2>(*in_stress, **s).von_mises,
