@@ -151,6 +151,7 @@ TEST(CaseFile, HolesOfThePapersWheel) {
   expected.title = result.value->title;
   expected.output.folder = "runs/holes16";
   expected.optimizer.tolerance = 0;
+  expected.grid.tread_levels = 0;
   expected.holes.rings = {{.count = 16, .center_radius = 0.27, .radius = 0.04, .phase = {}}};
   EXPECT_EQ(*result.value, expected);
   const auto holes = sector_holes(*result.value);
@@ -606,7 +607,8 @@ TEST(NumberText, HasNoSuperfluousDigits) {
 }
 
 TEST(Derived, ThePapersWheel) {
-  const Case c;
+  Case c;
+  c.grid.tread_levels = 0;
   EXPECT_NEAR(load_per_metre(c), 24525, 1e-9);
   EXPECT_NEAR(c.material.mu(), 67.567568e6, 1);
   EXPECT_NEAR(c.material.lambda(), 1621.62162e6, 10);
@@ -617,6 +619,37 @@ TEST(Derived, ThePapersWheel) {
   EXPECT_EQ(dof_bound(c), 2 * 57 * 768);
   EXPECT_EQ(total_load_positions(c), 128);
   EXPECT_DOUBLE_EQ(rim_band(c), 0.005);
+}
+
+// The fewest levels that give 8 cells per patch in a run and 18 in results; a given number is taken as it is.
+TEST(Derived, TheTreadIsAsFineAsTheContactNeeds) {
+  Case c;
+  EXPECT_EQ(tread_levels(c), 2);
+  EXPECT_EQ(tread_levels_of_results(c), 3);
+  for (const double load : {1.0, 300.0, 2943.0, 1e5}) {
+    c.load.force = load;
+    for (const int levels : {tread_levels(c), tread_levels_of_results(c)}) {
+      Case given = c;
+      given.grid.tread_levels = levels;
+      const double wanted = levels == tread_levels(c) ? 8 : 18, cells = cells_per_contact_patch(given);
+      const bool is_limited = c.contact.quadrature_points * (1 << levels) * 2 > (wanted == 8 ? 80 : 160);
+      EXPECT_TRUE(cells >= wanted || is_limited) << load;
+      EXPECT_TRUE(levels == 0 || cells < 2 * wanted) << load;
+    }
+  }
+  c.grid.tread_levels = 1;
+  EXPECT_EQ(tread_levels(c), 1);
+  EXPECT_EQ(tread_levels_of_results(c), 1);
+}
+
+TEST(CaseFile, TheWordAutoIsTheDefaultOfTheTreadsLevels) {
+  const auto automatic = parse_case("[grid]\ntread_levels = \"auto\"\n", "a.toml");
+  ASSERT_TRUE(automatic.value) << texts(automatic.problems);
+  EXPECT_FALSE(automatic.value->grid.tread_levels);
+  const auto again = parse_case(to_toml(*automatic.value), "a.toml");
+  ASSERT_TRUE(again.value) << texts(again.problems);
+  EXPECT_EQ(*again.value, *automatic.value);
+  EXPECT_FALSE(parse_case("[grid]\ntread_levels = \"many\"\n", "a.toml").value);
 }
 
 TEST(Derived, TheSmallestHoleOfRingsAndCircles) {

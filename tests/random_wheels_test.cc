@@ -24,7 +24,7 @@ std::optional<Case> mended(Case c, const std::vector<Diagnostic>& problems) {
     c.grid.tread_levels = std::stoi(match[1]);
   else if (std::regex_search(remedy, match, std::regex(R"(contact\.quadrature_points = (\d+))")))
     c.contact.quadrature_points = std::stoi(match[1]);
-  else if (std::regex_search(remedy, match, std::regex(R"(grid\.degree = (\d))")))
+  else if (std::regex_search(remedy, match, std::regex(R"(degree = (\d))")))
     c.grid.degree = std::stoi(match[1]);
   else if (std::regex_search(remedy, match, std::regex(R"(at most ([0-9.e+-]+) N)"))) {
     const double factor = std::stod(match[1]) / c.load.force;
