@@ -55,31 +55,36 @@ class ContactLaw : public ::testing::Test {};
 using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(ContactLaw, Dimensions);
 
+/// Compares the tangent of a law at z with central differences of its traction.
+template <int dim, class Law>
+void expect_tangent_is_the_derivative(const Vec<dim>& z, Law law) {
+  constexpr double step = 1e-6;
+  const auto response = law(z);
+  for (int j = 0; j < dim; ++j) {
+    Vec<dim> forward = z, backward = z;
+    forward[j] += step;
+    backward[j] -= step;
+    const auto after = law(forward).traction, before = law(backward).traction;
+    for (int i = 0; i < dim; ++i)
+      EXPECT_NEAR(response.tangent[i][j], (after[i] - before[i]) / (2 * step), 1e-6);
+  }
+}
+
 TYPED_TEST(ContactLaw, TangentIsTheDerivative) {
   constexpr int dim = TypeParam::value;
-  constexpr double step = 1e-6;
   Tractions<dim> tractions;
   for (Regime regime : {Regime::separated, Regime::sticking, Regime::sliding})
     for (double f : {0.0, friction})
       for (int k = 0; k < 50; ++k) {
         const Vec<dim> z = tractions.draw(regime);
-        const auto response = contact_response<dim>(z, f);
-        for (int j = 0; j < dim; ++j) {
-          Vec<dim> forward = z, backward = z;
-          forward[j] += step;
-          backward[j] -= step;
-          const auto after = contact_response<dim>(forward, f).traction,
-                     before = contact_response<dim>(backward, f).traction;
-          for (int i = 0; i < dim; ++i)
-            EXPECT_NEAR(response.tangent[i][j], (after[i] - before[i]) / (2 * step), 1e-6);
-        }
+        expect_tangent_is_the_derivative<dim>(
+            z, [&](const Vec<dim>& at) { return contact_response<dim>(at, f); });
       }
 }
 
 // Given friction: the same law where its threshold is the one that Coulomb's law has, and its own derivative.
 TYPED_TEST(ContactLaw, GivenFrictionAgreesWithCoulombsAtItsThreshold) {
   constexpr int dim = TypeParam::value;
-  constexpr double step = 1e-6;
   Tractions<dim> tractions;
   for (Regime regime : {Regime::separated, Regime::sticking, Regime::sliding})
     for (int k = 0; k < 50; ++k) {
@@ -88,15 +93,8 @@ TYPED_TEST(ContactLaw, GivenFrictionAgreesWithCoulombsAtItsThreshold) {
       const auto response = given_friction_response<dim>(z, threshold);
       const auto coulomb = contact_response<dim>(z, friction).traction;
       for (int i = 0; i < dim; ++i) EXPECT_NEAR(response.traction[i], coulomb[i], 1e-15);
-      for (int j = 0; j < dim; ++j) {
-        Vec<dim> forward = z, backward = z;
-        forward[j] += step;
-        backward[j] -= step;
-        const auto after = given_friction_response<dim>(forward, threshold).traction,
-                   before = given_friction_response<dim>(backward, threshold).traction;
-        for (int i = 0; i < dim; ++i)
-          EXPECT_NEAR(response.tangent[i][j], (after[i] - before[i]) / (2 * step), 1e-6);
-      }
+      expect_tangent_is_the_derivative<dim>(
+          z, [&](const Vec<dim>& at) { return given_friction_response<dim>(at, threshold); });
     }
 }
 

@@ -30,10 +30,10 @@ Expected<ContactState<2>> solved_in(const RollingProblem<2>& problem, const Roll
   const ReducedContact<2> contact(surface, problem.tread(), problem.model().grid,
                                   s.positions.grounds[position], zone, rim);
   const auto& model = problem.model();
-  const ContactUnknowns<2> start =
-      model.travel ? contact.undeformed_start()
-                   : contact.hertz_start(model.load, model.grid.outer_radius,
-                                         model.materials.at_tread().contact_modulus());
+  const ContactUnknowns<2> start = model.travel
+                                       ? contact.undeformed_start()
+                                       : contact.hertz_start(model.load, model.grid.outer_radius,
+                                                             model.materials.at_tread().contact_modulus());
   return solve_contact<2>(contact, std::span(&start, 1));
 }
 

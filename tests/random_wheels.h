@@ -76,8 +76,8 @@ class RandomWheels {
 
   void draw_load(Case& c) {
     constexpr double patch = 0.02;  // half-width by the radius
-    const double reasonable = std::numbers::pi / 4 * c.material.contact_modulus() *
-                              c.wheel.outer_radius * patch * patch * c.wheel.width;
+    const double reasonable = std::numbers::pi / 4 * c.material.contact_modulus() * c.wheel.outer_radius *
+                              patch * patch * c.wheel.width;
     c.load.force = reasonable * log_uniform(1e-3, 1e3);
   }
 

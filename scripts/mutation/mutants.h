@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <type_traits>
 
-/// What the mutated copy of the sources is made of (scripts/mutate): every place has the code as it is and as
+/// The mutated copy of the sources (scripts/mutate) is made of these: every place has the code as it is and as
 /// it is broken, and the environment says which of them is broken in a process. Never part of the program.
 #pragma GCC diagnostic error "-Wvla"  // an array's size is no subscript
 
@@ -31,7 +31,8 @@ inline unsigned char* map_reached() {
   return bytes == MAP_FAILED ? nullptr : static_cast<unsigned char*>(bytes);
 }
 
-/// What the environment says of this process.
+/// Holds the number of the mutant that this process runs, and where the process notes the places that it
+/// reaches. Both come from the environment.
 struct Setting {
   int active = read_active();
   unsigned char* reached = map_reached();

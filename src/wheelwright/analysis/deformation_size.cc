@@ -20,44 +20,54 @@ Lattice<dim> displacement_lattice(const StateSolver<dim>& solver) {
   return {solver.model().grid, solver.model().degree};
 }
 
-/// The rotation of the material about the axle at the middle of a cell of the ring, from the antisymmetric
-/// part of grad u.
+/// Gradients of the shape functions in the middle of the cells of a grid, in the cell's frame: one entry per
+/// cell of a sector's first column.
 template <int dim>
-double rotation_in_cell(const RingField& u, const Lattice<dim>& lattice, const std::array<int, dim>& cell) {
-  Vec<dim> middle;
-  middle.fill(0.5);
-  const ShapeFunctions<dim> shape(lattice.degree(), middle);
-  const CellMap<dim> map(lattice.grid(), lattice.degree(), cell);
-  const Mat<dim> inverse_jacobian = inverse<dim>(map.jacobian(shape));
-  const auto nodes = ring_cell_nodes<dim>(lattice, cell);
-  const double azimuth = cell[1] * lattice.grid().cell_size()[1];
-  Mat<dim> gradient{};  // d u_i / d x_j, both in the cell's frame
-  for (int a = 0; a < nodes_per_cell<dim>(lattice.degree()); ++a) {
-    const Vec<dim> slope = transpose_times<dim>(inverse_jacobian, shape.gradient[a]);
-    Vec<dim> value;
-    std::copy_n(&u.values[dim * nodes[a]], dim, value.begin());
-    value = rotated<dim>(value, -azimuth);
-    for (int i = 0; i < dim; ++i)
-      for (int j = 0; j < dim; ++j) gradient[i][j] += value[i] * slope[j];
-  }
-  return 0.5 * (gradient[1][0] - gradient[0][1]);
-}
-
-template <int dim>
-double largest_rotation(const StateSolver<dim>& solver, const State<dim>& state,
-                        const Displacement<dim>& displacement) {
-  const Lattice<dim> lattice = displacement_lattice(solver);
-  const PolarGrid<dim>& grid = lattice.grid();
-  double largest = 0;
-  for (int position = 0; position < state.positions().size(); ++position) {
-    const RingField u = displacement.at_nodes(position);
-    const double rim = state.contacts()[position].rim.rotation;
-    for (int k = 0; k < grid.n_cells(); ++k) {
-      if (!state.domain().active(k)) continue;
-      auto cell = grid.cell_position(k);
-      for (int sector = 0; sector < grid.n_sectors; ++sector, cell[1] += grid.columns())
-        largest = std::max(largest, std::abs(rotation_in_cell<dim>(u, lattice, cell) - rim));
+class MiddleGradients {
+ public:
+  explicit MiddleGradients(const Lattice<dim>& lattice) : lattice_(lattice) {
+    Vec<dim> middle;
+    middle.fill(0.5);
+    const ShapeFunctions<dim> shape(lattice.degree(), middle);
+    for (int row = 0; row < lattice.grid().cells[0]; ++row) {
+      const CellMap<dim> map(lattice.grid(), lattice.degree(), {row});
+      const Mat<dim> inverse_jacobian = inverse<dim>(map.jacobian(shape));
+      auto& slopes = of_row_.emplace_back();
+      for (int a = 0; a < nodes_per_cell<dim>(lattice.degree()); ++a)
+        slopes[a] = transpose_times<dim>(inverse_jacobian, shape.gradient[a]);
     }
+  }
+
+  /// The rotation about the axle at the middle of a cell of the ring, from the antisymmetric part of grad u.
+  double rotation(const RingField& u, const std::array<int, dim>& cell) const {
+    const auto nodes = ring_cell_nodes<dim>(lattice_, cell);
+    const double azimuth = cell[1] * lattice_.grid().cell_size()[1];
+    const double cosine = std::cos(azimuth), sine = std::sin(azimuth);
+    double twice = 0;  // d u_1 / d x_0 - d u_0 / d x_1
+    for (int a = 0; a < nodes_per_cell<dim>(lattice_.degree()); ++a) {
+      const double *value = &u.values[dim * nodes[a]], *slope = of_row_[cell[0]][a].data();
+      twice +=
+          (cosine * value[1] - sine * value[0]) * slope[0] - (cosine * value[0] + sine * value[1]) * slope[1];
+    }
+    return 0.5 * twice;
+  }
+
+ private:
+  Lattice<dim> lattice_;
+  std::vector<std::array<Vec<dim>, ShapeFunctions<dim>::max_nodes>> of_row_;
+};
+
+/// The largest rotation of the material against the rim at one load position.
+template <int dim>
+double largest_rotation(const MiddleGradients<dim>& gradients, const State<dim>& state, const RingField& u,
+                        double rim) {
+  const PolarGrid<dim>& grid = state.domain().grid;
+  double largest = 0;
+  for (int k = 0; k < grid.n_cells(); ++k) {
+    if (!state.domain().active(k)) continue;
+    auto cell = grid.cell_position(k);
+    for (int sector = 0; sector < grid.n_sectors; ++sector, cell[1] += grid.columns())
+      largest = std::max(largest, std::abs(gradients.rotation(u, cell) - rim));
   }
   return largest;
 }
@@ -126,27 +136,30 @@ bool any_cross(const std::vector<std::vector<Vec<2>>>& curves) {
   return false;
 }
 
+/// The edges of the material in 2D; a third dimension has none that are looked at.
+std::vector<Contour> edges(const LevelSet<2>& psi) { return material_contours(psi, 2); }
+std::vector<Contour> edges(const LevelSet<3>&) { return {}; }
+
+/// Whether edges that a field of the ring deforms cross each other or themselves.
+bool cross_deformed(const std::vector<Contour>& edges, const RingField& u, const Lattice<2>& lattice) {
+  std::vector<std::vector<Vec<2>>> curves;
+  for (const Contour& edge : edges) {
+    curves.emplace_back();
+    for (const Vec<2>& x : edge.points) curves.back().push_back(deformed(x, u, lattice));
+  }
+  return any_cross(curves);
+}
+bool cross_deformed(const std::vector<Contour>&, const RingField&, const Lattice<3>&) { return false; }
+
 }  // namespace
 
-template <>
-bool edges_overlap<2>(const StateSolver<2>& solver, const LevelSet<2>& psi, const State<2>& state) {
-  const auto contours = material_contours(psi, 2);
+template <int dim>
+bool edges_overlap(const StateSolver<dim>& solver, const LevelSet<dim>& psi, const State<dim>& state) {
+  const auto contours = edges(psi);
   const auto displacement = state.displacement();
-  const Lattice<2> lattice = displacement_lattice(solver);
-  for (int position = 0; position < state.positions().size(); ++position) {
-    const RingField u = displacement->at_nodes(position);
-    std::vector<std::vector<Vec<2>>> curves;
-    for (const Contour& contour : contours) {
-      curves.emplace_back();
-      for (const Vec<2>& x : contour.points) curves.back().push_back(deformed(x, u, lattice));
-    }
-    if (any_cross(curves)) return true;
-  }
-  return false;
-}
-
-template <>
-bool edges_overlap<3>(const StateSolver<3>&, const LevelSet<3>&, const State<3>&) {
+  const Lattice<dim> lattice = displacement_lattice(solver);
+  for (int position = 0; position < state.positions().size(); ++position)
+    if (cross_deformed(contours, displacement->at_nodes(position), lattice)) return true;
   return false;
 }
 
@@ -162,10 +175,21 @@ double travel_by_thickness(const StateSolver<dim>& solver, const State<dim>& sta
 template <int dim>
 DeformationSize deformation_size(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                  const State<dim>& state) {
-  return {.strain = std::ranges::max(strain_peaks(solver, state).principal),
-          .rotation = largest_rotation(solver, state, *state.displacement()),
-          .travel = travel_by_thickness(solver, state),
-          .edges_overlap = edges_overlap<dim>(solver, psi, state)};
+  const auto displacement = state.displacement();
+  const Lattice<dim> lattice = displacement_lattice(solver);
+  const MiddleGradients<dim> gradients(lattice);
+  const auto contours = edges(psi);
+  DeformationSize size{.strain = std::ranges::max(strain_peaks(solver, state, *displacement).principal),
+                       .rotation = 0,
+                       .travel = travel_by_thickness(solver, state),
+                       .edges_overlap = false};
+  for (int position = 0; position < state.positions().size(); ++position) {
+    const RingField u = displacement->at_nodes(position);
+    const double rim = state.contacts()[position].rim.rotation;
+    size.rotation = std::max(size.rotation, largest_rotation(gradients, state, u, rim));
+    size.edges_overlap = size.edges_overlap || cross_deformed(contours, u, lattice);
+  }
+  return size;
 }
 
 template <int dim>
@@ -196,6 +220,7 @@ std::string deformation_warning(const DeformationSize& size) {
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                               \
   template double travel_by_thickness(const StateSolver<dim>&, const State<dim>&);                 \
+  template bool edges_overlap(const StateSolver<dim>&, const LevelSet<dim>&, const State<dim>&);   \
   template std::optional<Failure> material_overlaps(const StateSolver<dim>&, const LevelSet<dim>&, \
                                                     const State<dim>&);                            \
   template DeformationSize deformation_size(const StateSolver<dim>&, const LevelSet<dim>&, const State<dim>&);

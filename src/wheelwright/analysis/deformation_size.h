@@ -34,7 +34,7 @@ std::optional<Failure> material_overlaps(const StateSolver<dim>& solver, const L
 /// Beyond these, results of linear elasticity deserve a warning.
 inline constexpr double small_strain = 0.05, small_travel = 0.1;
 
-/// What exceeds them and what it means, or an empty text.
+/// Says what exceeds them and what that means; empty if nothing does.
 std::string deformation_warning(const DeformationSize& size);
 
 }  // namespace wheelwright

@@ -50,9 +50,9 @@ std::array<double, 3> principal_strains<3>(const double* strain, double) {
 }
 
 template <int dim>
-StrainPeaks strain_peaks(const StateSolver<dim>& solver, const State<dim>& state) {
+StrainPeaks strain_peaks(const StateSolver<dim>& solver, const State<dim>& state,
+                         const Displacement<dim>& displacement) {
   const PolarGrid<dim>& grid = solver.model().grid;
-  const auto displacement = state.displacement();
   const std::vector<double> zeros(state.positions().size(), 0.0);
   StrainPeaks peaks{zeros, zeros};
   const auto full = unit_cell_rule<dim>(solver.model().degree + 1);
@@ -65,7 +65,7 @@ StrainPeaks strain_peaks(const StateSolver<dim>& solver, const State<dim>& state
     for (const auto& point : points) xi.push_back(point.xi);
     const Material& material = solver.model().materials.in_row(grid.cell_position(cell)[0]);
     const double mu = material.mu(), axial = material.axial_strain_ratio();
-    const Matrix strains = displacement->strains(cell, xi);
+    const Matrix strains = displacement.strains(cell, xi);
     for (int j = 0; j < strains.columns(); ++j) {
       double &squared_stress = peaks.von_mises[j / grid.n_sectors],
              &principal = peaks.principal[j / grid.n_sectors];
@@ -81,7 +81,7 @@ StrainPeaks strain_peaks(const StateSolver<dim>& solver, const State<dim>& state
   return peaks;
 }
 
-template StrainPeaks strain_peaks(const StateSolver<2>&, const State<2>&);
-template StrainPeaks strain_peaks(const StateSolver<3>&, const State<3>&);
+template StrainPeaks strain_peaks(const StateSolver<2>&, const State<2>&, const Displacement<2>&);
+template StrainPeaks strain_peaks(const StateSolver<3>&, const State<3>&, const Displacement<3>&);
 
 }  // namespace wheelwright

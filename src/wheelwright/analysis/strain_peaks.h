@@ -14,7 +14,14 @@ struct StrainPeaks {
 };
 
 template <int dim>
-StrainPeaks strain_peaks(const StateSolver<dim>& solver, const State<dim>& state);
+StrainPeaks strain_peaks(const StateSolver<dim>& solver, const State<dim>& state,
+                         const Displacement<dim>& displacement);
+
+/// The same where nothing else asks for the displacement.
+template <int dim>
+StrainPeaks strain_peaks(const StateSolver<dim>& solver, const State<dim>& state) {
+  return strain_peaks<dim>(solver, state, *state.displacement());
+}
 
 /// The principal strains; `strain`: n_strains entries, shear strains as angles. When dim = 2, the one along
 /// the axle is `axial_strain_ratio` times the trace in the plane.

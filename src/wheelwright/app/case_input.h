@@ -10,7 +10,7 @@
 
 namespace wheelwright {
 
-// What commands do with a case before they work on it.
+// Commands read and check a case with these functions before they work on it.
 
 /// The case in a file. Nothing if it has problems, which are told then: the command ends with exit_usage.
 std::optional<Case> read_or_tell(const std::filesystem::path& file);

@@ -49,21 +49,19 @@ std::string size_report(const Case& c) {
          line("memory", fmt::format("about {:.0f} MB", std::ceil(estimated_memory(c) / 1e6)));
 }
 
-/// What a patch of too few cells means, and what would help. Below the grid, the contact is a line load on a
-/// cell, whose indentation has the logarithm of the cell's width where the true one has that of the patch.
+/// Says what a patch of too few cells means and what would help. Below the grid, the contact is a line load
+/// on a cell, whose indentation has the logarithm of the cell's width where the true one has that of the
+/// patch.
 std::string coarse_contact_warning(const Case& c, double cells) {
-  const Case finest = with_levels_of_results([&] {
-    Case automatic = c;
-    automatic.grid.tread_levels.reset();
-    return automatic;
-  }());
+  Case finest = c;
+  finest.grid.tread_levels.reset();
+  finest = with_levels_of_results(finest);
   const double reachable = cells_per_contact_patch(finest);
   std::string text = fmt::format("the contact patch is only {:.2g} cells wide: ", cells);
   if (cells < 1)
     text += fmt::format(
         "pressures are not resolved, and the travel and the strain energy lack part of the local "
-        "indentation, "
-        "about {:.2g} mm",
+        "indentation, about {:.2g} mm",
         -std::log(cells) * 2 * load_per_metre(c) / (std::numbers::pi * c.material.contact_modulus()) * 1e3);
   else
     text += "pressures are not resolved; energies are accurate to about one percent";

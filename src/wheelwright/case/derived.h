@@ -90,8 +90,8 @@ double estimated_memory(const Case& c);
 /// The minimum gamma_0 for which Nitsche's method is safe with this theta and material. At nu = 0.48 in plane
 /// strain it is 0 for theta = -1, about 10 for theta = 0 and 100 for theta = 1. In between it is
 /// 10 (1 + theta)^2 for the lack of symmetry plus 60 theta for the indefinite boundary term, scaled by
-/// (lambda + 2 mu) / E with E = Material::scaling_modulus(). In nearly incompressible material, whose elements
-/// project the pressure, that scale stays what it is at nu = 0.485 if theta <= 0.
+/// (lambda + 2 mu) / E with E = Material::scaling_modulus(). In nearly incompressible material, whose
+/// elements project the pressure, that scale stays what it is at nu = 0.485 if theta <= 0.
 double least_gamma_0(double theta, const Material& material);
 
 }  // namespace wheelwright

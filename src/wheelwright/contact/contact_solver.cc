@@ -24,13 +24,12 @@ struct NewtonEnd {
   bool converged = false;
 };
 
-/// x minus a part of a step.
 template <int dim>
-ContactUnknowns<dim> moved(const ContactUnknowns<dim>& x, double length, const ContactUnknowns<dim>& step) {
+ContactUnknowns<dim> difference(const ContactUnknowns<dim>& x, const ContactUnknowns<dim>& step) {
   ContactUnknowns<dim> result = x;
   for (size_t i = 0; i < x.augmented.size(); ++i)
-    for (int d = 0; d < dim; ++d) result.augmented[i][d] -= length * step.augmented[i][d];
-  for (size_t k = 0; k < x.rim.size(); ++k) result.rim[k] -= length * step.rim[k];
+    for (int d = 0; d < dim; ++d) result.augmented[i][d] -= step.augmented[i][d];
+  for (size_t k = 0; k < x.rim.size(); ++k) result.rim[k] -= step.rim[k];
   return result;
 }
 
@@ -176,7 +175,7 @@ void stick_turned(const ReducedContact<dim>& contact, const ContactUnknowns<dim>
 }
 
 /// What Newton's method does when full steps no longer lower the number of points that change.
-enum class Cycling { give_up, change_one };
+enum class Cycling { give_up, change_fewer };
 
 /// Takes back all changes but the last n.
 template <int dim>
@@ -202,7 +201,7 @@ NewtonEnd<dim> newton(const ReducedContact<dim>& contact, ContactUnknowns<dim> s
     const auto step = contact.newton_step(end.x, contact.residual(end.x));
     if (!step) return end;
     ++end.iterations;
-    ContactUnknowns<dim> next = moved(end.x, 1, *step);
+    ContactUnknowns<dim> next = difference(end.x, *step);
     const ContactUnknowns<dim> residual = contact.residual(next);
     end.residual = norm(residual);
     end.converged = norm.vanishes(residual, next);
@@ -242,7 +241,7 @@ NewtonEnd<dim> newton_by_given_friction(const ReducedContact<dim>& contact, Cont
   NewtonEnd<dim> end{std::move(start)};
   std::vector<double> given = thresholds(contact, end.x);
   for (int k = 0; k < max_problems && !end.converged && !interrupt.requested(); ++k) {
-    auto solved = newton(contact.with_given_friction(given), end.x, Cycling::change_one, interrupt);
+    auto solved = newton(contact.with_given_friction(given), end.x, Cycling::change_fewer, interrupt);
     solved.iterations += end.iterations;
     if (!solved.converged) return {std::move(solved.x), solved.iterations, solved.residual, false};
     given = thresholds(contact, solved.x);
@@ -264,7 +263,7 @@ Expected<ContactState<dim>> solve_contact(const ReducedContact<dim>& contact,
   int iterations = 0;
   for (const ContactUnknowns<dim>& start : starts) {
     if (end.converged || interrupt.requested()) break;
-    end = newton(contact, contact.touching(start), has_friction ? Cycling::give_up : Cycling::change_one,
+    end = newton(contact, contact.touching(start), has_friction ? Cycling::give_up : Cycling::change_fewer,
                  interrupt);
     iterations += end.iterations;
   }

@@ -41,7 +41,7 @@ struct Evaluation {
   std::vector<TermValue> terms;             ///< the functionals that they are made of, each once
   std::vector<SurfacePoint<dim>> boundary;  ///< DJ(Theta) = sum weight gradient Theta.n over these points,
                                             ///< for a Theta that is equal in all sectors
-  std::vector<int> newton_iterations;  ///< one per position that was solved for
+  std::vector<int> newton_iterations;       ///< one per position that was solved for
   Matrix mean_observations;  ///< of the tread over the positions (functionals/mean_contact_stress.h)
   std::vector<PhaseTime> phases;
   std::vector<MeasureValue> measures;  ///< RollingMeasures, by its names
