@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "wheelwright/base/units.h"
+#include "wheelwright/report/comparison_table.h"
 
 namespace wheelwright {
 namespace {
@@ -45,13 +45,6 @@ std::vector<Line<dim>> lines(const RunSummary<dim>& summary) {
   };
 }
 
-/// Empty where there is no number to compare with.
-std::string change(double before, double after) {
-  const double percents = 100 * (after / before - 1);
-  if (std::abs(percents) < 0.005) return "0 %";
-  return std::isfinite(percents) ? fmt::format("{:+.2f} %", percents) : "";
-}
-
 using Json = nlohmann::ordered_json;
 
 template <int dim>
@@ -83,14 +76,12 @@ Json shape_json(const SummarizedShape<dim>& shape, double width) {
 
 template <int dim>
 std::string summary_table(const RunSummary<dim>& summary) {
-  std::string table = fmt::format("{:<36}{:>12}{:>12}{:>12}\n", "", "before", "after", "change");
-  for (const Line<dim>& line : lines(summary)) {
-    const double before = line.value(summary.before), after = line.value(summary.after);
-    table += fmt::format("{:<36}{:>12.6g}{:>12.6g}{:>12}\n", fmt::format("{} [{}]", line.name, line.unit),
-                         before * line.factor, after * line.factor, change(before, after));
-  }
+  std::vector<ComparedRow> rows;
+  for (const Line<dim>& line : lines(summary))
+    rows.push_back({fmt::format("{} [{}]", line.name, line.unit),
+                    {line.value(summary.before) * line.factor, line.value(summary.after) * line.factor}});
   const StressPeak<dim>& peak = summary.after.measured.von_mises;
-  return table +
+  return comparison_table({"before", "after"}, rows) +
          fmt::format(
              "the stress is largest at radius {:.1f} mm, azimuth {:.2f} deg, with the ground at {:.2f} deg\n",
              peak.place[0] * mm, peak.place[1] * degree, peak.ground_azimuth * degree);
