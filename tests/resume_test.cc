@@ -215,7 +215,8 @@ TEST_F(Resume, BeginsWhenThereIsNoCheckpointYet) {
   const fs::path straight = workplace("straight"), killed = workplace("killed");
   ASSERT_EQ(run(straight, small_case(3)), exit_done);
   fs::create_directories(killed / "run");
-  fs::copy(straight / "run/case.toml", killed / "run/case.toml");
+  for (const char* file : {"case.toml", list_of_written_files})
+    fs::copy(straight / "run" / file, killed / "run" / file);
   std::ofstream(killed / "run/history.csv") << "half a li";
   ASSERT_EQ(resume(killed), exit_done);
   expect_equal_results(straight / "run", killed / "run");
@@ -224,12 +225,12 @@ TEST_F(Resume, BeginsWhenThereIsNoCheckpointYet) {
 TEST_F(Resume, AFileStopEndsTheRunAndIsRemoved) {
   const fs::path straight = workplace("straight"), stopped = workplace("stopped");
   ASSERT_EQ(run(straight, small_case(3)), exit_done);
-  fs::create_directories(stopped / "run");
+  ASSERT_EQ(run(stopped, small_case(3), 1), exit_done);
   std::ofstream(stopped / "run/STOP");
-  EXPECT_EQ(run(stopped, small_case(3)), exit_terminated);
+  EXPECT_EQ(resume(stopped, 3), exit_terminated);
   EXPECT_FALSE(fs::exists(stopped / "run/STOP"));
-  EXPECT_EQ(rows(stopped / "run"), 1);
-  ASSERT_EQ(resume(stopped), exit_done);
+  EXPECT_EQ(rows(stopped / "run"), 2);
+  ASSERT_EQ(resume(stopped, 3), exit_done);
   expect_equal_results(straight / "run", stopped / "run");
 }
 

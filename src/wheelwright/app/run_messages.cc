@@ -1,6 +1,7 @@
 #include "wheelwright/app/run_messages.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <csignal>
@@ -42,6 +43,13 @@ struct NotBegunReport {
         "{0}: holds a run already; `wheelwright resume {0}` goes on with it; for a new one choose another "
         "folder with --output, or remove this one\n",
         folder.string());
+    return exit_refused;
+  }
+  int operator()(const ForeignFiles& foreign) const {
+    tell(
+        "{0}: no run wrote {1}, so the run does not replace what stands there; move it away, or choose "
+        "another folder with --output\n",
+        folder.string(), fmt::join(foreign.names, ", "));
     return exit_refused;
   }
   int operator()(const CheckpointsGone&) const {

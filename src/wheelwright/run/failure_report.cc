@@ -86,7 +86,7 @@ void FailureReport::operator()(const Event<2>& event, const RunView<2>& run) {
   if (!ended || ended->failed_trials.empty() ||
       (ended->reason != StopReason::gave_up && ended->reason != StopReason::failed_start))
     return;
-  make_folder(run.folder / "failure");
+  make_subfolder(run.folder / "failure");
   const LevelSet<2>& rejected = ended->failed_trials.back().shape;
   write_atomically(run.folder / "failure/case.toml", to_toml(run.study.source));
   write_atomically(run.folder / failure_report_file, report(*ended, rejected.lattice.grid()));

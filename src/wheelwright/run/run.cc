@@ -8,7 +8,9 @@
 
 #include "wheelwright/run/observers.h"
 #include "wheelwright/run/provenance.h"
+#include "wheelwright/run/run_files.h"
 #include "wheelwright/run/run_loop.h"
+#include "wheelwright/run/stop_file.h"
 
 namespace wheelwright {
 namespace {
@@ -71,6 +73,9 @@ Run<dim>::Run(FolderLock lock, fs::path folder, Study<dim> study, Resumption res
 
 template <int dim>
 Expected<Run<dim>, NotBegun<dim>> Run<dim>::begin(const Case& c, const fs::path& folder) {
+  auto foreign = foreign_files(folder);
+  if (StopFile(folder).exists()) foreign.emplace_back(stop_file);  // it would be obeyed and removed
+  if (!foreign.empty()) return NotBegun<dim>(ForeignFiles{std::move(foreign)});
   auto lock = FolderLock::acquire(folder);
   if (!lock) return NotBegun<dim>(FolderInUse{});
   const CheckpointFolder checkpoints(folder);
@@ -82,6 +87,8 @@ Expected<Run<dim>, NotBegun<dim>> Run<dim>::begin(const Case& c, const fs::path&
 
 template <int dim>
 Expected<Run<dim>, NotBegun<dim>> Run<dim>::resume(const Case& c, const fs::path& folder) {
+  if (auto foreign = foreign_files(folder); !foreign.empty())
+    return NotBegun<dim>(ForeignFiles{std::move(foreign)});
   auto lock = FolderLock::acquire(folder);
   if (!lock) return NotBegun<dim>(FolderInUse{});
   auto [checkpoints, checkpoint, unusable] = resume_point<dim>(folder, c);

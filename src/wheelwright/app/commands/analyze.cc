@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "wheelwright/analysis/deformation_size.h"
 #include "wheelwright/app/case_input.h"
@@ -10,6 +11,7 @@
 #include "wheelwright/base/text.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/files/atomic_file.h"
+#include "wheelwright/files/written_files.h"
 #include "wheelwright/report/pressure_plot.h"
 #include "wheelwright/report/rolling_report.h"
 #include "wheelwright/report/solution_fields.h"
@@ -20,6 +22,11 @@ namespace wheelwright {
 namespace {
 
 constexpr const char* result_file = "analysis.json";
+
+/// What is written to the folder: whoever adds a file adds its name here.
+constexpr std::string_view names_in_folder[] = {
+    "analysis.json", "travel.svg", "force.svg",  "peak_pressure.svg",  "pressures.svg",   "pressures.csv",
+    "loads.svg",     "mesh.svg",   "stress.svg", "stress_contact.svg", "displacement.svg"};
 
 /// `name` stands for a title that is missing; loads on the whole width [N].
 Expected<RollingReport> rolling_report(const Case& c, const std::string& name,
@@ -79,15 +86,27 @@ class AnalyzeCommand : public Subcommand {
     if (!c) return exit_usage;
     c->load.positions = positions_;
     if (!may_compute(name(), *c, case_file_, threads_)) return exit_refused;
-    if (output_ && std::filesystem::exists(folder() / result_file)) {
-      tell("{}: holds an analysis already; choose another folder, or remove it\n", *output_);
-      return exit_refused;
-    }
-    return analyze(*c);
+    return output_ && !may_write() ? exit_refused : analyze(*c);
   }
 
  private:
   std::filesystem::path folder() const { return *output_; }
+
+  /// Tells what stands in the way of the folder's files.
+  bool may_write() const {
+    const WrittenFiles written(folder());
+    if (written.is_own(result_file)) {
+      tell("{}: holds an analysis already; choose another folder, or remove it\n", *output_);
+      return false;
+    }
+    const auto foreign = written.foreign(names_in_folder);
+    if (foreign.empty()) return true;
+    tell(
+        "{}: no analysis wrote {}, so this one does not replace what stands there; move it away, or choose "
+        "another folder\n",
+        *output_, fmt::join(foreign, ", "));
+    return false;
+  }
 
   /// Computes the case's initial shape at its load positions and tells what an engineer asks of a wheel.
   int analyze(const Case& c) const {

@@ -36,6 +36,7 @@ class InitCommand : public Subcommand {
       return reason == EEXIST ? exit_refused : exit_input_output;
     }
     if (!write_and_close(file, case_template())) {
+      unlink(file_.c_str());  // it is new, and useless
       tell("{}: cannot be written\n", file_);
       return exit_input_output;
     }
