@@ -36,7 +36,8 @@ class Resume : public TemporaryFolder {
     return in(where, [&] {
       Case c = *parse_case(text, "case.toml").value;
       if (iterations) c.optimizer.iterations = *iterations;
-      return begin_run(c, c.output.folder);
+      Signals signals;
+      return begin_run(c, c.output.folder, signals);
     });
   }
 
@@ -44,7 +45,8 @@ class Resume : public TemporaryFolder {
     return in(where, [&] {
       Case c = *read_case("run/case.toml").value;
       if (iterations) c.optimizer.iterations = *iterations;
-      return resume_run(c, "run");
+      Signals signals;
+      return resume_run(c, "run", signals);
     });
   }
 

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 int report_findings(const std::vector<Finding>& findings) {
   const auto unmet = std::ranges::count_if(findings, [](const Finding& f) { return !f.met(); });
   if (!findings.empty())
-    fmt::print("expected   {} of {} values found\n", findings.size() - unmet, findings.size());
+    print("expected   {} of {} values found\n", findings.size() - unmet, findings.size());
   for (const Finding& finding : findings)
     if (!finding.met()) tell("wheelwright: {}\n", finding.text());
   return unmet > 0 ? exit_unexpected : exit_done;
@@ -49,7 +49,7 @@ struct NotBegunReport {
     tell(
         "{0}: no run wrote {1}, so the run does not replace what stands there; move it away, or choose "
         "another folder with --output\n",
-        folder.string(), fmt::join(foreign.names, ", "));
+        folder.string(), fmt::format("{}", fmt::join(foreign.names, ", ")));
     return exit_refused;
   }
   int operator()(const CheckpointsGone&) const {
@@ -68,10 +68,9 @@ struct NotBegunReport {
   int operator()(const AlreadyFinished<dim>& finished) const {
     report_unusable(finished.unusable);
     const Checkpoint<dim>& end = finished.end;
-    fmt::print("{}: finished: {} shapes ({})\n", folder.string(), end.state.iteration,
-               to_string(*end.finished));
+    print("{}: finished: {} shapes ({})\n", folder.string(), end.state.iteration, to_string(*end.finished));
     if (end.finished == StopReason::iterations)
-      fmt::print("to go further: wheelwright resume {} --iterations N\n", folder.string());
+      print("to go further: wheelwright resume {} --iterations N\n", folder.string());
     return report_findings(finished.findings);
   }
   int operator()(const Failure& failure) const {
@@ -91,7 +90,7 @@ void print_files(const fs::path& folder) {
         {"history.csv", "every trial shape"},
         {"shapes.pvd", "all shapes, for ParaView"},
         {"rolling.pvd", "all load positions, for ParaView"}})
-    if (fs::exists(folder / file)) fmt::print("  {:<36} {}\n", (folder / file).string(), meaning);
+    if (fs::exists(folder / file)) print("  {:<36} {}\n", (folder / file).string(), meaning);
 }
 
 template <int dim>
@@ -99,16 +98,15 @@ void print_summary(const RunResult<dim>& result, const fs::path& folder) {
   const InitialShape<dim>& first = *result.initial;
   const OptimizationState<dim>& last = *result.state;
   const PolarGrid<dim>& grid = last.shape.lattice.grid();
-  fmt::print("objective  {:.6g} -> {:.6g} {} ({:+.2f} %) after {} shapes in {:.1f} s ({})\n", first.objective,
-             last.evaluation.function("objective").value, unit<dim>(kind(Quantity::objective)),
-             100 * (last.evaluation.function("objective").value / first.objective - 1), last.iteration,
-             result.elapsed_seconds, to_string(result.reason));
-  fmt::print("volume     {:.6f} -> {:.6f} of the ring\n", volume_fraction(grid, first.measure),
-             volume_fraction(grid, last.measure));
+  print("objective  {:.6g} -> {:.6g} {} ({:+.2f} %) after {} shapes in {:.1f} s ({})\n", first.objective,
+        last.evaluation.function("objective").value, unit<dim>(kind(Quantity::objective)),
+        100 * (last.evaluation.function("objective").value / first.objective - 1), last.iteration,
+        result.elapsed_seconds, to_string(result.reason));
+  print("volume     {:.6f} -> {:.6f} of the ring\n", volume_fraction(grid, first.measure),
+        volume_fraction(grid, last.measure));
   if (result.is_approaching)
-    fmt::print(
-        "           volume.target = {:.6g} is not reached: it takes more shapes, or a larger volume.rate\n",
-        volume_fraction(grid, last.target_measure));
+    print("           volume.target = {:.6g} is not reached: it takes more shapes, or a larger volume.rate\n",
+          volume_fraction(grid, last.target_measure));
   print_files(folder);
 }
 
@@ -148,6 +146,11 @@ int report_not_begun(const NotBegun<dim>& reason, const fs::path& folder) {
   return std::visit(NotBegunReport<dim>{folder}, reason);
 }
 
+int report_not_begun_by_signal() {
+  tell("stopped before the run began; nothing is written\n");
+  return exit_nothing_saved;
+}
+
 void report_resumption(const Resumption& resumption, const fs::path& folder) {
   report_unusable(resumption.unusable);
   if (!resumption.shape) {
@@ -164,7 +167,8 @@ template <int dim>
 int report_result(const RunResult<dim>& result, const fs::path& folder, const Signals& signals) {
   if (result.reason == StopReason::stop_requested) {
     tell_stop(result, folder);
-    return exit_code_of_stop(signals);
+    if (result.state) print_files(folder);
+    return result.state ? exit_code_of_stop(signals) : exit_nothing_saved;
   }
   if (result.reason == StopReason::failed_start) return report_failure(result, folder);
   print_summary(result, folder);

@@ -44,8 +44,9 @@ class RunLoop : private RunControl {
   RunResult<dim> end_without_a_shape(const Failure& failure);
   std::vector<Finding> findings_at_the_end(const State<dim>* solution);
   RunResult<dim> result(StopReason reason) const;
-  SharedSolution final_solution();
-  std::pair<SharedSolver, SharedSolution> solution_of_results(const SharedSolution& own);
+  SharedSolution final_solution(const Interrupt& interrupt);
+  std::pair<SharedSolver, SharedSolution> solution_of_results(const SharedSolution& own,
+                                                              const Interrupt& interrupt);
 
   void observe(const Trial<dim>& trial, const OptimizationState<dim>& state);
   bool must_yield();

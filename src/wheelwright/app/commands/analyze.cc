@@ -104,7 +104,7 @@ class AnalyzeCommand : public Subcommand {
     tell(
         "{}: no analysis wrote {}, so this one does not replace what stands there; move it away, or choose "
         "another folder\n",
-        *output_, fmt::join(foreign, ", "));
+        *output_, fmt::format("{}", fmt::join(foreign, ", ")));
     return false;
   }
 
@@ -120,7 +120,7 @@ class AnalyzeCommand : public Subcommand {
       return tell_failure(name(), *failure);
     const auto report = rolling_report(c, name_of_case(), loads(), solver, **solved);
     if (!report) return tell_failure(name(), report.failure());
-    print(*report);
+    print_report(*report);
     const auto size = deformation_size(solver, shape, **solved);
     if (const std::string warning = deformation_warning(size); !warning.empty())
       tell("warning: {}\n", warning);
@@ -134,9 +134,9 @@ class AnalyzeCommand : public Subcommand {
 
   std::vector<double> loads() const { return loads_ ? *parse_loads(*loads_) : std::vector<double>(); }
 
-  void print(const RollingReport& report) const {
-    fmt::print("{}", json_ ? rolling_json(report)
-                           : without_control_characters(report.title) + "\n\n" + rolling_table(report));
+  void print_report(const RollingReport& report) const {
+    print_lines(stdout, json_ ? rolling_json(report)
+                              : without_control_characters(report.title) + "\n\n" + rolling_table(report));
   }
 
   void write(const RollingReport& report, const LevelSet<2>& shape, const StateSolver<2>& solver,

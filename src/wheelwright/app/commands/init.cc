@@ -40,7 +40,7 @@ class InitCommand : public Subcommand {
       tell("{}: cannot be written\n", file_);
       return exit_input_output;
     }
-    fmt::print("wrote {0}; next: wheelwright check {0}\n", file_);
+    print("wrote {0}; next: wheelwright check {0}\n", file_);
     return exit_done;
   }
 
