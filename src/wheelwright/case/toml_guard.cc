@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <tuple>
+
 namespace wheelwright {
 
 namespace {
@@ -35,13 +37,25 @@ std::size_t end_of_line(std::string_view text, std::size_t begin) {
   return std::min(text.find('\n', begin), text.size());
 }
 
-ParserLimitExceeded at(std::string_view text, std::size_t position, std::string problem) {
+TextPlace place_of(std::string_view text, std::size_t position) {
   int line = 1, column = 1;
   for (const char c : text.substr(0, position)) {
     column = c == '\n' ? 1 : column + 1;
     line += c == '\n';
   }
+  return {line, column};
+}
+
+ParserLimitExceeded at(std::string_view text, std::size_t position, std::string problem) {
+  const auto [line, column] = place_of(text, position);
   return {line, column, std::move(problem)};
+}
+
+/// Whether the string that ends at `end` has its quotes there.
+bool is_closed(std::string_view text, std::size_t begin, std::size_t end) {
+  const std::string triple(3, text[begin]);
+  const std::size_t quotes = text.substr(begin, 3) == triple ? 3 : 1;
+  return end >= begin + 2 * quotes && text.substr(end - quotes, quotes) == triple.substr(0, quotes);
 }
 
 }  // namespace
@@ -65,6 +79,35 @@ std::optional<ParserLimitExceeded> exceeded_parser_limit(std::string_view text) 
     }
   }
   return {};
+}
+
+std::optional<TextPlace> unclosed_string(std::string_view text, int line, int column) {
+  for (std::size_t i = 0; i < text.size();) {
+    if (text[i] == '#') {
+      i = end_of_line(text, i);
+    } else if (text[i] != '"' && text[i] != '\'') {
+      ++i;
+    } else {
+      const std::size_t end = end_of_string(text, i);
+      const TextPlace begin = place_of(text, i), behind = place_of(text, std::min(end, text.size()));
+      const bool begins_before = std::tie(begin.line, begin.column) < std::tie(line, column);
+      if (!begins_before) return {};
+      const bool holds_the_place = std::tie(line, column) <= std::tie(behind.line, behind.column);
+      if (!is_closed(text, i, end) && (holds_the_place || end >= text.size())) return begin;
+      i = end;
+    }
+  }
+  return {};
+}
+
+std::optional<std::string> other_encoding(std::string_view text) {
+  using namespace std::string_view_literals;
+  const auto begins = [&](std::string_view bytes) { return text.starts_with(bytes); };
+  if (begins("\xff\xfe\0\0"sv) || begins("\0\0\xfe\xff"sv)) return "UTF-32";
+  if (begins("\xff\xfe") || begins("\xfe\xff")) return "UTF-16";
+  const bool is_wide = text.size() >= 4 && (text[0] == '\0') != (text[1] == '\0') &&
+                       (text[0] == '\0') == (text[2] == '\0') && (text[1] == '\0') == (text[3] == '\0');
+  return is_wide ? std::optional<std::string>("UTF-16") : std::nullopt;
 }
 
 }  // namespace wheelwright
