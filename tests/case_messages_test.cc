@@ -49,6 +49,7 @@ TEST(CaseMessages, AnUnclosedStringIsReportedWhereItBegins) {
     EXPECT_EQ(first_place("title = " + quote), Place(1, 9));
   }
   // The line's mistake is another one.
+  EXPECT_EQ(first_place("title = \"gr\xc3\xbc\xc3\x9f\"\nwheel = [\"\xc3\xbc\", \"b\n"), Place(2, 15));
   EXPECT_FALSE(says("title = it's\n", "no end"));
   EXPECT_FALSE(says("title = \"a\\qb\"\n", "no end"));
   EXPECT_FALSE(says("[wheel]\nwidth = 1 m # it's\n", "no end"));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <regex>
@@ -298,12 +299,12 @@ TEST_F(CommandLine, AShapeThatCannotBeSolvedIsThree) {
 // The volume at which a run ends may not be its target's yet, or a target that no wheel survives: the end
 // names the key.
 TEST_F(CommandLine, AVolumeThatIsNotReachedIsNamed) {
-  const auto run = [&](const std::string& name, const std::string& volume) {
+  const auto run = [&](const std::string& name, const std::string& volume, int iterations = 2) {
     std::ofstream(folder() / (name + ".toml"))
         << "[[holes.ring]]\ncount = 16\ncenter_radius = 0.27\nradius = 0.03\n"
-           "[grid]\nradial_cells = 7\nangular_cells = 128\n[optimizer]\niterations = 2\n[volume]\n"
+           "[grid]\nradial_cells = 7\nangular_cells = 128\n[volume]\n"
         << volume;
-    return wheelwright(fmt::format("run {0}.toml --output {0}", name), folder());
+    return wheelwright(fmt::format("run {0}.toml --output {0} --iterations {1}", name, iterations), folder());
   };
   const Outcome early = run("early", "target = 0.7\n");
   EXPECT_EQ(early.code, exit_done) << early.output;
@@ -311,6 +312,11 @@ TEST_F(CommandLine, AVolumeThatIsNotReachedIsNamed) {
   const Outcome there = run("there", "target = 0.8\nrate = 0.1\n");
   EXPECT_EQ(there.code, exit_done) << there.output;
   EXPECT_EQ(there.output.find("volume.target"), std::string::npos) << there.output;
+  for (const char* volume : {"target = 0.46\ncontrol = \"paper\"\n", "target = 0.455\nrate = 0.02\n"}) {
+    const Outcome gave_up = run(fmt::format("gave-up-{}", std::strlen(volume)), volume, 60);
+    EXPECT_EQ(gave_up.code, exit_no_solution) << gave_up.output;
+    EXPECT_NE(gave_up.output.find("volume.target = 0.4"), std::string::npos) << gave_up.output;
+  }
   const Outcome apart = run("apart", "target = 0.46\nrate = 1\n");
   EXPECT_EQ(apart.code, exit_no_solution) << apart.output;
   EXPECT_NE(apart.output.find("volume.target = 0.46"), std::string::npos) << apart.output;

@@ -104,7 +104,7 @@ void print_summary(const RunResult<dim>& result, const fs::path& folder) {
         result.elapsed_seconds, to_string(result.reason));
   print("volume     {:.6f} -> {:.6f} of the ring\n", volume_fraction(grid, first.measure),
         volume_fraction(grid, last.measure));
-  if (result.is_approaching)
+  if (result.is_approaching && result.reason != StopReason::gave_up)
     print("           volume.target = {:.6g} is not reached: it takes more shapes, or a larger volume.rate\n",
           volume_fraction(grid, last.target_measure));
   print_files(folder);
@@ -114,6 +114,9 @@ template <int dim>
 int report_failure(const RunResult<dim>& result, const fs::path& folder) {
   tell("wheelwright: {}\n",
        failure_headline<dim>(result.state ? &*result.state : nullptr, result.failed_trials));
+  if (result.state)
+    if (const std::string hint = volume_hint(*result.initial, *result.state); !hint.empty())
+      tell("wheelwright: {}\n", hint);
   const auto line = [&](const char* file, const char* meaning) {
     if (fs::exists(folder / file)) tell("  {:<36} {}\n", (folder / file).string(), meaning);
   };

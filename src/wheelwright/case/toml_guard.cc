@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <tuple>
+#include <utility>
 
 namespace wheelwright {
 
@@ -37,17 +39,17 @@ std::size_t end_of_line(std::string_view text, std::size_t begin) {
   return std::min(text.find('\n', begin), text.size());
 }
 
-TextPlace place_of(std::string_view text, std::size_t position) {
-  int line = 1, column = 1;
-  for (const char c : text.substr(0, position)) {
-    column = c == '\n' ? 1 : column + 1;
-    line += c == '\n';
+/// The place behind some text that begins at `place`. Columns count characters.
+TextPlace behind(TextPlace place, std::string_view text) {
+  for (const char c : text) {
+    const bool begins_character = (static_cast<unsigned char>(c) & 0xc0) != 0x80;
+    place = c == '\n' ? TextPlace{place.line + 1, 1} : TextPlace{place.line, place.column + begins_character};
   }
-  return {line, column};
+  return place;
 }
 
 ParserLimitExceeded at(std::string_view text, std::size_t position, std::string problem) {
-  const auto [line, column] = place_of(text, position);
+  const auto [line, column] = behind({1, 1}, text.substr(0, position));
   return {line, column, std::move(problem)};
 }
 
@@ -82,20 +84,15 @@ std::optional<ParserLimitExceeded> exceeded_parser_limit(std::string_view text) 
 }
 
 std::optional<TextPlace> unclosed_string(std::string_view text, int line, int column) {
-  for (std::size_t i = 0; i < text.size();) {
-    if (text[i] == '#') {
-      i = end_of_line(text, i);
-    } else if (text[i] != '"' && text[i] != '\'') {
-      ++i;
-    } else {
-      const std::size_t end = end_of_string(text, i);
-      const TextPlace begin = place_of(text, i), behind = place_of(text, std::min(end, text.size()));
-      const bool begins_before = std::tie(begin.line, begin.column) < std::tie(line, column);
-      if (!begins_before) return {};
-      const bool holds_the_place = std::tie(line, column) <= std::tie(behind.line, behind.column);
-      if (!is_closed(text, i, end) && (holds_the_place || end >= text.size())) return begin;
-      i = end;
-    }
+  TextPlace place{1, 1};
+  for (std::size_t i = 0, end; i < text.size(); i = end) {
+    const bool is_string = text[i] == '"' || text[i] == '\'';
+    end = is_string ? end_of_string(text, i) : text[i] == '#' ? end_of_line(text, i) : i + 1;
+    end = std::min(end, text.size());
+    if (std::tie(place.line, place.column) >= std::tie(line, column)) return {};
+    const TextPlace begin = std::exchange(place, behind(place, text.substr(i, end - i)));
+    const bool holds_it = std::tie(line, column) <= std::tie(place.line, place.column) || end == text.size();
+    if (is_string && holds_it && !is_closed(text, i, end)) return begin;
   }
   return {};
 }
