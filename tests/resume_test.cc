@@ -1,9 +1,11 @@
 #include <csignal>
+#include <regex>
 
 #include "tests/run_support.h"
 #include "wheelwright/app/execute.h"
 #include "wheelwright/app/exit_code.h"
 #include "wheelwright/case/read.h"
+#include "wheelwright/case/version.h"
 #include "wheelwright/run/checkpoint.h"
 #include "wheelwright/run/checkpoint_folder.h"
 #include "wheelwright/run/folder_lock.h"
@@ -177,6 +179,17 @@ TEST_F(Resume, IsRefusedForAnotherCaseOrHistory) {
   EXPECT_EQ(resume(place, 4), exit_checkpoint);
   fs::remove(place / "run/history.csv");
   EXPECT_EQ(resume(place, 4), exit_checkpoint);
+}
+
+TEST_F(Resume, TheCaseOfARunNamesWhatComputedIt) {
+  const fs::path place = workplace("named");
+  ASSERT_EQ(run(place, small_case(0)), exit_done);
+  const std::string first_line = split(content(place / "run/case.toml"), '\n').front();
+  const std::string source = WHEELWRIGHT_SOURCE_DIR;
+  EXPECT_TRUE(first_line.starts_with(fmt::format("# wheelwright {}, commit ", version()))) << first_line;
+  EXPECT_TRUE(first_line.ends_with(fmt::format(", compiled by {}", compiler()))) << first_line;
+  const bool has_commit = std::regex_search(first_line, std::regex("commit [0-9a-f]{12}\\+?,"));
+  EXPECT_EQ(has_commit, fs::exists(fs::path(source) / ".git")) << first_line;
 }
 
 TEST_F(Resume, OfAFinishedRunChangesNothing) {

@@ -11,7 +11,7 @@
 #include "wheelwright/app/guarded.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/base/blas_settings.h"
-#include "wheelwright/case/version.h"
+#include "wheelwright/run/provenance.h"
 
 namespace wheelwright {
 namespace {
@@ -36,7 +36,7 @@ constexpr const char* exit_codes =
 
 void declare(CLI::App& app, const Commands& commands) {
   app.require_subcommand(1);
-  app.set_version_flag("--version", fmt::format("wheelwright {}", version()));
+  app.set_version_flag("--version", program_text());
   app.footer(exit_codes);
   for (const auto& command : commands) {
     Options options(*app.add_subcommand(command->name(), command->meaning()));

@@ -227,7 +227,8 @@ void check_load(const Case& c, Conflicts& found) {
   if (half_width <= largest) return;
   const double advised = 0.1 * c.wheel.outer_radius, factor = advised / half_width;  // strains of 5 %
   found.push_back(
-      {{"load.force", "load.mass", "material.youngs_modulus", "wheel.width"},
+      {{"load.force", "load.mass", "material.youngs_modulus", "wheel.width", "wheel.outer_radius",
+        "material.poissons_ratio", "material.plane"},
        fmt::format("too large: a solid disc would touch the ground on {:.3g} m and be strained by "
                    "about {:.0f} %, far beyond linear elasticity",
                    2 * half_width, 100 * half_width / (2 * c.wheel.outer_radius)),
@@ -251,7 +252,9 @@ void check_contact_points(const Case& c, Conflicts& found) {
           : fmt::format("take contact.quadrature_points = {}",
                         std::max(1, static_cast<int>(c.contact.quadrature_points * most / n)));
   found.push_back(
-      {{"grid.tread_levels", "contact.quadrature_points", "grid.angular_cells", "load.force"},
+      {{"grid.tread_levels", "contact.quadrature_points", "grid.angular_cells", "load.force", "load.mass",
+        "load.travel", "material.youngs_modulus", "contact.friction", "wheel.outer_radius", "wheel.width",
+        "material.poissons_ratio", "material.plane"},
        fmt::format("about {:.0f} unknowns in the contact of one position; at most {:.0f} are solved "
                    "in reasonable time",
                    n, most),
