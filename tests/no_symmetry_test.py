@@ -66,6 +66,8 @@ angular_cells = 189
 tread_levels = 0
 [optimizer]
 iterations = 0
+rim_band = 0.011
+tread_band = 0.022
 [output]
 vtu_every = 1
 pictures_every = 1
