@@ -94,6 +94,7 @@ TEST(CaseMessages, LengthsInMillimetresAreRecognized) {
   const std::string ring = "[[holes.ring]]\ncount = 16\ncenter_radius = 0.27\nradius = ";
   EXPECT_TRUE(says(ring + "30\n", "write 0.03"));
   EXPECT_TRUE(says(ring + "300\n", "write 0.3"));
+  EXPECT_TRUE(says(ring + "0.03\n[wheel]\nouter_radius = 340\n", "if 340 is in mm, write 0.34"));
   // Numbers that are no millimetres, and numbers of other units.
   EXPECT_FALSE(says(ring + "0.3\n", "mm"));
   EXPECT_FALSE(says("[wheel]\nwidth = -120\n", "mm"));

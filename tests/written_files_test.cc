@@ -196,6 +196,31 @@ TEST_F(UsersFolder, ARunWhoseFilesWereReplacedByLinksIsNotResumed) {
   EXPECT_EQ(wheelwright(place(), "resume run --iterations 3"), exit_done) << printed();
 }
 
+// What a checkpoint proves is the run's; the rest may be anybody's.
+TEST_F(UsersFolder, ARunWhoseListWasRemovedGoesOnWhenItsPicturesAreAside) {
+  write(place() / "c.toml", small_case(3));
+  const fs::path run = place() / "run";
+  ASSERT_EQ(wheelwright(place(), "run c.toml --iterations 1"), exit_done) << printed();
+  fs::remove(run / list_of_written_files);
+  EXPECT_EQ(wheelwright(place(), "resume run --iterations 3"), exit_refused);
+  EXPECT_NE(printed().find("shape.svg"), std::string::npos) << printed();
+  EXPECT_EQ(printed().find("history.csv"), std::string::npos) << printed();
+  const std::vector<std::string> kept{"case.toml", "history.csv", "run.lock", "checkpoints",
+                                      list_of_written_files};
+  for (const std::string_view name : names_in_a_run_folder)
+    if (std::ranges::count(kept, name) == 0) fs::remove_all(run / name);
+  EXPECT_EQ(wheelwright(place(), "resume run --iterations 3"), exit_done) << printed();
+  EXPECT_TRUE(fs::exists(run / "comparison.svg"));
+}
+
+TEST_F(UsersFolder, RunsAndAnalysesDoNotReplaceOneAnothersPictures) {
+  write(place() / "c.toml", small_case(1));
+  ASSERT_EQ(wheelwright(place(), "run c.toml"), exit_done) << printed();
+  expect_refused("analyze c.toml --positions 2 --output run", {"stress.svg"});
+  ASSERT_EQ(wheelwright(place(), "analyze c.toml --positions 2 --output analysis"), exit_done) << printed();
+  expect_refused("run c.toml --output analysis", {"analysis.json"});
+}
+
 // The folder itself is what the user says.
 TEST_F(UsersFolder, TheFolderOfARunMayBeALink) {
   write(place() / "c.toml", small_case(1));

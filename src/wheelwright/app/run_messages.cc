@@ -47,8 +47,9 @@ struct NotBegunReport {
   }
   int operator()(const ForeignFiles& foreign) const {
     tell(
-        "{0}: no run wrote {1}, so the run does not replace what stands there; move it away, or choose "
-        "another folder with --output\n",
+        "{}: {}: already there, and not in its list of files that runs wrote, so not replaced; move that "
+        "away, or "
+        "choose another folder with --output\n",
         folder.string(), fmt::format("{}", fmt::join(foreign.names, ", ")));
     return exit_refused;
   }

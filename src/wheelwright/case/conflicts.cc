@@ -168,7 +168,8 @@ void check_hole_inside(const Case& c, double center_radius, double radius, std::
                    lowest, highest, low, high),
        fmt::format("the largest hole at this place has radius {:.6g} m",
                    std::max(0.0, std::min(center_radius - low, high - center_radius))) +
-           if_in_millimetres(std::max(center_radius, radius), c.wheel.outer_radius)});
+           if_in_millimetres(std::max(center_radius, radius), c.wheel.outer_radius) +
+           if_in_millimetres(c.wheel.outer_radius, 2 * highest)});
 }
 
 /// Equal holes that touch all round the wheel cut the tread off from the rim.

@@ -27,7 +27,10 @@ fs::file_type type_of(const fs::path& path) {
   return fs::symlink_status(path, ignored).type();
 }
 
-bool stands(const fs::path& path) { return type_of(path) != fs::file_type::not_found; }
+/// False where the name cannot be used at all, e.g. below a link that leads to itself: writing fails there.
+bool stands(const fs::path& path) {
+  return type_of(path) != fs::file_type::not_found && type_of(path) != fs::file_type::none;
+}
 
 /// Names of folders end in a slash in the list.
 std::string listed_as(std::string_view name, fs::file_type type) {
@@ -57,12 +60,18 @@ bool WrittenFiles::is_own(std::string_view name) const {
          names_.contains(name.substr(0, name.size() - temporary_ending.size()));
 }
 
-std::vector<std::string> WrittenFiles::foreign(std::span<const std::string_view> names) const {
+std::vector<std::string> WrittenFiles::standing(std::span<const std::string_view> names) const {
   std::vector<std::string> found;
   if (!exists_ && stands(folder_ / list_of_written_files)) found.emplace_back(list_of_written_files);
   for (const std::string_view name : names)
     for (const std::string& candidate : {std::string(name), fmt::format("{}{}", name, temporary_ending)})
-      if (stands(folder_ / candidate) && !is_own(candidate)) found.push_back(candidate);
+      if (stands(folder_ / candidate)) found.push_back(candidate);
+  return found;
+}
+
+std::vector<std::string> WrittenFiles::foreign(std::span<const std::string_view> names) const {
+  auto found = standing(names);
+  std::erase_if(found, [&](const std::string& name) { return is_own(name); });
   return found;
 }
 
@@ -76,16 +85,19 @@ void WrittenFiles::claim(std::string_view name, const std::string& line) {
   if (!exists_) return;
   auto others = foreign(std::span(&name, 1));
   const fs::file_type type = type_of(folder_ / name);
-  if (type != fs::file_type::not_found && listed_as(name, type) != line) others.emplace_back(name);
+  if (stands(folder_ / name) && listed_as(name, type) != line) others.emplace_back(name);
   if (!others.empty())
     throw OutputError(
         folder_ / others.front(),
         fmt::format("wheelwright did not write it and does not replace it; move it away, or add "
                     "its name to {}",
                     (folder_ / list_of_written_files).string()));
-  if (names_.contains(line)) return;
+  list(line);
+}
+
+void WrittenFiles::list(const std::string& line) {
+  if (!names_.insert(line).second) return;
   append(line);
-  names_.insert(line);
 }
 
 /// A line that an interrupted write left unfinished is ended first: half a name lists nothing.

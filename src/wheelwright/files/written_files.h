@@ -27,8 +27,11 @@ class WrittenFiles {
   /// Whether the name, or "NAME.tmp" of a listed name, is a file or a folder that the program wrote.
   bool is_own(std::string_view name) const;
 
-  /// Those of the names that stand in the folder and are not own. Their temporary files count, and so does a
-  /// file in the place of the list.
+  /// Those of the names that stand in the folder, or whose temporary files do. If something else has the
+  /// place of the list, that too.
+  std::vector<std::string> standing(std::span<const std::string_view> names) const;
+
+  /// Those of them that are not own.
   std::vector<std::string> foreign(std::span<const std::string_view> names) const;
 
   /// Begins the list if there is none. Throws OutputError.
@@ -38,6 +41,9 @@ class WrittenFiles {
   /// if something that is not own has the name. Do nothing in a folder without a list.
   void claim_file(std::string_view name) { claim(name, std::string(name)); }
   void claim_folder(std::string_view name) { claim(name, std::string(name) + '/'); }
+  /// Adds a line to the list, whatever stands there: something that is known to be the program's. Folders end
+  /// in a slash.
+  void list(const std::string& line);
 
  private:
   void claim(std::string_view name, const std::string& line);

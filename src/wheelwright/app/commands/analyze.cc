@@ -92,19 +92,12 @@ class AnalyzeCommand : public Subcommand {
  private:
   std::filesystem::path folder() const { return *output_; }
 
-  /// Tells what stands in the way of the folder's files.
+  /// Tells what stands in the way of the folder's files. Those of a run are as good as the user's.
   bool may_write() const {
-    const WrittenFiles written(folder());
-    if (written.is_own(result_file)) {
-      tell("{}: holds an analysis already; choose another folder, or remove it\n", *output_);
-      return false;
-    }
-    const auto foreign = written.foreign(names_in_folder);
-    if (foreign.empty()) return true;
-    tell(
-        "{}: no analysis wrote {}, so this one does not replace what stands there; move it away, or choose "
-        "another folder\n",
-        *output_, fmt::format("{}", fmt::join(foreign, ", ")));
+    const auto in_the_way = WrittenFiles(folder()).standing(names_in_folder);
+    if (in_the_way.empty()) return true;
+    tell("{}: holds {} already; choose another folder, or move it away\n", *output_,
+         fmt::format("{}", fmt::join(in_the_way, ", ")));
     return false;
   }
 
