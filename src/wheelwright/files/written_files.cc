@@ -111,7 +111,9 @@ void WrittenFiles::append(std::string_view line) const {
   int error = written < 0 ? errno : written < static_cast<ssize_t>(text.size()) ? ENOSPC : 0;
   if (error == 0 && ::fsync(file) != 0 && errno != EINVAL) error = errno;
   if (::close(file) != 0 && error == 0) error = errno;
-  if (error != 0) throw OutputError(list, error);
+  if (error == 0) return;
+  if (!exists_) ::unlink(list.c_str());  // half a first line is no list
+  throw OutputError(list, error);
 }
 
 void claim_file(const fs::path& path) {
