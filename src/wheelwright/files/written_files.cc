@@ -16,9 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view first_line =
-    "# wheelwright wrote these files, and may replace or remove them: one name per line, nothing else in "
-    "this "
-    "folder";
+    "# wheelwright wrote these files, and may replace or remove them; it does so with no others";
 constexpr std::string_view temporary_ending = ".tmp";
 
 /// A symbolic link is what it is, not what it leads to.
