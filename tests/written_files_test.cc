@@ -252,6 +252,11 @@ TEST_F(UsersFolder, AnAnalysisReplacesNothing) {
     expect_refused(analyze + only.filename().string(), {name});
   }
   expect_refused(analyze + "out", {"out"});
+  const std::string compare = "compare c.toml c.toml --positions 2 --output ";
+  ASSERT_EQ(wheelwright(place(), compare + "both"), exit_done) << printed();
+  expect_refused(compare + "both", {"comparison.txt", "comparison.json", "comparison.svg"});
+  write(place() / "mine/comparison.svg", "mine");
+  expect_refused(compare + "mine", {"comparison.svg"});
 }
 
 TEST_F(UsersFolder, ALockRemovedByHandStillLocks) {

@@ -29,7 +29,8 @@ std::string volume_hint(const InitialShape<dim>& initial, const OptimizationStat
   const double from = volume_fraction(grid, initial.measure), to = volume_fraction(grid, last.target_measure);
   if (std::abs(to - from) < near) return "";
   return fmt::format(
-      "volume.target = {:.6g} may be the reason: the volume was {:.6g} of the ring at first and {:.6g} at last; "
+      "volume.target = {:.6g} may be the reason: the volume was {:.6g} of the ring at first and {:.6g} at "
+      "last; "
       "a target nearer to the first may succeed, or a smaller volume.rate",
       to, from, volume_fraction(grid, last.measure));
 }

@@ -47,6 +47,8 @@ class RunLoop : private RunControl {
   SharedSolution final_solution(const Interrupt& interrupt);
   std::pair<SharedSolver, SharedSolution> solution_of_results(const SharedSolution& own,
                                                               const Interrupt& interrupt);
+  std::optional<ShapeSummary<dim>> initial_summary(const StateSolver<dim>& solver) const;
+  std::optional<RunSummary<dim>> run_summary(const StateSolver<dim>& solver, const State<dim>* last) const;
 
   void observe(const Trial<dim>& trial, const OptimizationState<dim>& state);
   bool must_yield();
@@ -65,6 +67,7 @@ class RunLoop : private RunControl {
   std::shared_ptr<const Work> work_;
   std::optional<OptimizationState<dim>> state_;
   std::optional<InitialShape<dim>> initial_;
+  std::optional<ShapeSummary<dim>> initial_summary_;  ///< by the run's own solver, if it was seen
   std::vector<Trial<dim>> failed_trials_;
   SharedSolution last_solution_;  ///< of the last accepted shape, kept when nothing follows it
 
