@@ -205,6 +205,7 @@ void check_nested_holes(const Case& c, Conflicts& found) {
     const bool is_same = lies_inside(outer->ring, rings[i].ring);
     std::vector<std::string> keys = place_keys(rings[i].name);
     std::ranges::move(place_keys(outer->name), std::back_inserter(keys));
+    keys.emplace_back("wheel.sectors");  // how often a circle is repeated
     found.push_back(
         {.keys = std::move(keys),
          .problem = fmt::format(
