@@ -47,7 +47,9 @@ class RunLoop : private RunControl {
   SharedSolution final_solution(const Interrupt& interrupt);
   std::pair<SharedSolver, SharedSolution> solution_of_results(const SharedSolution& own,
                                                               const Interrupt& interrupt);
-  std::optional<ShapeSummary<dim>> initial_summary(const StateSolver<dim>& solver) const;
+  std::optional<DescribedWheel<dim>> initial_wheel(const StateSolver<dim>& solver) const;
+  std::optional<DescribedWheel<dim>> described(const StateSolver<dim>& solver, const LevelSet<dim>& shape,
+                                               double measure, const State<dim>& state) const;
   std::optional<RunSummary<dim>> run_summary(const StateSolver<dim>& solver, const State<dim>* last) const;
 
   void observe(const Trial<dim>& trial, const OptimizationState<dim>& state);
@@ -67,7 +69,7 @@ class RunLoop : private RunControl {
   std::shared_ptr<const Work> work_;
   std::optional<OptimizationState<dim>> state_;
   std::optional<InitialShape<dim>> initial_;
-  std::optional<ShapeSummary<dim>> initial_summary_;  ///< by the run's own solver, if it was seen
+  std::optional<DescribedWheel<dim>> initial_wheel_;  ///< by the run's own solver, if it was seen
   std::vector<Trial<dim>> failed_trials_;
   SharedSolution last_solution_;  ///< of the last accepted shape, kept when nothing follows it
 
