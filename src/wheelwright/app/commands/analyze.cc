@@ -83,10 +83,8 @@ class AnalyzeCommand : public Subcommand {
   }
 
   int run() override {
-    auto wheel = read_wheel_or_tell(input_);
+    auto wheel = read_wheel_or_tell(input_, {name(), threads_, positions_});
     if (!wheel) return wheel.failure();
-    wheel->source.load.positions = positions_;
-    if (!may_compute(name(), wheel->source, input_, threads_)) return exit_refused;
     if (output_ && !may_write_to(*output_, names_in_folder)) return exit_refused;
     return analyze(*wheel);
   }

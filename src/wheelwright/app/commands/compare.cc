@@ -51,14 +51,11 @@ class CompareCommand : public Subcommand {
   int run() override {
     std::vector<WheelInput> wheels;
     for (const std::string& input : inputs_) {
-      auto wheel = read_wheel_or_tell(input);
+      auto wheel = read_wheel_or_tell(input, {name(), threads_, positions_});
       if (!wheel) return wheel.failure();
-      wheel->source.load.positions = positions_;
       wheels.push_back(*std::move(wheel));
     }
     if (output_ && !may_write_to(*output_, names_in_folder)) return exit_refused;
-    for (std::size_t k = 0; k < wheels.size(); ++k)
-      if (!may_compute(name(), wheels[k].source, inputs_[k], threads_)) return exit_refused;
     return compare(wheels);
   }
 

@@ -126,9 +126,8 @@ class VerifyCommand : public Subcommand {
   }
 
   int run() override {
-    const auto wheel = read_wheel_or_tell(input_);
+    const auto wheel = read_wheel_or_tell(input_, {name(), threads_});
     if (!wheel) return wheel.failure();
-    if (!may_compute(name(), wheel->source, input_, threads_)) return exit_refused;
     const auto passed = verify(wheel->source, wheel->shape);
     if (!passed) return tell_failure(name(), passed.failure());
     return *passed ? exit_done : exit_no_solution;
