@@ -88,6 +88,12 @@ ContactSummary contact_summary(const ContactPatch<dim>& contact) {
   return summary;
 }
 
+ContactSummary mirror_image(ContactSummary position) {
+  for (double* value : {&position.friction_force, &position.travel_along_ground, &position.wind_up})
+    *value = 0 - *value;  // zero stays positive
+  return position;
+}
+
 RollingVariation rolling_variation(std::span<const double> values) {
   const int n = static_cast<int>(values.size());
   const auto [least, greatest] = std::ranges::minmax(values);

@@ -27,6 +27,10 @@ struct ContactSummary {
 template <int dim>
 ContactSummary contact_summary(const ContactPatch<dim>& contact);
 
+/// What the mirror image of a position shows: forces and motions along the ground, and turns, point the other
+/// way.
+ContactSummary mirror_image(ContactSummary position);
+
 /// How a quantity varies while the wheel rolls.
 struct RollingVariation {
   double mean, least, greatest;

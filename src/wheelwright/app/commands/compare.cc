@@ -21,16 +21,13 @@ Expected<ComparedWheel> compared(const WheelInput& wheel) {
   const LevelSet<2>& shape = wheel.shape;
   const auto states = (*solver)->states(shape, (*solver)->all_positions(), Interrupt());
   if (!states) return states.failure();
-  auto rolling = rolling_analysis(**solver, **states);
-  if (!rolling) return rolling.failure();
   const PolarGrid<2>& grid = shape.lattice.grid();
-  return ComparedWheel{.name = wheel.name,
-                       .which = wheel.which,
-                       .grid = grid,
-                       .contours = material_contours(shape, contour_subdivisions(shape.lattice.degree())),
-                       .volume_fraction = volume_fraction(grid, material_measure(shape)),
-                       .summary = shape_summary(**solver, shape, **states),
-                       .rolling = *std::move(rolling)};
+  auto numbers = described_wheel(**solver, shape, volume_fraction(grid, material_measure(shape)), **states);
+  if (!numbers) return numbers.failure();
+  numbers->name = wheel.name;
+  numbers->which = wheel.which;
+  return ComparedWheel{*std::move(numbers),
+                       material_contours(shape, contour_subdivisions(shape.lattice.degree()))};
 }
 
 class CompareCommand : public Subcommand {
