@@ -527,16 +527,16 @@ TEST(MeshSvg, CirclesAndRaysRunAlongTheSidesOfTheCells) {
 /// A square of n x n units in two triangles per unit square, with the scalar f at the corners.
 template <class F>
 PictureScalar scalar_on_square(int n, int unit, F f) {
-  PictureScalar scalar;
-  const auto add = [&](const PictureScalar::Triangle& t) {
-    scalar.add(t, {f(t[0][0], t[0][1]), f(t[1][0], t[1][1]), f(t[2][0], t[2][1])});
+  std::vector<PictureScalar::Triangle> triangles;
+  const auto add = [&](const PictureScalar::Corners& c) {
+    triangles.push_back({c, {f(c[0][0], c[0][1]), f(c[1][0], c[1][1]), f(c[2][0], c[2][1])}});
   };
   for (int x = 0; x < n * unit; x += unit)
     for (int y = 0; y < n * unit; y += unit) {
       add({{{x, y}, {x + unit, y}, {x + unit, y + unit}}});
       add({{{x, y + unit}, {x, y}, {x + unit, y + unit}}});
     }
-  return scalar;
+  return PictureScalar(triangles);
 }
 
 TEST(PictureScalar, LevelsOfALinearScalarCutTheSquareStraight) {

@@ -76,19 +76,18 @@ PicturePoint picture_point(const Vec<2>& place, const PictureView& view) {
 }
 
 PictureScalar picture_scalar(const std::vector<DrawnPiece>& pieces, const PictureView& view) {
-  PictureScalar scalar;
+  std::vector<PictureScalar::Triangle> triangles;
   for (const DrawnPiece& piece : pieces)
     for (size_t k = 2; k < piece.size(); ++k) {
       const std::array<const DrawnPoint*, 3> corners{&piece[0], &piece[k - 1], &piece[k]};
       PictureScalar::Triangle triangle;
-      std::array<double, 3> values;
       for (int c = 0; c < 3; ++c) {
-        triangle[c] = picture_point(corners[c]->place, view);
-        values[c] = corners[c]->scalar;
+        triangle.corners[c] = picture_point(corners[c]->place, view);
+        triangle.values[c] = corners[c]->scalar;
       }
-      scalar.add(triangle, values);
+      triangles.push_back(triangle);
     }
-  return scalar;
+  return PictureScalar(triangles);
 }
 
 std::string level_path(int level, const std::vector<PicturePolygon>& outlines) {

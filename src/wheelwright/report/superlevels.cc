@@ -7,7 +7,7 @@
 namespace wheelwright {
 namespace {
 
-std::int64_t signed_double_area(const PictureScalar::Triangle& t) {
+std::int64_t signed_double_area(const PictureScalar::Corners& t) {
   return std::int64_t(t[1][0] - t[0][0]) * (t[2][1] - t[0][1]) -
          std::int64_t(t[1][1] - t[0][1]) * (t[2][0] - t[0][0]);
 }
@@ -18,21 +18,18 @@ std::size_t PictureScalar::Hash::operator()(const PicturePoint& p) const {
   return std::hash<std::uint64_t>()(std::uint64_t(std::uint32_t(p[0])) << 32 | std::uint32_t(p[1]));
 }
 
-void PictureScalar::add(Triangle corners, const std::array<double, 3>& values) {
-  for (int k = 0; k < 3; ++k) values_.try_emplace(corners[k], values[k]);
-  if (signed_double_area(corners) < 0) std::swap(corners[1], corners[2]);
-  triangles_.push_back(corners);
-}
-
-/// The sides that no two triangles share.
-std::vector<PictureSide> PictureScalar::boundary() const {
+PictureScalar::PictureScalar(const std::vector<Triangle>& triangles) {
   std::vector<PictureSide> sides;
-  for (const Triangle& t : triangles_)
-    for (int k = 0; k < 3; ++k) sides.push_back({t[k], t[(k + 1) % 3]});
-  return without_opposites(std::move(sides));
+  for (auto [corners, values] : triangles) {
+    for (int k = 0; k < 3; ++k) values_.try_emplace(corners[k], values[k]);
+    if (signed_double_area(corners) < 0) std::swap(corners[1], corners[2]);
+    for (int k = 0; k < 3; ++k) sides.push_back({corners[k], corners[(k + 1) % 3]});
+    triangles_.push_back(corners);
+  }
+  boundary_ = without_opposites(std::move(sides));
 }
 
-std::vector<PicturePolygon> PictureScalar::region() const { return closed_curves(boundary()); }
+std::vector<PicturePolygon> PictureScalar::region() const { return closed_curves(boundary_); }
 
 /// The point of a side where the scalar takes this value, the same for both triangles at the side.
 PicturePoint PictureScalar::crossing(PicturePoint a, PicturePoint b, double level) const {
@@ -45,7 +42,7 @@ PicturePoint PictureScalar::crossing(PicturePoint a, PicturePoint b, double leve
 /// For every level the sides that cut off what is below it, triangle by triangle.
 std::vector<std::vector<PictureSide>> PictureScalar::level_lines(const std::vector<double>& levels) const {
   std::vector<std::vector<PictureSide>> lines(levels.size());
-  for (const Triangle& t : triangles_) {
+  for (const Corners& t : triangles_) {
     const auto [low, high] = std::minmax({value(t[0]), value(t[1]), value(t[2])});
     for (size_t k = 0; k < levels.size(); ++k) {
       if (!(low < levels[k] && levels[k] <= high)) continue;
@@ -79,10 +76,9 @@ std::optional<PictureSide> PictureScalar::part_below(const PictureSide& side, do
 
 std::vector<std::vector<PicturePolygon>> PictureScalar::superlevels(const std::vector<double>& levels) const {
   auto sides = level_lines(levels);
-  const std::vector<PictureSide> outer_sides = boundary();
   std::vector<std::vector<PicturePolygon>> result;
   for (size_t k = 0; k < levels.size(); ++k) {
-    for (const PictureSide& side : outer_sides)
+    for (const PictureSide& side : boundary_)
       if (const auto part = part_above(side, levels[k])) sides[k].push_back(*part);
     result.push_back(closed_curves(without_opposites(std::move(sides[k]))));
   }
@@ -91,11 +87,10 @@ std::vector<std::vector<PicturePolygon>> PictureScalar::superlevels(const std::v
 
 std::vector<std::vector<PicturePolygon>> PictureScalar::sublevels(const std::vector<double>& levels) const {
   auto sides = level_lines(levels);
-  const std::vector<PictureSide> outer_sides = boundary();
   std::vector<std::vector<PicturePolygon>> result;
   for (size_t k = 0; k < levels.size(); ++k) {
     for (PictureSide& line : sides[k]) std::swap(line.from, line.to);
-    for (const PictureSide& side : outer_sides)
+    for (const PictureSide& side : boundary_)
       if (const auto part = part_below(side, levels[k])) sides[k].push_back(*part);
     result.push_back(closed_curves(without_opposites(std::move(sides[k]))));
   }
@@ -104,7 +99,7 @@ std::vector<std::vector<PicturePolygon>> PictureScalar::sublevels(const std::vec
 
 double PictureScalar::median() const {
   std::vector<double> values;
-  for (const Triangle& t : triangles_)
+  for (const Corners& t : triangles_)
     for (const PicturePoint& corner : t) values.push_back(value(corner));
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

@@ -12,10 +12,16 @@ namespace wheelwright {
 /// several values are given for one point the first counts, so that the scalar is continuous.
 class PictureScalar {
  public:
-  using Triangle = std::array<PicturePoint, 3>;
+  using Corners = std::array<PicturePoint, 3>;
 
-  /// Adds a triangle and the values at its corners, which must be finite. Triangles must not overlap.
-  void add(Triangle corners, const std::array<double, 3>& values);
+  /// A triangle and the values at its corners, which must be finite.
+  struct Triangle {
+    Corners corners;
+    std::array<double, 3> values;
+  };
+
+  /// Triangles must not overlap.
+  explicit PictureScalar(const std::vector<Triangle>& triangles);
 
   /// The outlines of the whole region.
   std::vector<PicturePolygon> region() const;
@@ -34,7 +40,6 @@ class PictureScalar {
     std::size_t operator()(const PicturePoint& p) const;
   };
 
-  std::vector<PictureSide> boundary() const;
   double value(const PicturePoint& point) const { return values_.at(point); }
   PicturePoint crossing(PicturePoint a, PicturePoint b, double level) const;
   std::vector<std::vector<PictureSide>> level_lines(const std::vector<double>& levels) const;
@@ -42,7 +47,8 @@ class PictureScalar {
   std::optional<PictureSide> part_below(const PictureSide& side, double level) const;
 
   std::unordered_map<PicturePoint, double, Hash> values_;
-  std::vector<Triangle> triangles_;  ///< all of one sense of rotation
+  std::vector<Corners> triangles_;     ///< all of one sense of rotation
+  std::vector<PictureSide> boundary_;  ///< the sides that no two triangles share
 };
 
 }  // namespace wheelwright
