@@ -43,7 +43,7 @@ void write_shapes(const RunView<2>& run, const OptimizationState<2>& last) {
 /// The wheel, its tread and the ground in every load position, at the azimuth of the contact in degrees.
 void write_rolling(const RunView<2>& run, const LevelSet<2>& shape,
                    const std::vector<PositionFields>& positions, const std::vector<TreadContact>& treads) {
-  make_folder(run.folder / "rolling");
+  make_subfolder(run.folder / "rolling");
   const VtuMesh mesh(shape, positions.front().lattice, vtu_cut_subdivisions);
   std::vector<PvdEntry> entries;
   for (size_t i = 0; i < positions.size(); ++i) {
