@@ -168,7 +168,9 @@ TEST_F(CommandLine, WrongUsageIsTwoSaysSoAndLeavesNothing) {
 }
 
 TEST_F(CommandLine, CheckAcceptsAGoodCaseAndRefusesABadOne) {
-  EXPECT_EQ(wheelwright("check " + path_of_case("cases/holes16.toml")).code, exit_done);
+  for (const char* name : {"holes16", "tram", "bicycle", "scooter"})
+    EXPECT_EQ(wheelwright("check " + path_of_case(fmt::format("cases/{}.toml", name))).code, exit_done)
+        << name;
   const std::string bad = path_of_case("tests/bad_cases/everything.toml");
   for (const char* command : {"check ", "run ", "verify ", "analyze "}) {
     const Outcome outcome = wheelwright(command + bad);

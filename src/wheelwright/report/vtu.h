@@ -24,13 +24,14 @@ class VtuMesh {
   VtuMesh(const LevelSet<2>& psi, const Lattice<2>& lattice, int cut_subdivisions);
   ~VtuMesh();
 
-  /// Writes a ParaView file with psi and nodal fields, atomically. A field of 2 components is written as a
-  /// vector, any other as scalars. Throws OutputError.
+  /// Writes a ParaView file with psi and nodal fields, atomically; a field's unit follows its name. Scalars,
+  /// vectors (2 components) and symmetric tensors (xx, yy, zz, xy). Throws OutputError.
   void write(const std::filesystem::path& path, std::span<const NamedField> fields) const;
 
  private:
   struct Sector;
 
+  std::vector<std::vector<float>> values(const RingField& field) const;  ///< one list per component
   std::vector<float> values(const RingField& field, int component) const;
 
   Lattice<2> lattice_;
@@ -43,6 +44,8 @@ class VtuMesh {
 struct PvdEntry {
   double time;       ///< what ParaView shows as time, e.g. the number of the shape
   std::string file;  ///< relative to the collection
+  int part = 0;      ///< files of the same time are parts of one whole
+  std::string name = "wheel";
 };
 
 /// Writes the collection, atomically. Throws OutputError.

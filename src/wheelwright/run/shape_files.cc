@@ -68,7 +68,8 @@ void ShapePictures::operator()(const Event<2>& event, const RunView<2>& run) {
   write_wheel_pictures(
       run.folder / "shapes",
       {.prefix = fmt::format("shape_{:04d}_", done->state.iteration),
-       .title = fmt::format("{}, shape {}", run_title(run.study.source), done->state.iteration)},
+       .title = fmt::format("{}, shape {}", run_title(run.study.source), done->state.iteration),
+       .width = run.study.source.wheel.width},
       done->state.shape, solution.domain(),
       position_fields(*run.study.solver, solution, worst_position(solution.strain_energy())));
 }

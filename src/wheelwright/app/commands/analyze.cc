@@ -123,7 +123,8 @@ class AnalyzeCommand : public Subcommand {
   void write(const RollingReport& report, const LevelSet<2>& shape, const StateSolver<2>& solver,
              const State<2>& states) const {
     write_folder(folder(), report, contact_points(solver, states));
-    write_wheel_pictures(folder(), {.prefix = "", .title = report.title}, shape, states.domain(),
+    write_wheel_pictures(folder(), {.prefix = "", .title = report.title, .width = report.width}, shape,
+                         states.domain(),
                          position_fields(solver, states, worst_position(states.strain_energy())));
   }
 
