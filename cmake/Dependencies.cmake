@@ -25,3 +25,11 @@ find_library(CHOLMOD_LIBRARY cholmod REQUIRED)
 add_library(wheelwright_cholmod INTERFACE)
 target_include_directories(wheelwright_cholmod SYSTEM INTERFACE ${CHOLMOD_INCLUDE_DIR})
 target_link_libraries(wheelwright_cholmod INTERFACE ${CHOLMOD_LIBRARY} wheelwright_lapack)
+
+# CGAL is headers alone; they use GMP and MPFR.
+find_path(CGAL_INCLUDE_DIR CGAL/Constrained_Delaunay_triangulation_2.h REQUIRED)
+find_library(GMP_LIBRARY gmp REQUIRED)
+find_library(MPFR_LIBRARY mpfr REQUIRED)
+add_library(wheelwright_cgal INTERFACE)
+target_include_directories(wheelwright_cgal SYSTEM INTERFACE ${CGAL_INCLUDE_DIR})
+target_link_libraries(wheelwright_cgal INTERFACE ${GMP_LIBRARY} ${MPFR_LIBRARY})

@@ -4,7 +4,7 @@
 
 packages=(
   g++ cmake ninja-build pkg-config
-  libsuitesparse-dev libopenblas-dev liblapacke-dev libnanoflann-dev libtbb-dev
+  libsuitesparse-dev libopenblas-dev liblapacke-dev libnanoflann-dev libtbb-dev libcgal-dev
   libtomlplusplus-dev libcli11-dev libfmt-dev nlohmann-json3-dev zlib1g-dev
   libgtest-dev libbenchmark-dev
 )

@@ -1,0 +1,76 @@
+#include "wheelwright/cad/outline.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace wheelwright {
+
+const char* name(LoopKind kind) {
+  switch (kind) {
+    case LoopKind::outer_edge:
+      return "outer_edge";
+    case LoopKind::bore:
+      return "bore";
+    case LoopKind::hole:
+      return "hole";
+    case LoopKind::island:
+      return "island";
+  }
+  return "loop";
+}
+
+double signed_area(const Loop& loop) {
+  return std::accumulate(loop.curves.begin(), loop.curves.end(), 0.0,
+                         [](double sum, const Curve& curve) { return sum + area_under(curve); });
+}
+
+double material_area(const Outline& outline) {
+  return std::accumulate(outline.loops.begin(), outline.loops.end(), 0.0,
+                         [](double sum, const Loop& loop) { return sum + signed_area(loop); });
+}
+
+int n_bodies(const Outline& outline) {
+  return static_cast<int>(std::ranges::count_if(outline.loops, [](const Loop& loop) {
+    return loop.kind == LoopKind::outer_edge || loop.kind == LoopKind::island;
+  }));
+}
+
+CurveCount count(const Outline& outline) {
+  CurveCount count{static_cast<int>(outline.loops.size()), 0, 0, 0, 0};
+  for (const Loop& loop : outline.loops) {
+    for (const Curve& curve : loop.curves) {
+      if (const auto* spline = std::get_if<Spline>(&curve)) {
+        ++count.splines;
+        count.cubics += static_cast<int>(spline->points.size()) - 3;
+      } else {
+        ++(std::holds_alternative<Line>(curve) ? count.lines : count.arcs);
+      }
+    }
+  }
+  return count;
+}
+
+std::string text(const CurveCount& count) {
+  const auto some = [](int n, const char* noun) {
+    return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
+  };
+  std::string result = some(count.loops, "loop") + ": ";
+  if (count.lines > 0) result += some(count.lines, "line") + ", ";
+  result += some(count.arcs, "arc");
+  if (count.splines > 0)
+    result += fmt::format(" and {} of {}", some(count.splines, "spline"), some(count.cubics, "cubic"));
+  return result;
+}
+
+std::vector<Vec<2>> flattened(const Loop& loop, double tolerance) {
+  std::vector<Vec<2>> points;
+  for (const Curve& curve : loop.curves) {
+    const auto part = flattened(curve, tolerance);
+    points.insert(points.end(), part.begin(), part.end());
+  }
+  return points;
+}
+
+}  // namespace wheelwright
