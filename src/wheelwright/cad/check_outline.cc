@@ -201,7 +201,7 @@ Expected<OutlineReport, std::vector<OutlineFault>> check_outline(const Outline& 
   const Deviation deviation = checked_deviation(outline, psi, zero, polygons, tolerance, faults);
   if (!faults.empty()) return faults;
   return OutlineReport{.curves = count(outline),
-                       .bodies = n_bodies(outline),
+                       .bodies = static_cast<int>(bodies(outline).size()),
                        .area = material_area(outline),
                        .area_error = area_error,
                        .deviation = deviation.distance,

@@ -31,10 +31,42 @@ double material_area(const Outline& outline) {
                          [](double sum, const Loop& loop) { return sum + signed_area(loop); });
 }
 
-int n_bodies(const Outline& outline) {
-  return static_cast<int>(std::ranges::count_if(outline.loops, [](const Loop& loop) {
-    return loop.kind == LoopKind::outer_edge || loop.kind == LoopKind::island;
-  }));
+namespace {
+
+/// Whether a ray from the point crosses the loop an odd number of times.
+bool encloses(const std::vector<Vec<2>>& polygon, const Vec<2>& p) {
+  bool inside = false;
+  Vec<2> a = polygon.back();
+  for (const Vec<2>& b : polygon) {
+    if ((a[1] > p[1]) != (b[1] > p[1]) && p[0] < a[0] + (p[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]))
+      inside = !inside;
+    a = b;
+  }
+  return inside;
+}
+
+}  // namespace
+
+std::vector<Body> bodies(const Outline& outline) {
+  constexpr double tolerance = 1e-6;
+  std::vector<Body> bodies;
+  std::vector<std::vector<Vec<2>>> polygons;
+  for (const Loop& loop : outline.loops) {
+    if (loop.kind != LoopKind::outer_edge && loop.kind != LoopKind::island) continue;
+    bodies.push_back({&loop, {}});
+    polygons.push_back(flattened(loop, tolerance));
+  }
+  for (const Loop& loop : outline.loops) {
+    if (loop.kind == LoopKind::outer_edge || loop.kind == LoopKind::island) continue;
+    // It belongs to the smallest that encloses it.
+    Body* owner = &bodies.front();
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      if (encloses(polygons[i], start_of(loop.curves.front())) &&
+          signed_area(*bodies[i].edge) < signed_area(*owner->edge))
+        owner = &bodies[i];
+    owner->holes.push_back(&loop);
+  }
+  return bodies;
 }
 
 CurveCount count(const Outline& outline) {

@@ -32,8 +32,14 @@ double signed_area(const Loop& loop);
 /// Area of the material [m^2].
 double material_area(const Outline& outline);
 
-/// Number of separate pieces of material.
-int n_bodies(const Outline& outline);
+/// A separate piece of material.
+struct Body {
+  const Loop* edge;                ///< the outer edge or an island
+  std::vector<const Loop*> holes;  ///< in it: bore and holes
+};
+
+/// The pieces of an outline whose loops do not cross; they refer to it.
+std::vector<Body> bodies(const Outline& outline);
 
 /// How many curves an outline consists of.
 struct CurveCount {

@@ -148,7 +148,8 @@ struct VtuMesh::Sector {
   std::map<Vec<2>, std::int32_t> numbers_;  ///< of the points, by their places in units of cells
 };
 
-VtuMesh::VtuMesh(const LevelSet<2>& psi, const Lattice<2>& lattice, int cut_subdivisions)
+VtuMesh::VtuMesh(const LevelSet<2>& psi, const Lattice<2>& lattice, int cut_subdivisions,
+                 std::string_view length_unit)
     : lattice_(lattice), sector_(std::make_unique<Sector>(psi, lattice, cut_subdivisions)) {
   const int n_sectors = lattice.grid().n_sectors;
   const std::size_t n_points = sector_->points.size() * n_sectors;
@@ -173,7 +174,7 @@ VtuMesh::VtuMesh(const LevelSet<2>& psi, const Lattice<2>& lattice, int cut_subd
   const std::string point_tags = arrays.add("Points", three_components, points),
                     cell_tags = arrays.add("connectivity", "", connectivity) +
                                 arrays.add("offsets", "", offsets) + arrays.add("types", "", types),
-                    psi_tag = arrays.add("psi", unit_attribute("m"), level);
+                    psi_tag = arrays.add("psi", unit_attribute(length_unit), level);
   beginning_ = fmt::format(
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
@@ -207,7 +208,7 @@ std::vector<float> VtuMesh::values(const RingField& field, int component) const 
   return result;
 }
 
-void VtuMesh::write(const std::filesystem::path& path, std::span<const NamedField> fields) const {
+std::string VtuMesh::file(std::span<const NamedField> fields) const {
   AppendedArrays arrays(arrays_.size());
   std::string tags;
   for (const auto& [name, unit, field] : fields)
@@ -218,10 +219,13 @@ void VtuMesh::write(const std::filesystem::path& path, std::span<const NamedFiel
       for (int c = 0; c < field.components; ++c)
         tags += arrays.add(field.components == 1 ? name : fmt::format("{}_{}", name, c), unit_attribute(unit),
                            values(field, c));
-  write_atomically(path,
-                   beginning_ + tags +
-                       "  </PointData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_" +
-                       arrays_ + arrays.bytes() + "\n</AppendedData>\n</VTKFile>\n");
+  return beginning_ + tags +
+         "  </PointData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_" + arrays_ +
+         arrays.bytes() + "\n</AppendedData>\n</VTKFile>\n";
+}
+
+void VtuMesh::write(const std::filesystem::path& path, std::span<const NamedField> fields) const {
+  write_atomically(path, file(fields));
 }
 
 void write_pvd(const std::filesystem::path& path, std::span<const PvdEntry> entries) {

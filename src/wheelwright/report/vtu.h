@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "wheelwright/geometry/level_set.h"
@@ -20,9 +21,14 @@ inline constexpr int vtu_cut_subdivisions = 4;
 /// mesh.
 class VtuMesh {
  public:
-  /// `lattice` carries the fields, on psi's grid.
-  VtuMesh(const LevelSet<2>& psi, const Lattice<2>& lattice, int cut_subdivisions);
+  /// `lattice` carries the fields, on psi's grid. The numbers of grid and psi are written as they are:
+  /// `length_unit` is theirs.
+  VtuMesh(const LevelSet<2>& psi, const Lattice<2>& lattice, int cut_subdivisions,
+          std::string_view length_unit = "m");
   ~VtuMesh();
+
+  /// The bytes of a ParaView file with psi and nodal fields.
+  std::string file(std::span<const NamedField> fields) const;
 
   /// Writes a ParaView file with psi and nodal fields, atomically. A field of 2 components is written as a
   /// vector, any other as scalars. Throws OutputError.

@@ -2,12 +2,13 @@
 
 namespace wheelwright {
 
-// The list. make_NAME() stands in the file NAME.cc.
+// The list. make_NAME() stands in the file NAME.cc, make_export_() in export.cc.
 #define WHEELWRIGHT_COMMANDS(apply) \
   apply(run);                       \
   apply(resume);                    \
   apply(analyze);                   \
   apply(verify);                    \
+  apply(export_);                   \
   apply(check);                     \
   apply(init);                      \
   apply(reference)

@@ -1,0 +1,198 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wheelwright/app/case_input.h"
+#include "wheelwright/app/commands/commands.h"
+#include "wheelwright/app/exit_code.h"
+#include "wheelwright/app/run_messages.h"
+#include "wheelwright/app/shared_options.h"
+#include "wheelwright/app/terminal.h"
+#include "wheelwright/base/text.h"
+#include "wheelwright/cad/check_outline.h"
+#include "wheelwright/cad/fit_outline.h"
+#include "wheelwright/case/version.h"
+#include "wheelwright/export/formats.h"
+#include "wheelwright/export/plugin.h"
+#include "wheelwright/files/atomic_file.h"
+#include "wheelwright/run/resume_point.h"
+
+namespace wheelwright {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* default_formats = "dxf,svg,stl";
+constexpr double default_tolerance = 0.01, least_tolerance = 0.001, greatest_tolerance = 1;  // [mm]
+
+using Formats = std::vector<const ExportFormat*>;
+
+std::string names_of_formats() {
+  std::string names;
+  for (const ExportFormat& format : export_formats())
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", format.name);
+  return names;
+}
+
+/// The formats of a list like "dxf,svg", each once; nothing if one of them is unknown or the list is empty.
+std::optional<Formats> parse_formats(std::string_view list) {
+  Formats formats;
+  while (true) {
+    const std::size_t comma = list.find(',');
+    const ExportFormat* format = find_export_format(list.substr(0, comma));
+    if (format == nullptr) return {};
+    if (std::ranges::find(formats, format) == formats.end()) formats.push_back(format);
+    if (comma == std::string_view::npos) return formats;
+    list.remove_prefix(comma + 1);
+  }
+}
+
+std::string check_formats(const std::string& list) {
+  return parse_formats(list) ? "" : fmt::format("must be some of {}, joined by commas", names_of_formats());
+}
+
+std::optional<double> parse_tolerance(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  const bool is_number = end != text.c_str() && *end == '\0';
+  if (!is_number || !(value >= least_tolerance && value <= greatest_tolerance)) return {};
+  return value;
+}
+
+std::string check_tolerance(const std::string& text) {
+  return parse_tolerance(text)
+             ? ""
+             : fmt::format("must be a length from {} to {} mm", least_tolerance, greatest_tolerance);
+}
+
+/// A shape to be exported, and what its files are called.
+struct Source {
+  Case c;
+  LevelSet<2> shape;
+  std::string name;
+  std::string which;  ///< e.g. "shape 31"
+};
+
+class ExportCommand : public Subcommand {
+ public:
+  ExportCommand()
+      : Subcommand("export", "Write a shape for CAD, workshop and printing: DXF, STEP, STL and others") {}
+
+  void declare(Options& options) override {
+    options.argument("RUN", source_, not_empty,
+                     "folder of a run, for its last shape, or a case file, for its initial one");
+    options.text("--format", "NAME,NAME,...", formats_, check_formats,
+                 fmt::format("Any of {}; without it {}", names_of_formats(), default_formats));
+    options.text("--tolerance", "MM", tolerance_, check_tolerance,
+                 fmt::format("Largest distance of the curves from the shape's edges [mm]; without it {}",
+                             default_tolerance));
+    add_output(options, output_, "Folder for the files; without it the current one");
+    options.flag("--force", force_, "Overwrite files that exist");
+  }
+
+  int run() override {
+    int code = exit_done;
+    const auto source = fs::is_directory(source_) ? last_shape(code) : first_shape(code);
+    return source ? export_shape(*source) : code;
+  }
+
+ private:
+  /// The last shape of a run. Nothing of its folder is changed, and it may still be running.
+  std::optional<Source> last_shape(int& code) const {
+    const fs::path folder = source_, case_file = folder / "case.toml";
+    code = exit_usage;
+    if (!fs::exists(case_file)) {
+      tell("{}: this folder holds no run; there is no {}\n", source_, case_file.string());
+      return {};
+    }
+    auto c = read_or_tell(case_file);
+    if (!c) return {};
+    auto point = resume_point<2>(folder, *c);
+    for (const UnusableCheckpoint& unusable : point.unusable)
+      tell("{}: cannot be used: {}\n", unusable.file.string(), unusable.reason);
+    if (!point.newest) {
+      tell("{}: no checkpoint can be used\n", source_);
+      code = exit_checkpoint;
+      return {};
+    }
+    const auto& state = point.newest->state;
+    // Whether or not the folder ends in a slash.
+    const fs::path name = (fs::absolute(folder).lexically_normal() / "").parent_path().filename();
+    return Source{*std::move(c), state.shape, name.string(), fmt::format("shape {}", state.iteration)};
+  }
+
+  std::optional<Source> first_shape(int& code) const {
+    code = exit_usage;
+    auto c = read_or_tell(source_);
+    if (!c) return {};
+    LevelSet<2> shape = initial_shape<2>(*c);
+    return Source{*std::move(c), std::move(shape), fs::path(source_).stem().string(), "initial shape"};
+  }
+
+  double tolerance() const {
+    constexpr double metres_per_millimetre = 1e-3;
+    return metres_per_millimetre * (tolerance_ ? *parse_tolerance(*tolerance_) : default_tolerance);
+  }
+
+  int export_shape(const Source& source) const {
+    const auto outline = fit_outline(source.shape, tolerance());
+    if (!outline) return refuse({outline.failure()});
+    const auto report = check_outline(*outline, source.shape, tolerance());
+    if (!report) return refuse(report.failure());
+    const std::string title =
+        without_control_characters(source.c.title.empty() ? source.name : source.c.title);
+    const WheelModel wheel{.title = fmt::format("{}, {}", title, source.which),
+                           .program = fmt::format("wheelwright {}", version()),
+                           .shape = source.shape,
+                           .outline = *outline,
+                           .width = source.c.wheel.width,
+                           .tolerance = tolerance()};
+    fmt::print("{:<16} {}\n{}", "wheel", wheel.title, text(*report));
+    if (report->bodies > 1)
+      print_warning(stderr, fmt::format("the material is not connected: {} pieces", report->bodies));
+    return write(wheel, source.name);
+  }
+
+  int refuse(const std::vector<OutlineFault>& faults) const {
+    for (const OutlineFault& fault : faults) tell("wheelwright {}: {}\n", name(), fault.what);
+    tell("Nothing was written.\n");
+    return exit_refused;
+  }
+
+  /// Makes all files before the first is written.
+  int write(const WheelModel& wheel, const std::string& stem) const {
+    const fs::path folder = output_ ? fs::path(*output_) : fs::path(".");
+    std::vector<std::pair<fs::path, std::string>> files;
+    const Formats formats = *parse_formats(formats_ ? *formats_ : default_formats);
+    for (const ExportFormat* format : formats) {
+      const fs::path path = folder / fmt::format("{}.{}", stem, format->name);
+      if (!force_ && fs::exists(fs::symlink_status(path))) {
+        tell("{}: exists already; choose another folder, or overwrite it with --force\n", path.string());
+        return exit_refused;
+      }
+      try {
+        files.emplace_back(path, format->file(wheel));
+      } catch (const MissingPlugin& missing) {
+        tell("wheelwright {}: {}: {}\n", name(), format->name, missing.what());
+        return exit_refused;
+      }
+    }
+    make_folder(folder);
+    for (const auto& [path, bytes] : files) {
+      write_atomically(path, bytes);
+      fmt::print("{:<16} {}\n", "written", path.string());
+    }
+    return exit_done;
+  }
+
+  std::string source_;
+  std::optional<std::string> formats_, tolerance_, output_;
+  bool force_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Subcommand> make_export_() { return std::make_unique<ExportCommand>(); }
+
+}  // namespace wheelwright
