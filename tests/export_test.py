@@ -252,8 +252,8 @@ class ExportedWheel:
         subprocess.run(["rsvg-convert", "--width", str(width), "--output", picture, self.file("svg")], check=True)
         self.compare_picture(Image.open(picture).convert("RGBA"), width / 680, lambda p: p[3] > 128)
         text = self.file("svg").read_text()
-        self.assertIn('width="680mm" height="680mm" viewBox="-340 -340 680 680"', text)
-        self.assertIn('<g id="wheel"', text)
+        self.assertIn('width="680mm" height="680mm" viewBox="0 0 680 680"', text)
+        self.assertIn('<g id="wheel" transform="translate(340 340)"', text)
         self.assertNotRegex(re.search(r'\bd="([^"]*)"', text)[1], "[Aa]")
 
     def test_png(self):
@@ -306,6 +306,7 @@ class ExportedWheel:
         self.assertEqual((facts["unit"], facts["valid"], facts["solids"]), ("millimetre", "1", str(self.reference.bodies)))
         volume = self.reference.area * self.reference.width
         self.assertAlmostEqual(float(facts["volume"]), volume, delta=1e-4 * volume)
+        self.assertAlmostEqual(float(facts["usual_volume"]), volume, delta=1e-3 * volume)
         self.assertEqual(facts["plane"], "2")
         self.assertEqual("b_spline" in facts, self.smooth)
         self.assertEqual(int(facts["cylinder"]), 2 if self.smooth else 2 + self.reference.n_holes)

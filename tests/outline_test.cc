@@ -124,6 +124,18 @@ TEST(Curves, BeziersAndChordsKeepTheirTolerance) {
   }
 }
 
+TEST(Curves, DividedCubicsAreTheSameCurve) {
+  const Bezier cubic{{{0, 0}, {1, 2}, {3, -1}, {4, 1}}};
+  const auto parts = divided(cubic, 3);
+  ASSERT_EQ(parts.size(), 3U);
+  const auto curve = [](const Bezier& p) {
+    return Curve(Spline{{0, 0, 0, 0, 1, 1, 1, 1}, {p.begin(), p.end()}});
+  };
+  for (int i = 0; i < 3; ++i)
+    for (const double t : {0.0, 0.3, 1.0})
+      EXPECT_LT(distance(at(curve(parts[i]), t).position, at(curve(cubic), (i + t) / 3).position), 1e-14);
+}
+
 // --- Splines --------------------------------------------------------------------------------------------
 
 std::vector<Vec<2>> ellipse(int n, double a, double b) {

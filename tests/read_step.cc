@@ -27,6 +27,8 @@ int main(int, char** argv) {
   reader.FileUnits(lengths, angles, solid_angles);
   GProp_GProps volume;
   BRepGProp::VolumeProperties(shape, volume, 1e-9);
+  GProp_GProps usual;  // by the rule that programs use unless they are told otherwise
+  BRepGProp::VolumeProperties(shape, usual);
   std::map<std::string, int> faces;
   for (TopExp_Explorer face(shape, TopAbs_FACE); face.More(); face.Next()) {
     const auto kind = BRepAdaptor_Surface(TopoDS::Face(face.Current())).GetType();

@@ -63,18 +63,10 @@ double area_under(const Bezier& p) {
 }
 
 /// Number of equal parts of an arc whose chords deviate by at most `tolerance`.
-int chords(const Arc& arc, double tolerance) {
+int n_chords(const Arc& arc, double tolerance) {
   const double angle = 2 * std::acos(std::max(0.0, 1 - tolerance / arc.radius));
   const int fewest = is_circle(arc) ? 3 : 1;
   return std::max(fewest, static_cast<int>(std::ceil(std::abs(arc.sweep) / angle)));
-}
-
-int chords(const Bezier& p, double tolerance) {
-  double second = 0;  // bound of the second derivative
-  for (int i = 0; i < 2; ++i)
-    second = std::max(second, 6 * std::hypot(p[i][0] - 2 * p[i + 1][0] + p[i + 2][0],
-                                             p[i][1] - 2 * p[i + 1][1] + p[i + 2][1]));
-  return std::max(1, static_cast<int>(std::ceil(std::sqrt(second / (8 * tolerance)))));
 }
 
 /// The cubic that meets an arc at its ends and middle, with its tangents at the ends.
@@ -189,16 +181,38 @@ std::vector<Bezier> beziers(const Curve& curve, double tolerance) {
   return beziers_of(std::get<Spline>(curve));
 }
 
+int n_chords(const Bezier& p, double tolerance) {
+  double second = 0;  // bound of the second derivative
+  for (int i = 0; i < 2; ++i)
+    second = std::max(second, 6 * std::hypot(p[i][0] - 2 * p[i + 1][0] + p[i + 2][0],
+                                             p[i][1] - 2 * p[i + 1][1] + p[i + 2][1]));
+  return std::max(1, static_cast<int>(std::ceil(std::sqrt(second / (8 * tolerance)))));
+}
+
+std::vector<Bezier> divided(const Bezier& cubic, int parts) {
+  std::vector<Bezier> result;
+  for (int i = 0; i < parts; ++i) {
+    const CurvePoint a = at(cubic, static_cast<double>(i) / parts),
+                     b = at(cubic, static_cast<double>(i + 1) / parts);
+    const double third = 1.0 / (degree * parts);
+    result.push_back({a.position,
+                      {a.position[0] + third * a.velocity[0], a.position[1] + third * a.velocity[1]},
+                      {b.position[0] - third * b.velocity[0], b.position[1] - third * b.velocity[1]},
+                      b.position});
+  }
+  return result;
+}
+
 std::vector<Vec<2>> flattened(const Curve& curve, double tolerance) {
   std::vector<Vec<2>> points;
   if (const auto* line = std::get_if<Line>(&curve)) {
     points.push_back(line->start);
   } else if (const auto* arc = std::get_if<Arc>(&curve)) {
-    const int n = chords(*arc, tolerance);
+    const int n = n_chords(*arc, tolerance);
     for (int i = 0; i < n; ++i) points.push_back(on_circle(*arc, arc->begin + i * arc->sweep / n));
   } else {
     for (const Bezier& piece : beziers_of(std::get<Spline>(curve))) {
-      const int n = chords(piece, tolerance);
+      const int n = n_chords(piece, tolerance);
       for (int i = 0; i < n; ++i) points.push_back(at(piece, static_cast<double>(i) / n).position);
     }
   }

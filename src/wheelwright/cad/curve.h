@@ -59,6 +59,12 @@ using Bezier = std::array<Vec<2>, 4>;
 /// `tolerance` [m].
 std::vector<Bezier> beziers(const Curve& curve, double tolerance);
 
+/// Number of equal steps of the parameter whose chords deviate from the cubic by at most `tolerance` [m].
+int n_chords(const Bezier& cubic, double tolerance);
+
+/// The cubic as cubics over equal parts of its parameter.
+std::vector<Bezier> divided(const Bezier& cubic, int parts);
+
 /// Points on the curve from its start up to, but without, its end. The chords between them and to the end
 /// deviate from the curve by at most `tolerance` [m].
 std::vector<Vec<2>> flattened(const Curve& curve, double tolerance);

@@ -14,6 +14,12 @@ std::string point(const Vec<2>& p) {
   return fmt::format("{:.6f} {:.6f}", p[0] * millimetres_per_metre, -p[1] * millimetres_per_metre);
 }
 
+/// Some programs draw every cubic with a fixed number of chords, however long it is: these must do.
+int n_parts(const Bezier& cubic, double tolerance) {
+  constexpr int chords_of_others = 16;
+  return (n_chords(cubic, tolerance) + chords_of_others - 1) / chords_of_others;
+}
+
 std::string subpath(const Loop& loop, double tolerance) {
   std::string path = fmt::format("M{}", point(start_of(loop.curves.front())));
   for (const Curve& curve : loop.curves) {
@@ -21,8 +27,9 @@ std::string subpath(const Loop& loop, double tolerance) {
       path += fmt::format("\nL{}", point(end_of(curve)));
       continue;
     }
-    for (const Bezier& p : beziers(curve, share_of_arcs * tolerance))
-      path += fmt::format("\nC{} {} {}", point(p[1]), point(p[2]), point(p[3]));
+    for (const Bezier& cubic : beziers(curve, share_of_arcs * tolerance))
+      for (const Bezier& p : divided(cubic, n_parts(cubic, tolerance)))
+        path += fmt::format("\nC{} {} {}", point(p[1]), point(p[2]), point(p[3]));
   }
   return path + "Z";
 }
@@ -37,11 +44,12 @@ std::string svg_outline(const WheelModel& wheel) {
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.6g}mm\" height=\"{0:.6g}mm\" "
-      "viewBox=\"{1:.6g} {1:.6g} {0:.6g} {0:.6g}\">\n"
+      "viewBox=\"0 0 {0:.6g} {0:.6g}\">\n"
       "<title>{2}</title>\n<desc>{3}; millimetres</desc>\n"
-      "<g id=\"wheel\" fill=\"#3b6ea5\" fill-rule=\"evenodd\" stroke=\"none\">\n"
+      "<g id=\"wheel\" transform=\"translate({1:.6g} {1:.6g})\" fill=\"#3b6ea5\" fill-rule=\"evenodd\" "
+      "stroke=\"none\">\n"
       "<path id=\"material\" d=\"{4}\"/>\n</g>\n</svg>\n",
-      2 * half, -half, escape_xml(wheel.title), escape_xml(wheel.program), path);
+      2 * half, half, escape_xml(wheel.title), escape_xml(wheel.program), path);
 }
 
 }  // namespace wheelwright

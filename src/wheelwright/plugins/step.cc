@@ -50,7 +50,7 @@ TopoDS_Edge edge(const Arc& arc) {
   return BRepBuilderAPI_MakeEdge(circle, 0, std::abs(arc.sweep));
 }
 
-TopoDS_Edge edge(const Spline& spline) {
+Handle(Geom_BSplineCurve) whole_curve(const Spline& spline) {
   constexpr int degree = 3, clamped = degree + 1;
   const int n_points = static_cast<int>(spline.points.size()), n_knots = n_points - degree + 1;
   TColgp_Array1OfPnt poles(1, n_points);
@@ -61,13 +61,31 @@ TopoDS_Edge edge(const Spline& spline) {
     knots.SetValue(i + 1, spline.knots[i + degree]);
     multiplicities.SetValue(i + 1, i == 0 || i == n_knots - 1 ? clamped : 1);
   }
-  const Handle(Geom_BSplineCurve) curve = new Geom_BSplineCurve(poles, knots, multiplicities, degree);
-  return BRepBuilderAPI_MakeEdge(curve);
+  return new Geom_BSplineCurve(poles, knots, multiplicities, degree);
 }
+
+/// A long spline becomes several edges, cut at its knots: the rules by which programs integrate areas and
+/// volumes unless they are told otherwise have too few points for an edge of many cubics.
+std::vector<TopoDS_Edge> edges(const Spline& spline) {
+  constexpr int most_cubics = 4;
+  const Handle(Geom_BSplineCurve) whole = whole_curve(spline);
+  const int n_cubics = whole->NbKnots() - 1, parts = (n_cubics + most_cubics - 1) / most_cubics;
+  std::vector<TopoDS_Edge> edges;
+  for (int i = 0; i < parts; ++i) {
+    const Handle(Geom_BSplineCurve) part = Handle(Geom_BSplineCurve)::DownCast(whole->Copy());
+    part->Segment(whole->Knot(1 + i * n_cubics / parts), whole->Knot(1 + (i + 1) * n_cubics / parts));
+    edges.push_back(BRepBuilderAPI_MakeEdge(part));
+  }
+  return edges;
+}
+
+std::vector<TopoDS_Edge> edges(const Line& line) { return {edge(line)}; }
+std::vector<TopoDS_Edge> edges(const Arc& arc) { return {edge(arc)}; }
 
 TopoDS_Wire wire(const Loop& loop) {
   BRepBuilderAPI_MakeWire wire;
-  for (const Curve& curve : loop.curves) wire.Add(std::visit([](const auto& c) { return edge(c); }, curve));
+  for (const Curve& curve : loop.curves)
+    for (const TopoDS_Edge& part : std::visit([](const auto& c) { return edges(c); }, curve)) wire.Add(part);
   return wire.Wire();
 }
 
