@@ -66,6 +66,8 @@ angular_cells = 189
 tread_levels = 0
 [optimizer]
 iterations = 0
+rim_band = 0.011
+tread_band = 0.022
 [output]
 vtu_every = 1
 pictures_every = 1
@@ -485,6 +487,43 @@ class NoSymmetry(unittest.TestCase):
             self.assertGreater(max(near), 0.8 * top)
             peak = self.analysis["positions"][i]["peak_von_mises_Pa"]
             self.assertClose(max(vtu.fields["von_mises"]) / peak, 1, 0.25)
+
+    def test_the_peak_of_the_stress_has_its_place_and_its_position(self):
+        summary = json.loads((self.run_folder / "summary.json").read_text())["before"]
+        row, peak, place = self.history[0], self.analysis["peak_von_mises"], summary["peak_von_mises_place"]
+        values = [p["peak_von_mises_Pa"] for p in self.analysis["positions"]]
+        worst = values.index(max(values))
+        for found in (summary["peak_von_mises_Pa"], float(row["peak_von_mises [Pa]"]), peak["value_Pa"]):
+            self.assertClose(found, values[worst], 1e-9 * found)
+        for found in (place["radius_m"], float(row["peak_von_mises_radius [m]"])):
+            self.assertClose(found, peak["radius_m"], 1e-12)
+        for found in (place["azimuth_rad"], math.radians(float(row["peak_von_mises_azimuth [deg]"]))):
+            self.assertClose(found, peak["azimuth_rad"], 1e-12)
+        for found in (place["load_position_rad"], peak["load_position_rad"],
+                      math.radians(float(row["peak_von_mises_position [deg]"]))):
+            self.assertClose(found, ground_azimuth(worst), 1e-12)
+        # The displacement of that position is as strained there as anywhere, and nowhere else.
+        cells = list(self.recomputed_stress(self.positions[worst]))
+        top = max(c[1] for c in cells)
+        x, y = rotated(peak["radius_m"], 0, peak["azimuth_rad"])
+        self.assertGreater(max(c[1] for c in cells if math.dist(c[0], (x, y)) < 0.006), 0.8 * top)
+        mirror = rotated(peak["radius_m"], 0, -peak["azimuth_rad"])
+        self.assertLess(max(c[1] for c in cells if math.dist(c[0], mirror) < 0.006), 0.6 * top)
+
+    def test_the_summary_tells_what_history_and_analysis_tell(self):
+        summary = json.loads((self.run_folder / "summary.json").read_text())
+        row, positions = self.history[0], self.analysis["positions"]
+        self.assertEqual(summary["before"], summary["after"])  # of a run without steps
+        forces, travels = ([p[key] for p in positions] for key in ("radial_force_N", "travel_m"))
+        for key, value in (("objective_J_per_m", float(row["objective [J/m]"])),
+                           ("volume_fraction", float(row["volume fraction [-]"])),
+                           ("mean_travel_m", float(row["mean_travel [m]"])),
+                           ("run_out_m", float(row["run_out [m]"])),
+                           ("peak_pressure_Pa", float(row["peak_pressure [Pa]"])),
+                           ("largest_strain", max(p["peak_strain"] for p in positions)),
+                           ("travel_by_ring_thickness", max(travels) / (OUTER - INNER)),
+                           ("stiffness_N_per_m", sum(forces) / sum(travels))):
+            self.assertClose(summary["after"][key], value, 1e-9 * abs(value), key)
 
     def test_the_shape_gradient_says_that_material_makes_the_wheel_stiffer(self):
         vtu = Vtu(self.run_folder / "shapes/shape_0000.vtu")

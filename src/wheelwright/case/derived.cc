@@ -70,10 +70,6 @@ double radial_cell(const Case& c) {
 }
 }  // namespace
 
-double least_rim_band(const Case& c) { return radial_cell(c); }
-
-double least_tread_band(const Case& c) { return (tread_rows(c) + 1) * radial_cell(c); }
-
 bool wants_annulus(const Case& c) {
   return c.objective.uniformity_annulus > 0 || c.objective.annulus_matches_dual.has_value();
 }
@@ -91,9 +87,20 @@ int tread_rows(const Case& c) {
   return std::max(1, static_cast<int>(std::lround(annulus_thickness(c) / radial_cell(c))));
 }
 
-double rim_band(const Case& c) { return c.optimizer.rim_band.value_or(least_rim_band(c)); }
+PolarGrid<2> plane_grid(const Case& c) {
+  return {c.wheel.inner_radius,
+          c.wheel.outer_radius,
+          c.wheel.width,
+          c.wheel.sectors,
+          {c.grid.radial_cells, c.grid.angular_cells / c.wheel.sectors}};
+}
 
-double tread_band(const Case& c) { return c.optimizer.tread_band.value_or(least_tread_band(c)); }
+Bands bands(const Case& c) {
+  const double ring = c.wheel.outer_radius - c.wheel.inner_radius, usual = ring / 14;
+  const double with_annulus = wants_annulus(c) ? annulus_thickness(c) + ring / 28 : 0;
+  return {.rim = {c.optimizer.rim_band.value_or(usual), 1},
+          .tread = {c.optimizer.tread_band.value_or(std::max(usual, with_annulus)), tread_rows(c) + 1}};
+}
 
 std::vector<Circle> sector_holes(const Case& c) {
   std::vector<Circle> holes;
