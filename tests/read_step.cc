@@ -45,7 +45,7 @@ int main(int, char** argv) {
   box.Get(low[0], low[1], low[2], high[0], high[1], high[2]);
   std::cout.precision(15);
   std::cout << "unit " << lengths.First() << "\nvalid " << BRepCheck_Analyzer(shape).IsValid() << "\nsolids "
-            << solids << "\nvolume " << volume.Mass() << "\n";
+            << solids << "\nvolume " << volume.Mass() << "\nusual_volume " << usual.Mass() << "\n";
   for (const auto& [kind, n] : faces) std::cout << kind << " " << n << "\n";
   std::cout << "lower " << low[0] << " " << low[1] << " " << low[2] << "\nupper " << high[0] << " " << high[1]
             << " " << high[2] << "\n";

@@ -16,8 +16,8 @@ namespace wheelwright {
 namespace {
 
 constexpr double largest_area_error = 1e-4;
-/// Distances of points on edges [m].
-constexpr double step_of_deviation = 5e-4, step_of_clearance = 2e-4;
+/// Distances of points on edges, as shares of the outer radius.
+constexpr double step_of_deviation = 1.5e-3, step_of_clearance = 6e-4;
 
 using Faults = std::vector<OutlineFault>;
 
@@ -149,7 +149,7 @@ struct DenseCorners {
 
 /// How far the points of the zero contour are from the edges.
 Deviation of_contour(const LevelSet<2>& psi, const std::vector<Polygon>& polygons) {
-  const DenseCorners dense(polygons, step_of_deviation);
+  const DenseCorners dense(polygons, step_of_deviation * psi.lattice.grid().outer_radius);
   const NearestPoint<2> nearest(dense.points);
   Deviation deviation;
   for (const Contour& contour : material_contours(psi, contour_subdivisions(psi.lattice.degree()))) {
@@ -200,13 +200,14 @@ Expected<OutlineReport, std::vector<OutlineFault>> check_outline(const Outline& 
   const double area_error = checked_area_error(outline, psi, faults);
   const Deviation deviation = checked_deviation(outline, psi, zero, polygons, tolerance, faults);
   if (!faults.empty()) return faults;
-  return OutlineReport{.curves = count(outline),
-                       .bodies = static_cast<int>(bodies(outline).size()),
-                       .area = material_area(outline),
-                       .area_error = area_error,
-                       .deviation = deviation.distance,
-                       .deviation_place = deviation.place,
-                       .clearances = clearances(outline, grid.n_sectors, step_of_clearance)};
+  return OutlineReport{
+      .curves = count(outline),
+      .bodies = static_cast<int>(bodies(outline).size()),
+      .area = material_area(outline),
+      .area_error = area_error,
+      .deviation = deviation.distance,
+      .deviation_place = deviation.place,
+      .clearances = clearances(outline, grid.n_sectors, step_of_clearance * grid.outer_radius)};
 }
 
 std::string text(const OutlineReport& report) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace wheelwright {
@@ -48,7 +49,8 @@ bool encloses(const std::vector<Vec<2>>& polygon, const Vec<2>& p) {
 }  // namespace
 
 std::vector<Body> bodies(const Outline& outline) {
-  constexpr double tolerance = 1e-6;
+  constexpr double share_of_chords = 1e-5;
+  const double tolerance = share_of_chords * std::sqrt(std::abs(signed_area(outline.loops.front())));
   std::vector<Body> bodies;
   std::vector<std::vector<Vec<2>>> polygons;
   for (const Loop& loop : outline.loops) {

@@ -11,7 +11,7 @@ namespace {
 constexpr double share_of_arcs = 0.1;
 
 std::string point(const Vec<2>& p) {
-  return fmt::format("{:.6f} {:.6f}", p[0] * millimetres_per_metre, -p[1] * millimetres_per_metre);
+  return fmt::format("{:.10g} {:.10g}", p[0] * millimetres_per_metre, -p[1] * millimetres_per_metre);
 }
 
 /// Some programs draw every cubic with a fixed number of chords, however long it is: these must do.

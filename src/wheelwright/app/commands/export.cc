@@ -24,7 +24,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* default_formats = "dxf,svg,stl";
-constexpr double default_tolerance = 0.01, least_tolerance = 0.001, greatest_tolerance = 1;  // [mm]
+constexpr double default_tolerance = 0.01, least_tolerance = 0.001, greatest_tolerance = 1000;  // [mm]
+constexpr double finest_share = 1e-6;  // of the outer radius, that the tolerance may be
 
 using Formats = std::vector<const ExportFormat*>;
 
@@ -136,6 +137,11 @@ class ExportCommand : public Subcommand {
   }
 
   int export_shape(const Source& source) const {
+    if (const double finest = finest_share * source.c.wheel.outer_radius; tolerance() < finest) {
+      tell("wheelwright {}: the tolerance must be at least {:.3g} mm for a wheel of this size\n", name(),
+           finest * 1e3);
+      return exit_usage;
+    }
     const auto outline = fit_outline(source.shape, tolerance());
     if (!outline) return refuse({outline.failure()});
     const auto report = check_outline(*outline, source.shape, tolerance());
