@@ -54,7 +54,7 @@ phase = 40
 center = [0.262, 0.105]
 radius = 0.028
 [grid]
-radial_cells = 26
+radial_cells = 28
 angular_cells = 378
 tread_levels = 0
 [optimizer]
@@ -362,7 +362,7 @@ class InitialWithoutSymmetry(ExportedWheel, unittest.TestCase):
     def setUpClass(cls):
         cls.source = temporary / "circles.toml"
         # A grid on which the level set's circles are round to a micrometre.
-        cls.source.write_text(NO_SYMMETRY.replace("radial_cells = 26", "radial_cells = 56").replace("= 378", "= 1540"))
+        cls.source.write_text(NO_SYMMETRY.replace("radial_cells = 28", "radial_cells = 56").replace("= 378", "= 1540"))
         cls.folder = exported(cls.source, cls.name)
         cls.reference = exact_reference()
 
