@@ -598,6 +598,48 @@ class NoSymmetry(unittest.TestCase):
 
     # Saved and read again
 
+    def numbers(self, *arguments):
+        return json.loads(run_program(*arguments, "--json"))
+
+    def test_a_run_is_analyzed_as_its_case(self):
+        # After no step, the run's last shape is the case's initial one, to the last digit of all numbers.
+        analysis = self.numbers("analyze", self.run_folder, "--positions", POSITIONS)
+        self.assertNotEqual(analysis.pop("title"), self.analysis["title"])
+        self.assertEqual(analysis, {key: value for key, value in self.analysis.items() if key != "title"})
+
+    def test_an_optimized_wheel_is_analyzed_as_its_run_told(self):
+        folder = Path(self.temporary.name) / "optimized"
+        run_program("run", self.case, "--output", folder, "--iterations", 3)
+        summary = json.loads((folder / "summary.json").read_text())["after"]
+        first, last = self.numbers("compare", self.case, folder, "--positions", POSITIONS)["wheels"]
+        for key in ("mean_travel_m", "stiffness_N_per_m", "peak_pressure_Pa", "peak_von_mises_Pa", "largest_strain",
+                    "volume_fraction", "run_out_m"):
+            self.assertClose(last[key], summary[key], 1e-12 * abs(summary[key]), key)
+            if key != "volume_fraction":
+                self.assertGreater(abs(first[key] - last[key]), 1e-4 * abs(last[key]), key)
+        positions = self.numbers("analyze", folder, "--positions", POSITIONS)["positions"]
+        self.assertClose(max(p["peak_von_mises_Pa"] for p in positions), last["peak_von_mises_Pa"], 1e-6)
+        self.assertIn("passed", run_program("verify", folder))
+
+    def test_the_comparison_shows_both_wheels_over_each_other(self):
+        folder = Path(self.temporary.name) / "comparison"
+        run_program("compare", self.case, self.run_folder, "--output", folder, "--positions", 2)
+        paths = re.findall(r' d="([^"]*)"', (folder / "comparison.svg").read_text())
+        self.assertEqual(len(paths), 2)
+        self.assertEqual(paths[0], paths[1])
+        scale = 290 / OUTER
+        inside = boxed(subpaths(paths[0]))
+        for x, y, expected in probes(0.002):
+            self.assertEqual(inside(scale * x, -scale * y), expected, (x, y))
+
+    def test_what_is_no_wheel_is_refused(self):
+        empty = Path(self.temporary.name) / "empty"
+        empty.mkdir()
+        for command in (("analyze", empty), ("verify", empty), ("compare", self.case, empty),
+                        ("compare", self.case, empty / "nothing.toml"), ("compare", self.case)):
+            code = subprocess.run([program, *map(str, command)], capture_output=True, check=False).returncode
+            self.assertEqual(code, 2, command)
+
     def test_a_resumed_run_has_the_files_of_one_that_was_not_stopped(self):
         straight, stopped = (Path(self.temporary.name) / name for name in ("straight", "stopped"))
         run_program("run", self.case, "--output", straight, "--iterations", 2)

@@ -23,11 +23,6 @@ int report_findings(const std::vector<Finding>& findings) {
   return unmet > 0 ? exit_unexpected : exit_done;
 }
 
-void report_unusable(const std::vector<UnusableCheckpoint>& unusable) {
-  for (const auto& [file, reason] : unusable)
-    tell("{}: cannot be used, trying the one before it: {}\n", file.string(), reason);
-}
-
 /// One overload for each reason not to begin.
 template <int dim>
 struct NotBegunReport {
@@ -129,6 +124,11 @@ ExitCode exit_code_of_stop(const Signals& signals) {
 }
 
 }  // namespace
+
+void report_unusable(const std::vector<UnusableCheckpoint>& unusable) {
+  for (const auto& [file, reason] : unusable)
+    tell("{}: cannot be used, trying the one before it: {}\n", file.string(), reason);
+}
 
 template <int dim>
 int report_not_begun(const NotBegun<dim>& reason, const fs::path& folder) {

@@ -187,28 +187,34 @@ RunLoop<dim>::solution_of_results(const SharedSolution& own) {
 /// The initial shape as the solver of the results sees it: what was noted of its trial, where that solver is
 /// the run's own. Else, and in a resumed run, it is solved here.
 template <int dim>
-std::optional<ShapeSummary<dim>> RunLoop<dim>::initial_summary(const StateSolver<dim>& solver) const {
-  if (initial_summary_ && &solver == work_->study.solver.get()) return initial_summary_;
+std::optional<DescribedWheel<dim>> RunLoop<dim>::initial_wheel(const StateSolver<dim>& solver) const {
+  if (initial_wheel_ && &solver == work_->study.solver.get()) return initial_wheel_;
   const LevelSet<dim>& shape = initial_->shape;
   const auto states = solver.states(shape, solver.distinct_positions(shape), Interrupt());
   if (!states) return {};
-  return shape_summary(solver, shape, **states);
+  return described(solver, shape, initial_->measure, **states);
+}
+
+template <int dim>
+std::optional<DescribedWheel<dim>> RunLoop<dim>::described(const StateSolver<dim>& solver,
+                                                           const LevelSet<dim>& shape, double measure,
+                                                           const State<dim>& state) const {
+  auto wheel = described_wheel(solver, shape, volume_fraction(work_->study.grid(), measure), state);
+  if (!wheel) return {};
+  return *std::move(wheel);
 }
 
 template <int dim>
 std::optional<RunSummary<dim>> RunLoop<dim>::run_summary(const StateSolver<dim>& solver,
                                                          const State<dim>* last) const {
   if (!last) return {};
-  const ShapeSummary<dim> now = shape_summary(solver, state_->shape, *last);
-  const auto first = state_->iteration > 0 ? initial_summary(solver) : now;
-  if (!first) return {};
-  const PolarGrid<dim>& grid = work_->study.grid();
-  return RunSummary<dim>{.title = run_title(work_->study.source),
-                         .load = load_text(solver.model()),
-                         .width = work_->study.source.wheel.width,
-                         .before = {0, initial_->objective, volume_fraction(grid, initial_->measure), *first},
-                         .after = {state_->iteration, work_->optimizer.objective_of(state_->evaluation),
-                                   volume_fraction(grid, state_->measure), now}};
+  const auto now = described(solver, state_->shape, state_->measure, *last);
+  const auto first = state_->iteration > 0 ? initial_wheel(solver) : now;
+  if (!first || !now) return {};
+  return RunSummary<dim>{
+      .title = run_title(work_->study.source),
+      .before = {0, initial_->objective, *first},
+      .after = {state_->iteration, work_->optimizer.objective_of(state_->evaluation), *now}};
 }
 
 template <int dim>
@@ -222,7 +228,7 @@ void RunLoop<dim>::observe(const Trial<dim>& trial, const OptimizationState<dim>
           InitialShape<dim>{state.shape, work_->optimizer.objective_of(state.evaluation), state.measure};
     const Case& c = work_->study.source;
     if (state.iteration == 0 && trial.solution && tread_levels_of_results(c) == tread_levels(c))
-      initial_summary_ = shape_summary(*work_->study.solver, state.shape, *trial.solution);
+      initial_wheel_ = described(*work_->study.solver, state.shape, state.measure, *trial.solution);
     last_solution_ = reason_to_stop(work_->study.optimizer, state) ? trial.solution : nullptr;
   } else if (trial.verdict == Verdict::failed) {
     failed_trials_.push_back(trial);
@@ -305,7 +311,7 @@ std::optional<Refusal> RunLoop<dim>::change_case(const Case& changed, const std:
   if (!anew) return refusal(anew.failure());
 
   work_ = make_work(*std::move(study));
-  initial_summary_.reset();
+  initial_wheel_.reset();
   initial_->objective = first->evaluation.function("objective").value;
   state_ = *std::move(anew);
   notify(CaseChanged{what});
