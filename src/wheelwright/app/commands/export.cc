@@ -6,9 +6,9 @@
 #include "wheelwright/app/case_input.h"
 #include "wheelwright/app/commands/commands.h"
 #include "wheelwright/app/exit_code.h"
-#include "wheelwright/app/run_messages.h"
 #include "wheelwright/app/shared_options.h"
 #include "wheelwright/app/terminal.h"
+#include "wheelwright/app/wheel_input.h"
 #include "wheelwright/base/text.h"
 #include "wheelwright/cad/check_outline.h"
 #include "wheelwright/cad/fit_outline.h"
@@ -16,7 +16,6 @@
 #include "wheelwright/export/formats.h"
 #include "wheelwright/export/plugin.h"
 #include "wheelwright/files/atomic_file.h"
-#include "wheelwright/run/resume_point.h"
 
 namespace wheelwright {
 namespace {
@@ -67,22 +66,13 @@ std::string check_tolerance(const std::string& text) {
              : fmt::format("must be a length from {} to {} mm", least_tolerance, greatest_tolerance);
 }
 
-/// A shape to be exported, and what its files are called.
-struct Source {
-  Case c;
-  LevelSet<2> shape;
-  std::string name;
-  std::string which;  ///< e.g. "shape 31"
-};
-
 class ExportCommand : public Subcommand {
  public:
   ExportCommand()
       : Subcommand("export", "Write a shape for CAD, workshop and printing: DXF, STEP, STL and others") {}
 
   void declare(Options& options) override {
-    options.argument("RUN", source_, not_empty,
-                     "folder of a run, for its last shape, or a case file, for its initial one");
+    add_wheel(options, input_);
     options.text("--format", "NAME,NAME,...", formats_, check_formats,
                  fmt::format("Any of {}; without it {}", names_of_formats(), default_formats));
     options.text("--tolerance", "MM", tolerance_, check_tolerance,
@@ -93,71 +83,39 @@ class ExportCommand : public Subcommand {
   }
 
   int run() override {
-    int code = exit_done;
-    const auto source = fs::is_directory(source_) ? last_shape(code) : first_shape(code);
-    return source ? export_shape(*source) : code;
+    const auto wheel = read_wheel_or_tell(input_);
+    if (!wheel) return wheel.failure();
+    return export_wheel(*wheel);
   }
 
  private:
-  /// The last shape of a run. Nothing of its folder is changed, and it may still be running.
-  std::optional<Source> last_shape(int& code) const {
-    const fs::path folder = source_, case_file = folder / "case.toml";
-    code = exit_usage;
-    if (!fs::exists(case_file)) {
-      tell("{}: this folder holds no run; there is no {}\n", source_, case_file.string());
-      return {};
-    }
-    auto c = read_or_tell(case_file);
-    if (!c) return {};
-    auto point = resume_point<2>(folder, *c);
-    for (const UnusableCheckpoint& unusable : point.unusable)
-      tell("{}: cannot be used: {}\n", unusable.file.string(), unusable.reason);
-    if (!point.newest) {
-      tell("{}: no checkpoint can be used\n", source_);
-      code = exit_checkpoint;
-      return {};
-    }
-    const auto& state = point.newest->state;
-    // Whether or not the folder ends in a slash.
-    const fs::path name = (fs::absolute(folder).lexically_normal() / "").parent_path().filename();
-    return Source{*std::move(c), state.shape, name.string(), fmt::format("shape {}", state.iteration)};
-  }
-
-  std::optional<Source> first_shape(int& code) const {
-    code = exit_usage;
-    auto c = read_or_tell(source_);
-    if (!c) return {};
-    LevelSet<2> shape = initial_shape<2>(*c);
-    return Source{*std::move(c), std::move(shape), fs::path(source_).stem().string(), "initial shape"};
-  }
-
   double tolerance() const {
     constexpr double metres_per_millimetre = 1e-3;
     return metres_per_millimetre * (tolerance_ ? *parse_tolerance(*tolerance_) : default_tolerance);
   }
 
-  int export_shape(const Source& source) const {
-    if (const double finest = finest_share * source.c.wheel.outer_radius; tolerance() < finest) {
+  int export_wheel(const WheelInput& input) const {
+    if (const double finest = finest_share * input.source.wheel.outer_radius; tolerance() < finest) {
       tell("wheelwright {}: the tolerance must be at least {:.3g} mm for a wheel of this size\n", name(),
            finest * 1e3);
       return exit_usage;
     }
-    const auto outline = fit_outline(source.shape, tolerance());
+    const auto outline = fit_outline(input.shape, tolerance());
     if (!outline) return refuse({outline.failure()});
-    const auto report = check_outline(*outline, source.shape, tolerance());
+    const auto report = check_outline(*outline, input.shape, tolerance());
     if (!report) return refuse(report.failure());
     const std::string title =
-        without_control_characters(source.c.title.empty() ? source.name : source.c.title);
-    const WheelModel wheel{.title = fmt::format("{}, {}", title, source.which),
+        without_control_characters(input.source.title.empty() ? input.name : input.source.title);
+    const WheelModel wheel{.title = fmt::format("{}, {}", title, input.which),
                            .program = fmt::format("wheelwright {}", version()),
-                           .shape = source.shape,
+                           .shape = input.shape,
                            .outline = *outline,
-                           .width = source.c.wheel.width,
+                           .width = input.source.wheel.width,
                            .tolerance = tolerance()};
     fmt::print("{:<16} {}\n{}", "wheel", wheel.title, text(*report));
     if (report->bodies > 1)
       print_warning(stderr, fmt::format("the material is not connected: {} pieces", report->bodies));
-    return write(wheel, source.name);
+    return write(wheel, input.name);
   }
 
   int refuse(const std::vector<OutlineFault>& faults) const {
@@ -192,7 +150,7 @@ class ExportCommand : public Subcommand {
     return exit_done;
   }
 
-  std::string source_;
+  std::string input_;
   std::optional<std::string> formats_, tolerance_, output_;
   bool force_ = false;
 };
