@@ -142,7 +142,7 @@ class ExportCommand : public Subcommand {
         return exit_refused;
       }
     }
-    make_folder(folder);
+    if (!fs::exists(folder)) make_folder(folder);
     for (const auto& [path, bytes] : files) {
       write_atomically(path, bytes);
       fmt::print("{:<16} {}\n", "written", path.string());
