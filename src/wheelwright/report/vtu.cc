@@ -112,7 +112,8 @@ struct VtuMesh::Sector {
   std::map<Vec<2>, std::int32_t> numbers_;  ///< of the points, by their places in units of cells
 };
 
-VtuMesh::VtuMesh(const LevelSet<2>& psi, const Lattice<2>& lattice, int cut_subdivisions)
+VtuMesh::VtuMesh(const LevelSet<2>& psi, const Lattice<2>& lattice, int cut_subdivisions,
+                 std::string_view length_unit)
     : lattice_(lattice), sector_(std::make_unique<Sector>(psi, lattice, cut_subdivisions)) {
   const int n_sectors = lattice.grid().n_sectors;
   const std::size_t n_points = sector_->points.size() * n_sectors;
@@ -135,7 +136,7 @@ VtuMesh::VtuMesh(const LevelSet<2>& psi, const Lattice<2>& lattice, int cut_subd
   }
   AppendedArrays arrays(0);
   beginning_ = vtu_beginning(n_points, types.size(), add_mesh(points, connectivity, offsets, types, arrays)) +
-               arrays.add("psi_m", 1, level);
+               arrays.add(vtu_name("psi", length_unit), 1, level);
   arrays_ = std::move(arrays).bytes();
 }
 
@@ -168,7 +169,7 @@ std::vector<float> VtuMesh::values(const RingField& field, int component) const 
   return result;
 }
 
-void VtuMesh::write(const std::filesystem::path& path, std::span<const NamedField> fields) const {
+std::string VtuMesh::file(std::span<const NamedField> fields) const {
   AppendedArrays arrays(arrays_.size());
   std::string tags;
   for (const NamedField& field : fields) {
@@ -176,7 +177,11 @@ void VtuMesh::write(const std::filesystem::path& path, std::span<const NamedFiel
     if (field.scalar) components = {scalars(components, field.scalar)};
     tags += add_field(vtu_name(field.name, field.unit), components, arrays);
   }
-  write_atomically(path, beginning_ + tags + vtu_end(arrays_ + arrays.bytes()));
+  return beginning_ + tags + vtu_end(arrays_ + arrays.bytes());
+}
+
+void VtuMesh::write(const std::filesystem::path& path, std::span<const NamedField> fields) const {
+  write_atomically(path, file(fields));
 }
 
 void write_pvd(const std::filesystem::path& path, std::span<const PvdEntry> entries) {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "wheelwright/geometry/level_set.h"
@@ -20,12 +21,17 @@ inline constexpr int vtu_cut_subdivisions = 4;
 /// mesh.
 class VtuMesh {
  public:
-  /// `lattice` carries the fields, on psi's grid.
-  VtuMesh(const LevelSet<2>& psi, const Lattice<2>& lattice, int cut_subdivisions);
+  /// `lattice` carries the fields, on psi's grid. The numbers of grid and psi are written as they are:
+  /// `length_unit` is theirs.
+  VtuMesh(const LevelSet<2>& psi, const Lattice<2>& lattice, int cut_subdivisions,
+          std::string_view length_unit = "m");
   ~VtuMesh();
 
-  /// Writes a ParaView file with psi and nodal fields, atomically; a field's unit follows its name. Scalars,
-  /// vectors (2 components) and symmetric tensors (xx, yy, zz, xy). Throws OutputError.
+  /// The bytes of a ParaView file with psi and nodal fields; a field's unit follows its name. Scalars, vectors
+  /// (2 components) and symmetric tensors (xx, yy, zz, xy).
+  std::string file(std::span<const NamedField> fields) const;
+
+  /// Writes that file, atomically. Throws OutputError.
   void write(const std::filesystem::path& path, std::span<const NamedField> fields) const;
 
  private:
