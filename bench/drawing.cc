@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "wheelwright/drawing/composition.h"
+#include "wheelwright/drawing/composed_level_set.h"
 #include "wheelwright/drawing/parts.h"
 
 using namespace wheelwright;

@@ -107,6 +107,11 @@ Case with_holes() {
   c.output.folder = "runs/test";
   c.holes.rings = {ring_sections().example};
   c.holes.circles = {circle_sections().example};
+  int order = 0;
+  for_each_shape_section([&](const auto& section) {
+    section.in(c) = {section.example};
+    section.in(c)[0].order = ++order;
+  });
   c.expectations = {expectation_sections().example};
   return c;
 }
@@ -316,11 +321,23 @@ template <class Struct>
 constexpr bool is_point<PointField<Struct>> = true;
 
 template <class Field>
+constexpr bool is_list_of_points = false;
+template <class Struct>
+constexpr bool is_list_of_points<PointsField<Struct>> = true;
+
+template <class Field>
 std::vector<BadValue> bad_values(const Field& field) {
   if constexpr (requires { field.words; }) {
     return {{"\"no such word\"", Kind::out_of_range}, {"1", Kind::wrong_type}, {"true", Kind::wrong_type}};
   } else if constexpr (!requires { field.range; }) {
     return {{"1", Kind::wrong_type}, {"[]", Kind::wrong_type}, {"{}", Kind::wrong_type}};
+  } else if constexpr (is_list_of_points<Field>) {
+    return {{"1.0", Kind::wrong_type},
+            {"[0.27, 0.01]", Kind::wrong_type},
+            {"[[0.27, 0.01], [0.28, 0.01], [0.28]]", Kind::wrong_type},
+            {"[[0.27, 0.01], [0.28, \"0\"], [0.28, 0.02]]", Kind::wrong_type},
+            {"[[0.27, 0.01], [0.28, 0.01]]", Kind::out_of_range},
+            {"[[0.27, nan], [0.28, 0.01], [0.28, 0.02]]", Kind::out_of_range}};
   } else if constexpr (is_point<Field>) {
     return {{"1.0", Kind::wrong_type},
             {"[1, 2, 3]", Kind::wrong_type},
@@ -424,12 +441,16 @@ TEST(CaseKeys, EveryRangeEndsWhereItIsDeclared) {
   int tried = 0;
   const auto try_key = [&](const auto& section, const auto& key, const auto& field) {
     if constexpr (requires { field.range; }) {
-      const bool point = is_point<std::decay_t<decltype(field)>>;
+      using Field = std::decay_t<decltype(field)>;
+      const bool point = is_point<Field>;
       const RangeEnds values = ends(
-          field.range, !point && !requires { field.factor; });
+          field.range, !point && !is_list_of_points<Field> && !requires { field.factor; });
       const auto edited = [&](const std::string& value) {
+        const auto form = is_list_of_points<Field> ? "{} = [[0.27, 0.01], [0.28, {}], [0.28, 0.02]]"
+                          : point                  ? "{} = [0.27, {}]"
+                                                   : "{} = {}";
         return replace_key(header_of(section), written_key(section.keys, key),
-                           fmt::format(point ? "{} = [0.27, {}]" : "{} = {}", key.name, value));
+                           fmt::format(fmt::runtime(form), key.name, value));
       };
       for (const auto& value : values.outside) expect_only(edited(value), Kind::out_of_range);
       for (const auto& value : values.inside)

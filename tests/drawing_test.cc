@@ -6,7 +6,7 @@
 #include <random>
 
 #include "wheelwright/drawing/chain.h"
-#include "wheelwright/drawing/composition.h"
+#include "wheelwright/drawing/composed_level_set.h"
 #include "wheelwright/drawing/parts.h"
 #include "wheelwright/geometry/shapes.h"
 

@@ -5,6 +5,7 @@
 #include "wheelwright/app/case_report.h"
 #include "wheelwright/base/text.h"
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/drawn_shapes.h"
 #include "wheelwright/case/keys.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/write.h"
@@ -31,6 +32,7 @@ void check_case(const Case& c) {
   require(std::isfinite(estimated_memory(c)) && estimated_memory(c) > 0, "memory is a number");
   require(derived_report(c).find("nan") == std::string::npos, "derived numbers are numbers");
   warnings(c);
+  Composition(figures(c));
 }
 
 }  // namespace
@@ -39,6 +41,10 @@ std::vector<std::string> wheelwright::testing::seeds() {
   Case c;
   c.holes.rings = {ring_sections().example};
   c.holes.circles = {circle_sections().example};
+  for_each_shape_section([&](const auto& section) {
+    section.in(c) = {section.example};
+    section.in(c)[0].order = 1;
+  });
   return {case_template(), to_toml(c)};
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "wheelwright/base/quantity.h"
+#include "wheelwright/drawing/fill.h"
 #include "wheelwright/elasticity/contact_form.h"
 #include "wheelwright/elasticity/ghost_penalty.h"
 #include "wheelwright/elasticity/material.h"
@@ -64,6 +65,96 @@ struct Holes {
   std::vector<HoleRing> rings;
   std::vector<HoleCircle> circles;
   bool operator==(const Holes&) const = default;
+};
+
+// Shapes that are drawn over the ring, each over those before it: `order` is a shape's place among all of
+// them, from 1. Each is repeated `count` times, evenly spaced about the axle; `phase` is the azimuth of the
+// first one, if absent half the spacing.
+
+struct CircleShape {
+  int order = 0;
+  Fill as = Fill::hole;
+  int count = 0;
+  double center_radius = 0;
+  double radius = 0;
+  std::optional<double> phase;
+  bool operator==(const CircleShape&) const = default;
+};
+
+struct EllipseShape {
+  int order = 0;
+  Fill as = Fill::hole;
+  int count = 0;
+  double center_radius = 0;
+  double length = 0;
+  double width = 0;
+  double angle = 0;  ///< of the length, from the direction away from the axle
+  std::optional<double> phase;
+  bool operator==(const EllipseShape&) const = default;
+};
+
+/// A rectangle with round ends.
+struct SlotShape {
+  int order = 0;
+  Fill as = Fill::hole;
+  int count = 0;
+  double center_radius = 0;
+  double length = 0;  ///< over all
+  double width = 0;
+  double angle = 0;  ///< of the length, from the direction away from the axle
+  std::optional<double> phase;
+  bool operator==(const SlotShape&) const = default;
+};
+
+struct PolygonShape {
+  int order = 0;
+  Fill as = Fill::hole;
+  int count = 0;
+  std::vector<std::array<double, 2>> points;  ///< corners of the first one: Cartesian, body frame
+  double phase = 0;                           ///< by which all are turned
+  bool operator==(const PolygonShape&) const = default;
+};
+
+/// What lies between two radii.
+struct AnnulusShape {
+  int order = 0;
+  Fill as = Fill::hole;
+  std::optional<double> inner_radius;  ///< absent: the edge of the rim's band
+  std::optional<double> outer_radius;  ///< absent: the edge of the tread's band
+  bool operator==(const AnnulusShape&) const = default;
+};
+
+enum class SpokeKind {
+  straight,
+  curved,  ///< a circular arc
+  forked,  ///< two branches from a stem
+  pair,    ///< two straight spokes, mirror images of each other
+};
+
+struct SpokeShape {
+  int order = 0;
+  Fill as = Fill::material;
+  SpokeKind kind = SpokeKind::straight;
+  int count = 0;
+  double thickness = 0;
+  double angle = 0;                   ///< azimuth of the outer end minus that of the foot
+  double bend = 0;                    ///< by which a curved spoke turns towards larger azimuth on its way out
+  double spread = 0;                  ///< between the outer ends of a fork, or the feet of a pair
+  std::optional<double> fork_radius;  ///< absent: the middle of the spoke
+  std::optional<double> inner_radius;  ///< of the foot; absent: the rim
+  std::optional<double> outer_radius;  ///< of the outer end; absent: the tread
+  std::optional<double> phase;
+  bool operator==(const SpokeShape&) const = default;
+};
+
+struct Shapes {
+  std::vector<CircleShape> circles;
+  std::vector<EllipseShape> ellipses;
+  std::vector<SlotShape> slots;
+  std::vector<PolygonShape> polygons;
+  std::vector<AnnulusShape> annuli;
+  std::vector<SpokeShape> spokes;
+  bool operator==(const Shapes&) const = default;
 };
 
 struct Grid {
@@ -149,6 +240,7 @@ struct Case {
   Load load;
   Contact contact;
   Holes holes;
+  Shapes shapes;
   Grid grid;
   GhostPenalty ghost_penalty;
   Objective objective;

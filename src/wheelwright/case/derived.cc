@@ -55,6 +55,13 @@ double smallest_hole_in_cells(const Case& c) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const HoleRing& ring : c.holes.rings) smallest = std::min(smallest, ring.radius);
   for (const HoleCircle& circle : c.holes.circles) smallest = std::min(smallest, circle.radius);
+  const auto add = [&](Fill as, double diameter) {
+    if (as == Fill::hole) smallest = std::min(smallest, 0.5 * diameter);
+  };
+  for (const CircleShape& circle : c.shapes.circles) add(circle.as, 2 * circle.radius);
+  for (const EllipseShape& ellipse : c.shapes.ellipses)
+    add(ellipse.as, std::min(ellipse.length, ellipse.width));
+  for (const SlotShape& slot : c.shapes.slots) add(slot.as, slot.width);
   return 2 * smallest / std::max(radial, azimuthal);
 }
 
@@ -94,6 +101,14 @@ int tread_rows(const Case& c) {
 double rim_band(const Case& c) { return c.optimizer.rim_band.value_or(least_rim_band(c)); }
 
 double tread_band(const Case& c) { return c.optimizer.tread_band.value_or(least_tread_band(c)); }
+
+FreeRegion free_region(const Case& c) {
+  return {c.wheel.inner_radius + rim_band(c), c.wheel.outer_radius - tread_band(c)};
+}
+
+bool has_holes(const Case& c) {
+  return !c.holes.rings.empty() || !c.holes.circles.empty() || c.shapes != Shapes{};
+}
 
 std::vector<Circle> sector_holes(const Case& c) {
   std::vector<Circle> holes;

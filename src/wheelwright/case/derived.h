@@ -40,7 +40,8 @@ double cells_per_contact_patch(const Case& c);
 /// Contact pressures are not resolved with fewer cells per patch than this.
 inline constexpr double least_cells_per_contact_patch = 6;
 
-/// Diameter of the smallest hole, in units of the longer cell edge at mid-ring; infinite without holes.
+/// Diameter of the smallest hole, as far as it has one, in units of the longer cell edge at mid-ring;
+/// infinite without holes.
 double smallest_hole_in_cells(const Case& c);
 
 /// Smaller holes fray in an optimization without smoothing.
@@ -74,8 +75,17 @@ double least_tread_band(const Case& c);
 double rim_band(const Case& c);
 double tread_band(const Case& c);
 
-/// The holes of one sector, from rings and circles; those of the other sectors are their rotations. A hole
-/// may lie in any sector and cross the interfaces between sectors.
+/// The radii [m] between the bands, where holes may be.
+struct FreeRegion {
+  double low, high;
+};
+FreeRegion free_region(const Case& c);
+
+/// Whether the initial shape has anything but the full ring.
+bool has_holes(const Case& c);
+
+/// The `[[holes.*]]` of one sector, from rings and circles; those of the other sectors are their rotations. A
+/// hole may lie in any sector and cross the interfaces between sectors.
 std::vector<Circle> sector_holes(const Case& c);
 
 /// Number of displacement unknowns of the full ring if every cell held material: an upper bound.

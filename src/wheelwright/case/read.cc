@@ -39,6 +39,7 @@ struct Reading {
   std::map<std::string, Entry> entries;  ///< by key path
   std::set<std::string> faulty;          ///< paths of keys whose value could not be used
   std::vector<Diagnostic> problems;
+  std::vector<std::pair<int, int>> shape_places;  ///< line and column of each shape
 };
 
 struct Complaint {
@@ -83,9 +84,14 @@ std::string quoted_list(const std::vector<std::string_view>& words) {
   return fmt::format("\"{}\"", fmt::join(words, "\", \""));
 }
 
-void note(Reading& reading, const std::string& path, const toml::node& node) {
+std::pair<int, int> node_place(const toml::node& node) {
   const auto begin = node.source().begin;
-  reading.entries[path] = {static_cast<int>(begin.line), static_cast<int>(begin.column), value_text(node)};
+  return {static_cast<int>(begin.line), static_cast<int>(begin.column)};
+}
+
+void note(Reading& reading, const std::string& path, const toml::node& node) {
+  const auto [line, column] = node_place(node);
+  reading.entries[path] = {line, column, value_text(node)};
 }
 
 void complain(Reading& reading, const std::string& path, Entry at, Complaint complaint) {
@@ -170,6 +176,28 @@ std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>& k
   for (int d = 0; d < 2; ++d)
     if (auto complaint = read_number((*array)[d], key.unit, field.range, (out.*field.member)[d]))
       return complaint;
+  return {};
+}
+
+template <class Struct>
+std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>& key,
+                                    const PointsField<Struct>& field, Struct& out) {
+  const toml::array* array = node.as_array();
+  const auto is_point = [](const toml::node& element) {
+    return element.is_array() && element.as_array()->size() == 2;
+  };
+  if (!array || !std::all_of(array->begin(), array->end(), is_point))
+    return wrong_type("a list of points", "write it as [[x, y], [x, y], [x, y]]");
+  if (array->size() < fewest_points || array->size() > most_points)
+    return Complaint{
+        Kind::out_of_range,
+        fmt::format("has {} points; {} to {} are accepted", array->size(), fewest_points, most_points), ""};
+  auto& points = out.*field.member;
+  points.assign(array->size(), {});
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (int d = 0; d < 2; ++d)
+      if (auto complaint = read_number((*(*array)[i].as_array())[d], key.unit, field.range, points[i][d]))
+        return complaint;
   return {};
 }
 
@@ -324,25 +352,56 @@ void read_section(Reading& reading, const toml::table& root, const SectionArray<
   auto& list = section.in(out);
   for (const toml::node& element : *array) {
     list.emplace_back();
+    if constexpr (requires { list.back().order; }) {
+      reading.shape_places.push_back(node_place(element));
+      list.back().order = static_cast<int>(reading.shape_places.size());
+    }
     const std::string path = fmt::format("{}[{}]", section.path(), list.size());
+    const auto [line, column] = node_place(element);
+    reading.entries[path] = {line, column, ""};
     read_table(reading, path, *element.as_table(), section.keys, list.back());
   }
 }
 
+/// Complains of what stands in a table that only holds arrays of tables.
+template <class Struct>
+void read_parent(Reading& reading, const toml::table& root, std::string_view name, Struct& out) {
+  if (const toml::table* table = find_table(reading, root, name))
+    read_table(reading, std::string(name), *table, std::vector<Key<Struct>>{}, out);
+}
+
+/// Numbers the shapes, which hold their places in the list so far, in the order of the file.
+void put_shapes_in_order(const std::vector<std::pair<int, int>>& places, Case& c) {
+  std::vector<std::pair<int, int>> sorted = places;
+  std::sort(sorted.begin(), sorted.end());
+  for_each_shape_section([&](const auto& section) {
+    for (auto& shape : section.in(c)) {
+      const auto place = std::lower_bound(sorted.begin(), sorted.end(), places[shape.order - 1]);
+      shape.order = 1 + static_cast<int>(place - sorted.begin());
+    }
+  });
+}
+
 Case read_root(Reading& reading, const toml::table& root) {
   Case result;
-  const std::string_view holes = ring_sections().parent;
-  if (const toml::table* table = find_table(reading, root, holes))
-    read_table(reading, std::string(holes), *table, std::vector<Key<Holes>>{}, result.holes);
+  read_parent(reading, root, ring_sections().parent, result.holes);
+  read_parent(reading, root, circle_shape_sections().parent, result.shapes);
   for_each_section([&](const auto& section) { read_section(reading, root, section, result); });
+  put_shapes_in_order(reading.shape_places, result);
   return result;
+}
+
+/// Whether the key, or one in the table of that name, has a problem of its own.
+bool is_faulty(const Reading& reading, const std::string& key) {
+  const auto inside = reading.faulty.lower_bound(key + ".");
+  return reading.faulty.contains(key) || (inside != reading.faulty.end() && inside->starts_with(key + "."));
 }
 
 /// Conflicts that involve a key with a problem of its own are left out: they may vanish with it.
 void check_conflicts(Reading& reading, const Case& c) {
   for (const Conflict& conflict : conflicts(c)) {
     const auto& keys = conflict.keys;
-    if (std::any_of(keys.begin(), keys.end(), [&](const auto& key) { return reading.faulty.contains(key); }))
+    if (std::any_of(keys.begin(), keys.end(), [&](const auto& key) { return is_faulty(reading, key); }))
       continue;
     const auto given = std::find_if(keys.begin(), keys.end(),
                                     [&](const auto& key) { return reading.entries.contains(key); });
@@ -396,7 +455,7 @@ std::string default_folder(const std::filesystem::path& file) {
 }
 
 CaseResult interpret(const TomlLines& toml, const std::filesystem::path& file) {
-  Reading reading{.file = file.string(), .entries = {}, .faulty = {}, .problems = {}};
+  Reading reading{.file = file.string(), .entries = {}, .faulty = {}, .problems = {}, .shape_places = {}};
   std::vector<Diagnostic> syntax;
   for (const SyntaxError& error : toml.errors) syntax.push_back(diagnostic(error, reading.file));
   Case result = read_root(reading, toml.root);

@@ -3,13 +3,10 @@
 #include <memory>
 #include <vector>
 
+#include "wheelwright/drawing/fill.h"
 #include "wheelwright/drawing/outline.h"
-#include "wheelwright/geometry/level_set.h"
 
 namespace wheelwright {
-
-/// What an outline adds to a shape.
-enum class Fill { material, hole };
 
 /// Equal outlines that are drawn together, e.g. the spokes of a wheel: their union is filled.
 struct Figure {
@@ -41,11 +38,5 @@ class Composition {
   std::vector<Owner> owners_;  ///< of each curve
   std::unique_ptr<const CurveTree> curves_, boundary_;
 };
-
-/// Signed distance [m] to the boundary at the nodes, positive in the holes; without a boundary minus the
-/// thickness of the ring. The composition must be the same in all sectors. When dim = 3 the shape is a
-/// cylinder along the axle.
-template <int dim>
-LevelSet<dim> make_level_set(const Lattice<dim>& lattice, const Composition& composition);
 
 }  // namespace wheelwright

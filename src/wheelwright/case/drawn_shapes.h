@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "wheelwright/case/case.h"
+#include "wheelwright/drawing/composition.h"
+
+namespace wheelwright {
+
+/// A shape of a case as curves.
+struct DrawnShape {
+  int order;        ///< among the shapes of the case
+  std::string key;  ///< e.g. "shape.slot[2]"
+  Fill fill;
+  std::vector<Outline> first;  ///< what is repeated: the union of these [m]
+  int count;                   ///< how often, round the wheel
+  bool is_round;               ///< the same at all azimuths; `count` is 0, as it fits any number of sectors
+  bool may_leave_ring;         ///< material beyond rim and tread has no effect, and is meant
+};
+
+/// All `[[shape.*]]` of a case, in their order. Shapes whose keys contradict each other have no outlines.
+std::vector<DrawnShape> drawn_shapes(const Case& c);
+
+/// The whole wheel of a case as figures: its `[[holes.*]]`, and over them its shapes.
+std::vector<Figure> figures(const Case& c);
+
+/// Curves of one shape, and of all shapes with their repetitions; more are refused.
+inline constexpr long long most_curves = 200'000;
+
+/// Number of curves of a shape, with its repetitions.
+long long curve_count(const DrawnShape& shape);
+
+}  // namespace wheelwright
