@@ -26,6 +26,7 @@
 #include "wheelwright/case/suggest.h"
 #include "wheelwright/case/toml_guard.h"
 #include "wheelwright/case/write.h"
+#include "wheelwright/files/checksum.h"
 
 namespace wheelwright {
 namespace {
@@ -71,6 +72,8 @@ std::string kind_name(Kind kind) {
       return "out_of_range";
     case Kind::conflict:
       return "conflict";
+    case Kind::drawing:
+      return "drawing";
   }
   return "";
 }
@@ -112,6 +115,13 @@ Case with_holes() {
     section.in(c) = {section.example};
     section.in(c)[0].order = ++order;
   });
+  const auto drawings = source / "tests" / "drawings";
+  const auto place = [&](auto& shape) {
+    shape.path = drawings / shape.path;
+    shape.checksum = fmt::format("crc32:{:08x}", checksum(contents(shape.path)));
+  };
+  place(c.shapes.files[0]);
+  place(c.shapes.pictures[0]);
   c.expectations = {expectation_sections().example};
   return c;
 }
@@ -194,7 +204,8 @@ std::string with_all_keys(std::string text) {
 }
 
 TEST(CaseFile, TheTemplatesCommentedHolesAreValid) {
-  const CaseResult result = parse_case(with_all_keys(case_template()), "template.toml");
+  const CaseResult result =
+      parse_case(with_all_keys(case_template()), source / "tests" / "drawings" / "template.toml");
   ASSERT_TRUE(result.value) << texts(result.problems);
   EXPECT_EQ(result.value->holes.circles, std::vector{circle_sections().example});
   EXPECT_EQ(result.value->expectations, std::vector{expectation_sections().example});
@@ -319,6 +330,8 @@ template <class Field>
 constexpr bool is_point = false;
 template <class Struct>
 constexpr bool is_point<PointField<Struct>> = true;
+template <class Struct>
+constexpr bool is_point<OptionalPointField<Struct>> = true;
 
 template <class Field>
 constexpr bool is_list_of_points = false;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,6 +14,9 @@
 #include "wheelwright/elasticity/material.h"
 
 namespace wheelwright {
+
+struct Drawing;
+struct Picture;
 
 // A case: everything that defines one optimization, as plain data in SI units and radians. The initial values
 // here are the defaults of the case file; names, units, ranges and meanings are declared in case/keys.cc.
@@ -147,6 +151,49 @@ struct SpokeShape {
   bool operator==(const SpokeShape&) const = default;
 };
 
+/// What was read from a file that the case names. The case compares files by their checksums.
+template <class Contents>
+struct Loaded {
+  std::shared_ptr<const Contents> contents;
+  bool operator==(const Loaded&) const { return true; }
+};
+
+enum class DrawingUnit { of_file, metre, centimetre, millimetre, inch };
+
+/// A drawing in a file of curves: SVG or DXF.
+struct FileShape {
+  int order = 0;
+  Fill as = Fill::hole;
+  std::string path;  ///< relative to the case's file
+  DrawingUnit unit = DrawingUnit::of_file;
+  std::optional<std::array<double, 2>> axle;  ///< in the drawing's own unit and axes
+  int count = 1;
+  double phase = 0;      ///< by which all are turned
+  std::string checksum;  ///< of the file; never empty in a case that was read from a file
+  Loaded<Drawing> drawing;
+  bool operator==(const FileShape&) const = default;
+};
+
+enum class PictureLayout {
+  wheel,   ///< the whole wheel as it is seen
+  sector,  ///< one of `count` equal parts, unrolled
+};
+
+/// A picture of pixels: PNG.
+struct PictureShape {
+  int order = 0;
+  Fill as = Fill::hole;
+  std::string path;  ///< relative to the case's file
+  PictureLayout layout = PictureLayout::wheel;
+  std::optional<double> width;  ///< of the picture of a wheel
+  double threshold = 0.5;       ///< darker than this is drawn: 0 white, 1 black
+  int count = 1;
+  double phase = 0;      ///< by which all are turned
+  std::string checksum;  ///< of the file; never empty in a case that was read from a file
+  Loaded<Picture> picture;
+  bool operator==(const PictureShape&) const = default;
+};
+
 struct Shapes {
   std::vector<CircleShape> circles;
   std::vector<EllipseShape> ellipses;
@@ -154,6 +201,8 @@ struct Shapes {
   std::vector<PolygonShape> polygons;
   std::vector<AnnulusShape> annuli;
   std::vector<SpokeShape> spokes;
+  std::vector<FileShape> files;
+  std::vector<PictureShape> pictures;
   bool operator==(const Shapes&) const = default;
 };
 

@@ -100,11 +100,9 @@ std::vector<int> divisors(int n) {
   return result;
 }
 
-/// Finds rings and shapes that are not the same in all sectors.
+/// Finds rings and tables of shapes that are not the same in all sectors.
 void check_counts(const Case& c, const std::vector<DrawnShape>& shapes, Conflicts& found) {
-  int common = 0;
-  for (const HoleRing& ring : c.holes.rings) common = std::gcd(common, ring.count);
-  for (const DrawnShape& shape : shapes) common = std::gcd(common, shape.count);
+  const int common = common_count(c, shapes);
   const auto check = [&](std::string key, int count) {
     if (count % c.wheel.sectors == 0) return;
     found.push_back({{std::move(key), "wheel.sectors"},
@@ -114,7 +112,7 @@ void check_counts(const Case& c, const std::vector<DrawnShape>& shapes, Conflict
   };
   for (std::size_t i = 0; i < c.holes.rings.size(); ++i) check(ring_key(i, "count"), c.holes.rings[i].count);
   for (const DrawnShape& shape : shapes)
-    if (!shape.is_round) check(shape.key + ".count", shape.count);
+    if (shape.repetition == Repetition::by_count) check(shape.key + ".count", shape.count);
 }
 
 void check_hole_inside(const Case& c, double center_radius, double radius, std::vector<std::string> keys,

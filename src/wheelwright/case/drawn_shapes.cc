@@ -8,7 +8,9 @@
 
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/keys.h"
+#include "wheelwright/drawing/drawing.h"
 #include "wheelwright/drawing/parts.h"
+#include "wheelwright/drawing/picture_outline.h"
 
 namespace wheelwright {
 
@@ -95,6 +97,38 @@ Outlines outlines(const SpokeShape& s, const Case& c) {
   return {};
 }
 
+Outlines outlines(const FileShape& s, const Case&) {
+  if (!s.drawing.contents) return {};
+  return {s.drawing.contents->outline.mapped(Affine::rotation(s.phase))};
+}
+
+Outlines outlines(const PictureShape& s, const Case& c) {
+  if (!s.picture.contents) return {};
+  const Picture& picture = *s.picture.contents;
+  const Outline outline =
+      s.layout == PictureLayout::wheel
+          ? wheel_outline(picture, s.threshold, s.width.value_or(0))
+          : ring_outline(picture, s.threshold, s.count, c.wheel.inner_radius, c.wheel.outer_radius);
+  return {outline.mapped(Affine::rotation(s.phase))};
+}
+
+/// Arc length at the tread that the picture of a sector shows [m].
+double sector_width(const PictureShape& s, const Case& c) { return 2 * pi * c.wheel.outer_radius / s.count; }
+
+/// By how much a curve of a shape may be off [m].
+template <class Shape>
+double accuracy(const Shape& shape, const Case& c) {
+  constexpr double of_drawings = 1e-4;
+  const double least = of_drawings * c.wheel.outer_radius;
+  if constexpr (std::is_same_v<Shape, PictureShape>) {
+    if (!shape.picture.contents) return least;
+    const double width =
+        shape.layout == PictureLayout::wheel ? shape.width.value_or(0) : sector_width(shape, c);
+    return std::max(least, width / shape.picture.contents->columns);
+  }
+  return least;
+}
+
 bool is_possible(const CircleShape&, const Case&) { return true; }
 bool is_possible(const EllipseShape&, const Case&) { return true; }
 bool is_possible(const SlotShape& s, const Case&) { return s.width <= s.length; }
@@ -110,12 +144,34 @@ bool is_possible(const SpokeShape& s, const Case& c) {
   return inner < outer && s.thickness < outer - inner && fork > inner && fork < outer;
 }
 
+bool is_possible(const FileShape&, const Case&) { return true; }
+bool is_possible(const PictureShape& s, const Case&) { return s.layout == PictureLayout::sector || s.width; }
+
 template <class Shape>
 int copies(const Shape& shape) {
   if constexpr (requires { shape.count; })
     return shape.count;
   else
-    return 0;
+    return 1;
+}
+
+template <class Shape>
+constexpr Repetition repetition = Repetition::by_count;
+template <>
+constexpr Repetition repetition<AnnulusShape> = Repetition::round;
+template <>
+constexpr Repetition repetition<FileShape> = Repetition::by_curves;
+template <>
+constexpr Repetition repetition<PictureShape> = Repetition::by_curves;
+
+/// The picture of a sector is drawn round the whole wheel at once, as its outlines cross from one to the
+/// next.
+template <class Shape>
+bool is_whole(const Shape& shape) {
+  if constexpr (std::is_same_v<Shape, PictureShape>)
+    return shape.layout == PictureLayout::sector;
+  else
+    return false;
 }
 
 Outlines turned(const Outlines& first, double angle) {
@@ -123,14 +179,6 @@ Outlines turned(const Outlines& first, double angle) {
   Outlines result;
   for (const Outline& outline : first) result.push_back(outline.mapped(turn));
   return result;
-}
-
-Figure figure_of(const DrawnShape& shape) {
-  Figure figure{shape.fill, shape.first};
-  for (int i = 1; i < shape.count; ++i)
-    for (Outline& outline : turned(shape.first, 2 * pi * i / shape.count))
-      figure.outlines.push_back(std::move(outline));
-  return figure;
 }
 
 /// The `[[holes.*]]` of all sectors.
@@ -152,22 +200,29 @@ std::vector<DrawnShape> drawn_shapes(const Case& c) {
   for_each_shape_section([&](const auto& section) {
     int number = 0;
     for (const auto& shape : section.of(c)) {
-      constexpr bool is_spoke = std::is_same_v<std::decay_t<decltype(shape)>, SpokeShape>;
-      const int count = copies(shape);
-      const bool has_outlines = (count > 0 || !requires { shape.count; }) && is_possible(shape, c);
-      result.push_back({.order = shape.order,
-                        .key = fmt::format("{}[{}]", section.path(), ++number),
-                        .fill = shape.as,
-                        .first = has_outlines ? outlines(shape, c) : Outlines{},
-                        .count = count,
-                        .is_round = !requires { shape.count;
+      using Shape = std::decay_t<decltype(shape)>;
+      const bool has_outlines = copies(shape) > 0 && is_possible(shape, c);
+      result.push_back(
+          {.order = shape.order,
+           .key = fmt::format("{}[{}]", section.path(), ++number),
+           .fill = shape.as,
+           .first = has_outlines ? outlines(shape, c) : Outlines{},
+           .repetition = repetition<Shape>,
+           .count = is_whole(shape) ? 1 : copies(shape),
+           .may_leave_ring = std::is_same_v<Shape, SpokeShape> || std::is_same_v<Shape, PictureShape>,
+           .accuracy = accuracy(shape, c)});
     }
-    , .may_leave_ring = is_spoke
   });
+  std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return a.order < b.order; });
+  return result;
 }
-});
-std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return a.order < b.order; });
-return result;
+
+Figure figure_of(const DrawnShape& shape) {
+  Figure figure{shape.fill, shape.first};
+  for (int i = 1; i < shape.count; ++i)
+    for (Outline& outline : turned(shape.first, 2 * pi * i / shape.count))
+      figure.outlines.push_back(std::move(outline));
+  return figure;
 }
 
 std::vector<Figure> figures(const Case& c) {
@@ -180,7 +235,7 @@ long long curve_count(const DrawnShape& shape) {
   long long count = 0;
   for (const Outline& outline : shape.first)
     for (const Loop& loop : outline.loops) count += static_cast<long long>(loop.curves.size());
-  return count * std::max(1, shape.count);
+  return count * shape.count;
 }
 
 }  // namespace wheelwright

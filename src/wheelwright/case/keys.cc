@@ -426,6 +426,95 @@ const SectionArray<SpokeShape>& spoke_shape_sections() {
   return sections;
 }
 
+namespace {
+
+template <class Struct>
+Key<Struct> path_key(std::string_view meaning) {
+  return {.name = "path",
+          .unit = "",
+          .field = TextField<Struct>{&Struct::path, ""},
+          .meaning = meaning,
+          .presence = Presence::required};
+}
+
+template <class Struct>
+Key<Struct> copies_key(std::string_view meaning) {
+  return {.name = "count",
+          .unit = "",
+          .field = IntegerField<Struct>{&Struct::count, between(1, 100000)},
+          .meaning = meaning};
+}
+
+template <class Struct>
+Key<Struct> checksum_key() {
+  return {.name = "checksum",
+          .unit = "",
+          .field = TextField<Struct>{&Struct::checksum, "any file is taken"},
+          .meaning = "CRC-32 of the file; another file is refused. Runs write it into their own case file"};
+}
+
+}  // namespace
+
+const SectionArray<FileShape>& file_shape_sections() {
+  static const SectionArray<FileShape> sections{
+      .parent = "shape",
+      .name = "file",
+      .meaning =
+          "the closed outlines of a drawing, SVG or DXF, by the even-odd rule: an outline in another one "
+          "cuts "
+          "it out ([how drawings are read](shapes.md))",
+      .in = [](Case& c) -> std::vector<FileShape>& { return c.shapes.files; },
+      .example = {.path = "drawing.svg", .axle = {}, .checksum = {}, .drawing = {}},
+      .keys = {
+          fill_key<FileShape>(choice<&FileShape::as>({"material", "hole"})),
+          path_key<FileShape>("the file, .svg or .dxf; relative to the folder of the case file"),
+          {.name = "unit",
+           .unit = "",
+           .field = choice<&FileShape::unit>({"file", "m", "cm", "mm", "in"}),
+           .meaning = "unit of the numbers in the drawing; file: the file must say it"},
+          {.name = "axle",
+           .unit = "",
+           .field = OptionalPointField<FileShape>{&FileShape::axle, between(-1e9, 1e9),
+                                                  "the centre of the page of an SVG, the origin of a DXF"},
+           .meaning = "[x, y] of the axle in the drawing, in its own unit and axes"},
+          copies_key<FileShape>(
+              "how often the drawing is repeated round the full wheel; 1 if it shows all of it"),
+          angle_key(&FileShape::phase, "phase", "turns the drawing towards larger azimuth"),
+          checksum_key<FileShape>()}};
+  return sections;
+}
+
+const SectionArray<PictureShape>& picture_shape_sections() {
+  static const SectionArray<PictureShape> sections{
+      .parent = "shape",
+      .name = "picture",
+      .meaning = "what is dark in a PNG; transparent pixels are not drawn",
+      .in = [](Case& c) -> std::vector<PictureShape>& { return c.shapes.pictures; },
+      .example = {.path = "picture.png", .width = 0.7, .checksum = {}, .picture = {}},
+      .keys = {
+          fill_key<PictureShape>(choice<&PictureShape::as>({"material", "hole"})),
+          path_key<PictureShape>("the file, .png; relative to the folder of the case file"),
+          {.name = "layout",
+           .unit = "",
+           .field = choice<&PictureShape::layout>({"wheel", "sector"}),
+           .meaning =
+               "wheel: the whole wheel, the axle in the middle; sector: one of `count` equal parts, "
+               "unrolled, from the tread at the top to the rim at the bottom, azimuth growing to the right"},
+          {.name = "width",
+           .unit = "m",
+           .field = OptionalNumberField<PictureShape>{&PictureShape::width, length,
+                                                      "none, for a sector; required for a wheel"},
+           .meaning = "width of the whole picture of a wheel"},
+          {.name = "threshold",
+           .unit = "",
+           .field = NumberField<PictureShape>{&PictureShape::threshold, between(0.01, 0.99)},
+           .meaning = "what is darker is drawn; 0 is white and 1 is black"},
+          copies_key<PictureShape>("how often the picture is repeated round the full wheel"),
+          angle_key(&PictureShape::phase, "phase", "turns the picture towards larger azimuth"),
+          checksum_key<PictureShape>()}};
+  return sections;
+}
+
 const Section<Grid>& grid_section() {
   static const Section<Grid> section{
       .name = "grid",

@@ -89,6 +89,14 @@ struct PointField {
   Range range;
 };
 
+/// A point whose default is described by a text.
+template <class Struct>
+struct OptionalPointField {
+  std::optional<std::array<double, 2>> Struct::*member;
+  Range range;
+  std::string_view default_text;
+};
+
 /// A list of at least three points.
 template <class Struct>
 struct PointsField {
@@ -129,8 +137,8 @@ struct Key {
   std::string_view name;
   std::string_view unit;  ///< empty for pure numbers and words
   std::variant<NumberField<Struct>, OptionalNumberField<Struct>, IntegerField<Struct>,
-               OptionalIntegerField<Struct>, TextField<Struct>, PointField<Struct>, PointsField<Struct>,
-               ChoiceField<Struct>>
+               OptionalIntegerField<Struct>, TextField<Struct>, PointField<Struct>,
+               OptionalPointField<Struct>, PointsField<Struct>, ChoiceField<Struct>>
       field;
   std::string_view meaning;
   Presence presence = Presence::has_default;
@@ -177,6 +185,8 @@ const SectionArray<SlotShape>& slot_shape_sections();
 const SectionArray<PolygonShape>& polygon_shape_sections();
 const SectionArray<AnnulusShape>& annulus_shape_sections();
 const SectionArray<SpokeShape>& spoke_shape_sections();
+const SectionArray<FileShape>& file_shape_sections();
+const SectionArray<PictureShape>& picture_shape_sections();
 const Section<Grid>& grid_section();
 const Section<GhostPenalty>& ghost_penalty_section();
 const Section<Objective>& objective_section();
@@ -194,6 +204,8 @@ void for_each_shape_section(Visitor&& visit) {
   visit(polygon_shape_sections());
   visit(annulus_shape_sections());
   visit(spoke_shape_sections());
+  visit(file_shape_sections());
+  visit(picture_shape_sections());
 }
 
 /// Calls visit(section) for every Section and SectionArray, in the order of the file.

@@ -17,6 +17,7 @@
 #include "wheelwright/base/text.h"
 #include "wheelwright/case/conflicts.h"
 #include "wheelwright/case/keys.h"
+#include "wheelwright/case/load_drawings.h"
 #include "wheelwright/case/suggest.h"
 #include "wheelwright/case/toml_guard.h"
 #include "wheelwright/case/toml_lines.h"
@@ -168,15 +169,28 @@ std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>&,
   return {};
 }
 
-template <class Struct>
-std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>& key,
-                                    const PointField<Struct>& field, Struct& out) {
+std::optional<Complaint> read_point(const toml::node& node, std::string_view unit, const Range& range,
+                                    std::array<double, 2>& out) {
   const toml::array* array = node.as_array();
   if (!array || array->size() != 2) return wrong_type("a point", "write it as [x, y]");
   for (int d = 0; d < 2; ++d)
-    if (auto complaint = read_number((*array)[d], key.unit, field.range, (out.*field.member)[d]))
-      return complaint;
+    if (auto complaint = read_number((*array)[d], unit, range, out[d])) return complaint;
   return {};
+}
+
+template <class Struct>
+std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>& key,
+                                    const PointField<Struct>& field, Struct& out) {
+  return read_point(node, key.unit, field.range, out.*field.member);
+}
+
+template <class Struct>
+std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>& key,
+                                    const OptionalPointField<Struct>& field, Struct& out) {
+  std::array<double, 2> point{};
+  auto complaint = read_point(node, key.unit, field.range, point);
+  if (!complaint) out.*field.member = point;
+  return complaint;
 }
 
 template <class Struct>
@@ -195,9 +209,7 @@ std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>& k
   auto& points = out.*field.member;
   points.assign(array->size(), {});
   for (std::size_t i = 0; i < points.size(); ++i)
-    for (int d = 0; d < 2; ++d)
-      if (auto complaint = read_number((*(*array)[i].as_array())[d], key.unit, field.range, points[i][d]))
-        return complaint;
+    if (auto complaint = read_point((*array)[i], key.unit, field.range, points[i])) return complaint;
   return {};
 }
 
@@ -421,6 +433,37 @@ void check_conflicts(Reading& reading, const Case& c) {
   }
 }
 
+/// The table of a key: "shape.file[1]" of "shape.file[1].unit".
+std::string table_of(const std::string& key) { return key.substr(0, key.rfind('.')); }
+
+/// Loads the drawings of shapes without problems. Returns the problems that stand in the drawings; those of
+/// the case's own lines are added to the reading's.
+std::vector<Diagnostic> load_drawings(Reading& reading, Case& c) {
+  const auto may_be_read = [&](const std::string& key) { return !is_faulty(reading, key); };
+  std::vector<Diagnostic> in_drawings;
+  const auto folder = std::filesystem::path(reading.file).parent_path();
+  for (FileProblem& problem : load_drawings(c, folder, may_be_read)) {
+    const auto given = reading.entries.find(problem.key);
+    const Entry at =
+        given != reading.entries.end() ? given->second : reading.entries.at(table_of(problem.key));
+    if (problem.file.empty()) {
+      complain(reading, problem.key, at,
+               {problem.kind, std::move(problem.problem), std::move(problem.remedy)});
+      continue;
+    }
+    reading.faulty.insert(problem.key);
+    in_drawings.push_back({.kind = problem.kind,
+                           .file = std::move(problem.file),
+                           .line = problem.line,
+                           .column = 0,
+                           .key = std::move(problem.key),
+                           .value = at.value,
+                           .problem = std::move(problem.problem),
+                           .remedy = std::move(problem.remedy)});
+  }
+  return in_drawings;
+}
+
 CaseResult failed(Diagnostic problem) { return {std::nullopt, {std::move(problem)}}; }
 
 Diagnostic diagnostic(const SyntaxError& error, const std::string& file) {
@@ -459,6 +502,7 @@ CaseResult interpret(const TomlLines& toml, const std::filesystem::path& file) {
   std::vector<Diagnostic> syntax;
   for (const SyntaxError& error : toml.errors) syntax.push_back(diagnostic(error, reading.file));
   Case result = read_root(reading, toml.root);
+  const std::vector<Diagnostic> in_drawings = load_drawings(reading, result);
   if (syntax.empty()) check_conflicts(reading, result);
   if (syntax.empty() && toml.root.empty())
     return failed({.kind = Kind::empty,
@@ -473,6 +517,7 @@ CaseResult interpret(const TomlLines& toml, const std::filesystem::path& file) {
   std::stable_sort(problems.begin(), problems.end(), [](const auto& a, const auto& b) {
     return std::tie(a.line, a.column) < std::tie(b.line, b.column);
   });
+  problems.insert(problems.end(), in_drawings.begin(), in_drawings.end());
   if (!problems.empty()) return {std::nullopt, std::move(problems)};
   if (result.output.folder.empty()) result.output.folder = default_folder(file);
   return {std::move(result), {}};

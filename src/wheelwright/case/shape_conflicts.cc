@@ -1,12 +1,16 @@
 #include "wheelwright/case/shape_conflicts.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/keys.h"
+#include "wheelwright/drawing/drawing.h"
+#include "wheelwright/drawing/symmetry.h"
 
 namespace wheelwright {
 
@@ -110,6 +114,21 @@ RadialExtent radial_extent(const DrawnShape& shape, std::string& lowest_place, s
   return all;
 }
 
+/// What a drawing would reach in other units, if it is far too large or too small for the wheel.
+std::string unit_hint(const DrawnShape& shape, const Case& c, double reach) {
+  constexpr double far_off = 8;
+  const double ratio = reach / c.wheel.outer_radius;
+  if (!shape.key.starts_with("shape.file") || (ratio < far_off && ratio > 1 / far_off)) return "";
+  const int number = std::stoi(shape.key.substr(shape.key.find('[') + 1));
+  const auto& drawing = c.shapes.files[number - 1].drawing.contents;
+  if (!drawing) return "";
+  const double units = reach / drawing->metres_per_unit;
+  return fmt::format(
+      "is its unit right? The drawing reaches {:.6g} of its units from the axle: {:.4g} m if they are "
+      "millimetres, {:.4g} m if they are inches, {:.4g} m if they are metres",
+      units, units * 1e-3, units * 0.0254, units);
+}
+
 /// Holes must lie between the bands, and material in the ring.
 void check_extent(const Case& c, const DrawnShape& shape, Conflicts& found) {
   FreeRegion region = free_region(c);
@@ -125,12 +144,13 @@ void check_extent(const Case& c, const DrawnShape& shape, Conflicts& found) {
                                                   point_text(extent.highest), place_text(highest_place))
                                     : fmt::format("reaches radius {:.6g} m at {}{}", extent.low,
                                                   point_text(extent.lowest), place_text(lowest_place));
+  const std::string hint = unit_hint(shape, c, extent.high);
   const std::string allowed =
       is_hole ? "between the bands at rim and tread there is only" : "the ring has only";
   found.push_back({with_ring_shape({shape.key}),
                    fmt::format("{} {}; {} {:.6g} m to {:.6g} m", is_hole ? "the hole" : "the material", where,
                                allowed, region.low, region.high),
-                   "move it, or make it smaller"});
+                   hint.empty() ? "move it, or make it smaller" : hint});
 }
 
 void check_crossings(const DrawnShape& shape, Conflicts& found) {
@@ -141,6 +161,32 @@ void check_crossings(const DrawnShape& shape, Conflicts& found) {
                        fmt::format("the outline crosses or touches itself at {}{}", point_text(crossing.at),
                                    place_text(crossing.first)),
                        "correct its points"});
+}
+
+void check_pictures(const Case& c, Conflicts& found) {
+  for (std::size_t i = 0; i < c.shapes.pictures.size(); ++i) {
+    const PictureShape& picture = c.shapes.pictures[i];
+    const bool is_wheel = picture.layout == PictureLayout::wheel;
+    if (is_wheel == picture.width.has_value()) continue;
+    found.push_back({{shape_key("picture", i, "width"), fmt::format("shape.picture[{}]", i + 1)},
+                     is_wheel ? "missing: a picture does not say how wide the wheel is"
+                              : "the picture of a sector has no width: it is as wide as the sector",
+                     is_wheel ? "give the width of the whole picture in metres" : "leave the key out"});
+  }
+}
+
+/// Finds drawings and pictures that are not the same in all sectors.
+void check_repetition(const Case& c, const DrawnShape& shape, int common, Conflicts& found) {
+  if (shape.repetition != Repetition::by_curves || shape.count % c.wheel.sectors == 0 || shape.first.empty())
+    return;
+  const Composition drawn({figure_of(shape)});
+  if (repeats(drawn, c.wheel.sectors, shape.accuracy)) return;
+  constexpr int most_sectors = 360;
+  std::vector<int> fitting = repetitions(drawn, most_sectors, shape.accuracy);
+  std::erase_if(fitting, [&](int n) { return common % n != 0 || c.grid.angular_cells % n != 0; });
+  found.push_back({{"wheel.sectors", shape.key + ".path", shape.key},
+                   fmt::format("what {} draws is not the same in {} sectors", shape.key, c.wheel.sectors),
+                   fmt::format("values of wheel.sectors that fit: {}", fmt::join(fitting, ", "))});
 }
 
 void check_number_of_curves(const std::vector<DrawnShape>& shapes, Conflicts& found) {
@@ -164,16 +210,27 @@ std::vector<std::string> with_ring_shape(std::vector<std::string> keys) {
   return keys;
 }
 
+int common_count(const Case& c, const std::vector<DrawnShape>& shapes) {
+  int common = 0;
+  for (const HoleRing& ring : c.holes.rings) common = std::gcd(common, ring.count);
+  for (const DrawnShape& shape : shapes)
+    if (shape.repetition == Repetition::by_count) common = std::gcd(common, shape.count);
+  return common;
+}
+
 std::vector<Conflict> shape_conflicts(const Case& c, const std::vector<DrawnShape>& shapes) {
   Conflicts found;
   check_slots(c, found);
   check_annuli(c, found);
   for (std::size_t i = 0; i < c.shapes.spokes.size(); ++i) check_spoke(c, i, found);
+  check_pictures(c, found);
   check_number_of_curves(shapes, found);
   if (!found.empty()) return found;
+  const int common = common_count(c, shapes);
   for (const DrawnShape& shape : shapes) {
     check_extent(c, shape, found);
-    check_crossings(shape, found);
+    if (shape.repetition == Repetition::by_count) check_crossings(shape, found);
+    check_repetition(c, shape, common, found);
   }
   return found;
 }

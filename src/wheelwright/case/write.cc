@@ -82,6 +82,12 @@ std::string value_text(const PointField<Struct>& field, const Struct& s) {
 }
 
 template <class Struct>
+std::string value_text(const OptionalPointField<Struct>& field, const Struct& s) {
+  const auto& point = s.*field.member;
+  return point ? fmt::format("[{}, {}]", number_text((*point)[0]), number_text((*point)[1])) : "";
+}
+
+template <class Struct>
 std::string value_text(const PointsField<Struct>& field, const Struct& s) {
   std::vector<std::string> points;
   for (const auto& [x, y] : s.*field.member)

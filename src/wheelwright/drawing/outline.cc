@@ -98,14 +98,14 @@ RadialExtent radial_extent(const Curve& curve) {
     add(piece.at(piece.nearest({0, 0}).parameter));
     add(piece.start());
     add(piece.end());
-    // The farthest point lies where the radius is stationary: golden sections of a piece that turns little.
+    // The radius is largest inside where it grows at the start and falls at the end.
+    const auto growth = [&](double s) { return dot<2>(piece.at(s), piece.derivative(s)); };
+    if (growth(0) <= 0 || growth(1) >= 0) continue;
     double low = 0, high = 1;
-    constexpr double golden = 0.6180339887498949;
-    constexpr int sections = 60;
-    for (int i = 0; i < sections; ++i) {
-      const double s = high - golden * (high - low), t = low + golden * (high - low);
-      (norm<2>(piece.at(s)) < norm<2>(piece.at(t)) ? low : high) =
-          norm<2>(piece.at(s)) < norm<2>(piece.at(t)) ? s : t;
+    constexpr int halvings = 60;
+    for (int i = 0; i < halvings; ++i) {
+      const double middle = 0.5 * (low + high);
+      (growth(middle) > 0 ? low : high) = middle;
     }
     add(piece.at(0.5 * (low + high)));
   }

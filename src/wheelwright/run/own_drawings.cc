@@ -1,0 +1,28 @@
+#include "wheelwright/run/own_drawings.h"
+
+#include <fmt/format.h>
+
+#include "wheelwright/drawing/drawing.h"
+#include "wheelwright/drawing/png_file.h"
+#include "wheelwright/files/atomic_file.h"
+
+namespace wheelwright {
+
+Case with_own_drawings(Case c) {
+  int number = 0;
+  for (FileShape& shape : c.shapes.files)
+    shape.path = fmt::format("drawing_{}.{}", ++number,
+                             drawing_format(shape.path) == DrawingFormat::dxf ? "dxf" : "svg");
+  number = 0;
+  for (PictureShape& shape : c.shapes.pictures) shape.path = fmt::format("picture_{}.png", ++number);
+  return c;
+}
+
+void write_drawings(const std::filesystem::path& folder, const Case& c) {
+  for (const FileShape& shape : c.shapes.files)
+    if (shape.drawing.contents) write_atomically(folder / shape.path, shape.drawing.contents->bytes);
+  for (const PictureShape& shape : c.shapes.pictures)
+    if (shape.picture.contents) write_atomically(folder / shape.path, shape.picture.contents->bytes);
+}
+
+}  // namespace wheelwright
