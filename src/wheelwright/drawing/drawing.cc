@@ -76,10 +76,10 @@ std::optional<DrawingFormat> drawing_format(const std::string& file_name) {
 DrawingResult read_drawing(DrawingFormat format, std::string bytes, const DrawingOptions& options) {
   Sheet sheet = format == DrawingFormat::svg ? read_svg(bytes) : read_dxf(bytes);
   Outline outline{closed_loops(sheet)};
-  const bool is_drawn = sheet.problems.empty();
-  const double unit = stated_unit(sheet, options);
-  const Point axle = stated_axle(sheet, options);
-  if (is_drawn) add_crossings(sheet, outline);
+  const bool is_complete = sheet.problems.empty(), has_curves = !sheet.loops.empty() || !sheet.loose.empty();
+  const double unit = has_curves ? stated_unit(sheet, options) : 1;
+  const Point axle = has_curves ? stated_axle(sheet, options) : Point{};
+  if (is_complete) add_crossings(sheet, outline);
   take_lines_from_texts(sheet.problems);
   std::ranges::stable_sort(sheet.problems, {}, &DrawingProblem::line);
   if (!sheet.problems.empty()) return {std::nullopt, std::move(sheet.problems)};

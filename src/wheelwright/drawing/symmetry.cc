@@ -4,8 +4,10 @@
 
 namespace wheelwright {
 
-bool repeats(const Composition& shape, int n, double tolerance) {
-  const Affine turn = Affine::rotation(2 * std::numbers::pi / n);
+namespace {
+
+/// Whether a turn leaves the shape as it is.
+bool is_unchanged_by(const Affine& turn, const Composition& shape, double tolerance) {
   const double aside = 4 * tolerance;
   for (const Curve& curve : shape.boundary())
     for (const double s : {0.5, 0.0, 0.25, 0.75}) {
@@ -21,6 +23,15 @@ bool repeats(const Composition& shape, int n, double tolerance) {
         if (shape.is_hole(turn(beside)) != shape.is_hole(beside)) return false;
       }
     }
+  return true;
+}
+
+}  // namespace
+
+bool repeats(const Composition& shape, int n, double tolerance) {
+  // One turn may be within the tolerance because it is small; the others are sums of these.
+  for (int k = 1; k < n; k *= 2)
+    if (!is_unchanged_by(Affine::rotation(2 * std::numbers::pi * k / n), shape, tolerance)) return false;
   return true;
 }
 
