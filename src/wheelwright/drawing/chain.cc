@@ -36,7 +36,9 @@ class Ends {
     Point at;
   };
 
-  Ends(const std::vector<LooseCurve>& curves, double tolerance) : tolerance_(tolerance) {
+  /// Of at least one curve.
+  Ends(const std::vector<LooseCurve>& curves, double tolerance)
+      : tolerance_(tolerance), origin_(curves.front().curve.start()) {
     for (int i = 0; i < static_cast<int>(curves.size()); ++i) {
       add({i, true, curves[i].curve.start()});
       add({i, false, curves[i].curve.end()});
@@ -59,11 +61,13 @@ class Ends {
   using Cell = std::pair<long long, long long>;
 
   Cell cell(const Point& at) const {
-    return {std::llround(at[0] / tolerance_), std::llround(at[1] / tolerance_)};
+    const Point from_origin = at - origin_;
+    return {std::llround(from_origin[0] / tolerance_), std::llround(from_origin[1] / tolerance_)};
   }
   void add(const End& end) { cells_[cell(end.at)].push_back(end); }
 
   double tolerance_;
+  Point origin_;
   std::map<Cell, std::vector<End>> cells_;
 };
 
@@ -76,6 +80,7 @@ bool closes_itself(const Curve& curve, double tolerance) {
 
 Chains chained(const std::vector<LooseCurve>& curves, double tolerance) {
   Chains result;
+  if (curves.empty()) return result;
   std::vector<bool> used(curves.size(), false);
   const Ends ends(curves, tolerance);
   for (std::size_t first = 0; first < curves.size(); ++first) {

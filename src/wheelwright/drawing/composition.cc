@@ -19,13 +19,14 @@ std::vector<std::vector<double>> cuts(const CurveTree& tree, const auto& are_of_
         result[of].push_back(near.parameter);
   };
   tree.for_each_pair(tolerance, [&](int i, int j) {
-    if (are_of_one_outline(i, j)) return;
+    if (are_of_one_outline(i, j)) return true;
     for (const auto& [s, t] : meetings(curves[i], curves[j])) {
       result[i].push_back(s);
       result[j].push_back(t);
     }
     cut_at_ends(i, j);
     cut_at_ends(j, i);
+    return true;
   });
   return result;
 }

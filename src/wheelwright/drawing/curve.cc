@@ -131,11 +131,12 @@ bool Curve::is_circular() const {
 bool Curve::is_simple() const {
   if (kind_ == Kind::line) return true;
   constexpr double largest_turn = std::numbers::pi / 4;
-  if (kind_ == Kind::arc && std::abs(to_ - from_) > largest_turn) return false;
+  // What is no number counts as simple, which ends the division of a curve.
   const auto turn = [](const Point& a, const Point& b) {
     return std::abs(std::atan2(cross(a, b), dot<2>(a, b)));
   };
-  if (kind_ == Kind::arc) return turn(derivative(0), derivative(1)) <= largest_turn;
+  if (kind_ == Kind::arc)
+    return !(std::abs(to_ - from_) > largest_turn || turn(derivative(0), derivative(1)) > largest_turn);
   const Point chord = end_ - start_;
   for (const Point& leg : {control_[0] - start_, control_[1] - control_[0], end_ - control_[1]})
     if (leg != Point{} && turn(chord, leg) > largest_turn / 2) return false;

@@ -94,7 +94,7 @@ void CurveTree::crossed(const Point& x, std::vector<int>& curves) const {
   }
 }
 
-void CurveTree::for_each_pair(double margin, const std::function<void(int, int)>& visit) const {
+void CurveTree::for_each_pair(double margin, const std::function<bool(int, int)>& visit) const {
   if (curves_.empty()) return;
   std::vector<int> open;
   for (int i = 0; i < static_cast<int>(curves_.size()); ++i) {
@@ -110,7 +110,7 @@ void CurveTree::for_each_pair(double margin, const std::function<void(int, int)>
         continue;
       }
       for (int k = node.first; k < node.first + node.count; ++k)
-        if (const int j = order_[k]; i < j && boxes_[j].overlaps(box)) visit(i, j);
+        if (const int j = order_[k]; i < j && boxes_[j].overlaps(box) && !visit(i, j)) return;
     }
   }
 }

@@ -23,8 +23,9 @@ class CurveTree {
   /// number of times.
   void crossed(const Point& x, std::vector<int>& curves) const;
 
-  /// Calls visit(i, j) with i < j for all curves whose boxes overlap, when widened by `margin`.
-  void for_each_pair(double margin, const std::function<void(int, int)>& visit) const;
+  /// Calls visit(i, j) with i < j for all curves whose boxes overlap, when widened by `margin`, until it
+  /// returns false.
+  void for_each_pair(double margin, const std::function<bool(int, int)>& visit) const;
 
  private:
   /// A node of the tree: a leaf holds the curves [first, first + count) of order_, an inner node has its

@@ -77,11 +77,12 @@ class DxfReader {
 
   void complain(const DxfRecord& record, std::string problem, std::string remedy) {
     if (sheet_.problems.size() >= most_problems) return;
-    sheet_.problems.push_back({record.line, fmt::format("{}: {}", record.type, problem), std::move(remedy)});
+    sheet_.problems.push_back(
+        {record.line, fmt::format("{}: {}", shown(record.type), problem), std::move(remedy)});
   }
 
   static std::string place(const DxfRecord& record) {
-    return fmt::format("line {}, {}", record.line, record.type);
+    return fmt::format("line {}, {}", record.line, shown(record.type));
   }
 
   void find_sections() {
@@ -284,7 +285,7 @@ class DxfReader {
     constexpr int deepest = 20, most_inserts = 10000;
     const auto block = blocks_.find(record.text(2));
     if (block == blocks_.end())
-      return complain(record, fmt::format("there is no block \"{}\"", record.text(2)),
+      return complain(record, fmt::format("there is no block \"{}\"", shown(record.text(2))),
                       "save the drawing again");
     if (depth > deepest) return complain(record, "blocks are nested too deep", "explode them");
     const Affine turn = Affine::rotation(record.number(50, 0) * degree_of_arc);

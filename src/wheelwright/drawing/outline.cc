@@ -70,19 +70,19 @@ std::vector<Crossing> crossings(const Outline& outline, int most) {
     return j == i + 1 || ends_of_loop;
   };
   tree.for_each_pair(tolerance, [&](int i, int j) {
-    if (static_cast<int>(found.size()) >= most) return;
     const Curve &a = curves[i], &b = curves[j];
     if (lie_on_each_other(a, b, tolerance)) {
       const bool on_a = b.nearest(a.at(0.5)).distance2 <= tolerance * tolerance;
       add(on_a ? a.at(0.5) : b.at(0.5), i, j);
-      return;
+    } else {
+      const std::vector<Point> joined = are_neighbours(i, j) ? joints(a, b) : std::vector<Point>{};
+      for (const Meeting& meeting : meetings(a, b)) {
+        const Point at = a.at(meeting.s);
+        const auto is_joint = [&](const Point& joint) { return distance(joint, at) <= 100 * tolerance; };
+        if (std::none_of(joined.begin(), joined.end(), is_joint)) add(at, i, j);
+      }
     }
-    const std::vector<Point> joined = are_neighbours(i, j) ? joints(a, b) : std::vector<Point>{};
-    for (const Meeting& meeting : meetings(a, b)) {
-      const Point at = a.at(meeting.s);
-      const auto is_joint = [&](const Point& joint) { return distance(joint, at) <= 100 * tolerance; };
-      if (std::none_of(joined.begin(), joined.end(), is_joint)) add(at, i, j);
-    }
+    return static_cast<int>(found.size()) < most;
   });
   return found;
 }

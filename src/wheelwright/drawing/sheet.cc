@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+
+#include "wheelwright/base/text.h"
 
 namespace wheelwright {
 
@@ -14,8 +17,10 @@ constexpr double joined = 1e-5;
 bool is_usable(const Curve& curve) {
   constexpr double largest = 1e12;
   const Box box = curve.box();
+  const Point middle = curve.at(0.5), along = curve.derivative(0.5);
   for (int d = 0; d < 2; ++d)
-    if (!(std::abs(box.low[d]) <= largest && std::abs(box.high[d]) <= largest)) return false;
+    for (const double x : {box.low[d], box.high[d], middle[d], along[d]})
+      if (!(std::abs(x) <= largest)) return false;
   return true;
 }
 
@@ -32,6 +37,12 @@ void take_out_unusable(std::vector<Part>& parts, const CurvesOf& all_usable, She
 }  // namespace
 
 std::string at_text(const Point& p) { return fmt::format("at [{:.7g}, {:.7g}]", p[0], p[1]); }
+
+std::string shown(std::string_view name) {
+  constexpr std::size_t longest = 40;
+  const std::string text = without_control_characters(name.substr(0, longest));
+  return name.size() > longest ? text + "..." : text;
+}
 
 std::vector<Loop> closed_loops(Sheet& sheet) {
   take_out_unusable(

@@ -28,6 +28,9 @@ inline constexpr std::size_t most_curves_of_a_sheet = 100'000;
 /// "at [3, 4]", in the drawing's own unit.
 std::string at_text(const Point& p);
 
+/// A name from a file for messages: one line, and not long.
+std::string shown(std::string_view name);
+
 /// All loops of a sheet; what stays open or empty is added to its problems, and coordinates that are no
 /// numbers or too large.
 std::vector<Loop> closed_loops(Sheet& sheet);

@@ -113,20 +113,21 @@ class SvgReader {
     return std::max(1, static_cast<int>(next - line_begins_.begin()));
   }
 
+  /// e.g. <path id="a">
+  static std::string element_text(const pugi::xml_node& node) {
+    const std::string id = node.attribute("id").value();
+    return fmt::format("<{}{}>", shown(node.name()), id.empty() ? "" : fmt::format(" id=\"{}\"", shown(id)));
+  }
+
   /// e.g. line 12, <path id="a">
   std::string place(const pugi::xml_node& node) const {
-    const std::string id = node.attribute("id").value();
-    return fmt::format("line {}, <{}{}>", line_at(node.offset_debug()), node.name(),
-                       id.empty() ? "" : fmt::format(" id=\"{}\"", id));
+    return fmt::format("line {}, {}", line_at(node.offset_debug()), element_text(node));
   }
 
   void complain(const pugi::xml_node& node, const std::string& problem, std::string remedy) {
     if (sheet_.problems.size() >= most_problems) return;
-    const std::string id = node.attribute("id").value();
-    const std::string element =
-        fmt::format("<{}{}>", node.name(), id.empty() ? "" : fmt::format(" id=\"{}\"", id));
-    sheet_.problems.push_back(
-        {line_at(node.offset_debug()), fmt::format("{}: {}", element, problem), std::move(remedy)});
+    sheet_.problems.push_back({line_at(node.offset_debug()),
+                               fmt::format("{}: {}", element_text(node), problem), std::move(remedy)});
   }
 
   /// The unit, and the centre of the page.
@@ -197,7 +198,7 @@ class SvgReader {
     if (read && (read->unit.empty() || read->unit == "px")) return read->value;
     if (const auto unit = read ? metres(read->unit) : std::nullopt)
       return read->value * *unit / metres_per_inch * pixels_per_inch;
-    complain(node, fmt::format("{} = \"{}\" is no length that can be used", name, attribute.value()),
+    complain(node, fmt::format("{} = \"{}\" is no length that can be used", name, shown(attribute.value())),
              "write a number");
     return 0;
   }
