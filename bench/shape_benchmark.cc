@@ -190,7 +190,7 @@ class Evolution {
  private:
   static EvolutionOptions options(const Wheel& wheel) {
     const double row = wheel.problem().model().grid.cell_size()[0];
-    return {.velocity = {}, .smoothing = 0, .rim_band = row, .tread_band = 2 * row};
+    return {.velocity = {}, .smoothing = 0, .bands = {.rim = {row, 1}, .tread = {2 * row, 2}}};
   }
 
   const Wheel& wheel_;

@@ -166,6 +166,8 @@ TEST(CaseFile, HolesOfThePapersWheel) {
   expected.title = result.value->title;
   expected.output.folder = "runs/holes16";
   expected.optimizer.tolerance = 0;
+  expected.optimizer.rim_band = 0.005;
+  expected.optimizer.tread_band = 0.01;
   expected.grid.tread_levels = 0;
   expected.holes.rings = {{.count = 16, .center_radius = 0.27, .radius = 0.04, .phase = {}}};
   EXPECT_EQ(*result.value, expected);
@@ -652,7 +654,7 @@ TEST(Derived, ThePapersWheel) {
   EXPECT_NEAR(cells_per_contact_patch(c), 2.3, 0.01);
   EXPECT_EQ(dof_bound(c), 2 * 57 * 768);
   EXPECT_EQ(total_load_positions(c), 128);
-  EXPECT_DOUBLE_EQ(rim_band(c), 0.005);
+  EXPECT_DOUBLE_EQ(bands(c).rim.thickness, 0.01);
 }
 
 // The fewest levels that give 8 cells per patch in a run and 18 in results; a given number is taken as it is.
@@ -749,10 +751,47 @@ TEST(Derived, HolesOfOneSector) {
 
 TEST(Conflicts, HolesMayTouchTheBandsButNotEnterThem) {
   Case c;
-  c.holes.rings = {{.count = 16, .center_radius = 0.25, .radius = 0.045, .phase = {}}};
+  c.holes.rings = {{.count = 16, .center_radius = 0.255, .radius = 0.045, .phase = {}}};
   EXPECT_TRUE(conflicts(c).empty());
   c.holes.rings[0].radius = 0.0451;
   EXPECT_EQ(conflicts(c).size(), 1u);
+}
+
+// A default band is thinner than the rows of cells that must be full on coarse grids alone.
+TEST(Conflicts, CoarseGridsNeedBandsOfTheirOwn) {
+  const auto n = [](int radial_cells, std::optional<double> rim, std::optional<double> tread) {
+    Case c;
+    c.grid.radial_cells = radial_cells;
+    c.optimizer.rim_band = rim;
+    c.optimizer.tread_band = tread;
+    return conflicts(c).size();
+  };
+  EXPECT_EQ(n(28, {}, {}), 0u);
+  EXPECT_EQ(n(27, {}, {}), 1u);
+  EXPECT_EQ(n(14, {}, {}), 1u);
+  EXPECT_EQ(n(13, {}, {}), 2u);
+  EXPECT_EQ(n(14, {}, 0.02), 0u);
+  EXPECT_EQ(n(13, 0.14 / 13, 0.28 / 13), 0u);
+  EXPECT_EQ(n(13, 0.01, 0.02), 2u);
+  for (const double annulus : {0.005, 0.01, 0.02}) {
+    Case c;
+    c.objective.uniformity_annulus = 1;
+    c.objective.annulus = annulus;
+    EXPECT_TRUE(conflicts(c).empty());
+    c.grid.radial_cells = 56;
+    EXPECT_TRUE(conflicts(c).empty());
+  }
+}
+
+// A hole ends at least a tenth of a cell from the rows that must be full.
+TEST(Conflicts, HolesDoNotTouchTheFullRows) {
+  Case c;
+  c.optimizer.rim_band = 0.005;
+  const double h = 2 * std::numbers::pi * 0.27 / 384;  // the shorter edge of a cell
+  for (const auto& [gap, n] : {std::pair{0.0, 1u}, {0.09, 1u}, {0.11, 0u}}) {
+    c.holes.rings = {{.count = 16, .center_radius = 0.245 + gap * h, .radius = 0.04, .phase = {}}};
+    EXPECT_EQ(conflicts(c).size(), n) << gap;
+  }
 }
 
 // The bands of the default grid are one and two of its cells, 5 mm each, of a ring from 200 to 340 mm.

@@ -487,7 +487,8 @@ TEST_F(DrawingInACase, IsCopiedIntoTheRunsFolderWhichResumesWithoutTheOriginal) 
   write("hole.svg", one_hole);
   const std::string text =
       "[wheel]\nsectors = 8\n[load]\npositions = 2\n[grid]\nradial_cells = 8\nangular_cells = 96\n"
-      "tread_levels = 0\n[[shape.file]]\npath = \"hole.svg\"\ncount = 8\n[optimizer]\niterations = {}\n"
+      "tread_levels = 0\n[[shape.file]]\npath = \"hole.svg\"\ncount = 8\n[optimizer]\niterations = "
+      "{}\nrim_band = 0.0175\ntread_band = 0.035\n"
       "[output]\nfolder = \"run\"\ncheckpoint_seconds = 0\n";
   const auto program = fs::read_symlink("/proc/self/exe").parent_path() / "wheelwright";
   const auto run = [&](const std::string& arguments) {

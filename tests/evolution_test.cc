@@ -128,7 +128,7 @@ class Velocity : public testing::TestWithParam<ExtensionKind> {};
 
 TEST_P(Velocity, VanishesInTheBandsAndDescends) {
   const auto lattice = lattice_of(2);
-  const ProtectedBands<2> bands(lattice, 0.012, 0.006);
+  const ProtectedBands<2> bands(lattice, {{0.012, 1}, {0.006, 1}});
   const auto extension = make_velocity_extension<2>(lattice, bands, {GetParam(), 2});
   const auto gradient = some_gradient(make_level_set<2>(lattice, one_hole));
   const auto velocity = *(*extension)(gradient);
@@ -151,7 +151,7 @@ TEST_P(Velocity, VanishesInTheBandsAndDescends) {
 TEST_P(Velocity, CanPreserveTheMeasureToFirstOrder) {
   const auto lattice = lattice_of(2);
   const auto psi = make_level_set<2>(lattice, one_hole);
-  const ProtectedBands<2> bands(lattice, 0.012, 0.006);
+  const ProtectedBands<2> bands(lattice, {{0.012, 1}, {0.006, 1}});
   const auto extension = make_velocity_extension<2>(lattice, bands, {GetParam(), 2});
   const auto gradient = some_gradient(psi);
   const auto velocity = *measure_preserving_velocity<2>(lattice, *extension, gradient);
@@ -172,7 +172,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, Velocity, testing::Values(ExtensionKind::h1, Ext
 
 TEST(H1Velocity, HasAnEnergyThatEqualsTheDescent) {
   const auto lattice = lattice_of(2);
-  const ProtectedBands<2> bands(lattice, 0.01, 0.01);
+  const ProtectedBands<2> bands(lattice, {{0.01, 1}, {0.01, 1}});
   const auto gradient = some_gradient(make_level_set<2>(lattice, one_hole));
   const auto velocity = *(*make_velocity_extension<2>(lattice, bands, {ExtensionKind::h1, 2}))(gradient);
   const double length = 2 * lattice.grid().resolution();
@@ -186,7 +186,7 @@ TEST(H1Velocity, HasAnEnergyThatEqualsTheDescent) {
 
 TEST(HarmonicVelocity, TakesTheNegativeGradientOnTheBoundary) {
   const auto lattice = lattice_of(2);
-  const ProtectedBands<2> bands(lattice, 0.005, 0.005);
+  const ProtectedBands<2> bands(lattice, {{0.005, 1}, {0.005, 1}});
   const auto gradient = some_gradient(make_level_set<2>(lattice, one_hole));
   const auto velocity =
       *(*make_velocity_extension<2>(lattice, bands, {ExtensionKind::harmonic, 2}))(gradient);
@@ -384,7 +384,7 @@ TEST(Smoothing, KeepsTheMeanAndDampsShortWaves) {
 TEST(MeasureByShift, ReachesTheTarget) {
   for (int degree : {1, 2}) {
     const auto lattice = lattice_of(degree);
-    const ProtectedBands<2> bands(lattice, 0.01, 0.01);
+    const ProtectedBands<2> bands(lattice, {{0.01, 1}, {0.01, 1}});
     const auto psi = make_level_set<2>(lattice, one_hole);
     for (double factor : {0.97, 0.9999, 1.0, 1.01, 1.15}) {
       const double target = factor * material_measure(psi);
@@ -402,7 +402,7 @@ TEST(MeasureByShift, ReachesTheTarget) {
 
 TEST(MeasureByShift, NamesAnUnreachableTarget) {
   const auto lattice = lattice_of(2);
-  const ProtectedBands<2> bands(lattice, 0.01, 0.01);
+  const ProtectedBands<2> bands(lattice, {{0.01, 1}, {0.01, 1}});
   const auto psi = make_level_set<2>(lattice, one_hole);
   const auto shifted = with_measure<2>(psi, bands, 1.5 * sector_measure<2>(lattice.grid()), 0.25, 4);
   ASSERT_FALSE(shifted);
@@ -411,7 +411,7 @@ TEST(MeasureByShift, NamesAnUnreachableTarget) {
 
 TEST(ProtectedBands, CutHolesOffAtTheirEdges) {
   const auto lattice = lattice_of(2);
-  const ProtectedBands<2> bands(lattice, 0.0125, 0.0375);
+  const ProtectedBands<2> bands(lattice, {{0.0125, 1}, {0.0375, 1}});
   const auto psi = make_level_set<2>(lattice, one_hole);
   const auto kept = bands.keep(psi);
   const auto& grid = lattice.grid();
@@ -433,7 +433,7 @@ TEST(ProtectedBands, CutHolesOffAtTheirEdges) {
 TEST(ProtectedBands, StayFullCellsUnderHolesThatOverlapThem) {
   for (int degree : {1, 2}) {
     const auto lattice = lattice_of(degree);
-    const ProtectedBands<2> bands(lattice, 0.005, 0.01);
+    const ProtectedBands<2> bands(lattice, {{0.005, 1}, {0.01, 2}});
     for (double shift : {0.0, 0.0007, 0.0013, 0.0021}) {
       const std::vector<Circle> holes{{0.215 + shift, 0.1 + shift, 0.03}, {0.33 - shift, 0.3, 0.02 + shift}};
       const auto domain = cut_domain<2>(bands.keep(make_level_set<2>(lattice, holes)), 4);
@@ -448,12 +448,27 @@ TEST(ProtectedBands, StayFullCellsUnderHolesThatOverlapThem) {
   }
 }
 
+// Holes that touch the bands keep their measure, whether the bands end on a line of the grid or not.
+TEST(ProtectedBands, ChangeNoShapeThatRespectsThem) {
+  for (int degree : {1, 2}) {
+    const auto lattice = lattice_of(degree);
+    for (const double rim : {0.0056, 0.006, 0.0083, 0.01, 0.0151})
+      for (const double tread : {0.0106, 0.013, 0.015, 0.02}) {
+        const double inner = 0.2 + rim, outer = 0.34 - tread, radius = 0.5 * (outer - inner);
+        const auto psi = make_level_set<2>(lattice, std::vector<Circle>{{inner + radius, 0.2, radius}});
+        const ProtectedBands<2> bands(lattice, {{rim, 1}, {tread, 2}});
+        const double full = material_measure(psi);
+        EXPECT_NEAR(material_measure(bands.keep(psi)), full, 1e-6 * full) << rim << " " << tread;
+      }
+  }
+}
+
 TEST(ProtectedBands, StopTheBoundaryThatWouldGoIntoThem) {
   const auto lattice = lattice_of(2);
-  const Evolver<2> evolver(lattice, {{ExtensionKind::h1, 2}, 0, 0.04, 0.01});
+  const Evolver<2> evolver(lattice, {{ExtensionKind::h1, 2}, 0, {{0.04, 1}, {0.01, 1}}});
   const auto psi = evolver.keep_bands(make_level_set<2>(lattice, one_hole));
   auto gradient = boundary_samples<2>(psi);
-  const ProtectedBands<2> bands(lattice, 0.04, 0.01);
+  const ProtectedBands<2> bands(lattice, {{0.04, 1}, {0.01, 1}});
   std::vector<SurfaceSample<2>> elsewhere;
   int n_touching = 0;
   for (auto& sample : gradient) {
@@ -467,7 +482,7 @@ TEST(ProtectedBands, StopTheBoundaryThatWouldGoIntoThem) {
 
 TEST(Evolver3D, MovesAShapeAndRestoresItsMeasure) {
   const Lattice<3> lattice({0.20, 0.34, 0.12, 16, {10, 8, 3}}, 1);
-  const Evolver<3> evolver(lattice, {{ExtensionKind::h1, 2}, 0.1, 0.014, 0.014});
+  const Evolver<3> evolver(lattice, {{ExtensionKind::h1, 2}, 0.1, {{0.014, 1}, {0.014, 1}}});
   const auto psi = make_level_set<3>(lattice, one_hole);
   auto gradient = boundary_samples<3>(psi);
   double area = 0;
@@ -519,7 +534,7 @@ TEST(SubCellFilter, IsAProjection) {
 
 TEST(Evolution, DoesNotSeeWhereTheSectorBegins) {
   const auto lattice = lattice_of(2);
-  const Evolver<2> evolver(lattice, {{ExtensionKind::h1, 2}, 0.25, 0.01, 0.01});
+  const Evolver<2> evolver(lattice, {{ExtensionKind::h1, 2}, 0.25, {{0.01, 1}, {0.01, 1}}});
   const int n_cells = 7;
   const auto evolved = [&](const LevelSet<2>& psi, const std::vector<SurfaceSample<2>>& gradient) {
     const auto velocity = *evolver.measure_preserving_velocity(gradient);

@@ -16,7 +16,7 @@ const Lattice<2> lattice(grid, 2);
 const double sector = grid.sector_angle(), h = grid.resolution();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN(),
                  infinity = std::numeric_limits<double>::infinity();
-const EvolutionOptions evolution{{ExtensionKind::h1, 2}, 0.04, 0.01, 0.02};
+const EvolutionOptions evolution{{ExtensionKind::h1, 2}, 0.04, {{0.01, 1}, {0.02, 1}}};
 
 LevelSet<2> shape(const std::vector<Circle>& holes) { return make_level_set<2>(lattice, holes); }
 LevelSet<2> one_hole() { return shape({{0.262, 0.4 * sector, 0.025}}); }
@@ -40,7 +40,7 @@ class BadValue : public ::testing::TestWithParam<double> {};
 
 TEST_P(BadValue, InTheGradientFailsTheVelocity) {
   for (ExtensionKind kind : {ExtensionKind::h1, ExtensionKind::harmonic}) {
-    const Evolver<2> evolver(lattice, {{kind, 2}, 0, 0.01, 0.02});
+    const Evolver<2> evolver(lattice, {{kind, 2}, 0, {{0.01, 1}, {0.02, 1}}});
     auto gradient = some_gradient(one_hole());
     gradient[3].value = GetParam();
     expect_not_finite(evolver.velocity(gradient));

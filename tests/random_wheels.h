@@ -60,8 +60,11 @@ class RandomWheels {
   }
 
   void draw_holes(Case& c) {
-    const double low = c.wheel.inner_radius + least_rim_band(c),
-                 high = c.wheel.outer_radius - least_tread_band(c);
+    const double cell = (c.wheel.outer_radius - c.wheel.inner_radius) / c.grid.radial_cells;
+    const Bands thinnest = bands(c);
+    c.optimizer.rim_band = thinnest.rim.full_rows * cell;
+    c.optimizer.tread_band = thinnest.tread.full_rows * cell;
+    const auto [low, high] = hole_range(plane_grid(c), bands(c));
     for (int k = integer(0, 2); k > 0 && low < high; --k) {
       HoleRing ring;
       ring.count = c.wheel.sectors * integer(1, 3);

@@ -30,13 +30,15 @@ radius = 0.03
 radial_cells = 8
 angular_cells = 96
 tread_levels = 0
+[optimizer]
+rim_band = 0.0175
+tread_band = 0.035
 )";
 
 /// A case of `iterations` shapes of it, with redistancing, smoothing and rejected trials. `more` is appended
 /// and may open sections.
 inline std::string small_case(int iterations, const std::string& more = "") {
-  return small_wheel + fmt::format(R"([optimizer]
-iterations = {}
+  return small_wheel + fmt::format(R"(iterations = {}
 tolerance = 0
 accepted_increase = 0
 smoothing = 0.1

@@ -27,7 +27,7 @@ Case case_of(const std::string& text) {
 
 /// A wheel without symmetry: one sector.
 Case whole_wheel(const std::string& shapes) {
-  return case_of("[wheel]\nsectors = 1\n[grid]\nradial_cells = 20\nangular_cells = 240\n" + shapes);
+  return case_of("[wheel]\nsectors = 1\n[grid]\nradial_cells = 28\nangular_cells = 240\n" + shapes);
 }
 
 bool is_hole(const Case& c, double radius, double azimuth_in_degrees) {
@@ -178,7 +178,7 @@ center_radius = 0.29
 radius = 0.02
 )";
   const auto grid = [](int sectors) {
-    return fmt::format("[wheel]\nsectors = {}\n[grid]\nradial_cells = 14\nangular_cells = 192\n", sectors);
+    return fmt::format("[wheel]\nsectors = {}\n[grid]\nradial_cells = 28\nangular_cells = 192\n", sectors);
   };
   const auto sector = initial_shape<2>(case_of(grid(4) + shapes)),
              whole = initial_shape<2>(case_of(grid(1) + shapes));

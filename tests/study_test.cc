@@ -140,8 +140,8 @@ TEST(LoopOfACase, HasItsOptions) {
   EXPECT_EQ(evolution.velocity.kind, ExtensionKind::harmonic);
   EXPECT_EQ(evolution.velocity.length, 2.3);
   EXPECT_EQ(evolution.smoothing, 0.067);
-  EXPECT_EQ(evolution.rim_band, 0.0123);
-  EXPECT_EQ(evolution.tread_band, 0.0345);
+  EXPECT_EQ(evolution.bands.rim.thickness, 0.0123);
+  EXPECT_EQ(evolution.bands.tread.thickness, 0.0345);
 
   c.optimizer.velocity = VelocityKind::h1;
   c.volume = {.control = VolumeControl::paper, .target = {}};

@@ -1,5 +1,7 @@
 #include "wheelwright/analysis/rolling_analysis.h"
 
+#include <algorithm>
+
 #include "wheelwright/analysis/strain_peaks.h"
 
 namespace wheelwright {
@@ -55,6 +57,10 @@ Expected<RollingAnalysis> rolling_analysis(const StateSolver<dim>& solver, const
   auto peaks = strain_peaks(solver, state);
   analysis.peak_von_mises = std::move(peaks.von_mises);
   analysis.peak_strain = std::move(peaks.principal);
+  analysis.most_stressed =
+      std::ranges::max_element(analysis.peak_von_mises) - analysis.peak_von_mises.begin();
+  analysis.peak_radius = peaks.von_mises_places[analysis.most_stressed][0];
+  analysis.peak_azimuth = peaks.von_mises_places[analysis.most_stressed][1];
 
   if (analysis.held == Held::travel) {
     analysis.force_at_travel = values(analysis.positions, &ContactSummary::radial_force);

@@ -17,6 +17,8 @@ struct RollingAnalysis {
   std::vector<double> strain_energy;      ///< J_e [J/m]
   std::vector<double> peak_von_mises;     ///< [Pa]
   std::vector<double> peak_strain;        ///< absolute value of a principal strain
+  size_t most_stressed;                   ///< index of the position with the largest von Mises stress
+  double peak_radius, peak_azimuth;       ///< where it is, in polar coordinates of the body [m, rad]
 
   double load;                          ///< the model's, or the mean of the forces at its travel
   double travel;                        ///< the model's, or the mean of the travels under its load

@@ -259,8 +259,8 @@ struct Optimizer {
   int redistance_every = 5;
   double smoothing = 0;  ///< tau of (76) [cells^2]
   int smooth_every = 5;
-  std::optional<double> rim_band;    ///< absent: one radial cell
-  std::optional<double> tread_band;  ///< absent: one radial cell more than the annulus
+  std::optional<double> rim_band;    ///< absent: 1/14 of the ring
+  std::optional<double> tread_band;  ///< absent: see bands()
   bool operator==(const Optimizer&) const = default;
 };
 

@@ -26,6 +26,28 @@ double rounded_up(double value) {
   return std::ceil(value / unit) * unit;
 }
 
+/// A band covers the rows of cells that must be full.
+void check_band(const Case& c, const Band& band, std::string_view place, const std::string& key,
+                bool is_given, Conflicts& found) {
+  const double ring = c.wheel.outer_radius - c.wheel.inner_radius;
+  const double least = band.full_rows * ring / c.grid.radial_cells, advised = rounded_up(least);
+  if (band.thickness >= least - 1e-9 * c.wheel.outer_radius) return;
+  const auto rows =
+      band.full_rows == 1 ? std::string("one radial cell") : fmt::format("{} radial cells", band.full_rows);
+  if (is_given) {
+    found.push_back({{key, "grid.radial_cells", "objective.annulus"},
+                     "thinner than " + rows,
+                     fmt::format("take at least {:.6g} m, or more grid.radial_cells", advised)});
+  } else {
+    const double finer = std::ceil(band.full_rows * ring / band.thickness - 1e-9);
+    found.push_back(
+        {{"grid.radial_cells", key, "objective.annulus"},
+         fmt::format("{} {} thicker than the band at the {} that stays material, by default {:.6g} m", rows,
+                     band.full_rows == 1 ? "is" : "are", place, band.thickness),
+         fmt::format("take at least {:.0f}, or give {} = {:.6g} or more", finer, key, advised)});
+  }
+}
+
 void check_radii(const Case& c, Conflicts& found) {
   const Wheel& w = c.wheel;
   if (w.inner_radius >= w.outer_radius) {
@@ -41,20 +63,14 @@ void check_radii(const Case& c, Conflicts& found) {
                      fmt::format("take outer_radius >= {:.6g} m", w.inner_radius / (1 - 2 * thinnest))});
     return;
   }
-  const double rounding = 1e-9 * w.outer_radius;
-  if (rim_band(c) < least_rim_band(c) - rounding)
-    found.push_back({{"optimizer.rim_band", "grid.radial_cells"},
-                     "thinner than one radial cell",
-                     fmt::format("take at least {:.6g} m, or more grid.radial_cells", least_rim_band(c))});
-  if (tread_band(c) < least_tread_band(c) - rounding)
-    found.push_back({{"optimizer.tread_band", "grid.radial_cells", "objective.annulus"},
-                     fmt::format("thinner than {} radial cells", tread_rows(c) + 1),
-                     fmt::format("take at least {:.6g} m, or more grid.radial_cells", least_tread_band(c))});
-  if (rim_band(c) + tread_band(c) >= w.outer_radius - w.inner_radius) {
+  const auto [rim, tread] = bands(c);
+  check_band(c, rim, "rim", "optimizer.rim_band", c.optimizer.rim_band.has_value(), found);
+  check_band(c, tread, "tread", "optimizer.tread_band", c.optimizer.tread_band.has_value(), found);
+  if (rim.thickness + tread.thickness >= w.outer_radius - w.inner_radius) {
     found.push_back(
         {with_ring_shape({"optimizer.rim_band", "optimizer.tread_band"}),
          fmt::format("the bands at rim and tread, {:.6g} m and {:.6g} m, fill the whole ring of {:.6g} m",
-                     rim_band(c), tread_band(c), w.outer_radius - w.inner_radius),
+                     rim.thickness, tread.thickness, w.outer_radius - w.inner_radius),
          "take thinner bands or a finer grid"});
   }
 }
@@ -117,7 +133,7 @@ void check_counts(const Case& c, const std::vector<DrawnShape>& shapes, Conflict
 
 void check_hole_inside(const Case& c, double center_radius, double radius, std::vector<std::string> keys,
                        Conflicts& found) {
-  const auto [low, high] = free_region(c);
+  const auto [low, high] = room_for_holes(c);
   const double rounding = 1e-9 * c.wheel.outer_radius;
   const double lowest = center_radius - radius, highest = center_radius + radius;
   if (low >= high || (lowest >= low - rounding && highest <= high + rounding)) return;
@@ -176,7 +192,8 @@ void check_load(const Case& c, Conflicts& found) {
   if (half_width <= largest) return;
   const double advised = 0.1 * c.wheel.outer_radius, factor = advised / half_width;  // strains of 5 %
   found.push_back(
-      {{"load.force", "load.mass", "material.youngs_modulus", "wheel.width"},
+      {{"load.force", "load.mass", "material.youngs_modulus", "wheel.width", "wheel.outer_radius",
+        "material.poissons_ratio", "material.plane"},
        fmt::format("too large: a solid disc would touch the ground on {:.3g} m and be strained by "
                    "about {:.0f} %, far beyond linear elasticity",
                    2 * half_width, 100 * half_width / (2 * c.wheel.outer_radius)),
@@ -200,7 +217,9 @@ void check_contact_points(const Case& c, Conflicts& found) {
           : fmt::format("take contact.quadrature_points = {}",
                         std::max(1, static_cast<int>(c.contact.quadrature_points * most / n)));
   found.push_back(
-      {{"grid.tread_levels", "contact.quadrature_points", "grid.angular_cells", "load.force"},
+      {{"grid.tread_levels", "contact.quadrature_points", "grid.angular_cells", "load.force", "load.mass",
+        "load.travel", "wheel.width", "wheel.outer_radius", "material.youngs_modulus",
+        "material.poissons_ratio", "material.plane", "contact.friction"},
        fmt::format("about {:.0f} unknowns in the contact of one position; at most {:.0f} are solved "
                    "in reasonable time",
                    n, most),
@@ -276,7 +295,8 @@ constexpr double square(double x) { return x * x; }
 /// every sector is the least.
 void check_volume(const Case& c, Conflicts& found) {
   const Wheel& w = c.wheel;
-  const auto [low, high] = free_region(c);
+  const auto [rim, tread] = bands(c);
+  const double low = w.inner_radius + rim.thickness, high = w.outer_radius - tread.thickness;
   if (!c.volume.target || low >= high) return;
   if (!has_holes(c)) {
     found.push_back({{"volume.target"},

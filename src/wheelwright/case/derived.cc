@@ -77,10 +77,6 @@ double radial_cell(const Case& c) {
 }
 }  // namespace
 
-double least_rim_band(const Case& c) { return radial_cell(c); }
-
-double least_tread_band(const Case& c) { return (tread_rows(c) + 1) * radial_cell(c); }
-
 bool wants_annulus(const Case& c) {
   return c.objective.uniformity_annulus > 0 || c.objective.annulus_matches_dual.has_value();
 }
@@ -98,12 +94,27 @@ int tread_rows(const Case& c) {
   return std::max(1, static_cast<int>(std::lround(annulus_thickness(c) / radial_cell(c))));
 }
 
-double rim_band(const Case& c) { return c.optimizer.rim_band.value_or(least_rim_band(c)); }
+PolarGrid<2> plane_grid(const Case& c) {
+  return {c.wheel.inner_radius,
+          c.wheel.outer_radius,
+          c.wheel.width,
+          c.wheel.sectors,
+          {c.grid.radial_cells, c.grid.angular_cells / c.wheel.sectors}};
+}
 
-double tread_band(const Case& c) { return c.optimizer.tread_band.value_or(least_tread_band(c)); }
+Bands bands(const Case& c) {
+  const double ring = c.wheel.outer_radius - c.wheel.inner_radius, usual = ring / 14;
+  const double with_annulus = wants_annulus(c) ? annulus_thickness(c) + ring / 28 : 0;
+  return {.rim = {c.optimizer.rim_band.value_or(usual), 1},
+          .tread = {c.optimizer.tread_band.value_or(std::max(usual, with_annulus)), tread_rows(c) + 1}};
+}
 
-FreeRegion free_region(const Case& c) {
-  return {c.wheel.inner_radius + rim_band(c), c.wheel.outer_radius - tread_band(c)};
+HoleRange free_region(const Case& c) { return hole_range(plane_grid(c), bands(c)); }
+
+HoleRange room_for_holes(const Case& c) {
+  const auto [inner, outer] = free_region(c);
+  const double touch = 0.001 * plane_grid(c).resolution();
+  return {inner - touch, outer + touch};
 }
 
 bool has_holes(const Case& c) {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "wheelwright/case/case.h"
+#include "wheelwright/geometry/bands.h"
 #include "wheelwright/geometry/shapes.h"
 
 namespace wheelwright {
@@ -66,20 +67,20 @@ bool wants_uniformity(const Case& c);
 double annulus_thickness(const Case& c);
 double characteristic_length(const Case& c);
 
-/// Minimum thickness of the bands [m]: the outermost rows of cells are condensed once per run, and the row
-/// below them carries the ghost penalty of the cut cells.
-double least_rim_band(const Case& c);
-double least_tread_band(const Case& c);
+/// One sector of the grid in the plane of the wheel.
+PolarGrid<2> plane_grid(const Case& c);
 
-/// Thickness of the bands that stay material [m].
-double rim_band(const Case& c);
-double tread_band(const Case& c);
+/// The bands that stay material. Unless the case gives them, they are 1/14 of the ring's thickness, whatever
+/// the grid is; at the tread, they are also at least 1/28 of it thicker than the annulus of J_p1. The
+/// outermost rows of cells must be full because they are condensed once per run, and the row below them
+/// because it carries the ghost penalty of the cut cells.
+Bands bands(const Case& c);
 
 /// The radii [m] between the bands, where holes may be.
-struct FreeRegion {
-  double low, high;
-};
-FreeRegion free_region(const Case& c);
+HoleRange free_region(const Case& c);
+
+/// The same, in which holes may touch the bands: to be moved by a thousandth of a cell changes nothing.
+HoleRange room_for_holes(const Case& c);
 
 /// Whether the initial shape has anything but the full ring.
 bool has_holes(const Case& c);

@@ -690,12 +690,15 @@ const Section<Optimizer>& optimizer_section() {
            .meaning = "how often the level set is smoothed by (76)"},
           {.name = "rim_band",
            .unit = "m",
-           .field = OptionalNumberField<Optimizer>{&Optimizer::rim_band, between(0, 1000), "one radial cell"},
-           .meaning = "thickness of the band at the rim that stays material, at least one radial cell"},
+           .field =
+               OptionalNumberField<Optimizer>{&Optimizer::rim_band, between(0, 1000), "1/14 of the ring"},
+           .meaning = "thickness of the band at the rim that stays material, at least one radial cell; holes "
+                      "end on it, so that the "
+                      "optimum depends on it"},
           {.name = "tread_band",
            .unit = "m",
            .field = OptionalNumberField<Optimizer>{&Optimizer::tread_band, between(0, 1000),
-                                                   "one radial cell more than the annulus"},
+                                                   "1/14 of the ring, or 1/28 more than the annulus"},
            .meaning =
                "thickness of the band at the tread that stays material, at least one radial cell more than "
                "the annulus"}}};
@@ -746,7 +749,7 @@ const SectionArray<Expectation>& expectation_sections() {
       .keys = {{.name = "quantity",
                 .unit = "",
                 .field = choice<&Expectation::quantity>({quantity_names.begin(), quantity_names.end()}),
-                .meaning = "a column of history.csv, or the maximum von Mises stress of all positions",
+                .meaning = "a column of history.csv",
                 .presence = Presence::required},
                {.name = "value",
                 .unit = "",

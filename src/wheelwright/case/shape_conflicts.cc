@@ -131,14 +131,14 @@ std::string unit_hint(const DrawnShape& shape, const Case& c, double reach) {
 
 /// Holes must lie between the bands, and material in the ring.
 void check_extent(const Case& c, const DrawnShape& shape, Conflicts& found) {
-  FreeRegion region = free_region(c);
   const bool is_hole = shape.fill == Fill::hole;
-  if (region.low >= region.high || shape.first.empty() || (!is_hole && shape.may_leave_ring)) return;
-  if (!is_hole) region = {c.wheel.inner_radius, c.wheel.outer_radius};
+  const HoleRange room = room_for_holes(c);
+  if (room.inner >= room.outer || shape.first.empty() || (!is_hole && shape.may_leave_ring)) return;
+  const HoleRange region = is_hole ? room : HoleRange{c.wheel.inner_radius, c.wheel.outer_radius};
   std::string lowest_place, highest_place;
   const RadialExtent extent = radial_extent(shape, lowest_place, highest_place);
   const double rounding = 1e-5 * c.wheel.outer_radius;
-  const bool is_low = extent.low<region.low - rounding, is_high = extent.high> region.high + rounding;
+  const bool is_low = extent.low<region.inner - rounding, is_high = extent.high> region.outer + rounding;
   if (!is_low && !is_high) return;
   const std::string where = is_high ? fmt::format("reaches radius {:.6g} m at {}{}", extent.high,
                                                   point_text(extent.highest), place_text(highest_place))
@@ -149,7 +149,7 @@ void check_extent(const Case& c, const DrawnShape& shape, Conflicts& found) {
       is_hole ? "between the bands at rim and tread there is only" : "the ring has only";
   found.push_back({with_ring_shape({shape.key}),
                    fmt::format("{} {}; {} {:.6g} m to {:.6g} m", is_hole ? "the hole" : "the material", where,
-                               allowed, region.low, region.high),
+                               allowed, region.inner, region.outer),
                    hint.empty() ? "move it, or make it smaller" : hint});
 }
 

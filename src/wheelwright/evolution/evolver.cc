@@ -24,7 +24,7 @@ double largest_magnitude(std::span<const double> values) {
 template <int dim>
 Evolver<dim>::Evolver(const Lattice<dim>& lattice, const EvolutionOptions& options)
     : lattice_(lattice),
-      bands_(lattice, options.rim_band, options.tread_band),
+      bands_(lattice, options.bands),
       extension_(make_velocity_extension<dim>(lattice, bands_, options.velocity)),
       cut_points_(options.cut_points) {
   if (options.smoothing > 0)

@@ -4,36 +4,37 @@ namespace wheelwright {
 
 namespace {
 
-constexpr double margin = 0.1;  ///< in units of the resolution
+/// How near a boundary counts as lying on the edge of the range, in units of the resolution.
+constexpr double near_edge = 0.1;
 
 }  // namespace
 
 template <int dim>
-ProtectedBands<dim>::ProtectedBands(const Lattice<dim>& lattice, double rim_band, double tread_band)
+ProtectedBands<dim>::ProtectedBands(const Lattice<dim>& lattice, const Bands& bands)
     : grid_(lattice.grid()),
-      inner_edge_(grid_.inner_radius + rim_band),
-      outer_edge_(grid_.outer_radius - tread_band),
+      range_(hole_range(grid_, bands)),
       nodes_(lattice.n_nodes()),
       upper_bound_(lattice.n_nodes()) {
-  const double h = grid_.resolution(), rounding = 1e-9 * h;
+  const double rounding = 1e-9 * grid_.resolution();
   for (int node = 0; node < lattice.n_nodes(); ++node) {
-    const double d = distance(lattice.polar_point(node)[0]);
-    nodes_[node] = d < -rounding;
-    upper_bound_[node] = d - margin * h;
+    const double radius = lattice.polar_point(node)[0];
+    nodes_[node] = radius < grid_.inner_radius + bands.rim.thickness - rounding ||
+                   radius > grid_.outer_radius - bands.tread.thickness + rounding;
+    upper_bound_[node] = distance(radius);
   }
 }
 
-/// Radial distance to the nearest band; negative in a band.
+/// Radial distance to the nearest edge of the range of holes; negative outside of it.
 template <int dim>
 double ProtectedBands<dim>::distance(double radius) const {
-  return std::min(radius - inner_edge_, outer_edge_ - radius);
+  return std::min(radius - range_.inner, range_.outer - radius);
 }
 
 template <int dim>
 bool ProtectedBands<dim>::touches(const SurfaceSample<dim>& sample) const {
   const double radius =
       grid_.inner_radius + (grid_.cell_position(sample.cell)[0] + sample.xi[0]) * grid_.cell_size()[0];
-  return distance(radius) < 2 * margin * grid_.resolution();
+  return distance(radius) < near_edge * grid_.resolution();
 }
 
 template <int dim>
@@ -46,9 +47,9 @@ LevelSet<dim> ProtectedBands<dim>::keep(LevelSet<dim> psi) const {
 template <int dim>
 std::vector<ShapeEvent<dim>> ProtectedBands<dim>::contacts(const Components<dim>& before,
                                                            const Components<dim>& after) const {
-  const double reach = 2 * margin * grid_.resolution() + after.samples.spacing()[0];
-  const auto at_rim = [&](const Component<dim>& hole) { return hole.innermost[0] - inner_edge_ < reach; };
-  const auto at_tread = [&](const Component<dim>& hole) { return outer_edge_ - hole.outermost[0] < reach; };
+  const double reach = near_edge * grid_.resolution() + after.samples.spacing()[0];
+  const auto at_rim = [&](const Component<dim>& hole) { return hole.innermost[0] - range_.inner < reach; };
+  const auto at_tread = [&](const Component<dim>& hole) { return range_.outer - hole.outermost[0] < reach; };
   const auto were = overlapping_holes(after, before);
   std::vector<ShapeEvent<dim>> events;
   for (std::size_t k = 0; k < after.all.size(); ++k) {

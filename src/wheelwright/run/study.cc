@@ -35,13 +35,16 @@ double on_model_width(double on_whole_width, const Case& c) {
 
 template <int dim>
 PolarGrid<dim> polar_grid(const Case& c) {
-  PolarGrid<dim> grid{c.wheel.inner_radius,
-                      c.wheel.outer_radius,
-                      c.wheel.width,
-                      c.wheel.sectors,
-                      {c.grid.radial_cells, c.grid.angular_cells / c.wheel.sectors}};
-  if constexpr (dim == 3) grid.cells[2] = axial_cells;
-  return grid;
+  const PolarGrid<2> plane = plane_grid(c);
+  if constexpr (dim == 2) {
+    return plane;
+  } else {
+    return {plane.inner_radius,
+            plane.outer_radius,
+            plane.width,
+            plane.n_sectors,
+            {plane.cells[0], plane.cells[1], axial_cells}};
+  }
 }
 
 template <int dim>
@@ -151,7 +154,8 @@ LevelSet<dim> shape_on(const Lattice<dim>& lattice, const Case& c) {
 
 template <int dim>
 LevelSet<dim> initial_shape(const Case& c) {
-  return shape_on(Lattice<dim>(polar_grid<dim>(c), c.grid.level_set_degree), c);
+  const Lattice<dim> lattice(polar_grid<dim>(c), c.grid.level_set_degree);
+  return ProtectedBands<dim>(lattice, bands(c)).keep(shape_on(lattice, c));
 }
 
 template <int dim>
@@ -168,8 +172,7 @@ EvolutionOptions evolution_options(const Case& c) {
       c.optimizer.velocity == VelocityKind::h1 ? ExtensionKind::h1 : ExtensionKind::harmonic;
   options.velocity.length = c.optimizer.velocity_length;
   options.smoothing = c.optimizer.smoothing;
-  options.rim_band = rim_band(c);
-  options.tread_band = tread_band(c);
+  options.bands = bands(c);
   return options;
 }
 

@@ -19,8 +19,11 @@ template <int dim>
 PolarGrid<dim> polar_grid(const Case& c);
 template <int dim>
 RollingModel<dim> rolling_model(const Case& c);
+
+/// The shape of a case before its optimization, cut off at the bands that stay material.
 template <int dim>
 LevelSet<dim> initial_shape(const Case& c);
+
 EvolutionOptions evolution_options(const Case& c);
 template <int dim>
 OptimizerOptions optimizer_options(const Case& c);
