@@ -501,12 +501,12 @@ TEST_F(DrawingInACase, IsCopiedIntoTheRunsFolderWhichResumesWithoutTheOriginal) 
   fs::rename(folder() / "run", folder() / "straight");
   write("case.toml", fmt::format(fmt::runtime(text), 2));
   ASSERT_EQ(run("run case.toml"), 0);
-  EXPECT_EQ(content(folder() / "run/drawing_1.svg"), one_hole);
+  EXPECT_EQ(content(folder() / "run/drawings/drawing_1.svg"), one_hole);
   fs::remove(folder() / "hole.svg");
   ASSERT_EQ(run("resume run --iterations 4"), 0) << content(folder() / "out.txt");
   expect_equal_results(folder() / "straight", folder() / "run");
   // Another drawing in the folder is refused.
-  write("run/drawing_1.svg", one_hole + " ");
+  write("run/drawings/drawing_1.svg", one_hole + " ");
   EXPECT_EQ(WEXITSTATUS(run("resume run --iterations 6")), 2);
   EXPECT_NE(content(folder() / "out.txt").find("checksum"), std::string::npos);
 }

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "wheelwright/files/written_files.h"
+
 /// Small runs and their folders, for the tests of stopping and going on.
 namespace wheelwright::testing {
 
@@ -80,13 +82,14 @@ inline std::string without_times(const std::string& history) {
   return result;
 }
 
-/// All results in a run's folder, by their path in it: every file but the lock and the checkpoints, and the
-/// history without its times.
+/// All results in a run's folder, by their path in it: every file but the lock, the checkpoints and the lists
+/// of written files, and the history without its times.
 inline std::map<std::string, std::string> results(const fs::path& run) {
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(run)) {
     const std::string name = fs::relative(entry.path(), run).string();
     if (!entry.is_regular_file() || name == "run.lock" || name.starts_with("checkpoints/")) continue;
+    if (name.ends_with(list_of_written_files)) continue;
     files[name] = name == "history.csv" ? without_times(content(entry.path())) : content(entry.path());
   }
   return files;

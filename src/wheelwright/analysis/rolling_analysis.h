@@ -8,8 +8,9 @@ namespace wheelwright {
 /// What the model holds at every load position.
 enum class Held { load, travel };
 
-/// The load positions of one sector under the model's load or travel, and what varies between them at a fixed
-/// load and at a fixed travel. Forces are per metre of width when dim = 2.
+/// All load positions of one sector under the model's load or travel, and what varies between them at a fixed
+/// load and at a fixed travel. Positions that a mirror image stands for have its values. Forces are per metre
+/// of width when dim = 2.
 struct RollingAnalysis {
   Held held;
   std::vector<double> azimuths;           ///< of the ground positions, body frame [rad]

@@ -29,7 +29,7 @@ void TerminalObserver<dim>::operator()(const Event<dim>& event, const RunView<di
   if (const auto* command = std::get_if<CommandDone>(&event); command && !command->text.empty())
     progress_.note((command->was_obeyed ? "" : "refused: ") + command->text);
   if (const auto* ended = std::get_if<RunEnded<dim>>(&event)) {
-    if (ended->summary) warn(ended->summary->after.measured.deformation);
+    if (ended->summary) warn(ended->summary->after.wheel.summary.deformation);
     progress_.end();
   }
 }

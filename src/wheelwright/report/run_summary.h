@@ -2,25 +2,22 @@
 
 #include <string>
 
-#include "wheelwright/analysis/shape_summary.h"
+#include "wheelwright/report/described_wheel.h"
 
 namespace wheelwright {
 
 /// A shape of a run, in numbers.
 template <int dim>
 struct SummarizedShape {
-  int iteration;           ///< 0: the initial shape
-  double objective;        ///< sum over the load positions of a sector
-  double volume_fraction;  ///< material area over the area of the full ring
-  ShapeSummary<dim> measured;
+  int iteration;     ///< 0: the initial shape
+  double objective;  ///< sum over the load positions of a sector
+  DescribedWheel<dim> wheel;
 };
 
 /// What a run made of the initial shape. Both shapes are solved alike: on a tread of the same resolution.
 template <int dim>
 struct RunSummary {
   std::string title;
-  std::string load;  ///< for people, e.g. "24525 N/m"
-  double width;      ///< w_r [m]
   SummarizedShape<dim> before, after;
 };
 

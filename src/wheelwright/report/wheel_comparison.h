@@ -3,22 +3,15 @@
 #include <string>
 #include <vector>
 
-#include "wheelwright/analysis/rolling_analysis.h"
-#include "wheelwright/analysis/shape_summary.h"
 #include "wheelwright/geometry/contour.h"
+#include "wheelwright/report/described_wheel.h"
 
 namespace wheelwright {
 
-/// A wheel beside others: who it is, its outline, and what describes it in rolling. In 2D: forces of the
-/// analysis are per metre of width and are shown on the whole width.
+/// A wheel beside others. In 2D: outlines are plane.
 struct ComparedWheel {
-  std::string name;   ///< of its case file or run
-  std::string which;  ///< e.g. "shape 31"
-  PolarGrid<2> grid;
+  DescribedWheel<2> numbers;
   std::vector<Contour> contours;
-  double volume_fraction;  ///< material area over the area of the full ring
-  ShapeSummary<2> summary;
-  RollingAnalysis rolling;
 };
 
 /// For people: every quantity of every wheel, with its change from the first wheel.

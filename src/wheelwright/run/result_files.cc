@@ -39,7 +39,7 @@ void write_shapes(const RunView<2>& run, const OptimizationState<2>& last) {
 
 void write_rolling(const RunView<2>& run, const LevelSet<2>& shape,
                    const std::vector<PositionFields>& positions) {
-  make_folder(run.folder / "rolling");
+  make_subfolder(run.folder / "rolling");
   const VtuMesh mesh(shape, positions.front().lattice, vtu_cut_subdivisions);
   std::vector<PvdEntry> entries;
   for (size_t i = 0; i < positions.size(); ++i) {

@@ -97,18 +97,17 @@ template <int dim>
 RunResult<dim> RunLoop<dim>::end(StopReason reason) {
   save();
   stop_file_->remove();
-  if (reason == StopReason::stop_requested) {
-    notify(RunEnded<dim>{reason, &*state_, nullptr, nullptr, nullptr, {}});
-    return result(reason);
-  }
-  const SharedSolution solution = final_solution();
-  const auto [solver, shown] = solution_of_results(solution);
+  const bool is_stopped = reason == StopReason::stop_requested;
+  const Interrupt interrupt =
+      is_stopped ? Interrupt([this] { return commands_.waiting_stops() > 0; }) : Interrupt();
+  const SharedSolution solution = final_solution(interrupt);
+  const auto [solver, shown] = solution_of_results(solution, interrupt);
   const auto summary = run_summary(*solver, shown.get());
   notify(RunEnded<dim>{reason, &*state_, shown.get(), solver.get(), summary ? &*summary : nullptr,
                        failed_trials_});
   RunResult<dim> ended = result(reason);
   ended.summary = summary;
-  ended.findings = findings_at_the_end(solution.get());
+  if (!is_stopped) ended.findings = findings_at_the_end(solution.get());
   return ended;
 }
 
@@ -163,10 +162,10 @@ std::vector<Finding> RunLoop<dim>::findings_at_the_end(const State<dim>* solutio
 /// is solved again where other shapes were tried after it, and in a resumed run that had ended: until then
 /// the memory of a solution is not held.
 template <int dim>
-typename RunLoop<dim>::SharedSolution RunLoop<dim>::final_solution() {
+typename RunLoop<dim>::SharedSolution RunLoop<dim>::final_solution(const Interrupt& interrupt) {
   if (last_solution_) return last_solution_;
   const StateSolver<dim>& solver = *work_->study.solver;
-  auto states = solver.states(state_->shape, solver.distinct_positions(state_->shape), Interrupt());
+  auto states = solver.states(state_->shape, solver.distinct_positions(state_->shape), interrupt);
   return states ? *std::move(states) : nullptr;
 }
 
@@ -174,13 +173,13 @@ typename RunLoop<dim>::SharedSolution RunLoop<dim>::final_solution() {
 /// else the loop's own solution.
 template <int dim>
 std::pair<typename RunLoop<dim>::SharedSolver, typename RunLoop<dim>::SharedSolution>
-RunLoop<dim>::solution_of_results(const SharedSolution& own) {
+RunLoop<dim>::solution_of_results(const SharedSolution& own, const Interrupt& interrupt) {
   const Study<dim>& study = work_->study;
   const Case& c = study.source;
   if (!own || tread_levels_of_results(c) == tread_levels(c)) return {study.solver, own};
   const auto finer = make_solver(rolling_model<dim>(with_levels_of_results(c)));
   if (!finer) return {study.solver, own};
-  auto states = (*finer)->states(state_->shape, (*finer)->distinct_positions(state_->shape), Interrupt());
+  auto states = (*finer)->states(state_->shape, (*finer)->distinct_positions(state_->shape), interrupt);
   if (!states) return {study.solver, own};
   return {*finer, *std::move(states)};
 }
@@ -188,28 +187,34 @@ RunLoop<dim>::solution_of_results(const SharedSolution& own) {
 /// The initial shape as the solver of the results sees it: what was noted of its trial, where that solver is
 /// the run's own. Else, and in a resumed run, it is solved here.
 template <int dim>
-std::optional<ShapeSummary<dim>> RunLoop<dim>::initial_summary(const StateSolver<dim>& solver) const {
-  if (initial_summary_ && &solver == work_->study.solver.get()) return initial_summary_;
+std::optional<DescribedWheel<dim>> RunLoop<dim>::initial_wheel(const StateSolver<dim>& solver) const {
+  if (initial_wheel_ && &solver == work_->study.solver.get()) return initial_wheel_;
   const LevelSet<dim>& shape = initial_->shape;
   const auto states = solver.states(shape, solver.distinct_positions(shape), Interrupt());
   if (!states) return {};
-  return shape_summary(solver, shape, **states);
+  return described(solver, shape, initial_->measure, **states);
+}
+
+template <int dim>
+std::optional<DescribedWheel<dim>> RunLoop<dim>::described(const StateSolver<dim>& solver,
+                                                           const LevelSet<dim>& shape, double measure,
+                                                           const State<dim>& state) const {
+  auto wheel = described_wheel(solver, shape, volume_fraction(work_->study.grid(), measure), state);
+  if (!wheel) return {};
+  return *std::move(wheel);
 }
 
 template <int dim>
 std::optional<RunSummary<dim>> RunLoop<dim>::run_summary(const StateSolver<dim>& solver,
                                                          const State<dim>* last) const {
   if (!last) return {};
-  const ShapeSummary<dim> now = shape_summary(solver, state_->shape, *last);
-  const auto first = state_->iteration > 0 ? initial_summary(solver) : now;
-  if (!first) return {};
-  const PolarGrid<dim>& grid = work_->study.grid();
-  return RunSummary<dim>{.title = run_title(work_->study.source),
-                         .load = load_text(solver.model()),
-                         .width = work_->study.source.wheel.width,
-                         .before = {0, initial_->objective, volume_fraction(grid, initial_->measure), *first},
-                         .after = {state_->iteration, work_->optimizer.objective_of(state_->evaluation),
-                                   volume_fraction(grid, state_->measure), now}};
+  const auto now = described(solver, state_->shape, state_->measure, *last);
+  const auto first = state_->iteration > 0 ? initial_wheel(solver) : now;
+  if (!first || !now) return {};
+  return RunSummary<dim>{
+      .title = run_title(work_->study.source),
+      .before = {0, initial_->objective, *first},
+      .after = {state_->iteration, work_->optimizer.objective_of(state_->evaluation), *now}};
 }
 
 template <int dim>
@@ -223,7 +228,7 @@ void RunLoop<dim>::observe(const Trial<dim>& trial, const OptimizationState<dim>
           InitialShape<dim>{state.shape, work_->optimizer.objective_of(state.evaluation), state.measure};
     const Case& c = work_->study.source;
     if (state.iteration == 0 && trial.solution && tread_levels_of_results(c) == tread_levels(c))
-      initial_summary_ = shape_summary(*work_->study.solver, state.shape, *trial.solution);
+      initial_wheel_ = described(*work_->study.solver, state.shape, state.measure, *trial.solution);
     last_solution_ = reason_to_stop(work_->study.optimizer, state) ? trial.solution : nullptr;
   } else if (trial.verdict == Verdict::failed) {
     failed_trials_.push_back(trial);
@@ -307,7 +312,7 @@ std::optional<Refusal> RunLoop<dim>::change_case(const Case& changed, const std:
   if (!anew) return refusal(anew.failure());
 
   work_ = make_work(*std::move(study));
-  initial_summary_.reset();
+  initial_wheel_.reset();
   initial_->objective = first->evaluation.function("objective").value;
   state_ = *std::move(anew);
   notify(CaseChanged{what});

@@ -44,9 +44,12 @@ class RunLoop : private RunControl {
   RunResult<dim> end_without_a_shape(const Failure& failure);
   std::vector<Finding> findings_at_the_end(const State<dim>* solution);
   RunResult<dim> result(StopReason reason) const;
-  SharedSolution final_solution();
-  std::pair<SharedSolver, SharedSolution> solution_of_results(const SharedSolution& own);
-  std::optional<ShapeSummary<dim>> initial_summary(const StateSolver<dim>& solver) const;
+  SharedSolution final_solution(const Interrupt& interrupt);
+  std::pair<SharedSolver, SharedSolution> solution_of_results(const SharedSolution& own,
+                                                              const Interrupt& interrupt);
+  std::optional<DescribedWheel<dim>> initial_wheel(const StateSolver<dim>& solver) const;
+  std::optional<DescribedWheel<dim>> described(const StateSolver<dim>& solver, const LevelSet<dim>& shape,
+                                               double measure, const State<dim>& state) const;
   std::optional<RunSummary<dim>> run_summary(const StateSolver<dim>& solver, const State<dim>* last) const;
 
   void observe(const Trial<dim>& trial, const OptimizationState<dim>& state);
@@ -66,7 +69,7 @@ class RunLoop : private RunControl {
   std::shared_ptr<const Work> work_;
   std::optional<OptimizationState<dim>> state_;
   std::optional<InitialShape<dim>> initial_;
-  std::optional<ShapeSummary<dim>> initial_summary_;  ///< by the run's own solver, if it was seen
+  std::optional<DescribedWheel<dim>> initial_wheel_;  ///< by the run's own solver, if it was seen
   std::vector<Trial<dim>> failed_trials_;
   SharedSolution last_solution_;  ///< of the last accepted shape, kept when nothing follows it
 

@@ -1,7 +1,6 @@
-#include <fmt/format.h>
-
 #include "wheelwright/app/case_input.h"
 #include "wheelwright/app/commands/commands.h"
+#include "wheelwright/app/output_folder.h"
 #include "wheelwright/app/shared_options.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/app/wheel_input.h"
@@ -14,6 +13,9 @@
 namespace wheelwright {
 namespace {
 
+/// What is written to the folder: whoever adds a file adds its name here.
+constexpr std::string_view names_in_folder[] = {"comparison.txt", "comparison.json", "comparison.svg"};
+
 /// Solves a wheel in its load positions.
 Expected<ComparedWheel> compared(const WheelInput& wheel) {
   const auto solver = make_solver(rolling_model<2>(with_levels_of_results(wheel.source)));
@@ -21,16 +23,13 @@ Expected<ComparedWheel> compared(const WheelInput& wheel) {
   const LevelSet<2>& shape = wheel.shape;
   const auto states = (*solver)->states(shape, (*solver)->all_positions(), Interrupt());
   if (!states) return states.failure();
-  auto rolling = rolling_analysis(**solver, **states);
-  if (!rolling) return rolling.failure();
   const PolarGrid<2>& grid = shape.lattice.grid();
-  return ComparedWheel{.name = wheel.name,
-                       .which = wheel.which,
-                       .grid = grid,
-                       .contours = material_contours(shape, contour_subdivisions(shape.lattice.degree())),
-                       .volume_fraction = volume_fraction(grid, material_measure(shape)),
-                       .summary = shape_summary(**solver, shape, **states),
-                       .rolling = *std::move(rolling)};
+  auto numbers = described_wheel(**solver, shape, volume_fraction(grid, material_measure(shape)), **states);
+  if (!numbers) return numbers.failure();
+  numbers->name = wheel.name;
+  numbers->which = wheel.which;
+  return ComparedWheel{*std::move(numbers),
+                       material_contours(shape, contour_subdivisions(shape.lattice.degree()))};
 }
 
 class CompareCommand : public Subcommand {
@@ -57,6 +56,7 @@ class CompareCommand : public Subcommand {
       wheel->source.load.positions = positions_;
       wheels.push_back(*std::move(wheel));
     }
+    if (output_ && !may_write_to(*output_, names_in_folder)) return exit_refused;
     for (std::size_t k = 0; k < wheels.size(); ++k)
       if (!may_compute(name(), wheels[k].source, inputs_[k], threads_)) return exit_refused;
     return compare(wheels);
@@ -73,7 +73,7 @@ class CompareCommand : public Subcommand {
       }
       wheels.push_back(*std::move(wheel));
     }
-    fmt::print("{}", json_ ? wheels_json(wheels) : wheels_table(wheels));
+    print_lines(stdout, json_ ? wheels_json(wheels) : wheels_table(wheels));
     if (output_) write(wheels);
     return exit_done;
   }
