@@ -15,6 +15,8 @@
 #include "wheelwright/geometry/zero_contour.h"
 
 namespace wheelwright {
+using namespace cad;
+
 namespace {
 
 using std::numbers::pi;

@@ -109,7 +109,7 @@ inline std::map<std::string, std::string> results(const fs::path& run) {
 inline void expect_equal_results(const fs::path& straight, const fs::path& resumed) {
   const auto expected = results(straight), found = results(resumed);
   EXPECT_TRUE(expected.contains("history.csv") && expected.contains("comparison.svg") &&
-              expected.contains("rolling/position_00.vtu"));
+              expected.contains("rolling/wheel_00.vtu"));
   for (const auto& [name, text] : expected) {
     ASSERT_TRUE(found.contains(name)) << name;
     EXPECT_TRUE(found.at(name) == text) << name << " differs";

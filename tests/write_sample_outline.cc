@@ -11,6 +11,8 @@
 #include "wheelwright/files/atomic_file.h"
 
 namespace wheelwright {
+using namespace cad;
+
 namespace {
 
 using std::numbers::pi;

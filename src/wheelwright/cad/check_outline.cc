@@ -12,7 +12,7 @@
 #include "wheelwright/geometry/nearest_point.h"
 #include "wheelwright/geometry/zero_contour.h"
 
-namespace wheelwright {
+namespace wheelwright::cad {
 namespace {
 
 constexpr double largest_area_error = 1e-4;
@@ -221,4 +221,4 @@ std::string text(const OutlineReport& report) {
   return result;
 }
 
-}  // namespace wheelwright
+}  // namespace wheelwright::cad

@@ -7,7 +7,7 @@
 #include "wheelwright/cad/clearance.h"
 #include "wheelwright/cad/outline_fault.h"
 
-namespace wheelwright {
+namespace wheelwright::cad {
 
 /// What was measured on an outline that is fit to be used.
 struct OutlineReport {
@@ -33,4 +33,4 @@ Expected<OutlineReport, std::vector<OutlineFault>> check_outline(const Outline& 
 /// The report for people, a line for each of its numbers.
 std::string text(const OutlineReport& report);
 
-}  // namespace wheelwright
+}  // namespace wheelwright::cad

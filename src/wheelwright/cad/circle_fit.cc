@@ -6,7 +6,7 @@
 
 #include "wheelwright/linalg/dense.h"
 
-namespace wheelwright {
+namespace wheelwright::cad {
 namespace {
 
 double cross(const Vec<2>& a, const Vec<2>& b) { return a[0] * b[1] - a[1] * b[0]; }
@@ -87,4 +87,4 @@ std::optional<Arc> fit_circle(std::span<const Vec<2>> points, double tolerance) 
   return circle;
 }
 
-}  // namespace wheelwright
+}  // namespace wheelwright::cad

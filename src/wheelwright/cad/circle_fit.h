@@ -5,7 +5,7 @@
 
 #include "wheelwright/cad/curve.h"
 
-namespace wheelwright {
+namespace wheelwright::cad {
 
 // Fits that may not exist: each is empty if no such curve passes all points within `tolerance` [m].
 
@@ -18,4 +18,4 @@ std::optional<Arc> fit_arc(std::span<const Vec<2>> points, double tolerance);
 /// A whole circle through points that follow each other round it, in their sense of rotation.
 std::optional<Arc> fit_circle(std::span<const Vec<2>> points, double tolerance);
 
-}  // namespace wheelwright
+}  // namespace wheelwright::cad

@@ -8,7 +8,7 @@
 #include "wheelwright/geometry/cell_map.h"
 #include "wheelwright/geometry/nearest_point.h"
 
-namespace wheelwright {
+namespace wheelwright::cad {
 namespace {
 
 double distance(const Vec<2>& a, const Vec<2>& b) { return std::hypot(b[0] - a[0], b[1] - a[1]); }
@@ -64,7 +64,8 @@ std::vector<EdgePoint> begin_points(const Outline& outline, const Place& begin) 
   const double angle = turn(before, after);
   const int parts = std::max(1, static_cast<int>(std::ceil(std::abs(angle) / step)));
   std::vector<EdgePoint> points(parts, after);
-  for (int i = 1; i < parts; ++i) points[i].normal = rotated<2>(before.normal, angle * i / parts);
+  for (int i = 1; i < parts; ++i)
+    points[i].normal = wheelwright::rotated<2>(before.normal, angle * i / parts);
   return points;
 }
 
@@ -286,4 +287,4 @@ Clearances clearances(const Outline& outline, int n_sectors, double step) {
   return {search.thinnest_wall(), search.narrowest_gap()};
 }
 
-}  // namespace wheelwright
+}  // namespace wheelwright::cad

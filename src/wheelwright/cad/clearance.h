@@ -4,7 +4,7 @@
 
 #include "wheelwright/cad/outline.h"
 
-namespace wheelwright {
+namespace wheelwright::cad {
 
 /// A width between two places of the edges that face each other.
 struct Clearance {
@@ -27,4 +27,4 @@ struct Clearances {
 /// moved along the curves until their distance is least.
 Clearances clearances(const Outline& outline, int n_sectors, double step);
 
-}  // namespace wheelwright
+}  // namespace wheelwright::cad

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace wheelwright {
+namespace wheelwright::cad {
 namespace {
 
 Vec<2> between(const Vec<2>& a, const Vec<2>& b, double t) {
@@ -50,4 +50,4 @@ ContourSamples sample(const Contour& contour, const ZeroContour& zero, double di
   return samples;
 }
 
-}  // namespace wheelwright
+}  // namespace wheelwright::cad

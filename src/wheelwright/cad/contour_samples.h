@@ -5,7 +5,7 @@
 #include "wheelwright/geometry/contour.h"
 #include "wheelwright/geometry/zero_contour.h"
 
-namespace wheelwright {
+namespace wheelwright::cad {
 
 /// A closed contour by points that lie on {psi = 0} and follow each other at most at a given distance.
 struct ContourSamples {
@@ -19,4 +19,4 @@ struct ContourSamples {
 /// projected onto it.
 ContourSamples sample(const Contour& contour, const ZeroContour& zero, double distance);
 
-}  // namespace wheelwright
+}  // namespace wheelwright::cad

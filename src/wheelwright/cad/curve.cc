@@ -7,7 +7,7 @@
 
 #include "wheelwright/geometry/cell_map.h"
 
-namespace wheelwright {
+namespace wheelwright::cad {
 namespace {
 
 constexpr int degree = 3;
@@ -143,7 +143,7 @@ bool is_circle(const Curve& curve) {
 }
 
 Curve rotated(const Curve& curve, double angle) {
-  const auto turn = [angle](const Vec<2>& p) { return rotated<2>(p, angle); };
+  const auto turn = [angle](const Vec<2>& p) { return wheelwright::rotated<2>(p, angle); };
   if (const auto* line = std::get_if<Line>(&curve)) return Line{turn(line->start), turn(line->end)};
   if (const auto* arc = std::get_if<Arc>(&curve))
     return Arc{turn(arc->centre), arc->radius, arc->begin + angle, arc->sweep};
@@ -219,4 +219,4 @@ std::vector<Vec<2>> flattened(const Curve& curve, double tolerance) {
   return points;
 }
 
-}  // namespace wheelwright
+}  // namespace wheelwright::cad

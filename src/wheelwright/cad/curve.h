@@ -6,7 +6,7 @@
 
 #include "wheelwright/base/vec.h"
 
-namespace wheelwright {
+namespace wheelwright::cad {
 
 // Curves in the plane of the wheel, in Cartesian coordinates [m] of the body frame. Each runs from its start
 // to its end.
@@ -69,4 +69,4 @@ std::vector<Bezier> divided(const Bezier& cubic, int parts);
 /// deviate from the curve by at most `tolerance` [m].
 std::vector<Vec<2>> flattened(const Curve& curve, double tolerance);
 
-}  // namespace wheelwright
+}  // namespace wheelwright::cad

@@ -11,7 +11,7 @@
 #include "wheelwright/cad/spline_fit.h"
 #include "wheelwright/geometry/cell_map.h"
 
-namespace wheelwright {
+namespace wheelwright::cad {
 namespace {
 
 /// Part of the tolerance that the fit may use at the samples; the rest is for what lies between them.
@@ -67,7 +67,7 @@ class Representatives {
     for (const Mark& other : marks_) {
       if (std::abs(mark.area - other.area) > tolerance() * tolerance() + 1e-6 * std::abs(mark.area)) continue;
       for (int sector = 1; sector < grid_.n_sectors; ++sector) {
-        const Vec<2> image = rotated<2>(other.centroid, sector * grid_.sector_angle());
+        const Vec<2> image = wheelwright::rotated<2>(other.centroid, sector * grid_.sector_angle());
         if (std::hypot(image[0] - mark.centroid[0], image[1] - mark.centroid[1]) < tolerance()) return true;
       }
     }
@@ -208,4 +208,4 @@ Expected<Outline, OutlineFault> fit_outline(const LevelSet<2>& psi, double toler
   return outline;
 }
 
-}  // namespace wheelwright
+}  // namespace wheelwright::cad

@@ -3,7 +3,7 @@
 #include "wheelwright/base/expected.h"
 #include "wheelwright/cad/outline_fault.h"
 
-namespace wheelwright {
+namespace wheelwright::cad {
 
 /// The boundary of {psi < 0} in the full ring by few curves that deviate by at most `tolerance` [m] from the
 /// zero contour on the isoparametric cells of psi. Outer edge and bore are circles. Between its corners a
@@ -12,4 +12,4 @@ namespace wheelwright {
 /// follows the contour.
 Expected<Outline, OutlineFault> fit_outline(const LevelSet<2>& psi, double tolerance);
 
-}  // namespace wheelwright
+}  // namespace wheelwright::cad

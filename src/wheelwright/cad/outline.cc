@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace wheelwright {
+namespace wheelwright::cad {
 
 const char* name(LoopKind kind) {
   switch (kind) {
@@ -107,4 +107,4 @@ std::vector<Vec<2>> flattened(const Loop& loop, double tolerance) {
   return points;
 }
 
-}  // namespace wheelwright
+}  // namespace wheelwright::cad

@@ -7,7 +7,7 @@
 #include "wheelwright/cad/curve.h"
 #include "wheelwright/geometry/level_set.h"
 
-namespace wheelwright {
+namespace wheelwright::cad {
 
 enum class LoopKind { outer_edge, bore, hole, island };
 
@@ -54,4 +54,4 @@ std::string text(const CurveCount& count);
 /// A loop as a closed polygon that deviates by at most `tolerance` [m].
 std::vector<Vec<2>> flattened(const Loop& loop, double tolerance);
 
-}  // namespace wheelwright
+}  // namespace wheelwright::cad

@@ -5,11 +5,11 @@
 
 #include "wheelwright/geometry/place.h"
 
-namespace wheelwright {
+namespace wheelwright::cad {
 
 std::string place_of(const Vec<2>& point) {
   const double azimuth = std::atan2(point[1], point[0]);
   return place_text<2>({norm<2>(point), azimuth < 0 ? azimuth + 2 * std::numbers::pi : azimuth});
 }
 
-}  // namespace wheelwright
+}  // namespace wheelwright::cad

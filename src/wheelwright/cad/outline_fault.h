@@ -4,7 +4,7 @@
 
 #include "wheelwright/cad/outline.h"
 
-namespace wheelwright {
+namespace wheelwright::cad {
 
 /// Why an outline cannot be made or must not be used.
 struct OutlineFault {
@@ -14,4 +14,4 @@ struct OutlineFault {
 /// A Cartesian point for people, e.g. "azimuth 12.34 deg, radius 270.1 mm".
 std::string place_of(const Vec<2>& point);
 
-}  // namespace wheelwright
+}  // namespace wheelwright::cad

@@ -8,7 +8,7 @@
 
 #include "wheelwright/linalg/dense.h"
 
-namespace wheelwright {
+namespace wheelwright::cad {
 namespace {
 
 constexpr int degree = 3;
@@ -290,4 +290,4 @@ Expected<Spline, NoFit> fit_spline(std::span<const Vec<2>> points, bool closed, 
   }
 }
 
-}  // namespace wheelwright
+}  // namespace wheelwright::cad

@@ -5,7 +5,7 @@
 #include "wheelwright/base/expected.h"
 #include "wheelwright/cad/curve.h"
 
-namespace wheelwright {
+namespace wheelwright::cad {
 
 /// Points that no spline follows within the tolerance.
 struct NoFit {
@@ -21,4 +21,4 @@ inline constexpr int samples_per_interval = 4;
 /// curvature where it closes, too, and `points` does not repeat its first point.
 Expected<Spline, NoFit> fit_spline(std::span<const Vec<2>> points, bool closed, double tolerance);
 
-}  // namespace wheelwright
+}  // namespace wheelwright::cad

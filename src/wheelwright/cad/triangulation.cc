@@ -7,7 +7,7 @@
 #include <deque>
 #include <unordered_map>
 
-namespace wheelwright {
+namespace wheelwright::cad {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -80,4 +80,4 @@ Triangulation triangulated(std::span<const Polygon> polygons) {
   return result;
 }
 
-}  // namespace wheelwright
+}  // namespace wheelwright::cad

@@ -6,7 +6,7 @@
 
 #include "wheelwright/base/vec.h"
 
-namespace wheelwright {
+namespace wheelwright::cad {
 
 using Polygon = std::vector<Vec<2>>;  ///< closed: the last corner is connected to the first
 
@@ -22,4 +22,4 @@ struct Triangulation {
 /// The polygons must not cross or touch.
 Triangulation triangulated(std::span<const Polygon> polygons);
 
-}  // namespace wheelwright
+}  // namespace wheelwright::cad

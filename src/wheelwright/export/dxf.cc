@@ -43,7 +43,8 @@ enum Handle : int {
   h_first_entity = 0x100,
 };
 
-constexpr LoopKind kinds[] = {LoopKind::outer_edge, LoopKind::bore, LoopKind::hole, LoopKind::island};
+constexpr cad::LoopKind kinds[] = {cad::LoopKind::outer_edge, cad::LoopKind::bore, cad::LoopKind::hole,
+                                   cad::LoopKind::island};
 constexpr int colours[] = {7, 5, 1, 3};  // white or black, blue, red, green
 
 /// Groups of a code and a value.
@@ -70,7 +71,7 @@ class Groups {
   std::string content_;
 };
 
-std::string layer(LoopKind kind) {
+std::string layer(cad::LoopKind kind) {
   std::string upper = name(kind);
   std::ranges::transform(upper, upper.begin(),
                          [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
@@ -99,9 +100,9 @@ Groups section(std::string_view name, const Groups& content) {
   return Groups().text(0, "SECTION").text(2, name).add(content).text(0, "ENDSEC");
 }
 
-Groups header(const Outline& outline, int next_handle) {
+Groups header(const cad::Outline& outline, int next_handle) {
   constexpr int millimetres = 4, metric = 1;
-  const double reach = std::get<Arc>(outline.loops.front().curves.front()).radius;
+  const double reach = std::get<cad::Arc>(outline.loops.front().curves.front()).radius;
   Groups g;
   g.text(9, "$ACADVER").text(1, "AC1015");
   g.text(9, "$DWGCODEPAGE").text(3, "ANSI_1252");
@@ -219,19 +220,19 @@ double degrees(double radians) {
 
 class Entities {
  public:
-  void add(const Loop& loop) {
-    const auto is_spline = [](const Curve& curve) { return std::holds_alternative<Spline>(curve); };
+  void add(const cad::Loop& loop) {
+    const auto is_spline = [](const cad::Curve& curve) { return std::holds_alternative<cad::Spline>(curve); };
     if (loop.curves.size() > 1 && std::ranges::none_of(loop.curves, is_spline))
       add_polyline(loop);
     else
-      for (const Curve& curve : loop.curves) add_curve(curve, loop.kind);
+      for (const cad::Curve& curve : loop.curves) add_curve(curve, loop.kind);
   }
 
   const Groups& groups() const { return groups_; }
   int next_handle() const { return handle_; }
 
  private:
-  Groups& begin(std::string_view type, LoopKind kind) {
+  Groups& begin(std::string_view type, cad::LoopKind kind) {
     return groups_.text(0, type)
         .handle(5, handle_++)
         .handle(330, h_model_record)
@@ -239,10 +240,10 @@ class Entities {
         .text(8, layer(kind));
   }
 
-  void add_curve(const Curve& curve, LoopKind kind) {
-    if (const auto* line = std::get_if<Line>(&curve)) {
+  void add_curve(const cad::Curve& curve, cad::LoopKind kind) {
+    if (const auto* line = std::get_if<cad::Line>(&curve)) {
       begin("LINE", kind).text(100, "AcDbLine").point_in_space(10, line->start).point_in_space(11, line->end);
-    } else if (const auto* arc = std::get_if<Arc>(&curve)) {
+    } else if (const auto* arc = std::get_if<cad::Arc>(&curve)) {
       begin(is_circle(curve) ? "CIRCLE" : "ARC", kind)
           .text(100, "AcDbCircle")
           .point_in_space(10, arc->centre)
@@ -253,11 +254,11 @@ class Entities {
           .number(50, degrees(std::min(arc->begin, end)))
           .number(51, degrees(std::max(arc->begin, end)));
     } else {
-      add_spline(std::get<Spline>(curve), kind);
+      add_spline(std::get<cad::Spline>(curve), kind);
     }
   }
 
-  void add_spline(const Spline& spline, LoopKind kind) {
+  void add_spline(const cad::Spline& spline, cad::LoopKind kind) {
     constexpr int planar = 8, degree = 3;
     const int n_knots = static_cast<int>(spline.knots.size()),
               n_points = static_cast<int>(spline.points.size());
@@ -268,13 +269,13 @@ class Entities {
     for (const Vec<2>& p : spline.points) groups_.point_in_space(10, p);
   }
 
-  void add_polyline(const Loop& loop) {
+  void add_polyline(const cad::Loop& loop) {
     constexpr int closed = 1;
     begin("LWPOLYLINE", loop.kind).text(100, "AcDbPolyline");
     groups_.integer(90, static_cast<int>(loop.curves.size())).integer(70, closed);
-    for (const Curve& curve : loop.curves) {
+    for (const cad::Curve& curve : loop.curves) {
       groups_.point(10, start_of(curve));
-      if (const auto* arc = std::get_if<Arc>(&curve)) groups_.number(42, std::tan(arc->sweep / 4));
+      if (const auto* arc = std::get_if<cad::Arc>(&curve)) groups_.number(42, std::tan(arc->sweep / 4));
     }
   }
 
@@ -286,8 +287,8 @@ class Entities {
 
 std::string dxf(const WheelModel& wheel) {
   Entities entities;
-  for (const Loop& loop : wheel.outline.loops) entities.add(loop);
-  const double reach = std::get<Arc>(wheel.outline.loops.front().curves.front()).radius;
+  for (const cad::Loop& loop : wheel.outline.loops) entities.add(loop);
+  const double reach = std::get<cad::Arc>(wheel.outline.loops.front().curves.front()).radius;
   Groups file;
   file.text(999, ascii(wheel.title + ", by " + wheel.program));
   file.add(header(wheel.outline, entities.next_handle()));

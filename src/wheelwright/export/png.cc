@@ -20,13 +20,13 @@ constexpr int width = 1600, margin = 20, bytes_per_pixel = 3;
 constexpr double tolerance = 0.05;  // of the outline [pixels]
 
 /// The outline in pixels, with y downwards.
-agg::path_storage path_of(const Outline& outline) {
-  const double radius = std::get<Arc>(outline.loops.front().curves.front()).radius;
+agg::path_storage path_of(const cad::Outline& outline) {
+  const double radius = std::get<cad::Arc>(outline.loops.front().curves.front()).radius;
   const double scale = (width / 2.0 - margin) / radius;
   agg::path_storage path;
-  for (const Loop& loop : outline.loops) {
+  for (const cad::Loop& loop : outline.loops) {
     bool is_first = true;
-    for (const Vec<2>& p : flattened(loop, tolerance / scale)) {
+    for (const Vec<2>& p : cad::flattened(loop, tolerance / scale)) {
       const double x = width / 2.0 + scale * p[0], y = width / 2.0 - scale * p[1];
       is_first ? path.move_to(x, y) : path.line_to(x, y);
       is_first = false;

@@ -13,9 +13,9 @@ std::array<float, 3> in_millimetres(const Vec<2>& p, double z) {
 }  // namespace
 
 SolidMesh solid_mesh(const WheelModel& wheel) {
-  std::vector<Polygon> polygons;
-  for (const Loop& loop : wheel.outline.loops) polygons.push_back(flattened(loop, wheel.tolerance));
-  const Triangulation plane = triangulated(polygons);
+  std::vector<cad::Polygon> polygons;
+  for (const cad::Loop& loop : wheel.outline.loops) polygons.push_back(cad::flattened(loop, wheel.tolerance));
+  const cad::Triangulation plane = cad::triangulated(polygons);
   const int n = static_cast<int>(plane.points.size());
   SolidMesh mesh;
   for (const double z : {0.0, wheel.width})
@@ -25,7 +25,7 @@ SolidMesh solid_mesh(const WheelModel& wheel) {
     mesh.triangles.push_back({n + a, n + b, n + c});
   }
   int first = 0;
-  for (const Polygon& polygon : polygons) {
+  for (const cad::Polygon& polygon : polygons) {
     const int size = static_cast<int>(polygon.size());
     for (int i = 0; i < size; ++i) {
       const int a = first + i, b = first + (i + 1) % size;  // the material is on the left

@@ -15,20 +15,20 @@ std::string point(const Vec<2>& p) {
 }
 
 /// Some programs draw every cubic with a fixed number of chords, however long it is: these must do.
-int n_parts(const Bezier& cubic, double tolerance) {
+int n_parts(const cad::Bezier& cubic, double tolerance) {
   constexpr int chords_of_others = 16;
-  return (n_chords(cubic, tolerance) + chords_of_others - 1) / chords_of_others;
+  return (cad::n_chords(cubic, tolerance) + chords_of_others - 1) / chords_of_others;
 }
 
-std::string subpath(const Loop& loop, double tolerance) {
+std::string subpath(const cad::Loop& loop, double tolerance) {
   std::string path = fmt::format("M{}", point(start_of(loop.curves.front())));
-  for (const Curve& curve : loop.curves) {
-    if (std::holds_alternative<Line>(curve)) {
+  for (const cad::Curve& curve : loop.curves) {
+    if (std::holds_alternative<cad::Line>(curve)) {
       path += fmt::format("\nL{}", point(end_of(curve)));
       continue;
     }
-    for (const Bezier& cubic : beziers(curve, share_of_arcs * tolerance))
-      for (const Bezier& p : divided(cubic, n_parts(cubic, tolerance)))
+    for (const cad::Bezier& cubic : beziers(curve, share_of_arcs * tolerance))
+      for (const cad::Bezier& p : cad::divided(cubic, n_parts(cubic, tolerance)))
         path += fmt::format("\nC{} {} {}", point(p[1]), point(p[2]), point(p[3]));
   }
   return path + "Z";
@@ -37,10 +37,11 @@ std::string subpath(const Loop& loop, double tolerance) {
 }  // namespace
 
 std::string svg_outline(const WheelModel& wheel) {
-  const auto& edge = std::get<Arc>(wheel.outline.loops.front().curves.front());
+  const auto& edge = std::get<cad::Arc>(wheel.outline.loops.front().curves.front());
   const double half = edge.radius * millimetres_per_metre;
   std::string path;
-  for (const Loop& loop : wheel.outline.loops) path += fmt::format("{}\n", subpath(loop, wheel.tolerance));
+  for (const cad::Loop& loop : wheel.outline.loops)
+    path += fmt::format("{}\n", subpath(loop, wheel.tolerance));
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.6g}mm\" height=\"{0:.6g}mm\" "

@@ -11,11 +11,11 @@ namespace wheelwright {
 /// along x, and the solid from z = 0 to its width.
 struct WheelModel {
   std::string title;
-  std::string program;  ///< what wrote it, e.g. "wheelwright 1.0"
-  LevelSet<2> shape;    ///< of which the outline was made
-  Outline outline;      ///< [m]
-  double width;         ///< [m]
-  double tolerance;     ///< of chords and cubics that replace curves which a format does not have [m]
+  std::string program;   ///< what wrote it, e.g. "wheelwright 1.0"
+  LevelSet<2> shape;     ///< of which the outline was made
+  cad::Outline outline;  ///< [m]
+  double width;          ///< [m]
+  double tolerance;      ///< of chords and cubics that replace curves which a format does not have [m]
 };
 
 /// All formats write millimetres.

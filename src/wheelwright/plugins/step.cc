@@ -38,10 +38,12 @@ namespace {
 
 gp_Pnt point(const Vec<2>& p) { return {p[0] * millimetres_per_metre, p[1] * millimetres_per_metre, 0}; }
 
-TopoDS_Edge edge(const Line& line) { return BRepBuilderAPI_MakeEdge(point(line.start), point(line.end)); }
+TopoDS_Edge edge(const cad::Line& line) {
+  return BRepBuilderAPI_MakeEdge(point(line.start), point(line.end));
+}
 
 /// The circle's axis points down for an arc that runs clockwise.
-TopoDS_Edge edge(const Arc& arc) {
+TopoDS_Edge edge(const cad::Arc& arc) {
   const bool clockwise = arc.sweep < 0;
   const gp_Ax2 axes(point(arc.centre), gp_Dir(0, 0, clockwise ? -1 : 1),
                     gp_Dir(std::cos(arc.begin), std::sin(arc.begin), 0));
@@ -50,7 +52,7 @@ TopoDS_Edge edge(const Arc& arc) {
   return BRepBuilderAPI_MakeEdge(circle, 0, std::abs(arc.sweep));
 }
 
-Handle(Geom_BSplineCurve) whole_curve(const Spline& spline) {
+Handle(Geom_BSplineCurve) whole_curve(const cad::Spline& spline) {
   constexpr int degree = 3, clamped = degree + 1;
   const int n_points = static_cast<int>(spline.points.size()), n_knots = n_points - degree + 1;
   TColgp_Array1OfPnt poles(1, n_points);
@@ -66,7 +68,7 @@ Handle(Geom_BSplineCurve) whole_curve(const Spline& spline) {
 
 /// A long spline becomes several edges, cut at its knots: the rules by which programs integrate areas and
 /// volumes unless they are told otherwise have too few points for an edge of many cubics.
-std::vector<TopoDS_Edge> edges(const Spline& spline) {
+std::vector<TopoDS_Edge> edges(const cad::Spline& spline) {
   constexpr int most_cubics = 4;
   const Handle(Geom_BSplineCurve) whole = whole_curve(spline);
   const int n_cubics = whole->NbKnots() - 1, parts = (n_cubics + most_cubics - 1) / most_cubics;
@@ -79,19 +81,19 @@ std::vector<TopoDS_Edge> edges(const Spline& spline) {
   return edges;
 }
 
-std::vector<TopoDS_Edge> edges(const Line& line) { return {edge(line)}; }
-std::vector<TopoDS_Edge> edges(const Arc& arc) { return {edge(arc)}; }
+std::vector<TopoDS_Edge> edges(const cad::Line& line) { return {edge(line)}; }
+std::vector<TopoDS_Edge> edges(const cad::Arc& arc) { return {edge(arc)}; }
 
-TopoDS_Wire wire(const Loop& loop) {
+TopoDS_Wire wire(const cad::Loop& loop) {
   BRepBuilderAPI_MakeWire wire;
-  for (const Curve& curve : loop.curves)
+  for (const cad::Curve& curve : loop.curves)
     for (const TopoDS_Edge& part : std::visit([](const auto& c) { return edges(c); }, curve)) wire.Add(part);
   return wire.Wire();
 }
 
-TopoDS_Shape solid(const Body& body, double width) {
+TopoDS_Shape solid(const cad::Body& body, double width) {
   BRepBuilderAPI_MakeFace face(gp_Pln(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)), wire(*body.edge));
-  for (const Loop* hole : body.holes) face.Add(wire(*hole));
+  for (const cad::Loop* hole : body.holes) face.Add(wire(*hole));
   const TopoDS_Shape prism = BRepPrimAPI_MakePrism(face.Face(), gp_Vec(0, 0, width * millimetres_per_metre));
   return ShapeCustom::ConvertToBSpline(prism, Standard_True, Standard_False, Standard_False);
 }
@@ -102,7 +104,7 @@ TopoDS_Shape solids(const WheelModel& wheel) {
   TopoDS_Compound compound;
   BRep_Builder builder;
   builder.MakeCompound(compound);
-  for (const Body& body : all) builder.Add(compound, solid(body, wheel.width));
+  for (const cad::Body& body : all) builder.Add(compound, solid(body, wheel.width));
   return compound;
 }
 

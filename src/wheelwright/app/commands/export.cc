@@ -100,9 +100,9 @@ class ExportCommand : public Subcommand {
            finest * 1e3);
       return exit_usage;
     }
-    const auto outline = fit_outline(input.shape, tolerance());
+    const auto outline = cad::fit_outline(input.shape, tolerance());
     if (!outline) return refuse({outline.failure()});
-    const auto report = check_outline(*outline, input.shape, tolerance());
+    const auto report = cad::check_outline(*outline, input.shape, tolerance());
     if (!report) return refuse(report.failure());
     const std::string title =
         without_control_characters(input.source.title.empty() ? input.name : input.source.title);
@@ -118,8 +118,8 @@ class ExportCommand : public Subcommand {
     return write(wheel, input.name);
   }
 
-  int refuse(const std::vector<OutlineFault>& faults) const {
-    for (const OutlineFault& fault : faults) tell("wheelwright {}: {}\n", name(), fault.what);
+  int refuse(const std::vector<cad::OutlineFault>& faults) const {
+    for (const cad::OutlineFault& fault : faults) tell("wheelwright {}: {}\n", name(), fault.what);
     tell("Nothing was written.\n");
     return exit_refused;
   }
