@@ -82,7 +82,7 @@ void expect_the_same_of_all(const RollingModel<dim>& model, const WeightedSum<di
 }
 
 WeightedSum<2> all_functionals(const RollingModel<2>& model) {
-  auto image = RollingProblem<2>::create(model)->neumann_to_dirichlet();
+  auto image = RollingProblem<2>::create(model)->neumann_to_dirichlet(DualNorm::elasticity);
   EXPECT_TRUE(image);
   return {{1, std::make_shared<StrainEnergy<2>>()},
           {10, std::make_shared<UniformityL2<2>>(0.01)},
@@ -201,8 +201,8 @@ TEST(MirrorSymmetry, EvolutionKeepsIt) {
   ASSERT_TRUE(problem);
   auto psi = symmetric_holes(model.grid);
   const double row = model.grid.cell_size()[0];
-  const Evolver<2> evolver(psi.lattice,
-                           {.velocity = {}, .smoothing = 0.1, .bands = {.rim = {row, 1}, .tread = {2 * row, 2}}});
+  const Evolver<2> evolver(
+      psi.lattice, {.velocity = {}, .smoothing = 0.1, .bands = {.rim = {row, 1}, .tread = {2 * row, 2}}});
   for (int shape = 0; shape < 5; ++shape) {
     const auto evaluation = testing::evaluate_objective<2>(*problem, testing::strain_energy_alone(), psi);
     ASSERT_TRUE(evaluation);
