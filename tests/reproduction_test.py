@@ -14,7 +14,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, "scripts")
 
 from reproduction.__main__ import chosen, summary  # noqa: E402
-from reproduction.execute import Task, follows_rounding, perturbations, perturbed, tasks_of  # noqa: E402
+from reproduction.execute import Records, Task, follows_rounding, perturbations, perturbed, tasks_of  # noqa: E402
 from reproduction.family import Family, Values, Verdict, both, judged, over  # noqa: E402
 from reproduction.figures import figures  # noqa: E402
 from reproduction.hole import measured  # noqa: E402
@@ -157,10 +157,26 @@ class Families(unittest.TestCase):
     def test_only_runs_that_follow_rounding_are_repeated(self):
         self.assertEqual(tasks_of("uniform_je"), [Task("uniform_je")])
         tasks = tasks_of("rules_je")
-        self.assertGreaterEqual(len(tasks), 8)
+        self.assertGreaterEqual(len(tasks_of("rules_jp1")), 8)
+        self.assertGreater(len(tasks), len(tasks_of("rules_jp1")))
         self.assertEqual(len({task.name for task in tasks}), len(tasks))
         self.assertEqual(len(set(perturbations)), len(perturbations))
         self.assertTrue(all(1e-6 <= abs(p) <= 1e-5 for p in perturbations))
+
+
+class Reuse(unittest.TestCase):
+    def test_a_finished_run_is_found_again_unless_program_case_or_options_differ(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder, task = Path(name), Task("rules_je", 3)
+            run = Run(task.name, folder / task.name, 1.5, failure="why", unmet=["a", "b"], expected=4)
+            records = Records(program, folder, [])
+            self.assertIsNone(records.find(task))
+            records.keep(task, run)
+            found = Records(program, folder, []).find(task)
+            self.assertEqual(vars(found), vars(run))
+            self.assertIsNone(Records(program, folder, ["--iterations", "1"]).find(task))
+            self.assertIsNone(Records(sys.executable, folder, []).find(task))
+            self.assertIsNone(records.find(Task("rules_je", 4)))
 
 
 class Stress(unittest.TestCase):
@@ -185,7 +201,7 @@ class Command(unittest.TestCase):
         )
         files = {file.name: file.read_bytes() for file in (folder / "page").iterdir()}
         text = (folder / "page.md").read_text()
-        files["page.md"] = re.sub(r"Last written by .*?that run\.|# \d+ s", "", text, flags=re.DOTALL).encode()
+        files["page.md"] = re.sub(r"Last written by .*?of one\srun\.|# \d+ s", "", text, flags=re.DOTALL).encode()
         return files
 
     def test_two_cases_at_a_time_give_what_one_gives(self):

@@ -3,14 +3,13 @@
 import argparse
 import os
 import re
-import resource
 import subprocess
 import sys
 import textwrap
 import time
 from pathlib import Path
 
-from .execute import execute_all, perturbations, tasks_of
+from .execute import execute_all, few, perturbations, tasks_of
 from .family import Verdict
 from .figures import figures
 from .progress import CaseProgress
@@ -85,10 +84,11 @@ first, the velocity is the H1 (Riesz) representative of the gradient, and a shap
 minimum so far by more than 1e-4, relatively.
 
 By the paper's rules the last shapes depend on rounding: two processors find two shapes, and so do holes whose radii
-differ by a hundredth of a micrometre. Each of these cases is therefore run {1 + len(perturbations)} times, as it is and
-with radii changed by 1e-6 to 1e-5, relatively. The tables give the range of the results, rounded outwards, and a claim
-is judged on all runs, in all combinations if it compares several: *confirmed* if all meet it, *contradicted* if none
-does, and *undecided* otherwise. Pictures and curves are those of the case as it is.
+differ by a hundredth of a micrometre. Each of these cases is therefore run {1 + few} times, as it is and with radii
+changed by 1e-6 to 1e-5, relatively; those with results near the bar of a claim {1 + len(perturbations)} times. The
+tables give the range of the results, rounded outwards. A claim is judged on all runs, in all combinations if it compares
+several: it is *confirmed* if all meet it, *contradicted* if none does, and *undecided* otherwise. Pictures and curves
+are those of the case as it is.
 
 {last}
 
@@ -109,6 +109,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("figures", nargs="*", metavar="FIGURE", help="figures, such as 9 or 16-21; default: all")
     parser.add_argument("--jobs", type=int, default=min(2, cores), help="runs at a time; default: %(default)s")
     parser.add_argument("--iterations", type=int, help="shapes instead of those of the cases, for a quick look")
+    parser.add_argument("--reuse", action="store_true", help="do not repeat the runs of an earlier call")
     parser.add_argument("--page", type=Path, default=Path("docs/reproduction.md"), help="default: %(default)s")
     parser.add_argument("--runs", type=Path, default=Path("runs/reproduction"), help="default: %(default)s")
     return parser.parse_args()
@@ -125,17 +126,16 @@ def main() -> None:
     before = earlier_seconds(options.page)
     expected = {task.name: before[task.case] for task in tasks if task.case in before}
     with CaseProgress([task.name for task in tasks], expected) as progress:
-        runs = execute_all(options.program, tasks, options.runs, run_options, options.jobs, progress)
+        runs = execute_all(options.program, tasks, options.runs, run_options, options.jobs, options.reuse, progress)
     wall = time.monotonic() - start
-    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
-    used = usage.ru_utime + usage.ru_stime
+    used = sum(run.seconds for family in runs.values() for run in family.members)
     sections = earlier_sections(options.page)
     sections.update({figure.label: section(figure, runs, album) for figure in selection})
     version = subprocess.run([options.program, "--version"], capture_output=True, text=True, check=True).stdout.strip()
     last = (
-        f"Last written by {version}: {len(tasks)} runs of {len(runs)} cases in {wall:.0f} s, {options.jobs} at a time, with {used:.0f} s "
-        f"of processor time; on {options.jobs} idle cores that is {used / options.jobs:.0f} s. The times beside the "
-        "commands are from that run."
+        f"Last written by {version}: {len(tasks)} runs of {len(runs)} cases took {used:.0f} s of processor time; on "
+        f"{options.jobs} idle cores that is {used / options.jobs:.0f} s. The times beside the commands are those of one "
+        "run."
     )
     write_page(options.page, sections, textwrap.fill(last, 115))
     album.remove_others_than(options.page.read_text())

@@ -20,7 +20,7 @@ class Run:
 
     name: str
     folder: Path
-    seconds: float
+    seconds: float  # of processor time
     failure: str | None = None
     unmet: list[str] = field(default_factory=list)
     expected: int = 0
