@@ -121,6 +121,32 @@ TEST(Analysis, PrincipalStrainsAreTheEigenvalues) {
   EXPECT_NEAR(found[2], 0.03, 1e-12);
 }
 
+// Of a mirror-symmetric wheel one of each pair of positions is solved; its analysis is that of all.
+TEST(Analysis, OfSolvedPositionsIsThatOfAll) {
+  const auto model = paper_model(14, 192);
+  const auto problem = RollingProblem<2>::create(model);
+  ASSERT_TRUE(problem);
+  const auto psi = paper_holes(model.grid);
+  const auto solved = problem->distinct_positions(psi);
+  ASSERT_LT(solved.size(), model.n_positions);
+  const auto some = problem->states(psi, solved, Interrupt());
+  const auto all = problem->states(psi, problem->all_positions(), Interrupt());
+  ASSERT_TRUE(some && all);
+  const auto a = rolling_analysis<2>(*problem, **some), b = rolling_analysis<2>(*problem, **all);
+  ASSERT_TRUE(a && b);
+  EXPECT_NEAR(a->load, b->load, 1e-9 * b->load);
+  EXPECT_NEAR(a->travel, b->travel, 1e-9 * b->travel);
+  for (const auto values :
+       {&RollingAnalysis::azimuths, &RollingAnalysis::strain_energy, &RollingAnalysis::peak_von_mises,
+        &RollingAnalysis::peak_strain, &RollingAnalysis::travel_at_load, &RollingAnalysis::force_at_travel}) {
+    ASSERT_EQ(((*a).*values).size(), size_t(model.n_positions));
+    EXPECT_LT(testing::relative_difference((*a).*values, (*b).*values), 1e-7);
+  }
+  for (int i = 0; i < model.n_positions; ++i)
+    EXPECT_NEAR(a->positions[i].peak_pressure, b->positions[i].peak_pressure,
+                1e-7 * b->positions[i].peak_pressure);
+}
+
 // A rigid turn of the material inside the rim is what the rotation measures; the paper's wheel turns little.
 TEST(Analysis, DeformationOfThePapersWheelIsSmall) {
   const auto model = paper_model(14, 192);

@@ -488,6 +488,43 @@ class NoSymmetry(unittest.TestCase):
             peak = self.analysis["positions"][i]["peak_von_mises_Pa"]
             self.assertClose(max(vtu.fields["von_mises"]) / peak, 1, 0.25)
 
+    def test_the_peak_of_the_stress_has_its_place_and_its_position(self):
+        summary = json.loads((self.run_folder / "summary.json").read_text())["before"]
+        row, peak, place = self.history[0], self.analysis["peak_von_mises"], summary["peak_von_mises_place"]
+        values = [p["peak_von_mises_Pa"] for p in self.analysis["positions"]]
+        worst = values.index(max(values))
+        for found in (summary["peak_von_mises_Pa"], float(row["peak_von_mises [Pa]"]), peak["value_Pa"]):
+            self.assertClose(found, values[worst], 1e-9 * found)
+        for found in (place["radius_m"], float(row["peak_von_mises_radius [m]"])):
+            self.assertClose(found, peak["radius_m"], 1e-12)
+        for found in (place["azimuth_rad"], math.radians(float(row["peak_von_mises_azimuth [deg]"]))):
+            self.assertClose(found, peak["azimuth_rad"], 1e-12)
+        for found in (place["load_position_rad"], peak["load_position_rad"],
+                      math.radians(float(row["peak_von_mises_position [deg]"]))):
+            self.assertClose(found, ground_azimuth(worst), 1e-12)
+        # The displacement of that position is as strained there as anywhere, and nowhere else.
+        cells = list(self.recomputed_stress(self.positions[worst]))
+        top = max(c[1] for c in cells)
+        x, y = rotated(peak["radius_m"], 0, peak["azimuth_rad"])
+        self.assertGreater(max(c[1] for c in cells if math.dist(c[0], (x, y)) < 0.006), 0.8 * top)
+        mirror = rotated(peak["radius_m"], 0, -peak["azimuth_rad"])
+        self.assertLess(max(c[1] for c in cells if math.dist(c[0], mirror) < 0.006), 0.6 * top)
+
+    def test_the_summary_tells_what_history_and_analysis_tell(self):
+        summary = json.loads((self.run_folder / "summary.json").read_text())
+        row, positions = self.history[0], self.analysis["positions"]
+        self.assertEqual(summary["before"], summary["after"])  # of a run without steps
+        forces, travels = ([p[key] for p in positions] for key in ("radial_force_N", "travel_m"))
+        for key, value in (("objective_J_per_m", float(row["objective [J/m]"])),
+                           ("volume_fraction", float(row["volume fraction [-]"])),
+                           ("mean_travel_m", float(row["mean_travel [m]"])),
+                           ("run_out_m", float(row["run_out [m]"])),
+                           ("peak_pressure_Pa", float(row["peak_pressure [Pa]"])),
+                           ("largest_strain", max(p["peak_strain"] for p in positions)),
+                           ("travel_by_ring_thickness", max(travels) / (OUTER - INNER)),
+                           ("stiffness_N_per_m", sum(forces) / sum(travels))):
+            self.assertClose(summary["after"][key], value, 1e-9 * abs(value), key)
+
     def test_the_shape_gradient_says_that_material_makes_the_wheel_stiffer(self):
         vtu = Vtu(self.run_folder / "shapes/shape_0000.vtu")
         on_holes = [g for g, psi in zip(vtu.fields["shape_gradient"], vtu.fields["psi"], strict=True)
@@ -560,6 +597,48 @@ class NoSymmetry(unittest.TestCase):
         self.expect_levels("displacement.svg", lambda x, y, u, stress: rotated(u[0], u[1], -ground)[0])
 
     # Saved and read again
+
+    def numbers(self, *arguments):
+        return json.loads(run_program(*arguments, "--json"))
+
+    def test_a_run_is_analyzed_as_its_case(self):
+        # After no step, the run's last shape is the case's initial one, to the last digit of all numbers.
+        analysis = self.numbers("analyze", self.run_folder, "--positions", POSITIONS)
+        self.assertNotEqual(analysis.pop("title"), self.analysis["title"])
+        self.assertEqual(analysis, {key: value for key, value in self.analysis.items() if key != "title"})
+
+    def test_an_optimized_wheel_is_analyzed_as_its_run_told(self):
+        folder = Path(self.temporary.name) / "optimized"
+        run_program("run", self.case, "--output", folder, "--iterations", 3)
+        summary = json.loads((folder / "summary.json").read_text())["after"]
+        first, last = self.numbers("compare", self.case, folder, "--positions", POSITIONS)["wheels"]
+        for key in ("mean_travel_m", "stiffness_N_per_m", "peak_pressure_Pa", "peak_von_mises_Pa", "largest_strain",
+                    "volume_fraction", "run_out_m"):
+            self.assertClose(last[key], summary[key], 1e-12 * abs(summary[key]), key)
+            if key != "volume_fraction":
+                self.assertGreater(abs(first[key] - last[key]), 1e-4 * abs(last[key]), key)
+        positions = self.numbers("analyze", folder, "--positions", POSITIONS)["positions"]
+        self.assertClose(max(p["peak_von_mises_Pa"] for p in positions), last["peak_von_mises_Pa"], 1e-6)
+        self.assertIn("passed", run_program("verify", folder))
+
+    def test_the_comparison_shows_both_wheels_over_each_other(self):
+        folder = Path(self.temporary.name) / "comparison"
+        run_program("compare", self.case, self.run_folder, "--output", folder, "--positions", 2)
+        paths = re.findall(r' d="([^"]*)"', (folder / "comparison.svg").read_text())
+        self.assertEqual(len(paths), 2)
+        self.assertEqual(paths[0], paths[1])
+        scale = 290 / OUTER
+        inside = boxed(subpaths(paths[0]))
+        for x, y, expected in probes(0.002):
+            self.assertEqual(inside(scale * x, -scale * y), expected, (x, y))
+
+    def test_what_is_no_wheel_is_refused(self):
+        empty = Path(self.temporary.name) / "empty"
+        empty.mkdir()
+        for command in (("analyze", empty), ("verify", empty), ("compare", self.case, empty),
+                        ("compare", self.case, empty / "nothing.toml"), ("compare", self.case)):
+            code = subprocess.run([program, *map(str, command)], capture_output=True, check=False).returncode
+            self.assertEqual(code, 2, command)
 
     def test_a_resumed_run_has_the_files_of_one_that_was_not_stopped(self):
         straight, stopped = (Path(self.temporary.name) / name for name in ("straight", "stopped"))

@@ -174,22 +174,30 @@ double travel_by_thickness(const StateSolver<dim>& solver, const State<dim>& sta
 
 template <int dim>
 DeformationSize deformation_size(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
-                                 const State<dim>& state) {
-  const auto displacement = state.displacement();
+                                 const State<dim>& state, const Displacement<dim>& displacement,
+                                 double largest_strain) {
   const Lattice<dim> lattice = displacement_lattice(solver);
   const MiddleGradients<dim> gradients(lattice);
   const auto contours = edges(psi);
-  DeformationSize size{.strain = std::ranges::max(strain_peaks(solver, state, *displacement).principal),
+  DeformationSize size{.strain = largest_strain,
                        .rotation = 0,
                        .travel = travel_by_thickness(solver, state),
                        .edges_overlap = false};
   for (int position = 0; position < state.positions().size(); ++position) {
-    const RingField u = displacement->at_nodes(position);
+    const RingField u = displacement.at_nodes(position);
     const double rim = state.contacts()[position].rim.rotation;
     size.rotation = std::max(size.rotation, largest_rotation(gradients, state, u, rim));
     size.edges_overlap = size.edges_overlap || cross_deformed(contours, u, lattice);
   }
   return size;
+}
+
+template <int dim>
+DeformationSize deformation_size(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
+                                 const State<dim>& state) {
+  const auto displacement = state.displacement();
+  const double strain = std::ranges::max(strain_peaks(solver, state, *displacement).principal);
+  return deformation_size(solver, psi, state, *displacement, strain);
 }
 
 template <int dim>
@@ -223,6 +231,8 @@ std::string deformation_warning(const DeformationSize& size) {
   template bool edges_overlap(const StateSolver<dim>&, const LevelSet<dim>&, const State<dim>&);   \
   template std::optional<Failure> material_overlaps(const StateSolver<dim>&, const LevelSet<dim>&, \
                                                     const State<dim>&);                            \
+  template DeformationSize deformation_size(const StateSolver<dim>&, const LevelSet<dim>&,         \
+                                            const State<dim>&, const Displacement<dim>&, double);  \
   template DeformationSize deformation_size(const StateSolver<dim>&, const LevelSet<dim>&, const State<dim>&);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)

@@ -1,5 +1,8 @@
 #include "wheelwright/analysis/rolling_analysis.h"
 
+#include <algorithm>
+
+#include "wheelwright/analysis/all_positions.h"
 #include "wheelwright/analysis/strain_peaks.h"
 
 namespace wheelwright {
@@ -41,6 +44,29 @@ std::vector<double> values(const std::vector<ContactSummary>& positions, double 
   return result;
 }
 
+/// From the positions that were solved to all positions of a sector.
+template <int dim>
+RollingAnalysis of_all_positions(RollingAnalysis a, const LoadPositions& solved,
+                                 const RollingModel<dim>& model) {
+  if (!solved.stand_for_images()) return a;
+  const auto sources = position_sources(solved, model.n_positions);
+  const std::vector<ContactSummary> contacts = std::move(a.positions);
+  a.positions.clear();
+  for (const PositionSource& source : sources) a.positions.push_back(contacts[source.solved]);
+  a.azimuths.clear();
+  for (size_t i = 0; i < sources.size(); ++i)
+    a.azimuths.push_back(i * model.grid.sector_angle() / static_cast<double>(sources.size()));
+  for (auto* values :
+       {&a.strain_energy, &a.peak_von_mises, &a.peak_strain, &a.travel_at_load, &a.force_at_travel})
+    *values = of_all(solved, *values);
+  return a;
+}
+
+/// Equal weights for all positions of a sector, also where one of them stands for two.
+double mean(const LoadPositions& solved, const std::vector<double>& values) {
+  return rolling_variation(of_all(solved, values)).mean;
+}
+
 }  // namespace
 
 template <int dim>
@@ -55,15 +81,19 @@ Expected<RollingAnalysis> rolling_analysis(const StateSolver<dim>& solver, const
   auto peaks = strain_peaks(solver, state);
   analysis.peak_von_mises = std::move(peaks.von_mises);
   analysis.peak_strain = std::move(peaks.principal);
+  analysis.most_stressed =
+      std::ranges::max_element(analysis.peak_von_mises) - analysis.peak_von_mises.begin();
+  analysis.peak_radius = peaks.von_mises_places[analysis.most_stressed][0];
+  analysis.peak_azimuth = peaks.von_mises_places[analysis.most_stressed][1];
 
   if (analysis.held == Held::travel) {
     analysis.force_at_travel = values(analysis.positions, &ContactSummary::radial_force);
     analysis.travel = *model.travel;
-    analysis.load = rolling_variation(analysis.force_at_travel).mean;
+    analysis.load = mean(state.positions(), analysis.force_at_travel);
   } else {
     analysis.travel_at_load = values(analysis.positions, &ContactSummary::travel);
     analysis.load = model.load;
-    analysis.travel = rolling_variation(analysis.travel_at_load).mean;
+    analysis.travel = mean(state.positions(), analysis.travel_at_load);
   }
   const RollingModel<dim> other =
       analysis.held == Held::travel ? at_load(model, analysis.load) : at_travel(model, analysis.travel);
@@ -73,7 +103,7 @@ Expected<RollingAnalysis> rolling_analysis(const StateSolver<dim>& solver, const
     analysis.travel_at_load = values(held_otherwise->front(), &ContactSummary::travel);
   else
     analysis.force_at_travel = values(held_otherwise->front(), &ContactSummary::radial_force);
-  return analysis;
+  return of_all_positions(std::move(analysis), state.positions(), model);
 }
 
 template <int dim>

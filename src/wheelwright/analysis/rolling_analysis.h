@@ -8,8 +8,9 @@ namespace wheelwright {
 /// What the model holds at every load position.
 enum class Held { load, travel };
 
-/// The load positions of one sector under the model's load or travel, and what varies between them at a fixed
-/// load and at a fixed travel. Forces are per metre of width when dim = 2.
+/// All load positions of one sector under the model's load or travel, and what varies between them at a fixed
+/// load and at a fixed travel. Positions that a mirror image stands for have its values. Forces are per metre
+/// of width when dim = 2.
 struct RollingAnalysis {
   Held held;
   std::vector<double> azimuths;           ///< of the ground positions, body frame [rad]
@@ -17,6 +18,8 @@ struct RollingAnalysis {
   std::vector<double> strain_energy;      ///< J_e [J/m]
   std::vector<double> peak_von_mises;     ///< [Pa]
   std::vector<double> peak_strain;        ///< absolute value of a principal strain
+  size_t most_stressed;                   ///< index of the position with the largest von Mises stress
+  double peak_radius, peak_azimuth;       ///< where it is, in polar coordinates of the body [m, rad]
 
   double load;                          ///< the model's, or the mean of the forces at its travel
   double travel;                        ///< the model's, or the mean of the travels under its load

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
+
+#include "wheelwright/base/parallel.h"
 
 namespace wheelwright {
 namespace {
@@ -23,6 +26,88 @@ double squared_deviator(const double* strain, double axial_strain_ratio) {
   }
   for (int k = dim; k < n_strains<dim>; ++k) square += 0.5 * strain[k] * strain[k];
   return square - trace * trace / 3;
+}
+
+/// The squared peaks of some cells: of the strain's deviator times mu, and of the largest principal strain.
+template <int dim>
+struct SquaredPeaks {
+  explicit SquaredPeaks(int n_positions)
+      : deviator(n_positions, 0.0), places(n_positions, Vec<dim>{}), principal(n_positions, 0.0) {}
+
+  void add(const SquaredPeaks& other) {
+    for (size_t i = 0; i < deviator.size(); ++i) {
+      if (other.deviator[i] > deviator[i]) {
+        deviator[i] = other.deviator[i];
+        places[i] = other.places[i];
+      }
+      principal[i] = std::max(principal[i], other.principal[i]);
+    }
+  }
+
+  std::vector<double> deviator;
+  std::vector<Vec<dim>> places;
+  std::vector<double> principal;
+};
+
+/// Squares and compares first: roots are taken where the peak so far may be exceeded.
+template <int dim>
+double larger_squared_principal(double so_far, const double* strain, double axial_strain_ratio) {
+  double square = 0;
+  for (int k = 0; k < dim; ++k) square += strain[k] * strain[k];
+  for (int k = dim; k < n_strains<dim>; ++k) square += 0.5 * strain[k] * strain[k];
+  const double trace = strain[0] + strain[1];
+  const double axial = dim == 2 ? axial_strain_ratio * trace : 0;
+  if (std::max(square, axial * axial) <= so_far) return so_far;  // e_1^2 <= e:e
+  for (const double e : principal_strains<dim>(strain, axial_strain_ratio)) so_far = std::max(so_far, e * e);
+  return so_far;
+}
+
+template <int dim>
+Vec<dim> place_in_body(const PolarGrid<dim>& grid, int cell, const Vec<dim>& xi, int sector) {
+  const auto position = grid.cell_position(cell);
+  const Vec<dim> size = grid.cell_size();
+  Vec<dim> place;
+  for (int d = 0; d < dim; ++d) place[d] = (position[d] + xi[d]) * size[d];
+  place[0] += grid.inner_radius;
+  place[1] += sector * grid.sector_angle();
+  return place;
+}
+
+/// One cell in all positions and sectors.
+template <int dim>
+void add_cell(const StateSolver<dim>& solver, const Displacement<dim>& displacement, int cell,
+              const std::vector<Vec<dim>>& points, SquaredPeaks<dim>& peaks) {
+  const PolarGrid<dim>& grid = solver.model().grid;
+  const Material& material = solver.model().materials.in_row(grid.cell_position(cell)[0]);
+  const double squared_mu = material.mu() * material.mu(), axial = material.axial_strain_ratio();
+  const Matrix strains = displacement.strains(cell, points);
+  for (int j = 0; j < strains.columns(); ++j) {
+    const int position = j / grid.n_sectors;
+    for (size_t q = 0; q < points.size(); ++q) {
+      const double* strain = strains.column(j) + q * n_strains<dim>;
+      const double deviator = squared_mu * squared_deviator<dim>(strain, axial);
+      if (deviator > peaks.deviator[position]) {
+        peaks.deviator[position] = deviator;
+        peaks.places[position] = place_in_body<dim>(grid, cell, points[q], j % grid.n_sectors);
+      }
+      peaks.principal[position] = larger_squared_principal<dim>(peaks.principal[position], strain, axial);
+    }
+  }
+}
+
+/// The quadrature points of the cells with material, by cell; empty for the others.
+template <int dim>
+std::vector<std::vector<Vec<dim>>> material_points(const CutDomain<dim>& domain, int degree) {
+  std::vector<std::vector<Vec<dim>>> result(domain.grid.n_cells());
+  const auto full = unit_cell_rule<dim>(degree + 1);
+  auto cut = domain.cut.begin();
+  for (int cell = 0; cell < domain.grid.n_cells(); ++cell) {
+    const bool is_cut = cut != domain.cut.end() && cut->cell == cell;
+    const std::span<const ReferencePoint<dim>> points = is_cut ? (cut++)->material : full;
+    if (!domain.active(cell)) continue;
+    for (const auto& point : points) result[cell].push_back(point.xi);
+  }
+  return result;
 }
 
 }  // namespace
@@ -50,38 +135,27 @@ std::array<double, 3> principal_strains<3>(const double* strain, double) {
 }
 
 template <int dim>
-StrainPeaks strain_peaks(const StateSolver<dim>& solver, const State<dim>& state,
-                         const Displacement<dim>& displacement) {
+StrainPeaks<dim> strain_peaks(const StateSolver<dim>& solver, const State<dim>& state,
+                              const Displacement<dim>& displacement) {
   const PolarGrid<dim>& grid = solver.model().grid;
-  const std::vector<double> zeros(state.positions().size(), 0.0);
-  StrainPeaks peaks{zeros, zeros};
-  const auto full = unit_cell_rule<dim>(solver.model().degree + 1);
-  auto cut = state.domain().cut.begin();
-  for (int cell = 0; cell < grid.n_cells(); ++cell) {
-    const bool is_cut = cut != state.domain().cut.end() && cut->cell == cell;
-    const std::span<const ReferencePoint<dim>> points = is_cut ? (cut++)->material : full;
-    if (!state.domain().active(cell) || points.empty()) continue;
-    std::vector<Vec<dim>> xi;
-    for (const auto& point : points) xi.push_back(point.xi);
-    const Material& material = solver.model().materials.in_row(grid.cell_position(cell)[0]);
-    const double mu = material.mu(), axial = material.axial_strain_ratio();
-    const Matrix strains = displacement.strains(cell, xi);
-    for (int j = 0; j < strains.columns(); ++j) {
-      double &squared_stress = peaks.von_mises[j / grid.n_sectors],
-             &principal = peaks.principal[j / grid.n_sectors];
-      for (int row = 0; row < strains.rows(); row += n_strains<dim>) {
-        const double* strain = strains.column(j) + row;
-        squared_stress = std::max(squared_stress, mu * mu * squared_deviator<dim>(strain, axial));
-        for (const double e : principal_strains<dim>(strain, axial))
-          principal = std::max(principal, std::abs(e));
-      }
+  const int n_positions = state.positions().size();
+  const auto points = material_points(state.domain(), solver.model().degree);
+  std::vector<SquaredPeaks<dim>> of_column(grid.columns(), SquaredPeaks<dim>(n_positions));
+  const int cells_per_column = grid.n_cells() / grid.columns();
+  parallel_for(grid.columns(), [&](int column) {
+    for (int k = 0; k < cells_per_column; ++k) {
+      const int cell = column * cells_per_column + k;
+      if (!points[cell].empty()) add_cell<dim>(solver, displacement, cell, points[cell], of_column[column]);
     }
-  }
-  for (double& stress : peaks.von_mises) stress = std::sqrt(6 * stress);
-  return peaks;
+  });
+  SquaredPeaks<dim> all(n_positions);
+  for (const auto& peaks : of_column) all.add(peaks);
+  for (double& square : all.deviator) square = std::sqrt(6 * square);
+  for (double& square : all.principal) square = std::sqrt(square);
+  return {std::move(all.deviator), std::move(all.places), std::move(all.principal)};
 }
 
-template StrainPeaks strain_peaks(const StateSolver<2>&, const State<2>&, const Displacement<2>&);
-template StrainPeaks strain_peaks(const StateSolver<3>&, const State<3>&, const Displacement<3>&);
+template StrainPeaks<2> strain_peaks(const StateSolver<2>&, const State<2>&, const Displacement<2>&);
+template StrainPeaks<3> strain_peaks(const StateSolver<3>&, const State<3>&, const Displacement<3>&);
 
 }  // namespace wheelwright

@@ -8,18 +8,20 @@ namespace wheelwright {
 
 /// The largest values of every load position, over the quadrature points of the material. The tread is seen
 /// through the nodes of the level set's grid, without its refinement.
+template <int dim>
 struct StrainPeaks {
-  std::vector<double> von_mises;  ///< stress [Pa]
-  std::vector<double> principal;  ///< absolute value of a principal strain
+  std::vector<double> von_mises;           ///< stress [Pa]
+  std::vector<Vec<dim>> von_mises_places;  ///< where they are: polar coordinates of the body (m, rad, m)
+  std::vector<double> principal;           ///< absolute value of a principal strain
 };
 
 template <int dim>
-StrainPeaks strain_peaks(const StateSolver<dim>& solver, const State<dim>& state,
-                         const Displacement<dim>& displacement);
+StrainPeaks<dim> strain_peaks(const StateSolver<dim>& solver, const State<dim>& state,
+                              const Displacement<dim>& displacement);
 
 /// The same where nothing else asks for the displacement.
 template <int dim>
-StrainPeaks strain_peaks(const StateSolver<dim>& solver, const State<dim>& state) {
+StrainPeaks<dim> strain_peaks(const StateSolver<dim>& solver, const State<dim>& state) {
   return strain_peaks<dim>(solver, state, *state.displacement());
 }
 

@@ -21,6 +21,12 @@ void Options::argument(const std::string& name, std::string& value, const Check&
   app_.add_option(name, value, meaning)->required()->check(check);
 }
 
+void Options::arguments(const std::string& name, std::vector<std::string>& values, int least,
+                        const std::string& meaning) {
+  constexpr int most = 1000;
+  app_.add_option(name, values, meaning)->required()->expected(least, most);
+}
+
 void Options::optional_argument(const std::string& name, std::string& value, const std::string& meaning) {
   app_.add_option(name, value, meaning)->capture_default_str();
 }

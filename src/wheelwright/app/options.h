@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -27,6 +28,9 @@ class Options {
   /// An argument that the command needs.
   void argument(const std::string& name, std::string& value, const std::string& meaning);
   void argument(const std::string& name, std::string& value, const Check& check, const std::string& meaning);
+  /// At least `least` arguments.
+  void arguments(const std::string& name, std::vector<std::string>& values, int least,
+                 const std::string& meaning);
   /// An argument that may be left out; --help shows the value that stands without it.
   void optional_argument(const std::string& name, std::string& value, const std::string& meaning);
 

@@ -23,11 +23,6 @@ int report_findings(const std::vector<Finding>& findings) {
   return unmet > 0 ? exit_unexpected : exit_done;
 }
 
-void report_unusable(const std::vector<UnusableCheckpoint>& unusable) {
-  for (const auto& [file, reason] : unusable)
-    tell("{}: cannot be used, trying the one before it: {}\n", file.string(), reason);
-}
-
 /// One overload for each reason not to begin.
 template <int dim>
 struct NotBegunReport {
@@ -80,6 +75,7 @@ void print_files(const fs::path& folder) {
         {"stress.svg", "the loaded wheel; stress_contact.svg about the contact"},
         {"displacement.svg", "the loaded wheel, how far its points come down"},
         {"mesh.svg", "the grid and the cells that the boundary cuts"},
+        {"summary.json", "the numbers above, for programs"},
         {"history.csv", "every trial shape"},
         {"shapes.pvd", "all shapes, for ParaView"},
         {"rolling.pvd", "all load positions, for ParaView"}})
@@ -88,19 +84,13 @@ void print_files(const fs::path& folder) {
 
 template <int dim>
 void print_summary(const RunResult<dim>& result, const fs::path& folder) {
-  const InitialShape<dim>& first = *result.initial;
-  const OptimizationState<dim>& last = *result.state;
-  const PolarGrid<dim>& grid = last.shape.lattice.grid();
-  fmt::print("objective  {:.6g} -> {:.6g} {} ({:+.2f} %) after {} shapes in {:.1f} s ({})\n", first.objective,
-             last.evaluation.function("objective").value, unit<dim>(kind(Quantity::objective)),
-             100 * (last.evaluation.function("objective").value / first.objective - 1), last.iteration,
-             result.elapsed_seconds, to_string(result.reason));
-  fmt::print("volume     {:.6f} -> {:.6f} of the ring\n", volume_fraction(grid, first.measure),
-             volume_fraction(grid, last.measure));
+  const PolarGrid<dim>& grid = result.state->shape.lattice.grid();
+  fmt::print("{} shapes in {:.1f} s ({})\n", result.state->iteration, result.elapsed_seconds,
+             to_string(result.reason));
+  if (result.summary) fmt::print("\n{}\n", summary_table(*result.summary));
   if (result.is_approaching)
-    fmt::print(
-        "           volume.target = {:.6g} is not reached: it takes more shapes, or a larger volume.rate\n",
-        volume_fraction(grid, last.target_measure));
+    fmt::print("volume.target = {:.6g} is not reached: it takes more shapes, or a larger volume.rate\n",
+               volume_fraction(grid, result.state->target_measure));
   print_files(folder);
 }
 
@@ -134,6 +124,11 @@ ExitCode exit_code_of_stop(const Signals& signals) {
 }
 
 }  // namespace
+
+void report_unusable(const std::vector<UnusableCheckpoint>& unusable) {
+  for (const auto& [file, reason] : unusable)
+    tell("{}: cannot be used, trying the one before it: {}\n", file.string(), reason);
+}
 
 template <int dim>
 int report_not_begun(const NotBegun<dim>& reason, const fs::path& folder) {

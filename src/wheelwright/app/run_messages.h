@@ -6,6 +6,9 @@
 
 namespace wheelwright {
 
+/// Tells which checkpoints cannot be used, and why.
+void report_unusable(const std::vector<UnusableCheckpoint>& unusable);
+
 /// Tells why a run did not begin or resume; returns an ExitCode.
 template <int dim>
 int report_not_begun(const NotBegun<dim>& reason, const std::filesystem::path& folder);

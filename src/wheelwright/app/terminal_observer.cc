@@ -29,7 +29,7 @@ void TerminalObserver<dim>::operator()(const Event<dim>& event, const RunView<di
   if (const auto* command = std::get_if<CommandDone>(&event); command && !command->text.empty())
     progress_.note((command->was_obeyed ? "" : "refused: ") + command->text);
   if (const auto* ended = std::get_if<RunEnded<dim>>(&event)) {
-    if (ended->solution) warn(*ended->solver, ended->state->shape, *ended->solution);
+    if (ended->summary) warn(ended->summary->after.wheel.summary.deformation);
     progress_.end();
   }
 }
@@ -43,9 +43,8 @@ void TerminalObserver<dim>::begin(const RunStarted& started, const RunView<dim>&
 }
 
 template <int dim>
-void TerminalObserver<dim>::warn(const StateSolver<dim>& solver, const LevelSet<dim>& shape,
-                                 const State<dim>& solution) {
-  const auto warning = deformation_warning(deformation_size(solver, shape, solution));
+void TerminalObserver<dim>::warn(const DeformationSize& size) {
+  const auto warning = deformation_warning(size);
   if (!warning.empty()) progress_.note("warning: " + warning);
 }
 
@@ -59,7 +58,8 @@ void TerminalObserver<dim>::show(const TrialDone<dim>& done, const RunView<dim>&
   }
   for (const auto& event : trial.events)
     progress_.note(fmt::format("shape {}: {}", trial.iteration, text(event)));
-  if (state.iteration == 0 && trial.solution) warn(*run.study.solver, trial.shape, *trial.solution);
+  if (state.iteration == 0 && trial.solution)
+    warn(deformation_size(*run.study.solver, trial.shape, *trial.solution));
   const PolarGrid<dim>& grid = run.study.grid();
   progress_.show({.shape = state.iteration,
                   .n_shapes = run.study.optimizer.iterations,

@@ -18,7 +18,7 @@ class TerminalObserver : public Observer<dim> {
   void show(const TrialDone<dim>& done, const RunView<dim>& run);
 
   /// Tells when a solution is beyond what linear elasticity describes.
-  void warn(const StateSolver<dim>& solver, const LevelSet<dim>& shape, const State<dim>& solution);
+  void warn(const DeformationSize& size);
 
   Progress progress_;
 };

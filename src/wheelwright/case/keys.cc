@@ -465,7 +465,7 @@ const SectionArray<Expectation>& expectation_sections() {
       .keys = {{.name = "quantity",
                 .unit = "",
                 .field = choice<&Expectation::quantity>({quantity_names.begin(), quantity_names.end()}),
-                .meaning = "a column of history.csv, or the maximum von Mises stress of all positions",
+                .meaning = "a column of history.csv",
                 .presence = Presence::required},
                {.name = "value",
                 .unit = "",

@@ -86,6 +86,16 @@ std::string variation_lines(const RollingReport& report) {
   return table;
 }
 
+std::string stress_line(const RollingReport& report) {
+  const RollingAnalysis& a = report.analysis;
+  return fmt::format(
+      "largest von Mises stress {:.4g} MPa at radius {:.1f} mm, azimuth {:.2f} deg, with the ground at "
+      "{:.2f} "
+      "deg\n",
+      a.peak_von_mises[a.most_stressed] * MPa, a.peak_radius * mm, a.peak_azimuth * degree,
+      a.azimuths[a.most_stressed] * degree);
+}
+
 std::string load_lines(const RollingReport& report) {
   std::string table =
       fmt::format("{:>11}{:>12}{:>12}{:>12}{:>12}\n{:>11}{:>12}{:>12}{:>12}{:>12}\n", "load", "mean travel",
@@ -167,7 +177,7 @@ LinePlot sector_plot(const RollingReport& report, const std::string& title, Plot
 }  // namespace
 
 std::string rolling_table(const RollingReport& report) {
-  std::string table = position_lines(report) + '\n' + variation_lines(report);
+  std::string table = position_lines(report) + '\n' + variation_lines(report) + '\n' + stress_line(report);
   if (!report.loads.empty()) table += '\n' + load_lines(report);
   return table;
 }
@@ -184,6 +194,11 @@ std::string rolling_json(const RollingReport& report) {
             {"load_N", a.load * report.width},
             {"travel_m", a.travel},
             {"positions", positions_json(report)},
+            {"peak_von_mises",
+             {{"value_Pa", a.peak_von_mises[a.most_stressed]},
+              {"radius_m", a.peak_radius},
+              {"azimuth_rad", a.peak_azimuth},
+              {"load_position_rad", a.azimuths[a.most_stressed]}}},
             {"travel_at_load_m", variation(all[0], 1)},
             {"force_at_travel_N", variation(all[1], report.width)},
             {"peak_pressure_Pa", variation(all[2], 1)}};

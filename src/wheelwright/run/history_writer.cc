@@ -1,14 +1,24 @@
 #include "wheelwright/run/history_writer.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <numbers>
 
 #include "wheelwright/analysis/rolling_measures.h"
+#include "wheelwright/analysis/shape_summary.h"
 
 namespace wheelwright {
 namespace {
 
 HistoryColumns::Quantity column(std::string name, const char* unit) { return {std::move(name), unit}; }
+
+/// The peaks of stress and strain of an accepted shape; azimuths are those of the body.
+constexpr std::array<std::pair<const char*, const char*>, 5> peak_columns{{{"peak_von_mises", "Pa"},
+                                                                           {"peak_von_mises_radius", "m"},
+                                                                           {"peak_von_mises_azimuth", "deg"},
+                                                                           {"peak_von_mises_position", "deg"},
+                                                                           {"largest_strain", "-"}}};
 
 template <int dim>
 std::vector<HistoryColumns::Quantity> term_columns(const ShapeFunction<dim>& objective) {
@@ -27,7 +37,23 @@ HistoryColumns history_columns(const ShapeFunction<dim>& objective) {
   columns.terms = term_columns(objective);
   for (const auto& [quantity, member] : rolling_quantities)
     columns.measures.push_back(column(std::string(name(quantity)), unit<dim>(kind(quantity))));
+  for (const auto& [measure, measure_unit] : peak_columns)
+    columns.measures.push_back(column(measure, measure_unit));
   return columns;
+}
+
+/// In the order of peak_columns.
+template <int dim>
+std::vector<MeasureValue> peaks(const StateSolver<dim>& solver, const State<dim>& state) {
+  constexpr double degree = 180 / std::numbers::pi;
+  const StrainPeaks<dim> all = strain_peaks(solver, state);
+  const StressPeak<dim> stress = stress_peak(solver, state, all);
+  const std::array<double, peak_columns.size()> values{
+      stress.value, stress.place[0], stress.place[1] * degree, stress.ground_azimuth * degree,
+      std::ranges::max(all.principal)};
+  std::vector<MeasureValue> result;
+  for (size_t k = 0; k < values.size(); ++k) result.push_back({peak_columns[k].first, values[k]});
+  return result;
 }
 
 template <int dim>
@@ -107,6 +133,10 @@ void HistoryWriter<dim>::record(const TrialDone<dim>& done, const RunView<dim>& 
     row.measures = trial.evaluation->measures;
     row.max_newton_iterations = newton.empty() ? 0 : *std::max_element(newton.begin(), newton.end());
     row.phases = trial.evaluation->phases;
+  }
+  if (row.accepted && trial.solution) {
+    const auto found = peaks(*run.study.solver, *trial.solution);
+    row.measures.insert(row.measures.end(), found.begin(), found.end());
   }
   row.phases.push_back({phase::evolution, trial.evolution_seconds});
   history_->add(row);

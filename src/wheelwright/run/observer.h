@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "wheelwright/report/run_summary.h"
 #include "wheelwright/run/checkpoint.h"
 #include "wheelwright/run/study.h"
 
@@ -52,6 +53,7 @@ struct RunEnded {
   const OptimizationState<dim>* state;        ///< the last accepted shape; null after a failed start
   const State<dim>* solution;                 ///< its solution; null when there are no results to write
   const StateSolver<dim>* solver;             ///< of that solution; its tread may be finer than the study's
+  const RunSummary<dim>* summary;             ///< null where there is no solution
   std::span<const Trial<dim>> failed_trials;  ///< after the last accepted shape
 };
 

@@ -8,6 +8,7 @@
 #include "wheelwright/run/pressure_files.h"
 #include "wheelwright/run/result_files.h"
 #include "wheelwright/run/shape_files.h"
+#include "wheelwright/run/summary_file.h"
 
 namespace wheelwright {
 
@@ -27,6 +28,7 @@ Observers<dim> make_observers(const Case& c, const CheckpointFolder& checkpoints
     observers.push_back(std::make_unique<ResultFiles>());
     observers.push_back(std::make_unique<FailureReport>());
   }
+  observers.push_back(std::make_unique<SummaryFile<dim>>());
   observers.push_back(std::make_unique<Checkpointer<dim>>(checkpoints, resumed));
   return observers;
 }

@@ -48,8 +48,9 @@ struct RunResult {
   StopReason reason;
   std::optional<OptimizationState<dim>> state;  ///< the last accepted shape; empty after a failed start
   std::optional<InitialShape<dim>> initial;
-  std::vector<Trial<dim>> failed_trials;  ///< after the last accepted shape
-  std::vector<Finding> findings;          ///< for what the case expects; of a run that ended by itself
+  std::vector<Trial<dim>> failed_trials;   ///< after the last accepted shape
+  std::vector<Finding> findings;           ///< for what the case expects; of a run that ended by itself
+  std::optional<RunSummary<dim>> summary;  ///< of a run with results
   double elapsed_seconds;
   bool is_approaching = false;  ///< whether the volume has not reached its target yet
 };

@@ -7,6 +7,7 @@
 #include "wheelwright/case/write.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/run/provenance.h"
+#include "wheelwright/run/run_title.h"
 
 namespace wheelwright {
 namespace {
@@ -96,13 +97,16 @@ RunResult<dim> RunLoop<dim>::end(StopReason reason) {
   save();
   stop_file_->remove();
   if (reason == StopReason::stop_requested) {
-    notify(RunEnded<dim>{reason, &*state_, nullptr, nullptr, {}});
+    notify(RunEnded<dim>{reason, &*state_, nullptr, nullptr, nullptr, {}});
     return result(reason);
   }
   const SharedSolution solution = final_solution();
   const auto [solver, shown] = solution_of_results(solution);
-  notify(RunEnded<dim>{reason, &*state_, shown.get(), solver.get(), failed_trials_});
+  const auto summary = run_summary(*solver, shown.get());
+  notify(RunEnded<dim>{reason, &*state_, shown.get(), solver.get(), summary ? &*summary : nullptr,
+                       failed_trials_});
   RunResult<dim> ended = result(reason);
+  ended.summary = summary;
   ended.findings = findings_at_the_end(solution.get());
   return ended;
 }
@@ -111,7 +115,7 @@ template <int dim>
 RunResult<dim> RunLoop<dim>::end_without_a_shape(const Failure& failure) {
   stop_file_->remove();
   if (failure.reason == FailureReason::interrupted) {
-    notify(RunEnded<dim>{StopReason::stop_requested, nullptr, nullptr, nullptr, {}});
+    notify(RunEnded<dim>{StopReason::stop_requested, nullptr, nullptr, nullptr, nullptr, {}});
     return result(StopReason::stop_requested);
   }
   failed_trials_ = {{.iteration = 0,
@@ -123,7 +127,7 @@ RunResult<dim> RunLoop<dim>::end_without_a_shape(const Failure& failure) {
                      .measure = 0,
                      .verdict = Verdict::failed,
                      .failure = failure}};
-  notify(RunEnded<dim>{StopReason::failed_start, nullptr, nullptr, nullptr, failed_trials_});
+  notify(RunEnded<dim>{StopReason::failed_start, nullptr, nullptr, nullptr, nullptr, failed_trials_});
   return result(StopReason::failed_start);
 }
 
@@ -134,6 +138,7 @@ RunResult<dim> RunLoop<dim>::result(StopReason reason) const {
           .initial = initial_,
           .failed_trials = failed_trials_,
           .findings = {},
+          .summary = {},
           .elapsed_seconds = elapsed_,
           .is_approaching = state_ && is_approaching(work_->study.optimizer, *state_)};
 }
@@ -179,6 +184,39 @@ RunLoop<dim>::solution_of_results(const SharedSolution& own) {
   return {*finer, *std::move(states)};
 }
 
+/// The initial shape as the solver of the results sees it: what was noted of its trial, where that solver is
+/// the run's own. Else, and in a resumed run, it is solved here.
+template <int dim>
+std::optional<DescribedWheel<dim>> RunLoop<dim>::initial_wheel(const StateSolver<dim>& solver) const {
+  if (initial_wheel_ && &solver == work_->study.solver.get()) return initial_wheel_;
+  const LevelSet<dim>& shape = initial_->shape;
+  const auto states = solver.states(shape, solver.distinct_positions(shape), Interrupt());
+  if (!states) return {};
+  return described(solver, shape, initial_->measure, **states);
+}
+
+template <int dim>
+std::optional<DescribedWheel<dim>> RunLoop<dim>::described(const StateSolver<dim>& solver,
+                                                           const LevelSet<dim>& shape, double measure,
+                                                           const State<dim>& state) const {
+  auto wheel = described_wheel(solver, shape, volume_fraction(work_->study.grid(), measure), state);
+  if (!wheel) return {};
+  return *std::move(wheel);
+}
+
+template <int dim>
+std::optional<RunSummary<dim>> RunLoop<dim>::run_summary(const StateSolver<dim>& solver,
+                                                         const State<dim>* last) const {
+  if (!last) return {};
+  const auto now = described(solver, state_->shape, state_->measure, *last);
+  const auto first = state_->iteration > 0 ? initial_wheel(solver) : now;
+  if (!first || !now) return {};
+  return RunSummary<dim>{
+      .title = run_title(work_->study.source),
+      .before = {0, initial_->objective, *first},
+      .after = {state_->iteration, work_->optimizer.objective_of(state_->evaluation), *now}};
+}
+
 template <int dim>
 void RunLoop<dim>::observe(const Trial<dim>& trial, const OptimizationState<dim>& state) {
   const double seconds = watch_.lap();
@@ -188,6 +226,9 @@ void RunLoop<dim>::observe(const Trial<dim>& trial, const OptimizationState<dim>
     if (!initial_)
       initial_ =
           InitialShape<dim>{state.shape, work_->optimizer.objective_of(state.evaluation), state.measure};
+    const Case& c = work_->study.source;
+    if (state.iteration == 0 && trial.solution && tread_levels_of_results(c) == tread_levels(c))
+      initial_wheel_ = described(*work_->study.solver, state.shape, state.measure, *trial.solution);
     last_solution_ = reason_to_stop(work_->study.optimizer, state) ? trial.solution : nullptr;
   } else if (trial.verdict == Verdict::failed) {
     failed_trials_.push_back(trial);
@@ -270,6 +311,7 @@ std::optional<Refusal> RunLoop<dim>::change_case(const Case& changed, const std:
   if (!anew) return refusal(anew.failure());
 
   work_ = make_work(*std::move(study));
+  initial_wheel_.reset();
   initial_->objective = first->evaluation.function("objective").value;
   state_ = *std::move(anew);
   notify(CaseChanged{what});

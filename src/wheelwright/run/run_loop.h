@@ -46,6 +46,10 @@ class RunLoop : private RunControl {
   RunResult<dim> result(StopReason reason) const;
   SharedSolution final_solution();
   std::pair<SharedSolver, SharedSolution> solution_of_results(const SharedSolution& own);
+  std::optional<DescribedWheel<dim>> initial_wheel(const StateSolver<dim>& solver) const;
+  std::optional<DescribedWheel<dim>> described(const StateSolver<dim>& solver, const LevelSet<dim>& shape,
+                                               double measure, const State<dim>& state) const;
+  std::optional<RunSummary<dim>> run_summary(const StateSolver<dim>& solver, const State<dim>* last) const;
 
   void observe(const Trial<dim>& trial, const OptimizationState<dim>& state);
   bool must_yield();
@@ -64,6 +68,7 @@ class RunLoop : private RunControl {
   std::shared_ptr<const Work> work_;
   std::optional<OptimizationState<dim>> state_;
   std::optional<InitialShape<dim>> initial_;
+  std::optional<DescribedWheel<dim>> initial_wheel_;  ///< by the run's own solver, if it was seen
   std::vector<Trial<dim>> failed_trials_;
   SharedSolution last_solution_;  ///< of the last accepted shape, kept when nothing follows it
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "wheelwright/analysis/rolling_measures.h"
+#include "wheelwright/analysis/shape_summary.h"
 #include "wheelwright/base/stopwatch.h"
 #include "wheelwright/functionals/mean_contact_stress.h"
 
@@ -98,11 +98,7 @@ WeightedValues<dim> weighted(const ShapeFunction<dim>& function, const Functiona
 
 template <int dim>
 std::vector<MeasureValue> measures(const State<dim>& state) {
-  std::vector<ContactSummary> positions;
-  for (size_t i = 0; i < state.contacts().size(); ++i)
-    positions.insert(positions.end(), static_cast<size_t>(state.positions().multiplicities[i]),
-                     contact_summary(state.contacts()[i]));
-  const RollingMeasures m = rolling_measures(positions);
+  const RollingMeasures m = rolling_measures(contact_summaries(state));
   std::vector<MeasureValue> values;
   for (const auto& [quantity, member] : rolling_quantities)
     values.push_back({std::string(name(quantity)), m.*member});

@@ -7,6 +7,7 @@
 #include "wheelwright/app/load_list.h"
 #include "wheelwright/app/shared_options.h"
 #include "wheelwright/app/terminal.h"
+#include "wheelwright/app/wheel_input.h"
 #include "wheelwright/base/text.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/files/atomic_file.h"
@@ -21,13 +22,14 @@ namespace {
 
 constexpr const char* result_file = "analysis.json";
 
-/// `name` stands for a title that is missing; loads on the whole width [N].
-Expected<RollingReport> rolling_report(const Case& c, const std::string& name,
-                                       const std::vector<double>& loads, const StateSolver<2>& solver,
-                                       const State<2>& solution) {
+/// Loads on the whole width [N]. The wheel's name stands for a title that is missing.
+Expected<RollingReport> rolling_report(const WheelInput& wheel, const std::vector<double>& loads,
+                                       const StateSolver<2>& solver, const State<2>& solution) {
+  const Case& c = wheel.source;
   auto analysis = rolling_analysis(solver, solution);
   if (!analysis) return analysis.failure();
-  RollingReport report{.title = c.title.empty() ? name : c.title,
+  const std::string title = c.title.empty() ? wheel.name : c.title;
+  RollingReport report{.title = fmt::format("{}, {}", title, wheel.which),
                        .width = c.wheel.width,
                        .n_sectors = c.wheel.sectors,
                        .analysis = *std::move(analysis),
@@ -65,7 +67,7 @@ class AnalyzeCommand : public Subcommand {
 
   void declare(Options& options) override {
     constexpr int most_positions = 1000;
-    add_case(options, case_file_);
+    add_wheel(options, input_);
     options.number("--positions", positions_, {1, most_positions}, "Load positions per sector");
     options.text("--loads", "P1,P2,... | FROM:TO:NUMBER", loads_, check_loads,
                  "Report the deflection under these loads on the whole width [N]");
@@ -75,31 +77,32 @@ class AnalyzeCommand : public Subcommand {
   }
 
   int run() override {
-    auto c = read_or_tell(case_file_);
-    if (!c) return exit_usage;
-    c->load.positions = positions_;
-    if (!may_compute(name(), *c, case_file_, threads_)) return exit_refused;
+    auto wheel = read_wheel_or_tell(input_);
+    if (!wheel) return wheel.failure();
+    wheel->source.load.positions = positions_;
+    if (!may_compute(name(), wheel->source, input_, threads_)) return exit_refused;
     if (output_ && std::filesystem::exists(folder() / result_file)) {
       tell("{}: holds an analysis already; choose another folder, or remove it\n", *output_);
       return exit_refused;
     }
-    return analyze(*c);
+    return analyze(*wheel);
   }
 
  private:
   std::filesystem::path folder() const { return *output_; }
 
-  /// Computes the case's initial shape at its load positions and tells what an engineer asks of a wheel.
-  int analyze(const Case& c) const {
+  /// Computes the shape at its load positions and tells what an engineer asks of a wheel.
+  int analyze(const WheelInput& wheel) const {
+    const Case& c = wheel.source;
     const auto made = make_solver(rolling_model<2>(with_levels_of_results(c)));
     if (!made) return tell_failure(name(), made.failure());
     const StateSolver<2>& solver = **made;
-    const LevelSet<2> shape = initial_shape<2>(c);
+    const LevelSet<2>& shape = wheel.shape;
     const auto solved = solver.states(shape, solver.all_positions(), Interrupt());
     if (!solved) return tell_failure(name(), solved.failure());
     if (const auto failure = material_overlaps(solver, shape, **solved))
       return tell_failure(name(), *failure);
-    const auto report = rolling_report(c, name_of_case(), loads(), solver, **solved);
+    const auto report = rolling_report(wheel, loads(), solver, **solved);
     if (!report) return tell_failure(name(), report.failure());
     print(*report);
     const auto size = deformation_size(solver, shape, **solved);
@@ -107,10 +110,6 @@ class AnalyzeCommand : public Subcommand {
       tell("warning: {}\n", warning);
     if (output_) write(*report, shape, solver, **solved);
     return exit_done;
-  }
-
-  std::string name_of_case() const {
-    return without_control_characters(std::filesystem::path(case_file_).stem().string());
   }
 
   std::vector<double> loads() const { return loads_ ? *parse_loads(*loads_) : std::vector<double>(); }
@@ -127,7 +126,7 @@ class AnalyzeCommand : public Subcommand {
                          position_fields(solver, states, worst_position(states.strain_energy())));
   }
 
-  std::string case_file_;
+  std::string input_;
   int positions_ = 64;
   std::optional<std::string> loads_, output_;
   std::optional<int> threads_;

@@ -7,6 +7,7 @@ namespace wheelwright {
   apply(run);                       \
   apply(resume);                    \
   apply(analyze);                   \
+  apply(compare);                   \
   apply(verify);                    \
   apply(check);                     \
   apply(init);                      \

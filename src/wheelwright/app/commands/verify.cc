@@ -9,6 +9,7 @@
 #include "wheelwright/app/exit_code.h"
 #include "wheelwright/app/shared_options.h"
 #include "wheelwright/app/terminal.h"
+#include "wheelwright/app/wheel_input.h"
 #include "wheelwright/cut/measure.h"
 #include "wheelwright/run/study.h"
 #include "wheelwright/sensitivity/taylor_test.h"
@@ -120,32 +121,31 @@ class VerifyCommand : public Subcommand {
   VerifyCommand() : Subcommand("verify", "Test the shape gradient and the balance of forces on a case") {}
 
   void declare(Options& options) override {
-    add_case(options, case_file_);
+    add_wheel(options, input_);
     add_threads(options, threads_);
   }
 
   int run() override {
-    const auto c = read_or_tell(case_file_);
-    if (!c) return exit_usage;
-    if (!may_compute(name(), *c, case_file_, threads_)) return exit_refused;
-    const auto passed = verify(*c);
+    const auto wheel = read_wheel_or_tell(input_);
+    if (!wheel) return wheel.failure();
+    if (!may_compute(name(), wheel->source, input_, threads_)) return exit_refused;
+    const auto passed = verify(wheel->source, wheel->shape);
     if (!passed) return tell_failure(name(), passed.failure());
     return *passed ? exit_done : exit_no_solution;
   }
 
  private:
-  /// Whether the case passes both tests.
-  static Expected<bool> verify(const Case& c) {
+  /// Whether the case passes both tests at a shape.
+  static Expected<bool> verify(const Case& c, const LevelSet<2>& given) {
     const auto made = make_solver(rolling_model<2>(c));
     if (!made) return made.failure();
     const StateSolver<2>& solver = **made;
-    const LevelSet<2> initial = initial_shape<2>(c);
-    const auto direction = test_direction(initial.lattice);
-    const double step = 1e-3 * initial.lattice.grid().resolution();
-    const auto shape = generic_shape(initial, direction, step);
+    const auto direction = test_direction(given.lattice);
+    const double step = 1e-3 * given.lattice.grid().resolution();
+    const auto shape = generic_shape(given, direction, step);
     if (!shape || boundary_samples(*shape).empty())
       return Failure{FailureReason::empty_shape,
-                     "the case has no boundary that can move without changing its cut cells"};
+                     "the shape has no boundary that can move without changing its cut cells"};
 
     const auto taylor = report_taylor(c, solver, *shape, direction, step);
     if (!taylor) return taylor.failure();
@@ -155,7 +155,7 @@ class VerifyCommand : public Subcommand {
     return *taylor && balance;
   }
 
-  std::string case_file_;
+  std::string input_;
   std::optional<int> threads_;
 };
 

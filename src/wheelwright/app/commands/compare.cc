@@ -1,0 +1,97 @@
+#include <fmt/format.h>
+
+#include "wheelwright/app/case_input.h"
+#include "wheelwright/app/commands/commands.h"
+#include "wheelwright/app/shared_options.h"
+#include "wheelwright/app/terminal.h"
+#include "wheelwright/app/wheel_input.h"
+#include "wheelwright/case/derived.h"
+#include "wheelwright/cut/measure.h"
+#include "wheelwright/files/atomic_file.h"
+#include "wheelwright/report/wheel_comparison.h"
+#include "wheelwright/run/study.h"
+
+namespace wheelwright {
+namespace {
+
+/// Solves a wheel in its load positions.
+Expected<ComparedWheel> compared(const WheelInput& wheel) {
+  const auto solver = make_solver(rolling_model<2>(with_levels_of_results(wheel.source)));
+  if (!solver) return solver.failure();
+  const LevelSet<2>& shape = wheel.shape;
+  const auto states = (*solver)->states(shape, (*solver)->all_positions(), Interrupt());
+  if (!states) return states.failure();
+  const PolarGrid<2>& grid = shape.lattice.grid();
+  auto numbers = described_wheel(**solver, shape, volume_fraction(grid, material_measure(shape)), **states);
+  if (!numbers) return numbers.failure();
+  numbers->name = wheel.name;
+  numbers->which = wheel.which;
+  return ComparedWheel{*std::move(numbers),
+                       material_contours(shape, contour_subdivisions(shape.lattice.degree()))};
+}
+
+class CompareCommand : public Subcommand {
+ public:
+  CompareCommand()
+      : Subcommand("compare", "Compare wheels: their numbers, and their outlines over each other") {}
+
+  void declare(Options& options) override {
+    constexpr int most_positions = 1000;
+    options.arguments("WHEEL", inputs_, 2,
+                      "Case files, for their initial shapes, or runs' folders, for their last shapes");
+    options.number("--positions", positions_, {1, most_positions}, "Load positions per sector");
+    add_output(options, output_,
+               "Folder for comparison.txt, .json and .svg; without it the table is printed");
+    options.flag("--json", json_, "Print JSON instead of the table");
+    add_threads(options, threads_);
+  }
+
+  int run() override {
+    std::vector<WheelInput> wheels;
+    for (const std::string& input : inputs_) {
+      auto wheel = read_wheel_or_tell(input);
+      if (!wheel) return wheel.failure();
+      wheel->source.load.positions = positions_;
+      wheels.push_back(*std::move(wheel));
+    }
+    for (std::size_t k = 0; k < wheels.size(); ++k)
+      if (!may_compute(name(), wheels[k].source, inputs_[k], threads_)) return exit_refused;
+    return compare(wheels);
+  }
+
+ private:
+  int compare(const std::vector<WheelInput>& inputs) const {
+    std::vector<ComparedWheel> wheels;
+    for (const WheelInput& input : inputs) {
+      auto wheel = compared(input);
+      if (!wheel) {
+        tell("{}:\n", input.name);
+        return tell_failure(name(), wheel.failure());
+      }
+      wheels.push_back(*std::move(wheel));
+    }
+    fmt::print("{}", json_ ? wheels_json(wheels) : wheels_table(wheels));
+    if (output_) write(wheels);
+    return exit_done;
+  }
+
+  void write(const std::vector<ComparedWheel>& wheels) const {
+    const std::filesystem::path folder = *output_;
+    make_folder(folder);
+    write_atomically(folder / "comparison.txt", wheels_table(wheels));
+    write_atomically(folder / "comparison.json", wheels_json(wheels));
+    write_atomically(folder / "comparison.svg", overlay_svg(wheels));
+  }
+
+  std::vector<std::string> inputs_;
+  int positions_ = 64;
+  std::optional<std::string> output_;
+  std::optional<int> threads_;
+  bool json_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Subcommand> make_compare() { return std::make_unique<CompareCommand>(); }
+
+}  // namespace wheelwright

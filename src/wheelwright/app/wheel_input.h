@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "wheelwright/app/exit_code.h"
+#include "wheelwright/app/options.h"
+#include "wheelwright/base/expected.h"
+#include "wheelwright/case/case.h"
+#include "wheelwright/run/study.h"
+
+namespace wheelwright {
+
+/// A wheel that a command works on: the initial shape of a case file, or the last accepted shape of a run.
+struct WheelInput {
+  Case source;
+  LevelSet<2> shape;
+  std::string name;   ///< of the case file or of the run's folder; without control characters
+  std::string which;  ///< e.g. "initial shape", "shape 31"
+};
+
+/// WHEEL, a case file or a run's folder.
+void add_wheel(Options& options, std::string& input);
+
+/// The wheel in a case file, or in a run's folder, of which nothing is changed; the run may still go on.
+/// Tells what is wrong; the command ends with the code then.
+Expected<WheelInput, ExitCode> read_wheel_or_tell(const std::filesystem::path& input);
+
+}  // namespace wheelwright

@@ -1,0 +1,45 @@
+#include "wheelwright/report/comparison_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace wheelwright {
+namespace {
+
+constexpr int value_width = 12, change_width = 12;
+
+std::string change(double first, double value) {
+  const double percents = 100 * (value / first - 1);
+  if (!std::isfinite(percents)) return "";
+  if (std::abs(percents) < 0.005) return "0 %";
+  return fmt::format("{:+.2f} %", percents);
+}
+
+std::string shortened(const std::string& name) {
+  return name.size() < value_width ? name : name.substr(0, value_width - 3) + "..";
+}
+
+}  // namespace
+
+std::string comparison_table(const std::vector<std::string>& wheels, const std::vector<ComparedRow>& rows) {
+  std::size_t label_width = 0;
+  for (const ComparedRow& row : rows) label_width = std::max(label_width, row.label.size());
+  const auto cells = [](bool has_change, const std::string& value, const std::string& relative) {
+    std::string text = fmt::format("{:>{}}", value, value_width);
+    return has_change ? text + fmt::format("{:>{}}", relative, change_width) : text;
+  };
+  std::string table(label_width, ' ');
+  for (std::size_t k = 0; k < wheels.size(); ++k) table += cells(k > 0, shortened(wheels[k]), "change");
+  table += '\n';
+  for (const ComparedRow& row : rows) {
+    table += fmt::format("{:<{}}", row.label, label_width);
+    for (std::size_t k = 0; k < row.values.size(); ++k)
+      table += cells(k > 0, fmt::format("{:.6g}", row.values[k]), change(row.values[0], row.values[k]));
+    table += '\n';
+  }
+  return table;
+}
+
+}  // namespace wheelwright

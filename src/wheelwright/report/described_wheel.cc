@@ -1,0 +1,94 @@
+#include "wheelwright/report/described_wheel.h"
+
+#include <numeric>
+
+#include "wheelwright/base/units.h"
+
+namespace wheelwright {
+namespace {
+
+constexpr double mm = 1e3, MPa = 1e-6, N_per_mm = 1e-3, percent = 100;
+
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+template <int dim>
+std::vector<double> of_positions(const DescribedWheel<dim>& wheel, double ContactSummary::*member) {
+  std::vector<double> values;
+  for (const ContactSummary& position : wheel.rolling.positions) values.push_back(position.*member);
+  return values;
+}
+
+/// The amplitude of the lowest harmonic that a wheel of equal sectors can have.
+double first_harmonic(const std::vector<double>& values) {
+  const auto harmonics = rolling_variation(values).harmonics;
+  return harmonics.empty() ? 0 : harmonics.front();
+}
+
+/// What turns forces of the analysis into those on the whole width.
+template <int dim>
+double whole_width(const DescribedWheel<dim>& wheel) {
+  return dim == 2 ? wheel.grid.width : 1;
+}
+
+}  // namespace
+
+template <int dim>
+Expected<DescribedWheel<dim>> described_wheel(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
+                                              double volume_fraction, const State<dim>& state) {
+  auto rolling = rolling_analysis(solver, state);
+  if (!rolling) return rolling.failure();
+  return DescribedWheel<dim>{.name = {},
+                             .which = {},
+                             .grid = solver.model().grid,
+                             .volume_fraction = volume_fraction,
+                             .summary = shape_summary(solver, psi, state),
+                             .rolling = *std::move(rolling)};
+}
+
+template <int dim>
+const std::vector<WheelNumber<dim>>& wheel_numbers() {
+  using Wheel = DescribedWheel<dim>;
+  static const std::vector<WheelNumber<dim>> numbers{
+      {"volume of the ring", "%", percent, "volume_fraction",
+       [](const Wheel& w) { return w.volume_fraction; }},
+      {"load", "N", 1, "load_N", [](const Wheel& w) { return w.rolling.load * whole_width(w); }},
+      {"mean travel", "mm", mm, "mean_travel_m",
+       [](const Wheel& w) { return mean(of_positions(w, &ContactSummary::travel)); }},
+      {"stiffness", "N/mm", N_per_mm, "stiffness_N_per_m",
+       [](const Wheel& w) { return w.summary.stiffness * whole_width(w); }},
+      {"run-out at fixed load", "mm", mm, "run_out_m",
+       [](const Wheel& w) { return rolling_variation(w.rolling.travel_at_load).peak_to_peak(); }},
+      {"  its first sector harmonic", "mm", mm, "run_out_first_harmonic_m",
+       [](const Wheel& w) { return first_harmonic(w.rolling.travel_at_load); }},
+      {"radial force variation at fixed travel", "N", 1, "force_variation_N",
+       [](const Wheel& w) {
+         return rolling_variation(w.rolling.force_at_travel).peak_to_peak() * whole_width(w);
+       }},
+      {"  its first sector harmonic", "N", 1, "force_first_harmonic_N",
+       [](const Wheel& w) { return first_harmonic(w.rolling.force_at_travel) * whole_width(w); }},
+      {"peak contact pressure", "MPa", MPa, "peak_pressure_Pa",
+       [](const Wheel& w) { return w.summary.rolling.peak_pressure; }},
+      {"mean length of the contact patch", "mm", mm, "patch_length_m",
+       [](const Wheel& w) { return mean(of_positions(w, &ContactSummary::patch_length)); }},
+      {"peak von Mises stress", "MPa", MPa, "peak_von_mises_Pa",
+       [](const Wheel& w) { return w.summary.von_mises.value; }},
+      {"largest strain", "%", percent, "largest_strain",
+       [](const Wheel& w) { return w.summary.deformation.strain; }},
+      {"strain energy per position", unit<dim>(UnitKind::energy), 1,
+       dim == 2 ? "strain_energy_J_per_m" : "strain_energy_J",
+       [](const Wheel& w) { return w.summary.strain_energy; }},
+  };
+  return numbers;
+}
+
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                                    \
+  template Expected<DescribedWheel<dim>> described_wheel(const StateSolver<dim>&, const LevelSet<dim>&, \
+                                                         double, const State<dim>&);                    \
+  template const std::vector<WheelNumber<dim>>& wheel_numbers();
+WHEELWRIGHT_INSTANTIATE(2)
+WHEELWRIGHT_INSTANTIATE(3)
+#undef WHEELWRIGHT_INSTANTIATE
+
+}  // namespace wheelwright

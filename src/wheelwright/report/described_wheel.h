@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "wheelwright/analysis/rolling_analysis.h"
+#include "wheelwright/analysis/shape_summary.h"
+
+namespace wheelwright {
+
+/// A wheel in numbers. Forces of the analysis are per metre of width when dim = 2.
+template <int dim>
+struct DescribedWheel {
+  std::string name;   ///< e.g. of its case file or run, or "before"
+  std::string which;  ///< e.g. "shape 31"
+  PolarGrid<dim> grid;
+  double volume_fraction;  ///< material area over the area of the full ring
+  ShapeSummary<dim> summary;
+  RollingAnalysis rolling;
+};
+
+/// Describes a shape by its states. Fails as the contact problem does, which is solved at a fixed travel too.
+template <int dim>
+Expected<DescribedWheel<dim>> described_wheel(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
+                                              double volume_fraction, const State<dim>& state);
+
+/// One number about a wheel.
+template <int dim>
+struct WheelNumber {
+  const char* label;
+  const char* unit;                             ///< for people
+  double factor;                                ///< from SI to that unit
+  const char* key;                              ///< for programs, with the SI unit
+  double (*value)(const DescribedWheel<dim>&);  ///< in SI units, on the whole width
+};
+
+/// The numbers by which wheels are judged and compared, in the order in which they are told.
+template <int dim>
+const std::vector<WheelNumber<dim>>& wheel_numbers();
+
+}  // namespace wheelwright

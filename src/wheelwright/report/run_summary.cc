@@ -1,0 +1,66 @@
+#include "wheelwright/report/run_summary.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "wheelwright/base/units.h"
+#include "wheelwright/report/comparison_table.h"
+
+namespace wheelwright {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <int dim>
+Json shape_json(const SummarizedShape<dim>& shape) {
+  Json json{{"shape", shape.iteration}};
+  json[dim == 2 ? "objective_J_per_m" : "objective_J"] = shape.objective;
+  for (const WheelNumber<dim>& number : wheel_numbers<dim>()) json[number.key] = number.value(shape.wheel);
+  const ShapeSummary<dim>& summary = shape.wheel.summary;
+  json["pressure_spread"] = summary.rolling.pressure_spread;
+  json["peak_von_mises_place"] = {{"radius_m", summary.von_mises.place[0]},
+                                  {"azimuth_rad", summary.von_mises.place[1]},
+                                  {"load_position_rad", summary.von_mises.ground_azimuth}};
+  if constexpr (dim == 3) json["peak_von_mises_place"]["z_m"] = summary.von_mises.place[2];
+  json["largest_rotation_rad"] = summary.deformation.rotation;
+  json["travel_by_ring_thickness"] = summary.deformation.travel;
+  json["edges_overlap"] = summary.deformation.edges_overlap;
+  return json;
+}
+
+}  // namespace
+
+template <int dim>
+std::string summary_table(const RunSummary<dim>& summary) {
+  constexpr double mm = 1e3, degree = 180 / std::numbers::pi;
+  std::vector<ComparedRow> rows{{fmt::format("objective [{}]", unit<dim>(UnitKind::energy)),
+                                 {summary.before.objective, summary.after.objective}}};
+  for (const WheelNumber<dim>& number : wheel_numbers<dim>())
+    rows.push_back({fmt::format("{} [{}]", number.label, number.unit),
+                    {number.value(summary.before.wheel) * number.factor,
+                     number.value(summary.after.wheel) * number.factor}});
+  const StressPeak<dim>& peak = summary.after.wheel.summary.von_mises;
+  return comparison_table({"before", "after"}, rows) +
+         fmt::format(
+             "the stress is largest at radius {:.1f} mm, azimuth {:.2f} deg, with the ground at {:.2f} deg\n",
+             peak.place[0] * mm, peak.place[1] * degree, peak.ground_azimuth * degree);
+}
+
+template <int dim>
+std::string summary_json(const RunSummary<dim>& summary) {
+  return Json{{"title", summary.title},
+              {"width_m", summary.after.wheel.grid.width},
+              {"before", shape_json(summary.before)},
+              {"after", shape_json(summary.after)}}
+             .dump(2) +
+         '\n';
+}
+
+template std::string summary_table(const RunSummary<2>&);
+template std::string summary_table(const RunSummary<3>&);
+template std::string summary_json(const RunSummary<2>&);
+template std::string summary_json(const RunSummary<3>&);
+
+}  // namespace wheelwright
