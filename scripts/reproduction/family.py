@@ -31,12 +31,14 @@ class Values(list[float]):
         return max(self)
 
     def text(self, decimals: int, unit: str = "", sign: str = "") -> str:
-        """The number; or the range, rounded outwards. `sign`: "+" to print the sign of positive numbers too."""
-        power = 10**decimals
-        if len(self) == 1:
-            numbers = [self[0]]
-        else:
+        """The number; or the range, rounded outwards to at most so many decimals, and to no more digits than other
+        runs would find again: a tenth of the range's width. `sign`: "+" to print the sign of positive numbers too."""
+        if self.high > self.low:
+            decimals = max(0, min(decimals, math.floor(-math.log10((self.high - self.low) / 10))))
+            power = 10**decimals
             numbers = [math.floor(self.low * power) / power, math.ceil(self.high * power) / power]
+        else:
+            numbers = [self.low]
         texts = dict.fromkeys(f"{number + 0.0:{sign}.{decimals}f}" for number in numbers)
         return " to ".join(texts) + (unit and f" {unit}")
 
