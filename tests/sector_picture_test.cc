@@ -87,9 +87,9 @@ TEST(SectorSvg, MeansInCellsAreWeightedByLength) {
   const auto sample = [](int cell, double weight, double value) {
     return SurfaceSample<2>{{cell, {}, {}, weight}, value};
   };
-  const std::vector<SurfaceSample<2>> samples{sample(3, 1, 4), sample(5, 2, -7), sample(3, 3, 0)};
+  const std::vector<SurfaceSample<2>> samples{sample(3, 1, 4), sample(5, 2, -7), sample(3, 3, 2)};
   const auto means = means_in_cells(grid, samples);
-  EXPECT_DOUBLE_EQ(means[3], 1);
+  EXPECT_DOUBLE_EQ(means[3], 2.5);
   EXPECT_DOUBLE_EQ(means[5], -7);
   for (int cell = 0; cell < grid.n_cells(); ++cell)
     EXPECT_EQ(std::isnan(means[cell]), cell != 3 && cell != 5);

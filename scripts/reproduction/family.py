@@ -39,7 +39,7 @@ class Values(list[float]):
             numbers = [math.floor(self.low * power) / power, math.ceil(self.high * power) / power]
         else:
             numbers = [self.low]
-        texts = dict.fromkeys(f"{number + 0.0:{sign}.{decimals}f}" for number in numbers)
+        texts = dict.fromkeys(f"{number or 0.0:{sign if number else ''}.{decimals}f}" for number in numbers)
         return " to ".join(texts) + (unit and f" {unit}")
 
     def percent(self, decimals: int = 1, sign: str = "") -> str:
