@@ -133,12 +133,12 @@ class Families(unittest.TestCase):
 
     def test_ranges_are_rounded_outwards(self):
         self.assertEqual(Values([1.26, 1.31, 1.44]).text(1, "mm"), "1.2 to 1.5 mm")
-        self.assertEqual(Values([-0.021, 0.0149]).change(), "-3 to +2 %")
-        self.assertEqual(Values([-0.021, -0.0001]).change(), "-3 to 0 %")
+        self.assertEqual(Values([-0.021, 0.0149]).change(), "-2.1 to +1.5 %")
+        self.assertEqual(Values([-0.021, -0.0001]).change(), "-2.1 to 0.0 %")
         self.assertEqual(Values([0.1234]).percent(), "12.3 %")
         self.assertEqual(Values([2.0, 2.0]).text(0), "2")
         self.assertEqual(Values([27.995, 28.438, 28.791]).text(3, "J/m"), "27.9 to 28.8 J/m")
-        self.assertEqual(Values([74.41, 75.87]).text(2, "%"), "74 to 76 %")
+        self.assertEqual(Values([74.41, 75.87]).text(2, "%"), "74.4 to 75.9 %")
         for low, high in ((0.061, 0.069), (-3.149, -3.141), (5.0, 7.25)):
             first, last = map(float, Values([high, low]).text(2).split(" to "))
             self.assertTrue(first <= low and high <= last)

@@ -16,7 +16,7 @@ def _row(way: str, method: str, gamma: int, family: Family) -> tuple[str, ...]:
         way,
         method,
         f"{gamma}",
-        family.of(lambda run: run.first["objective"]).text(3),
+        f"{family.run.first['objective']:.3f}",
         family.last("objective").text(3, "J/m"),
         family.last("volume fraction").percent(2),
         Values(1e3 * travel for travel in family.last("mean_travel")).text(4, "mm"),
@@ -116,7 +116,10 @@ def contact_methods(r: Runs, album: Album) -> str:
             ),
             (
                 "Fig. 15: at 10 E/h J_e almost agrees (it is apart by at most a third of that at E/h)",
-                ways(f"J_e {a.apart[10].change(2)}", b.apart[10].change()),
+                ways(
+                    f"J_e {a.apart[10].change(2)}, {a.closer_at_10.text(2)} of that at E/h",
+                    f"{b.apart[10].change()}, {b.closer_at_10.text(2)} of that at E/h",
+                ),
                 both_ways(*(judged(lambda ratio: ratio < 1 / 3, f.closer_at_10) for f in (a, b))),
             ),
             (
@@ -124,8 +127,9 @@ def contact_methods(r: Runs, album: Album) -> str:
                 "three times as much)",
                 ways(
                     f"from gamma_0 = 1 to 10: Nitsche {a.by_gamma['nitsche'].change(2)}, penalty "
-                    f"{a.by_gamma['penalty'].change(2)}",
-                    f"{b.by_gamma['nitsche'].change()} and {b.by_gamma['penalty'].change()}",
+                    f"{a.by_gamma['penalty'].change(2)}, a ratio of {a.steadier.text(2)}",
+                    f"{b.by_gamma['nitsche'].change()} and {b.by_gamma['penalty'].change()}, a ratio of "
+                    f"{b.steadier.text(2)}",
                 ),
                 both_ways(*(judged(lambda ratio: ratio < 1 / 3, f.steadier) for f in (a, b))),
             ),
@@ -140,7 +144,9 @@ def contact_methods(r: Runs, album: Album) -> str:
         "penalty.\n",
         "The cells at the tread are not refined here, because gamma depends on their size.\n",
         *(
-            album.copied(ours[method, gamma].run, "displacement.svg", f"{text}, {parameter}, volume held (Fig. {number})")
+            album.copied(
+                ours[method, gamma].run, "displacement.svg", f"{text}, {parameter}, volume held (Fig. {number})"
+            )
             for number, gamma, parameter in ((12, 1, "gamma = E/h"), (14, 10, "gamma = 10 E/h"))
             for method, text in (("penalty", "Penalty"), ("nitsche", "Nitsche's method"))
         ),

@@ -14,10 +14,10 @@ def _lengthens(family: Family) -> Verdict:
 def _course(name: str, family: Family) -> tuple[str, ...]:
     return (
         name,
-        family.of(lambda run: run.first["objective"]).text(2),
+        f"{family.run.first['objective']:.2f}",
         family.last("objective").text(2, "J/m"),
         family.change("objective").change(),
-        family.of(lambda run: run.first["volume fraction"]).percent(2),
+        f"{100 * family.run.first['volume fraction']:.2f} %",
         family.last("volume fraction").percent(2),
         sizes(family),
     )

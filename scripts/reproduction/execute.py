@@ -54,7 +54,8 @@ def perturbed(case: str, relative: float) -> str:
     """The case with other radii of its holes, without expected values and pictures."""
     case = re.sub(r"^\[\[expect\]\].*", "", case, flags=re.MULTILINE | re.DOTALL)
     case = re.sub(r"^\[output\]\n([^\[]*\n)?", "", case, flags=re.MULTILINE)
-    case = re.sub(r"^radius = (\S+)", lambda m: f"radius = {float(m[1]) * (1 + relative):.12g}", case, flags=re.MULTILINE)
+    changed = lambda m: f"radius = {float(m[1]) * (1 + relative):.12g}"  # noqa: E731
+    case = re.sub(r"^radius = (\S+)", changed, case, flags=re.MULTILINE)
     return case + "\n[output]\nvtu_every = 0\n"
 
 

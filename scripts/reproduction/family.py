@@ -31,10 +31,10 @@ class Values(list[float]):
         return max(self)
 
     def text(self, decimals: int, unit: str = "", sign: str = "") -> str:
-        """The number; or the range, rounded outwards to at most so many decimals, and to no more digits than other
-        runs would find again: a tenth of the range's width. `sign`: "+" to print the sign of positive numbers too."""
+        """The number; or the range, rounded outwards to at most so many decimals, and to no more than 50 steps
+        of the last digit: further ones would be others in other runs. `sign`: "+" to print the sign of positive numbers too."""
         if self.high > self.low:
-            decimals = max(0, min(decimals, math.floor(-math.log10((self.high - self.low) / 10))))
+            decimals = max(0, min(decimals, math.floor(-math.log10((self.high - self.low) / 50))))
             power = 10**decimals
             numbers = [math.floor(self.low * power) / power, math.ceil(self.high * power) / power]
         else:

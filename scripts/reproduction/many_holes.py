@@ -36,8 +36,8 @@ def _ends(name: str, family: Family) -> str:
     early = [run for run in family.members if run.end]
     reasons = ", ".join(sorted({run.end for run in early}))
     return (
-        f"Of the {len(family.members)} runs of {name} by the paper's rules, {len(early)} end before their last shape"
-        + (f", because the next one is rejected ({reasons}) and the paper's rules have no shorter step" if early else "")
+        f"Of the {len(family.members)} runs of {name} by the paper's rules, {len(early) or 'none'} end before their last "
+        "shape" + (f", because the next one is rejected ({reasons}) and the paper's rules have no shorter step" if early else "")
         + ".\n"
     )
 
@@ -74,7 +74,8 @@ def holes_48(r: Runs, album: Album) -> str:
                     f"peak spread {100 * je.run.peak_spread('initial'):.1f} % initially, {spread[je.name].percent()} "
                     f"with J_e alone, {spread[jp2.name].percent()} with J_p2; J_p2 "
                     f"{jp2.change('uniformity_dual').change()}, J_e {jp2.change('strain_energy').change()}",
-                    f"{spread[rules_je.name].percent(2)} and {spread[rules_jp2.name].percent(2)}",
+                    f"{spread[rules_je.name].percent(2)} and {spread[rules_jp2.name].percent(2)}, a ratio of "
+                    f"{evener[1].text(2)}",
                 ),
                 both_ways(*(judged(lambda ratio: ratio < 1, values) for values in evener)),
             ),
