@@ -6,6 +6,7 @@ packages=(
   g++ cmake ninja-build pkg-config
   libsuitesparse-dev libopenblas-dev liblapacke-dev libnanoflann-dev libtbb-dev
   libtomlplusplus-dev libcli11-dev libfmt-dev nlohmann-json3-dev zlib1g-dev
+  libjs-chart.js
   libgtest-dev libbenchmark-dev
 )
 build_folder=build/release

@@ -70,7 +70,8 @@ struct NotBegunReport {
 /// 2D: of what make_observers() writes there.
 void print_files(const fs::path& folder) {
   for (const auto& [file, meaning] :
-       {std::pair{"comparison.svg", "before and after"},
+       {std::pair{"report.html", "all of it on one page, for a browser"},
+        {"comparison.svg", "before and after"},
         {"shape.svg", "the shape in true scale, for cutting"},
         {"stress.svg", "the loaded wheel; stress_contact.svg about the contact"},
         {"displacement.svg", "the loaded wheel, how far its points come down"},

@@ -28,6 +28,26 @@ Expected<WheelInput, ExitCode> initial_wheel(const fs::path& file) {
 }
 
 Expected<WheelInput, ExitCode> last_wheel(const fs::path& folder) {
+  auto run = read_run_or_tell(folder);
+  if (!run) return run.failure();
+  OptimizationState<2>& state = run->checkpoint.state;
+  return WheelInput{std::move(run->source), std::move(state.shape),
+                    without_control_characters(folder_name(folder)),
+                    fmt::format("shape {}", state.iteration)};
+}
+
+}  // namespace
+
+void add_wheel(Options& options, std::string& input) {
+  options.argument("WHEEL", input, not_empty,
+                   "A case file, for its initial shape, or a run's folder, for its last shape");
+}
+
+Expected<WheelInput, ExitCode> read_wheel_or_tell(const fs::path& input) {
+  return fs::is_directory(input) ? last_wheel(input) : initial_wheel(input);
+}
+
+Expected<RunInput, ExitCode> read_run_or_tell(const fs::path& folder) {
   const fs::path case_file = folder / "case.toml";
   if (!fs::exists(case_file)) {
     tell("{}: this folder holds no run: there is no case.toml\n", folder.string());
@@ -41,20 +61,7 @@ Expected<WheelInput, ExitCode> last_wheel(const fs::path& folder) {
     tell("{}: no checkpoint can be used\n", folder.string());
     return exit_checkpoint;
   }
-  const auto& state = point.newest->state;
-  return WheelInput{*std::move(c), state.shape, without_control_characters(folder_name(folder)),
-                    fmt::format("shape {}", state.iteration)};
-}
-
-}  // namespace
-
-void add_wheel(Options& options, std::string& input) {
-  options.argument("WHEEL", input, not_empty,
-                   "A case file, for its initial shape, or a run's folder, for its last shape");
-}
-
-Expected<WheelInput, ExitCode> read_wheel_or_tell(const fs::path& input) {
-  return fs::is_directory(input) ? last_wheel(input) : initial_wheel(input);
+  return RunInput{folder, *std::move(c), *std::move(point.newest)};
 }
 
 }  // namespace wheelwright

@@ -8,6 +8,7 @@
 #include "wheelwright/app/options.h"
 #include "wheelwright/base/expected.h"
 #include "wheelwright/case/case.h"
+#include "wheelwright/run/checkpoint.h"
 #include "wheelwright/run/study.h"
 
 namespace wheelwright {
@@ -20,11 +21,21 @@ struct WheelInput {
   std::string which;  ///< e.g. "initial shape", "shape 31"
 };
 
+/// A run's folder and what it continues from.
+struct RunInput {
+  std::filesystem::path folder;
+  Case source;
+  Checkpoint<2> checkpoint;
+};
+
 /// WHEEL, a case file or a run's folder.
 void add_wheel(Options& options, std::string& input);
 
 /// The wheel in a case file, or in a run's folder, of which nothing is changed; the run may still go on.
 /// Tells what is wrong; the command ends with the code then.
 Expected<WheelInput, ExitCode> read_wheel_or_tell(const std::filesystem::path& input);
+
+/// The run in a folder, in the same way.
+Expected<RunInput, ExitCode> read_run_or_tell(const std::filesystem::path& folder);
 
 }  // namespace wheelwright

@@ -13,4 +13,7 @@ std::string csv_number(double value);
 /// 4180).
 std::string csv_line(const std::vector<std::string>& cells);
 
+/// The cells of a line without its newline; the inverse of csv_line() for cells without newlines.
+std::vector<std::string> csv_cells(std::string_view line);
+
 }  // namespace wheelwright

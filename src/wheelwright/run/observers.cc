@@ -6,6 +6,7 @@
 #include "wheelwright/run/failure_report.h"
 #include "wheelwright/run/history_writer.h"
 #include "wheelwright/run/pressure_files.h"
+#include "wheelwright/run/report_file.h"
 #include "wheelwright/run/result_files.h"
 #include "wheelwright/run/shape_files.h"
 #include "wheelwright/run/summary_file.h"
@@ -29,6 +30,7 @@ Observers<dim> make_observers(const Case& c, const CheckpointFolder& checkpoints
     observers.push_back(std::make_unique<FailureReport>());
   }
   observers.push_back(std::make_unique<SummaryFile<dim>>());
+  if constexpr (dim == 2) observers.push_back(std::make_unique<ReportFile>());
   observers.push_back(std::make_unique<Checkpointer<dim>>(checkpoints, resumed));
   return observers;
 }

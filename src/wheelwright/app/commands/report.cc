@@ -1,0 +1,88 @@
+#include <fmt/format.h>
+
+#include "wheelwright/app/case_input.h"
+#include "wheelwright/app/commands/commands.h"
+#include "wheelwright/app/shared_options.h"
+#include "wheelwright/app/terminal.h"
+#include "wheelwright/app/wheel_input.h"
+#include "wheelwright/case/derived.h"
+#include "wheelwright/files/atomic_file.h"
+#include "wheelwright/run/run_report.h"
+#include "wheelwright/run/run_title.h"
+
+namespace wheelwright {
+namespace {
+
+Expected<DescribedWheel<2>> described(const StateSolver<2>& solver, const LevelSet<2>& psi, double measure,
+                                      const State<2>& states) {
+  return described_wheel(solver, psi, volume_fraction(solver.model().grid, measure), states);
+}
+
+/// Solves the first and the last shape of a run again, for what its folder does not keep.
+Expected<ReportRun> report_of_run(const RunInput& run) {
+  const auto made = make_solver(rolling_model<2>(with_levels_of_results(run.source)));
+  if (!made) return made.failure();
+  const StateSolver<2>& solver = **made;
+  const InitialShape<2>& initial = run.checkpoint.initial;
+  const OptimizationState<2>& last = run.checkpoint.state;
+  const auto first_states =
+      solver.states(initial.shape, solver.distinct_positions(initial.shape), Interrupt());
+  if (!first_states) return first_states.failure();
+  const auto last_states = solver.states(last.shape, solver.distinct_positions(last.shape), Interrupt());
+  if (!last_states) return last_states.failure();
+  const auto before = described(solver, initial.shape, initial.measure, **first_states),
+             after = described(solver, last.shape, last.measure, **last_states);
+  if (!before) return before.failure();
+  if (!after) return after.failure();
+  const RunSummary<2> summary{.title = run_title(run.source),
+                              .before = {0, initial.objective, *before},
+                              .after = {last.iteration, last.evaluation.function("objective").value, *after}};
+  return report_of_results(run.folder, run.source, summary, {&last.shape, &solver, last_states->get()},
+                           run.checkpoint.finished);
+}
+
+class ReportCommand : public Subcommand {
+ public:
+  ReportCommand() : Subcommand("report", "Write a page that explains one or more runs") {}
+
+  void declare(Options& options) override {
+    options.arguments("RUN", folders_, 1, "Folders of runs; several stand side by side");
+    options.text("--output", "FILE", output_, not_empty, "The page; without it report.html");
+    add_threads(options, threads_);
+  }
+
+  int run() override {
+    const std::string file = output_.value_or("report.html");
+    if (std::filesystem::exists(file)) {
+      tell("{}: exists already; choose another file with --output, or remove it\n", file);
+      return exit_refused;
+    }
+    std::vector<ReportRun> runs;
+    std::vector<RunInput> inputs;  // the reports refer to their shapes
+    for (const std::string& folder : folders_) {
+      auto input = read_run_or_tell(folder);
+      if (!input) return input.failure();
+      inputs.push_back(*std::move(input));
+      if (!may_compute(name(), inputs.back().source, folder, threads_)) return exit_refused;
+    }
+    for (const RunInput& input : inputs) {
+      auto report = report_of_run(input);
+      if (!report) return tell_failure(name(), report.failure());
+      runs.push_back(*std::move(report));
+    }
+    write_atomically(file, report_page(runs));
+    fmt::print("{}\n", file);
+    return exit_done;
+  }
+
+ private:
+  std::vector<std::string> folders_;
+  std::optional<std::string> output_;
+  std::optional<int> threads_;
+};
+
+}  // namespace
+
+std::unique_ptr<Subcommand> make_report() { return std::make_unique<ReportCommand>(); }
+
+}  // namespace wheelwright

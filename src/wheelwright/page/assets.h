@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string_view>
+
+/// Files of the page that are compiled into the library: those of page/assets, and a library for charts that
+/// the system has.
+namespace wheelwright::assets {
+
+extern const std::string_view report_html, report_css, report_js, chart_js;
+
+}  // namespace wheelwright::assets

@@ -1,0 +1,432 @@
+"use strict";
+(() => {
+  const data = JSON.parse(document.getElementById("data").textContent);
+  const page = document.getElementById("page");
+  const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+  const curveColours = ["#1f77b4", "#d1495b", "#2e8b57", "#b8860b", "#7b4fa3", "#008b8b", "#c2549d", "#6b7280"];
+  const degree = 180 / Math.PI;
+
+  // --- Elements ---------------------------------------------------------------------------------------
+
+  function element(name, attributes = {}, ...children) {
+    const made = document.createElement(name);
+    for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+    made.append(...children);
+    return made;
+  }
+
+  // At most five digits, without an exponent where people would not write one.
+  function shown(value) {
+    if (!Number.isFinite(value)) return "-";
+    const size = Math.abs(value);
+    return size !== 0 && (size < 1e-4 || size >= 1e7) ? value.toExponential(3) : String(Number(value.toPrecision(5)));
+  }
+
+  function change(before, after) {
+    const percents = 100 * (after / before - 1);
+    if (!Number.isFinite(percents)) return "";
+    return Math.abs(percents) < 0.005 ? "0 %" : `${percents > 0 ? "+" : "\u2212"}${Math.abs(percents).toFixed(2)} %`;
+  }
+
+  const minutes = (seconds) => seconds < 100 ? `${seconds.toFixed(1)} s` : `${(seconds / 60).toFixed(1)} min`;
+
+  // --- Numbers ----------------------------------------------------------------------------------------
+
+  function table(wheels) {
+    const head = element("tr", {}, element("th", { scope: "col" }, "quantity"));
+    wheels.forEach(({ name }, k) => {
+      head.append(element("th", { scope: "col" }, name));
+      if (k > 0) head.append(element("th", { scope: "col" }, "change"));
+    });
+    const body = element("tbody");
+    for (const { key, label, unit, factor } of data.numbers) {
+      const row = element("tr", {}, element("th", { scope: "row" }, `${label} [${unit}]`));
+      wheels.forEach(({ numbers }, k) => {
+        row.append(element("td", { "data-key": key }, shown(numbers[key] * factor)));
+        if (k > 0) row.append(element("td", {}, change(wheels[0].numbers[key], numbers[key])));
+      });
+      body.append(row);
+    }
+    return element("div", { class: "wide" }, element("table", {}, element("thead", {}, head), body));
+  }
+
+  const rejectedText = (run) => `${run.trials} trial shapes, ${run.rejected} rejected`;
+
+  // What a buyer asks, and the answers.
+  function answers(run) {
+    const list = element("dl", { class: "answers" });
+    const answer = (id, question, text) =>
+      list.append(element("div", {}, element("dt", {}, question), element("dd", { id: `${run.id}-${id}` }, text)));
+    const { before, after } = run.summary;
+    const place = after.peak_von_mises_place;
+    const volume = Math.PI * (run.outer_radius_m ** 2 - run.inner_radius_m ** 2) * run.width_m * after.volume_fraction;
+    answer("stiffness", "How stiff?", `${shown(after.stiffness_N_per_m * 1e-3)} N/mm`);
+    answer("evenness", "How even does it roll?", `run-out ${shown(after.run_out_m * 1e3)} mm, force varies by ` +
+      `${shown(after.force_variation_N)} N`);
+    answer("volume", "How much material?", `${shown(volume * 1e6)} cm\u00b3, ${shown(100 * after.volume_fraction)} % of ` +
+      "the ring");
+    answer("stress", "What peak stress, and where?", `${shown(after.peak_von_mises_Pa * 1e-6)} MPa at radius ` +
+      `${(place.radius_m * 1e3).toFixed(1)} mm`);
+    answer("pressure", "What pressure on the ground?", `${shown(after.peak_pressure_Pa * 1e-6)} MPa`);
+    answer("travel", "How far does it sink?", `${shown(after.mean_travel_m * 1e3)} mm`);
+    answer("load", "For which load?", `${shown(after.load_N)} N`);
+    answer("strain", "Is it made for this load?", `largest strain ${shown(100 * after.largest_strain)} %, travel ` +
+      `${shown(100 * after.travel_by_ring_thickness)} % of the ring`);
+    answer("change", "What changed?", `travel ${change(before.mean_travel_m, after.mean_travel_m)}, run-out ` +
+      `${change(before.run_out_m, after.run_out_m)}`);
+    answer("trust", "Can I trust it?", run.flags.length === 0 ? "nothing to report" :
+      `${run.flags.length} remark${run.flags.length > 1 ? "s" : ""} below`);
+    answer("making", "How was it made?", `${run.status}, ${rejectedText(run)}, ${minutes(run.seconds)}`);
+    return list;
+  }
+
+  function flags(run) {
+    const list = element("ul", { class: "flags" });
+    for (const text of run.flags) list.append(element("li", {}, text));
+    if (run.flags.length === 0) list.append(element("li", { class: "fine" }, "No remarks: strains are small, the " +
+      "contact is resolved, the run ended by itself."));
+    return list;
+  }
+
+  // --- Colours ----------------------------------------------------------------------------------------
+
+  const viridis = [[68, 1, 84], [72, 40, 120], [62, 74, 137], [49, 104, 142], [38, 130, 142], [31, 158, 137],
+    [53, 183, 121], [109, 205, 89], [180, 222, 44], [253, 231, 37]];
+  const gradient = `linear-gradient(90deg, ${viridis.map((c) => `rgb(${c})`).join(", ")})`;
+
+  // --- The wheel rolling ------------------------------------------------------------------------------
+
+  function bytes(text) {
+    return Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+  }
+
+  // The mesh of sector 0 and the fields of all sectors, as one mesh of the whole wheel.
+  function wheelMesh(run) {
+    const { fields, sectors } = run;
+    const points = new Float32Array(bytes(fields.points).buffer);
+    const triangles = new Uint32Array(bytes(fields.triangles).buffer);
+    const n = points.length / 2;
+    const places = new Float32Array(2 * n * sectors), corners = new Uint32Array(triangles.length * sectors);
+    for (let s = 0; s < sectors; ++s) {
+      const c = Math.cos(2 * Math.PI * s / sectors), d = Math.sin(2 * Math.PI * s / sectors);
+      for (let k = 0; k < n; ++k) {
+        places[2 * (s * n + k)] = c * points[2 * k] - d * points[2 * k + 1];
+        places[2 * (s * n + k) + 1] = d * points[2 * k] + c * points[2 * k + 1];
+      }
+      for (let k = 0; k < triangles.length; ++k) corners[s * triangles.length + k] = triangles[k] + s * n;
+    }
+    const positions = fields.positions.map((p) => ({
+      azimuth: p.azimuth_rad,
+      x: new Int16Array(bytes(p.x).buffer), y: new Int16Array(bytes(p.y).buffer), stress: bytes(p.stress),
+    }));
+    return { places, corners, positions };
+  }
+
+  const vertexShader = `
+    attribute vec2 place; attribute float dx, dy, stress;
+    uniform float magnified, scale; uniform vec2 turn;
+    varying float value;
+    void main() {
+      vec2 p = place + magnified * vec2(dx, dy);
+      gl_Position = vec4(scale * vec2(turn.x * p.x - turn.y * p.y, turn.y * p.x + turn.x * p.y), 0.0, 1.0);
+      value = stress;
+    }`;
+  const fragmentShader = `
+    precision mediump float; varying float value; uniform sampler2D colours;
+    void main() { gl_FragColor = texture2D(colours, vec2(sqrt(value), 0.5)); }`;
+
+  function program(gl) {
+    const made = gl.createProgram();
+    for (const [kind, source] of [[gl.VERTEX_SHADER, vertexShader], [gl.FRAGMENT_SHADER, fragmentShader]]) {
+      const shader = gl.createShader(kind);
+      gl.shaderSource(shader, source);
+      gl.compileShader(shader);
+      gl.attachShader(made, shader);
+    }
+    gl.linkProgram(made);
+    return made;
+  }
+
+  function buffer(gl, target, content) {
+    const made = gl.createBuffer();
+    gl.bindBuffer(target, made);
+    gl.bufferData(target, content, gl.STATIC_DRAW);
+    return made;
+  }
+
+  // Draws the wheel with the ground below: a function of the position and the magnification.
+  function wheelPainter(canvas, run) {
+    const gl = canvas.getContext("webgl", { antialias: true, preserveDrawingBuffer: true });
+    if (!gl || !gl.getExtension("OES_element_index_uint")) return null;
+    const mesh = wheelMesh(run), p = program(gl);
+    gl.useProgram(p);
+    const attribute = (name, content, size, type, normalized) => {
+      const place = gl.getAttribLocation(p, name), made = buffer(gl, gl.ARRAY_BUFFER, content);
+      return () => {
+        gl.bindBuffer(gl.ARRAY_BUFFER, made);
+        gl.enableVertexAttribArray(place);
+        gl.vertexAttribPointer(place, size, type, normalized, 0, 0);
+      };
+    };
+    const corners = buffer(gl, gl.ELEMENT_ARRAY_BUFFER, mesh.corners);
+    const places = attribute("place", mesh.places, 2, gl.FLOAT, false);
+    const fields = mesh.positions.map((position) => [
+      attribute("dx", position.x, 1, gl.SHORT, true), attribute("dy", position.y, 1, gl.SHORT, true),
+      attribute("stress", position.stress, 1, gl.UNSIGNED_BYTE, true)]);
+    const texture = gl.createTexture(), ramp = new Uint8Array(4 * 256);
+    for (let k = 0; k < 256; ++k) {
+      const at = k / 255 * (viridis.length - 1), low = Math.min(Math.floor(at), viridis.length - 2);
+      for (let c = 0; c < 3; ++c) ramp[4 * k + c] = viridis[low][c] + (at - low) * (viridis[low + 1][c] - viridis[low][c]);
+      ramp[4 * k + 3] = 255;
+    }
+    gl.bindTexture(gl.TEXTURE_2D, texture);
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, 256, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, ramp);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE);
+    const uniform = (name) => gl.getUniformLocation(p, name);
+    const full = run.fields.full_displacement_m;
+    return (index, magnified) => {
+      const size = Math.min(1200, Math.round(canvas.clientWidth * (window.devicePixelRatio || 1))) || 600;
+      if (canvas.width !== size) canvas.width = canvas.height = size;
+      gl.viewport(0, 0, size, size);
+      gl.clearColor(0, 0, 0, 0);
+      gl.clear(gl.COLOR_BUFFER_BIT);
+      places();
+      for (const bind of fields[index]) bind();
+      const turn = -Math.PI / 2 - mesh.positions[index].azimuth;  // the ground's azimuth points down
+      gl.uniform2f(uniform("turn"), Math.cos(turn), Math.sin(turn));
+      gl.uniform1f(uniform("magnified"), magnified * full);
+      gl.uniform1f(uniform("scale"), 0.9 / run.outer_radius_m);
+      gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, corners);
+      gl.drawElements(gl.TRIANGLES, mesh.corners.length, gl.UNSIGNED_INT, 0);
+    };
+  }
+
+  // The ground, flat and solid. Near the contact, magnified displacements take the tread a little below it.
+  function drawGround(canvas, run) {
+    const size = canvas.width = canvas.height = Math.round(canvas.clientWidth * (window.devicePixelRatio || 1)) || 600;
+    const context = canvas.getContext("2d"), level = 0.95 * size, step = size / 60;
+    context.fillStyle = colour("--panel");
+    context.fillRect(0, level, size, size - level);
+    context.strokeStyle = colour("--ink");
+    context.lineWidth = size / 300;
+    context.beginPath();
+    context.moveTo(0, level);
+    context.lineTo(size, level);
+    context.stroke();
+    context.lineWidth /= 2;
+    context.beginPath();
+    for (let x = 0; x < size + step; x += step) {
+      context.moveTo(x, level);
+      context.lineTo(x - step, level + step);
+    }
+    context.stroke();
+  }
+
+  const roundMagnification = (wanted) => {
+    const power = 10 ** Math.floor(Math.log10(wanted));
+    return Math.max(1, [1, 2, 5, 10].map((m) => m * power).filter((m) => m <= wanted * 1.0001).pop());
+  };
+
+  function rolling(run) {
+    const picture = element("canvas", { role: "img", "aria-label": "The loaded wheel, coloured by von Mises stress" });
+    const ground = element("canvas", { "aria-hidden": "true", style: "position:absolute;inset:0" });
+    const n = run.fields.positions.length;
+    const slider = element("input", { type: "range", min: 0, max: n - 1, value: 0, id: `${run.id}-position` });
+    const button = element("button", { type: "button", id: `${run.id}-roll` }, "Roll");
+    const best = roundMagnification(0.03 * run.outer_radius_m / run.fields.full_displacement_m);
+    const choice = element("select", { id: `${run.id}-magnified`, "aria-label": "Displacement" });
+    for (const m of [...new Set([1, best / 5, best / 2, best, 2 * best].filter((m) => m >= 1))])
+      choice.append(element("option", { value: m, ...(m === best ? { selected: "" } : {}) }, `displacement \u00d7 ${m}`));
+    const caption = element("figcaption", { id: `${run.id}-position-text`, "aria-live": "polite" });
+    const frame = element("div", { class: "picture", style: "position:relative" }, picture, ground);
+    const figure = element("figure", {}, frame,
+      element("div", { class: "scale", style: `background:${gradient}` }),
+      element("div", { class: "scale-labels" }, ...[0, 0.25, 0.5, 0.75, 1].map((t) => element("span", {},
+        `${Number((t * t * run.fields.full_stress_Pa * 1e-6).toPrecision(3))}${t === 1 ? " MPa" : ""}`))),
+      element("p", { class: "quiet" }, "von Mises stress, on a scale of square roots"),
+      element("div", { class: "controls" }, button, element("label", {}, "load position", slider), choice), caption);
+    let paint = null, timer = null;
+    const draw = () => {
+      const i = Number(slider.value), magnified = Number(choice.value);
+      if (paint) paint(i, magnified);
+      drawGround(ground, run);
+      const at = run.rolling.after;
+      caption.textContent = `Ground at azimuth ${shown(run.fields.positions[i].azimuth_rad * degree)}\u00b0: travel ` +
+        `${shown(at.travel_at_load_m[i] * 1e3)} mm, peak pressure ${shown(at.peak_pressure_Pa[i] * 1e-6)} MPa, peak ` +
+        `stress ${shown(at.peak_von_mises_Pa[i] * 1e-6)} MPa. Displacements are drawn ${magnified} times as large.`;
+    };
+    const roll = (on) => {
+      clearInterval(timer);
+      timer = on ? setInterval(() => { slider.value = (Number(slider.value) + 1) % n; draw(); }, 120) : null;
+      button.textContent = on ? "Stop" : "Roll";
+      button.setAttribute("aria-pressed", String(on));
+    };
+    button.addEventListener("click", () => roll(timer === null));
+    slider.addEventListener("input", () => { roll(false); draw(); });
+    choice.addEventListener("change", draw);
+    const start = () => { paint = wheelPainter(picture, run); draw(); };
+    return { figure, start, draw };
+  }
+
+  // --- The shapes of the run --------------------------------------------------------------------------
+
+  function shapes(run) {
+    const canvas = element("canvas", { role: "img", "aria-label": "The outline of the wheel, shape by shape" });
+    const last = run.outlines.length - 1;
+    const slider = element("input", { type: "range", min: 0, max: last, value: last, id: `${run.id}-shape` });
+    const caption = element("figcaption", { id: `${run.id}-shape-text`, "aria-live": "polite" });
+    const column = Object.keys(run.history).find((name) => name.startsWith("objective"));
+    const draw = () => {
+      const size = canvas.width = canvas.height = Math.round(canvas.clientWidth * (window.devicePixelRatio || 1)) || 600;
+      const context = canvas.getContext("2d"), unit = 0.48 * size / run.outline_units;
+      const path = (outline, withRing) => {
+        context.beginPath();
+        if (withRing)
+          for (const r of [run.outline_units, run.outline_units * run.inner_radius_m / run.outer_radius_m]) {
+            context.moveTo(r * unit, 0);
+            context.arc(0, 0, r * unit, 0, 2 * Math.PI);
+          }
+        for (const contour of outline.contours) {
+          contour.forEach(([x, y], k) => k ? context.lineTo(x * unit, -y * unit) : context.moveTo(x * unit, -y * unit));
+          context.closePath();
+        }
+      };
+      context.setTransform(1, 0, 0, 1, 0.5 * size, 0.5 * size);
+      context.clearRect(-size, -size, 2 * size, 2 * size);
+      const i = Number(slider.value);
+      path(run.outlines[i], true);
+      context.fillStyle = colour("--material");
+      context.fill("evenodd");
+      context.strokeStyle = colour("--ink");
+      context.stroke();
+      path(run.outlines[0], false);
+      context.setLineDash([6, 4]);
+      context.strokeStyle = colour("--bad");
+      context.stroke();
+      context.setLineDash([]);
+      const value = run.history[column]?.[i];
+      caption.textContent = `Shape ${run.outlines[i].shape} of ${run.outlines[last].shape}: ${column} ${shown(value)}; ` +
+        "dashed: the edges of the initial holes.";
+    };
+    slider.addEventListener("input", draw);
+    const figure = element("figure", {}, element("div", { class: "picture" }, canvas),
+      element("div", { class: "controls" }, element("label", {}, "shape", slider)), caption);
+    return { figure, start: draw, draw };
+  }
+
+  // --- Curves -----------------------------------------------------------------------------------------
+
+  function chart(title, xTitle, yTitle, curves, options = {}) {
+    const canvas = element("canvas", { role: "img", "aria-label": title });
+    const figure = element("figure", {}, element("figcaption", {}, title), element("div", { class: "chart" }, canvas));
+    const start = () => {
+      const axis = (text) => ({ title: { display: true, text, color: colour("--quiet") },
+        ticks: { color: colour("--quiet") }, grid: { color: colour("--line") } });
+      new Chart(canvas, {
+        type: options.bars ? "bar" : "line",
+        data: { labels: options.labels, datasets: curves.map(({ name, x, y }, k) => ({
+          label: name, data: x ? x.map((value, i) => ({ x: value, y: y[i] })) : y,
+          borderColor: curveColours[k % curveColours.length], backgroundColor: options.colours ??
+            curveColours[k % curveColours.length], borderWidth: options.bars ? 0 : 2,
+          pointRadius: y.length > 30 ? 0 : 2.5, pointHitRadius: 8 })) },
+        options: { animation: false, responsive: true, maintainAspectRatio: false, interaction: { mode: "nearest",
+          intersect: false }, scales: { x: { ...(options.bars ? {} : { type: "linear" }), ...axis(xTitle) },
+          y: axis(yTitle) }, plugins: { legend: { display: curves.length > 1, labels: { color: colour("--ink") } } } },
+      });
+    };
+    return { figure, start };
+  }
+
+  function curves(run) {
+    const charts = [], column = (word) => Object.keys(run.history).find((name) => name.startsWith(word));
+    const iterations = run.history.iteration ?? [];
+    const course = (title, words, factor, yTitle) => {
+      const found = words.map(column).filter((name) => name && run.history[name].some((v) => v !== null));
+      if (found.length)
+        charts.push(chart(title, "shape", yTitle, found.map((name) => ({ name: name.split(" [")[0], x: iterations,
+          y: run.history[name].map((v) => v === null ? null : v * factor) }))));
+    };
+    course("Objective and its terms", ["objective", "strain_energy", "uniformity_annulus", "uniformity_dual",
+      "uniformity_l2"], 1, (column("objective") ?? "").replace("objective ", ""));
+    course("Mean travel and run-out", ["mean_travel", "run_out"], 1e3, "[mm]");
+    course("Peaks of pressure and stress", ["peak_pressure", "peak_von_mises ["], 1e-6, "[MPa]");
+    course("Volume", ["volume fraction"], 100, "[% of the ring]");
+    if (run.rolling) {
+      const turn = ({ azimuths_rad }, values, factor) => {  // one sector, closed
+        const x = azimuths_rad.map((a) => a * degree), sector = 360 / run.sectors;
+        return { x: [...x, x[0] + sector], y: [...values, values[0]].map((v) => v * factor) };
+      };
+      const both = (key, factor) => Object.entries(run.rolling).map(([name, of]) =>
+        ({ name, ...turn(of, of[key], factor) }));
+      charts.push(chart("Travel at fixed load, round one sector", "azimuth [\u00b0]", "[mm]", both("travel_at_load_m", 1e3)));
+      charts.push(chart("Radial force at fixed travel, round one sector", "azimuth [\u00b0]", "[N]",
+        both("force_at_travel_N", 1)));
+      const harmonics = run.rolling.after.travel_harmonics_m.map((_, k) => `${(k + 1) * run.sectors}`);
+      if (harmonics.length) {
+        const spectrum = (key, factor) => Object.entries(run.rolling).map(([name, of]) =>
+          ({ name, y: of[key].map((v) => v * factor) }));
+        charts.push(chart("Spectrum of the travel", "waves per turn", "[\u00b5m]", spectrum("travel_harmonics_m", 1e6),
+          { bars: true, labels: harmonics }));
+        charts.push(chart("Spectrum of the radial force", "waves per turn", "[N]", spectrum("force_harmonics_N", 1),
+          { bars: true, labels: harmonics }));
+      }
+      const stress = run.rolling.after.peak_von_mises_Pa, most = Math.max(...stress);
+      charts.push(chart("Peak von Mises stress by load position; the largest is marked", "azimuth [\u00b0]", "[MPa]",
+        [{ name: "after", y: stress.map((v) => v * 1e-6) }], { bars: true,
+          labels: run.rolling.after.azimuths_rad.map((a) => shown(a * degree)),
+          colours: stress.map((v) => v === most ? curveColours[1] : curveColours[0]) }));
+    }
+    if (run.pressures)
+      charts.push(chart("Contact pressure of all load positions", "along the ground [mm]", "[MPa]",
+        run.pressures.map((p, k) => ({ name: `position ${k + 1}`, x: p.x_m.map((v) => v * 1e3),
+          y: p.pressure_Pa.map((v) => v * 1e-6) }))));
+    return charts;
+  }
+
+  // --- The page ---------------------------------------------------------------------------------------
+
+  function provenance(run) {
+    const commands = `wheelwright run case.toml            # computes this run again\n` +
+      `wheelwright analyze ${run.name}            # its last wheel in 64 load positions per sector\n` +
+      `wheelwright resume ${run.name} --iterations N   # goes on`;
+    return element("section", {}, element("h2", {}, "How it was made"),
+      element("p", { class: "quiet" }, `${run.program}; ${rejectedText(run)}; ${minutes(run.seconds)}`),
+      element("pre", {}, commands),
+      element("details", {}, element("summary", {}, "The case"), element("pre", {}, run.case)));
+  }
+
+  function article(run, later) {
+    const section = (title, ...children) => element("section", {}, element("h2", {}, title), ...children);
+    const made = element("article", { id: run.id }, element("h1", {}, run.title),
+      element("p", { class: "quiet", id: `${run.id}-status` }, `${run.status}; load ${run.load}`));
+    if (run.summary) made.append(answers(run));
+    made.append(flags(run));
+    if (run.summary) made.append(section("Before and after",
+      table([{ name: "before", numbers: run.summary.before }, { name: "after", numbers: run.summary.after }])));
+    const pictures = element("div", { class: "pictures" });
+    if (run.fields) later.push(rolling(run));
+    if (run.fields) pictures.append(later.at(-1).figure);
+    if (run.outlines.length) {
+      later.push(shapes(run));
+      pictures.append(later.at(-1).figure);
+    }
+    made.append(section("The wheel", pictures));
+    const charts = curves(run);
+    later.push(...charts);
+    made.append(section("Curves", element("div", { class: "pictures" }, ...charts.map(({ figure }) => figure))));
+    made.append(provenance(run));
+    return made;
+  }
+
+  const later = [], summarized = data.runs.filter((run) => run.summary);
+  data.runs.forEach((run, k) => { run.id = `run${k}`; });
+  if (summarized.length > 1)
+    page.append(element("h1", {}, "Wheels compared"),
+      table(summarized.map((run) => ({ name: run.name, numbers: run.summary.after }))));
+  page.append(element("div", { class: "runs" }, ...data.runs.map((run) => article(run, later))));
+  for (const part of later) part.start();
+  addEventListener("resize", () => later.forEach((part) => part.draw?.()));
+  if (data.runs.some((run) => run.is_running)) setTimeout(() => location.reload(), 5000);
+})();

@@ -1,0 +1,238 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "wheelwright/geometry/cell_map.h"
+#include "wheelwright/geometry/contour.h"
+#include "wheelwright/page/assets.h"
+#include "wheelwright/page/base64.h"
+#include "wheelwright/page/report_run.h"
+#include "wheelwright/report/svg.h"
+
+namespace wheelwright {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Points of the material of sector 0 with what it takes to interpolate a field there, and triangles of them.
+struct SectorMesh {
+  std::vector<Vec<2>> points;             ///< Cartesian [m]
+  std::vector<std::array<int, 2>> cells;  ///< of every point
+  std::vector<ShapeFunctions<2>> shapes;  ///< of the fields there, in its cell
+  std::vector<std::uint32_t> triangles;   ///< corners, counter-clockwise
+};
+
+/// Corners that polygons share are one point.
+SectorMesh sector_mesh(const LevelSet<2>& psi, int field_degree) {
+  constexpr int cut_subdivisions = 2;
+  constexpr double resolution = 1e7;  // [1/m]
+  const PolarGrid<2>& grid = psi.lattice.grid();
+  const auto polygons = material_polygons(psi, cut_subdivisions);
+  SectorMesh mesh;
+  std::map<std::array<long, 2>, std::uint32_t> known;
+  for (int cell = 0; cell < grid.n_cells(); ++cell) {
+    const CellMap<2> map(grid, psi.lattice.degree(), grid.cell_position(cell));
+    for (const MaterialPolygon& polygon : polygons[cell]) {
+      std::vector<std::uint32_t> corners;
+      for (const Vec<2>& xi : polygon) {
+        const Vec<2> x = rotated<2>(map.position(ShapeFunctions<2>(psi.lattice.degree(), xi)),
+                                    grid.cell_position(cell)[1] * grid.cell_size()[1]);
+        const std::array<long, 2> key{std::lround(x[0] * resolution), std::lround(x[1] * resolution)};
+        const auto [entry, is_new] = known.try_emplace(key, static_cast<std::uint32_t>(mesh.points.size()));
+        if (is_new) {
+          mesh.points.push_back(x);
+          mesh.cells.push_back(grid.cell_position(cell));
+          mesh.shapes.emplace_back(field_degree, xi);
+        }
+        corners.push_back(entry->second);
+      }
+      for (std::size_t k = 2; k < corners.size(); ++k)
+        mesh.triangles.insert(mesh.triangles.end(), {corners[0], corners[k - 1], corners[k]});
+    }
+  }
+  return mesh;
+}
+
+template <class T>
+std::string encoded(const std::vector<T>& values) {
+  return base64({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
+}
+
+/// A field's component at the points of a mesh in all sectors: value[point + n_points * sector].
+std::vector<double> at_points(const SectorMesh& mesh, const Lattice<2>& lattice, const RingField& field,
+                              int component) {
+  std::vector<double> values;
+  for (int sector = 0; sector < lattice.grid().n_sectors; ++sector)
+    for (std::size_t k = 0; k < mesh.points.size(); ++k) {
+      auto cell = mesh.cells[k];
+      cell[1] += sector * lattice.grid().columns();
+      values.push_back(interpolate(
+          field, ring_cell_nodes<2>(lattice, cell),
+          std::span(mesh.shapes[k].value.data(), nodes_per_cell<2>(lattice.degree())), component));
+    }
+  return values;
+}
+
+double largest(const std::vector<std::vector<double>>& all) {
+  double result = 0;
+  for (const auto& values : all)
+    for (const double v : values)
+      if (std::isfinite(v)) result = std::max(result, std::abs(v));
+  return result;
+}
+
+std::vector<std::int16_t> as_shorts(const std::vector<double>& values, double full_scale) {
+  std::vector<std::int16_t> result;
+  for (const double v : values)
+    result.push_back(static_cast<std::int16_t>(std::isfinite(v) ? std::lround(32767 * v / full_scale) : 0));
+  return result;
+}
+
+std::vector<std::uint8_t> as_bytes(const std::vector<double>& values, double full_scale) {
+  std::vector<std::uint8_t> result;
+  for (const double v : values)
+    result.push_back(static_cast<std::uint8_t>(
+        std::isfinite(v) ? std::clamp(std::lround(255 * v / full_scale), 0L, 255L) : 0));
+  return result;
+}
+
+/// The deformed wheel in its load positions. Displacements are Cartesian, in the body frame.
+Json fields_json(const ReportRun& run) {
+  const SectorMesh mesh = sector_mesh(*run.shape, run.positions.front().lattice.degree());
+  std::vector<float> points;
+  for (const Vec<2>& x : mesh.points) points.insert(points.end(), {float(x[0]), float(x[1])});
+  std::vector<std::vector<double>> x, y, stress;
+  for (const PositionFields& position : run.positions) {
+    x.push_back(at_points(mesh, position.lattice, position.displacement, 0));
+    y.push_back(at_points(mesh, position.lattice, position.displacement, 1));
+    stress.push_back(at_points(mesh, position.lattice, position.von_mises, 0));
+  }
+  const double full_displacement = std::max(largest(x), largest(y)), full_stress = largest(stress);
+  Json positions = Json::array();
+  for (std::size_t i = 0; i < run.positions.size(); ++i)
+    positions.push_back({{"azimuth_rad", run.positions[i].ground_azimuth},
+                         {"x", encoded(as_shorts(x[i], full_displacement))},
+                         {"y", encoded(as_shorts(y[i], full_displacement))},
+                         {"stress", encoded(as_bytes(stress[i], full_stress))}});
+  return {{"points", encoded(points)},
+          {"triangles", encoded(mesh.triangles)},
+          {"full_displacement_m", full_displacement},
+          {"full_stress_Pa", full_stress},
+          {"positions", std::move(positions)}};
+}
+
+Json rolling_json(const DescribedWheel<2>& wheel) {
+  const RollingAnalysis& a = wheel.rolling;
+  const double width = wheel.grid.width;
+  Json json{{"azimuths_rad", a.azimuths},
+            {"travel_at_load_m", a.travel_at_load},
+            {"force_at_travel_N", Json::array()},
+            {"peak_von_mises_Pa", a.peak_von_mises},
+            {"peak_pressure_Pa", Json::array()},
+            {"travel_harmonics_m", rolling_variation(a.travel_at_load).harmonics},
+            {"force_harmonics_N", Json::array()}};
+  for (const double force : a.force_at_travel) json["force_at_travel_N"].push_back(force * width);
+  for (const ContactSummary& contact : a.positions) json["peak_pressure_Pa"].push_back(contact.peak_pressure);
+  for (const double amplitude : rolling_variation(a.force_at_travel).harmonics)
+    json["force_harmonics_N"].push_back(amplitude * width);
+  return json;
+}
+
+/// The contact pressures of every position along the ground.
+Json pressures_json(const std::vector<ContactPoint>& points) {
+  std::map<int, Json> by_position;
+  for (const ContactPoint& point : points) {
+    Json& curve =
+        by_position.try_emplace(point.position, Json{{"x_m", Json::array()}, {"pressure_Pa", Json::array()}})
+            .first->second;
+    curve["x_m"].push_back(point.x);
+    curve["pressure_Pa"].push_back(point.pressure);
+  }
+  Json all = Json::array();
+  for (auto& [position, curve] : by_position) all.push_back(std::move(curve));
+  return all;
+}
+
+Json run_json(const ReportRun& run) {
+  Json history = Json::object();
+  for (const HistoryCurve& curve : run.history) {
+    Json values = Json::array();
+    for (const double v : curve.values) values.push_back(std::isfinite(v) ? Json(v) : Json());
+    history[curve.name] = std::move(values);
+  }
+  Json outlines = Json::array();
+  for (const ShapeOutline& outline : run.outlines)
+    outlines.push_back({{"shape", outline.shape}, {"contours", outline.contours}});
+  Json json{{"name", run.name},
+            {"title", run.title},
+            {"status", run.status},
+            {"is_running", run.is_running},
+            {"program", run.program},
+            {"case", run.case_text},
+            {"seconds", run.seconds},
+            {"load", run.load},
+            {"inner_radius_m", run.grid.inner_radius},
+            {"outer_radius_m", run.grid.outer_radius},
+            {"width_m", run.grid.width},
+            {"sectors", run.grid.n_sectors},
+            {"trials", run.trials},
+            {"rejected", run.rejected},
+            {"flags", run.flags},
+            {"history", std::move(history)},
+            {"outline_units", outline_units},
+            {"outlines", std::move(outlines)}};
+  if (run.summary) {
+    json["summary"] = Json::parse(summary_json(*run.summary));
+    json["rolling"] = {{"before", rolling_json(run.summary->before.wheel)},
+                       {"after", rolling_json(run.summary->after.wheel)}};
+  }
+  if (run.shape) json["fields"] = fields_json(run);
+  if (!run.contact_points.empty()) json["pressures"] = pressures_json(run.contact_points);
+  return json;
+}
+
+/// How numbers are told, in the order of the table.
+Json numbers_json() {
+  Json numbers = Json::array();
+  for (const WheelNumber<2>& number : wheel_numbers<2>())
+    numbers.push_back(
+        {{"key", number.key}, {"label", number.label}, {"unit", number.unit}, {"factor", number.factor}});
+  return numbers;
+}
+
+/// JSON that can stand in a script element whatever its texts hold.
+std::string in_script(const Json& json) {
+  std::string text;
+  for (const char c : json.dump(-1, ' ', true, Json::error_handler_t::replace))
+    text += c == '<' ? std::string("\\u003c") : std::string(1, c);
+  return text;
+}
+
+/// The template with contents in the place of marks, in the order in which they stand there.
+std::string filled(std::string_view page,
+                   const std::vector<std::pair<std::string_view, std::string>>& contents) {
+  std::string result;
+  for (const auto& [mark, content] : contents) {
+    const std::size_t at = page.find(mark);
+    result.append(page.substr(0, at)).append(content);
+    page.remove_prefix(at + mark.size());
+  }
+  return result.append(page);
+}
+
+}  // namespace
+
+std::string report_page(const std::vector<ReportRun>& runs) {
+  Json data{{"numbers", numbers_json()}, {"runs", Json::array()}};
+  for (const ReportRun& run : runs) data["runs"].push_back(run_json(run));
+  return filled(assets::report_html,
+                {{"@TITLE@", escape_xml(runs.size() == 1 ? runs.front().title : "Wheels compared")},
+                 {"@STYLE@", std::string(assets::report_css)},
+                 {"@DATA@", in_script(data)},
+                 {"@CHART_LIBRARY@", std::string(assets::chart_js)},
+                 {"@SCRIPT@", std::string(assets::report_js)}});
+}
+
+}  // namespace wheelwright

@@ -1,0 +1,52 @@
+#include "wheelwright/run/report_file.h"
+
+#include <cerrno>
+#include <fstream>
+
+#include "wheelwright/files/atomic_file.h"
+#include "wheelwright/files/output_error.h"
+#include "wheelwright/run/run_report.h"
+
+namespace wheelwright {
+namespace {
+
+constexpr const char* page_file = "report.html";
+constexpr double seconds_between_pages = 5;
+
+/// Keeps the lines of the shapes up to the one that the run goes on from.
+void keep_outlines(const std::filesystem::path& folder, std::optional<int> resumed_after) {
+  std::string kept;
+  if (resumed_after)
+    for (const ShapeOutline& outline : read_outlines(folder))
+      if (outline.shape <= *resumed_after) kept += outline_line(outline);
+  write_atomically(folder / outline_file, kept);
+}
+
+void add_outline(const std::filesystem::path& folder, const ShapeOutline& outline) {
+  const auto path = folder / outline_file;
+  std::ofstream stream(path, std::ios::app | std::ios::binary);
+  if (!(stream << outline_line(outline)).flush()) throw OutputError(path, errno);
+}
+
+}  // namespace
+
+void ReportFile::operator()(const Event<2>& event, const RunView<2>& run) {
+  if (const auto* started = std::get_if<RunStarted>(&event))
+    keep_outlines(run.folder, started->resumed_after);
+  if (const auto* done = std::get_if<TrialDone<2>>(&event);
+      done && done->trial.verdict == Verdict::accepted) {
+    add_outline(run.folder, shape_outline(done->state.iteration, done->state.shape));
+    waited_ += since_written_.lap();
+    if (waited_ >= seconds_between_pages) {
+      write_atomically(run.folder / page_file, report_page({report_of_folder(run.folder, run.study.source)}));
+      waited_ = 0;
+    }
+  }
+  if (const auto* ended = std::get_if<RunEnded<2>>(&event); ended && ended->summary)
+    write_atomically(run.folder / page_file,
+                     report_page({report_of_results(run.folder, run.study.source, *ended->summary,
+                                                    {&ended->state->shape, ended->solver, ended->solution},
+                                                    ended->reason)}));
+}
+
+}  // namespace wheelwright

@@ -1,0 +1,146 @@
+#include "wheelwright/run/run_report.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include "wheelwright/case/derived.h"
+#include "wheelwright/files/csv.h"
+#include "wheelwright/run/history.h"
+#include "wheelwright/run/provenance.h"
+#include "wheelwright/run/run_title.h"
+#include "wheelwright/run/study.h"
+
+namespace wheelwright {
+namespace {
+
+namespace fs = std::filesystem;
+
+double number(const std::string& cell) {
+  char* end = nullptr;
+  const double value = std::strtod(cell.c_str(), &end);
+  return !cell.empty() && *end == '\0' ? value : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// The columns of the accepted shapes that hold numbers, and how many trials there were.
+void read_history(const fs::path& file, ReportRun& run) {
+  std::ifstream stream(file);
+  std::string line;
+  if (!std::getline(stream, line)) return;
+  for (const std::string& name : csv_cells(line))
+    if (name != "reason" && name != "events") run.history.push_back({name, {}});
+  const auto columns = csv_cells(line);
+  while (std::getline(stream, line)) {
+    const auto cells = csv_cells(line);
+    if (cells.size() != columns.size()) continue;
+    ++run.trials;
+    const auto accepted = std::ranges::find(columns, "accepted") - columns.begin();
+    if (accepted == std::ssize(columns) || cells[accepted] != "1") {
+      ++run.rejected;
+      continue;
+    }
+    auto curve = run.history.begin();
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      if (columns[k] != "reason" && columns[k] != "events") (curve++)->values.push_back(number(cells[k]));
+  }
+}
+
+std::string content(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+double last_elapsed(const ReportRun& run) {
+  for (const HistoryCurve& curve : run.history)
+    if (curve.name.starts_with("elapsed") && !curve.values.empty()) return curve.values.back();
+  return 0;
+}
+
+std::string status_text(std::optional<StopReason> reason) {
+  if (!reason) return "not ended";
+  switch (*reason) {
+    case StopReason::converged:
+      return "converged";
+    case StopReason::iterations:
+      return "ended after the given number of shapes";
+    case StopReason::no_descent:
+      return "ended: no step makes the shape better";
+    case StopReason::gave_up:
+      return "gave up: no trial shape could be computed";
+    case StopReason::failed_start:
+      return "the initial shape could not be computed";
+    case StopReason::stop_requested:
+      return "stopped";
+  }
+  return "";
+}
+
+std::vector<std::string> flags(const Case& c, const DescribedWheel<2>& wheel,
+                               std::optional<StopReason> reason) {
+  std::vector<std::string> result;
+  if (const auto warning = deformation_warning(wheel.summary.deformation); !warning.empty())
+    result.push_back(warning);
+  const Case shown = with_levels_of_results(c);
+  if (const double cells = cells_per_contact_patch(shown); cells < least_cells_per_contact_patch)
+    result.push_back(
+        fmt::format("The contact patch is only {:.2g} cells wide: pressures are not resolved.", cells));
+  if (reason == StopReason::iterations && c.optimizer.tolerance > 0)
+    result.push_back(
+        "The run ended by its number of shapes before it converged: more shapes may improve the wheel.");
+  if (reason == StopReason::gave_up)
+    result.push_back(
+        "The run gave up; the folder failure says why. The shape is the last one that was accepted.");
+  if (!reason || reason == StopReason::stop_requested)
+    result.push_back("The run has not ended by itself: more shapes may improve the wheel.");
+  return result;
+}
+
+}  // namespace
+
+std::vector<ShapeOutline> read_outlines(const fs::path& folder) {
+  std::ifstream stream(folder / outline_file);
+  std::vector<ShapeOutline> outlines;
+  for (std::string line; std::getline(stream, line);)
+    if (auto outline = parse_outline_line(line)) outlines.push_back(*std::move(outline));
+  return outlines;
+}
+
+ReportRun report_of_folder(const fs::path& folder, const Case& c) {
+  ReportRun run{.name = (fs::absolute(folder).lexically_normal() / "").parent_path().filename().string(),
+                .title = run_title(c),
+                .status = "running",
+                .is_running = true,
+                .program = program_text(),
+                .case_text = content(folder / "case.toml"),
+                .seconds = 0,
+                .load = load_text(rolling_model<2>(c)),
+                .grid = polar_grid<2>(c),
+                .trials = 0,
+                .rejected = 0,
+                .history = {},
+                .outlines = read_outlines(folder),
+                .flags = {},
+                .summary = {},
+                .positions = {},
+                .contact_points = {}};
+  read_history(folder / history_file, run);
+  run.seconds = last_elapsed(run);
+  return run;
+}
+
+ReportRun report_of_results(const fs::path& folder, const Case& c, const RunSummary<2>& summary,
+                            const SolvedShape& last, std::optional<StopReason> reason) {
+  ReportRun run = report_of_folder(folder, c);
+  run.is_running = false;
+  run.status = status_text(reason);
+  run.flags = flags(c, summary.after.wheel, reason);
+  run.summary = summary;
+  run.shape = last.shape;
+  run.positions = all_position_fields(*last.solver, *last.solution);
+  run.contact_points = contact_points(*last.solver, *last.solution);
+  return run;
+}
+
+}  // namespace wheelwright

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+
+#include "wheelwright/case/case.h"
+#include "wheelwright/optimize/optimizer.h"
+#include "wheelwright/page/report_run.h"
+
+namespace wheelwright {
+
+/// The outlines of a run's accepted shapes, one line each, in the order of the shapes.
+inline constexpr const char* outline_file = "outlines.jsonl";
+
+/// The lines of the file; lines that are damaged, as the last one may be after a kill, are left out.
+std::vector<ShapeOutline> read_outlines(const std::filesystem::path& folder);
+
+/// What is known of a run while it goes on: what its folder says.
+ReportRun report_of_folder(const std::filesystem::path& folder, const Case& c);
+
+/// A shape that was solved for results.
+struct SolvedShape {
+  const LevelSet<2>* shape;
+  const StateSolver<2>* solver;
+  const State<2>* solution;
+};
+
+/// The same of a run that ended, with its last shape. `reason` is absent where it is not known to have ended.
+ReportRun report_of_results(const std::filesystem::path& folder, const Case& c, const RunSummary<2>& summary,
+                            const SolvedShape& last, std::optional<StopReason> reason);
+
+}  // namespace wheelwright
