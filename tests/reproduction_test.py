@@ -160,8 +160,7 @@ class Families(unittest.TestCase):
     def test_only_runs_that_follow_rounding_are_repeated(self):
         self.assertEqual(tasks_of("uniform_je"), [Task("uniform_je")])
         tasks = tasks_of("rules_je")
-        self.assertGreaterEqual(len(tasks_of("rules_jp1")), 8)
-        self.assertGreater(len(tasks), len(tasks_of("rules_jp1")))
+        self.assertGreaterEqual(len(tasks), 8)
         self.assertEqual(len({task.name for task in tasks}), len(tasks))
         self.assertEqual(len(set(perturbations)), len(perturbations))
         self.assertTrue(all(1e-6 <= abs(p) <= 1e-5 for p in perturbations))

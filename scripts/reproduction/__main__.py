@@ -9,7 +9,7 @@ import textwrap
 import time
 from pathlib import Path
 
-from .execute import execute_all, few, perturbations, tasks_of
+from .execute import execute_all, perturbations, tasks_of
 from .family import Verdict
 from .figures import figures
 from .progress import CaseProgress
@@ -84,11 +84,11 @@ first, the velocity is the H1 (Riesz) representative of the gradient, and a shap
 minimum so far by more than 1e-4, relatively.
 
 By the paper's rules the last shapes depend on rounding: two processors find two shapes, and so do holes whose radii
-differ by a hundredth of a micrometre. Each of these cases is therefore run {1 + few} times, as it is and with radii
-changed by 1e-6 to 1e-5, relatively; those with results near the bar of a claim {1 + len(perturbations)} times. The
-tables give the range of the results, rounded outwards. A claim is judged on all runs, in all combinations if it compares
-several: it is *confirmed* if all meet it, *contradicted* if none does, and *undecided* otherwise. Pictures and curves
-are those of the case as it is.
+differ by a hundredth of a micrometre. Each of these cases is therefore run {1 + len(perturbations)} times, as it is and
+with radii changed by 1e-6 to 1e-5, relatively. The tables give the range of the results, rounded outwards. A claim is
+judged on all runs, in all combinations if it compares several: it is *confirmed* if all meet it, *contradicted* if none
+does, and *undecided* otherwise. Where an objective is compared with another one, each of its runs is compared with the
+mean of the other's. Pictures and curves are those of the case as it is.
 
 {last}
 

@@ -30,6 +30,10 @@ class Values(list[float]):
     def high(self) -> float:
         return max(self)
 
+    @property
+    def mean(self) -> float:
+        return sum(self) / len(self)
+
     def text(self, decimals: int, unit: str = "", sign: str = "") -> str:
         """The number; or the range, rounded outwards to at most so many decimals, and to no more than 50 steps
         of the last digit: further ones would be others in other runs. `sign`: "+" to print the sign of positive numbers too."""

@@ -48,8 +48,8 @@ def holes_48(r: Runs, album: Album) -> str:
     spread = {family.name: family.of(lambda run: run.peak_spread("final")) for family in (je, jp2, rules_je, rules_jp2)}
     gaps = [over(_shape_gap, je, jp2), over(_shape_gap, rules_je, rules_jp2)]
     evener = [
-        over(lambda a, b: b.peak_spread("final") / a.peak_spread("final"), *pair)
-        for pair in ((je, jp2), (rules_je, rules_jp2))
+        Values(value / spread[alone.name].mean for value in spread[with_jp2.name])
+        for alone, with_jp2 in ((je, jp2), (rules_je, rules_jp2))
     ]
     share = jp2.of(lambda run: 50 * run.last["uniformity_dual"] / run.last["objective"])
     return joined(

@@ -32,14 +32,14 @@ class _Findings:
         self.fall = {17: families[17].change("uniformity_annulus"), 18: families[18].change("uniformity_dual")}
 
     def remains(self, number: int) -> Values:
-        """Of the spread with J_e alone."""
+        """Of the mean spread with J_e alone."""
         return _remains(self.families[number], self.families[16])
 
     def evened(self, number: int) -> Verdict:
         return _evened(self.remains(number))
 
     def gain(self, number: int, other: int) -> Values:
-        """Material between the holes and the tread, more than with another objective [mm]."""
+        """Material between the holes and the tread, more than on the mean with another objective [mm]."""
         return _gain(self.families[number], self.families[other])
 
     def farther(self, number: int, other: int, least: float = 0) -> Verdict:
@@ -47,24 +47,27 @@ class _Findings:
         return _farther(self.gain(number, other), least)
 
     def dearer(self, quantity: str) -> Values:
-        """How much more alpha_2 = 1000 costs than 100."""
-        return over(lambda a, b: b.last[quantity] / a.last[quantity] - 1, self.families[18], self.families[21])
+        """How much more alpha_2 = 1000 costs than 100 on the mean."""
+        usual = self.families[18].last(quantity).mean
+        return self.families[21].of(lambda run: run.last[quantity] / usual - 1)
 
     def deviation(self, number: int) -> str:
         return self.families[number].of(lambda run: run.curve_deviation("final")).percent()
 
 
 def _remains(family: Family, alone: Family) -> Values:
-    return over(lambda a, b: _spread(a) / _spread(b), family, alone)
+    usual = alone.of(_spread).mean
+    return family.of(lambda run: _spread(run) / usual)
 
 
 def _evened(remains: Values) -> Verdict:
-    """Whether the spread is at least a quarter smaller than that of another family."""
+    """Whether the spread is at least a quarter smaller than with J_e alone."""
     return judged(lambda ratio: ratio < 0.75, remains)
 
 
 def _gain(family: Family, other: Family) -> Values:
-    return over(lambda a, b: _band(a) - _band(b), family, other)
+    usual = other.of(_band).mean
+    return family.of(lambda run: _band(run) - usual)
 
 
 def _farther(gain: Values, least: float = 0) -> Verdict:
