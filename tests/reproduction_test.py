@@ -75,7 +75,10 @@ class Page(unittest.TestCase):
         )
         text = summary({"1": rows})
         self.assertTrue(
-            text.startswith("1 claims are confirmed, 1 have several verdicts, 1 are contradicted, 1 undecided:"), text
+            text.startswith(
+                "1 claims are confirmed, 1 contradicted, 1 undecided; 1 have several verdicts, of which 1 are undecided "
+            ),
+            text,
         )
         self.assertEqual(text.count("\n- "), 3)
         self.assertEqual(both_ways(no, no), told(no))

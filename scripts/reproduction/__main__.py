@@ -56,9 +56,11 @@ def summary(sections: dict[str, str]) -> str:
     rows = re.findall(r"^\| (.*) \| (.*) \| (.*\*\*.*) \|$", "".join(sections.values()), re.MULTILINE)
     found = [set(re.findall(r"\*\*(\w+)\*\*", verdict)) for _, _, verdict in rows]
     count = {verdict: found.count({verdict.value}) for verdict in Verdict}
+    in_part = sum(len(verdicts) > 1 and Verdict.undecided.value in verdicts for verdicts in found)
     result = (
-        f"{count[Verdict.confirmed]} claims are confirmed, {len(rows) - sum(count.values())} have several verdicts, "
-        f"{count[Verdict.contradicted]} are contradicted, {count[Verdict.undecided]} undecided"
+        f"{count[Verdict.confirmed]} claims are confirmed, {count[Verdict.contradicted]} contradicted, "
+        f"{count[Verdict.undecided]} undecided; {len(rows) - sum(count.values())} have several verdicts, of which "
+        f"{in_part} are undecided in part"
     )
     doubtful = [row for row, verdicts in zip(rows, found) if verdicts != {Verdict.confirmed.value}]
     if not doubtful:
@@ -84,11 +86,12 @@ first, the velocity is the H1 (Riesz) representative of the gradient, and a shap
 minimum so far by more than 1e-4, relatively.
 
 By the paper's rules the last shapes depend on rounding: two processors find two shapes, and so do holes whose radii
-differ by a hundredth of a micrometre. Each of these cases is therefore run {1 + len(perturbations)} times, as it is and
-with radii changed by 1e-6 to 1e-5, relatively. The tables give the range of the results, rounded outwards. A claim is
-judged on all runs, in all combinations if it compares several: it is *confirmed* if all meet it, *contradicted* if none
-does, and *undecided* otherwise. Where an objective is compared with another one, each of its runs is compared with the
-mean of the other's. Pictures and curves are those of the case as it is.
+differ by a hundredth of a micrometre. Each of these cases is therefore run {1 + len(perturbations)} times, as it is and with radii changed by
+1e-6 to 1e-5, relatively. The tables give the range of the results, rounded outwards. A claim is judged on all runs, in
+all combinations if it compares several: it is *confirmed* if all meet it, *contradicted* if none does, and *undecided*
+otherwise. Where an objective is compared with another one, each of its runs is compared with the mean of the other's.
+Pictures and curves are those of the case as it is. With the volume held nothing is amplified: J_e of the last shapes is
+the same to 1e-8 on two processors, and each case is run once.
 
 {last}
 
