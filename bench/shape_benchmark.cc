@@ -160,7 +160,7 @@ void newton(benchmark::State& state, const RollingSolution<2>& solution, Samples
     for (size_t i = 0; i < solution.contacts.size(); ++i) {
       const auto& contact = solution.contacts[i];
       const auto x = contact.start_from(solution.states[i]);
-      steps.push_back(contact.newton_step(x, contact.residual(x, 1)));
+      steps.push_back(contact.newton_step(x, contact.residual(x)));
     }
     return steps;
   });

@@ -27,3 +27,24 @@ find_library(CHOLMOD_LIBRARY cholmod REQUIRED)
 add_library(wheelwright_cholmod INTERFACE)
 target_include_directories(wheelwright_cholmod SYSTEM INTERFACE ${CHOLMOD_INCLUDE_DIR})
 target_link_libraries(wheelwright_cholmod INTERFACE ${CHOLMOD_LIBRARY} wheelwright_lapack)
+
+# CGAL is headers alone; they use GMP.
+find_path(CGAL_INCLUDE_DIR CGAL/Constrained_Delaunay_triangulation_2.h REQUIRED)
+find_library(GMP_LIBRARY gmp REQUIRED)
+add_library(wheelwright_cgal INTERFACE)
+target_include_directories(wheelwright_cgal SYSTEM INTERFACE ${CGAL_INCLUDE_DIR})
+target_link_libraries(wheelwright_cgal INTERFACE ${GMP_LIBRARY})
+
+# AGG draws pictures, stb encodes them: both become part of the library.
+find_path(AGG_INCLUDE_DIR agg2/agg_path_storage.h REQUIRED)
+find_library(AGG_LIBRARY agg_pic REQUIRED)
+find_path(STB_INCLUDE_DIR stb/stb_image_write.h REQUIRED)
+add_library(wheelwright_agg INTERFACE)
+target_include_directories(wheelwright_agg SYSTEM INTERFACE ${AGG_INCLUDE_DIR} ${AGG_INCLUDE_DIR}/agg2 ${STB_INCLUDE_DIR})
+target_link_libraries(wheelwright_agg INTERFACE ${AGG_LIBRARY})
+
+# For plugins, which are left out where their library is missing.
+find_path(OCCT_INCLUDE_DIR STEPControl_Writer.hxx PATH_SUFFIXES opencascade)
+find_library(OCCT_STEP_LIBRARY TKSTEP)
+find_path(LIB3MF_INCLUDE_DIR Model/COM/NMR_DLLInterfaces.h PATH_SUFFIXES lib3mf)
+find_library(LIB3MF_LIBRARY 3MF)

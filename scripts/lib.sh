@@ -5,10 +5,14 @@
 packages=(
   g++ cmake ninja-build pkg-config
   libsuitesparse-dev libopenblas-dev liblapacke-dev libnanoflann-dev libtbb-dev
+  libcgal-dev libagg-dev libstb-dev
   libtomlplusplus-dev libcli11-dev libfmt-dev nlohmann-json3-dev zlib1g-dev
   libjs-chart.js
   libgtest-dev libbenchmark-dev
 )
+# For export to STEP and 3MF, and what the tests read exported files with.
+export_packages=(libocct-data-exchange-dev lib3mf-dev)
+reader_packages=(python3-ezdxf python3-pil admesh librsvg2-bin)
 build_folder=build/release
 
 fail() {

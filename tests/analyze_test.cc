@@ -123,7 +123,8 @@ TEST(Analysis, PrincipalStrainsAreTheEigenvalues) {
 
 // Of a mirror-symmetric wheel one of each pair of positions is solved; its analysis is that of all.
 TEST(Analysis, OfSolvedPositionsIsThatOfAll) {
-  const auto model = paper_model(14, 192);
+  auto model = paper_model(14, 192);
+  model.contact.friction = 0.3;
   const auto problem = RollingProblem<2>::create(model);
   ASSERT_TRUE(problem);
   const auto psi = paper_holes(model.grid);
@@ -142,9 +143,15 @@ TEST(Analysis, OfSolvedPositionsIsThatOfAll) {
     ASSERT_EQ(((*a).*values).size(), size_t(model.n_positions));
     EXPECT_LT(testing::relative_difference((*a).*values, (*b).*values), 1e-7);
   }
-  for (int i = 0; i < model.n_positions; ++i)
-    EXPECT_NEAR(a->positions[i].peak_pressure, b->positions[i].peak_pressure,
-                1e-7 * b->positions[i].peak_pressure);
+  double friction = 0;
+  for (int i = 0; i < model.n_positions; ++i) {
+    const ContactSummary &one = a->positions[i], &other = b->positions[i];
+    EXPECT_NEAR(one.peak_pressure, other.peak_pressure, 1e-7 * other.peak_pressure);
+    EXPECT_NEAR(one.peak_friction, other.peak_friction, 1e-7 * other.peak_pressure);
+    EXPECT_NEAR(one.friction_force, other.friction_force, 1e-7 * other.radial_force);
+    friction = std::max(friction, std::abs(other.friction_force) / other.radial_force);
+  }
+  EXPECT_GT(friction, 1e-4);  // so that its sign counts
 }
 
 // A rigid turn of the material inside the rim is what the rotation measures; the paper's wheel turns little.
@@ -398,6 +405,10 @@ TEST(Report, JsonReadsBackToTheSameNumbers) {
     EXPECT_EQ(position["force_at_travel_N"], a.force_at_travel[i]);
     EXPECT_EQ(position["peak_von_mises_Pa"], a.peak_von_mises[i]);
     EXPECT_EQ(position["stiffness_N_per_m"], a.positions[i].radial_force / a.positions[i].travel);
+    EXPECT_EQ(position["friction_force_N"], a.positions[i].friction_force);
+    EXPECT_EQ(position["peak_friction_Pa"], a.positions[i].peak_friction);
+    EXPECT_EQ(position["travel_along_ground_m"], a.positions[i].travel_along_ground);
+    EXPECT_EQ(position["wind_up_rad"], a.positions[i].wind_up);
   }
   const RollingVariation travel = rolling_variation(a.travel_at_load);
   EXPECT_EQ(json["travel_at_load_m"]["mean"], travel.mean);

@@ -661,6 +661,8 @@ TEST(Derived, TheSmallestHoleOfRingsAndCircles) {
   c.holes.rings = {{.count = 16, .center_radius = 0.27, .radius = 0.04, .phase = {}}};
   EXPECT_NEAR(smallest_hole_in_cells(c), 16, 1e-12);
   c.holes.circles = {{.center = {0.26, 0.03}, .radius = 0.01}};
+  EXPECT_NEAR(smallest_hole_in_cells(c), 16, 1e-12) << "part of a larger hole";
+  c.holes.circles = {{.center = {0.23, 0}, .radius = 0.01}};
   EXPECT_NEAR(smallest_hole_in_cells(c), 4, 1e-12);
   c.grid.radial_cells *= 2;
   EXPECT_NEAR(smallest_hole_in_cells(c), 0.02 * 384 / (2 * std::numbers::pi * 0.27), 1e-12);

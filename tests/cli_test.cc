@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <regex>
@@ -167,7 +168,9 @@ TEST_F(CommandLine, WrongUsageIsTwoSaysSoAndLeavesNothing) {
 }
 
 TEST_F(CommandLine, CheckAcceptsAGoodCaseAndRefusesABadOne) {
-  EXPECT_EQ(wheelwright("check " + path_of_case("cases/holes16.toml")).code, exit_done);
+  for (const char* name : {"holes16", "tram", "bicycle", "scooter"})
+    EXPECT_EQ(wheelwright("check " + path_of_case(fmt::format("cases/{}.toml", name))).code, exit_done)
+        << name;
   const std::string bad = path_of_case("tests/bad_cases/everything.toml");
   for (const char* command : {"check ", "run ", "verify ", "analyze "}) {
     const Outcome outcome = wheelwright(command + bad);
@@ -193,6 +196,68 @@ TEST_F(CommandLine, CasesThatCannotBeReadAreTwo) {
          {in_folder("none.toml"), in_folder(""), std::string("''"), std::string("/dev/null")})
       EXPECT_EQ(wheelwright(command + file, folder()).code, exit_usage) << command << file;
   EXPECT_TRUE(std::filesystem::is_empty(folder()));
+}
+
+/// Whether a terminal would show only text.
+bool is_plain(std::string_view output) {
+  return std::ranges::all_of(output, [](unsigned char c) { return c == '\n' || (c >= 0x20 && c != 0x7f); }) &&
+         output.find("\xc2\x9b") == std::string_view::npos;
+}
+
+TEST_F(CommandLine, NothingInACaseOrItsNameControlsTheTerminal) {
+  const std::string evil =
+      "a\x1b]0;b\x07\x7f\xc2\x9b"
+      "31m";
+  const std::string quoted = "a\\u001b]0;b\\u0007\\u007f\\u009b31m";
+  const std::string wheel = small_wheel + "[optimizer]\niterations = 0\n";
+  std::ofstream(folder() / "title.toml") << "title = \"" << quoted << "\"\n" << wheel;
+  std::ofstream(folder() / "folder.toml") << wheel << "[output]\nfolder = \"" << quoted << "\"\n";
+  std::ofstream(folder() / "key.toml") << wheel << '"' << quoted << "\" = 1\n";
+  std::ofstream(folder() / (evil + ".toml")) << wheel;
+  std::ofstream(folder() / (evil + "bad.toml")) << "[wheel]\nsectors = 0\n";
+  const std::string name = fmt::format("'{}", evil);
+  for (const std::string& arguments :
+       {std::string("check title.toml"), std::string("run title.toml --output title"),
+        std::string("analyze title.toml --positions 1"),
+        std::string("analyze title.toml --positions 1 --json"), std::string("check folder.toml"),
+        std::string("run folder.toml"), std::string("check key.toml"), "check " + name + ".toml'",
+        "run " + name + ".toml'", "check " + name + "bad.toml'", "check " + name + "none.toml'",
+        "run title.toml --output " + name + "'", "resume " + name + "'", "resume " + name + "none'",
+        "init " + name + ".toml'", "fly " + name + "'"}) {
+    const Outcome outcome = wheelwright(arguments, folder());
+    EXPECT_FALSE(outcome.output.empty()) << arguments;
+    EXPECT_TRUE(is_plain(outcome.output)) << arguments << '\n' << outcome.output;
+  }
+}
+
+TEST_F(CommandLine, ThousandsOfProblemsAreCountedAndNotAllShown) {
+  {
+    std::ofstream file(folder() / "bytes.toml");
+    for (int line = 0; line < 500'000; ++line) file << "\xff\n";
+  }
+  const Outcome outcome = wheelwright("check bytes.toml", folder());
+  EXPECT_EQ(outcome.code, exit_usage);
+  EXPECT_NE(outcome.output.find("500000 problems"), std::string::npos);
+  EXPECT_LT(outcome.output.size(), 100'000u);
+}
+
+// With less address space than its buffers need, BLAS would try for ever to get it.
+TEST_F(CommandLine, WithoutAddressSpaceItIsFourAndDoesNotHang) {
+  std::ofstream(folder() / "c.toml") << small_case(0);
+  const auto within = [&](int kilobytes) {
+    const std::string command =
+        fmt::format("cd '{}' && ulimit -v {} && exec timeout -s KILL 20 '{}' run c.toml > printed 2>&1",
+                    folder().string(), kilobytes,
+                    (std::filesystem::read_symlink("/proc/self/exe").parent_path() / "wheelwright").string());
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  };
+  for (const int megabytes : {100, 150, 200, 250, 300}) {
+    EXPECT_EQ(within(megabytes * 1024), exit_refused) << megabytes;
+    EXPECT_NE(content(folder() / "printed").find("ulimit -v"), std::string::npos) << megabytes;
+    EXPECT_FALSE(std::filesystem::exists(folder() / "run"));
+  }
+  EXPECT_EQ(within(64 * 1024 * 1024), exit_done) << content(folder() / "printed");
 }
 
 TEST_F(CommandLine, FilesThatCannotBeWrittenAreFive) {
@@ -239,13 +304,13 @@ TEST_F(CommandLine, AShapeThatCannotBeSolvedIsThree) {
 // The volume at which a run ends may not be its target's yet, or a target that no wheel survives: the end
 // names the key.
 TEST_F(CommandLine, AVolumeThatIsNotReachedIsNamed) {
-  const auto run = [&](const std::string& name, const std::string& volume) {
+  const auto run = [&](const std::string& name, const std::string& volume, int iterations = 2) {
     std::ofstream(folder() / (name + ".toml"))
         << "[[holes.ring]]\ncount = 16\ncenter_radius = 0.27\nradius = 0.028\n"
            "[grid]\nradial_cells = 7\nangular_cells = 128\n[optimizer]\nrim_band = 0.02\ntread_band = "
-           "0.04\niterations = 2\n[volume]\n"
+           "0.04\n[volume]\n"
         << volume;
-    return wheelwright(fmt::format("run {0}.toml --output {0}", name), folder());
+    return wheelwright(fmt::format("run {0}.toml --output {0} --iterations {1}", name, iterations), folder());
   };
   const Outcome early = run("early", "target = 0.7\n");
   EXPECT_EQ(early.code, exit_done) << early.output;
@@ -253,6 +318,11 @@ TEST_F(CommandLine, AVolumeThatIsNotReachedIsNamed) {
   const Outcome there = run("there", "target = 0.8\nrate = 0.1\n");
   EXPECT_EQ(there.code, exit_done) << there.output;
   EXPECT_EQ(there.output.find("volume.target"), std::string::npos) << there.output;
+  for (const char* volume : {"target = 0.46\ncontrol = \"paper\"\n", "target = 0.455\nrate = 0.02\n"}) {
+    const Outcome gave_up = run(fmt::format("gave-up-{}", std::strlen(volume)), volume, 60);
+    EXPECT_EQ(gave_up.code, exit_no_solution) << gave_up.output;
+    EXPECT_NE(gave_up.output.find("volume.target = 0.4"), std::string::npos) << gave_up.output;
+  }
   const Outcome apart = run("apart", "target = 0.47\nrate = 1\n");
   EXPECT_EQ(apart.code, exit_no_solution) << apart.output;
   EXPECT_NE(apart.output.find("volume.target = 0.47"), std::string::npos) << apart.output;

@@ -8,7 +8,7 @@
 #include "wheelwright/evolution/closest_point.h"
 #include "wheelwright/evolution/evolver.h"
 #include "wheelwright/evolution/multilinear.h"
-#include "wheelwright/evolution/nearest_point.h"
+#include "wheelwright/geometry/nearest_point.h"
 #include "wheelwright/evolution/redistance.h"
 #include "wheelwright/evolution/seeds.h"
 #include "wheelwright/evolution/sub_cell_filter.h"

@@ -5,6 +5,7 @@
 
 #include "tests/support.h"
 #include "wheelwright/report/solution_fields.h"
+#include "wheelwright/report/tread_contact.h"
 #include "wheelwright/rolling/ring_displacement.h"
 #include "wheelwright/rolling/ring_state.h"
 
@@ -74,56 +75,79 @@ double von_mises_of(const Material& material, const Mat<2>& gradient) {
   return 2 * material.mu() * std::sqrt(1.5 * square);
 }
 
+/// The stress in plane strain from the displacement's gradient: xx, yy, zz, xy.
+std::array<double, 4> stress_of(const Material& material, const Mat<2>& gradient) {
+  const double xx = gradient[0][0], yy = gradient[1][1], xy = 0.5 * (gradient[0][1] + gradient[1][0]);
+  const double mean = material.lambda() * (xx + yy), two_mu = 2 * material.mu();
+  return {mean + two_mu * xx, mean + two_mu * yy, mean, two_mu * xy};
+}
+
+/// The von Mises stress at every node.
+std::vector<double> von_mises_at_nodes(const RingField& stress) {
+  const NamedField von_mises = von_mises_field(stress);
+  std::vector<double> result;
+  for (std::size_t k = 0; k < stress.values.size(); k += 4)
+    result.push_back(von_mises.scalar(std::span(&stress.values[k], 4)));
+  return result;
+}
+
 // The elements are isoparametric: they hold displacements that are linear in x and y, and their rotations.
-TEST(VonMisesField, IsExactForLinearDisplacements) {
+TEST(StressField, IsExactForLinearDisplacements) {
   for (const int degree : {1, 2}) {
     const auto [problem, solution] = solved(degree);
     for (const Mat<2>& a : {Mat<2>{{{2e-3, -7e-3}, {1.5e-3, 4e-3}}}, Mat<2>{{{-1e-3, 5e-3}, {5e-3, 1e-3}}}}) {
       const RingField u = displacement_of(problem, [&](const Vec<2>& x) {
         return Vec<2>{1e-3 + a[0][0] * x[0] + a[0][1] * x[1], a[1][0] * x[0] + a[1][1] * x[1] - 2e-3};
       });
-      const RingField stress = von_mises_field(problem.model(), solution.domain, u);
-      const double expected = von_mises_of(problem.model().materials.at_tread(), a);
-      int n = 0;
-      for (const double value : stress.values) {
-        if (std::isnan(value)) continue;
-        EXPECT_NEAR(value, expected, 1e-9 * expected);
+      const RingField stress = stress_field(problem.model(), solution.domain, u);
+      const Material& material = problem.model().materials.at_tread();
+      const auto expected = stress_of(material, a);
+      const double von_mises = von_mises_of(material, a);
+      std::size_t n = 0;
+      for (std::size_t k = 0; k < stress.values.size(); ++k) {
+        if (std::isnan(stress.values[k])) continue;
+        EXPECT_NEAR(stress.values[k], expected[k % 4], 1e-9 * von_mises) << k % 4;
         ++n;
       }
       EXPECT_GT(n, 0.8 * stress.values.size());
+      for (const double value : von_mises_at_nodes(stress))
+        EXPECT_FALSE(std::abs(value - von_mises) > 1e-9 * von_mises);
     }
   }
 }
 
-TEST(VonMisesField, RotationsHaveNoStress) {
+TEST(StressField, RotationsHaveNoStress) {
   for (const int degree : {1, 2}) {
     const auto [problem, solution] = solved(degree);
     const double rotation = 1e-2;
     const RingField u = displacement_of(problem, [&](const Vec<2>& x) {
       return Vec<2>{-rotation * x[1], rotation * x[0]};
     });
-    for (const double value : von_mises_field(problem.model(), solution.domain, u).values)
+    for (const double value : von_mises_at_nodes(stress_field(problem.model(), solution.domain, u)))
       EXPECT_FALSE(value > 1e-9 * rotation * problem.model().materials.at_tread().youngs_modulus);
   }
 }
 
 // u = (x y, x^2 - 3 y^2) k has a stress that differs from point to point, and from a point to its mirror
 // image.
-TEST(VonMisesField, FollowsTheStressFromPlaceToPlace) {
+TEST(StressField, FollowsTheStressFromPlaceToPlace) {
   const auto [problem, solution] = solved(2);
   const double k = 0.02;
   const RingField u = displacement_of(problem, [&](const Vec<2>& x) {
     return Vec<2>{k * x[0] * x[1], k * (x[0] * x[0] - 3 * x[1] * x[1] + x[0] * x[1])};
   });
-  const RingField stress = von_mises_field(problem.model(), solution.domain, u);
+  const Material& material = problem.model().materials.at_tread();
+  const RingField stress = stress_field(problem.model(), solution.domain, u);
+  const std::vector<double> von_mises = von_mises_at_nodes(stress);
+  const double tolerance = 2e-2 * k * material.youngs_modulus * 0.3;
   for_each_node(problem, [&](std::size_t node, double radius, double azimuth) {
-    if (std::isnan(stress.values[node])) return;
+    if (std::isnan(von_mises[node])) return;
     const Vec<2> x = cartesian<2>({radius, azimuth});
     const Mat<2> gradient{{{k * x[1], k * x[0]}, {k * (2 * x[0] + x[1]), k * (-6 * x[1] + x[0])}}};
-    const double expected = von_mises_of(problem.model().materials.at_tread(), gradient);
-    EXPECT_NEAR(stress.values[node], expected,
-                2e-2 * k * problem.model().materials.at_tread().youngs_modulus * 0.3)
-        << radius << ' ' << azimuth;
+    EXPECT_NEAR(von_mises[node], von_mises_of(material, gradient), tolerance) << radius << ' ' << azimuth;
+    const auto expected = stress_of(material, gradient);
+    for (int c = 0; c < 4; ++c)
+      EXPECT_NEAR(stress.values[4 * node + c], expected[c], 3 * tolerance) << radius << ' ' << azimuth;
   });
 }
 
@@ -188,6 +212,56 @@ TEST(ContactPoints, GapsAreThoseOfTheDisplacementAtTheirAzimuth) {
     EXPECT_GE(point.pressure, 0);
   }
   EXPECT_GT(touching, 10);
+}
+
+// The whole tread at once: what it shows at the contact points is what contact_points() shows.
+TEST(TreadContact, IsThatOfTheContactPointsAndFreeElsewhere) {
+  const auto [problem, solution] = solved(2);
+  const auto state = ring_state<2>(problem, solution);
+  const auto treads = all_tread_contacts(problem, *state);
+  const auto points = contact_points(problem, *state);
+  ASSERT_EQ(treads.size(), 3u);
+  for (int position = 0; position < 3; ++position) {
+    const double ground = 2 * std::numbers::pi / 7 * position / 3;
+    double length = 0, force = 0, expected_force = 0;
+    std::size_t found = 0;
+    for (const TreadContactPoint& p : treads[position]) {
+      length += p.weight;
+      force += p.weight * p.pressure;
+      const Vec<2> in_ground_frame = rotated<2>(p.traction, -ground);
+      EXPECT_NEAR(in_ground_frame[0], -p.pressure, 1e-9 * p.pressure);
+      EXPECT_NEAR(in_ground_frame[1], p.friction, 1e-9 * p.pressure);
+      const Vec<2> x = rotated<2>(p.position, -ground), u = rotated<2>(p.displacement, -ground);
+      EXPECT_NEAR(p.gap, problem.model().grid.outer_radius - x[0] - u[0], 1e-15);
+      for (const ContactPoint& q : points) {
+        if (q.position != position || std::abs(q.x - x[1]) > 1e-9 || x[0] < 0) continue;
+        ++found;
+        EXPECT_EQ(p.pressure, q.pressure);
+        EXPECT_EQ(p.friction, q.friction);
+        EXPECT_EQ(p.weight, q.weight);
+        EXPECT_NEAR(p.gap, q.gap, 1e-12);
+      }
+    }
+    std::size_t in_position = 0;
+    for (const ContactPoint& q : points)
+      if (q.position == position) {
+        ++in_position;
+        expected_force += q.weight * q.pressure;
+      }
+    EXPECT_EQ(found, in_position);
+    EXPECT_NEAR(force, expected_force, 1e-12 * force);
+    EXPECT_NEAR(length, 2 * std::numbers::pi * problem.model().grid.outer_radius, 1e-6);
+    // By azimuth, all the way round.
+    double turn = 0;
+    for (std::size_t k = 0; k < treads[position].size(); ++k) {
+      const Vec<2>&a = treads[position][k].position,
+            &b = treads[position][(k + 1) % treads[position].size()].position;
+      const double step = std::atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]);
+      EXPECT_GT(step, 0);
+      turn += step;
+    }
+    EXPECT_NEAR(turn, 2 * std::numbers::pi, 1e-9);
+  }
 }
 
 // With y up and the ground below, x and the azimuth grow the same way as the forces. Moments about the axle:

@@ -337,13 +337,80 @@ TEST_F(Killed, AStopWithinTheFirstShapeLetsItBeginAgain) {
     program.send(SIGINT);
     const int code = program.wait();
     if (last_accepted(place / "run") >= 0) continue;
-    EXPECT_EQ(code, exit_interrupted);
+    EXPECT_EQ(code, exit_nothing_saved);
     EXPECT_EQ(newest_good(place / "run"), -1);
     EXPECT_EQ(program.printed().find(", saved"), std::string::npos) << program.printed();
     expect_resumes_to(straight(slow), place);
     return;
   }
   FAIL() << "no stop came while the first shape was evaluated";
+}
+
+// Its pictures are those of the last shape; the checkpoint stays one to go on from.
+TEST_F(Killed, AStoppedRunWritesItsPictures) {
+  for (const bool by_file : {false, true}) {
+    const fs::path place = workplace(by_file ? "file" : "signal", endless), run = place / "run";
+    Program program(place, begin);
+    wait_for_shape(place, 4);
+    if (by_file)
+      std::ofstream(run / "STOP");
+    else
+      program.send(SIGTERM);
+    ASSERT_EQ(program.wait(), exit_terminated) << program.printed();
+    for (const char* file : {"shape.svg", "comparison.svg", "stress.svg", "mesh.svg", "pressures_final.svg"})
+      EXPECT_TRUE(fs::exists(run / file)) << file;
+    EXPECT_NE(content(run / "comparison.svg").find(fmt::format("after {} shapes", last_accepted(run))),
+              std::string::npos);
+    expect_goes_on_as_if_never_stopped(place);
+  }
+}
+
+// Whether something is saved, the exit code says, whenever the signal comes: 8 where nothing is.
+TEST_F(Killed, ASignalFromTheFirstMomentOnSaysTheTruth) {
+  for (int delay = 0; delay < 60; delay += 3) {
+    const fs::path place = workplace(std::to_string(delay), endless);
+    Program program(place, begin);
+    std::this_thread::sleep_for(milliseconds(delay));
+    program.send(SIGTERM);
+    const int code = program.wait();
+    SCOPED_TRACE(fmt::format("{} ms, code {}: {}", delay, code, program.printed()));
+    if (code == -SIGTERM) {  // before main()
+      EXPECT_FALSE(fs::exists(place / "run"));
+      continue;
+    }
+    EXPECT_TRUE(code == exit_terminated || code == exit_nothing_saved);
+    EXPECT_EQ(newest_good(place / "run") >= 0, code == exit_terminated);
+    if (fs::exists(place / "run")) expect_goes_on_as_if_never_stopped(place);
+  }
+}
+
+// The pictures of a large wheel take longer than a machine may wait that is switched off.
+TEST_F(Killed, ASecondSignalLeavesOutThePictures) {
+  const fs::path place = workplace("large", R"(
+[[holes.ring]]
+count = 16
+center_radius = 0.27
+radius = 0.04
+[grid]
+radial_cells = 28
+angular_cells = 384
+tread_levels = 4
+[load]
+positions = 64
+[output]
+folder = "run"
+vtu_every = 0
+)");
+  Program program(place, begin);
+  wait_for_shape(place, 0);
+  program.send(SIGTERM);
+  wait_until([&] { return program.printed().find("stopping after") != std::string::npos; });
+  const auto start = steady_clock::now();
+  program.send(SIGTERM);
+  EXPECT_EQ(program.wait(), exit_terminated);
+  EXPECT_LT(duration<double>(steady_clock::now() - start).count(), 0.3);
+  EXPECT_FALSE(fs::exists(place / "run/stress.svg"));
+  EXPECT_GE(newest_good(place / "run"), 0);
 }
 
 TEST_F(Killed, ASecondSignalEndsItAtOnce) {

@@ -79,6 +79,29 @@ TEST_F(FakeSystem, FilesThatHoldOtherThingsCountForNothing) {
   EXPECT_FALSE(available_memory(root_));
 }
 
+TEST_F(FakeSystem, TheAddressSpaceIsTheSoftLimitLessWhatIsMapped) {
+  EXPECT_FALSE(address_space_left(root_));
+  const std::string head = "Limit                     Soft Limit           Hard Limit           Units     \n";
+  write("proc/self/status", "Name:\tx\nVmPeak:\t 9000 kB\nVmSize:\t 1000 kB\n");
+  write("proc/self/limits",
+        head + "Max address space         unlimited            unlimited            bytes\n");
+  EXPECT_FALSE(address_space_left(root_));
+  write("proc/self/limits",
+        head + "Max address space         2048000              4096000              bytes\n");
+  EXPECT_EQ(address_space_left(root_), 1024000);
+  write("proc/self/limits",
+        head + "Max address space         1000                 4096000              bytes\n");
+  EXPECT_EQ(address_space_left(root_), 0);
+}
+
+TEST(Memory, EachThreadTakesAddressSpace) {
+  const Case c;
+  EXPECT_FALSE(lack_of_address_space(c, 64, {}));
+  const double left = estimated_memory(c) + 500e6;
+  EXPECT_FALSE(lack_of_address_space(c, 1, left));
+  EXPECT_TRUE(lack_of_address_space(c, 64, left));
+}
+
 TEST(Memory, SomeIsAvailableHere) { EXPECT_GT(available_memory().value_or(0), 0); }
 
 TEST(Memory, ACaseLacksMemoryFromItsEstimateOn) {

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <map>
 #include <numbers>
+#include <random>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -16,14 +17,18 @@
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/files/csv.h"
 #include "wheelwright/files/output_error.h"
+#include "wheelwright/geometry/cell_map.h"
 #include "wheelwright/geometry/contour.h"
 #include "wheelwright/report/colour_map.h"
+#include "wheelwright/report/colour_scale.h"
 #include "wheelwright/report/deformed_svg.h"
 #include "wheelwright/report/mesh_svg.h"
 #include "wheelwright/report/outline.h"
 #include "wheelwright/report/pressure_csv.h"
 #include "wheelwright/report/solution_fields.h"
+#include "wheelwright/report/superlevels.h"
 #include "wheelwright/report/svg.h"
+#include "wheelwright/report/tread_contact.h"
 #include "wheelwright/report/vtu.h"
 #include "wheelwright/run/history.h"
 
@@ -164,9 +169,9 @@ TEST_F(VtuFile, CellsCoverTheMaterialAndFieldsAreInterpolated) {
     EXPECT_NEAR(mesh.area() / contour_area, 1, 2e-5);
     EXPECT_NEAR(mesh.area() / material_area, 1, degree == 1 ? 2e-3 : 1e-4);
 
-    const auto u = vtu_array<float>(vtu, "Name=\"displacement\"");
-    const auto stress = vtu_array<float>(vtu, "Name=\"von_mises\"");
-    const auto level = vtu_array<float>(vtu, "Name=\"psi\"");
+    const auto u = vtu_array<float>(vtu, "Name=\"displacement_m\"");
+    const auto stress = vtu_array<float>(vtu, "Name=\"von_mises_Pa\"");
+    const auto level = vtu_array<float>(vtu, "Name=\"psi_m\"");
     ASSERT_EQ(u.size(), mesh.points.size());
     ASSERT_EQ(3 * stress.size(), mesh.points.size());
     for (std::size_t k = 0; k < stress.size(); ++k) {
@@ -179,6 +184,38 @@ TEST_F(VtuFile, CellsCoverTheMaterialAndFieldsAreInterpolated) {
       EXPECT_LE(level[k], 2e-8);
     }
   }
+}
+
+// Nodal stresses of changing sign: the von Mises stress of what lies between them is that of the tensor, and
+// not what a polynomial makes of nodal values >= 0.
+TEST_F(VtuFile, TensorsAreInterpolatedAndTheirVonMisesStressIsNeverNegative) {
+  const auto psi = holes_level_set(2, 1.0);
+  const Lattice<2> lattice(wheel_grid, 2);
+  double sign = 1;
+  const RingField stress = ring_field(lattice, 4, [&](const Vec<2>& x) {
+    sign = -sign;
+    return std::array{sign * 3e6 + 1e6 * x[0], -sign * 1e6, sign * 5e5, sign * 2e6 * x[1]};
+  });
+  VtuMesh(psi, lattice, 4)
+      .write(folder / "s.vtu", std::vector<NamedField>{{"stress", "Pa", stress}, von_mises_field(stress)});
+  const std::string vtu = content(folder / "s.vtu");
+  const auto tensors = vtu_array<float>(vtu, "Name=\"stress_Pa\"");
+  const auto von_mises = vtu_array<float>(vtu, "Name=\"von_mises_Pa\"");
+  EXPECT_EQ(count(vtu, "ComponentName3=\"xy\""), 1);
+  ASSERT_EQ(tensors.size(), 6 * von_mises.size());
+  double least = INFINITY;
+  for (std::size_t k = 0; k < von_mises.size(); ++k) {
+    const double xx = tensors[6 * k], yy = tensors[6 * k + 1], zz = tensors[6 * k + 2],
+                 xy = tensors[6 * k + 3];
+    EXPECT_EQ(tensors[6 * k + 4], 0);
+    EXPECT_EQ(tensors[6 * k + 5], 0);
+    const double expected = std::sqrt(
+        0.5 * ((xx - yy) * (xx - yy) + (yy - zz) * (yy - zz) + (zz - xx) * (zz - xx)) + 3 * xy * xy);
+    EXPECT_NEAR(von_mises[k], expected, 1e-6 * expected + 1);
+    least = std::min<double>(least, von_mises[k]);
+  }
+  EXPECT_GE(least, 0);
+  EXPECT_LT(least, 1e6);  // between nodes of opposite signs, where values at the nodes are above 3e6
 }
 
 TEST_F(VtuFile, CellsOfASectorShareTheirPoints) {
@@ -206,6 +243,24 @@ TEST_F(VtuFile, CollectionListsTheFilesInOrder) {
   const std::string pvd = content(folder / "run.pvd");
   EXPECT_EQ(count(pvd, "<DataSet "), 2);
   EXPECT_LT(pvd.find("shape-0000.vtu"), pvd.find("timestep=\"1.5\""));
+}
+
+TEST_F(VtuFile, TheGroundTouchesTheUndeformedTreadAtItsAzimuth) {
+  for (const double azimuth : {0.0, 0.7, 4.0}) {
+    write_ground_vtu(folder / "ground.vtu", wheel_grid, azimuth);
+    const DecodedMesh ground(content(folder / "ground.vtu"));
+    ASSERT_EQ(ground.points.size(), 12u);
+    EXPECT_GT(ground.area(), 0);
+    double top = INFINITY, left = 0, right = 0;
+    for (int k = 0; k < 4; ++k) {
+      const Vec<2> x = rotated<2>({ground.points[3 * k], ground.points[3 * k + 1]}, -azimuth);
+      top = std::min(top, x[0]);
+      left = std::min(left, x[1]);
+      right = std::max(right, x[1]);
+    }
+    EXPECT_NEAR(top, wheel_grid.outer_radius, 1e-7);
+    EXPECT_NEAR(left + right, 0, 1e-7);
+  }
 }
 
 // --- Files ---------------------------------------------------------------------------------------------
@@ -297,7 +352,14 @@ TEST(History, FullDiskIsAnOutputError) {
 class PressureFile : public OutputFolder {};
 
 TEST_F(PressureFile, AzimuthIsInDegrees) {
-  const std::vector<ContactPoint> points{{2, pi / 6, 0.01, 2e6, -1.5e6, -1e-6}};
+  const std::vector<ContactPoint> points{{.position = 2,
+                                          .azimuth = pi / 6,
+                                          .x = 0.01,
+                                          .weight = 2e-3,
+                                          .pressure = 2e6,
+                                          .friction = -1e5,
+                                          .normal_stress = -1.5e6,
+                                          .gap = -1e-6}};
   write_pressure_csv(folder / "p.csv", points);
   const auto rows = lines(content(folder / "p.csv"));
   ASSERT_EQ(rows.size(), 2u);
@@ -460,24 +522,238 @@ TEST(MeshSvg, CirclesAndRaysRunAlongTheSidesOfTheCells) {
   EXPECT_EQ(circles, wheel_grid.cells[0] + 1);
 }
 
+// --- The loaded wheel ----------------------------------------------------------------------------------
+
+/// A square of n x n units in two triangles per unit square, with the scalar f at the corners.
+template <class F>
+PictureScalar scalar_on_square(int n, int unit, F f) {
+  std::vector<PictureScalar::Triangle> triangles;
+  const auto add = [&](const PictureScalar::Corners& c) {
+    triangles.push_back({c, {f(c[0][0], c[0][1]), f(c[1][0], c[1][1]), f(c[2][0], c[2][1])}});
+  };
+  for (int x = 0; x < n * unit; x += unit)
+    for (int y = 0; y < n * unit; y += unit) {
+      add({{{x, y}, {x + unit, y}, {x + unit, y + unit}}});
+      add({{{x, y + unit}, {x, y}, {x + unit, y + unit}}});
+    }
+  return PictureScalar(triangles);
+}
+
+TEST(PictureScalar, LevelsOfALinearScalarCutTheSquareStraight) {
+  constexpr int n = 8, unit = 100, edge = n * unit;
+  const auto scalar = scalar_on_square(n, unit, [](int x, int y) { return x + 0.5 * y; });
+  const std::vector<double> levels{-1, 130, 555, 730, 1100, 1300};
+  const auto above = scalar.superlevels(levels), below = scalar.sublevels(levels);
+  EXPECT_EQ(double_area(scalar.region()), 2.0 * edge * edge);
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    double area = 0;  // of x + y / 2 >= level, row by row
+    for (int y = 0; y < edge; ++y)
+      area += std::clamp(edge - (levels[k] - 0.5 * (y + 0.5)), 0.0, double(edge));
+    EXPECT_NEAR(0.5 * double_area(above[k]), area, 1e-3 * edge * edge) << levels[k];
+    EXPECT_NEAR(double_area(above[k]) + double_area(below[k]), 2.0 * edge * edge, 1e-12);
+    EXPECT_LE(above[k].size(), 1u);
+  }
+}
+
+TEST(PictureScalar, LevelsOfAnyScalarDivideTheRegion) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> value(-1, 1);
+  for (int repetition = 0; repetition < 20; ++repetition) {
+    const auto scalar = scalar_on_square(6, 40, [&](int, int) { return value(random); });
+    std::vector<double> levels;
+    for (double level = -1.05; level < 1.1; level += 0.1) levels.push_back(level);
+    const auto above = scalar.superlevels(levels), below = scalar.sublevels(levels);
+    const double whole = double_area(scalar.region());
+    double last = whole;
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+      EXPECT_NEAR(double_area(above[k]) + double_area(below[k]), whole, 1e-9);
+      EXPECT_LE(double_area(above[k]), last + 0.01 * whole);
+      last = double_area(above[k]);
+    }
+    EXPECT_EQ(double_area(above.front()), whole);
+    EXPECT_TRUE(above.back().empty());
+  }
+}
+
+TEST(Outline, SimplifiedCurvesStayWithinTheTolerance) {
+  PicturePolygon circle;
+  for (int k = 0; k < 720; ++k)
+    circle.push_back(
+        {int(std::lround(3000 * std::cos(k * pi / 360))), int(std::lround(3000 * std::sin(k * pi / 360)))});
+  const PicturePolygon simple = simplified(circle, 2);
+  EXPECT_LT(simple.size(), 200u);
+  EXPECT_NEAR(double_area({simple}) / double_area({circle}), 1, 2e-3);
+  for (const PicturePoint& p : simple) EXPECT_TRUE(std::ranges::count(circle, p));
+}
+
+TEST(ColourScale, BeginsAtZeroAndLeavesOutTheTail) {
+  std::vector<double> values;
+  for (int k = 0; k < 1000; ++k) values.push_back(k < 995 ? 700.0 * k : 1e9);
+  const ColourScale scale = colour_scale_from_zero(values, 0.01);
+  EXPECT_EQ(scale.lower, 0);
+  EXPECT_TRUE(scale.cut_above);
+  EXPECT_GE(scale.upper, values[989]);
+  EXPECT_LE(scale.upper, 1.25 * values[990]);
+  const ColourScale all = colour_scale(values, 0);
+  EXPECT_EQ(all.upper, 1e9);
+  EXPECT_FALSE(all.cut_above || all.cut_below);
+  EXPECT_EQ(colour_scale_from_zero(std::vector<double>(5, 0.0), 0.01).upper, 0);
+  EXPECT_EQ(colour_scale(std::vector<double>{NAN}, 0).upper, 0);
+}
+
+TEST(Magnification, IsRoundAndAsLargeAsThePictureBears) {
+  const double radius = 0.34;
+  for (double size = 1e-9; size < 1; size *= 1.7) {
+    const RingField u{2, {0.6 * size, -0.8 * size, NAN, NAN, 0, 0.1 * size}};
+    const double m = picture_magnification(u, radius);
+    EXPECT_TRUE(m == 1 || m * size <= 0.05 * radius * (1 + 1e-12));
+    EXPECT_GT(2.5 * m * size, 0.05 * radius * (1 - 1e-12));
+    const double decade = std::pow(10, std::floor(std::log10(m) + 1e-9));
+    EXPECT_TRUE(std::ranges::any_of(std::array{1.0, 2.0, 5.0}, [&](double d) {
+      return std::abs(m / decade - d) < 1e-9;
+    })) << m;
+  }
+  EXPECT_EQ(picture_magnification({2, {0, 0}}, radius), 1);
+}
+
+DeformedPicture picture_of(const LevelSet<2>& psi, RingField displacement, double magnification) {
+  const auto radius =
+      ring_field(psi.lattice, 1, [](const Vec<2>& x) { return std::array{std::hypot(x[0], x[1])}; });
+  return {.title = "wheel",
+          .displacement = std::move(displacement),
+          .magnification = magnification,
+          .contact_azimuth = 0.3,
+          .window = {},
+          .scalar = {"radius", "m", radius},
+          .scale = ScaleKind::all,
+          .rim = {},
+          .rim_force = {3000, 0, 0},
+          .contact = {},
+          .peak = {}};
+}
+
+/// All points of the material in a picture of the whole wheel, in pixels from the axle.
+std::vector<Vec<2>> drawn_points(const std::string& svg) {
+  const auto begin = svg.find("viewBox=\"0 0 6400 6400\""), end = svg.find("</svg>", begin);
+  std::vector<Vec<2>> points;
+  static const std::regex token("[Mlz]|-?[0-9]+");
+  const std::string material = svg.substr(begin, end - begin);
+  for (std::size_t path = material.find(" d=\""); path != std::string::npos;
+       path = material.find(" d=\"", path + 1)) {
+    const std::string d = material.substr(path + 4, material.find('"', path + 4) - path - 4);
+    char command = 'M';
+    std::vector<int> numbers;
+    for (std::sregex_iterator it(d.begin(), d.end(), token), last; it != last; ++it) {
+      if (std::isalpha(static_cast<unsigned char>(it->str()[0]))) {
+        command = it->str()[0];
+        numbers.clear();
+        continue;
+      }
+      numbers.push_back(std::stoi(it->str()));
+      if (numbers.size() < 2) continue;
+      Vec<2> p{0.1 * numbers[0] - 320, 0.1 * numbers[1] - 320};
+      if (command == 'l') p = {p[0] + 320 + points.back()[0], p[1] + 320 + points.back()[1]};
+      points.push_back(p);
+      numbers.clear();
+    }
+  }
+  return points;
+}
+
+// The ground is drawn where the undeformed tread touches it, whatever the magnification, and the wheel that
+// comes down stays above it.
+TEST(DeformedSvg, TheTreadTouchesTheGroundAndNeverCrossesIt) {
+  const auto psi = holes_level_set(2, 1.0);
+  const double pixels = 320 / (1.07 * wheel_grid.outer_radius), ground = wheel_grid.outer_radius * pixels;
+  for (const double travel : {0.0, 1e-4, 1e-3}) {
+    for (const double magnification : {1.0, 10.0}) {
+      const auto down = ring_field(psi.lattice, 2, [&](const Vec<2>& x) {
+        const double share = (wheel_grid.outer_radius - std::hypot(x[0], x[1])) /
+                             (wheel_grid.outer_radius - wheel_grid.inner_radius);
+        return std::array{travel * (0.5 + 0.5 * share) * std::cos(0.3),
+                          travel * (0.5 + 0.5 * share) * std::sin(0.3)};
+      });
+      const auto points = drawn_points(deformed_svg(psi, psi.lattice, picture_of(psi, down, magnification)));
+      ASSERT_GT(points.size(), 500u);
+      double lowest = -1e9, highest = 1e9;
+      for (const Vec<2>& p : points) {
+        lowest = std::max(lowest, p[1]);
+        highest = std::min(highest, p[1]);
+      }
+      EXPECT_LE(lowest, ground + 0.051);  // one unit of the picture
+      EXPECT_GT(lowest, ground - 0.15);
+      // Above, where nothing is near the ground, the displacement is all there.
+      EXPECT_NEAR(highest, -ground + 0.5 * travel * magnification * pixels, 0.3);
+    }
+  }
+}
+
+TEST(DeformedSvg, SaysLoadPositionAndMagnification) {
+  const auto psi = holes_level_set(2, 1.0);
+  const auto still = ring_field(psi.lattice, 2, [](const Vec<2>&) { return Vec<2>{}; });
+  DeformedPicture picture = picture_of(psi, still, 50);
+  const std::string svg = deformed_svg(psi, psi.lattice, picture);
+  EXPECT_EQ(count(svg, "\u00d7 50<"), 1);
+  EXPECT_EQ(count(svg, "17.19\u00b0"), 1);
+  EXPECT_EQ(count(svg, ">3000 N<"), 1);
+  EXPECT_EQ(count(svg, "peak 340 mm"), 1);
+  picture.peak = DrawnPeak{cartesian<2>({0.25, 0.31}), 7.25};
+  EXPECT_EQ(count(deformed_svg(psi, psi.lattice, picture), "peak 7.25 m"), 1);
+}
+
+// The ring about the peak stands where the material is drawn, moved as that is.
+TEST(DeformedSvg, ThePeakIsMarkedAtItsDrawnPlace) {
+  const auto psi = holes_level_set(2, 1.0);
+  const Vec<2> u{1e-3, -2e-3};
+  const auto shift = ring_field(psi.lattice, 2, [&](const Vec<2>&) { return u; });
+  DeformedPicture picture = picture_of(psi, shift, 3);
+  for (const double azimuth : {0.3, 2.0, 5.1}) {
+    const Vec<2> x = cartesian<2>({0.215, azimuth});
+    picture.peak = DrawnPeak{x, 1};
+    const std::string svg = deformed_svg(psi, psi.lattice, picture);
+    const Vec<2> place = rotated<2>({x[0] + 3 * u[0], x[1] + 3 * u[1]}, -0.5 * pi - 0.3);
+    static const std::regex ring("<circle cx=\"([0-9.]+)\" cy=\"([0-9.]+)\" r=\"6\"");
+    std::smatch match;
+    ASSERT_TRUE(std::regex_search(svg, match, ring));
+    const double pixels = 320 / (1.07 * wheel_grid.outer_radius);
+    EXPECT_NEAR(std::stod(match[1]), 40 + 320 + pixels * place[0], 1);
+    EXPECT_NEAR(std::stod(match[2]), 76 + 320 - pixels * place[1], azimuth == 0.3 ? 3 : 1);
+  }
+}
+
 TEST(DeformedSvg, AWindowShowsThePartAtTheContact) {
   const auto psi = holes_level_set(2, 1.0);
   const auto still = ring_field(psi.lattice, 2, [](const Vec<2>&) { return Vec<2>{}; });
-  const auto radius =
-      ring_field(psi.lattice, 1, [](const Vec<2>& x) { return std::array{std::hypot(x[0], x[1])}; });
-  DeformedPicture picture{"wheel", still, 1, 0.3, {}, {"radius", "m", radius}, 0};
+  DeformedPicture picture = picture_of(psi, still, 1);
   const std::string whole = deformed_svg(psi, psi.lattice, picture);
   picture.window = 0.03;
+  picture.contact = {{.position = 0,
+                      .azimuth = 0,
+                      .x = -2e-3,
+                      .weight = 1e-3,
+                      .pressure = 1e6,
+                      .friction = 0,
+                      .normal_stress = 0,
+                      .gap = 0},
+                     {.position = 0,
+                      .azimuth = 0,
+                      .x = 1e-3,
+                      .weight = 1e-3,
+                      .pressure = 4e6,
+                      .friction = 0,
+                      .normal_stress = 0,
+                      .gap = 0}};
   const std::string part = deformed_svg(psi, psi.lattice, picture);
-  EXPECT_LT(part.size(), 0.25 * whole.size());
-  // The colour bar spans the radii in view: from 0.2 m for the wheel, from about 0.34 - 1.85 * 0.03 m here.
+  EXPECT_EQ(count(part, "peak 4 MPa"), 1);
+  EXPECT_EQ(count(whole, "contact pressure"), 0);
+  // The scale spans the radii in view: from 0.2 m for the wheel, from 0.34 - 1.78 * 0.03 m here.
   const auto least = [](const std::string& svg) {
-    static const std::regex tick("<text x=\"746\" y=\"545\">([0-9.]+)</text>");
+    static const std::regex tick("h5\"/><text x=\"[0-9]+\" y=\"[0-9.]+\">([0-9.]+)</text>");
     std::smatch match;
     return std::regex_search(svg, match, tick) ? std::stod(match[1]) : NAN;
   };
-  EXPECT_NEAR(least(whole), 203, 2);
-  EXPECT_NEAR(least(part), 340 - 1.85 * 30, 4);
+  EXPECT_NEAR(least(whole), 210, 11);
+  EXPECT_NEAR(least(part), 340 - 1.78 * 30 + 5, 5);
 }
 
 TEST(VerticalField, IsTheComponentTowardsTheGround) {
@@ -491,15 +767,13 @@ TEST(VerticalField, IsTheComponentTowardsTheGround) {
 
 TEST(DeformedSvg, MissingValuesAreLeftOutAndTextIsEscaped) {
   const auto psi = holes_level_set(2, 1.0);
-  DeformedPicture picture{
-      "a & b",
-      ring_field(psi.lattice, 2, [](const Vec<2>& x) { return x; }),
-      0.1,
-      0,
-      {},
-      {"von Mises", "Pa", ring_field(psi.lattice, 1, [](const Vec<2>& x) { return std::array{x[0] * 1e7}; })},
-      0.01};
+  DeformedPicture picture =
+      picture_of(psi, ring_field(psi.lattice, 2, [](const Vec<2>& x) { return x; }), 0.1);
+  picture.title = "a & b";
+  picture.scalar = {"von Mises", "Pa",
+                    ring_field(psi.lattice, 1, [](const Vec<2>& x) { return std::array{x[0] * 1e7}; })};
   picture.displacement.values[0] = NAN;
+  picture.scalar.field.values[7] = NAN;
   const std::string svg = deformed_svg(psi, psi.lattice, picture);
   EXPECT_EQ(count(svg, "nan"), 0);
   EXPECT_EQ(count(svg, "a &amp; b"), 2);

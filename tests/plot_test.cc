@@ -130,7 +130,14 @@ TEST(Plot, CurvesOfAnyNumberOfPositionsAreFew) {
     for (int i = 0; i < n; ++i) {
       azimuths.push_back(0.01 * i);
       for (int k = -4; k <= 4; ++k)
-        points.push_back({i, 0, 1e-3 * k, std::max(0.0, 4e6 - 1e6 * k * k), 0, 0});
+        points.push_back({.position = i,
+                          .azimuth = 0,
+                          .x = 1e-3 * k,
+                          .weight = 1e-3,
+                          .pressure = std::max(0.0, 4e6 - 1e6 * k * k),
+                          .friction = 0,
+                          .normal_stress = 0,
+                          .gap = 0});
     }
     const LinePlot plot = pressure_plot(points, azimuths, "");
     EXPECT_EQ(plot.curves.size(), n <= 8 ? size_t(n) : plot.curves.size());

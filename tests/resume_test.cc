@@ -1,9 +1,11 @@
 #include <csignal>
+#include <regex>
 
 #include "tests/run_support.h"
 #include "wheelwright/app/execute.h"
 #include "wheelwright/app/exit_code.h"
 #include "wheelwright/case/read.h"
+#include "wheelwright/case/version.h"
 #include "wheelwright/run/checkpoint.h"
 #include "wheelwright/run/checkpoint_folder.h"
 #include "wheelwright/run/folder_lock.h"
@@ -36,7 +38,8 @@ class Resume : public TemporaryFolder {
     return in(where, [&] {
       Case c = *parse_case(text, "case.toml").value;
       if (iterations) c.optimizer.iterations = *iterations;
-      return begin_run(c, c.output.folder);
+      Signals signals;
+      return begin_run(c, c.output.folder, signals);
     });
   }
 
@@ -44,7 +47,8 @@ class Resume : public TemporaryFolder {
     return in(where, [&] {
       Case c = *read_case("run/case.toml").value;
       if (iterations) c.optimizer.iterations = *iterations;
-      return resume_run(c, "run");
+      Signals signals;
+      return resume_run(c, "run", signals);
     });
   }
 
@@ -177,6 +181,17 @@ TEST_F(Resume, IsRefusedForAnotherCaseOrHistory) {
   EXPECT_EQ(resume(place, 4), exit_checkpoint);
 }
 
+TEST_F(Resume, TheCaseOfARunNamesWhatComputedIt) {
+  const fs::path place = workplace("named");
+  ASSERT_EQ(run(place, small_case(0)), exit_done);
+  const std::string first_line = split(content(place / "run/case.toml"), '\n').front();
+  const std::string source = WHEELWRIGHT_SOURCE_DIR;
+  EXPECT_TRUE(first_line.starts_with(fmt::format("# wheelwright {}, commit ", version()))) << first_line;
+  EXPECT_TRUE(first_line.ends_with(fmt::format(", compiled by {}", compiler()))) << first_line;
+  const bool has_commit = std::regex_search(first_line, std::regex("commit [0-9a-f]{12}\\+?,"));
+  EXPECT_EQ(has_commit, fs::exists(fs::path(source) / ".git")) << first_line;
+}
+
 TEST_F(Resume, OfAFinishedRunChangesNothing) {
   const fs::path place = workplace("finished");
   ASSERT_EQ(run(place, small_case(4)), exit_done);
@@ -215,7 +230,8 @@ TEST_F(Resume, BeginsWhenThereIsNoCheckpointYet) {
   const fs::path straight = workplace("straight"), killed = workplace("killed");
   ASSERT_EQ(run(straight, small_case(3)), exit_done);
   fs::create_directories(killed / "run");
-  fs::copy(straight / "run/case.toml", killed / "run/case.toml");
+  for (const char* file : {"case.toml", list_of_written_files})
+    fs::copy(straight / "run" / file, killed / "run" / file);
   std::ofstream(killed / "run/history.csv") << "half a li";
   ASSERT_EQ(resume(killed), exit_done);
   expect_equal_results(straight / "run", killed / "run");
@@ -224,12 +240,12 @@ TEST_F(Resume, BeginsWhenThereIsNoCheckpointYet) {
 TEST_F(Resume, AFileStopEndsTheRunAndIsRemoved) {
   const fs::path straight = workplace("straight"), stopped = workplace("stopped");
   ASSERT_EQ(run(straight, small_case(3)), exit_done);
-  fs::create_directories(stopped / "run");
+  ASSERT_EQ(run(stopped, small_case(3), 1), exit_done);
   std::ofstream(stopped / "run/STOP");
-  EXPECT_EQ(run(stopped, small_case(3)), exit_terminated);
+  EXPECT_EQ(resume(stopped, 3), exit_terminated);
   EXPECT_FALSE(fs::exists(stopped / "run/STOP"));
-  EXPECT_EQ(rows(stopped / "run"), 1);
-  ASSERT_EQ(resume(stopped), exit_done);
+  EXPECT_EQ(rows(stopped / "run"), 2);
+  ASSERT_EQ(resume(stopped, 3), exit_done);
   expect_equal_results(straight / "run", stopped / "run");
 }
 

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "wheelwright/files/written_files.h"
+
 /// Small runs and their folders, for the tests of stopping and going on.
 namespace wheelwright::testing {
 
@@ -80,14 +82,26 @@ inline std::string without_times(const std::string& history) {
   return result;
 }
 
-/// All results in a run's folder, by their path in it: every file but the lock and the checkpoints, and the
-/// history without its times.
+/// A page without the name of its run and the time that it took.
+inline std::string without_name_and_time(std::string page) {
+  for (const std::string key : {"\"name\":\"", "\"seconds\":"}) {
+    const auto begin = page.find(key, page.find("\"runs\":")) + key.size();
+    page.erase(begin, page.find(',', begin) - begin);
+  }
+  return page;
+}
+
+/// All results in a run's folder, by their path in it: every file but the lock, the checkpoints and the lists
+/// of written files, and the history and the page without times.
 inline std::map<std::string, std::string> results(const fs::path& run) {
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(run)) {
     const std::string name = fs::relative(entry.path(), run).string();
     if (!entry.is_regular_file() || name == "run.lock" || name.starts_with("checkpoints/")) continue;
-    files[name] = name == "history.csv" ? without_times(content(entry.path())) : content(entry.path());
+    if (name.ends_with(list_of_written_files)) continue;
+    files[name] = content(entry.path());
+    if (name == "history.csv") files[name] = without_times(files[name]);
+    if (name == "report.html") files[name] = without_name_and_time(files[name]);
   }
   return files;
 }

@@ -94,8 +94,8 @@ class Run:
         """Largest nodal von Mises stress over all load positions, but for the outer 25 mm, where the contact
         itself has the largest [Pa]."""
         largest = 0.0
-        for file in sorted((self.folder / "rolling").glob("*.vtu")):
-            points, stress = read_array(file, "Points"), read_array(file, "von_mises")
+        for file in sorted((self.folder / "rolling").glob("wheel_*.vtu")):
+            points, stress = read_array(file, "Points"), read_array(file, "von_mises_Pa")
             for k, value in enumerate(stress):
                 if value > largest and math.hypot(points[3 * k], points[3 * k + 1]) < 0.315:
                     largest = value
@@ -107,8 +107,8 @@ class Run:
         positions, in an order that depends on shape and grid alone. It is that of the piece's displacements, so that
         nothing outside the material takes part."""
         largest: list[float] = []
-        for file in sorted((self.folder / "rolling").glob("*.vtu")):
-            points, moves = read_array(file, "Points"), read_array(file, "displacement")
+        for file in sorted((self.folder / "rolling").glob("wheel_*.vtu")):
+            points, moves = read_array(file, "Points"), read_array(file, "displacement_m")
             if not largest:
                 pieces = [p for p in read_polygons(file) if _is_small_and_near(p, points)]
                 largest = [0.0] * len(pieces)

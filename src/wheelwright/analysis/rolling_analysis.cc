@@ -52,7 +52,8 @@ RollingAnalysis of_all_positions(RollingAnalysis a, const LoadPositions& solved,
   const auto sources = position_sources(solved, model.n_positions);
   const std::vector<ContactSummary> contacts = std::move(a.positions);
   a.positions.clear();
-  for (const PositionSource& source : sources) a.positions.push_back(contacts[source.solved]);
+  for (const PositionSource& source : sources)
+    a.positions.push_back(source.is_image ? mirror_image(contacts[source.solved]) : contacts[source.solved]);
   a.azimuths.clear();
   for (size_t i = 0; i < sources.size(); ++i)
     a.azimuths.push_back(i * model.grid.sector_angle() / static_cast<double>(sources.size()));

@@ -69,17 +69,29 @@ double mean(std::span<const double> values) {
 
 template <int dim>
 ContactSummary contact_summary(const ContactPatch<dim>& contact) {
-  ContactSummary summary{
-      .travel = contact.rim.towards_ground, .radial_force = 0, .peak_pressure = 0, .patch_length = 0};
+  ContactSummary summary{.travel = contact.rim.towards_ground,
+                         .radial_force = 0,
+                         .peak_pressure = 0,
+                         .patch_length = 0,
+                         .travel_along_ground = contact.rim.along_ground,
+                         .wind_up = contact.rim.rotation};
   std::vector<GroundPoint> points;
   for (const auto& point : contact.points) {
     const double pressure = -point.traction[0];
     summary.radial_force += point.weight * pressure;
     summary.peak_pressure = std::max(summary.peak_pressure, pressure);
+    summary.friction_force += point.weight * point.traction[1];
+    summary.peak_friction = std::max(summary.peak_friction, std::abs(point.traction[1]));
     points.push_back({point.position[1], point.augmented[0]});
   }
   summary.patch_length = patch_length(std::move(points));
   return summary;
+}
+
+ContactSummary mirror_image(ContactSummary position) {
+  for (double* value : {&position.friction_force, &position.travel_along_ground, &position.wind_up})
+    *value = 0 - *value;  // zero stays positive
+  return position;
 }
 
 RollingVariation rolling_variation(std::span<const double> values) {

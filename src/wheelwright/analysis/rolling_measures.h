@@ -10,17 +10,26 @@
 
 namespace wheelwright {
 
-/// One load position as seen from the rim and the ground. Forces are per metre of width when dim = 2.
+/// One load position as seen from the rim and the ground. Forces are per metre of width when dim = 2. What
+/// acts or moves along the ground, and what turns, is positive towards larger azimuth.
 struct ContactSummary {
-  double travel;         ///< of the rim towards the ground [m]
-  double radial_force;   ///< of the ground on the tread [N/m]
-  double peak_pressure;  ///< largest contact pressure at the quadrature points [Pa]
-  double patch_length;   ///< from the first to the last point in contact, along the ground [m]
+  double travel;                   ///< of the rim towards the ground [m]
+  double radial_force;             ///< of the ground on the tread [N/m]
+  double peak_pressure;            ///< largest contact pressure at the quadrature points [Pa]
+  double patch_length;             ///< from the first to the last point in contact, along the ground [m]
+  double friction_force = 0;       ///< of the ground on the tread, along the ground [N/m]
+  double peak_friction = 0;        ///< largest size of its traction along the ground [Pa]
+  double travel_along_ground = 0;  ///< of the rim [m]
+  double wind_up = 0;              ///< the angle by which the rim turns [rad]
 };
 
 /// The patch ends where the square of the pressure, extrapolated from the outer points in contact, is zero.
 template <int dim>
 ContactSummary contact_summary(const ContactPatch<dim>& contact);
+
+/// What the mirror image of a position shows: forces and motions along the ground, and turns, point the other
+/// way.
+ContactSummary mirror_image(ContactSummary position);
 
 /// How a quantity varies while the wheel rolls.
 struct RollingVariation {

@@ -7,9 +7,10 @@ namespace wheelwright {
 template <int dim>
 std::vector<ContactSummary> contact_summaries(const State<dim>& state) {
   std::vector<ContactSummary> positions;
-  for (size_t i = 0; i < state.contacts().size(); ++i)
-    positions.insert(positions.end(), static_cast<size_t>(state.positions().multiplicities[i]),
-                     contact_summary(state.contacts()[i]));
+  for (size_t i = 0; i < state.contacts().size(); ++i) {
+    positions.push_back(contact_summary(state.contacts()[i]));
+    if (state.positions().multiplicities[i] > 1) positions.push_back(mirror_image(positions.back()));
+  }
   return positions;
 }
 

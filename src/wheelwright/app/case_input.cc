@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <thread>
+
 #include "wheelwright/app/case_report.h"
 #include "wheelwright/app/exit_code.h"
 #include "wheelwright/app/memory.h"
@@ -24,15 +27,17 @@ void limit_threads(int n_threads) {
 std::optional<Case> read_or_tell(const std::filesystem::path& file) {
   CaseResult result = read_case(file);
   if (result.value) return std::move(result.value);
+  constexpr std::size_t most_told = 100;
   const std::size_t n = result.problems.size();
-  for (const Diagnostic& problem : result.problems) tell("{}\n", problem.text());
-  tell("{}\n",
-       styled(stderr, Style::red, fmt::format("{}: {} problem{}", file.string(), n, n == 1 ? "" : "s")));
+  for (std::size_t i = 0; i < std::min(n, most_told); ++i) tell("{}\n", result.problems[i].text());
+  const std::string more = n > most_told ? fmt::format("; {} of them are not shown", n - most_told) : "";
+  tell("{}\n", styled(stderr, Style::red,
+                      fmt::format("{}: {} problem{}{}", file.string(), n, n == 1 ? "" : "s", more)));
   return {};
 }
 
 void print_warning(std::FILE* stream, const std::string& text) {
-  std::fputs(fmt::format("{} {}\n", styled(stream, Style::yellow, "warning:"), text).c_str(), stream);
+  print_to(stream, "{} {}\n", styled(stream, Style::yellow, "warning:"), text);
 }
 
 void print_warnings(std::FILE* stream, const Case& c) {
@@ -42,7 +47,10 @@ void print_warnings(std::FILE* stream, const Case& c) {
 bool may_compute(const std::string& command, const Case& c, const std::filesystem::path& file,
                  std::optional<int> threads) {
   print_warnings(stderr, c);
-  if (const auto lack = lack_of_memory(c, available_memory())) {
+  const int n_threads = threads.value_or(static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
+  for (const auto& lack :
+       {lack_of_memory(c, available_memory()), lack_of_address_space(c, n_threads, address_space_left())}) {
+    if (!lack) continue;
     tell("wheelwright {}: {}: {}\n", command, file.string(), *lack);
     return false;
   }

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/number_text.h"
 
 namespace wheelwright {
 
@@ -49,6 +51,21 @@ std::string size_report(const Case& c) {
          line("memory", fmt::format("about {:.0f} MB", std::ceil(estimated_memory(c) / 1e6)));
 }
 
+/// Lengths in millimetres make a wheel of hundreds of metres.
+std::vector<std::string> doubtful_lengths(const Case& c) {
+  constexpr double largest_radius = 10, widest = 10;  // [m], and in outer radii
+  const auto doubt = [](const char* key, double value) {
+    return fmt::format("{} = {} m: lengths are in metres; if that is in mm, write {}", key,
+                       number_text(value), number_text(value / 1000));
+  };
+  std::vector<std::string> result;
+  if (c.wheel.outer_radius > largest_radius)
+    result.push_back(doubt("wheel.outer_radius", c.wheel.outer_radius));
+  if (c.wheel.width > std::max(largest_radius, widest * c.wheel.outer_radius))
+    result.push_back(doubt("wheel.width", c.wheel.width));
+  return result;
+}
+
 /// Says what a patch of too few cells means and what would help. Below the grid, the contact is a line load
 /// on a cell, whose indentation has the logarithm of the cell's width where the true one has that of the
 /// patch.
@@ -79,7 +96,7 @@ std::string derived_report(const Case& c) {
 }
 
 std::vector<std::string> warnings(const Case& c) {
-  std::vector<std::string> result;
+  std::vector<std::string> result = doubtful_lengths(c);
   if (const double cells = cells_per_contact_patch(c); cells < least_cells_per_contact_patch)
     result.push_back(coarse_contact_warning(c, cells));
   if (wants_uniformity(c) && c.grid.angular_cells % total_load_positions(c) != 0)

@@ -16,18 +16,17 @@ int execute(Run<dim>& run, Signals& signals) {
 
 }  // namespace
 
-int begin_run(const Case& c, const std::filesystem::path& folder) {
+int begin_run(const Case& c, const std::filesystem::path& folder, Signals& signals) {
+  if (signals.stop()) return report_not_begun_by_signal();
   return in_dimension_of(c, [&](auto dim) {
-    Signals signals;
     auto run = Run<dim>::begin(c, folder);
     if (!run) return report_not_begun<dim>(run.failure(), folder);
     return execute(*run, signals);
   });
 }
 
-int resume_run(const Case& c, const std::filesystem::path& folder) {
+int resume_run(const Case& c, const std::filesystem::path& folder, Signals& signals) {
   return in_dimension_of(c, [&](auto dim) {
-    Signals signals;
     auto run = Run<dim>::resume(c, folder);
     if (!run) return report_not_begun<dim>(run.failure(), folder);
     report_resumption(run->resumption(), folder);

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "wheelwright/app/signals.h"
 #include "wheelwright/case/case.h"
 
 namespace wheelwright {
@@ -10,10 +11,10 @@ namespace wheelwright {
 // OutputError.
 
 /// Optimizes the case and writes the folder.
-int begin_run(const Case& c, const std::filesystem::path& folder);
+int begin_run(const Case& c, const std::filesystem::path& folder, Signals& signals);
 
 /// Continues the run in a folder from its newest checkpoint that can be used, or from the beginning if it was
 /// stopped before its first; `c` is that folder's case.
-int resume_run(const Case& c, const std::filesystem::path& folder);
+int resume_run(const Case& c, const std::filesystem::path& folder, Signals& signals);
 
 }  // namespace wheelwright

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <sstream>
 #include <string>
 
 #include "wheelwright/app/commands/commands.h"
@@ -10,7 +11,7 @@
 #include "wheelwright/app/guarded.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/base/blas_settings.h"
-#include "wheelwright/case/version.h"
+#include "wheelwright/run/provenance.h"
 
 namespace wheelwright {
 namespace {
@@ -23,18 +24,19 @@ constexpr const char* exit_codes =
     "  1    a bug in the program\n"
     "  2    wrong command line, or the case has errors or cannot be read\n"
     "  3    the solver gave up\n"
-    "  4    refused: a file would be overwritten, another run is writing to the folder, or there is too "
-    "little memory\n"
+    "  4    refused: a file would be overwritten, another run is writing to the folder, an outline fails its checks, or "
+    "there is too little memory\n"
     "  5    a file could not be written\n"
     "  6    no checkpoint can be used\n"
     "  7    done, but the results differ from those that the case expects\n"
+    "  8    stopped before the first shape was saved: there is nothing to go on from\n"
     "  129  stopped by SIGHUP (the terminal was closed); the run can be resumed\n"
     "  130  stopped by SIGINT (Ctrl-C); the run can be resumed\n"
     "  143  stopped by SIGTERM or by a file STOP in the run's folder; the run can be resumed";
 
 void declare(CLI::App& app, const Commands& commands) {
   app.require_subcommand(1);
-  app.set_version_flag("--version", fmt::format("wheelwright {}", version()));
+  app.set_version_flag("--version", program_text());
   app.footer(exit_codes);
   for (const auto& command : commands) {
     Options options(*app.add_subcommand(command->name(), command->meaning()));
@@ -49,7 +51,11 @@ int parse_and_run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? exit_done : exit_usage;
+    std::ostringstream out, messages;
+    const bool is_help = app.exit(error, out, messages) == 0;
+    print_lines(stdout, out.str());
+    print_lines(stderr, messages.str());
+    return is_help ? exit_done : exit_usage;
   }
   const std::string name = app.get_subcommands().front()->get_name();
   const auto chosen = std::ranges::find(commands, name, [](const auto& command) { return command->name(); });

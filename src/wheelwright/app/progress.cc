@@ -9,6 +9,8 @@
 #include <cstdlib>
 #include <vector>
 
+#include "wheelwright/base/text.h"
+
 namespace wheelwright {
 namespace {
 
@@ -108,7 +110,8 @@ void Progress::show(const ProgressState& state) {
 }
 
 void Progress::note(std::string_view line) {
-  std::fputs(fmt::format("{}{}\n", bar_.empty() ? "" : clear_line, line).c_str(), stream_);
+  std::fputs(fmt::format("{}{}\n", bar_.empty() ? "" : clear_line, without_control_characters(line)).c_str(),
+             stream_);
   if (!bar_.empty()) paint_bar();
   std::fflush(stream_);
 }

@@ -1,6 +1,7 @@
 #include "wheelwright/app/run_messages.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <csignal>
@@ -17,7 +18,7 @@ namespace fs = std::filesystem;
 int report_findings(const std::vector<Finding>& findings) {
   const auto unmet = std::ranges::count_if(findings, [](const Finding& f) { return !f.met(); });
   if (!findings.empty())
-    fmt::print("expected   {} of {} values found\n", findings.size() - unmet, findings.size());
+    print("expected   {} of {} values found\n", findings.size() - unmet, findings.size());
   for (const Finding& finding : findings)
     if (!finding.met()) tell("wheelwright: {}\n", finding.text());
   return unmet > 0 ? exit_unexpected : exit_done;
@@ -39,6 +40,14 @@ struct NotBegunReport {
         folder.string());
     return exit_refused;
   }
+  int operator()(const ForeignFiles& foreign) const {
+    tell(
+        "{}: {}: already there, and not in its list of files that runs wrote, so not replaced; move that "
+        "away, or "
+        "choose another folder with --output\n",
+        folder.string(), fmt::format("{}", fmt::join(foreign.names, ", ")));
+    return exit_refused;
+  }
   int operator()(const CheckpointsGone&) const {
     tell("{}: its checkpoints are gone; it cannot go on\n", folder.string());
     return exit_checkpoint;
@@ -55,10 +64,9 @@ struct NotBegunReport {
   int operator()(const AlreadyFinished<dim>& finished) const {
     report_unusable(finished.unusable);
     const Checkpoint<dim>& end = finished.end;
-    fmt::print("{}: finished: {} shapes ({})\n", folder.string(), end.state.iteration,
-               to_string(*end.finished));
+    print("{}: finished: {} shapes ({})\n", folder.string(), end.state.iteration, to_string(*end.finished));
     if (end.finished == StopReason::iterations)
-      fmt::print("to go further: wheelwright resume {} --iterations N\n", folder.string());
+      print("to go further: wheelwright resume {} --iterations N\n", folder.string());
     return report_findings(finished.findings);
   }
   int operator()(const Failure& failure) const {
@@ -80,18 +88,18 @@ void print_files(const fs::path& folder) {
         {"history.csv", "every trial shape"},
         {"shapes.pvd", "all shapes, for ParaView"},
         {"rolling.pvd", "all load positions, for ParaView"}})
-    if (fs::exists(folder / file)) fmt::print("  {:<36} {}\n", (folder / file).string(), meaning);
+    if (fs::exists(folder / file)) print("  {:<36} {}\n", (folder / file).string(), meaning);
 }
 
 template <int dim>
 void print_summary(const RunResult<dim>& result, const fs::path& folder) {
   const PolarGrid<dim>& grid = result.state->shape.lattice.grid();
-  fmt::print("{} shapes in {:.1f} s ({})\n", result.state->iteration, result.elapsed_seconds,
-             to_string(result.reason));
-  if (result.summary) fmt::print("\n{}\n", summary_table(*result.summary));
-  if (result.is_approaching)
-    fmt::print("volume.target = {:.6g} is not reached: it takes more shapes, or a larger volume.rate\n",
-               volume_fraction(grid, result.state->target_measure));
+  print("{} shapes in {:.1f} s ({})\n", result.state->iteration, result.elapsed_seconds,
+        to_string(result.reason));
+  if (result.summary) print_lines(stdout, fmt::format("\n{}\n", summary_table(*result.summary)));
+  if (result.is_approaching && result.reason != StopReason::gave_up)
+    print("volume.target = {:.6g} is not reached: it takes more shapes, or a larger volume.rate\n",
+          volume_fraction(grid, result.state->target_measure));
   print_files(folder);
 }
 
@@ -99,6 +107,9 @@ template <int dim>
 int report_failure(const RunResult<dim>& result, const fs::path& folder) {
   tell("wheelwright: {}\n",
        failure_headline<dim>(result.state ? &*result.state : nullptr, result.failed_trials));
+  if (result.state)
+    if (const std::string hint = volume_hint(*result.initial, *result.state); !hint.empty())
+      tell("wheelwright: {}\n", hint);
   const auto line = [&](const char* file, const char* meaning) {
     if (fs::exists(folder / file)) tell("  {:<36} {}\n", (folder / file).string(), meaning);
   };
@@ -136,6 +147,11 @@ int report_not_begun(const NotBegun<dim>& reason, const fs::path& folder) {
   return std::visit(NotBegunReport<dim>{folder}, reason);
 }
 
+int report_not_begun_by_signal() {
+  tell("stopped before the run began; nothing is written\n");
+  return exit_nothing_saved;
+}
+
 void report_resumption(const Resumption& resumption, const fs::path& folder) {
   report_unusable(resumption.unusable);
   if (!resumption.shape) {
@@ -152,7 +168,8 @@ template <int dim>
 int report_result(const RunResult<dim>& result, const fs::path& folder, const Signals& signals) {
   if (result.reason == StopReason::stop_requested) {
     tell_stop(result, folder);
-    return exit_code_of_stop(signals);
+    if (result.state) print_files(folder);
+    return result.state ? exit_code_of_stop(signals) : exit_nothing_saved;
   }
   if (result.reason == StopReason::failed_start) return report_failure(result, folder);
   print_summary(result, folder);

@@ -13,6 +13,9 @@ void report_unusable(const std::vector<UnusableCheckpoint>& unusable);
 template <int dim>
 int report_not_begun(const NotBegun<dim>& reason, const std::filesystem::path& folder);
 
+/// Tells that a signal came before the run wrote anything; returns an ExitCode.
+int report_not_begun_by_signal();
+
 /// Tells from where a run is resumed.
 void report_resumption(const Resumption& resumption, const std::filesystem::path& folder);
 

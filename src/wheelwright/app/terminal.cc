@@ -30,9 +30,19 @@ bool has_colours(std::FILE* stream) {
   return (!no_color || *no_color == '\0') && isatty(fileno(stream));
 }
 
-std::string styled(std::FILE* stream, Style style, std::string_view text) {
-  if (!has_colours(stream)) return std::string(text);
-  return fmt::format("\x1b[{}m{}\x1b[0m", escape_code(style), text);
+StyledText styled(std::FILE* stream, Style style, std::string_view text) {
+  std::string clean = without_control_characters(text);
+  if (!has_colours(stream)) return {std::move(clean)};
+  return {fmt::format("\x1b[{}m{}\x1b[0m", escape_code(style), clean)};
+}
+
+void print_lines(std::FILE* stream, std::string_view text) {
+  while (!text.empty()) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    const bool has_end = line.size() < text.size();
+    print_to(stream, "{}{}", line, has_end ? StyledText{"\n"} : StyledText{});
+    text.remove_prefix(line.size() + (has_end ? 1 : 0));
+  }
 }
 
 }  // namespace wheelwright

@@ -31,11 +31,21 @@ struct RunInput {
 /// WHEEL, a case file or a run's folder.
 void add_wheel(Options& options, std::string& input);
 
+/// What a command computes with a wheel.
+struct Computation {
+  std::string command;
+  std::optional<int> threads;
+  std::optional<int> positions = {};  ///< load positions per sector, instead of the case's
+};
+
 /// The wheel in a case file, or in a run's folder, of which nothing is changed; the run may still go on.
-/// Tells what is wrong; the command ends with the code then.
-Expected<WheelInput, ExitCode> read_wheel_or_tell(const std::filesystem::path& input);
+/// Tells what is wrong, and whether the memory is too small, before it allocates any; the command ends with
+/// the code then.
+Expected<WheelInput, ExitCode> read_wheel_or_tell(const std::filesystem::path& input,
+                                                  const Computation& computation);
 
 /// The run in a folder, in the same way.
-Expected<RunInput, ExitCode> read_run_or_tell(const std::filesystem::path& folder);
+Expected<RunInput, ExitCode> read_run_or_tell(const std::filesystem::path& folder,
+                                              const Computation& computation);
 
 }  // namespace wheelwright

@@ -5,12 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numbers>
 #include <numeric>
 
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/hole_rings.h"
+#include "wheelwright/case/number_text.h"
 
 namespace wheelwright {
 
@@ -31,6 +34,13 @@ std::vector<std::string> with_ring_shape(std::vector<std::string> keys) {
 double rounded_up(double value) {
   const double unit = std::pow(10, std::floor(std::log10(value)) - 2);
   return std::ceil(value / unit) * unit;
+}
+
+/// What to add to a remedy where a length is so much too large for the wheel that it may be in millimetres.
+std::string if_in_millimetres(double length, double largest) {
+  if (length <= 3 * largest || length > 1000 * largest) return "";
+  return fmt::format("; lengths are in metres: if {} is in mm, write {}", number_text(length),
+                     number_text(length / 1000));
 }
 
 /// A band covers the rows of cells that must be full.
@@ -60,7 +70,8 @@ void check_radii(const Case& c, Conflicts& found) {
   if (w.inner_radius >= w.outer_radius) {
     found.push_back({{"wheel.outer_radius", "wheel.inner_radius"},
                      fmt::format("must be larger than inner_radius = {} m", w.inner_radius),
-                     "give the radius of the rim as inner_radius and that of the tread as outer_radius"});
+                     "give the radius of the rim as inner_radius and that of the tread as outer_radius" +
+                         if_in_millimetres(w.inner_radius, w.outer_radius)});
     return;
   }
   constexpr double thinnest = 1e-4;
@@ -78,7 +89,8 @@ void check_radii(const Case& c, Conflicts& found) {
         {with_ring_shape({"optimizer.rim_band", "optimizer.tread_band"}),
          fmt::format("the bands at rim and tread, {:.6g} m and {:.6g} m, fill the whole ring of {:.6g} m",
                      rim.thickness, tread.thickness, w.outer_radius - w.inner_radius),
-         "take thinner bands or a finer grid"});
+         "take thinner bands or a finer grid" +
+             if_in_millimetres(std::max(rim.thickness, tread.thickness), w.outer_radius)});
   }
 }
 
@@ -96,7 +108,8 @@ void check_travel(const Case& c, Conflicts& found) {
   if (!c.load.travel || thickness <= 0 || *c.load.travel < thickness) return;
   found.push_back({{"load.travel", "wheel.outer_radius", "wheel.inner_radius"},
                    "the rim itself would be below the ground",
-                   fmt::format("take less than outer_radius - inner_radius = {:.6g} m", thickness)});
+                   fmt::format("take less than outer_radius - inner_radius = {:.6g} m", thickness) +
+                       if_in_millimetres(*c.load.travel, c.wheel.outer_radius)});
 }
 
 void check_angular_cells(const Case& c, Conflicts& found) {
@@ -154,7 +167,9 @@ void check_hole_inside(const Case& c, double center_radius, double radius, std::
                    "tread there is only {:.6g} m to {:.6g} m",
                    lowest, highest, low, high),
        fmt::format("the largest hole at this place has radius {:.6g} m",
-                   std::max(0.0, std::min(center_radius - low, high - center_radius)))});
+                   std::max(0.0, std::min(center_radius - low, high - center_radius))) +
+           if_in_millimetres(std::max(center_radius, radius), c.wheel.outer_radius) +
+           if_in_millimetres(c.wheel.outer_radius, 2 * highest)});
 }
 
 /// Equal holes that touch all round the wheel cut the tread off from the rim.
@@ -164,6 +179,40 @@ void check_holes_apart(int count, double center_radius, double radius, std::vect
   if (count == 1 || radius < half_distance) return;
   found.push_back({std::move(keys), "neighbouring holes touch and cut the tread off from the rim",
                    fmt::format("take a radius below {:.6g} m", half_distance)});
+}
+
+/// The keys that say where the holes of a ring or circle are, its radius first.
+std::vector<std::string> place_keys(const std::string& name) {
+  std::vector<std::string> keys;
+  for (const char* key : {"radius", "center_radius", "center", "count", "phase"})
+    keys.push_back(fmt::format("{}.{}", name, key));
+  return keys;
+}
+
+/// A hole inside another one is nothing.
+void check_nested_holes(const Case& c, Conflicts& found) {
+  constexpr std::size_t most_compared = 1000;
+  const std::vector<NamedRing> rings = named_rings(c);
+  if (rings.size() > most_compared) return;
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    const auto contains = [&](const NamedRing& other) {
+      const bool is_same = lies_inside(other.ring, rings[i].ring);
+      return &other != &rings[i] && lies_inside(rings[i].ring, other.ring) &&
+             (!is_same || &other < &rings[i]);
+    };
+    const auto outer = std::ranges::find_if(rings, contains);
+    if (outer == rings.end()) continue;
+    const bool is_same = lies_inside(outer->ring, rings[i].ring);
+    std::vector<std::string> keys = place_keys(rings[i].name);
+    std::ranges::move(place_keys(outer->name), std::back_inserter(keys));
+    keys.emplace_back("wheel.sectors");  // how often a circle is repeated
+    found.push_back(
+        {.keys = std::move(keys),
+         .problem = fmt::format(
+             "{} {}", is_same ? "the same hole as that of" : "the hole lies inside that of", outer->name),
+         .remedy = "remove one of the two, or move it",
+         .other_place = outer->name + ".radius"});
+  }
 }
 
 void check_holes(const Case& c, Conflicts& found) {
@@ -203,7 +252,8 @@ void check_load(const Case& c, Conflicts& found) {
   if (half_width <= largest) return;
   const double advised = 0.1 * c.wheel.outer_radius, factor = advised / half_width;  // strains of 5 %
   found.push_back(
-      {{"load.force", "load.mass", "material.youngs_modulus", "wheel.width"},
+      {{"load.force", "load.mass", "material.youngs_modulus", "wheel.width", "wheel.outer_radius",
+        "material.poissons_ratio", "material.plane"},
        fmt::format("too large: a solid disc would touch the ground on {:.3g} m and be strained by "
                    "about {:.0f} %, far beyond linear elasticity",
                    2 * half_width, 100 * half_width / (2 * c.wheel.outer_radius)),
@@ -227,7 +277,9 @@ void check_contact_points(const Case& c, Conflicts& found) {
           : fmt::format("take contact.quadrature_points = {}",
                         std::max(1, static_cast<int>(c.contact.quadrature_points * most / n)));
   found.push_back(
-      {{"grid.tread_levels", "contact.quadrature_points", "grid.angular_cells", "load.force"},
+      {{"grid.tread_levels", "contact.quadrature_points", "grid.angular_cells", "load.force", "load.mass",
+        "load.travel", "material.youngs_modulus", "contact.friction", "wheel.outer_radius", "wheel.width",
+        "material.poissons_ratio", "material.plane"},
        fmt::format("about {:.0f} unknowns in the contact of one position; at most {:.0f} are solved "
                    "in reasonable time",
                    n, most),
@@ -280,7 +332,8 @@ void check_annulus(const Case& c, Conflicts& found) {
   if (std::abs(annulus_thickness(c) - tread_rows(c) * cell) < 1e-6 * cell) return;
   found.push_back({{"objective.annulus", "grid.radial_cells"},
                    fmt::format("must be a whole number of radial cells of {:.6g} m", cell),
-                   fmt::format("nearest valid: {:.6g} m", tread_rows(c) * cell)});
+                   fmt::format("nearest valid: {:.6g} m", tread_rows(c) * cell) +
+                       if_in_millimetres(annulus_thickness(c), c.wheel.outer_radius)});
 }
 
 void check_objective(const Case& c, Conflicts& found) {
@@ -359,6 +412,7 @@ std::vector<Conflict> conflicts(const Case& c) {
   check_angular_cells(c, found);
   check_ring_counts(c, found);
   check_holes(c, found);
+  check_nested_holes(c, found);
   check_nitsche(c, found);
   check_load(c, found);
   check_contact_points(c, found);

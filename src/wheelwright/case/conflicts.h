@@ -12,6 +12,7 @@ struct Conflict {
   std::vector<std::string> keys;  ///< paths of all keys involved, the most likely cause first
   std::string problem;
   std::string remedy;
+  std::string other_place = {};  ///< a key whose line is told at the end of the problem
 };
 
 /// All conflicts of a case.

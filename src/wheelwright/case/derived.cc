@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
+
+#include "wheelwright/case/hole_rings.h"
 
 namespace wheelwright {
 
@@ -52,10 +53,7 @@ double tread_cell_width(const Case& c) {
 double smallest_hole_in_cells(const Case& c) {
   const double radial = (c.wheel.outer_radius - c.wheel.inner_radius) / c.grid.radial_cells,
                azimuthal = pi * (c.wheel.outer_radius + c.wheel.inner_radius) / c.grid.angular_cells;
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const HoleRing& ring : c.holes.rings) smallest = std::min(smallest, ring.radius);
-  for (const HoleCircle& circle : c.holes.circles) smallest = std::min(smallest, circle.radius);
-  return 2 * smallest / std::max(radial, azimuthal);
+  return smallest_hole_width(c) / std::max(radial, azimuthal);
 }
 
 double cells_per_contact_patch(const Case& c) { return 2 * likely_half_width(c) / tread_cell_width(c); }

@@ -41,7 +41,7 @@ double cells_per_contact_patch(const Case& c);
 /// Contact pressures are not resolved with fewer cells per patch than this.
 inline constexpr double least_cells_per_contact_patch = 6;
 
-/// Diameter of the smallest hole, in units of the longer cell edge at mid-ring; infinite without holes.
+/// Width of the smallest hole, in units of the longer cell edge at mid-ring; infinite without holes.
 double smallest_hole_in_cells(const Case& c);
 
 /// Smaller holes fray in an optimization without smoothing.

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "wheelwright/base/text.h"
 #include "wheelwright/case/number_text.h"
 
 namespace wheelwright {
@@ -31,12 +32,12 @@ std::string Range::text() const {
 bool keeps(TextRule rule, const std::string& text) {
   if (rule == TextRule::any) return true;
   const std::filesystem::path path = text;
-  return path.is_relative() && text.find('\0') == std::string::npos &&
+  return path.is_relative() && without_control_characters(text) == text &&
          std::find(path.begin(), path.end(), "..") == path.end();
 }
 
 std::string_view rule_text(TextRule rule) {
-  return rule == TextRule::any ? "text" : "a relative path without ..";
+  return rule == TextRule::any ? "text" : "a relative path without .. or control characters";
 }
 
 const Section<Case>& general_section() {

@@ -68,7 +68,7 @@ struct OptionalIntegerField {
 
 enum class TextRule {
   any,
-  path_below,  ///< a path in or below the current folder: relative, without ".."
+  path_below,  ///< a path in or below the current folder: relative, without ".." or control characters
 };
 
 /// Whether a text obeys the rule.

@@ -17,6 +17,7 @@
 #include "wheelwright/base/text.h"
 #include "wheelwright/case/conflicts.h"
 #include "wheelwright/case/keys.h"
+#include "wheelwright/case/number_text.h"
 #include "wheelwright/case/suggest.h"
 #include "wheelwright/case/toml_guard.h"
 #include "wheelwright/case/toml_lines.h"
@@ -71,9 +72,23 @@ std::string key_text(std::string_view name) {
   return plain ? text : fmt::format("\"{}\"", text);
 }
 
+/// With the fewest digits, and a point that tells it from a whole number.
+std::string float_text(double value) {
+  const std::string text = number_text(value);
+  return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
+}
+
 std::string value_text(const toml::node& node) {
   if (node.is_table()) return "a table";
   if (node.is_array_of_tables()) return "an array of tables";
+  if (const auto value = node.value_exact<double>()) return float_text(*value);
+  if (const toml::array* array = node.as_array()) {
+    constexpr std::size_t most_shown = 20;  // elements; more are cut off anyway
+    std::vector<std::string> elements;
+    for (std::size_t i = 0; i < std::min(array->size(), most_shown); ++i)
+      elements.push_back(value_text((*array)[i]));
+    return shortened(fmt::format("[{}]", fmt::join(elements, ", ")));
+  }
   std::ostringstream out;
   node.visit([&](const auto& value) { out << value; });
   return printable(out.str());
@@ -118,9 +133,13 @@ std::optional<Complaint> read_number(const toml::node& node, std::string_view un
     const std::string in_unit = unit.empty() ? "" : fmt::format(", in {}", unit);
     return wrong_type("a number", fmt::format("write it without quotes or unit{}", in_unit));
   }
-  if (!range.contains(*value))
-    return Complaint{Kind::out_of_range, "out of range",
-                     fmt::format("{}{}{}", range.text(), unit.empty() ? "" : " ", unit)};
+  if (!range.contains(*value)) {
+    const bool may_be_in_mm = unit == "m" && *value > 0 && range.contains(*value / 1000);
+    return Complaint{
+        Kind::out_of_range, "out of range",
+        fmt::format("{}{}{}", range.text(), unit.empty() ? "" : " ", unit) +
+            (may_be_in_mm ? fmt::format("; if that is in mm, write {}", number_text(*value / 1000)) : "")};
+  }
   out = *value;
   return {};
 }
@@ -348,9 +367,11 @@ void check_conflicts(Reading& reading, const Case& c) {
                                     [&](const auto& key) { return reading.entries.contains(key); });
     const Entry at = given == keys.end() ? Entry{0, 0, ""} : reading.entries.at(*given);
     const bool blamed_is_given = given == keys.begin();
-    const std::string problem = blamed_is_given || given == keys.end()
-                                    ? conflict.problem
-                                    : fmt::format("{}: {}", keys.front(), conflict.problem);
+    std::string problem = blamed_is_given || given == keys.end()
+                              ? conflict.problem
+                              : fmt::format("{}: {}", keys.front(), conflict.problem);
+    if (const auto other = reading.entries.find(conflict.other_place); other != reading.entries.end())
+      problem += fmt::format(" (line {})", other->second.line);
     reading.problems.push_back({.kind = Kind::conflict,
                                 .file = reading.file,
                                 .line = at.line,
@@ -365,14 +386,17 @@ void check_conflicts(Reading& reading, const Case& c) {
 CaseResult failed(Diagnostic problem) { return {std::nullopt, {std::move(problem)}}; }
 
 Diagnostic diagnostic(const SyntaxError& error, const std::string& file) {
-  return {.kind = Kind::syntax,
-          .file = file,
-          .line = error.line,
-          .column = error.column,
-          .key = "",
-          .value = "",
-          .problem = without_control_characters(error.problem),
-          .remedy = "write KEY = VALUE, with words in quotes and numbers without unit, below a line [TABLE]"};
+  return {
+      .kind = Kind::syntax,
+      .file = file,
+      .line = error.line,
+      .column = error.column,
+      .key = "",
+      .value = "",
+      .problem = without_control_characters(error.problem),
+      .remedy = error.remedy.empty()
+                    ? "write KEY = VALUE, with words in quotes and numbers without unit, below a line [TABLE]"
+                    : error.remedy};
 }
 
 /// Leaves out what reading complains of on a line that is no TOML, and keys that are missing since such a
@@ -422,6 +446,15 @@ CaseResult interpret(const TomlLines& toml, const std::filesystem::path& file) {
 }  // namespace
 
 CaseResult parse_case(std::string_view text, const std::filesystem::path& file) {
+  if (const auto encoding = other_encoding(text))
+    return failed({.kind = Kind::syntax,
+                   .file = file.string(),
+                   .line = 1,
+                   .column = 1,
+                   .key = "",
+                   .value = "",
+                   .problem = fmt::format("the file is {}, not UTF-8", *encoding),
+                   .remedy = "save it as UTF-8"});
   if (const auto exceeded = exceeded_parser_limit(text))
     return failed({.kind = Kind::syntax,
                    .file = file.string(),

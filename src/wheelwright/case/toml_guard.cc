@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
 namespace wheelwright {
 
 namespace {
@@ -35,13 +39,25 @@ std::size_t end_of_line(std::string_view text, std::size_t begin) {
   return std::min(text.find('\n', begin), text.size());
 }
 
-ParserLimitExceeded at(std::string_view text, std::size_t position, std::string problem) {
-  int line = 1, column = 1;
-  for (const char c : text.substr(0, position)) {
-    column = c == '\n' ? 1 : column + 1;
-    line += c == '\n';
+/// The place behind some text that begins at `place`. Columns count characters.
+TextPlace behind(TextPlace place, std::string_view text) {
+  for (const char c : text) {
+    const bool begins_character = (static_cast<unsigned char>(c) & 0xc0) != 0x80;
+    place = c == '\n' ? TextPlace{place.line + 1, 1} : TextPlace{place.line, place.column + begins_character};
   }
+  return place;
+}
+
+ParserLimitExceeded at(std::string_view text, std::size_t position, std::string problem) {
+  const auto [line, column] = behind({1, 1}, text.substr(0, position));
   return {line, column, std::move(problem)};
+}
+
+/// Whether the string that ends at `end` has its quotes there.
+bool is_closed(std::string_view text, std::size_t begin, std::size_t end) {
+  const std::string triple(3, text[begin]);
+  const std::size_t quotes = text.substr(begin, 3) == triple ? 3 : 1;
+  return end >= begin + 2 * quotes && text.substr(end - quotes, quotes) == triple.substr(0, quotes);
 }
 
 }  // namespace
@@ -65,6 +81,30 @@ std::optional<ParserLimitExceeded> exceeded_parser_limit(std::string_view text) 
     }
   }
   return {};
+}
+
+std::optional<TextPlace> unclosed_string(std::string_view text, int line, int column) {
+  TextPlace place{1, 1};
+  for (std::size_t i = 0, end; i < text.size(); i = end) {
+    const bool is_string = text[i] == '"' || text[i] == '\'';
+    end = is_string ? end_of_string(text, i) : text[i] == '#' ? end_of_line(text, i) : i + 1;
+    end = std::min(end, text.size());
+    if (std::tie(place.line, place.column) >= std::tie(line, column)) return {};
+    const TextPlace begin = std::exchange(place, behind(place, text.substr(i, end - i)));
+    const bool holds_it = std::tie(line, column) <= std::tie(place.line, place.column) || end == text.size();
+    if (is_string && holds_it && !is_closed(text, i, end)) return begin;
+  }
+  return {};
+}
+
+std::optional<std::string> other_encoding(std::string_view text) {
+  using namespace std::string_view_literals;
+  const auto begins = [&](std::string_view bytes) { return text.starts_with(bytes); };
+  if (begins("\xff\xfe\0\0"sv) || begins("\0\0\xfe\xff"sv)) return "UTF-32";
+  if (begins("\xff\xfe") || begins("\xfe\xff")) return "UTF-16";
+  const bool is_wide = text.size() >= 4 && (text[0] == '\0') != (text[1] == '\0') &&
+                       (text[0] == '\0') == (text[2] == '\0') && (text[1] == '\0') == (text[3] == '\0');
+  return is_wide ? std::optional<std::string>("UTF-16") : std::nullopt;
 }
 
 }  // namespace wheelwright

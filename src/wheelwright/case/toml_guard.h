@@ -19,4 +19,15 @@ struct ParserLimitExceeded {
 /// comments is ignored.
 std::optional<ParserLimitExceeded> exceeded_parser_limit(std::string_view text);
 
+struct TextPlace {
+  int line, column;  ///< from 1
+};
+
+/// Where the string begins that is open at this place of a text and has no end there: on its line, or,
+/// between triple quotes, in the text.
+std::optional<TextPlace> unclosed_string(std::string_view text, int line, int column);
+
+/// What a file is that is no UTF-8 but another Unicode encoding, e.g. "UTF-16".
+std::optional<std::string> other_encoding(std::string_view text);
+
 }  // namespace wheelwright

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "wheelwright/base/text.h"
+#include "wheelwright/case/toml_guard.h"
 
 namespace wheelwright {
 
@@ -68,7 +69,8 @@ std::vector<SyntaxError> replace_wrong_bytes(std::string& text) {
     const std::size_t length = utf8_length(std::string_view(text).substr(i));
     if (length == 0) {
       text[i] = '?';
-      if (errors.empty() || errors.back().line < line) errors.push_back({line, column, "not UTF-8"});
+      if (errors.empty() || errors.back().line < line)
+        errors.push_back({line, column, "not UTF-8", "save the file as UTF-8"});
     } else if (text[i] == '\n') {
       ++line;
       column = 0;
@@ -76,6 +78,15 @@ std::vector<SyntaxError> replace_wrong_bytes(std::string& text) {
     i += std::max<std::size_t>(length, 1);
   }
   return errors;
+}
+
+/// The parser complains of the end of a line, or of the whole text, where a quote is missing: the string's
+/// beginning is told instead.
+void blame_unclosed_string(std::string_view text, SyntaxError& error) {
+  const auto begin = unclosed_string(text, error.line, error.column);
+  if (begin)
+    error = {begin->line, begin->column, "the string that begins here has no end",
+             "close it with the same quotes"};
 }
 
 /// Adds the errors of other lines than those of `errors`.
@@ -96,9 +107,11 @@ TomlLines parse_toml_lines(std::string_view text) {
   result.errors = replace_wrong_bytes(rest);
   std::vector<SyntaxError> wrong_lines;
   while (auto error = parse(rest, result.root)) {
+    const int line_of_error = error->line;
+    blame_unclosed_string(rest, *error);
     const bool comes_later = wrong_lines.empty() || error->line > wrong_lines.back().line;
     if (comes_later) wrong_lines.push_back(*error);
-    if (!comes_later || wrong_lines.size() == most_wrong_lines || !take_out(rest, error->line)) break;
+    if (!comes_later || wrong_lines.size() == most_wrong_lines || !take_out(rest, line_of_error)) break;
   }
   add_other_lines(result.errors, wrong_lines);
   return result;

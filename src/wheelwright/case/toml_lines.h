@@ -11,6 +11,7 @@ namespace wheelwright {
 struct SyntaxError {
   int line, column;  ///< from 1
   std::string problem;
+  std::string remedy = {};  ///< empty: that of any syntax error
 };
 
 /// The parts of a text that are valid TOML, and the errors in the rest.

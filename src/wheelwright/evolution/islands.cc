@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "wheelwright/evolution/nearest_point.h"
+#include "wheelwright/geometry/nearest_point.h"
 #include "wheelwright/evolution/redistance.h"
 #include "wheelwright/geometry/finite.h"
 #include "wheelwright/geometry/place.h"

@@ -1,7 +1,7 @@
 #include "wheelwright/evolution/redistance.h"
 
 #include "wheelwright/evolution/closest_point.h"
-#include "wheelwright/evolution/nearest_point.h"
+#include "wheelwright/geometry/nearest_point.h"
 #include "wheelwright/evolution/seeds.h"
 
 namespace wheelwright {

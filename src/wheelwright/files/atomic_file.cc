@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "wheelwright/files/output_error.h"
+#include "wheelwright/files/written_files.h"
 
 namespace wheelwright {
 namespace {
@@ -36,8 +37,9 @@ int write_and_sync(int file, std::string_view content) {
 }  // namespace
 
 void write_atomically(const std::filesystem::path& path, std::string_view content) {
+  claim_file(path);
   const std::filesystem::path temporary = path.string() + ".tmp";
-  const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (file < 0) throw OutputError(path, errno);
   int error = write_and_sync(file, content);
   if (::close(file) != 0 && error == 0) error = errno;
@@ -51,9 +53,15 @@ void write_atomically(const std::filesystem::path& path, std::string_view conten
 
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
-  if (!std::filesystem::create_directories(folder, error) && !error) return;
-  const int failed = error ? error.value() : synchronize_folder(folder.parent_path());
+  const bool is_new = std::filesystem::create_directories(folder, error);
+  const int failed = error ? error.value() : is_new ? synchronize_folder(folder.parent_path()) : 0;
   if (failed != 0) throw OutputError(folder, failed);
+  WrittenFiles(folder).begin();
+}
+
+void make_subfolder(const std::filesystem::path& folder) {
+  claim_folder(folder);
+  make_folder(folder);
 }
 
 }  // namespace wheelwright

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cerrno>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -15,6 +16,12 @@ class OutputError : public std::runtime_error {
       : std::runtime_error("cannot write " + path.string() + ": " + std::generic_category().message(error)),
         path_(std::move(path)),
         error_(error) {}
+
+  /// It must not be written: `reason` says why not, and what to do.
+  OutputError(std::filesystem::path path, const std::string& reason)
+      : std::runtime_error("cannot write " + path.string() + ": " + reason),
+        path_(std::move(path)),
+        error_(EEXIST) {}
 
   const std::filesystem::path& path() const { return path_; }
   int error() const { return error_; }

@@ -60,17 +60,19 @@ std::string encoded(const std::vector<T>& values) {
   return base64({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
 }
 
-/// A field's component at the points of a mesh in all sectors: value[point + n_points * sector].
+/// A scalar of a field's components at the points of a mesh in all sectors: value[point + n_points * sector].
+template <class Scalar>
 std::vector<double> at_points(const SectorMesh& mesh, const Lattice<2>& lattice, const RingField& field,
-                              int component) {
-  std::vector<double> values;
+                              const Scalar& scalar) {
+  std::vector<double> values, components(field.components);
   for (int sector = 0; sector < lattice.grid().n_sectors; ++sector)
     for (std::size_t k = 0; k < mesh.points.size(); ++k) {
       auto cell = mesh.cells[k];
       cell[1] += sector * lattice.grid().columns();
-      values.push_back(interpolate(
-          field, ring_cell_nodes<2>(lattice, cell),
-          std::span(mesh.shapes[k].value.data(), nodes_per_cell<2>(lattice.degree())), component));
+      const auto nodes = ring_cell_nodes<2>(lattice, cell);
+      const std::span shape(mesh.shapes[k].value.data(), nodes_per_cell<2>(lattice.degree()));
+      for (int c = 0; c < field.components; ++c) components[c] = interpolate(field, nodes, shape, c);
+      values.push_back(scalar(std::span<const double>(components)));
     }
   return values;
 }
@@ -105,9 +107,10 @@ Json fields_json(const ReportRun& run) {
   for (const Vec<2>& x : mesh.points) points.insert(points.end(), {float(x[0]), float(x[1])});
   std::vector<std::vector<double>> x, y, stress;
   for (const PositionFields& position : run.positions) {
-    x.push_back(at_points(mesh, position.lattice, position.displacement, 0));
-    y.push_back(at_points(mesh, position.lattice, position.displacement, 1));
-    stress.push_back(at_points(mesh, position.lattice, position.von_mises, 0));
+    const NamedField von_mises = von_mises_field(position.stress);
+    x.push_back(at_points(mesh, position.lattice, position.displacement, [](auto u) { return u[0]; }));
+    y.push_back(at_points(mesh, position.lattice, position.displacement, [](auto u) { return u[1]; }));
+    stress.push_back(at_points(mesh, position.lattice, von_mises.field, von_mises.scalar));
   }
   const double full_displacement = std::max(largest(x), largest(y)), full_stress = largest(stress);
   Json positions = Json::array();

@@ -2,11 +2,20 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "wheelwright/geometry/level_set.h"
+#include "wheelwright/report/solution_fields.h"
+#include "wheelwright/state/rim.h"
 #include "wheelwright/state/ring_field.h"
 
 namespace wheelwright {
+
+/// How the colours of a picture span its values.
+enum class ScaleKind {
+  all,          ///< from the least to the greatest
+  without_tail  ///< values >= 0: from 0 to a round number that at most 1 % of the drawn pieces exceed
+};
 
 /// The deformed wheel under one load position, coloured by a scalar.
 struct DeformedPicture {
@@ -16,12 +25,22 @@ struct DeformedPicture {
   double contact_azimuth;  ///< azimuth of the contact point in the body frame [rad]: drawn at the bottom
   /// Half the edge of a square view of the contact [m]; absent: the whole wheel.
   std::optional<double> window;
-  NamedField scalar;  ///< 1 component, in an SI unit without prefix, e.g. "von Mises stress" in "Pa"
-  double outliers;    ///< fraction of the drawn pieces that the colours leave out at each end of their range
+  NamedField scalar;  ///< in an SI unit without prefix, e.g. "von Mises stress" in "Pa"
+  ScaleKind scale;
+  RimMotion rim;                      ///< ground frame
+  RimForce rim_force;                 ///< on the whole width [N, N m]
+  std::vector<ContactPoint> contact;  ///< of this position; its pressure is shown in a window
+  /// The largest scalar and its place before the deformation (body frame); absent: that of the drawn points.
+  std::optional<DrawnPeak> peak;
 };
 
-/// The picture as an SVG document with a colour bar; neighbours of one colour are drawn as one. `lattice`
-/// carries the fields, on psi's grid.
+/// The largest of 1, 2, 5, 10, 20, ... that draws no displacement larger than 5 % of the wheel's radius, at
+/// least 1. NaN are passed over.
+double picture_magnification(const RingField& displacement, double outer_radius);
+
+/// The picture as an SVG document: the material with colours between level lines, their scale, the ground as
+/// a line that the tread touches, load, position and magnification, and the place of the largest scalar.
+/// `lattice` carries the fields, on psi's grid.
 std::string deformed_svg(const LevelSet<2>& psi, const Lattice<2>& lattice, const DeformedPicture& picture);
 
 }  // namespace wheelwright

@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
-#include <map>
-#include <set>
+#include <tuple>
 
 namespace wheelwright {
 namespace {
@@ -20,65 +21,111 @@ std::int64_t signed_double_area(const PicturePolygon& polygon) {
   return sum;
 }
 
-/// Directed sides, none of them together with its reverse.
-class Sides {
- public:
-  void add(const PicturePoint& from, const PicturePoint& to) {
-    if (from == to) return;
-    const auto reverse = ends_.find(to);
-    if (reverse != ends_.end()) {
-      const auto found = reverse->second.find(from);
-      if (found != reverse->second.end()) {
-        reverse->second.erase(found);
-        if (reverse->second.empty()) ends_.erase(reverse);
-        return;
-      }
-    }
-    ends_[from].insert(to);
-  }
+/// Whether b lies on the straight line from a to c.
+bool is_between(const PicturePoint& a, const PicturePoint& b, const PicturePoint& c) {
+  const std::int64_t ux = b[0] - a[0], uy = b[1] - a[1], vx = c[0] - b[0], vy = c[1] - b[1];
+  return ux * vy == uy * vx && ux * vx + uy * vy >= 0;
+}
 
-  bool empty() const { return ends_.empty(); }
+PicturePolygon corners(const PicturePolygon& outline) {
+  PicturePolygon result;
+  const std::size_t n = outline.size();
+  for (std::size_t k = 0; k < n; ++k)
+    if (!is_between(result.empty() ? outline[(k + n - 1) % n] : result.back(), outline[k],
+                    outline[(k + 1) % n]))
+      result.push_back(outline[k]);
+  return result;
+}
 
-  /// Takes out the closed curve through the first point.
-  PicturePolygon take_curve() {
-    PicturePolygon curve;
-    const PicturePoint first = ends_.begin()->first;
-    PicturePoint at = first;
-    do {
-      curve.push_back(at);
-      const auto side = ends_.find(at);
-      const PicturePoint next = *side->second.begin();
-      side->second.erase(side->second.begin());
-      if (side->second.empty()) ends_.erase(side);
-      at = next;
-    } while (at != first);
-    return curve;
-  }
+double distance_to_chord(const PicturePoint& p, const PicturePoint& a, const PicturePoint& b) {
+  const double dx = b[0] - a[0], dy = b[1] - a[1], px = p[0] - a[0], py = p[1] - a[1];
+  const double squared = dx * dx + dy * dy;
+  const double t = squared > 0 ? std::clamp((px * dx + py * dy) / squared, 0.0, 1.0) : 0;
+  return std::hypot(px - t * dx, py - t * dy);
+}
 
- private:
-  std::map<PicturePoint, std::multiset<PicturePoint>> ends_;
-};
+auto by_beginning(const PictureSide& side) { return std::tie(side.from, side.to); }
 
 }  // namespace
 
-std::vector<PicturePolygon> union_outlines(const std::vector<PicturePolygon>& polygons) {
-  Sides sides;
-  for (const PicturePolygon& polygon : polygons) {
-    const std::size_t n = polygon.size();
-    const bool forward = n > 0 && signed_double_area(polygon) >= 0;
-    for (std::size_t k = 0; k < n; ++k) {
-      const PicturePoint &a = polygon[k], &b = polygon[(k + 1) % n];
-      forward ? sides.add(a, b) : sides.add(b, a);
-    }
+void add_sides(const PicturePolygon& polygon, std::vector<PictureSide>& sides) {
+  if (polygon.empty()) return;
+  const bool forward = signed_double_area(polygon) >= 0;
+  PicturePoint a = polygon.back();
+  for (const PicturePoint& b : polygon) {
+    sides.push_back(forward ? PictureSide{a, b} : PictureSide{b, a});
+    a = b;
   }
-  std::vector<PicturePolygon> outlines;
-  while (!sides.empty()) outlines.push_back(sides.take_curve());
-  return outlines;
+}
+
+std::vector<PictureSide> without_opposites(std::vector<PictureSide> sides) {
+  std::erase_if(sides, [](const PictureSide& s) { return s.from == s.to; });
+  const auto ends = [](const PictureSide& s) {
+    return std::pair(std::min(s.from, s.to), std::max(s.from, s.to));
+  };
+  std::ranges::sort(sides, {}, ends);
+  std::vector<PictureSide> result;
+  for (std::size_t k = 0; k < sides.size();) {
+    const auto [lower, upper] = ends(sides[k]);
+    int surplus = 0;  // of the sides from the lower point to the upper one
+    for (; k < sides.size() && ends(sides[k]) == std::pair(lower, upper); ++k)
+      surplus += sides[k].from == lower ? 1 : -1;
+    result.insert(result.end(), std::abs(surplus),
+                  surplus > 0 ? PictureSide{lower, upper} : PictureSide{upper, lower});
+  }
+  return result;
+}
+
+std::vector<PicturePolygon> closed_curves(std::vector<PictureSide> sides) {
+  std::ranges::sort(sides, {}, by_beginning);
+  std::vector<bool> taken(sides.size(), false);
+  const auto next_from = [&](const PicturePoint& point) {
+    auto k = std::ranges::lower_bound(sides, point, {}, &PictureSide::from) - sides.begin();
+    while (taken[k]) ++k;
+    return k;
+  };
+  std::vector<PicturePolygon> curves;
+  for (std::size_t first = 0; first < sides.size(); ++first) {
+    if (taken[first]) continue;
+    PicturePolygon curve;
+    for (auto k = static_cast<std::ptrdiff_t>(first);; k = next_from(sides[k].to)) {
+      taken[k] = true;
+      curve.push_back(sides[k].from);
+      if (sides[k].to == sides[first].from) break;
+    }
+    curves.push_back(std::move(curve));
+  }
+  return curves;
+}
+
+std::vector<PicturePolygon> union_outlines(const std::vector<PicturePolygon>& polygons) {
+  std::vector<PictureSide> sides;
+  for (const PicturePolygon& polygon : polygons) add_sides(polygon, sides);
+  return closed_curves(without_opposites(std::move(sides)));
+}
+
+PicturePolygon simplified(const PicturePolygon& curve, double tolerance) {
+  constexpr std::size_t longest = 40;  // points that one chord replaces
+  if (curve.size() < 4) return curve;
+  PicturePolygon result{curve[0]};
+  for (std::size_t from = 0; from + 1 < curve.size();) {
+    std::size_t to = from + 1;
+    const auto is_near = [&](std::size_t end) {
+      for (std::size_t k = from + 1; k < end; ++k)
+        if (distance_to_chord(curve[k], curve[from], curve[end]) > tolerance) return false;
+      return true;
+    };
+    while (to + 1 < curve.size() && to - from < longest && is_near(to + 1)) ++to;
+    result.push_back(curve[to]);
+    from = to;
+  }
+  return result;
 }
 
 std::string outline_path(const std::vector<PicturePolygon>& outlines) {
   std::string path;
-  for (const PicturePolygon& outline : outlines) {
+  for (const PicturePolygon& all_points : outlines) {
+    const PicturePolygon outline = corners(all_points);
     if (outline.size() < 3) continue;
     path += fmt::format("M{} {}l", outline[0][0], outline[0][1]);
     for (std::size_t k = 1; k < outline.size(); ++k) {

@@ -10,13 +10,30 @@ namespace wheelwright {
 using PicturePoint = std::array<int, 2>;
 using PicturePolygon = std::vector<PicturePoint>;
 
+/// A directed side of a polygon.
+struct PictureSide {
+  PicturePoint from, to;
+};
+
+/// Adds the sides of a polygon, all polygons in the same sense of rotation.
+void add_sides(const PicturePolygon& polygon, std::vector<PictureSide>& sides);
+
+/// What remains when every side is taken away together with its reverse; sides of no length are dropped.
+std::vector<PictureSide> without_opposites(std::vector<PictureSide> sides);
+
+/// Joins sides to closed curves. As many sides must end at every point as begin there.
+std::vector<PicturePolygon> closed_curves(std::vector<PictureSide> sides);
+
 /// The outlines of a union of polygons with common sides: what two neighbours share is left out, so that a
 /// region of many cells becomes a few curves. Polygons must not overlap; their sense of rotation does not
 /// matter. Closed curves, all of one sense around what they enclose; sides of no length are dropped.
 std::vector<PicturePolygon> union_outlines(const std::vector<PicturePolygon>& polygons);
 
-/// Closed curves as the `d` attribute of an SVG path, in relative moves; those that enclose nothing, of less
-/// than three points, are left out.
+/// The curve without points that lie nearer than `tolerance` to a chord between points that stay.
+PicturePolygon simplified(const PicturePolygon& curve, double tolerance);
+
+/// Closed curves as the `d` attribute of an SVG path, in relative moves. Points on straight lines and curves
+/// that enclose nothing, of less than three points, are left out.
 std::string outline_path(const std::vector<PicturePolygon>& outlines);
 
 }  // namespace wheelwright

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -64,6 +65,27 @@ std::string position_lines(const RollingReport& report) {
                          a.azimuths[i] * degree, force / p.travel * N_per_mm, p.peak_pressure * MPa,
                          p.patch_length * mm, a.peak_von_mises[i] * MPa, a.strain_energy[i],
                          a.travel_at_load[i] * mm, a.force_at_travel[i] * report.width);
+  }
+  return table;
+}
+
+/// Whether anything acts along the ground or turns.
+bool has_friction(const RollingReport& report) {
+  return std::ranges::any_of(report.analysis.positions, [](const ContactSummary& p) {
+    return p.peak_friction > 0 || p.wind_up != 0 || p.travel_along_ground != 0;
+  });
+}
+
+std::string friction_lines(const RollingReport& report) {
+  constexpr const char* words = "{:>9}{:>13}{:>13}{:>13}{:>13}\n";
+  std::string table = fmt::format(words, "azimuth", "friction", "friction", "rim along", "wind-up");
+  table += fmt::format(words, "", "force", "peak", "the ground", "of the rim");
+  table += fmt::format(words, "[deg]", "[N]", "[MPa]", "[mm]", "[deg]");
+  for (size_t i = 0; i < report.analysis.positions.size(); ++i) {
+    const ContactSummary& p = report.analysis.positions[i];
+    table += fmt::format("{:9.3f}{:13.2f}{:13.4f}{:13.6f}{:13.6f}\n", report.analysis.azimuths[i] * degree,
+                         p.friction_force * report.width, p.peak_friction * MPa, p.travel_along_ground * mm,
+                         p.wind_up * degree);
   }
   return table;
 }
@@ -134,6 +156,10 @@ Json positions_json(const RollingReport& report) {
                          {"stiffness_N_per_m", p.radial_force * report.width / p.travel},
                          {"peak_pressure_Pa", p.peak_pressure},
                          {"patch_length_m", p.patch_length},
+                         {"friction_force_N", p.friction_force * report.width},
+                         {"peak_friction_Pa", p.peak_friction},
+                         {"travel_along_ground_m", p.travel_along_ground},
+                         {"wind_up_rad", p.wind_up},
                          {"peak_von_mises_Pa", a.peak_von_mises[i]},
                          {"peak_strain", a.peak_strain[i]},
                          {"strain_energy_J_per_m", a.strain_energy[i]},
@@ -177,7 +203,9 @@ LinePlot sector_plot(const RollingReport& report, const std::string& title, Plot
 }  // namespace
 
 std::string rolling_table(const RollingReport& report) {
-  std::string table = position_lines(report) + '\n' + variation_lines(report) + '\n' + stress_line(report);
+  std::string table = position_lines(report) + '\n';
+  if (has_friction(report)) table += friction_lines(report) + '\n';
+  table += variation_lines(report) + '\n' + stress_line(report);
   if (!report.loads.empty()) table += '\n' + load_lines(report);
   return table;
 }

@@ -18,7 +18,8 @@ struct RollingReport {
   std::vector<std::vector<ContactSummary>> under_loads;  ///< [load][position]
 };
 
-/// For people: one line per load position, what varies in rolling, and one line per load.
+/// For people: one line per load position, another one where there is friction or torque, what varies in
+/// rolling, and one line per load.
 std::string rolling_table(const RollingReport& report);
 
 /// For programs: the same in SI units, which the names of the keys end in. Numbers read back to the same

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "wheelwright/report/colour_map.h"
+#include "wheelwright/report/colour_scale.h"
 #include "wheelwright/report/sector_picture.h"
 #include "wheelwright/report/svg.h"
 
@@ -17,7 +18,7 @@ constexpr int colour_levels = 33;  // odd: one of them is 0
 constexpr double outliers = 0.01;
 constexpr double bar_width = 18, bar_height = 320, bar_space = 150;
 
-std::string level_colour(int level) { return blue_to_red(2.0 * level / (colour_levels - 1) - 1); }
+std::string signed_colour(int level) { return blue_to_red(2.0 * level / (colour_levels - 1) - 1); }
 
 /// From -largest to largest.
 struct SymmetricScale {
@@ -61,7 +62,7 @@ std::string coloured_cells(const SectorPicture& picture, const SectorScalar& sca
   for (int level = 0; level < colour_levels; ++level)
     if (!polygons[level].empty())
       svg += fmt::format("<path fill=\"{0}\" stroke=\"{0}\" stroke-width=\"{1}\" d=\"{2}\"/>\n",
-                         level_colour(level), 0.6 * SectorPicture::units_per_pixel,
+                         signed_colour(level), 0.6 * SectorPicture::units_per_pixel,
                          outline_path(union_outlines(polygons[level])));
   return svg;
 }
@@ -73,28 +74,14 @@ std::string edges(const LevelSet<2>& psi, double units_per_metre) {
                      material_path(psi.lattice.grid(), contours, units_per_metre, 0, 5e-4));
 }
 
-struct SiPrefix {
-  double factor;
-  const char* symbol;
-};
-
-/// The prefix that brings the value to between 1 and 1000.
-SiPrefix si_prefix(double value) {
-  constexpr std::array<SiPrefix, 6> prefixes{
-      {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1, ""}, {1e-3, "m"}, {1e-6, "\u00b5"}}};
-  for (const SiPrefix& p : prefixes)
-    if (value >= p.factor) return p;
-  return {1, ""};
-}
-
-std::string colour_bar(const SymmetricScale& scale, const SectorScalar& scalar, double x) {
+std::string signed_bar(const SymmetricScale& scale, const SectorScalar& scalar, double x) {
   const double y = SectorPicture::top + 0.5 * (SectorPicture::wheel_size - bar_height);
   const SiPrefix prefix = si_prefix(scale.largest);
   std::string svg;
   for (int level = 0; level < colour_levels; ++level)
     svg += fmt::format("<rect x=\"{}\" y=\"{:.2f}\" width=\"{}\" height=\"{:.2f}\" fill=\"{}\"/>\n", x,
                        y + bar_height * (1 - (level + 1.0) / colour_levels), bar_width,
-                       bar_height / colour_levels + 0.3, level_colour(level));
+                       bar_height / colour_levels + 0.3, signed_colour(level));
   for (int tick = -2; tick <= 2; ++tick) {
     const char* beyond = !scale.cut || std::abs(tick) < 2 ? "" : tick > 0 ? "\u2265 " : "\u2264 ";
     svg += fmt::format("<text x=\"{}\" y=\"{}\">{}{:.3g}</text>\n", x + bar_width + 8,
@@ -140,7 +127,7 @@ std::string sector_svg(const LevelSet<2>& psi, const SectorScalar& scalar, const
   const double bar_left = 2 * SectorPicture::margin + SectorPicture::wheel_size;
   return wheel_document(bar_left + bar_space, title, psi.lattice.grid().n_sectors,
                         coloured_cells(picture, scalar, scale), edges(psi, picture.units_per_metre()),
-                        colour_bar(scale, scalar, bar_left));
+                        signed_bar(scale, scalar, bar_left));
 }
 
 }  // namespace wheelwright

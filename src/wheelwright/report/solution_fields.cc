@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "wheelwright/analysis/strain_peaks.h"
 #include "wheelwright/base/units.h"
 
 namespace wheelwright {
@@ -58,38 +59,74 @@ std::vector<double> polar_values(const Lattice<2>& lattice, const RingField& fie
 
 }  // namespace
 
-RingField von_mises_field(const RollingModel<2>& model, const CutDomain<2>& domain,
-                          const RingField& displacement) {
+namespace {
+
+/// A stress in the plane, given in a frame whose first axis lies at this azimuth, as components in the body
+/// frame: xx, yy, zz, xy.
+std::array<double, 4> in_body_frame(const Voigt<2>& s, double azimuth, double axial_stress_ratio) {
+  const double c = std::cos(azimuth), d = std::sin(azimuth);
+  return {c * c * s[0] + d * d * s[1] - 2 * c * d * s[2], d * d * s[0] + c * c * s[1] + 2 * c * d * s[2],
+          axial_stress_ratio * (s[0] + s[1]), c * d * (s[0] - s[1]) + (c * c - d * d) * s[2]};
+}
+
+double von_mises_of(std::span<const double> s) {
+  const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
+  return std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * s[3] * s[3]);
+}
+
+/// A cell with material and its column round the ring.
+struct RingCell {
+  int column;
+  RingCellNodes<2> nodes;
+};
+
+std::vector<RingCell> active_cells(const Lattice<2>& lattice, const CutDomain<2>& domain, int row) {
+  const PolarGrid<2>& grid = lattice.grid();
+  std::vector<RingCell> cells;
+  for (int column = 0; column < grid.ring_columns(); ++column)
+    if (domain.active(grid.cell_index({row, column % grid.columns()})))
+      cells.push_back({column, ring_cell_nodes<2>(lattice, {row, column})});
+  return cells;
+}
+
+}  // namespace
+
+RingField stress_field(const RollingModel<2>& model, const CutDomain<2>& domain,
+                       const RingField& displacement) {
   const Lattice<2> lattice = displacement_lattice(model);
   const PolarGrid<2>& grid = lattice.grid();
   const std::vector<double> polar = polar_values(lattice, displacement);
-  std::vector<double> sum(polar.size() / 2, 0.0);
+  std::vector<std::array<double, 4>> sum(polar.size() / 2, std::array<double, 4>{});
   std::vector<int> count(sum.size(), 0);
-  for (int radial = 0; radial < grid.cells[0]; ++radial) {
-    const Material& material = model.materials.in_row(radial);
-    const ElasticElement<2> element(grid, model.degree, {radial}, material);
-    std::vector<RingCellNodes<2>> cells;
-    for (int column = 0; column < grid.ring_columns(); ++column)
-      if (domain.active(grid.cell_index({radial, column % grid.columns()})))
-        cells.push_back(ring_cell_nodes<2>(lattice, {radial, column}));
+  for (int row = 0; row < grid.cells[0]; ++row) {
+    const Material& material = model.materials.in_row(row);
+    const ElasticElement<2> element(grid, model.degree, {row}, material);
+    const std::vector<RingCell> cells = active_cells(lattice, domain, row);
     Matrix dofs(element.n_dofs(), static_cast<int>(cells.size()));
     for (size_t c = 0; c < cells.size(); ++c)
       for (int a = 0; a < element.n_nodes(); ++a)
-        std::copy_n(&polar[2 * cells[c][a]], 2, dofs.column(static_cast<int>(c)) + 2 * a);
+        std::copy_n(&polar[2 * cells[c].nodes[a]], 2, dofs.column(static_cast<int>(c)) + 2 * a);
     const Matrix strains = product(strains_at_nodes(element), Op::none, dofs, Op::none);
     for (size_t c = 0; c < cells.size(); ++c) {
       const double* strain = strains.column(static_cast<int>(c));
-      for (const size_t node : std::span(cells[c]).first(element.n_nodes())) {
-        sum[node] += von_mises<2>(material, stress<2>(material, {strain[0], strain[1], strain[2]}));
+      for (const size_t node : std::span(cells[c].nodes).first(element.n_nodes())) {
+        const auto at_node =
+            in_body_frame(stress<2>(material, {strain[0], strain[1], strain[2]}),
+                          cells[c].column * grid.cell_size()[1], material.axial_stress_ratio());
+        for (int k = 0; k < 4; ++k) sum[node][k] += at_node[k];
         ++count[node];
         strain += n_strains<2>;
       }
     }
   }
-  RingField field{1, std::vector<double>(sum.size(), no_material)};
+  RingField field{4, std::vector<double>(4 * sum.size(), no_material)};
   for (size_t i = 0; i < sum.size(); ++i)
-    if (count[i] > 0) field.values[i] = sum[i] / count[i];
+    for (int k = 0; k < 4 && count[i] > 0; ++k) field.values[4 * i + k] = sum[i][k] / count[i];
   return field;
+}
+
+NamedField von_mises_field(const RingField& stress) {
+  return {"von_mises", unit<2>(UnitKind::stress), stress, von_mises_of};
 }
 
 namespace {
@@ -98,46 +135,102 @@ double ground_azimuth(const StateSolver<2>& solver, int position) {
   return solver.all_positions().grounds[position].azimuth(solver.model().grid);
 }
 
-/// The fields of a position that was solved for.
-PositionFields fields_of_solved(const StateSolver<2>& solver, const State<2>& state,
-                                const Displacement<2>& displacement, int position) {
-  RingField u = displacement.at_nodes(position);
-  RingField von_mises = von_mises_field(solver.model(), state.domain(), u);
-  return {.lattice = displacement_lattice(solver.model()),
-          .displacement = std::move(u),
-          .von_mises = std::move(von_mises),
-          .ground_azimuth = state.positions().grounds[position].azimuth(solver.model().grid)};
+std::vector<ContactPoint> points_of_solved(const StateSolver<2>& solver, const State<2>& state,
+                                           int position) {
+  const ObservationRows<2> rows = solver.tread_surface().rows();
+  const ContactPatch<2>& contact = state.contacts()[position];
+  std::vector<ContactPoint> result;
+  for (const auto& point : contact.points) {
+    const double* observed =
+        state.observations().column(position * solver.tread_surface().n_columns + point.column);
+    const double *displacement = observed + rows.displacement(point.point),
+                 *traction = observed + rows.traction(point.point);
+    const Vec<2> u = rotated<2>({displacement[0], displacement[1]}, point.angle);
+    const double approach = u[0] + wheelwright::displacement<2>(contact.rim, point.position)[0];
+    result.push_back({.position = position,
+                      .azimuth = std::atan2(point.position[1], point.position[0]),
+                      .x = point.position[1],
+                      .weight = point.weight,
+                      .pressure = -point.traction[0],
+                      .friction = point.traction[1],
+                      .normal_stress = rotated<2>({traction[0], traction[1]}, point.angle)[0],
+                      .gap = point.gap - approach});
+  }
+  return result;
 }
 
-PositionFields mirror_image(const PositionFields& fields, double ground_azimuth) {
-  return {.lattice = fields.lattice,
-          .displacement = wheelwright::mirror_image<2>(fields.lattice, fields.displacement),
-          .von_mises = wheelwright::mirror_image<2>(fields.lattice, fields.von_mises),
-          .ground_azimuth = ground_azimuth};
+/// What the mirror image of a load position shows, in the same order along the ground.
+std::vector<ContactPoint> mirror_images(std::vector<ContactPoint> points) {
+  std::ranges::reverse(points);
+  for (ContactPoint& p : points) {
+    p.azimuth = -p.azimuth;
+    p.x = -p.x;
+    p.friction = -p.friction;
+  }
+  return points;
+}
+
+std::vector<ContactPoint> points_at(const StateSolver<2>& solver, const State<2>& state,
+                                    const PositionSource& source, int position) {
+  auto points = points_of_solved(solver, state, source.solved);
+  if (source.is_image) points = mirror_images(std::move(points));
+  for (ContactPoint& p : points) p.position = position;
+  return points;
+}
+
+RimMotion mirror_image(const RimMotion& rim) {
+  return {rim.towards_ground, -rim.along_ground, -rim.rotation};
+}
+RimForce mirror_image(const RimForce& force) {
+  return {force.towards_ground, -force.along_ground, -force.torque};
+}
+
+DrawnPeak peak_at(const PolarGrid<2>& grid, const StrainPeaks<2>& peaks, const PositionSource& source) {
+  Vec<2> polar = peaks.von_mises_places[source.solved];
+  if (source.is_image) polar[1] = grid.sector_angle() - polar[1];
+  return {cartesian<2>(polar), peaks.von_mises[source.solved]};
+}
+
+/// The fields of one load position, from the displacements and peaks of those that were solved for.
+PositionFields fields_at(const StateSolver<2>& solver, const State<2>& state,
+                         const Displacement<2>& displacement, const StrainPeaks<2>& peaks,
+                         const PositionSource& source, int position) {
+  const ContactPatch<2>& contact = state.contacts()[source.solved];
+  const Lattice<2> lattice = displacement_lattice(solver.model());
+  const RingField solved = displacement.at_nodes(source.solved);
+  const RingField u = source.is_image ? wheelwright::mirror_image<2>(lattice, solved) : solved;
+  return {.lattice = lattice,
+          .displacement = u,
+          .stress = stress_field(solver.model(), state.domain(), u),
+          .ground_azimuth = ground_azimuth(solver, position),
+          .rim = source.is_image ? mirror_image(contact.rim) : contact.rim,
+          .rim_force = source.is_image ? mirror_image(contact.rim_force) : contact.rim_force,
+          .contact = points_at(solver, state, source, position),
+          .von_mises = peak_at(lattice.grid(), peaks, source)};
 }
 
 }  // namespace
 
 PositionFields position_fields(const StateSolver<2>& solver, const State<2>& state, int position) {
-  const PositionSource source = position_sources(state.positions(), solver.model().n_positions)[position];
-  const PositionFields solved = fields_of_solved(solver, state, *state.displacement(), source.solved);
-  return source.is_image ? mirror_image(solved, ground_azimuth(solver, position)) : solved;
+  const auto sources = position_sources(state.positions(), solver.model().n_positions);
+  const auto displacement = state.displacement();
+  return fields_at(solver, state, *displacement, strain_peaks(solver, state, *displacement),
+                   sources[position], position);
 }
 
 std::vector<PositionFields> all_position_fields(const StateSolver<2>& solver, const State<2>& state) {
   const auto displacement = state.displacement();
-  const auto sources = position_sources(state.positions(), solver.model().n_positions);
+  const auto peaks = strain_peaks(solver, state, *displacement);
   std::vector<PositionFields> all;
-  for (size_t i = 0; i < sources.size(); ++i)
-    all.push_back(sources[i].is_image
-                      ? mirror_image(all[sources[i].solved], ground_azimuth(solver, static_cast<int>(i)))
-                      : fields_of_solved(solver, state, *displacement, sources[i].solved));
+  for (const PositionSource& source : position_sources(state.positions(), solver.model().n_positions))
+    all.push_back(fields_at(solver, state, *displacement, peaks, source, static_cast<int>(all.size())));
   return all;
 }
 
 std::vector<NamedField> named_fields(const PositionFields& fields) {
   return {{"displacement", unit<2>(UnitKind::length), fields.displacement},
-          {"von_mises", unit<2>(UnitKind::stress), fields.von_mises}};
+          {"stress", unit<2>(UnitKind::stress), fields.stress},
+          von_mises_field(fields.stress)};
 }
 
 RingField repeated_field(const RollingModel<2>& model, const LevelSet<2>& sector_values) {
@@ -159,53 +252,12 @@ RingField repeated_field(const RollingModel<2>& model, const LevelSet<2>& sector
   return field;
 }
 
-namespace {
-
-std::vector<ContactPoint> points_of_solved(const StateSolver<2>& solver, const State<2>& state,
-                                           int position) {
-  const ObservationRows<2> rows = solver.tread_surface().rows();
-  const ContactPatch<2>& contact = state.contacts()[position];
-  std::vector<ContactPoint> result;
-  for (const auto& point : contact.points) {
-    const double* observed =
-        state.observations().column(position * solver.tread_surface().n_columns + point.column);
-    const double *displacement = observed + rows.displacement(point.point),
-                 *traction = observed + rows.traction(point.point);
-    const Vec<2> u = rotated<2>({displacement[0], displacement[1]}, point.angle);
-    const double approach = u[0] + wheelwright::displacement<2>(contact.rim, point.position)[0];
-    result.push_back({.position = position,
-                      .azimuth = std::atan2(point.position[1], point.position[0]),
-                      .x = point.position[1],
-                      .pressure = -point.traction[0],
-                      .normal_stress = rotated<2>({traction[0], traction[1]}, point.angle)[0],
-                      .gap = point.gap - approach});
-  }
-  return result;
-}
-
-/// What the mirror image of a load position shows, in the same order along the ground.
-std::vector<ContactPoint> mirror_images(std::vector<ContactPoint> points) {
-  std::ranges::reverse(points);
-  for (ContactPoint& p : points) {
-    p.azimuth = -p.azimuth;
-    p.x = -p.x;
-  }
-  return points;
-}
-
-}  // namespace
-
 std::vector<ContactPoint> contact_points(const StateSolver<2>& solver, const State<2>& state) {
   std::vector<ContactPoint> result;
   const auto sources = position_sources(state.positions(), solver.model().n_positions);
-  for (size_t position = 0; position < sources.size(); ++position) {
-    auto points = points_of_solved(solver, state, sources[position].solved);
-    if (sources[position].is_image) points = mirror_images(std::move(points));
-    for (ContactPoint& p : points) {
-      p.position = static_cast<int>(position);
-      result.push_back(p);
-    }
-  }
+  for (size_t position = 0; position < sources.size(); ++position)
+    std::ranges::copy(points_at(solver, state, sources[position], static_cast<int>(position)),
+                      std::back_inserter(result));
   return result;
 }
 

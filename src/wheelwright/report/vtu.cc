@@ -8,66 +8,30 @@
 #include <stdexcept>
 
 #include "wheelwright/files/atomic_file.h"
-#include "wheelwright/files/little_endian.h"
 #include "wheelwright/geometry/cell_map.h"
 #include "wheelwright/geometry/contour.h"
+#include "wheelwright/report/vtu_arrays.h"
 
 namespace wheelwright {
 namespace {
-
-/// VTK's numbers for the kinds of cells.
-constexpr std::uint8_t vtk_triangle = 5, vtk_quadrilateral = 9;
-
-template <class Number>
-constexpr const char* vtk_type = nullptr;
-template <>
-constexpr const char* vtk_type<float> = "Float32";
-template <>
-constexpr const char* vtk_type<std::int32_t> = "Int32";
-template <>
-constexpr const char* vtk_type<std::uint8_t> = "UInt8";
-
-/// The arrays' bytes, which follow the XML as they are: each array behind its size.
-class AppendedArrays {
- public:
-  /// `begin`: bytes of other arrays that come before.
-  explicit AppendedArrays(std::size_t begin) : begin_(begin) {}
-
-  /// Adds an array; its tag for the XML. `attributes`: more of them, as in XML.
-  template <class Number>
-  std::string add(std::string_view name, std::string_view attributes, const std::vector<Number>& numbers) {
-    const std::size_t offset = begin_ + bytes_.size();
-    append_little_endian(std::uint64_t{numbers.size() * sizeof(Number)}, bytes_);
-    bytes_.append(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number));
-    return fmt::format("    <DataArray type=\"{}\" Name=\"{}\"{} format=\"appended\" offset=\"{}\"/>\n",
-                       vtk_type<Number>, name, attributes, offset);
-  }
-
-  const std::string& bytes() const& { return bytes_; }
-  std::string bytes() && { return std::move(bytes_); }
-
- private:
-  std::size_t begin_;
-  std::string bytes_;
-};
-
-constexpr std::string_view three_components = " NumberOfComponents=\"3\"";
-
-std::string unit_attribute(std::string_view unit) { return fmt::format(" units=\"{}\"", unit); }
-
-/// Vectors in the plane as ParaView's in space.
-std::vector<float> with_zeros(const std::vector<float>& x, const std::vector<float>& y) {
-  std::vector<float> vectors;
-  vectors.reserve(3 * x.size());
-  for (std::size_t k = 0; k < x.size(); ++k) vectors.insert(vectors.end(), {x[k], y[k], 0});
-  return vectors;
-}
 
 std::vector<MaterialPolygon> triangles(const std::vector<MaterialPolygon>& polygons) {
   std::vector<MaterialPolygon> result;
   for (const MaterialPolygon& polygon : polygons)
     for (std::size_t k = 2; k < polygon.size(); ++k)
       result.push_back({polygon[0], polygon[k - 1], polygon[k]});
+  return result;
+}
+
+/// The scalar of the components at every point.
+std::vector<float> scalars(const std::vector<std::vector<float>>& components,
+                           const std::function<double(std::span<const double>)>& scalar) {
+  std::vector<float> result;
+  std::vector<double> at_point(components.size());
+  for (std::size_t k = 0; k < components[0].size(); ++k) {
+    for (std::size_t c = 0; c < components.size(); ++c) at_point[c] = components[c][k];
+    result.push_back(static_cast<float>(scalar(at_point)));
+  }
   return result;
 }
 
@@ -148,7 +112,8 @@ struct VtuMesh::Sector {
   std::map<Vec<2>, std::int32_t> numbers_;  ///< of the points, by their places in units of cells
 };
 
-VtuMesh::VtuMesh(const LevelSet<2>& psi, const Lattice<2>& lattice, int cut_subdivisions)
+VtuMesh::VtuMesh(const LevelSet<2>& psi, const Lattice<2>& lattice, int cut_subdivisions,
+                 std::string_view length_unit)
     : lattice_(lattice), sector_(std::make_unique<Sector>(psi, lattice, cut_subdivisions)) {
   const int n_sectors = lattice.grid().n_sectors;
   const std::size_t n_points = sector_->points.size() * n_sectors;
@@ -170,21 +135,18 @@ VtuMesh::VtuMesh(const LevelSet<2>& psi, const Lattice<2>& lattice, int cut_subd
     types.insert(types.end(), sector_->types.begin(), sector_->types.end());
   }
   AppendedArrays arrays(0);
-  const std::string point_tags = arrays.add("Points", three_components, points),
-                    cell_tags = arrays.add("connectivity", "", connectivity) +
-                                arrays.add("offsets", "", offsets) + arrays.add("types", "", types),
-                    psi_tag = arrays.add("psi", unit_attribute("m"), level);
-  beginning_ = fmt::format(
-      "<?xml version=\"1.0\"?>\n"
-      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
-      "header_type=\"UInt64\">\n<UnstructuredGrid>\n"
-      "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n  <Points>\n{}  </Points>\n  <Cells>\n{}"
-      "  </Cells>\n  <PointData Scalars=\"psi\">\n{}",
-      n_points, types.size(), point_tags, cell_tags, psi_tag);
+  beginning_ = vtu_beginning(n_points, types.size(), add_mesh(points, connectivity, offsets, types, arrays)) +
+               arrays.add(vtu_name("psi", length_unit), 1, level);
   arrays_ = std::move(arrays).bytes();
 }
 
 VtuMesh::~VtuMesh() = default;
+
+std::vector<std::vector<float>> VtuMesh::values(const RingField& field) const {
+  std::vector<std::vector<float>> components;
+  for (int c = 0; c < field.components; ++c) components.push_back(values(field, c));
+  return components;
+}
 
 std::vector<float> VtuMesh::values(const RingField& field, int component) const {
   const int n_sectors = lattice_.grid().n_sectors, n_nodes = nodes_per_cell<2>(lattice_.degree());
@@ -207,21 +169,19 @@ std::vector<float> VtuMesh::values(const RingField& field, int component) const 
   return result;
 }
 
-void VtuMesh::write(const std::filesystem::path& path, std::span<const NamedField> fields) const {
+std::string VtuMesh::file(std::span<const NamedField> fields) const {
   AppendedArrays arrays(arrays_.size());
   std::string tags;
-  for (const auto& [name, unit, field] : fields)
-    if (field.components == 2)
-      tags += arrays.add(name, std::string(three_components) + unit_attribute(unit),
-                         with_zeros(values(field, 0), values(field, 1)));
-    else
-      for (int c = 0; c < field.components; ++c)
-        tags += arrays.add(field.components == 1 ? name : fmt::format("{}_{}", name, c), unit_attribute(unit),
-                           values(field, c));
-  write_atomically(path,
-                   beginning_ + tags +
-                       "  </PointData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_" +
-                       arrays_ + arrays.bytes() + "\n</AppendedData>\n</VTKFile>\n");
+  for (const NamedField& field : fields) {
+    auto components = values(field.field);
+    if (field.scalar) components = {scalars(components, field.scalar)};
+    tags += add_field(vtu_name(field.name, field.unit), components, arrays);
+  }
+  return beginning_ + tags + vtu_end(arrays_ + arrays.bytes());
+}
+
+void VtuMesh::write(const std::filesystem::path& path, std::span<const NamedField> fields) const {
+  write_atomically(path, file(fields));
 }
 
 void write_pvd(const std::filesystem::path& path, std::span<const PvdEntry> entries) {
@@ -229,7 +189,8 @@ void write_pvd(const std::filesystem::path& path, std::span<const PvdEntry> entr
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n  <Collection>\n";
   for (const PvdEntry& e : entries)
-    content += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", e.time, e.file);
+    content += fmt::format("    <DataSet timestep=\"{:.12g}\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n", e.time,
+                           e.part, e.name, e.file);
   content += "  </Collection>\n</VTKFile>\n";
   write_atomically(path, content);
 }

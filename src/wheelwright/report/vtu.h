@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "wheelwright/geometry/level_set.h"
@@ -20,17 +21,23 @@ inline constexpr int vtu_cut_subdivisions = 4;
 /// mesh.
 class VtuMesh {
  public:
-  /// `lattice` carries the fields, on psi's grid.
-  VtuMesh(const LevelSet<2>& psi, const Lattice<2>& lattice, int cut_subdivisions);
+  /// `lattice` carries the fields, on psi's grid. The numbers of grid and psi are written as they are:
+  /// `length_unit` is theirs.
+  VtuMesh(const LevelSet<2>& psi, const Lattice<2>& lattice, int cut_subdivisions,
+          std::string_view length_unit = "m");
   ~VtuMesh();
 
-  /// Writes a ParaView file with psi and nodal fields, atomically. A field of 2 components is written as a
-  /// vector, any other as scalars. Throws OutputError.
+  /// The bytes of a ParaView file with psi and nodal fields; a field's unit follows its name. Scalars, vectors
+  /// (2 components) and symmetric tensors (xx, yy, zz, xy).
+  std::string file(std::span<const NamedField> fields) const;
+
+  /// Writes that file, atomically. Throws OutputError.
   void write(const std::filesystem::path& path, std::span<const NamedField> fields) const;
 
  private:
   struct Sector;
 
+  std::vector<std::vector<float>> values(const RingField& field) const;  ///< one list per component
   std::vector<float> values(const RingField& field, int component) const;
 
   Lattice<2> lattice_;
@@ -43,6 +50,8 @@ class VtuMesh {
 struct PvdEntry {
   double time;       ///< what ParaView shows as time, e.g. the number of the shape
   std::string file;  ///< relative to the collection
+  int part = 0;      ///< files of the same time are parts of one whole
+  std::string name = "wheel";
 };
 
 /// Writes the collection, atomically. Throws OutputError.

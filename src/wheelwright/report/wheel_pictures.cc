@@ -10,9 +10,7 @@
 namespace wheelwright {
 namespace {
 
-constexpr double magnification = 20;
 constexpr double window_in_thicknesses = 0.75;  // half the view of the contact over the ring's thickness
-constexpr double stress_outliers = 0.01;        // at slivers and corners
 
 }  // namespace
 
@@ -24,24 +22,31 @@ void write_wheel_pictures(const std::filesystem::path& folder, const PictureName
                           const LevelSet<2>& shape, const CutDomain<2>& domain,
                           const PositionFields& fields) {
   const PolarGrid<2>& grid = shape.lattice.grid();
-  const NamedField stress{"von Mises stress", unit<2>(UnitKind::stress), fields.von_mises};
+  NamedField stress = von_mises_field(fields.stress);
+  stress.name = "von Mises stress";
   const NamedField vertical{"displacement down", unit<2>(UnitKind::length),
                             vertical_field(fields.displacement, fields.ground_azimuth)};
-  const auto draw = [&](const char* file, std::optional<double> window, const NamedField& scalar,
-                        double outliers) {
-    write_atomically(folder / (names.prefix + file), deformed_svg(shape, fields.lattice,
-                                                                  {.title = names.title,
-                                                                   .displacement = fields.displacement,
-                                                                   .magnification = magnification,
-                                                                   .contact_azimuth = fields.ground_azimuth,
-                                                                   .window = window,
-                                                                   .scalar = scalar,
-                                                                   .outliers = outliers}));
+  const double magnification = picture_magnification(fields.displacement, grid.outer_radius);
+  const auto draw = [&](const char* file, double factor, std::optional<double> window,
+                        const NamedField& scalar, ScaleKind scale, std::optional<DrawnPeak> peak) {
+    write_atomically(folder / (names.prefix + file),
+                     deformed_svg(shape, fields.lattice,
+                                  {.title = names.title,
+                                   .displacement = fields.displacement,
+                                   .magnification = factor,
+                                   .contact_azimuth = fields.ground_azimuth,
+                                   .window = window,
+                                   .scalar = scalar,
+                                   .scale = scale,
+                                   .rim = fields.rim,
+                                   .rim_force = scaled(names.width, fields.rim_force),
+                                   .contact = fields.contact,
+                                   .peak = peak}));
   };
-  draw("stress.svg", {}, stress, stress_outliers);
-  draw("stress_contact.svg", window_in_thicknesses * (grid.outer_radius - grid.inner_radius), stress,
-       stress_outliers);
-  draw("displacement.svg", {}, vertical, 0);
+  draw("stress.svg", magnification, {}, stress, ScaleKind::without_tail, fields.von_mises);
+  draw("stress_contact.svg", 1, window_in_thicknesses * (grid.outer_radius - grid.inner_radius), stress,
+       ScaleKind::without_tail, fields.von_mises);
+  draw("displacement.svg", magnification, {}, vertical, ScaleKind::all, {});
   write_atomically(folder / (names.prefix + "mesh.svg"), mesh_svg(shape, domain, names.title));
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "wheelwright/files/atomic_file.h"
+#include "wheelwright/files/written_files.h"
 
 namespace wheelwright {
 namespace {
@@ -26,6 +27,12 @@ std::optional<int> iteration_of(const fs::path& file) {
   return error == std::errc{} && end == last ? std::optional(iteration) : std::nullopt;
 }
 
+/// A folder, or a link, with the name of a checkpoint is none.
+bool is_file(const fs::path& path) {
+  std::error_code ignored;
+  return fs::symlink_status(path, ignored).type() == fs::file_type::regular;
+}
+
 /// Empty when there is no such folder.
 std::vector<fs::path> entries(const fs::path& folder) {
   std::vector<fs::path> result;
@@ -39,7 +46,7 @@ std::vector<fs::path> entries(const fs::path& folder) {
 
 std::vector<fs::path> CheckpointFolder::files() const {
   std::vector<fs::path> result = entries(folder_);
-  std::erase_if(result, [](const fs::path& file) { return !iteration_of(file); });
+  std::erase_if(result, [](const fs::path& file) { return !iteration_of(file) || !is_file(file); });
   std::ranges::sort(result, std::greater{}, iteration_of);
   return result;
 }
@@ -52,7 +59,7 @@ void CheckpointFolder::keep(const fs::path& good) {
 }
 
 void CheckpointFolder::save(int iteration, std::string_view bytes) {
-  make_folder(folder_);
+  make_subfolder(folder_);
   const fs::path file = folder_ / fmt::format("{}{:06}{}", prefix, iteration, extension);
   write_atomically(file, bytes);
   if (good_.empty() || good_.front() != file) good_.insert(good_.begin(), file);
@@ -60,12 +67,15 @@ void CheckpointFolder::save(int iteration, std::string_view bytes) {
   remove_all_but_good();
 }
 
-/// One file too many does no harm: errors are ignored.
+/// One file too many does no harm: errors are ignored. What the program did not write stays.
 void CheckpointFolder::remove_all_but_good() const {
+  const WrittenFiles written(folder_);
   std::error_code ignored;
-  for (const fs::path& file : entries(folder_))
-    if (file.filename().string().starts_with(prefix) && std::ranges::find(good_, file) == good_.end())
-      fs::remove(file, ignored);
+  for (const fs::path& file : entries(folder_)) {
+    const std::string name = file.filename().string();
+    const bool is_checkpoint = name.starts_with(prefix) && is_file(file) && written.is_own(name);
+    if (is_checkpoint && std::ranges::find(good_, file) == good_.end()) fs::remove(file, ignored);
+  }
 }
 
 }  // namespace wheelwright

@@ -22,7 +22,9 @@ void Checkpointer<dim>::operator()(const Event<dim>& event, const RunView<dim>& 
   if (const auto* request = std::get_if<SaveRequested<dim>>(&event))
     if (saved_iteration_ != request->state.iteration) write(request->state, run, {});
   if (const auto* ended = std::get_if<RunEnded<dim>>(&event))
-    if (ended->solution && ended->reason != StopReason::gave_up) write(*ended->state, run, ended->reason);
+    if (ended->solution && ended->reason != StopReason::gave_up &&
+        ended->reason != StopReason::stop_requested)
+      write(*ended->state, run, ended->reason);
 }
 
 template <int dim>

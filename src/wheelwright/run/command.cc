@@ -33,7 +33,7 @@ Obeyed Save::obey(RunControl& run) const {
 
 Obeyed Stop::obey(RunControl& run) const {
   run.stop();
-  return std::string();
+  return fmt::format("stopping after shape {}, whose results are written now", run.iteration());
 }
 
 Obeyed Pause::obey(RunControl& run) const {

@@ -46,7 +46,7 @@ void DescentPictures::operator()(const Event<2>& event, const RunView<2>& run) {
   const OptimizationState<2>& state = done->state;
   const auto gradient = state.evaluation.gradient(run.study.optimizer.objective);
   const Pictures pictures(state, run);
-  make_folder(run.folder / "shapes");
+  make_subfolder(run.folder / "shapes");
   pictures.draw("gradient",
                 {"shape gradient", unit<2>(UnitKind::stress), 1, means_in_cells(run.study.grid(), gradient)});
   pictures.draw_extended("extension", "extended gradient", run.evolver.velocity(gradient));

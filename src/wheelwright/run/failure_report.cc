@@ -22,13 +22,33 @@ std::string failure_headline(const OptimizationState<dim>* last, std::span<const
                      trial.iteration, trials.size(), why);
 }
 
+template <int dim>
+std::string volume_hint(const InitialShape<dim>& initial, const OptimizationState<dim>& last) {
+  constexpr double near = 0.01;  // of the ring
+  const PolarGrid<dim>& grid = last.shape.lattice.grid();
+  const double from = volume_fraction(grid, initial.measure), to = volume_fraction(grid, last.target_measure);
+  if (std::abs(to - from) < near) return "";
+  return fmt::format(
+      "volume.target = {:.6g} may be the reason: the volume was {:.6g} of the ring at first and {:.6g} at "
+      "last; "
+      "a target nearer to the first may succeed, or a smaller volume.rate",
+      to, from, volume_fraction(grid, last.measure));
+}
+
+template std::string volume_hint(const InitialShape<2>&, const OptimizationState<2>&);
+template std::string volume_hint(const InitialShape<3>&, const OptimizationState<3>&);
+
 template std::string failure_headline(const OptimizationState<2>*, std::span<const Trial<2>>);
 template std::string failure_headline(const OptimizationState<3>*, std::span<const Trial<3>>);
 
 namespace {
 
-std::string report(const RunEnded<2>& failure, const PolarGrid<2>& grid) {
+std::string report(const RunEnded<2>& failure, const RunView<2>& run) {
+  const PolarGrid<2>& grid = run.study.grid();
   std::string text = failure_headline<2>(failure.state, failure.failed_trials) + "\n\n";
+  if (failure.state)
+    if (const std::string hint = volume_hint(*run.initial, *failure.state); !hint.empty())
+      text += hint + "\n\n";
   if (failure.state)
     text += fmt::format("last accepted shape: {}, objective {:.8g} {}, volume {:.6f} of the ring\n",
                         failure.state->iteration, failure.state->evaluation.function("objective").value,
@@ -86,10 +106,10 @@ void FailureReport::operator()(const Event<2>& event, const RunView<2>& run) {
   if (!ended || ended->failed_trials.empty() ||
       (ended->reason != StopReason::gave_up && ended->reason != StopReason::failed_start))
     return;
-  make_folder(run.folder / "failure");
+  make_subfolder(run.folder / "failure");
   const LevelSet<2>& rejected = ended->failed_trials.back().shape;
   write_atomically(run.folder / "failure/case.toml", to_toml(run.study.source));
-  write_atomically(run.folder / failure_report_file, report(*ended, rejected.lattice.grid()));
+  write_atomically(run.folder / failure_report_file, report(*ended, run));
   write_atomically(run.folder / rejected_picture_file, picture(*ended));
   write_atomically(run.folder / "failure/rejected.levelset", level_set_file(rejected));
   if (ended->state)

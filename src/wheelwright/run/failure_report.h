@@ -15,6 +15,11 @@ inline constexpr const char *failure_report_file = "failure/report.txt",
 template <int dim>
 std::string failure_headline(const OptimizationState<dim>* last, std::span<const Trial<dim>> trials);
 
+/// One line about the way to another volume, which may be why a run gave up; empty if the volume was to stay
+/// near that of the initial shape.
+template <int dim>
+std::string volume_hint(const InitialShape<dim>& initial, const OptimizationState<dim>& last);
+
 /// For a run that gave up, writes what is needed to find the reason to the folder `failure`: report.txt with
 /// every failed trial, a picture of the last one's shape, its level set and that of the last accepted shape,
 /// and the case. In 2D: it draws the shape.

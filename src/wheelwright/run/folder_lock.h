@@ -9,8 +9,9 @@ namespace wheelwright {
 /// ends, so that no dead process blocks a folder.
 class FolderLock {
  public:
-  /// Creates the folder, if it does not exist, and the file run.lock in it. Empty if another process holds
-  /// the lock. Throws OutputError.
+  /// Creates the folder, if it does not exist, and the file run.lock in it. Locks both: somebody may remove
+  /// the file, and on some file systems of networks a folder cannot be locked. Empty if another process holds
+  /// either lock. Throws OutputError.
   static std::optional<FolderLock> acquire(const std::filesystem::path& folder);
 
   FolderLock(FolderLock&& other) noexcept;
@@ -18,9 +19,9 @@ class FolderLock {
   ~FolderLock();
 
  private:
-  explicit FolderLock(int file) : file_(file) {}
+  FolderLock() = default;
 
-  int file_;  ///< descriptor; -1 when moved from
+  int folder_ = -1, file_ = -1;  ///< descriptors; -1 when moved from
 };
 
 }  // namespace wheelwright

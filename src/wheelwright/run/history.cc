@@ -14,6 +14,7 @@
 #include "wheelwright/files/checksum.h"
 #include "wheelwright/files/csv.h"
 #include "wheelwright/files/output_error.h"
+#include "wheelwright/files/written_files.h"
 
 namespace wheelwright {
 namespace {
@@ -76,6 +77,11 @@ const std::filesystem::path& put_back(const std::filesystem::path& path, const H
   return path;
 }
 
+std::filesystem::path claimed(std::filesystem::path path) {
+  claim_file(path);
+  return path;
+}
+
 /// CSV with other cells behind the first `place` cells of each line, which must hold no quotes; the header
 /// gets `names`, other lines empty cells.
 std::string with_cells(std::string_view csv, std::size_t place, const std::string& names) {
@@ -99,7 +105,7 @@ std::string with_cells(std::string_view csv, std::size_t place, const std::strin
 }  // namespace
 
 History::History(std::filesystem::path path, HistoryColumns columns)
-    : path_(std::move(path)), columns_(std::move(columns)), file_(std::fopen(path_.c_str(), "w")) {
+    : path_(claimed(std::move(path))), columns_(std::move(columns)), file_(std::fopen(path_.c_str(), "w")) {
   if (!file_) throw OutputError(path_, errno);
   std::vector<std::string> header{"iteration", "trial", "accepted", "reason",
                                   "objective [" + columns_.objective_unit + "]"};
@@ -113,7 +119,7 @@ History::History(std::filesystem::path path, HistoryColumns columns)
 }
 
 History::History(std::filesystem::path path, HistoryColumns columns, const HistoryMark& end)
-    : path_(put_back(path, end)),
+    : path_(put_back(claimed(std::move(path)), end)),
       columns_(std::move(columns)),
       file_(std::fopen(path_.c_str(), "a")),
       end_(end) {

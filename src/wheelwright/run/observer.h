@@ -46,12 +46,12 @@ struct CaseChanged {
   std::string text;  ///< what changed
 };
 
-/// The run ended. After a stop by request there are no results to write.
+/// The run ended, by itself or by request.
 template <int dim>
 struct RunEnded {
   StopReason reason;
   const OptimizationState<dim>* state;        ///< the last accepted shape; null after a failed start
-  const State<dim>* solution;                 ///< its solution; null when there are no results to write
+  const State<dim>* solution;                 ///< its solution, for the results; null if there is none
   const StateSolver<dim>* solver;             ///< of that solution; its tread may be finer than the study's
   const RunSummary<dim>* summary;             ///< null where there is no solution
   std::span<const Trial<dim>> failed_trials;  ///< after the last accepted shape

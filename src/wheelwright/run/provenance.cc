@@ -7,7 +7,10 @@
 
 namespace wheelwright {
 
-std::string program_text() { return fmt::format("wheelwright {}, compiled by {}", version(), __VERSION__); }
+std::string program_text() {
+  return fmt::format("wheelwright {}, commit {}, compiled by {}", version(),
+                     commit().empty() ? "unknown" : commit(), compiler());
+}
 
 Provenance provenance(const Case& c) {
   Case computed = c;

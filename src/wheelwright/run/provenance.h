@@ -5,7 +5,7 @@
 
 namespace wheelwright {
 
-/// The versions of the program, its compiler and its libraries, as one line.
+/// The version of the program, its commit and its compiler, as one line.
 std::string program_text();
 
 /// What a run of the case depends on. Title, output, expectations and keys that only end a run

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <numbers>
+
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/report/solution_fields.h"
 #include "wheelwright/report/svg.h"
+#include "wheelwright/report/tread_contact.h"
 #include "wheelwright/report/vtu.h"
 #include "wheelwright/report/wheel_pictures.h"
 #include "wheelwright/run/run_title.h"
@@ -37,15 +40,21 @@ void write_shapes(const RunView<2>& run, const OptimizationState<2>& last) {
                                          .after = after}));
 }
 
+/// The wheel, its tread and the ground in every load position, at the azimuth of the contact in degrees.
 void write_rolling(const RunView<2>& run, const LevelSet<2>& shape,
-                   const std::vector<PositionFields>& positions) {
-  make_folder(run.folder / "rolling");
+                   const std::vector<PositionFields>& positions, const std::vector<TreadContact>& treads) {
+  make_subfolder(run.folder / "rolling");
   const VtuMesh mesh(shape, positions.front().lattice, vtu_cut_subdivisions);
   std::vector<PvdEntry> entries;
   for (size_t i = 0; i < positions.size(); ++i) {
-    const std::string file = fmt::format("rolling/position_{:02d}.vtu", i);
-    mesh.write(run.folder / file, named_fields(positions[i]));
-    entries.push_back({static_cast<double>(i), file});
+    const auto file = [&](const char* part) { return fmt::format("rolling/{}_{:02d}.vtu", part, i); };
+    const double ground_azimuth = positions[i].ground_azimuth;
+    mesh.write(run.folder / file("wheel"), named_fields(positions[i]));
+    write_tread_vtu(run.folder / file("tread"), treads[i]);
+    write_ground_vtu(run.folder / file("ground"), run.study.grid(), ground_azimuth);
+    const double degrees = ground_azimuth * 180 / std::numbers::pi;
+    for (const char* part : {"wheel", "tread", "ground"})
+      entries.push_back({degrees, file(part), static_cast<int>(entries.size() % 3), part});
   }
   write_pvd(run.folder / "rolling.pvd", entries);
 }
@@ -59,9 +68,10 @@ void ResultFiles::operator()(const Event<2>& event, const RunView<2>& run) {
   const State<2>& solution = *ended->solution;
   write_shapes(run, *ended->state);
   const auto positions = all_position_fields(*ended->solver, solution);
-  write_rolling(run, shape, positions);
-  write_wheel_pictures(run.folder, {.prefix = "", .title = run_title(run.study.source)}, shape,
-                       solution.domain(), positions[worst_position(solution.strain_energy())]);
+  write_rolling(run, shape, positions, all_tread_contacts(*ended->solver, solution));
+  write_wheel_pictures(
+      run.folder, {.prefix = "", .title = run_title(run.study.source), .width = run.study.source.wheel.width},
+      shape, solution.domain(), positions[worst_position(solution.strain_energy())]);
 }
 
 }  // namespace wheelwright

@@ -8,7 +8,9 @@
 
 #include "wheelwright/run/observers.h"
 #include "wheelwright/run/provenance.h"
+#include "wheelwright/run/run_files.h"
 #include "wheelwright/run/run_loop.h"
+#include "wheelwright/run/stop_file.h"
 
 namespace wheelwright {
 namespace {
@@ -57,6 +59,19 @@ bool fits(const OptimizationState<dim>& state, const StateSolver<dim>& solver) {
   return mean.rows() == tread.rows().size() && mean.columns() == tread.n_columns;
 }
 
+/// Where only the list of a run's files is missing, lists what a checkpoint proves to be this run's: the
+/// case, the history and the checkpoints.
+template <int dim>
+void restore_list(const Case& c, const fs::path& folder) {
+  if (fs::exists(fs::symlink_status(folder / list_of_written_files))) return;
+  const ResumePoint<dim> point = resume_point<dim>(folder, c);
+  if (!point.newest) return;
+  WrittenFiles written(folder);
+  written.begin();
+  for (const char* name : {"case.toml", history_file, "run.lock"}) written.list(name);
+  written.list("checkpoints/");
+}
+
 }  // namespace
 
 template <int dim>
@@ -71,6 +86,11 @@ Run<dim>::Run(FolderLock lock, fs::path folder, Study<dim> study, Resumption res
 
 template <int dim>
 Expected<Run<dim>, NotBegun<dim>> Run<dim>::begin(const Case& c, const fs::path& folder) {
+  auto foreign = foreign_files(folder);
+  if (StopFile(folder).exists()) foreign.emplace_back(stop_file);  // it would be obeyed and removed
+  if (fs::exists(folder / "analysis.json"))
+    foreign.emplace_back("analysis.json");  // its pictures are in the way
+  if (!foreign.empty()) return NotBegun<dim>(ForeignFiles{std::move(foreign)});
   auto lock = FolderLock::acquire(folder);
   if (!lock) return NotBegun<dim>(FolderInUse{});
   const CheckpointFolder checkpoints(folder);
@@ -82,6 +102,9 @@ Expected<Run<dim>, NotBegun<dim>> Run<dim>::begin(const Case& c, const fs::path&
 
 template <int dim>
 Expected<Run<dim>, NotBegun<dim>> Run<dim>::resume(const Case& c, const fs::path& folder) {
+  restore_list<dim>(c, folder);
+  if (auto foreign = foreign_files(folder); !foreign.empty())
+    return NotBegun<dim>(ForeignFiles{std::move(foreign)});
   auto lock = FolderLock::acquire(folder);
   if (!lock) return NotBegun<dim>(FolderInUse{});
   auto [checkpoints, checkpoint, unusable] = resume_point<dim>(folder, c);

@@ -18,6 +18,10 @@ namespace wheelwright {
 // Why a run did not begin or resume.
 struct FolderInUse {};  ///< another process writes to the folder
 struct FolderHoldsARun {};
+/// The run would replace files that no run wrote.
+struct ForeignFiles {
+  std::vector<std::string> names;
+};
 struct CheckpointsGone {};  ///< its history holds trials, but there is no checkpoint
 struct NoUsableCheckpoint {
   std::vector<UnusableCheckpoint> unusable;
@@ -32,7 +36,7 @@ struct AlreadyFinished {
   std::vector<UnusableCheckpoint> unusable;  ///< checkpoints that are newer
 };
 template <int dim>
-using NotBegun = std::variant<FolderInUse, FolderHoldsARun, CheckpointsGone, NoUsableCheckpoint,
+using NotBegun = std::variant<FolderInUse, FolderHoldsARun, ForeignFiles, CheckpointsGone, NoUsableCheckpoint,
                               CheckpointMisfit, AlreadyFinished<dim>, Failure>;
 
 /// What a run is resumed from; all empty for one that begins.
@@ -60,7 +64,8 @@ struct RunResult {
 template <int dim>
 class Run {
  public:
-  /// Refuses a folder that holds a run. Throws OutputError.
+  /// Refuses a folder that holds a run, or something of the user's that the run would replace; it leaves such
+  /// a folder as it is. Throws OutputError.
   static Expected<Run, NotBegun<dim>> begin(const Case& c, const std::filesystem::path& folder);
 
   /// The run in this folder, whose case this is; begins it if it was killed before its first checkpoint.

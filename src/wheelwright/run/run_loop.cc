@@ -96,18 +96,17 @@ template <int dim>
 RunResult<dim> RunLoop<dim>::end(StopReason reason) {
   save();
   stop_file_->remove();
-  if (reason == StopReason::stop_requested) {
-    notify(RunEnded<dim>{reason, &*state_, nullptr, nullptr, nullptr, {}});
-    return result(reason);
-  }
-  const SharedSolution solution = final_solution();
-  const auto [solver, shown] = solution_of_results(solution);
+  const bool is_stopped = reason == StopReason::stop_requested;
+  const Interrupt interrupt =
+      is_stopped ? Interrupt([this] { return commands_.waiting_stops() > 0; }) : Interrupt();
+  const SharedSolution solution = final_solution(interrupt);
+  const auto [solver, shown] = solution_of_results(solution, interrupt);
   const auto summary = run_summary(*solver, shown.get());
   notify(RunEnded<dim>{reason, &*state_, shown.get(), solver.get(), summary ? &*summary : nullptr,
                        failed_trials_});
   RunResult<dim> ended = result(reason);
   ended.summary = summary;
-  ended.findings = findings_at_the_end(solution.get());
+  if (!is_stopped) ended.findings = findings_at_the_end(solution.get());
   return ended;
 }
 
@@ -162,10 +161,10 @@ std::vector<Finding> RunLoop<dim>::findings_at_the_end(const State<dim>* solutio
 /// is solved again where other shapes were tried after it, and in a resumed run that had ended: until then
 /// the memory of a solution is not held.
 template <int dim>
-typename RunLoop<dim>::SharedSolution RunLoop<dim>::final_solution() {
+typename RunLoop<dim>::SharedSolution RunLoop<dim>::final_solution(const Interrupt& interrupt) {
   if (last_solution_) return last_solution_;
   const StateSolver<dim>& solver = *work_->study.solver;
-  auto states = solver.states(state_->shape, solver.distinct_positions(state_->shape), Interrupt());
+  auto states = solver.states(state_->shape, solver.distinct_positions(state_->shape), interrupt);
   return states ? *std::move(states) : nullptr;
 }
 
@@ -173,13 +172,13 @@ typename RunLoop<dim>::SharedSolution RunLoop<dim>::final_solution() {
 /// else the loop's own solution.
 template <int dim>
 std::pair<typename RunLoop<dim>::SharedSolver, typename RunLoop<dim>::SharedSolution>
-RunLoop<dim>::solution_of_results(const SharedSolution& own) {
+RunLoop<dim>::solution_of_results(const SharedSolution& own, const Interrupt& interrupt) {
   const Study<dim>& study = work_->study;
   const Case& c = study.source;
   if (!own || tread_levels_of_results(c) == tread_levels(c)) return {study.solver, own};
   const auto finer = make_solver(rolling_model<dim>(with_levels_of_results(c)));
   if (!finer) return {study.solver, own};
-  auto states = (*finer)->states(state_->shape, (*finer)->distinct_positions(state_->shape), Interrupt());
+  auto states = (*finer)->states(state_->shape, (*finer)->distinct_positions(state_->shape), interrupt);
   if (!states) return {study.solver, own};
   return {*finer, *std::move(states)};
 }

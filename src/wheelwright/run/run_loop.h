@@ -44,8 +44,9 @@ class RunLoop : private RunControl {
   RunResult<dim> end_without_a_shape(const Failure& failure);
   std::vector<Finding> findings_at_the_end(const State<dim>* solution);
   RunResult<dim> result(StopReason reason) const;
-  SharedSolution final_solution();
-  std::pair<SharedSolver, SharedSolution> solution_of_results(const SharedSolution& own);
+  SharedSolution final_solution(const Interrupt& interrupt);
+  std::pair<SharedSolver, SharedSolution> solution_of_results(const SharedSolution& own,
+                                                              const Interrupt& interrupt);
   std::optional<DescribedWheel<dim>> initial_wheel(const StateSolver<dim>& solver) const;
   std::optional<DescribedWheel<dim>> described(const StateSolver<dim>& solver, const LevelSet<dim>& shape,
                                                double measure, const State<dim>& state) const;

@@ -127,6 +127,7 @@ ReportRun report_of_folder(const fs::path& folder, const Case& c) {
                 .contact_points = {}};
   read_history(folder / history_file, run);
   run.seconds = last_elapsed(run);
+  std::erase_if(run.history, [](const HistoryCurve& curve) { return curve.name.ends_with("[s]"); });
   return run;
 }
 

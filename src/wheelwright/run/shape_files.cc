@@ -52,7 +52,7 @@ void ShapeFiles::write(const TrialDone<2>& done, const RunView<2>& run) {
     fields.push_back(
         {"shape_gradient", unit<2>(UnitKind::stress), repeated_field(solver.model(), *gradient)});
   const int iteration = done.state.iteration;
-  make_folder(run.folder / "shapes");
+  make_subfolder(run.folder / "shapes");
   VtuMesh(done.state.shape, worst.lattice, vtu_cut_subdivisions)
       .write(run.folder / shape_file(iteration), fields);
   std::erase_if(shapes_, [&](const PvdEntry& entry) { return entry.time == iteration; });
@@ -64,11 +64,12 @@ void ShapePictures::operator()(const Event<2>& event, const RunView<2>& run) {
   const auto* done = std::get_if<TrialDone<2>>(&event);
   if (!done || !is_due(*done, run.study.source.output.pictures_every)) return;
   const State<2>& solution = *done->trial.solution;
-  make_folder(run.folder / "shapes");
+  make_subfolder(run.folder / "shapes");
   write_wheel_pictures(
       run.folder / "shapes",
       {.prefix = fmt::format("shape_{:04d}_", done->state.iteration),
-       .title = fmt::format("{}, shape {}", run_title(run.study.source), done->state.iteration)},
+       .title = fmt::format("{}, shape {}", run_title(run.study.source), done->state.iteration),
+       .width = run.study.source.wheel.width},
       done->state.shape, solution.domain(),
       position_fields(*run.study.solver, solution, worst_position(solution.strain_energy())));
 }

@@ -7,22 +7,29 @@
 
 namespace wheelwright {
 
-/// The file STOP in a run's folder, by which anyone who can write there stops the run.
+inline constexpr const char* stop_file = "STOP";
+
+/// The file STOP in a run's folder, by which anyone who can write there stops the run. A folder of that name,
+/// or a link, is none.
 class StopFile {
  public:
-  explicit StopFile(const std::filesystem::path& folder) : file_(folder / "STOP") {}
+  explicit StopFile(const std::filesystem::path& folder) : file_(folder / stop_file) {}
 
   /// A source of commands: one Stop when the file is there.
   std::optional<Command> operator()() {
-    std::error_code ignored;
-    if (was_seen_ || !std::filesystem::exists(file_, ignored)) return {};
+    if (was_seen_ || !exists()) return {};
     was_seen_ = true;
     return Stop{};
   }
 
+  bool exists() const {
+    std::error_code ignored;
+    return std::filesystem::symlink_status(file_, ignored).type() == std::filesystem::file_type::regular;
+  }
+
   void remove() const {
     std::error_code ignored;
-    std::filesystem::remove(file_, ignored);
+    if (exists()) std::filesystem::remove(file_, ignored);
   }
 
  private:

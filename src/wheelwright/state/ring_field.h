@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,6 +26,8 @@ struct NamedField {
   std::string name;  ///< e.g. "displacement"
   std::string unit;  ///< e.g. "m"
   RingField field;
+  /// The scalar that is shown, of the components at a point; absent: the components themselves.
+  std::function<double(std::span<const double>)> scalar = {};
 };
 
 /// The index of a node of the full ring: its azimuthal position counts from azimuth 0 round the ring.

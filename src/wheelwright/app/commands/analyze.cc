@@ -5,6 +5,7 @@
 #include "wheelwright/app/commands/commands.h"
 #include "wheelwright/app/exit_code.h"
 #include "wheelwright/app/load_list.h"
+#include "wheelwright/app/output_folder.h"
 #include "wheelwright/app/shared_options.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/app/wheel_input.h"
@@ -21,6 +22,11 @@ namespace wheelwright {
 namespace {
 
 constexpr const char* result_file = "analysis.json";
+
+/// What is written to the folder: whoever adds a file adds its name here.
+constexpr std::string_view names_in_folder[] = {
+    "analysis.json", "travel.svg", "force.svg",  "peak_pressure.svg",  "pressures.svg",   "pressures.csv",
+    "loads.svg",     "mesh.svg",   "stress.svg", "stress_contact.svg", "displacement.svg"};
 
 /// Loads on the whole width [N]. The wheel's name stands for a title that is missing.
 Expected<RollingReport> rolling_report(const WheelInput& wheel, const std::vector<double>& loads,
@@ -77,14 +83,9 @@ class AnalyzeCommand : public Subcommand {
   }
 
   int run() override {
-    auto wheel = read_wheel_or_tell(input_);
+    auto wheel = read_wheel_or_tell(input_, {name(), threads_, positions_});
     if (!wheel) return wheel.failure();
-    wheel->source.load.positions = positions_;
-    if (!may_compute(name(), wheel->source, input_, threads_)) return exit_refused;
-    if (output_ && std::filesystem::exists(folder() / result_file)) {
-      tell("{}: holds an analysis already; choose another folder, or remove it\n", *output_);
-      return exit_refused;
-    }
+    if (output_ && !may_write_to(*output_, names_in_folder)) return exit_refused;
     return analyze(*wheel);
   }
 
@@ -104,7 +105,7 @@ class AnalyzeCommand : public Subcommand {
       return tell_failure(name(), *failure);
     const auto report = rolling_report(wheel, loads(), solver, **solved);
     if (!report) return tell_failure(name(), report.failure());
-    print(*report);
+    print_report(*report);
     const auto size = deformation_size(solver, shape, **solved);
     if (const std::string warning = deformation_warning(size); !warning.empty())
       tell("warning: {}\n", warning);
@@ -114,15 +115,16 @@ class AnalyzeCommand : public Subcommand {
 
   std::vector<double> loads() const { return loads_ ? *parse_loads(*loads_) : std::vector<double>(); }
 
-  void print(const RollingReport& report) const {
-    fmt::print("{}", json_ ? rolling_json(report)
-                           : without_control_characters(report.title) + "\n\n" + rolling_table(report));
+  void print_report(const RollingReport& report) const {
+    print_lines(stdout, json_ ? rolling_json(report)
+                              : without_control_characters(report.title) + "\n\n" + rolling_table(report));
   }
 
   void write(const RollingReport& report, const LevelSet<2>& shape, const StateSolver<2>& solver,
              const State<2>& states) const {
     write_folder(folder(), report, contact_points(solver, states));
-    write_wheel_pictures(folder(), {.prefix = "", .title = report.title}, shape, states.domain(),
+    write_wheel_pictures(folder(), {.prefix = "", .title = report.title, .width = report.width}, shape,
+                         states.domain(),
                          position_fields(solver, states, worst_position(states.strain_energy())));
   }
 

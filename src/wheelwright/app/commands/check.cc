@@ -20,8 +20,8 @@ class CheckCommand : public Subcommand {
   int run() override {
     const auto c = read_or_tell(case_file_);
     if (!c) return exit_usage;
-    fmt::print("{}\n", styled(stdout, Style::green, case_file_ + ": no problems"));
-    fmt::print("{}", derived_report(*c));
+    print("{}\n", styled(stdout, Style::green, case_file_ + ": no problems"));
+    print_lines(stdout, derived_report(*c));
     print_warnings(stdout, *c);
     if (const auto lack = lack_of_memory(*c, available_memory()))
       print_warning(stdout, "this case cannot run here: " + *lack);

@@ -2,7 +2,7 @@
 
 namespace wheelwright {
 
-// The list. make_NAME() stands in the file NAME.cc.
+// The list. make_NAME() stands in the file NAME.cc, make_export_() in export.cc.
 #define WHEELWRIGHT_COMMANDS(apply) \
   apply(run);                       \
   apply(resume);                    \
@@ -10,6 +10,7 @@ namespace wheelwright {
   apply(compare);                   \
   apply(report);                    \
   apply(verify);                    \
+  apply(export_);                   \
   apply(check);                     \
   apply(init);                      \
   apply(reference)

@@ -1,7 +1,6 @@
-#include <fmt/format.h>
-
 #include "wheelwright/app/case_input.h"
 #include "wheelwright/app/commands/commands.h"
+#include "wheelwright/app/output_folder.h"
 #include "wheelwright/app/shared_options.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/app/wheel_input.h"
@@ -13,6 +12,9 @@
 
 namespace wheelwright {
 namespace {
+
+/// What is written to the folder: whoever adds a file adds its name here.
+constexpr std::string_view names_in_folder[] = {"comparison.txt", "comparison.json", "comparison.svg"};
 
 /// Solves a wheel in its load positions.
 Expected<ComparedWheel> compared(const WheelInput& wheel) {
@@ -49,13 +51,11 @@ class CompareCommand : public Subcommand {
   int run() override {
     std::vector<WheelInput> wheels;
     for (const std::string& input : inputs_) {
-      auto wheel = read_wheel_or_tell(input);
+      auto wheel = read_wheel_or_tell(input, {name(), threads_, positions_});
       if (!wheel) return wheel.failure();
-      wheel->source.load.positions = positions_;
       wheels.push_back(*std::move(wheel));
     }
-    for (std::size_t k = 0; k < wheels.size(); ++k)
-      if (!may_compute(name(), wheels[k].source, inputs_[k], threads_)) return exit_refused;
+    if (output_ && !may_write_to(*output_, names_in_folder)) return exit_refused;
     return compare(wheels);
   }
 
@@ -70,7 +70,7 @@ class CompareCommand : public Subcommand {
       }
       wheels.push_back(*std::move(wheel));
     }
-    fmt::print("{}", json_ ? wheels_json(wheels) : wheels_table(wheels));
+    print_lines(stdout, json_ ? wheels_json(wheels) : wheels_table(wheels));
     if (output_) write(wheels);
     return exit_done;
   }

@@ -36,10 +36,11 @@ class InitCommand : public Subcommand {
       return reason == EEXIST ? exit_refused : exit_input_output;
     }
     if (!write_and_close(file, case_template())) {
+      unlink(file_.c_str());  // it is new, and useless
       tell("{}: cannot be written\n", file_);
       return exit_input_output;
     }
-    fmt::print("wrote {0}; next: wheelwright check {0}\n", file_);
+    print("wrote {0}; next: wheelwright check {0}\n", file_);
     return exit_done;
   }
 

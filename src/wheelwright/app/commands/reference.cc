@@ -1,7 +1,6 @@
-#include <fmt/format.h>
-
 #include "wheelwright/app/commands/commands.h"
 #include "wheelwright/app/exit_code.h"
+#include "wheelwright/app/terminal.h"
 #include "wheelwright/case/write.h"
 
 namespace wheelwright {
@@ -12,7 +11,7 @@ class ReferenceCommand : public Subcommand {
   ReferenceCommand() : Subcommand("reference", "Print the reference page for all keys of a case file") {}
 
   int run() override {
-    fmt::print("{}", case_reference_markdown());
+    print_lines(stdout, case_reference_markdown());
     return exit_done;
   }
 };

@@ -20,6 +20,7 @@ class ResumeCommand : public Subcommand {
   }
 
   int run() override {
+    Signals signals;
     const std::filesystem::path case_file = std::filesystem::path(folder_) / "case.toml";
     if (!std::filesystem::exists(case_file)) {
       tell("{}: this folder holds no run; there is no {}\n", folder_, case_file.string());
@@ -29,7 +30,7 @@ class ResumeCommand : public Subcommand {
     if (!c) return exit_usage;
     if (iterations_) c = with_iterations(*std::move(c), *iterations_);
     if (!may_compute(name(), *c, case_file, threads_)) return exit_refused;
-    return resume_run(*c, folder_);
+    return resume_run(*c, folder_, signals);
   }
 
  private:

@@ -20,11 +20,12 @@ class RunCommand : public Subcommand {
   }
 
   int run() override {
+    Signals signals;
     auto c = read_or_tell(case_file_);
     if (!c) return exit_usage;
     if (iterations_) c = with_iterations(*std::move(c), *iterations_);
     if (!may_compute(name(), *c, case_file_, threads_)) return exit_refused;
-    return begin_run(*c, output_.value_or(c->output.folder));
+    return begin_run(*c, output_.value_or(c->output.folder), signals);
   }
 
  private:

@@ -61,7 +61,7 @@ std::optional<LevelSet<2>> generic_shape(const LevelSet<2>& psi, const std::vect
   return {};
 }
 
-std::string verdict(bool passed) {
+StyledText verdict(bool passed) {
   return styled(stdout, passed ? Style::green : Style::red, passed ? "passed" : "FAILED");
 }
 
@@ -70,16 +70,16 @@ double lowest_order(const TaylorTest& test) {
 }
 
 void report_remainders(const TaylorTest& test) {
-  fmt::print("Taylor test of the shape gradient: J = {:.8g} {}, derivative {:.8g}\n", test.value,
-             unit<2>(kind(Quantity::objective)), test.derivative);
+  print("Taylor test of the shape gradient: J = {:.8g} {}, derivative {:.8g}\n", test.value,
+        unit<2>(kind(Quantity::objective)), test.derivative);
   for (size_t k = 0; k < test.steps.size(); ++k)
-    fmt::print("  step {:.3e} m  remainder {:.4e}{}\n", test.steps[k], test.remainders[k],
-               k == 0 ? "" : fmt::format("  order {:.4f}", test.orders[k - 1]));
+    print("  step {:.3e} m  remainder {:.4e}{}\n", test.steps[k], test.remainders[k],
+          k == 0 ? "" : fmt::format("  order {:.4f}", test.orders[k - 1]));
 }
 
 bool report_order(const TaylorTest& test) {
   const double lowest = lowest_order(test);
-  fmt::print("  lowest order {:.4f}, wanted > {}: {}\n", lowest, least_order, verdict(lowest > least_order));
+  print("  lowest order {:.4f}, wanted > {}: {}\n", lowest, least_order, verdict(lowest > least_order));
   return lowest > least_order;
 }
 
@@ -89,8 +89,8 @@ bool report_balance(const State<2>& solution, const RimControl& rim) {
   for (const auto& contact : solution.contacts())
     for (const FreeMotion& motion : rim.free)
       worst = std::max(worst, std::abs(work(contact.rim_force, motion.direction) / motion.force - 1));
-  fmt::print("Contact forces against loads, worst of {} positions: {:.2e}, wanted < {:.0e}: {}\n",
-             solution.contacts().size(), worst, balance_tolerance, verdict(worst < balance_tolerance));
+  print("Contact forces against loads, worst of {} positions: {:.2e}, wanted < {:.0e}: {}\n",
+        solution.contacts().size(), worst, balance_tolerance, verdict(worst < balance_tolerance));
   return worst < balance_tolerance;
 }
 
@@ -126,9 +126,8 @@ class VerifyCommand : public Subcommand {
   }
 
   int run() override {
-    const auto wheel = read_wheel_or_tell(input_);
+    const auto wheel = read_wheel_or_tell(input_, {name(), threads_});
     if (!wheel) return wheel.failure();
-    if (!may_compute(name(), wheel->source, input_, threads_)) return exit_refused;
     const auto passed = verify(wheel->source, wheel->shape);
     if (!passed) return tell_failure(name(), passed.failure());
     return *passed ? exit_done : exit_no_solution;

@@ -1,0 +1,32 @@
+# Debian packages by `cpack`, see scripts/package: the program, its writers of STEP and 3MF, and what a developer needs.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME wheelwright)
+set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_PACKAGE_CONTACT "The developers of Wheelwright <wheelwright@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "shape optimization of elastic rolling wheels")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_OUTPUT_FILE_PREFIX ${PROJECT_BINARY_DIR}/packages)
+
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL program cad development)
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
+  "Moves the edges of a wheel's holes until it deforms as little as possible, or rolls as evenly as possible, and\n\
+exports it for CAD and workshop.")
+set(CPACK_COMPONENT_CAD_DESCRIPTION "Lets the command export of wheelwright write STEP, by OpenCASCADE, and 3MF, by lib3mf.")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Headers, CMake package and pkg-config file of libwheelwright.")
+
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS OFF)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME wheelwright)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS wheelwright-cad)
+set(CPACK_DEBIAN_CAD_PACKAGE_NAME wheelwright-cad)
+set(CPACK_DEBIAN_CAD_PACKAGE_DEPENDS "wheelwright (= ${PROJECT_VERSION})")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME wheelwright-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "wheelwright (= ${PROJECT_VERSION})")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
+include(CPack)

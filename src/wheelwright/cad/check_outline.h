@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "wheelwright/base/expected.h"
+#include "wheelwright/cad/clearance.h"
+#include "wheelwright/cad/outline_fault.h"
+
+namespace wheelwright {
+
+/// What was measured on an outline that is fit to be used.
+struct OutlineReport {
+  CurveCount curves;
+  int bodies;         ///< separate pieces of material
+  double area;        ///< of the material [m^2]
+  double area_error;  ///< relative to the area of the level set
+  double deviation;   ///< largest distance between the curves and the zero contour, either way [m]
+  Vec<2> deviation_place;
+  Clearances clearances;
+};
+
+/// Measures an outline of {psi < 0} and refuses it, with all faults that were found, unless
+/// - every curve begins where the one before it ends, to 1e-9 of the outer radius;
+/// - the material lies on the left of every curve;
+/// - no loop crosses or touches itself or another one;
+/// - the area deviates from that of the level set by at most 0.01 %, where the straight or parabolic outer
+///   sides of the cells are taken for the circles that they stand for;
+/// - the curves deviate from the zero contour, and the contour from the curves, by at most `tolerance` [m].
+Expected<OutlineReport, std::vector<OutlineFault>> check_outline(const Outline& outline,
+                                                                 const LevelSet<2>& psi, double tolerance);
+
+/// The report for people, a line for each of its numbers.
+std::string text(const OutlineReport& report);
+
+}  // namespace wheelwright

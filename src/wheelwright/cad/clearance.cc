@@ -1,0 +1,289 @@
+#include "wheelwright/cad/clearance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "wheelwright/geometry/cell_map.h"
+#include "wheelwright/geometry/nearest_point.h"
+
+namespace wheelwright {
+namespace {
+
+double distance(const Vec<2>& a, const Vec<2>& b) { return std::hypot(b[0] - a[0], b[1] - a[1]); }
+
+double length(const Curve& curve) {
+  constexpr int parts = 32;
+  double sum = 0;
+  for (int i = 0; i < parts; ++i) sum += norm<2>(at(curve, (i + 0.5) / parts).velocity) / parts;
+  return sum;
+}
+
+/// A place on the edges.
+struct Place {
+  int loop, curve;
+  double parameter;
+};
+
+/// A point of an edge.
+struct EdgePoint {
+  Place place;
+  Vec<2> position;
+  Vec<2> normal;  ///< unit, into the material
+};
+
+EdgePoint edge_point(const Outline& outline, const Place& place) {
+  const CurvePoint point = at(outline.loops[place.loop].curves[place.curve], place.parameter);
+  const double speed = norm<2>(point.velocity);
+  return {place, point.position, {-point.velocity[1] / speed, point.velocity[0] / speed}};
+}
+
+Place begin_of_next(const Outline& outline, const Place& place) {
+  const int n = static_cast<int>(outline.loops[place.loop].curves.size());
+  return {place.loop, (place.curve + 1) % n, 0};
+}
+
+Place end_of_previous(const Outline& outline, const Place& place) {
+  const int n = static_cast<int>(outline.loops[place.loop].curves.size());
+  return {place.loop, (place.curve + n - 1) % n, 1};
+}
+
+/// Angle by which the direction turns from one place to another that is at the same point.
+double turn(const EdgePoint& before, const EdgePoint& after) {
+  return std::atan2(before.normal[0] * after.normal[1] - before.normal[1] * after.normal[0],
+                    dot<2>(before.normal, after.normal));
+}
+
+/// The point at the begin of a curve, with all directions between the normals on either side if there is a
+/// corner: a circle may touch it in any of them.
+std::vector<EdgePoint> begin_points(const Outline& outline, const Place& begin) {
+  constexpr double step = 5 * std::numbers::pi / 180;
+  const EdgePoint before = edge_point(outline, end_of_previous(outline, begin)),
+                  after = edge_point(outline, begin);
+  const double angle = turn(before, after);
+  const int parts = std::max(1, static_cast<int>(std::ceil(std::abs(angle) / step)));
+  std::vector<EdgePoint> points(parts, after);
+  for (int i = 1; i < parts; ++i) points[i].normal = rotated<2>(before.normal, angle * i / parts);
+  return points;
+}
+
+std::vector<EdgePoint> walk(const Outline& outline, double step) {
+  std::vector<EdgePoint> points;
+  for (int loop = 0; loop < static_cast<int>(outline.loops.size()); ++loop) {
+    const auto& curves = outline.loops[loop].curves;
+    for (int curve = 0; curve < static_cast<int>(curves.size()); ++curve) {
+      const auto begin = begin_points(outline, {loop, curve, 0});
+      points.insert(points.end(), begin.begin(), begin.end());
+      const int parts = static_cast<int>(std::ceil(length(curves[curve]) / step));
+      for (int i = 1; i < parts; ++i)
+        points.push_back(edge_point(outline, {loop, curve, static_cast<double>(i) / parts}));
+    }
+  }
+  return points;
+}
+
+std::vector<Vec<2>> positions(const std::vector<EdgePoint>& points) {
+  std::vector<Vec<2>> result;
+  for (const EdgePoint& point : points) result.push_back(point.position);
+  return result;
+}
+
+/// The largest circle that touches an edge at one point and holds no other edge.
+struct TouchingCircle {
+  double radius;
+  int touched;  ///< the other point that it touches; -1 if there is none
+};
+
+/// Shrinks a circle that touches the edge at `p`, with its centre in the direction `n`, until no edge lies in
+/// it.
+TouchingCircle touching_circle(const NearestPoint<2>& edges, const Vec<2>& p, const Vec<2>& n,
+                               double radius) {
+  constexpr int most_steps = 100;
+  constexpr double slack = 1e-9;
+  TouchingCircle circle{radius, -1};
+  for (int k = 0; k < most_steps; ++k) {
+    const Vec<2> centre{p[0] + circle.radius * n[0], p[1] + circle.radius * n[1]};
+    const int nearest = edges.index_of_nearest(centre);
+    const Vec<2>& q = edges.points()[nearest];
+    if (distance(q, centre) >= circle.radius * (1 - slack)) break;
+    const Vec<2> chord{q[0] - p[0], q[1] - p[1]};
+    const double smaller = dot<2>(chord, chord) / (2 * dot<2>(chord, n));
+    if (!(smaller > 0 && smaller < circle.radius)) break;
+    circle = {smaller, nearest};
+  }
+  return circle;
+}
+
+/// Moves a place towards the point of its loop that is nearest to a target, at most to the end of its curve
+/// and from there to the next one.
+void approach(const Outline& outline, EdgePoint& edge, const Vec<2>& target) {
+  Place place = edge.place;
+  const CurvePoint p = at(outline.loops[place.loop].curves[place.curve], place.parameter);
+  const Vec<2> miss{target[0] - p.position[0], target[1] - p.position[1]};
+  place.parameter += dot<2>(miss, p.velocity) / dot<2>(p.velocity, p.velocity);
+  if (place.parameter > 1) place = begin_of_next(outline, place);
+  if (place.parameter < 0) place = end_of_previous(outline, place);
+  edge = edge_point(outline, place);
+}
+
+/// Whether a way in this direction leaves the edge straight, as at the end of a shortest way. At a corner it
+/// may leave in any direction between the normals.
+bool is_straight(const Outline& outline, const EdgePoint& edge, const Vec<2>& direction) {
+  constexpr double cosine = 0.985;  // of ten degrees
+  const Place& place = edge.place;
+  double corner = 0;
+  if (place.parameter == 0) corner = turn(edge_point(outline, end_of_previous(outline, place)), edge);
+  if (place.parameter == 1) corner = turn(edge, edge_point(outline, begin_of_next(outline, place)));
+  const bool has_room = std::abs(corner) > std::acos(cosine);
+  return std::abs(dot<2>(edge.normal, direction)) > (has_room ? 0 : cosine);
+}
+
+/// The neck about two places, if there is one.
+std::optional<Clearance> neck(const Outline& outline, EdgePoint from, EdgePoint to) {
+  constexpr int steps = 60;
+  constexpr double least_share = 0.5;
+  const double before = distance(from.position, to.position);
+  for (int k = 0; k < steps; ++k) {
+    approach(outline, to, from.position);
+    approach(outline, from, to.position);
+  }
+  const double width = distance(from.position, to.position);
+  if (!(width > least_share * before && width <= before)) return {};
+  const Vec<2> direction{(to.position[0] - from.position[0]) / width,
+                         (to.position[1] - from.position[1]) / width};
+  if (!is_straight(outline, from, direction) || !is_straight(outline, to, direction)) return {};
+  return Clearance{width, from.position, to.position};
+}
+
+class Search {
+ public:
+  Search(const Outline& outline, int n_sectors, double step)
+      : outline_(outline),
+        step_(step),
+        points_(walk(outline, step)),
+        edges_(positions(points_)),
+        sector_(2 * std::numbers::pi / n_sectors) {
+    for (const EdgePoint& point : points_) reach_ = std::max(reach_, 2 * norm<2>(point.position));
+  }
+
+  std::optional<Clearance> thinnest_wall() const { return thinnest_neck(circles(1)); }
+
+  std::optional<Clearance> narrowest_gap() const {
+    auto in_holes = circles(-1);
+    std::erase_if(in_holes, [&](const Circle& c) { return kind(c) != LoopKind::hole; });
+    auto gap = thinnest_neck(in_holes);
+    for (const Circle& circle : widest_of_each_hole(in_holes)) {
+      const Circle widest = widened(circle);
+      if (!gap || 2 * widest.radius < gap->width) gap = diameter(widest);
+    }
+    return gap;
+  }
+
+ private:
+  struct Circle {
+    int point, touched;
+    double radius;
+    double chord;
+    Vec<2> at, centre;
+  };
+
+  LoopKind kind(const Circle& circle) const { return outline_.loops[points_[circle.point].place.loop].kind; }
+
+  /// The circle at a point, `point` being the nearest of those that were walked along; nothing if it touches
+  /// no other point. `side`: 1 in the material, -1 in the voids.
+  std::optional<Circle> circle_at(const EdgePoint& p, int point, double side) const {
+    const Vec<2> n{side * p.normal[0], side * p.normal[1]};
+    const auto [radius, touched] = touching_circle(edges_, p.position, n, reach_);
+    if (touched < 0) return {};
+    return Circle{point,      touched,
+                  radius,     distance(p.position, points_[touched].position),
+                  p.position, {p.position[0] + radius * n[0], p.position[1] + radius * n[1]}};
+  }
+
+  /// The circles at the points of one image of every loop.
+  std::vector<Circle> circles(double side) const {
+    std::vector<Circle> circles;
+    for (int i = 0; i < static_cast<int>(points_.size()); ++i)
+      if (is_first_image(points_[i]))
+        if (const auto circle = circle_at(points_[i], i, side)) circles.push_back(*circle);
+    return circles;
+  }
+
+  /// The widest circle in a hole near one of the widest at the points that were walked along.
+  Circle widened(Circle circle) const {
+    constexpr int steps = 20;
+    Place place = points_[circle.point].place;
+    double step = step_ / length(outline_.loops[place.loop].curves[place.curve]);
+    for (int k = 0; k < steps; ++k) {
+      step /= 2;
+      for (const double parameter : {place.parameter - step, place.parameter + step}) {
+        if (parameter < 0 || parameter > 1) continue;
+        const EdgePoint moved = edge_point(outline_, {place.loop, place.curve, parameter});
+        const auto other = circle_at(moved, circle.point, -1);
+        if (!other || other->radius <= circle.radius) continue;
+        circle = *other;
+        place.parameter = parameter;
+        break;
+      }
+    }
+    return circle;
+  }
+
+  std::optional<Clearance> thinnest_neck(std::vector<Circle> circles) const {
+    constexpr double least_angle = 5 * std::numbers::pi / 6;
+    std::erase_if(circles,
+                  [](const Circle& c) { return c.chord < 2 * c.radius * std::sin(least_angle / 2); });
+    std::ranges::sort(circles, {}, &Circle::chord);
+    for (const Circle& circle : circles)
+      if (const auto found = neck(outline_, points_[circle.point], points_[circle.touched])) return found;
+    return {};
+  }
+
+  std::vector<Circle> widest_of_each_hole(const std::vector<Circle>& circles) const {
+    std::map<int, Circle> widest;
+    for (const Circle& circle : circles) {
+      const auto [place, is_new] = widest.try_emplace(points_[circle.point].place.loop, circle);
+      if (!is_new && circle.radius > place->second.radius) place->second = circle;
+    }
+    std::vector<Circle> result;
+    for (const auto& [loop, circle] : widest) result.push_back(circle);
+    return result;
+  }
+
+  Clearance diameter(const Circle& circle) const {
+    return {2 * circle.radius,
+            circle.at,
+            {2 * circle.centre[0] - circle.at[0], 2 * circle.centre[1] - circle.at[1]}};
+  }
+
+  /// Of the circles about the axle a sector's part, of the other loops the one that begins in the sector.
+  bool is_first_image(const EdgePoint& point) const {
+    const Loop& loop = outline_.loops[point.place.loop];
+    const bool about_axle = loop.kind == LoopKind::outer_edge || loop.kind == LoopKind::bore;
+    return in_first_sector(about_axle ? point.position : start_of(loop.curves.front()));
+  }
+
+  /// The sector begins where no point is likely to lie, lest rounding decide.
+  bool in_first_sector(const Vec<2>& p) const {
+    constexpr double begin = 0.0123;  // sectors
+    double azimuth = std::atan2(p[1], p[0]) - begin * sector_;
+    if (azimuth < 0) azimuth += 2 * std::numbers::pi;
+    return azimuth < sector_;
+  }
+
+  const Outline& outline_;
+  double step_;
+  std::vector<EdgePoint> points_;
+  NearestPoint<2> edges_;
+  double sector_, reach_ = 0;
+};
+
+}  // namespace
+
+Clearances clearances(const Outline& outline, int n_sectors, double step) {
+  const Search search(outline, n_sectors, step);
+  return {search.thinnest_wall(), search.narrowest_gap()};
+}
+
+}  // namespace wheelwright

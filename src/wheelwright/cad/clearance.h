@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+
+#include "wheelwright/cad/outline.h"
+
+namespace wheelwright {
+
+/// A width between two places of the edges that face each other.
+struct Clearance {
+  double width;  ///< [m]
+  Vec<2> from, to;
+};
+
+struct Clearances {
+  /// The thinnest neck of material: two places of the edges whose distance across the material shrinks
+  /// neither to one side nor to the other.
+  std::optional<Clearance> wall;
+  /// The narrowest neck of a hole or, if it is smaller, the largest circle that fits into some hole. Nothing
+  /// if there are no holes.
+  std::optional<Clearance> gap;
+};
+
+/// Measures an outline whose loops are repeated in every sector. Every edge is walked along with steps of at
+/// most `step` [m]; at each the largest circle is found that touches it there, on one side, and holds no
+/// other edge. Where such a circle also touches on its opposite side there may be a neck, whose ends are then
+/// moved along the curves until their distance is least.
+Clearances clearances(const Outline& outline, int n_sectors, double step);
+
+}  // namespace wheelwright

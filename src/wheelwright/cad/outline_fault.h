@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "wheelwright/cad/outline.h"
+
+namespace wheelwright {
+
+/// Why an outline cannot be made or must not be used.
+struct OutlineFault {
+  std::string what;  ///< one line, with the place
+};
+
+/// A Cartesian point for people, e.g. "azimuth 12.34 deg, radius 270.1 mm".
+std::string place_of(const Vec<2>& point);
+
+}  // namespace wheelwright

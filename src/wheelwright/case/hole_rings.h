@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "wheelwright/case/case.h"
+
+namespace wheelwright {
+
+// How the holes of a case lie to one another. They are compared as rings: a circle is a ring with one hole
+// per sector.
+
+/// A ring of holes of the case, or a circle with its images.
+struct NamedRing {
+  std::string name;  ///< e.g. "holes.ring[2]"
+  HoleRing ring;     ///< with its phase
+};
+
+/// All rings and circles, in the order of the file's arrays.
+std::vector<NamedRing> named_rings(const Case& c);
+
+/// The azimuth [rad] between a hole of one ring and the nearest of the other, for the hole of `a` that is
+/// nearest to one of `b` and for the one that is farthest.
+struct AzimuthOffsets {
+  double least, most;
+};
+AzimuthOffsets azimuth_offsets(const HoleRing& a, const HoleRing& b);
+
+/// Whether some hole of `a` lies inside a hole of `b`, or is the same.
+bool lies_inside(const HoleRing& a, const HoleRing& b);
+
+/// Whether every hole of `a` overlaps a hole of `b`.
+bool overlaps_everywhere(const HoleRing& a, const HoleRing& b);
+
+/// Diameter of the smallest hole [m]; infinite without holes. Circles that overlap are one hole, at least as
+/// wide as the largest of them.
+double smallest_hole_width(const Case& c);
+
+}  // namespace wheelwright

@@ -1,0 +1,65 @@
+#include "wheelwright/export/png.h"
+
+#include <agg2/agg_path_storage.h>
+#include <agg2/agg_pixfmt_rgb.h>
+#include <agg2/agg_rasterizer_scanline_aa.h>
+#include <agg2/agg_renderer_scanline.h>
+#include <agg2/agg_scanline_u.h>
+
+#include <stdexcept>
+#include <vector>
+
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STB_IMAGE_WRITE_STATIC
+#include <stb/stb_image_write.h>
+
+namespace wheelwright {
+namespace {
+
+constexpr int width = 1600, margin = 20, bytes_per_pixel = 3;
+constexpr double tolerance = 0.05;  // of the outline [pixels]
+
+/// The outline in pixels, with y downwards.
+agg::path_storage path_of(const Outline& outline) {
+  const double radius = std::get<Arc>(outline.loops.front().curves.front()).radius;
+  const double scale = (width / 2.0 - margin) / radius;
+  agg::path_storage path;
+  for (const Loop& loop : outline.loops) {
+    bool is_first = true;
+    for (const Vec<2>& p : flattened(loop, tolerance / scale)) {
+      const double x = width / 2.0 + scale * p[0], y = width / 2.0 - scale * p[1];
+      is_first ? path.move_to(x, y) : path.line_to(x, y);
+      is_first = false;
+    }
+    path.close_polygon();
+  }
+  return path;
+}
+
+void append(void* bytes, void* data, int size) {
+  static_cast<std::string*>(bytes)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
+}
+
+}  // namespace
+
+std::string png(const WheelModel& wheel) {
+  const agg::rgba8 white(255, 255, 255), blue(59, 110, 165);
+  std::vector<agg::int8u> pixels(std::size_t{width} * width * bytes_per_pixel);
+  agg::rendering_buffer buffer(pixels.data(), width, width, width * bytes_per_pixel);
+  agg::pixfmt_rgb24 format(buffer);
+  agg::renderer_base<agg::pixfmt_rgb24> renderer(format);
+  renderer.clear(white);
+  agg::rasterizer_scanline_aa<> rasterizer;
+  rasterizer.filling_rule(agg::fill_even_odd);
+  agg::path_storage path = path_of(wheel.outline);
+  rasterizer.add_path(path);
+  agg::scanline_u8 scanline;
+  agg::render_scanlines_aa_solid(rasterizer, scanline, renderer, blue);
+  std::string bytes;
+  if (!stbi_write_png_to_func(append, &bytes, width, width, bytes_per_pixel, pixels.data(),
+                              width * bytes_per_pixel))
+    throw std::runtime_error("the picture could not be encoded");
+  return bytes;
+}
+
+}  // namespace wheelwright

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "wheelwright/export/wheel_model.h"
+
+namespace wheelwright {
+
+/// A picture of the wheel as a PNG file: the material in blue on white, 1600 pixels wide.
+std::string png(const WheelModel& wheel);
+
+}  // namespace wheelwright

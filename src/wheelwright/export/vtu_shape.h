@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "wheelwright/export/wheel_model.h"
+
+namespace wheelwright {
+
+/// The material as cells for ParaView with the level set at their points, both in millimetres; not the
+/// outline's curves, but the shape as it was computed.
+std::string vtu_shape(const WheelModel& wheel);
+
+}  // namespace wheelwright

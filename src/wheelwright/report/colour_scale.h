@@ -1,0 +1,43 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+namespace wheelwright {
+
+/// A prefix of an SI unit.
+struct SiPrefix {
+  double factor;
+  const char* symbol;
+};
+
+/// The prefix with which stresses and lengths are usual: 0.8 MPa, 0.58 mm; none for 0.
+SiPrefix si_prefix(double value);
+
+/// Three digits and the unit with its prefix, e.g. "2.46 MPa".
+std::string value_text(double value, const std::string& unit);
+
+/// What the colours of a picture stand for. Values beyond the ends have the colours of the ends.
+struct ColourScale {
+  double lower, upper;
+  bool cut_below = false, cut_above = false;  ///< whether there are such values
+
+  static constexpr int levels = 32;
+  double level(int k) const { return lower + (upper - lower) * k / levels; }
+  double fraction(double value) const { return upper > lower ? (value - lower) / (upper - lower) : 0.5; }
+};
+
+/// Spans the finite values without that fraction of them at each end.
+ColourScale colour_scale(std::span<const double> values, double outliers);
+
+/// The same for values that are never negative: it begins at 0 and ends at a round number.
+ColourScale colour_scale_from_zero(std::span<const double> values, double outliers);
+
+/// Colour of what lies between two levels, from 0.
+std::string level_colour(int level);
+
+/// The scale as a bar with round numbers beside it, its lower left corner at (x, y) [pixels].
+std::string colour_bar(const ColourScale& scale, const std::string& name, const std::string& unit, double x,
+                       double y);
+
+}  // namespace wheelwright

@@ -1,0 +1,155 @@
+#include "wheelwright/report/deformed_material.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "wheelwright/geometry/cell_map.h"
+#include "wheelwright/geometry/contour.h"
+
+namespace wheelwright {
+namespace {
+
+constexpr int press_samples = 4;  // per column
+
+std::array<double, 9> shape_values(int degree, const Vec<2>& xi) {
+  return ShapeFunctions<2>(degree, xi).value;
+}
+
+Vec<2> interpolated(const RingField& field, const Lattice<2>& lattice, const std::array<int, 2>& cell,
+                    const std::array<double, 9>& shape) {
+  const auto nodes = ring_cell_nodes<2>(lattice, cell);
+  const std::span values(shape.data(), nodes_per_cell<2>(lattice.degree()));
+  return {interpolate(field, nodes, values, 0), interpolate(field, nodes, values, 1)};
+}
+
+/// How far magnified displacements carry the tread below the ground, at equal azimuths.
+std::vector<double> press_of_tread(const Lattice<2>& lattice, const RingField& displacement,
+                                   double magnification, double contact_azimuth) {
+  const PolarGrid<2>& grid = lattice.grid();
+  std::vector<double> press;
+  for (int column = 0; column < grid.ring_columns(); ++column)
+    for (int k = 0; k < press_samples; ++k) {
+      const double xi = double(k) / press_samples;
+      const double azimuth = (column + xi) * grid.cell_size()[1] - contact_azimuth;
+      const Vec<2> u = interpolated(displacement, lattice, {grid.cells[0] - 1, column},
+                                    shape_values(lattice.degree(), {1, xi}));
+      const double down = std::cos(contact_azimuth) * u[0] + std::sin(contact_azimuth) * u[1];
+      const double below = magnification * down - grid.outer_radius * (1 - std::cos(azimuth));
+      press.push_back(below > 0 ? below : 0);  // nothing for NaN
+    }
+  return press;
+}
+
+/// A polygon in parts x parts squares if it is a whole cell.
+std::vector<MaterialPolygon> divided(const MaterialPolygon& polygon, int parts) {
+  if (polygon != MaterialPolygon{{0, 0}, {1, 0}, {1, 1}, {0, 1}}) return {polygon};
+  std::vector<MaterialPolygon> result;
+  const auto corner = [&](int i, int j) { return Vec<2>{double(i) / parts, double(j) / parts}; };
+  for (int i = 0; i < parts; ++i)
+    for (int j = 0; j < parts; ++j)
+      result.push_back({corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)});
+  return result;
+}
+
+}  // namespace
+
+DeformedMaterial::DeformedMaterial(const LevelSet<2>& psi, const Lattice<2>& lattice,
+                                   const RingField& displacement, double magnification,
+                                   double contact_azimuth)
+    : psi_(psi),
+      lattice_(lattice),
+      displacement_(displacement),
+      magnification_(magnification),
+      contact_azimuth_(contact_azimuth),
+      press_(press_of_tread(lattice, displacement, magnification, contact_azimuth)) {}
+
+double DeformedMaterial::greatest_press() const { return std::ranges::max(press_); }
+
+Vec<2> DeformedMaterial::undeformed(const Vec<2>& x) const {
+  const Vec<2> turned = rotated<2>(x, -0.5 * std::numbers::pi - contact_azimuth_);
+  return {turned[0], -turned[1]};
+}
+
+double DeformedMaterial::press_at(double azimuth) const {
+  const double position = azimuth / (2 * std::numbers::pi) * static_cast<double>(press_.size());
+  const double below = std::floor(position);
+  const int n = static_cast<int>(press_.size()), first = wrap(static_cast<int>(below), n);
+  return std::lerp(press_[first], press_[(first + 1) % n], position - below);
+}
+
+Vec<2> DeformedMaterial::moved(const Vec<2>& x, const Vec<2>& u) const {
+  const PolarGrid<2>& grid = lattice_.grid();
+  const double share = (std::hypot(x[0], x[1]) - grid.inner_radius) / (grid.outer_radius - grid.inner_radius);
+  Vec<2> place = undeformed({x[0] + magnification_ * u[0], x[1] + magnification_ * u[1]});
+  place[1] -= share * press_at(std::atan2(x[1], x[0]));
+  return {place[0], place[1] > grid.outer_radius ? grid.outer_radius : place[1]};
+}
+
+Vec<2> DeformedMaterial::drawn(const Vec<2>& x) const {
+  const PolarGrid<2>& grid = lattice_.grid();
+  const double row = (std::hypot(x[0], x[1]) - grid.inner_radius) / grid.cell_size()[0],
+               column = std::atan2(x[1], x[0]) / grid.cell_size()[1];
+  const std::array<int, 2> cell{std::clamp(static_cast<int>(row), 0, grid.cells[0] - 1),
+                                static_cast<int>(std::floor(column))};
+  const Vec<2> xi{std::clamp(row - cell[0], 0.0, 1.0), column - cell[1]};
+  return moved(x, interpolated(displacement_, lattice_, cell, shape_values(lattice_.degree(), xi)));
+}
+
+std::vector<DeformedMaterial::CellPiece> DeformedMaterial::sector_pieces(int parts) const {
+  const PolarGrid<2>& grid = lattice_.grid();
+  const auto polygons = material_polygons(psi_, parts);
+  std::vector<CellPiece> pieces;
+  for (int cell = 0; cell < grid.n_cells(); ++cell) {
+    const auto c = grid.cell_position(cell);
+    const CellMap<2> map(grid, psi_.lattice.degree(), c);
+    const auto position = [&](const Vec<2>& xi) {
+      return rotated<2>(map.position(ShapeFunctions<2>(psi_.lattice.degree(), xi)),
+                        c[1] * grid.cell_size()[1]);
+    };
+    for (const MaterialPolygon& whole : polygons[cell])
+      for (const MaterialPolygon& polygon : divided(whole, parts)) {
+        CellPiece piece{cell, position({0.5, 0.5}), {}, {}};
+        for (const Vec<2>& xi : polygon) {
+          piece.corners.push_back(position(xi));
+          piece.shapes.push_back(shape_values(lattice_.degree(), xi));
+        }
+        pieces.push_back(std::move(piece));
+      }
+  }
+  return pieces;
+}
+
+DrawnPiece DeformedMaterial::drawn(const CellPiece& piece, int sector, const NamedField& scalar) const {
+  const PolarGrid<2>& grid = lattice_.grid();
+  auto cell = grid.cell_position(piece.cell);
+  cell[1] += sector * grid.columns();
+  const auto nodes = ring_cell_nodes<2>(lattice_, cell);
+  DrawnPiece result;
+  std::vector<double> components(scalar.field.components);
+  for (size_t k = 0; k < piece.corners.size(); ++k) {
+    const Vec<2> x = rotated<2>(piece.corners[k], sector * grid.sector_angle()),
+                 u = interpolated(displacement_, lattice_, cell, piece.shapes[k]);
+    const std::span shape(piece.shapes[k].data(), nodes_per_cell<2>(lattice_.degree()));
+    for (int c = 0; c < scalar.field.components; ++c)
+      components[c] = interpolate(scalar.field, nodes, shape, c);
+    result.push_back({moved(x, u), scalar.scalar ? scalar.scalar(components) : components[0]});
+  }
+  return result;
+}
+
+std::vector<DrawnPiece> DeformedMaterial::pieces(const NamedField& scalar, int parts, const Vec<2>& centre,
+                                                 double radius) const {
+  const std::vector<CellPiece> of_sector = sector_pieces(parts);
+  const PolarGrid<2>& grid = lattice_.grid();
+  std::vector<DrawnPiece> result;
+  for (int sector = 0; sector < grid.n_sectors; ++sector)
+    for (const CellPiece& piece : of_sector) {
+      const Vec<2> middle = undeformed(rotated<2>(piece.middle, sector * grid.sector_angle()));
+      if (std::hypot(middle[0] - centre[0], middle[1] - centre[1]) < radius)
+        result.push_back(drawn(piece, sector, scalar));
+    }
+  return result;
+}
+
+}  // namespace wheelwright

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "wheelwright/geometry/level_set.h"
+#include "wheelwright/state/ring_field.h"
+
+namespace wheelwright {
+
+/// A point of the loaded wheel as it is drawn.
+struct DrawnPoint {
+  Vec<2> place;   ///< picture coordinates (report/picture_view.h) [m]
+  double scalar;  ///< what is shown there
+};
+
+/// A convex polygon of material.
+using DrawnPiece = std::vector<DrawnPoint>;
+
+/// The loaded wheel as a picture shows it: turned so that the contact is below, its displacement multiplied
+/// by `magnification`.
+///
+/// Multiplied displacements would carry the tread through the ground beside the contact, because the gap
+/// there is not multiplied. Points of the tread below the ground are drawn on it, and the material between
+/// them and the rim is moved up by a share of that: all of it at the tread, nothing at the rim. It is what a
+/// wheel that deforms so much looks like. Where nothing crosses, at magnification 1, nothing is moved.
+class DeformedMaterial {
+ public:
+  /// `lattice` carries the fields. All must outlive this.
+  DeformedMaterial(const LevelSet<2>& psi, const Lattice<2>& lattice, const RingField& displacement,
+                   double magnification, double contact_azimuth);
+
+  /// The material of every sector, its cells divided into parts x parts squares, cut ones clipped. Cells that
+  /// lie outside of the circle about `centre` (picture coordinates) before they are deformed are left out.
+  std::vector<DrawnPiece> pieces(const NamedField& scalar, int parts, const Vec<2>& centre,
+                                 double radius) const;
+
+  /// A place before the deformation (body frame) in picture coordinates, without and with its displacement.
+  Vec<2> undeformed(const Vec<2>& x) const;
+  Vec<2> drawn(const Vec<2>& x) const;
+
+  /// How far the tread is moved up, at most [m].
+  double greatest_press() const;
+
+ private:
+  /// A polygon of a cell in sector 0.
+  struct CellPiece {
+    int cell;
+    Vec<2> middle;  ///< Cartesian
+    std::vector<Vec<2>> corners;
+    std::vector<std::array<double, 9>> shapes;  ///< values of the field's shape functions there
+  };
+
+  std::vector<CellPiece> sector_pieces(int parts) const;
+  DrawnPiece drawn(const CellPiece& piece, int sector, const NamedField& scalar) const;
+  Vec<2> moved(const Vec<2>& x, const Vec<2>& displacement) const;
+  double press_at(double azimuth) const;
+
+  const LevelSet<2>& psi_;
+  const Lattice<2>& lattice_;
+  const RingField& displacement_;
+  double magnification_, contact_azimuth_;
+  std::vector<double> press_;  ///< of the tread, at equal azimuths round the ring [m]
+};
+
+}  // namespace wheelwright

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "wheelwright/geometry/polar_grid.h"
+#include "wheelwright/report/picture_view.h"
+#include "wheelwright/report/pressure_csv.h"
+#include "wheelwright/state/rim.h"
+
+namespace wheelwright {
+
+// What a picture of the loaded wheel shows besides the material, as SVG in pixels.
+
+/// The ground as a hatched line from edge to edge of the view, `depth` below the axle of the undeformed wheel
+/// [m].
+std::string ground_mark(const PictureView& view, double depth);
+
+/// The forces on the rim on the whole width [N, N m] as arrows at the axle, with their values. Forces along
+/// the ground and torques that are small beside the load, reactions of a rim that is held, are left out.
+std::string force_marks(const PictureView& view, const Vec<2>& axle, const RimForce& force,
+                        const PolarGrid<2>& grid);
+
+/// A force or a torque as text.
+std::string force_text(double value, const std::string& unit);
+
+/// Azimuth 0 on the rim, seen from the axle.
+std::string azimuth_mark(const PictureView& view, const Vec<2>& axle, const Vec<2>& rim);
+
+/// A ring about the place of the largest value, with its text.
+std::string peak_mark(const PictureView& view, const Vec<2>& place, const std::string& label);
+
+/// The contact pressure as a curve below the ground, with its peak and the length of the patch.
+std::string pressure_mark(const PictureView& view, double depth, std::span<const ContactPoint> points);
+
+/// Circles of the undeformed wheel, dashed.
+std::string undeformed_mark(const PictureView& view, double inner_radius, double outer_radius);
+
+}  // namespace wheelwright

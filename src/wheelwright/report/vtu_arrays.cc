@@ -1,0 +1,75 @@
+#include "wheelwright/report/vtu_arrays.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cassert>
+
+namespace wheelwright {
+namespace {
+
+constexpr std::array<const char*, 6> tensor_components{"xx", "yy", "zz", "xy", "yz", "xz"};
+
+/// The components as ParaView has them: the numbers say which, -1 is zero.
+std::vector<float> interleaved(const std::vector<std::vector<float>>& components,
+                               const std::vector<int>& shown) {
+  std::vector<float> result;
+  result.reserve(shown.size() * components[0].size());
+  for (std::size_t k = 0; k < components[0].size(); ++k)
+    for (const int c : shown) result.push_back(c < 0 ? 0 : components[c][k]);
+  return result;
+}
+
+}  // namespace
+
+std::string AppendedArrays::tag(const char* type, std::string_view name, int components, std::size_t offset) {
+  std::string attributes;
+  if (components > 1) attributes = fmt::format(" NumberOfComponents=\"{}\"", components);
+  if (components == static_cast<int>(tensor_components.size()))
+    for (int c = 0; c < components; ++c)
+      attributes += fmt::format(" ComponentName{}=\"{}\"", c, tensor_components[c]);
+  return fmt::format("    <DataArray type=\"{}\" Name=\"{}\"{} format=\"appended\" offset=\"{}\"/>\n", type,
+                     name, attributes, offset);
+}
+
+std::string add_mesh(const std::vector<float>& points, const std::vector<std::int32_t>& connectivity,
+                     const std::vector<std::int32_t>& offsets, const std::vector<std::uint8_t>& types,
+                     AppendedArrays& arrays) {
+  const std::string point_tag = arrays.add("Points", 3, points),
+                    cell_tags = arrays.add("connectivity", 1, connectivity) +
+                                arrays.add("offsets", 1, offsets) + arrays.add("types", 1, types);
+  return fmt::format("  <Points>\n{}  </Points>\n  <Cells>\n{}  </Cells>\n", point_tag, cell_tags);
+}
+
+std::string add_field(const std::string& name, const std::vector<std::vector<float>>& components,
+                      AppendedArrays& arrays) {
+  switch (components.size()) {
+    case 1:
+      return arrays.add(name, 1, components[0]);
+    case 2:
+      return arrays.add(name, 3, interleaved(components, {0, 1, -1}));
+    default:
+      assert(components.size() == 4);
+      return arrays.add(name, 6, interleaved(components, {0, 1, 2, 3, -1, -1}));
+  }
+}
+
+std::string vtu_name(std::string_view name, std::string_view unit) {
+  return fmt::format("{}_{}", name, unit);
+}
+
+std::string vtu_beginning(std::size_t n_points, std::size_t n_cells, std::string_view mesh_tags) {
+  return fmt::format(
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+      "header_type=\"UInt64\">\n<UnstructuredGrid>\n"
+      "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n{}  <PointData>\n",
+      n_points, n_cells, mesh_tags);
+}
+
+std::string vtu_end(const std::string& arrays) {
+  return "  </PointData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_" + arrays +
+         "\n</AppendedData>\n</VTKFile>\n";
+}
+
+}  // namespace wheelwright

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "wheelwright/files/little_endian.h"
+
+namespace wheelwright {
+
+/// VTK's numbers for the kinds of cells.
+inline constexpr std::uint8_t vtk_line = 3, vtk_triangle = 5, vtk_quadrilateral = 9;
+
+template <class Number>
+inline constexpr const char* vtk_type = nullptr;
+template <>
+inline constexpr const char* vtk_type<float> = "Float32";
+template <>
+inline constexpr const char* vtk_type<std::int32_t> = "Int32";
+template <>
+inline constexpr const char* vtk_type<std::uint8_t> = "UInt8";
+
+/// The bytes of a VTU file's arrays, which follow the XML as they are: each array behind its size.
+class AppendedArrays {
+ public:
+  /// `begin`: bytes of other arrays that come before.
+  explicit AppendedArrays(std::size_t begin) : begin_(begin) {}
+
+  /// Adds an array of vectors with that many components; its tag for the XML.
+  template <class Number>
+  std::string add(std::string_view name, int components, const std::vector<Number>& numbers) {
+    const std::size_t offset = begin_ + bytes_.size();
+    append_little_endian(std::uint64_t{numbers.size() * sizeof(Number)}, bytes_);
+    bytes_.append(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number));
+    return tag(vtk_type<Number>, name, components, offset);
+  }
+
+  const std::string& bytes() const& { return bytes_; }
+  std::string bytes() && { return std::move(bytes_); }
+
+ private:
+  static std::string tag(const char* type, std::string_view name, int components, std::size_t offset);
+
+  std::size_t begin_;
+  std::string bytes_;
+};
+
+/// Adds points (x, y, z in turn) and cells; their tags.
+std::string add_mesh(const std::vector<float>& points, const std::vector<std::int32_t>& connectivity,
+                     const std::vector<std::int32_t>& offsets, const std::vector<std::uint8_t>& types,
+                     AppendedArrays& arrays);
+
+/// Adds a field at the points, given by components: a scalar, a vector in the plane, or a symmetric tensor
+/// (xx, yy, zz, xy). ParaView's vectors have 3 components, its symmetric tensors xx, yy, zz, xy, yz and xz.
+std::string add_field(const std::string& name, const std::vector<std::vector<float>>& components,
+                      AppendedArrays& arrays);
+
+/// A field's name in files: the unit, made a word, follows it.
+std::string vtu_name(std::string_view name, std::string_view unit);
+
+/// The XML before the fields, and what follows them.
+std::string vtu_beginning(std::size_t n_points, std::size_t n_cells, std::string_view mesh_tags);
+std::string vtu_end(const std::string& arrays);
+
+}  // namespace wheelwright

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "wheelwright/files/written_files.h"
+
+namespace wheelwright {
+
+/// What a run may write to its folder: whoever adds a file or a subfolder adds its name here, so that a run
+/// is refused at once, not at its end, where the name is taken.
+inline constexpr std::string_view names_in_a_run_folder[] = {"case.toml",
+                                                             "history.csv",
+                                                             "history.csv.before",
+                                                             "comparison.svg",
+                                                             "shape.svg",
+                                                             "stress.svg",
+                                                             "stress_contact.svg",
+                                                             "displacement.svg",
+                                                             "mesh.svg",
+                                                             "pressures_initial.csv",
+                                                             "pressures_initial.svg",
+                                                             "pressures_final.csv",
+                                                             "pressures_final.svg",
+                                                             "summary.json",
+                                                             "report.html",
+                                                             "outlines.jsonl",
+                                                             "shapes.pvd",
+                                                             "rolling.pvd",
+                                                             "run.lock",
+                                                             "shapes",
+                                                             "rolling",
+                                                             "checkpoints",
+                                                             "failure"};
+
+/// Those of them that stand in the folder though no run wrote them.
+inline std::vector<std::string> foreign_files(const std::filesystem::path& folder) {
+  return WrittenFiles(folder).foreign(names_in_a_run_folder);
+}
+
+}  // namespace wheelwright

@@ -1,0 +1,504 @@
+"""Exports wheels and reads every file back with a program of others: ezdxf, librsvg, admesh, lib3mf, OpenCASCADE.
+
+What they read is compared with the run's own shape.svg, a polyline, and with the geometry of the case: area, volume,
+number of bodies, extent, and at many points whether there is material, which tells a wheel from its mirror image and
+from one that is turned. One of the wheels has no symmetry.
+usage: export_test.py PROGRAM READ_STEP READ_3MF WRITE_SAMPLE_OUTLINE [CLASS]
+"""
+
+import hashlib
+import math
+import os
+import re
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import ezdxf
+import ezdxf.math
+from PIL import Image
+
+program, read_step, read_3mf, write_sample_outline = sys.argv[1:5]
+del sys.argv[1:5]
+
+ALL = "dxf,svg,stl,3mf,step,vtu,png"
+SECTORS, WIDTH = 7, 0.11
+# Azimuth [deg] and radius of the centre, and radius of the hole [m]; in every sector.
+HOLES = [(2, 0.266, 0.024), (math.degrees(math.atan2(0.105, 0.262)), math.hypot(0.262, 0.105), 0.028), (40, 0.249, 0.019)]
+
+NO_SYMMETRY = f"""
+title = "No symmetry, \\"<&>\\" \u00e9"
+[wheel]
+width = {WIDTH}
+sectors = {SECTORS}
+[load]
+torque = 80
+positions = 3
+[contact]
+friction = 0.5
+gamma_0 = 10
+[[holes.ring]]
+count = {SECTORS}
+center_radius = 0.266
+radius = 0.024
+phase = 2
+[[holes.ring]]
+count = {SECTORS}
+center_radius = 0.249
+radius = 0.019
+phase = 40
+[[holes.circle]]
+center = [0.262, 0.105]
+radius = 0.028
+[grid]
+radial_cells = 28
+angular_cells = 378
+tread_levels = 0
+[optimizer]
+iterations = 12
+[output]
+vtu_every = 0
+"""
+
+PAPER = """
+[[holes.ring]]
+count = 16
+center_radius = 0.27
+radius = 0.04
+[grid]
+tread_levels = 0
+[optimizer]
+iterations = 12
+[output]
+vtu_every = 0
+"""
+
+
+def wheelwright(*arguments, code=0, cwd=None):
+    done = subprocess.run([program, *map(str, arguments)], capture_output=True, text=True, cwd=cwd, check=False)
+    assert done.returncode == code, (arguments, done.returncode, done.stdout, done.stderr)
+    return done.stdout + done.stderr
+
+
+# --- Geometry [mm] --------------------------------------------------------------------------------------
+
+
+def signed_area(polygon):
+    return sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(polygon[-1:] + polygon[:-1], polygon)) / 2
+
+
+def boxed(polygons):
+    return [(min(p[0] for p in q), max(p[0] for p in q), min(p[1] for p in q), max(p[1] for p in q), q) for q in polygons]
+
+
+def is_inside(boxes, x, y):
+    """Whether an odd number of polygons encloses the point."""
+    inside = False
+    for left, right, low, high, polygon in boxes:
+        if not (left < x < right and low < y < high):
+            continue
+        ax, ay = polygon[-1]
+        for bx, by in polygon:
+            if (ay > y) != (by > y) and x < ax + (y - ay) / (by - ay) * (bx - ax):
+                inside = not inside
+            ax, ay = bx, by
+    return inside
+
+
+def circle(radius, n=4000):
+    return [(radius * math.cos(2 * math.pi * i / n), radius * math.sin(2 * math.pi * i / n)) for i in range(n)]
+
+
+class Reference:
+    """What a wheel must be: polygons in mm with y up, and probes (x, y, is material) away from the edges."""
+
+    def __init__(self, polygons, width, bodies=1):
+        self.boxes = boxed(polygons)
+        areas = sorted((abs(signed_area(q)) for q in polygons), reverse=True)
+        self.area = areas[0] - sum(areas[1:])
+        self.width = width
+        self.bodies = bodies
+        self.n_holes = len(polygons) - 2
+        self.probes = []
+        margin = 0.4
+        for i in range(11):
+            for j in range(97):
+                r, a = 203 + 13.4 * i, 2 * math.pi * (j + 0.21 + 0.37 * (i % 3)) / 97
+                x, y = r * math.cos(a), r * math.sin(a)
+                near = [is_inside(self.boxes, x + dx, y + dy) for dx, dy in ((0, 0), (margin, 0), (-margin, 0), (0, margin), (0, -margin))]
+                if len(set(near)) == 1:
+                    self.probes.append((x, y, near[0]))
+
+
+def reference_of_run(folder, width):
+    """From shape.svg, whose rim and tread are arcs and whose holes are polylines."""
+    path = re.search(r'\bd="([^"]*)"', (folder / "shape.svg").read_text())[1]
+    holes = []
+    for part in path.split("M")[1:]:
+        if "A" not in part:
+            holes.append([(float(x), -float(y)) for x, y in (p.split() for p in part.rstrip("Z \n").split("L"))])
+    return Reference([circle(340), circle(200)] + holes, width)
+
+
+def exact_reference():
+    """The initial shape without symmetry, from its circles."""
+    holes = []
+    for sector in range(SECTORS):
+        for azimuth, distance, radius in HOLES:
+            a = math.radians(azimuth) + 2 * math.pi * sector / SECTORS
+            cx, cy = 1e3 * distance * math.cos(a), 1e3 * distance * math.sin(a)
+            holes.append([(cx + x, cy + y) for x, y in circle(1e3 * radius, 1000)])
+    return Reference([circle(340), circle(200)] + holes, 1e3 * WIDTH)
+
+
+# --- Readers --------------------------------------------------------------------------------------------
+
+
+def dxf_polygons(path):
+    """By layer, the closed polygons that ezdxf makes of the curves."""
+    document = ezdxf.readfile(path)
+    assert not document.audit().errors, document.audit().errors
+    assert document.dxfversion >= "AC1015" and document.header["$INSUNITS"] == 4
+    chains = {}
+    parts = [(entity.dxf.layer, entity) for entity in document.modelspace()]
+    for layer, entity in parts:
+        kind = entity.dxftype()
+        if kind == "LWPOLYLINE":
+            assert entity.closed
+            parts += [(layer, part) for part in entity.virtual_entities()]
+            continue
+        if kind == "LINE":
+            points = [entity.dxf.start, entity.dxf.end]
+        elif kind == "SPLINE":
+            points = list(entity.construction_tool().flattening(0.001))
+        else:
+            points = list(entity.flattening(0.001))
+        chains.setdefault(layer, []).append([(p[0], p[1]) for p in points])
+    return {layer: joined(parts) for layer, parts in chains.items()}
+
+
+def joined(chains):
+    """Closed polygons of chains whose ends meet."""
+    chains, polygons = list(chains), []
+    while chains:
+        polygon = chains.pop()
+        while math.dist(polygon[0], polygon[-1]) > 1e-6:
+            ends = [(math.dist(polygon[-1], c[end]), k, end) for k, c in enumerate(chains) for end in (0, -1)]
+            miss, k, end = min(ends)
+            assert miss < 1e-6, f"open by {miss} mm"
+            chain = chains.pop(k)
+            polygon += (chain if end == 0 else chain[::-1])[1:]
+        polygons.append(polygon)
+    return polygons
+
+
+def read_stl(path):
+    data = path.read_bytes()
+    (n,) = struct.unpack_from("<I", data, 80)
+    assert len(data) == 84 + 50 * n and not data.startswith(b"solid")
+    return [struct.unpack_from("<12f", data, 84 + 50 * k) for k in range(n)]
+
+
+def admesh(path):
+    text = subprocess.run(["admesh", path], capture_output=True, text=True, check=True).stdout
+    numbers = dict(re.findall(r"([A-Z][A-Za-z0-9 ]*?) *[:=] +(-?[\d.]+)", text))
+    return {key: float(value) for key, value in numbers.items()}
+
+
+# --- Tests ----------------------------------------------------------------------------------------------
+
+
+class ExportedWheel:
+    """The checks of all formats; the classes below bring the wheels."""
+
+    name, reference, folder, smooth = "", None, None, True
+    planes, cylinders = 2, 2  # in the solid
+
+    def file(self, ending):
+        return self.folder / f"{self.name}.{ending}"
+
+    def compare_plane(self, polygons):
+        areas = sorted((abs(signed_area(q)) for q in polygons), reverse=True)
+        self.assertAlmostEqual(areas[0] - sum(areas[1:]), self.reference.area, delta=1e-4 * self.reference.area)
+        boxes = boxed(polygons)
+        for x, y, material in self.reference.probes:
+            self.assertEqual(is_inside(boxes, x, y), material, (x, y))
+
+    def test_probes_tell_the_wheel_from_its_mirror_image(self):
+        wrong = sum(is_inside(self.reference.boxes, x, -y) != m for x, y, m in self.reference.probes)
+        if self.name != "paper":
+            self.assertGreater(wrong, 20)
+        self.assertGreater(len(self.reference.probes), 900)
+
+    def test_dxf(self):
+        layers = dxf_polygons(self.file("dxf"))
+        self.assertEqual({layer: len(q) for layer, q in layers.items()}, {"OUTER_EDGE": 1, "BORE": 1, "HOLE": self.reference.n_holes})
+        self.compare_plane(sum(layers.values(), []))
+        for layer, radius in (("OUTER_EDGE", 340), ("BORE", 200)):
+            (found,) = ezdxf.readfile(self.file("dxf")).modelspace().query(f'CIRCLE[layer=="{layer}"]')
+            self.assertEqual((found.dxf.radius, found.dxf.center), (radius, (0, 0, 0)))
+
+    def test_dxf_splines_are_exact(self):
+        kinds = {e.dxftype() for e in ezdxf.readfile(self.file("dxf")).modelspace()}
+        self.assertEqual("SPLINE" in kinds, self.smooth)
+        for spline in ezdxf.readfile(self.file("dxf")).modelspace().query("SPLINE"):
+            self.assertEqual(spline.dxf.degree, 3)
+            self.assertEqual(len(spline.knots), len(spline.control_points) + 4)
+
+    def test_svg(self):
+        width = 1700
+        picture = self.folder / "svg.png"
+        subprocess.run(["rsvg-convert", "--width", str(width), "--output", picture, self.file("svg")], check=True)
+        self.compare_picture(Image.open(picture).convert("RGBA"), width / 680, lambda p: p[3] > 128)
+        text = self.file("svg").read_text()
+        self.assertIn('width="680mm" height="680mm" viewBox="0 0 680 680"', text)
+        self.assertIn('<g id="wheel" transform="translate(340 340)"', text)
+        self.assertNotRegex(re.search(r'\bd="([^"]*)"', text)[1], "[Aa]")
+
+    def test_png(self):
+        picture = Image.open(self.file("png"))
+        self.assertEqual(picture.size, (1600, 1600))
+        self.compare_picture(picture.convert("RGB"), 780 / 340, lambda p: p[0] < 157)  # between the blue's red, 59, and white
+
+    def compare_picture(self, image, pixels_per_millimetre, is_material):
+        middle = image.size[0] / 2
+        pixels = image.load()
+        count = sum(is_material(p) for p in image.getdata())
+        self.assertAlmostEqual(count / pixels_per_millimetre**2, self.reference.area, delta=1e-3 * self.reference.area)
+        for x, y, material in self.reference.probes:
+            pixel = pixels[int(middle + x * pixels_per_millimetre), int(middle - y * pixels_per_millimetre)]
+            self.assertEqual(is_material(pixel), material, (x, y))
+
+    def test_stl(self):
+        self.compare_mesh(self.file("stl"))
+
+    def test_3mf(self):
+        stl = self.folder / "from_3mf.stl"
+        told = subprocess.run([read_3mf, self.file("3mf"), stl], capture_output=True, text=True, check=True).stdout
+        self.assertEqual(told, "unit 1\nobjects 1\nwarnings 0\n")  # millimetres
+        self.compare_mesh(stl)
+
+    def compare_mesh(self, path):
+        facts = admesh(path)
+        volume = self.reference.area * self.reference.width
+        self.assertAlmostEqual(facts["Volume"], volume, delta=2e-4 * volume)
+        self.assertEqual(facts["Number of parts"], self.reference.bodies)
+        for fault in ("Degenerate facets", "Edges fixed", "Facets removed", "Facets added", "Facets reversed", "Backwards edges",
+                      "Normals fixed", "Total disconnected facets"):
+            self.assertEqual(facts[fault], 0, fault)
+        triangles = read_stl(path)
+        self.assertEqual(min(t[5] for t in triangles), 0)
+        self.assertAlmostEqual(max(t[5] for t in triangles), self.reference.width, places=4)
+        # The upper side, where normals point upwards.
+        upper = [((t[3], t[4]), (t[6], t[7]), (t[9], t[10])) for t in triangles if t[5] == t[8] == t[11] > 0]
+        self.assertTrue(all(signed_area(list(t)) > 0 for t in upper))
+        self.assertAlmostEqual(sum(signed_area(list(t)) for t in upper), self.reference.area, delta=2e-4 * self.reference.area)
+        boxes = boxed([list(t) for t in upper])
+        for x, y, material in self.reference.probes[::5]:
+            self.assertEqual(is_inside(boxes, x, y), material, (x, y))
+
+    def test_step(self):
+        z = 0.3 * self.reference.width
+        points = "".join(f"{x} {y} {z}\n" for x, y, _ in self.reference.probes)
+        lines = subprocess.run([read_step, self.file("step")], input=points, capture_output=True, text=True, check=True).stdout.splitlines()
+        facts = dict(line.split(" ", 1) for line in lines if " " in line)
+        self.assertEqual((facts["unit"], facts["valid"], facts["solids"]), ("millimetre", "1", str(self.reference.bodies)))
+        volume = self.reference.area * self.reference.width
+        self.assertAlmostEqual(float(facts["volume"]), volume, delta=1e-4 * volume)
+        self.assertAlmostEqual(float(facts["usual_volume"]), volume, delta=1e-3 * volume)
+        self.assertEqual((int(facts["plane"]), int(facts["cylinder"])), (self.planes, self.cylinders))
+        self.assertEqual("b_spline" in facts, self.smooth)
+        self.assertNotIn("other", facts)
+        for corner, at in (("lower", (-340, -340, 0)), ("upper", (340, 340, self.reference.width))):
+            for value, expected in zip(facts[corner].split(), at):
+                self.assertAlmostEqual(float(value), expected, delta=1e-3)
+        found = [line == "in" for line in lines if " " not in line]
+        self.assertEqual(found, [material for _, _, material in self.reference.probes])
+
+    def test_vtu(self):
+        xml, data = self.file("vtu").read_bytes().split(b'<AppendedData encoding="raw">\n_', 1)
+        arrays = {name: (kind, int(offset)) for kind, name, offset in
+                  re.findall(r'<DataArray type="(\w+)" Name="(\w+)".*?offset="(\d+)"', xml.decode())}
+        self.assertIn('Name="psi_mm"', xml.decode())
+
+        def values(name):
+            kind, offset = arrays[name]
+            (size,) = struct.unpack_from("<Q", data, offset)
+            code = {"Float32": "f", "Int32": "i", "UInt8": "B"}[kind]
+            return struct.unpack_from(f"<{size // struct.calcsize(code)}{code}", data, offset + 8)
+
+        numbers, connectivity, offsets = values("Points"), values("connectivity"), values("offsets")
+        points = list(zip(numbers[0::3], numbers[1::3]))
+        cells = [[points[i] for i in connectivity[a:b]] for a, b in zip((0, *offsets), offsets)]
+        self.assertAlmostEqual(sum(map(signed_area, cells)), self.reference.area, delta=1e-3 * self.reference.area)
+        boxes = boxed(cells)
+        for x, y, material in self.reference.probes[::5]:
+            self.assertEqual(is_inside(boxes, x, y), material, (x, y))
+
+    def test_the_same_input_gives_the_same_bytes(self):
+        again = self.folder / "again"
+        wheelwright("export", self.source, "--format", ALL, "--output", again)
+        for ending in ALL.split(","):
+            self.assertEqual((again / f"{self.name}.{ending}").read_bytes(), self.file(ending).read_bytes(), ending)
+
+
+class OptimizedWithoutSymmetry(ExportedWheel, unittest.TestCase):
+    name = "no_symmetry"
+
+    @classmethod
+    def setUpClass(cls):
+        cls.source = optimized(NO_SYMMETRY, cls.name)
+        cls.folder = exported(cls.source, cls.name)
+        cls.reference = reference_of_run(cls.source, 1e3 * WIDTH)
+
+
+class InitialWithoutSymmetry(ExportedWheel, unittest.TestCase):
+    name, smooth, cylinders = "circles", False, 2 + SECTORS * len(HOLES)
+
+    @classmethod
+    def setUpClass(cls):
+        cls.source = temporary / "circles.toml"
+        # A grid on which the level set's circles are round to a micrometre.
+        cls.source.write_text(NO_SYMMETRY.replace("radial_cells = 28", "radial_cells = 56").replace("= 378", "= 1540"))
+        cls.folder = exported(cls.source, cls.name)
+        cls.reference = exact_reference()
+
+    def test_circles_are_where_they_were_given(self):
+        found = sorted((round(c.dxf.center.x, 2), round(c.dxf.center.y, 2), round(c.dxf.radius, 2))
+                       for c in ezdxf.readfile(self.file("dxf")).modelspace().query('CIRCLE[layer=="HOLE"]'))
+        given = []
+        for sector in range(SECTORS):
+            for azimuth, distance, radius in HOLES:
+                a = math.radians(azimuth) + 2 * math.pi * sector / SECTORS
+                given.append((1e3 * distance * math.cos(a), 1e3 * distance * math.sin(a), 1e3 * radius))
+        for f, g in zip(found, sorted(given), strict=True):
+            for a, b in zip(f, g):
+                self.assertAlmostEqual(a, b, delta=0.011)
+
+
+class ThePapersWheel(ExportedWheel, unittest.TestCase):
+    name = "paper"
+
+    @classmethod
+    def setUpClass(cls):
+        cls.source = optimized(PAPER, cls.name)
+        cls.folder = exported(cls.source, cls.name)
+        cls.reference = reference_of_run(cls.source, 120)
+
+
+class AllKindsOfCurves(ExportedWheel, unittest.TestCase):
+    """An outline that was made by hand: lines, arcs both ways, a spline with corners."""
+
+    name, planes, cylinders = "sample", 2 + 3, 2 + 3
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = temporary / cls.name
+        cls.folder.mkdir()
+        told = subprocess.run([write_sample_outline, cls.folder], capture_output=True, text=True, check=True).stdout
+        loops = [[tuple(map(float, point.split())) for point in loop.split("\n")] for loop in told.strip().split("\n\n")]
+        cls.reference = Reference(loops, 50)
+
+    def test_dxf_entities(self):
+        kinds = [(e.dxftype(), e.dxf.layer) for e in ezdxf.readfile(self.file("dxf")).modelspace()]
+        self.assertEqual(kinds, [("CIRCLE", "OUTER_EDGE"), ("CIRCLE", "BORE"), ("LWPOLYLINE", "HOLE"), ("SPLINE", "HOLE"), ("ARC", "HOLE"),
+                                 ("LINE", "HOLE")])
+
+    test_vtu = None  # its shape has no holes
+    test_the_same_input_gives_the_same_bytes = None
+
+
+def optimized(case, name):
+    file = temporary / f"{name}.toml"
+    file.write_text(case)
+    wheelwright("run", file, "--output", temporary / name, "--threads", 1)
+    return temporary / name
+
+
+def exported(source, name):
+    folder = temporary / f"{name}_export"
+    wheelwright("export", source, "--format", ALL, "--output", folder)
+    return folder
+
+
+class Command(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.case = temporary / "command.toml"
+        cls.case.write_text(PAPER.replace("iterations = 12", "iterations = 1"))
+        cls.run_folder = temporary / "command"
+        wheelwright("run", cls.case, "--output", cls.run_folder, "--threads", 1)
+
+    def fresh(self):
+        return Path(tempfile.mkdtemp(dir=temporary))
+
+    def test_report(self):
+        told = wheelwright("export", self.case, "--output", self.fresh())
+        self.assertRegex(told, r"curves +18 loops: 18 arcs")
+        # The walls between holes of radius 40 on a circle of radius 270, and the holes.
+        self.assertRegex(told, r"smallest wall +25\.35 mm at azimuth \d*2\.50 deg, radius 264\.8 mm")
+        self.assertRegex(told, r"smallest gap +80\.00 mm at azimuth 11\.25 deg, radius 270\.0 mm")
+
+    def test_files_go_to_the_current_folder_unless_told_otherwise(self):
+        folder = self.fresh()
+        wheelwright("export", self.run_folder, cwd=folder)
+        self.assertEqual(sorted(os.listdir(folder)), ["command.dxf", "command.stl", "command.svg"])
+
+    def test_tolerance_decides_how_many_cubics_there_are(self):
+        def cubics(tolerance):
+            told = wheelwright("export", self.run_folder, "--tolerance", tolerance, "--format", "dxf", "--output", self.fresh())
+            return int(re.search(r"(\d+) cubics", told)[1])
+        self.assertGreater(cubics(0.002), cubics(0.05))
+
+    def test_wrong_arguments(self):
+        for arguments in (["--format", "dwg"], ["--format", "dxf,"], ["--format", ""], ["--tolerance", "0"],
+                          ["--tolerance", "nan"], ["--tolerance", "-1"], ["--tolerance", "0.01mm"], ["--tolerance", "5000"]):
+            folder = self.fresh()
+            wheelwright("export", self.run_folder, *arguments, "--output", folder, code=2)
+            self.assertEqual(os.listdir(folder), [])
+
+    def test_a_folder_without_a_run_or_a_checkpoint(self):
+        self.assertIn("holds no run", wheelwright("export", self.fresh(), code=2))
+        self.assertIn("cannot be read", wheelwright("export", self.fresh() / "none.toml", code=2))
+        folder = self.fresh()
+        (folder / "case.toml").write_bytes((self.run_folder / "case.toml").read_bytes())
+        self.assertIn("no checkpoint can be used", wheelwright("export", folder, code=6))
+
+    def test_nothing_is_overwritten_without_force(self):
+        folder = self.fresh()
+        (folder / "command.svg").write_text("mine")
+        told = wheelwright("export", self.run_folder, "--output", folder, code=4)
+        self.assertIn("command.svg: exists already", told)
+        self.assertEqual(os.listdir(folder), ["command.svg"])
+        self.assertEqual((folder / "command.svg").read_text(), "mine")
+        wheelwright("export", self.run_folder, "--output", folder, "--force")
+        self.assertIn("<svg", (folder / "command.svg").read_text())
+
+    def test_output_that_cannot_be_written(self):
+        file = self.fresh() / "file"
+        file.write_text("")
+        self.assertIn("cannot write", wheelwright("export", self.run_folder, "--output", file / "folder", code=5))
+
+    def test_the_runs_folder_is_left_as_it_is(self):
+        def state():
+            return {path: (path.stat().st_mtime_ns, hashlib.md5(path.read_bytes()).hexdigest() if path.is_file() else None)
+                    for path in [self.run_folder, *self.run_folder.rglob("*")]}
+        before = state()
+        wheelwright("export", self.run_folder, "--output", self.fresh())
+        self.assertEqual(state(), before)
+
+    def test_other_commands_do_not_load_the_large_libraries(self):
+        for arguments in (["--version"], ["export", self.case, "--output", self.fresh()]):
+            told = subprocess.run([program, *map(str, arguments)], capture_output=True, text=True, check=True,
+                                  env={**os.environ, "LD_DEBUG": "files"}).stderr
+            self.assertIn("libwheelwright", told)
+            self.assertNotRegex(told, "libTK|lib3MF")
+
+
+if __name__ == "__main__":
+    with tempfile.TemporaryDirectory() as name:
+        temporary = Path(name)
+        unittest.main(verbosity=2)
