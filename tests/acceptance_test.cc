@@ -47,8 +47,8 @@ ScriptedRun run_with(std::vector<double> objectives, int iterations,
   options.tolerance = 0;
   options.max_halvings = 2;
   options.measure_control = control;
-  const ShapeOptimizer<2> optimizer(lattice, {{ExtensionKind::h1, 2}, 0.04, {{0.012, 1}, {0.012, 1}}}, options,
-                                    testing::objective_of_shape<2>(Scripted(std::move(objectives))));
+  const ShapeOptimizer<2> optimizer(lattice, {{ExtensionKind::h1, 2}, 0.04, {{0.012, 1}, {0.012, 1}}},
+                                    options, testing::objective_of_shape<2>(Scripted(std::move(objectives))));
   std::vector<Verdict> verdicts;
   std::vector<double> steps;
   const auto observer = [&](const Trial<2>& trial, const OptimizationState<2>&) {

@@ -26,6 +26,7 @@
 #include "wheelwright/case/suggest.h"
 #include "wheelwright/case/toml_guard.h"
 #include "wheelwright/case/write.h"
+#include "wheelwright/files/checksum.h"
 
 namespace wheelwright {
 namespace {
@@ -71,6 +72,8 @@ std::string kind_name(Kind kind) {
       return "out_of_range";
     case Kind::conflict:
       return "conflict";
+    case Kind::drawing:
+      return "drawing";
   }
   return "";
 }
@@ -107,6 +110,18 @@ Case with_holes() {
   c.output.folder = "runs/test";
   c.holes.rings = {ring_sections().example};
   c.holes.circles = {circle_sections().example};
+  int order = 0;
+  for_each_shape_section([&](const auto& section) {
+    section.in(c) = {section.example};
+    section.in(c)[0].order = ++order;
+  });
+  const auto drawings = source / "tests" / "drawings";
+  const auto place = [&](auto& shape) {
+    shape.path = drawings / shape.path;
+    shape.checksum = fmt::format("crc32:{:08x}", checksum(contents(shape.path)));
+  };
+  place(c.shapes.files[0]);
+  place(c.shapes.pictures[0]);
   c.expectations = {expectation_sections().example};
   return c;
 }
@@ -191,7 +206,8 @@ std::string with_all_keys(std::string text) {
 }
 
 TEST(CaseFile, TheTemplatesCommentedHolesAreValid) {
-  const CaseResult result = parse_case(with_all_keys(case_template()), "template.toml");
+  const CaseResult result =
+      parse_case(with_all_keys(case_template()), source / "tests" / "drawings" / "template.toml");
   ASSERT_TRUE(result.value) << texts(result.problems);
   EXPECT_EQ(result.value->holes.circles, std::vector{circle_sections().example});
   EXPECT_EQ(result.value->expectations, std::vector{expectation_sections().example});
@@ -316,6 +332,13 @@ template <class Field>
 constexpr bool is_point = false;
 template <class Struct>
 constexpr bool is_point<PointField<Struct>> = true;
+template <class Struct>
+constexpr bool is_point<OptionalPointField<Struct>> = true;
+
+template <class Field>
+constexpr bool is_list_of_points = false;
+template <class Struct>
+constexpr bool is_list_of_points<PointsField<Struct>> = true;
 
 template <class Field>
 std::vector<BadValue> bad_values(const Field& field) {
@@ -323,6 +346,13 @@ std::vector<BadValue> bad_values(const Field& field) {
     return {{"\"no such word\"", Kind::out_of_range}, {"1", Kind::wrong_type}, {"true", Kind::wrong_type}};
   } else if constexpr (!requires { field.range; }) {
     return {{"1", Kind::wrong_type}, {"[]", Kind::wrong_type}, {"{}", Kind::wrong_type}};
+  } else if constexpr (is_list_of_points<Field>) {
+    return {{"1.0", Kind::wrong_type},
+            {"[0.27, 0.01]", Kind::wrong_type},
+            {"[[0.27, 0.01], [0.28, 0.01], [0.28]]", Kind::wrong_type},
+            {"[[0.27, 0.01], [0.28, \"0\"], [0.28, 0.02]]", Kind::wrong_type},
+            {"[[0.27, 0.01], [0.28, 0.01]]", Kind::out_of_range},
+            {"[[0.27, nan], [0.28, 0.01], [0.28, 0.02]]", Kind::out_of_range}};
   } else if constexpr (is_point<Field>) {
     return {{"1.0", Kind::wrong_type},
             {"[1, 2, 3]", Kind::wrong_type},
@@ -426,12 +456,16 @@ TEST(CaseKeys, EveryRangeEndsWhereItIsDeclared) {
   int tried = 0;
   const auto try_key = [&](const auto& section, const auto& key, const auto& field) {
     if constexpr (requires { field.range; }) {
-      const bool point = is_point<std::decay_t<decltype(field)>>;
+      using Field = std::decay_t<decltype(field)>;
+      const bool point = is_point<Field>;
       const RangeEnds values = ends(
-          field.range, !point && !requires { field.factor; });
+          field.range, !point && !is_list_of_points<Field> && !requires { field.factor; });
       const auto edited = [&](const std::string& value) {
+        const auto form = is_list_of_points<Field> ? "{} = [[0.27, 0.01], [0.28, {}], [0.28, 0.02]]"
+                          : point                  ? "{} = [0.27, {}]"
+                                                   : "{} = {}";
         return replace_key(header_of(section), written_key(section.keys, key),
-                           fmt::format(point ? "{} = [0.27, {}]" : "{} = {}", key.name, value));
+                           fmt::format(fmt::runtime(form), key.name, value));
       };
       for (const auto& value : values.outside) expect_only(edited(value), Kind::out_of_range);
       for (const auto& value : values.inside)

@@ -54,6 +54,22 @@ class CommandLine : public TemporaryFolder {
   }
 };
 
+TEST_F(CommandLine, InitWritesThePresetsThatItLists) {
+  const Outcome list = wheelwright("init --list", folder());
+  EXPECT_EQ(list.code, exit_done);
+  EXPECT_TRUE(std::filesystem::is_empty(folder()));
+  std::istringstream lines(list.output);
+  int n = 0;
+  for (std::string line; std::getline(lines, line); ++n) {
+    const std::string name = line.substr(0, line.find(' '));
+    EXPECT_EQ(wheelwright(fmt::format("init {0}.toml --preset {0}", name), folder()).code, exit_done) << name;
+    EXPECT_EQ(wheelwright(fmt::format("check {}.toml", name), folder()).code, exit_done) << name;
+  }
+  EXPECT_GE(n, 8);
+  EXPECT_EQ(wheelwright("init other.toml --preset other", folder()).code, exit_usage);
+  EXPECT_FALSE(std::filesystem::exists(folder() / "other.toml"));
+}
+
 TEST_F(CommandLine, HelpAndVersionSucceed) {
   EXPECT_EQ(wheelwright("--help").code, exit_done);
   EXPECT_EQ(wheelwright("run --help").code, exit_done);

@@ -1,18 +1,23 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "wheelwright/base/quantity.h"
+#include "wheelwright/drawing/fill.h"
 #include "wheelwright/elasticity/contact_form.h"
 #include "wheelwright/elasticity/dual_norm.h"
 #include "wheelwright/elasticity/ghost_penalty.h"
 #include "wheelwright/elasticity/material.h"
 
 namespace wheelwright {
+
+struct Drawing;
+struct Picture;
 
 // A case: everything that defines one optimization, as plain data in SI units and radians. The initial values
 // here are the defaults of the case file; names, units, ranges and meanings are declared in case/keys.cc.
@@ -65,6 +70,141 @@ struct Holes {
   std::vector<HoleRing> rings;
   std::vector<HoleCircle> circles;
   bool operator==(const Holes&) const = default;
+};
+
+// Shapes that are drawn over the ring, each over those before it: `order` is a shape's place among all of
+// them, from 1. Each is repeated `count` times, evenly spaced about the axle; `phase` is the azimuth of the
+// first one, if absent half the spacing.
+
+struct CircleShape {
+  int order = 0;
+  Fill as = Fill::hole;
+  int count = 0;
+  double center_radius = 0;
+  double radius = 0;
+  std::optional<double> phase;
+  bool operator==(const CircleShape&) const = default;
+};
+
+struct EllipseShape {
+  int order = 0;
+  Fill as = Fill::hole;
+  int count = 0;
+  double center_radius = 0;
+  double length = 0;
+  double width = 0;
+  double angle = 0;  ///< of the length, from the direction away from the axle
+  std::optional<double> phase;
+  bool operator==(const EllipseShape&) const = default;
+};
+
+/// A rectangle with round ends.
+struct SlotShape {
+  int order = 0;
+  Fill as = Fill::hole;
+  int count = 0;
+  double center_radius = 0;
+  double length = 0;  ///< over all
+  double width = 0;
+  double angle = 0;  ///< of the length, from the direction away from the axle
+  std::optional<double> phase;
+  bool operator==(const SlotShape&) const = default;
+};
+
+struct PolygonShape {
+  int order = 0;
+  Fill as = Fill::hole;
+  int count = 0;
+  std::vector<std::array<double, 2>> points;  ///< corners of the first one: Cartesian, body frame
+  double phase = 0;                           ///< by which all are turned
+  bool operator==(const PolygonShape&) const = default;
+};
+
+/// What lies between two radii.
+struct AnnulusShape {
+  int order = 0;
+  Fill as = Fill::hole;
+  std::optional<double> inner_radius;  ///< absent: the edge of the rim's band
+  std::optional<double> outer_radius;  ///< absent: the edge of the tread's band
+  bool operator==(const AnnulusShape&) const = default;
+};
+
+enum class SpokeKind {
+  straight,
+  curved,  ///< a circular arc
+  forked,  ///< two branches from a stem
+  pair,    ///< two straight spokes, mirror images of each other
+};
+
+struct SpokeShape {
+  int order = 0;
+  Fill as = Fill::material;
+  SpokeKind kind = SpokeKind::straight;
+  int count = 0;
+  double thickness = 0;
+  double angle = 0;                   ///< azimuth of the outer end minus that of the foot
+  double bend = 0;                    ///< by which a curved spoke turns towards larger azimuth on its way out
+  double spread = 0;                  ///< between the outer ends of a fork, or the feet of a pair
+  std::optional<double> fork_radius;  ///< absent: the middle of the spoke
+  std::optional<double> inner_radius;  ///< of the foot; absent: the rim
+  std::optional<double> outer_radius;  ///< of the outer end; absent: the tread
+  std::optional<double> phase;
+  bool operator==(const SpokeShape&) const = default;
+};
+
+/// What was read from a file that the case names. The case compares files by their checksums.
+template <class Contents>
+struct Loaded {
+  std::shared_ptr<const Contents> contents;
+  bool operator==(const Loaded&) const { return true; }
+};
+
+enum class DrawingUnit { of_file, metre, centimetre, millimetre, inch };
+
+/// A drawing in a file of curves: SVG or DXF.
+struct FileShape {
+  int order = 0;
+  Fill as = Fill::hole;
+  std::string path;  ///< relative to the case's file
+  DrawingUnit unit = DrawingUnit::of_file;
+  std::optional<std::array<double, 2>> axle;  ///< in the drawing's own unit and axes
+  int count = 1;
+  double phase = 0;      ///< by which all are turned
+  std::string checksum;  ///< of the file; never empty in a case that was read from a file
+  Loaded<Drawing> drawing;
+  bool operator==(const FileShape&) const = default;
+};
+
+enum class PictureLayout {
+  wheel,   ///< the whole wheel as it is seen
+  sector,  ///< one of `count` equal parts, unrolled
+};
+
+/// A picture of pixels: PNG.
+struct PictureShape {
+  int order = 0;
+  Fill as = Fill::hole;
+  std::string path;  ///< relative to the case's file
+  PictureLayout layout = PictureLayout::wheel;
+  std::optional<double> width;  ///< of the picture of a wheel
+  double threshold = 0.5;       ///< darker than this is drawn: 0 white, 1 black
+  int count = 1;
+  double phase = 0;      ///< by which all are turned
+  std::string checksum;  ///< of the file; never empty in a case that was read from a file
+  Loaded<Picture> picture;
+  bool operator==(const PictureShape&) const = default;
+};
+
+struct Shapes {
+  std::vector<CircleShape> circles;
+  std::vector<EllipseShape> ellipses;
+  std::vector<SlotShape> slots;
+  std::vector<PolygonShape> polygons;
+  std::vector<AnnulusShape> annuli;
+  std::vector<SpokeShape> spokes;
+  std::vector<FileShape> files;
+  std::vector<PictureShape> pictures;
+  bool operator==(const Shapes&) const = default;
 };
 
 struct Grid {
@@ -151,6 +291,7 @@ struct Case {
   Load load;
   Contact contact;
   Holes holes;
+  Shapes shapes;
   Grid grid;
   GhostPenalty ghost_penalty;
   Objective objective;

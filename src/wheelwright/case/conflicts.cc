@@ -12,23 +12,16 @@
 #include <numeric>
 
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/drawn_shapes.h"
 #include "wheelwright/case/hole_rings.h"
 #include "wheelwright/case/number_text.h"
+#include "wheelwright/case/shape_conflicts.h"
 
 namespace wheelwright {
 
 namespace {
 
 using Conflicts = std::vector<Conflict>;
-
-const std::vector<std::string> ring_shape_keys{"wheel.inner_radius", "wheel.outer_radius",
-                                               "optimizer.rim_band", "optimizer.tread_band",
-                                               "grid.radial_cells",  "objective.annulus"};
-
-std::vector<std::string> with_ring_shape(std::vector<std::string> keys) {
-  keys.insert(keys.end(), ring_shape_keys.begin(), ring_shape_keys.end());
-  return keys;
-}
 
 /// The value rounded up to three digits, so that the value advised in a message is accepted.
 double rounded_up(double value) {
@@ -136,23 +129,19 @@ std::vector<int> divisors(int n) {
   return result;
 }
 
-void check_ring_counts(const Case& c, Conflicts& found) {
-  int common = 0;
-  for (const HoleRing& ring : c.holes.rings) common = std::gcd(common, ring.count);
-  for (std::size_t i = 0; i < c.holes.rings.size(); ++i) {
-    if (c.holes.rings[i].count % c.wheel.sectors == 0) continue;
-    found.push_back(
-        {{ring_key(i, "count"), "wheel.sectors"},
-         fmt::format("must be a multiple of wheel.sectors = {}", c.wheel.sectors),
-         fmt::format("values of wheel.sectors that fit all rings: {}", fmt::join(divisors(common), ", "))});
-  }
-}
-
-/// hole_range(), in which holes may touch the bands: to be moved by a thousandth of a cell changes nothing.
-HoleRange room_for_holes(const Case& c) {
-  const auto [inner, outer] = hole_range(plane_grid(c), bands(c));
-  const double touch = 0.001 * plane_grid(c).resolution();
-  return {inner - touch, outer + touch};
+/// Finds rings and tables of shapes that are not the same in all sectors.
+void check_counts(const Case& c, const std::vector<DrawnShape>& shapes, Conflicts& found) {
+  const int common = common_count(c, shapes);
+  const auto check = [&](std::string key, int count) {
+    if (count % c.wheel.sectors == 0) return;
+    found.push_back({{std::move(key), "wheel.sectors"},
+                     fmt::format("must be a multiple of wheel.sectors = {}", c.wheel.sectors),
+                     fmt::format("values of wheel.sectors that fit all rings and shapes: {}",
+                                 fmt::join(divisors(common), ", "))});
+  };
+  for (std::size_t i = 0; i < c.holes.rings.size(); ++i) check(ring_key(i, "count"), c.holes.rings[i].count);
+  for (const DrawnShape& shape : shapes)
+    if (shape.repetition == Repetition::by_count) check(shape.key + ".count", shape.count);
 }
 
 void check_hole_inside(const Case& c, double center_radius, double radius, std::vector<std::string> keys,
@@ -359,7 +348,7 @@ void check_volume(const Case& c, Conflicts& found) {
   const auto [rim, tread] = bands(c);
   const double low = w.inner_radius + rim.thickness, high = w.outer_radius - tread.thickness;
   if (!c.volume.target || low >= high) return;
-  if (c.holes.rings.empty() && c.holes.circles.empty()) {
+  if (!has_holes(c)) {
     found.push_back({{"volume.target"},
                      "there are no holes that could grow or shrink",
                      "give holes, or leave the key out"});
@@ -410,9 +399,12 @@ std::vector<Conflict> conflicts(const Case& c) {
   check_size(c, found);
   check_travel(c, found);
   check_angular_cells(c, found);
-  check_ring_counts(c, found);
+  const std::vector<DrawnShape> shapes = drawn_shapes(c);
+  check_counts(c, shapes, found);
   check_holes(c, found);
   check_nested_holes(c, found);
+  const Conflicts of_shapes = shape_conflicts(c, shapes);
+  found.insert(found.end(), of_shapes.begin(), of_shapes.end());
   check_nitsche(c, found);
   check_load(c, found);
   check_contact_points(c, found);

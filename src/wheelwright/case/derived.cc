@@ -53,7 +53,15 @@ double tread_cell_width(const Case& c) {
 double smallest_hole_in_cells(const Case& c) {
   const double radial = (c.wheel.outer_radius - c.wheel.inner_radius) / c.grid.radial_cells,
                azimuthal = pi * (c.wheel.outer_radius + c.wheel.inner_radius) / c.grid.angular_cells;
-  return smallest_hole_width(c) / std::max(radial, azimuthal);
+  double smallest = smallest_hole_width(c);
+  const auto add = [&](Fill as, double diameter) {
+    if (as == Fill::hole) smallest = std::min(smallest, diameter);
+  };
+  for (const CircleShape& circle : c.shapes.circles) add(circle.as, 2 * circle.radius);
+  for (const EllipseShape& ellipse : c.shapes.ellipses)
+    add(ellipse.as, std::min(ellipse.length, ellipse.width));
+  for (const SlotShape& slot : c.shapes.slots) add(slot.as, slot.width);
+  return smallest / std::max(radial, azimuthal);
 }
 
 double cells_per_contact_patch(const Case& c) { return 2 * likely_half_width(c) / tread_cell_width(c); }
@@ -98,6 +106,18 @@ Bands bands(const Case& c) {
   const double with_annulus = wants_annulus(c) ? annulus_thickness(c) + ring / 28 : 0;
   return {.rim = {c.optimizer.rim_band.value_or(usual), 1},
           .tread = {c.optimizer.tread_band.value_or(std::max(usual, with_annulus)), tread_rows(c) + 1}};
+}
+
+HoleRange free_region(const Case& c) { return hole_range(plane_grid(c), bands(c)); }
+
+HoleRange room_for_holes(const Case& c) {
+  const auto [inner, outer] = free_region(c);
+  const double touch = 0.001 * plane_grid(c).resolution();
+  return {inner - touch, outer + touch};
+}
+
+bool has_holes(const Case& c) {
+  return !c.holes.rings.empty() || !c.holes.circles.empty() || c.shapes != Shapes{};
 }
 
 std::vector<Circle> sector_holes(const Case& c) {

@@ -41,7 +41,8 @@ double cells_per_contact_patch(const Case& c);
 /// Contact pressures are not resolved with fewer cells per patch than this.
 inline constexpr double least_cells_per_contact_patch = 6;
 
-/// Width of the smallest hole, in units of the longer cell edge at mid-ring; infinite without holes.
+/// Width of the smallest hole, as far as it has one, in units of the longer cell edge at mid-ring; infinite
+/// without holes.
 double smallest_hole_in_cells(const Case& c);
 
 /// Smaller holes fray in an optimization without smoothing.
@@ -75,8 +76,17 @@ PolarGrid<2> plane_grid(const Case& c);
 /// because it carries the ghost penalty of the cut cells.
 Bands bands(const Case& c);
 
-/// The holes of one sector, from rings and circles; those of the other sectors are their rotations. A hole
-/// may lie in any sector and cross the interfaces between sectors.
+/// The radii [m] between the bands, where holes may be.
+HoleRange free_region(const Case& c);
+
+/// The same, in which holes may touch the bands: to be moved by a thousandth of a cell changes nothing.
+HoleRange room_for_holes(const Case& c);
+
+/// Whether the initial shape has anything but the full ring.
+bool has_holes(const Case& c);
+
+/// The `[[holes.*]]` of one sector, from rings and circles; those of the other sectors are their rotations. A
+/// hole may lie in any sector and cross the interfaces between sectors.
 std::vector<Circle> sector_holes(const Case& c);
 
 /// Number of displacement unknowns of the full ring if every cell held material: an upper bound.

@@ -4,7 +4,7 @@
 
 namespace wheelwright {
 
-/// A problem in a case file.
+/// A problem in a case file, or in a drawing that it names.
 struct Diagnostic {
   enum class Kind {
     unreadable,  ///< the file cannot be opened
@@ -15,17 +15,18 @@ struct Diagnostic {
     wrong_type,
     out_of_range,
     conflict,  ///< values that contradict each other
+    drawing,   ///< stands in a drawing: `file` and `line` are the drawing's
   };
 
   Kind kind;
   std::string file;
-  int line, column;   ///< from 1; 0 if the problem has no position
+  int line, column;   ///< from 1; 0 if the problem has no such position
   std::string key;    ///< path, e.g. "wheel.sectors" or "holes.ring[2].count" (from 1); may be empty
   std::string value;  ///< as in the file; may be empty
   std::string problem;
   std::string remedy;  ///< what to do; may be empty
 
-  /// "file:line:column: key = value: problem; remedy", one line.
+  /// "file:line:column: key = value: problem; remedy", one line, without what is unknown.
   std::string text() const;
 };
 

@@ -89,6 +89,23 @@ struct PointField {
   Range range;
 };
 
+/// A point whose default is described by a text.
+template <class Struct>
+struct OptionalPointField {
+  std::optional<std::array<double, 2>> Struct::*member;
+  Range range;
+  std::string_view default_text;
+};
+
+/// A list of at least three points.
+template <class Struct>
+struct PointsField {
+  std::vector<std::array<double, 2>> Struct::*member;
+  Range range;
+};
+/// The shortest and the longest list.
+inline constexpr std::size_t fewest_points = 3, most_points = 10000;
+
 /// One of several words, in the order of the enumerators.
 template <class Struct>
 struct ChoiceField {
@@ -120,7 +137,8 @@ struct Key {
   std::string_view name;
   std::string_view unit;  ///< empty for pure numbers and words
   std::variant<NumberField<Struct>, OptionalNumberField<Struct>, IntegerField<Struct>,
-               OptionalIntegerField<Struct>, TextField<Struct>, PointField<Struct>, ChoiceField<Struct>>
+               OptionalIntegerField<Struct>, TextField<Struct>, PointField<Struct>,
+               OptionalPointField<Struct>, PointsField<Struct>, ChoiceField<Struct>>
       field;
   std::string_view meaning;
   Presence presence = Presence::has_default;
@@ -161,6 +179,14 @@ const Section<Load>& load_section();
 const Section<Contact>& contact_section();
 const SectionArray<HoleRing>& ring_sections();
 const SectionArray<HoleCircle>& circle_sections();
+const SectionArray<CircleShape>& circle_shape_sections();
+const SectionArray<EllipseShape>& ellipse_shape_sections();
+const SectionArray<SlotShape>& slot_shape_sections();
+const SectionArray<PolygonShape>& polygon_shape_sections();
+const SectionArray<AnnulusShape>& annulus_shape_sections();
+const SectionArray<SpokeShape>& spoke_shape_sections();
+const SectionArray<FileShape>& file_shape_sections();
+const SectionArray<PictureShape>& picture_shape_sections();
 const Section<Grid>& grid_section();
 const Section<GhostPenalty>& ghost_penalty_section();
 const Section<Objective>& objective_section();
@@ -168,6 +194,19 @@ const Section<Volume>& volume_section();
 const Section<Optimizer>& optimizer_section();
 const Section<Output>& output_section();
 const SectionArray<Expectation>& expectation_sections();
+
+/// Calls visit(section) for the arrays of shapes, whose tables count in the order in which they are written.
+template <class Visitor>
+void for_each_shape_section(Visitor&& visit) {
+  visit(circle_shape_sections());
+  visit(ellipse_shape_sections());
+  visit(slot_shape_sections());
+  visit(polygon_shape_sections());
+  visit(annulus_shape_sections());
+  visit(spoke_shape_sections());
+  visit(file_shape_sections());
+  visit(picture_shape_sections());
+}
 
 /// Calls visit(section) for every Section and SectionArray, in the order of the file.
 template <class Visitor>
@@ -179,6 +218,7 @@ void for_each_section(Visitor&& visit) {
   visit(contact_section());
   visit(ring_sections());
   visit(circle_sections());
+  for_each_shape_section(visit);
   visit(grid_section());
   visit(ghost_penalty_section());
   visit(objective_section());

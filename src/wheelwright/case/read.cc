@@ -17,6 +17,7 @@
 #include "wheelwright/base/text.h"
 #include "wheelwright/case/conflicts.h"
 #include "wheelwright/case/keys.h"
+#include "wheelwright/case/load_drawings.h"
 #include "wheelwright/case/number_text.h"
 #include "wheelwright/case/suggest.h"
 #include "wheelwright/case/toml_guard.h"
@@ -40,6 +41,7 @@ struct Reading {
   std::map<std::string, Entry> entries;  ///< by key path
   std::set<std::string> faulty;          ///< paths of keys whose value could not be used
   std::vector<Diagnostic> problems;
+  std::vector<std::pair<int, int>> shape_places;  ///< line and column of each shape
 };
 
 struct Complaint {
@@ -98,9 +100,14 @@ std::string quoted_list(const std::vector<std::string_view>& words) {
   return fmt::format("\"{}\"", fmt::join(words, "\", \""));
 }
 
-void note(Reading& reading, const std::string& path, const toml::node& node) {
+std::pair<int, int> node_place(const toml::node& node) {
   const auto begin = node.source().begin;
-  reading.entries[path] = {static_cast<int>(begin.line), static_cast<int>(begin.column), value_text(node)};
+  return {static_cast<int>(begin.line), static_cast<int>(begin.column)};
+}
+
+void note(Reading& reading, const std::string& path, const toml::node& node) {
+  const auto [line, column] = node_place(node);
+  reading.entries[path] = {line, column, value_text(node)};
 }
 
 void complain(Reading& reading, const std::string& path, Entry at, Complaint complaint) {
@@ -181,14 +188,47 @@ std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>&,
   return {};
 }
 
-template <class Struct>
-std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>& key,
-                                    const PointField<Struct>& field, Struct& out) {
+std::optional<Complaint> read_point(const toml::node& node, std::string_view unit, const Range& range,
+                                    std::array<double, 2>& out) {
   const toml::array* array = node.as_array();
   if (!array || array->size() != 2) return wrong_type("a point", "write it as [x, y]");
   for (int d = 0; d < 2; ++d)
-    if (auto complaint = read_number((*array)[d], key.unit, field.range, (out.*field.member)[d]))
-      return complaint;
+    if (auto complaint = read_number((*array)[d], unit, range, out[d])) return complaint;
+  return {};
+}
+
+template <class Struct>
+std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>& key,
+                                    const PointField<Struct>& field, Struct& out) {
+  return read_point(node, key.unit, field.range, out.*field.member);
+}
+
+template <class Struct>
+std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>& key,
+                                    const OptionalPointField<Struct>& field, Struct& out) {
+  std::array<double, 2> point{};
+  auto complaint = read_point(node, key.unit, field.range, point);
+  if (!complaint) out.*field.member = point;
+  return complaint;
+}
+
+template <class Struct>
+std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>& key,
+                                    const PointsField<Struct>& field, Struct& out) {
+  const toml::array* array = node.as_array();
+  const auto is_point = [](const toml::node& element) {
+    return element.is_array() && element.as_array()->size() == 2;
+  };
+  if (!array || !std::all_of(array->begin(), array->end(), is_point))
+    return wrong_type("a list of points", "write it as [[x, y], [x, y], [x, y]]");
+  if (array->size() < fewest_points || array->size() > most_points)
+    return Complaint{
+        Kind::out_of_range,
+        fmt::format("has {} points; {} to {} are accepted", array->size(), fewest_points, most_points), ""};
+  auto& points = out.*field.member;
+  points.assign(array->size(), {});
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (auto complaint = read_point((*array)[i], key.unit, field.range, points[i])) return complaint;
   return {};
 }
 
@@ -343,25 +383,56 @@ void read_section(Reading& reading, const toml::table& root, const SectionArray<
   auto& list = section.in(out);
   for (const toml::node& element : *array) {
     list.emplace_back();
+    if constexpr (requires { list.back().order; }) {
+      reading.shape_places.push_back(node_place(element));
+      list.back().order = static_cast<int>(reading.shape_places.size());
+    }
     const std::string path = fmt::format("{}[{}]", section.path(), list.size());
+    const auto [line, column] = node_place(element);
+    reading.entries[path] = {line, column, ""};
     read_table(reading, path, *element.as_table(), section.keys, list.back());
   }
 }
 
+/// Complains of what stands in a table that only holds arrays of tables.
+template <class Struct>
+void read_parent(Reading& reading, const toml::table& root, std::string_view name, Struct& out) {
+  if (const toml::table* table = find_table(reading, root, name))
+    read_table(reading, std::string(name), *table, std::vector<Key<Struct>>{}, out);
+}
+
+/// Numbers the shapes, which hold their places in the list so far, in the order of the file.
+void put_shapes_in_order(const std::vector<std::pair<int, int>>& places, Case& c) {
+  std::vector<std::pair<int, int>> sorted = places;
+  std::sort(sorted.begin(), sorted.end());
+  for_each_shape_section([&](const auto& section) {
+    for (auto& shape : section.in(c)) {
+      const auto place = std::lower_bound(sorted.begin(), sorted.end(), places[shape.order - 1]);
+      shape.order = 1 + static_cast<int>(place - sorted.begin());
+    }
+  });
+}
+
 Case read_root(Reading& reading, const toml::table& root) {
   Case result;
-  const std::string_view holes = ring_sections().parent;
-  if (const toml::table* table = find_table(reading, root, holes))
-    read_table(reading, std::string(holes), *table, std::vector<Key<Holes>>{}, result.holes);
+  read_parent(reading, root, ring_sections().parent, result.holes);
+  read_parent(reading, root, circle_shape_sections().parent, result.shapes);
   for_each_section([&](const auto& section) { read_section(reading, root, section, result); });
+  put_shapes_in_order(reading.shape_places, result);
   return result;
+}
+
+/// Whether the key, or one in the table of that name, has a problem of its own.
+bool is_faulty(const Reading& reading, const std::string& key) {
+  const auto inside = reading.faulty.lower_bound(key + ".");
+  return reading.faulty.contains(key) || (inside != reading.faulty.end() && inside->starts_with(key + "."));
 }
 
 /// Conflicts that involve a key with a problem of its own are left out: they may vanish with it.
 void check_conflicts(Reading& reading, const Case& c) {
   for (const Conflict& conflict : conflicts(c)) {
     const auto& keys = conflict.keys;
-    if (std::any_of(keys.begin(), keys.end(), [&](const auto& key) { return reading.faulty.contains(key); }))
+    if (std::any_of(keys.begin(), keys.end(), [&](const auto& key) { return is_faulty(reading, key); }))
       continue;
     const auto given = std::find_if(keys.begin(), keys.end(),
                                     [&](const auto& key) { return reading.entries.contains(key); });
@@ -381,6 +452,37 @@ void check_conflicts(Reading& reading, const Case& c) {
                                 .problem = problem,
                                 .remedy = conflict.remedy});
   }
+}
+
+/// The table of a key: "shape.file[1]" of "shape.file[1].unit".
+std::string table_of(const std::string& key) { return key.substr(0, key.rfind('.')); }
+
+/// Loads the drawings of shapes without problems. Returns the problems that stand in the drawings; those of
+/// the case's own lines are added to the reading's.
+std::vector<Diagnostic> load_drawings(Reading& reading, Case& c) {
+  const auto may_be_read = [&](const std::string& key) { return !is_faulty(reading, key); };
+  std::vector<Diagnostic> in_drawings;
+  const auto folder = std::filesystem::path(reading.file).parent_path();
+  for (FileProblem& problem : load_drawings(c, folder, may_be_read)) {
+    const auto given = reading.entries.find(problem.key);
+    const Entry at =
+        given != reading.entries.end() ? given->second : reading.entries.at(table_of(problem.key));
+    if (problem.file.empty()) {
+      complain(reading, problem.key, at,
+               {problem.kind, std::move(problem.problem), std::move(problem.remedy)});
+      continue;
+    }
+    reading.faulty.insert(problem.key);
+    in_drawings.push_back({.kind = problem.kind,
+                           .file = std::move(problem.file),
+                           .line = problem.line,
+                           .column = 0,
+                           .key = std::move(problem.key),
+                           .value = at.value,
+                           .problem = std::move(problem.problem),
+                           .remedy = std::move(problem.remedy)});
+  }
+  return in_drawings;
 }
 
 CaseResult failed(Diagnostic problem) { return {std::nullopt, {std::move(problem)}}; }
@@ -420,10 +522,11 @@ std::string default_folder(const std::filesystem::path& file) {
 }
 
 CaseResult interpret(const TomlLines& toml, const std::filesystem::path& file) {
-  Reading reading{.file = file.string(), .entries = {}, .faulty = {}, .problems = {}};
+  Reading reading{.file = file.string(), .entries = {}, .faulty = {}, .problems = {}, .shape_places = {}};
   std::vector<Diagnostic> syntax;
   for (const SyntaxError& error : toml.errors) syntax.push_back(diagnostic(error, reading.file));
   Case result = read_root(reading, toml.root);
+  const std::vector<Diagnostic> in_drawings = load_drawings(reading, result);
   if (syntax.empty()) check_conflicts(reading, result);
   if (syntax.empty() && toml.root.empty())
     return failed({.kind = Kind::empty,
@@ -438,6 +541,7 @@ CaseResult interpret(const TomlLines& toml, const std::filesystem::path& file) {
   std::stable_sort(problems.begin(), problems.end(), [](const auto& a, const auto& b) {
     return std::tie(a.line, a.column) < std::tie(b.line, b.column);
   });
+  problems.insert(problems.end(), in_drawings.begin(), in_drawings.end());
   if (!problems.empty()) return {std::nullopt, std::move(problems)};
   if (result.output.folder.empty()) result.output.folder = default_folder(file);
   return {std::move(result), {}};

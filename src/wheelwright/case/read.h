@@ -11,7 +11,8 @@
 
 namespace wheelwright {
 
-/// A case, or all problems of its file, in the order of the file.
+/// A case, or all problems of its file, in the order of the file, and then those of the drawings that it
+/// names.
 struct CaseResult {
   std::optional<Case> value;  ///< present if and only if there are no problems
   std::vector<Diagnostic> problems;
@@ -20,7 +21,8 @@ struct CaseResult {
 /// Reads and checks a case file.
 CaseResult read_case(const std::filesystem::path& file);
 
-/// The same for a text; `file` names it in messages and determines the default of output.folder.
+/// The same for a text; `file` names it in messages and determines the default of output.folder and the
+/// folder of the drawings.
 CaseResult parse_case(std::string_view text, const std::filesystem::path& file);
 
 }  // namespace wheelwright

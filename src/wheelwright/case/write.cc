@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <map>
+#include <type_traits>
 
 #include "wheelwright/case/keys.h"
 #include "wheelwright/case/number_text.h"
@@ -77,6 +79,20 @@ template <class Struct>
 std::string value_text(const PointField<Struct>& field, const Struct& s) {
   const auto [x, y] = s.*field.member;
   return fmt::format("[{}, {}]", number_text(x), number_text(y));
+}
+
+template <class Struct>
+std::string value_text(const OptionalPointField<Struct>& field, const Struct& s) {
+  const auto& point = s.*field.member;
+  return point ? fmt::format("[{}, {}]", number_text((*point)[0]), number_text((*point)[1])) : "";
+}
+
+template <class Struct>
+std::string value_text(const PointsField<Struct>& field, const Struct& s) {
+  std::vector<std::string> points;
+  for (const auto& [x, y] : s.*field.member)
+    points.push_back(fmt::format("[{}, {}]", number_text(x), number_text(y)));
+  return fmt::format("[{}]", fmt::join(points, ", "));
 }
 
 template <class Struct>
@@ -186,6 +202,25 @@ std::string resolved_text(const SectionArray<Struct>& section, const Case& c) {
   return result;
 }
 
+/// Whether the tables of a section count in the order in which they are written, among those of others.
+template <class SomeSection>
+constexpr bool has_order = false;
+template <class Struct>
+requires requires(Struct s) { s.order; }
+constexpr bool has_order<SectionArray<Struct>> = true;
+
+/// The tables of all shapes in their order.
+std::string resolved_shapes(const Case& c) {
+  std::map<int, std::string> tables;
+  for_each_shape_section([&](const auto& section) {
+    for (const auto& shape : section.of(c))
+      tables[shape.order] += fmt::format("\n[[{}]]\n{}", section.path(), resolved_lines(section.keys, shape));
+  });
+  std::string result;
+  for (const auto& [order, table] : tables) result += table;
+  return result;
+}
+
 template <class Struct>
 std::string template_text(const Section<Struct>& section, const Case& c) {
   const std::string header =
@@ -256,7 +291,15 @@ std::string reference_text(const SectionArray<Struct>& section) {
 
 std::string to_toml(const Case& c) {
   std::string result;
-  for_each_section([&](const auto& section) { result += resolved_text(section, c); });
+  bool shapes_are_written = false;
+  for_each_section([&](const auto& section) {
+    if constexpr (!has_order<std::decay_t<decltype(section)>>) {
+      result += resolved_text(section, c);
+    } else if (!shapes_are_written) {
+      result += resolved_shapes(c);
+      shapes_are_written = true;
+    }
+  });
   return result;
 }
 
@@ -265,7 +308,7 @@ std::string case_template() {
   c.holes.rings = {ring_sections().example};
   std::string result =
       "# A case for wheelwright. `wheelwright check FILE` checks it, `wheelwright run FILE` runs it.\n"
-      "# A key that is left out has the value shown here; rings and circles of holes have no defaults.\n\n";
+      "# A key that is left out has the value shown here; holes and shapes have no defaults.\n\n";
   for_each_section([&](const auto& section) { result += template_text(section, c); });
   return result;
 }

@@ -10,6 +10,7 @@
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/files/level_set_file.h"
 #include "wheelwright/report/svg.h"
+#include "wheelwright/run/own_drawings.h"
 
 namespace wheelwright {
 
@@ -108,6 +109,7 @@ void FailureReport::operator()(const Event<2>& event, const RunView<2>& run) {
     return;
   make_subfolder(run.folder / "failure");
   const LevelSet<2>& rejected = ended->failed_trials.back().shape;
+  write_drawings(run.folder / "failure", run.study.source);
   write_atomically(run.folder / "failure/case.toml", to_toml(run.study.source));
   write_atomically(run.folder / failure_report_file, report(*ended, run));
   write_atomically(run.folder / rejected_picture_file, picture(*ended));

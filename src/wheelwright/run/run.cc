@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "wheelwright/run/observers.h"
+#include "wheelwright/run/own_drawings.h"
 #include "wheelwright/run/provenance.h"
 #include "wheelwright/run/run_files.h"
 #include "wheelwright/run/run_loop.h"
@@ -95,7 +96,7 @@ Expected<Run<dim>, NotBegun<dim>> Run<dim>::begin(const Case& c, const fs::path&
   if (!lock) return NotBegun<dim>(FolderInUse{});
   const CheckpointFolder checkpoints(folder);
   if (fs::exists(folder / history_file) || checkpoints.exists()) return NotBegun<dim>(FolderHoldsARun{});
-  auto study = make_study<dim>(c);
+  auto study = make_study<dim>(with_own_drawings(c));
   if (!study) return NotBegun<dim>(study.failure());
   return Run(*std::move(lock), folder, *std::move(study), {}, checkpoints, {});
 }

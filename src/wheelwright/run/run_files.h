@@ -32,6 +32,7 @@ inline constexpr std::string_view names_in_a_run_folder[] = {"case.toml",
                                                              "run.lock",
                                                              "shapes",
                                                              "rolling",
+                                                             "drawings",
                                                              "checkpoints",
                                                              "failure"};
 

@@ -6,6 +6,7 @@
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/write.h"
 #include "wheelwright/files/atomic_file.h"
+#include "wheelwright/run/own_drawings.h"
 #include "wheelwright/run/provenance.h"
 #include "wheelwright/run/run_title.h"
 
@@ -19,9 +20,9 @@ std::string problem_text(const Diagnostic& d) {
                      d.remedy.empty() ? "" : "; ", d.remedy);
 }
 
-/// The case if a file with it would be accepted.
-Expected<Case, Refusal> checked(const Case& c) {
-  CaseResult result = parse_case(to_toml(c), case_file);
+/// The case if a file with it in that folder would be accepted.
+Expected<Case, Refusal> checked(const Case& c, const std::filesystem::path& folder) {
+  CaseResult result = parse_case(to_toml(c), folder / case_file);
   if (result.value) return *std::move(result.value);
   std::string reason;
   for (const Diagnostic& problem : result.problems)
@@ -250,6 +251,7 @@ void RunLoop<dim>::notify(const Event<dim>& event) {
 
 template <int dim>
 void RunLoop<dim>::write_case_file() const {
+  write_drawings(folder_, work_->study.source);
   write_atomically(folder_ / case_file,
                    fmt::format("# {}\n\n{}", program_text(), to_toml(work_->study.source)));
 }
@@ -294,7 +296,7 @@ void RunLoop<dim>::pause(int after_shapes) {
 
 template <int dim>
 std::optional<Refusal> RunLoop<dim>::change_case(const Case& changed, const std::string& what) {
-  const auto c = checked(changed);
+  const auto c = checked(changed, folder_);
   if (!c) return c.failure();
   if (polar_grid<dim>(*c) != work_->study.grid() ||
       c->grid.level_set_degree != state_->shape.lattice.degree())

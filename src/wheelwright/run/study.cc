@@ -7,6 +7,8 @@
 
 #include "wheelwright/analysis/deformation_size.h"
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/drawn_shapes.h"
+#include "wheelwright/drawing/composed_level_set.h"
 #include "wheelwright/evolution/volume.h"
 #include "wheelwright/functionals/material_volume.h"
 #include "wheelwright/functionals/mean_contact_stress.h"
@@ -139,17 +141,28 @@ const ShapeFunction<dim>& Study<dim>::objective() const {
   return *std::ranges::find(functions, optimizer.objective, &ShapeFunction<dim>::name);
 }
 
+namespace {
+
+/// The shape that a case draws, at the nodes of a lattice.
+template <int dim>
+LevelSet<dim> shape_on(const Lattice<dim>& lattice, const Case& c) {
+  if (c.shapes == Shapes{}) return make_level_set(lattice, sector_holes(c));
+  return make_level_set(lattice, Composition(figures(c)));
+}
+
+}  // namespace
+
 template <int dim>
 LevelSet<dim> initial_shape(const Case& c) {
   const Lattice<dim> lattice(polar_grid<dim>(c), c.grid.level_set_degree);
-  return ProtectedBands<dim>(lattice, bands(c)).keep(make_level_set(lattice, sector_holes(c)));
+  return ProtectedBands<dim>(lattice, bands(c)).keep(shape_on(lattice, c));
 }
 
 template <int dim>
 std::vector<ShapeEvent<dim>> lost_on_the_grid(const Case& c) {
   PolarGrid<dim> fine = polar_grid<dim>(c);
   for (int d = 0; d < 2; ++d) fine.cells[d] *= component_samples;  // the holes are cylinders along the axle
-  const auto given = make_level_set(Lattice<dim>(fine, 1), sector_holes(c));
+  const auto given = shape_on(Lattice<dim>(fine, 1), c);
   return topology_changes(components(given, 1), components(initial_shape<dim>(c)));
 }
 

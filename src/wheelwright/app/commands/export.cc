@@ -83,7 +83,7 @@ class ExportCommand : public Subcommand {
   }
 
   int run() override {
-    const auto wheel = read_wheel_or_tell(input_);
+    const auto wheel = read_wheel_or_tell(input_, {name(), {}});
     if (!wheel) return wheel.failure();
     return export_wheel(*wheel);
   }

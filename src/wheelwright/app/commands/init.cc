@@ -1,5 +1,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -8,6 +9,8 @@
 #include "wheelwright/app/commands/commands.h"
 #include "wheelwright/app/exit_code.h"
 #include "wheelwright/app/terminal.h"
+#include "wheelwright/base/text.h"
+#include "wheelwright/case/presets.h"
 #include "wheelwright/case/write.h"
 
 namespace wheelwright {
@@ -26,16 +29,25 @@ class InitCommand : public Subcommand {
 
   void declare(Options& options) override {
     options.optional_argument("FILE", file_, "File to write; an existing file is never overwritten");
+    options.text(
+        "--preset", "NAME", preset_,
+        [](const std::string& name) { return find_preset(name) ? "" : unknown(name); },
+        "Write this wheel instead of the template with all keys");
+    options.flag("--list", list_, "List the presets, and write nothing");
   }
 
   int run() override {
+    if (list_) {
+      for (const Preset& preset : presets()) fmt::print("{:<17}{}\n", preset.name, preset.meaning);
+      return exit_done;
+    }
     const int file = open(file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file < 0) {
       const int reason = errno;
       tell("{}: {}\n", file_, std::strerror(reason));
       return reason == EEXIST ? exit_refused : exit_input_output;
     }
-    if (!write_and_close(file, case_template())) {
+    if (!write_and_close(file, preset_ ? std::string(find_preset(*preset_)->text) : case_template())) {
       unlink(file_.c_str());  // it is new, and useless
       tell("{}: cannot be written\n", file_);
       return exit_input_output;
@@ -45,7 +57,17 @@ class InitCommand : public Subcommand {
   }
 
  private:
+  /// What is wrong with a name that no preset has.
+  static std::string unknown(const std::string& name) {
+    std::vector<std::string_view> names;
+    for (const Preset& preset : presets()) names.push_back(preset.name);
+    return fmt::format("there is no preset {}; known: {}", without_control_characters(name),
+                       fmt::join(names, ", "));
+  }
+
   std::string file_ = "case.toml";
+  std::optional<std::string> preset_;
+  bool list_ = false;
 };
 
 }  // namespace

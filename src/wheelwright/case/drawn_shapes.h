@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "wheelwright/case/case.h"
+#include "wheelwright/drawing/composition.h"
+
+namespace wheelwright {
+
+/// How the curves of a shape come round the wheel.
+enum class Repetition {
+  by_count,   ///< what is given is drawn `count` times
+  by_curves,  ///< so too, and it may show more of the wheel than one of the sectors
+  round,      ///< it is the same at all azimuths
+};
+
+/// A shape of a case as curves.
+struct DrawnShape {
+  int order;        ///< among the shapes of the case
+  std::string key;  ///< e.g. "shape.slot[2]"
+  Fill fill;
+  std::vector<Outline> first;  ///< what is repeated: the union of these [m]
+  Repetition repetition;
+  int count;
+  bool may_leave_ring;  ///< material beyond rim and tread has no effect, and is meant
+  double accuracy;      ///< of its curves [m]
+};
+
+/// All `[[shape.*]]` of a case, in their order. Shapes whose keys contradict each other have no outlines.
+std::vector<DrawnShape> drawn_shapes(const Case& c);
+
+/// The whole wheel of a case as figures: its `[[holes.*]]`, and over them its shapes.
+std::vector<Figure> figures(const Case& c);
+
+/// Curves of one shape, and of all shapes with their repetitions; more are refused.
+inline constexpr long long most_curves = 200'000;
+
+/// A shape as it is drawn, with its repetitions.
+Figure figure_of(const DrawnShape& shape);
+
+/// Number of curves of a shape, with its repetitions.
+long long curve_count(const DrawnShape& shape);
+
+}  // namespace wheelwright

@@ -1,0 +1,238 @@
+#include "wheelwright/case/shape_conflicts.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "wheelwright/case/derived.h"
+#include "wheelwright/case/keys.h"
+#include "wheelwright/drawing/drawing.h"
+#include "wheelwright/drawing/symmetry.h"
+
+namespace wheelwright {
+
+namespace {
+
+using Conflicts = std::vector<Conflict>;
+
+std::string point_text(const Point& p) { return fmt::format("[{:.6g}, {:.6g}] m", p[0], p[1]); }
+
+/// ", of line 12, <path>" if the drawing says where.
+std::string place_text(const std::string& place) { return place.empty() ? "" : fmt::format(" ({})", place); }
+
+std::string shape_key(std::string_view section, std::size_t i, std::string_view name) {
+  return fmt::format("shape.{}[{}].{}", section, i + 1, name);
+}
+
+void check_slots(const Case& c, Conflicts& found) {
+  for (std::size_t i = 0; i < c.shapes.slots.size(); ++i)
+    if (const SlotShape& slot = c.shapes.slots[i]; slot.width > slot.length)
+      found.push_back(
+          {{shape_key("slot", i, "width"), shape_key("slot", i, "length")},
+           fmt::format("wider than its length of {:.6g} m", slot.length),
+           "the length is measured from end to end, with the round ends; or turn the slot with `angle`"});
+}
+
+void check_annuli(const Case& c, Conflicts& found) {
+  const auto [low, high] = free_region(c);
+  for (std::size_t i = 0; i < c.shapes.annuli.size(); ++i) {
+    const AnnulusShape& annulus = c.shapes.annuli[i];
+    const double inner = annulus.inner_radius.value_or(low), outer = annulus.outer_radius.value_or(high);
+    if (low >= high || inner < outer) continue;
+    found.push_back(
+        {with_ring_shape({shape_key("annulus", i, "inner_radius"), shape_key("annulus", i, "outer_radius")}),
+         fmt::format("the annulus begins at {:.6g} m and ends at {:.6g} m", inner, outer),
+         "give inner_radius < outer_radius"});
+  }
+}
+
+/// Keys that say something which the kind of a spoke does not have.
+void check_kind_of_spoke(const SpokeShape& s, std::size_t i, Conflicts& found) {
+  const auto key = [&](std::string_view name) { return shape_key("spoke", i, name); };
+  const auto refuse = [&](bool is_wrong, std::string_view name, std::string problem, std::string remedy) {
+    if (is_wrong) found.push_back({{key(name), key("kind")}, std::move(problem), std::move(remedy)});
+  };
+  const bool curved = s.kind == SpokeKind::curved, forked = s.kind == SpokeKind::forked,
+             pair = s.kind == SpokeKind::pair;
+  refuse(curved && s.bend == 0, "bend", "a curved spoke without bend is straight", "give its bend, e.g. 60");
+  refuse(!curved && s.bend != 0, "bend", "only curved spokes bend",
+         "take kind = \"curved\", or leave the key out");
+  refuse(forked && s.spread == 0, "spread", "the branches of the fork lie on each other",
+         "give a spread > 0");
+  refuse(!forked && !pair && s.spread != 0, "spread", "only forked spokes and pairs have a spread",
+         "take another kind, or leave the key out");
+  refuse(!forked && s.fork_radius, "fork_radius", "only forked spokes divide",
+         "take kind = \"forked\", or leave the key out");
+  refuse(pair && s.spread == 0 && s.angle == 0, "angle", "the two spokes of the pair lie on each other",
+         "give an angle or a spread");
+}
+
+void check_spoke(const Case& c, std::size_t i, Conflicts& found) {
+  const SpokeShape& s = c.shapes.spokes[i];
+  const auto key = [&](std::string_view name) { return shape_key("spoke", i, name); };
+  check_kind_of_spoke(s, i, found);
+  const double inner = s.inner_radius.value_or(c.wheel.inner_radius),
+               outer = s.outer_radius.value_or(c.wheel.outer_radius);
+  const std::vector<std::string> ends{key("inner_radius"), key("outer_radius"), "wheel.inner_radius",
+                                      "wheel.outer_radius"};
+  if (c.wheel.inner_radius >= c.wheel.outer_radius) return;
+  if (inner >= outer) {
+    found.push_back({ends, fmt::format("the spoke begins at {:.6g} m and ends at {:.6g} m", inner, outer),
+                     "give inner_radius < outer_radius"});
+    return;
+  }
+  if (s.thickness >= outer - inner)
+    found.push_back({{key("thickness"), ends[0], ends[1], ends[2], ends[3]},
+                     fmt::format("thicker than the spoke is long, {:.6g} m", outer - inner),
+                     "take thinner spokes"});
+  if (s.fork_radius && (*s.fork_radius <= inner || *s.fork_radius >= outer))
+    found.push_back({{key("fork_radius"), ends[0], ends[1], ends[2], ends[3]},
+                     fmt::format("not between the ends of the spoke, at {:.6g} m and {:.6g} m", inner, outer),
+                     "take a radius between them"});
+  const double chord = std::sqrt(inner * inner + outer * outer - 2 * inner * outer * std::cos(s.angle));
+  const double radius = s.bend == 0 ? HUGE_VAL : 0.5 * chord / std::abs(std::sin(0.5 * s.bend));
+  if (s.kind == SpokeKind::curved && (std::abs(s.bend) > std::numbers::pi || radius <= s.thickness))
+    found.push_back({{key("bend"), key("thickness"), key("angle")},
+                     "bent so much that the spoke meets itself",
+                     "take a bend between -180 and 180, or thinner spokes"});
+}
+
+/// Where an outline reaches farthest in and out.
+RadialExtent radial_extent(const DrawnShape& shape, std::string& lowest_place, std::string& highest_place) {
+  RadialExtent all{HUGE_VAL, 0, {}, {}};
+  for (const Outline& outline : shape.first)
+    for (const Loop& loop : outline.loops)
+      for (const Curve& curve : loop.curves) {
+        const RadialExtent extent = radial_extent(curve);
+        if (extent.low < all.low) all.low = extent.low, all.lowest = extent.lowest, lowest_place = loop.place;
+        if (extent.high > all.high)
+          all.high = extent.high, all.highest = extent.highest, highest_place = loop.place;
+      }
+  return all;
+}
+
+/// What a drawing would reach in other units, if it is far too large or too small for the wheel.
+std::string unit_hint(const DrawnShape& shape, const Case& c, double reach) {
+  constexpr double far_off = 8;
+  const double ratio = reach / c.wheel.outer_radius;
+  if (!shape.key.starts_with("shape.file") || (ratio < far_off && ratio > 1 / far_off)) return "";
+  const int number = std::stoi(shape.key.substr(shape.key.find('[') + 1));
+  const auto& drawing = c.shapes.files[number - 1].drawing.contents;
+  if (!drawing) return "";
+  const double units = reach / drawing->metres_per_unit;
+  return fmt::format(
+      "is its unit right? The drawing reaches {:.6g} of its units from the axle: {:.4g} m if they are "
+      "millimetres, {:.4g} m if they are inches, {:.4g} m if they are metres",
+      units, units * 1e-3, units * 0.0254, units);
+}
+
+/// Holes must lie between the bands, and material in the ring.
+void check_extent(const Case& c, const DrawnShape& shape, Conflicts& found) {
+  const bool is_hole = shape.fill == Fill::hole;
+  const HoleRange room = room_for_holes(c);
+  if (room.inner >= room.outer || shape.first.empty() || (!is_hole && shape.may_leave_ring)) return;
+  const HoleRange region = is_hole ? room : HoleRange{c.wheel.inner_radius, c.wheel.outer_radius};
+  std::string lowest_place, highest_place;
+  const RadialExtent extent = radial_extent(shape, lowest_place, highest_place);
+  const double rounding = 1e-5 * c.wheel.outer_radius;
+  const bool is_low = extent.low<region.inner - rounding, is_high = extent.high> region.outer + rounding;
+  if (!is_low && !is_high) return;
+  const std::string where = is_high ? fmt::format("reaches radius {:.6g} m at {}{}", extent.high,
+                                                  point_text(extent.highest), place_text(highest_place))
+                                    : fmt::format("reaches radius {:.6g} m at {}{}", extent.low,
+                                                  point_text(extent.lowest), place_text(lowest_place));
+  const std::string hint = unit_hint(shape, c, extent.high);
+  const std::string allowed =
+      is_hole ? "between the bands at rim and tread there is only" : "the ring has only";
+  found.push_back({with_ring_shape({shape.key}),
+                   fmt::format("{} {}; {} {:.6g} m to {:.6g} m", is_hole ? "the hole" : "the material", where,
+                               allowed, region.inner, region.outer),
+                   hint.empty() ? "move it, or make it smaller" : hint});
+}
+
+void check_crossings(const DrawnShape& shape, Conflicts& found) {
+  constexpr int most = 3;
+  for (const Outline& outline : shape.first)
+    for (const Crossing& crossing : crossings(outline, most))
+      found.push_back({{shape.key},
+                       fmt::format("the outline crosses or touches itself at {}{}", point_text(crossing.at),
+                                   place_text(crossing.first)),
+                       "correct its points"});
+}
+
+void check_pictures(const Case& c, Conflicts& found) {
+  for (std::size_t i = 0; i < c.shapes.pictures.size(); ++i) {
+    const PictureShape& picture = c.shapes.pictures[i];
+    const bool is_wheel = picture.layout == PictureLayout::wheel;
+    if (is_wheel == picture.width.has_value()) continue;
+    found.push_back({{shape_key("picture", i, "width"), fmt::format("shape.picture[{}]", i + 1)},
+                     is_wheel ? "missing: a picture does not say how wide the wheel is"
+                              : "the picture of a sector has no width: it is as wide as the sector",
+                     is_wheel ? "give the width of the whole picture in metres" : "leave the key out"});
+  }
+}
+
+/// Finds drawings and pictures that are not the same in all sectors.
+void check_repetition(const Case& c, const DrawnShape& shape, int common, Conflicts& found) {
+  if (shape.repetition != Repetition::by_curves || shape.count % c.wheel.sectors == 0 || shape.first.empty())
+    return;
+  const Composition drawn({figure_of(shape)});
+  if (repeats(drawn, c.wheel.sectors, shape.accuracy)) return;
+  constexpr int most_sectors = 360;
+  std::vector<int> fitting = repetitions(drawn, most_sectors, shape.accuracy);
+  std::erase_if(fitting, [&](int n) { return common % n != 0 || c.grid.angular_cells % n != 0; });
+  found.push_back({{"wheel.sectors", shape.key + ".path", shape.key},
+                   fmt::format("what {} draws is not the same in {} sectors", shape.key, c.wheel.sectors),
+                   fmt::format("values of wheel.sectors that fit: {}", fmt::join(fitting, ", "))});
+}
+
+void check_number_of_curves(const std::vector<DrawnShape>& shapes, Conflicts& found) {
+  long long total = 0;
+  for (const DrawnShape& shape : shapes) {
+    total += curve_count(shape);
+    if (total <= most_curves) continue;
+    found.push_back({{shape.key},
+                     fmt::format("the shapes up to this one have {} curves round the wheel", total),
+                     fmt::format("at most {} are accepted: simplify the drawing", most_curves)});
+    return;
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> with_ring_shape(std::vector<std::string> keys) {
+  for (const char* key : {"wheel.inner_radius", "wheel.outer_radius", "optimizer.rim_band",
+                          "optimizer.tread_band", "grid.radial_cells", "objective.annulus"})
+    keys.push_back(key);
+  return keys;
+}
+
+int common_count(const Case& c, const std::vector<DrawnShape>& shapes) {
+  int common = 0;
+  for (const HoleRing& ring : c.holes.rings) common = std::gcd(common, ring.count);
+  for (const DrawnShape& shape : shapes)
+    if (shape.repetition == Repetition::by_count) common = std::gcd(common, shape.count);
+  return common;
+}
+
+std::vector<Conflict> shape_conflicts(const Case& c, const std::vector<DrawnShape>& shapes) {
+  Conflicts found;
+  check_slots(c, found);
+  check_annuli(c, found);
+  for (std::size_t i = 0; i < c.shapes.spokes.size(); ++i) check_spoke(c, i, found);
+  check_pictures(c, found);
+  check_number_of_curves(shapes, found);
+  if (!found.empty()) return found;
+  const int common = common_count(c, shapes);
+  for (const DrawnShape& shape : shapes) {
+    check_extent(c, shape, found);
+    if (shape.repetition == Repetition::by_count) check_crossings(shape, found);
+    check_repetition(c, shape, common, found);
+  }
+  return found;
+}
+
+}  // namespace wheelwright

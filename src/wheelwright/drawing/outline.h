@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "wheelwright/drawing/curve_tree.h"
+
+namespace wheelwright {
+
+/// A closed chain of curves: each begins where the one before it ends, and the first where the last ends.
+struct Loop {
+  std::vector<Curve> curves;
+  std::string place;  ///< where it comes from, for messages, e.g. "line 12, <path id=\"a\">"; may be empty
+};
+
+/// The plane region inside an odd number of its loops (even-odd rule) [m].
+struct Outline {
+  std::vector<Loop> loops;
+
+  Outline mapped(const Affine& map) const;
+};
+
+/// A place where the loops of an outline cross, touch or lie on each other.
+struct Crossing {
+  Point at;
+  std::string first, second;  ///< places of the two loops; equal if a loop crosses itself
+};
+
+/// Places where the loops of an outline meet, at most `most` of them.
+std::vector<Crossing> crossings(const Outline& outline, int most);
+
+/// The distances from the axle between which a curve lies [m].
+struct RadialExtent {
+  double low, high;
+  Point lowest, highest;  ///< where
+};
+RadialExtent radial_extent(const Curve& curve);
+
+/// The smallest rectangle that holds the outline, or a little more.
+Box box(const Outline& outline);
+
+}  // namespace wheelwright

@@ -1,0 +1,49 @@
+#include "wheelwright/case/presets.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "tests/support.h"
+#include "wheelwright/analysis/rolling_measures.h"
+#include "wheelwright/case/read.h"
+#include "wheelwright/run/study.h"
+
+using namespace wheelwright;
+using namespace wheelwright::testing;
+
+namespace {
+
+TEST(Presets, HaveNamesOfTheirOwn) {
+  std::set<std::string_view> names;
+  for (const Preset& preset : presets()) {
+    names.insert(preset.name);
+    EXPECT_EQ(find_preset(preset.name), &preset);
+  }
+  EXPECT_EQ(names.size(), presets().size());
+  EXPECT_GE(names.size(), 8u);
+  EXPECT_EQ(find_preset("no such wheel"), nullptr);
+}
+
+TEST(Presets, AreCasesThatCarryTheirLoad) {
+  for (const Preset& preset : presets()) {
+    SCOPED_TRACE(preset.name);
+    CaseResult result = parse_case(preset.text, "preset.toml");
+    for (const Diagnostic& problem : result.problems) ADD_FAILURE() << problem.text();
+    ASSERT_TRUE(result.value);
+    result.value->load.positions = 2;
+    const auto study = make_study<2>(*result.value);
+    ASSERT_TRUE(study);
+    const auto shape = evaluate<2>(*study->solver, study->functions, study->initial);
+    ASSERT_TRUE(shape) << shape.failure().detail;
+    EXPECT_GT(shape->evaluation.function("objective").value, 0);
+    EXPECT_TRUE(lost_on_the_grid<2>(*result.value).empty());
+    // The ground carries the load at every position.
+    const double load = result.value->load.force / result.value->wheel.width;
+    for (const ContactPatch<2>& contact : shape->state->contacts())
+      EXPECT_NEAR(contact_summary(contact).radial_force, load, 1e-6 * load);
+  }
+}
+
+}  // namespace
