@@ -32,7 +32,7 @@ RollingModel<2> model_with(int n_positions, int levels = 1, int rows = 1) {
 }
 
 WeightedSum<2> uniformity_functionals(const StateSolver<2>& solver) {
-  auto image = solver.neumann_to_dirichlet();
+  auto image = solver.neumann_to_dirichlet(DualNorm::elasticity);
   EXPECT_TRUE(image);
   return {{1, std::make_shared<UniformityL2<2>>(0.01)},
           {1, std::make_shared<UniformityAnnulus<2>>(0.01)},

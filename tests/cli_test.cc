@@ -566,7 +566,8 @@ TEST_F(CommandLine, ARunDrawsEverySoManyShapes) {
   std::ofstream(folder() / "c.toml") << small_case(3, "pictures_every = 2\n");
   ASSERT_EQ(wheelwright("run c.toml --output run", folder()).code, exit_done);
   for (const int shape : {0, 1, 2, 3})
-    for (const char* picture : {"stress", "displacement", "mesh"}) {
+    for (const char* picture :
+         {"stress", "displacement", "mesh", "gradient", "extension", "corrected", "level_set"}) {
       const std::string file = fmt::format("run/shapes/shape_{:04}_{}.svg", shape, picture);
       EXPECT_EQ(std::filesystem::exists(folder() / file), shape % 2 == 0) << file;
     }

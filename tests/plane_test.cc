@@ -34,7 +34,7 @@ RollingModel<2> wheel_of(const Material& material) {
 }
 
 WeightedSum<2> all_functionals(const RollingProblem<2>& problem) {
-  auto image = problem.neumann_to_dirichlet();
+  auto image = problem.neumann_to_dirichlet(DualNorm::elasticity);
   EXPECT_TRUE(image);
   return {{1, std::make_shared<StrainEnergy<2>>()},
           {3, std::make_shared<UniformityL2<2>>(0.01)},

@@ -1,118 +1,152 @@
 """Figs 12 to 15: penalty against Nitsche's method."""
 
+from .family import Family, Values, judged, over
 from .runs import Run
-from .section import Album, Runs, both_ways, claims, joined, percent, table
+from .section import Album, Runs, both_ways, claims, joined, sizes, table, ways
 
-Courses = dict[tuple[str, int], Run]  # by method and gamma_0
+Courses = dict[tuple[str, int], Family]  # by method and gamma_0
 
 
 def _courses(r: Runs, prefix: str) -> Courses:
     return {(m, g): r[f"{prefix}_{m}_{g}"] for g in (1, 10) for m in ("nitsche", "penalty")}
 
 
-def _row(way: str, method: str, gamma: int, run: Run) -> tuple[str, ...]:
-    hole = run.holes[0]
+def _row(way: str, method: str, gamma: int, family: Family) -> tuple[str, ...]:
     return (
         way,
         method,
         f"{gamma}",
-        f"{run.first['objective']:.3f}",
-        f"{run.last['objective']:.3f} J/m",
-        f"{100 * run.last['volume fraction']:.2f} %",
-        f"{run.last['mean_travel'] * 1e3:.4f} mm",
-        f"{run.deepest_penetration() * 1e6:.1f} µm",
-        f"{hole.length:.1f} x {hole.width:.1f} mm",
+        f"{family.run.first['objective']:.3f}",
+        family.last("objective").text(3, "J/m"),
+        family.last("volume fraction").percent(2),
+        Values(1e3 * travel for travel in family.last("mean_travel")).text(4, "mm"),
+        _penetration(family).text(1, "µm"),
+        sizes(family),
     )
+
+
+def _penetration(family: Family) -> Values:
+    return family.of(lambda run: 1e6 * run.deepest_penetration())
+
+
+def _gap(a: Run, b: Run) -> float:
+    """Of the holes' lengths [mm]."""
+    return abs(a.holes[0].length - b.holes[0].length)
+
+
+def _rise(a: Run, b: Run) -> float:
+    """Of the last J_e from one run to another, relative."""
+    return b.last["objective"] / a.last["objective"] - 1
 
 
 class _Findings:
     """What the claims are about, of one way of descent."""
 
-    def __init__(self, runs: Courses):
-        last = {key: run.last["objective"] for key, run in runs.items()}
-        holes = {key: run.holes[0] for key, run in runs.items()}
-        travel = {key: run.last["mean_travel"] for key, run in runs.items()}
-        self.shape_gap = {g: abs(holes["penalty", g].length - holes["nitsche", g].length) for g in (1, 10)}
-        self.deflection = travel["penalty", 1] / travel["nitsche", 1] - 1
-        self.apart = {g: last["penalty", g] / last["nitsche", g] - 1 for g in (1, 10)}
-        first = {key: run.first["objective"] for key, run in runs.items()}
-        self.at_first = {m: first[m, 10] / first[m, 1] - 1 for m in ("nitsche", "penalty")}
-        self.volume = {key: run.last["volume fraction"] for key, run in runs.items()}
-        self.more_material = self.volume["nitsche", 10] - self.volume["nitsche", 1]
-        self.difference = last["nitsche", 1] - last["nitsche", 10]
-        course = runs["nitsche", 1].column("objective")[-10:]
-        self.unrest = max(course) - min(course)
-        self.by_gamma = {m: last[m, 10] / last[m, 1] - 1 for m in ("nitsche", "penalty")}
+    def __init__(self, families: Courses):
+        pairs = {g: (families["nitsche", g], families["penalty", g]) for g in (1, 10)}
+        self.shape_gap = {g: over(_gap, *pair) for g, pair in pairs.items()}
+        self.apart = {g: over(_rise, *pair) for g, pair in pairs.items()}
+        self.by_gamma = {m: over(_rise, families[m, 1], families[m, 10]) for m in ("nitsche", "penalty")}
+        self.deflection = over(lambda a, b: b.last["mean_travel"] / a.last["mean_travel"] - 1, *pairs[1])
+        self.closer_at_10 = over(
+            lambda n1, p1, n10, p10: abs(_rise(n10, p10)) / abs(_rise(n1, p1)), *pairs[1], *pairs[10]
+        )
+        self.steadier = over(
+            lambda n1, n10, p1, p10: abs(_rise(n1, n10)) / abs(_rise(p1, p10)),
+            *(families[m, g] for m in ("nitsche", "penalty") for g in (1, 10)),
+        )
+        self.unrest = families["nitsche", 1].of(lambda run: _span(run.column("objective")[-10:]))
+
+
+def _span(values: list[float]) -> float:
+    return max(values) - min(values)
 
 
 def contact_methods(r: Runs, album: Album) -> str:
     ours, rules = _courses(r, "contact"), _courses(r, "rules")
     a, b = _Findings(ours), _Findings(rules)
-    ends = [runs["nitsche", 10].last for runs in (ours, rules)]
-    per_percent = (ends[0]["objective"] - ends[1]["objective"]) / (
-        100 * (ends[1]["volume fraction"] - ends[0]["volume fraction"])
+    volumes = Values(v for family in rules.values() for v in family.last("volume fraction"))
+    per_percent = over(
+        lambda held, drifted: (held.last["objective"] - drifted.last["objective"])
+        / (100 * (drifted.last["volume fraction"] - held.last["volume fraction"])),
+        ours["nitsche", 10],
+        rules["nitsche", 10],
     )
-    deep = {m: 1e6 * ours[m, 1].deepest_penetration() for m in ("nitsche", "penalty")}
-
-    def ways(first: str, second: str) -> str:
-        return f"{first}; by the paper's rules {second}"
+    at_first = {
+        m: ours[m, 10].run.first["objective"] / ours[m, 1].run.first["objective"] - 1 for m in ("nitsche", "penalty")
+    }
 
     return joined(
         table(
-            ["descent", "contact", "gamma_0", "J_e first", "J_e last", "material last", "mean travel of the rim",
-             "deepest penetration", "hole"],
-            *(_row("volume held", *key, run) for key, run in ours.items()),
-            *(_row("the paper's rules", *key, run) for key, run in rules.items()),
+            ["descent", "contact", "gamma_0", "J_e first [J/m]", "J_e last", "material last",
+             "mean travel of the rim", "deepest penetration", "hole"],
+            *(_row("volume held", *key, family) for key, family in ours.items()),
+            *(_row("the paper's rules", *key, family) for key, family in rules.items()),
         ),
         claims(
             (
                 "Fig. 12: at gamma = E/h both methods give nearly the same shape",
-                ways(f"the holes' lengths differ by {a.shape_gap[1]:.2f} mm", f"by {b.shape_gap[1]:.2f} mm"),
-                both_ways(a.shape_gap[1] < 2, b.shape_gap[1] < 2),
+                ways(
+                    f"the holes' lengths differ by {a.shape_gap[1].text(2, 'mm')}",
+                    f"by {b.shape_gap[1].text(1, 'mm')}",
+                ),
+                both_ways(*(judged(lambda gap: gap < 2, f.shape_gap[1]) for f in (a, b))),
             ),
             (
                 "penalty has a slightly larger deflection",
-                ways(f"travel of the rim {percent(a.deflection)}, including the penetration", percent(b.deflection)),
-                both_ways(a.deflection > 0, b.deflection > 0),
+                ways(
+                    f"travel of the rim {a.deflection.change()}, including the penetration", b.deflection.change()
+                ),
+                both_ways(*(judged(lambda rise: rise > 0, f.deflection) for f in (a, b))),
             ),
             (
                 "Fig. 13: penalty underestimates J_e, by interpenetration",
-                ways(f"J_e {percent(a.apart[1], 2)}", percent(b.apart[1], 2))
-                + f"; penalty penetrates by {deep['penalty']:.0f} µm, Nitsche by {deep['nitsche']:.0f} µm",
-                both_ways(a.apart[1] < 0, b.apart[1] < 0),
+                ways(f"J_e {a.apart[1].change(2)}", b.apart[1].change())
+                + f"; penalty penetrates by {_penetration(ours['penalty', 1]).text(0, 'µm')}, Nitsche by "
+                f"{_penetration(ours['nitsche', 1]).text(0, 'µm')}",
+                both_ways(*(judged(lambda rise: rise < 0, f.apart[1]) for f in (a, b))),
             ),
             (
                 "Fig. 14: at 10 E/h the deformed shapes are very close",
-                ways(f"the holes' lengths differ by {a.shape_gap[10]:.2f} mm", f"by {b.shape_gap[10]:.2f} mm"),
-                both_ways(a.shape_gap[10] < 2, b.shape_gap[10] < 2),
-            ),
-            (
-                "Fig. 15: at 10 E/h J_e almost agrees",
-                ways(f"J_e {percent(a.apart[10], 2)}", percent(b.apart[10], 2)),
-                both_ways(*(abs(f.apart[10]) < abs(f.apart[1]) / 3 for f in (a, b))),
-            ),
-            (
-                "Fig. 15: J_e hardly depends on gamma with Nitsche's method, but it does with penalty",
                 ways(
-                    f"from gamma_0 = 1 to 10: Nitsche {percent(a.by_gamma['nitsche'], 2)}, penalty "
-                    f"{percent(a.by_gamma['penalty'], 2)}",
-                    f"{percent(b.by_gamma['nitsche'], 2)} and {percent(b.by_gamma['penalty'], 2)}",
+                    f"the holes' lengths differ by {a.shape_gap[10].text(2, 'mm')}",
+                    f"by {b.shape_gap[10].text(1, 'mm')}",
                 ),
-                both_ways(*(abs(f.by_gamma["nitsche"]) < abs(f.by_gamma["penalty"]) / 3 for f in (a, b))),
+                both_ways(*(judged(lambda gap: gap < 2, f.shape_gap[10]) for f in (a, b))),
+            ),
+            (
+                "Fig. 15: at 10 E/h J_e almost agrees (it is apart by at most a third of that at E/h)",
+                ways(
+                    f"J_e {a.apart[10].change(2)}, {a.closer_at_10.text(2)} of that at E/h",
+                    f"{b.apart[10].change()}, {b.closer_at_10.text(2)} of that at E/h",
+                ),
+                both_ways(*(judged(lambda ratio: ratio < 1 / 3, f.closer_at_10) for f in (a, b))),
+            ),
+            (
+                "Fig. 15: J_e hardly depends on gamma with Nitsche's method, but it does with penalty (at least "
+                "three times as much)",
+                ways(
+                    f"from gamma_0 = 1 to 10: Nitsche {a.by_gamma['nitsche'].change(2)}, penalty "
+                    f"{a.by_gamma['penalty'].change(2)}, a ratio of {a.steadier.text(2)}",
+                    f"{b.by_gamma['nitsche'].change()} and {b.by_gamma['penalty'].change()}, a ratio of "
+                    f"{b.steadier.text(2)}",
+                ),
+                both_ways(*(judged(lambda ratio: ratio < 1 / 3, f.steadier) for f in (a, b))),
             ),
         ),
         "The runs by the paper's rules end with different amounts of material, "
-        f"{100 * min(b.volume.values()):.2f} to {100 * max(b.volume.values()):.2f} %. J_e falls by "
-        f"{per_percent:.2f} J/m for every percent of the ring that is added (between the last shapes of Nitsche's "
-        "method at gamma_0 = 10). This effect alone would make J_e of Nitsche's two runs differ by "
-        f"{per_percent * 100 * b.more_material:.2f} J/m; they differ by {b.difference:.2f} J/m. These runs do not "
-        f"settle either: over the last 10 shapes of Nitsche's method at gamma_0 = 1, J_e varies by {b.unrest:.2f} J/m, "
-        f"compared with {a.unrest:.3f} J/m when the volume is held. On the first shape, which is the same for all "
-        f"runs, J_e changes from gamma_0 = 1 to 10 by {percent(a.at_first['nitsche'], 2)} with Nitsche's method and by "
-        f"{percent(a.at_first['penalty'], 2)} with penalty.\n",
+        f"{volumes.percent()}, also those of one case. J_e falls by {per_percent.text(2, 'J/m')} for every percent of "
+        "the ring that is added (between the last shapes of Nitsche's method at gamma_0 = 10). These runs do not "
+        f"settle either: over the last 10 shapes of Nitsche's method at gamma_0 = 1, J_e varies by "
+        f"{b.unrest.text(1, 'J/m')}, compared with {a.unrest.text(3, 'J/m')} when the volume is held. On the first "
+        "shape, which is the same for all runs, J_e changes from gamma_0 = 1 to 10 by "
+        f"{100 * at_first['nitsche']:+.2f} % with Nitsche's method and by {100 * at_first['penalty']:+.2f} % with "
+        "penalty.\n",
         "The cells at the tread are not refined here, because gamma depends on their size.\n",
         *(
-            album.copied(ours[method, gamma], "displacement.svg", f"{text}, {parameter}, volume held (Fig. {number})")
+            album.copied(
+                ours[method, gamma].run, "displacement.svg", f"{text}, {parameter}, volume held (Fig. {number})"
+            )
             for number, gamma, parameter in ((12, 1, "gamma = E/h"), (14, 10, "gamma = 10 E/h"))
             for method, text in (("penalty", "Penalty"), ("nitsche", "Nitsche's method"))
         ),
@@ -120,12 +154,12 @@ def contact_methods(r: Runs, album: Album) -> str:
             "contact_methods_je.svg",
             "Strain energy by contact method, volume held (Figs 13, 15)",
             "J_e, 8 positions [J/m]",
-            *((f"{m}, gamma_0 = {g}", run.column("objective")) for (m, g), run in ours.items()),
+            *((f"{m}, gamma_0 = {g}", family.run.column("objective")) for (m, g), family in ours.items()),
         ),
         album.curves(
             "contact_methods_rules_je.svg",
             "Strain energy by contact method, the paper's rules (Figs 13, 15)",
             "J_e, 8 positions [J/m]",
-            *((f"{m}, gamma_0 = {g}", run.column("objective")) for (m, g), run in rules.items()),
+            *((f"{m}, gamma_0 = {g}", family.run.column("objective")) for (m, g), family in rules.items()),
         ),
     )

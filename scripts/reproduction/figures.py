@@ -3,6 +3,7 @@
 from .contact_methods import contact_methods
 from .energy_alone import energy_alone
 from .ghost_penalty import ghost_penalty
+from .gradient import gradient, level_set
 from .many_holes import holes_48, holes_108
 from .mesh import mesh
 from .section import Figure
@@ -15,6 +16,8 @@ def _with_rules(*names: str) -> list[str]:
 
 
 figures = [
+    Figure(range(5, 6), "what is done to the shape gradient", ["one_position", "rules_je", "uniform_je"], gradient),
+    Figure(range(6, 7), "the level set", ["uniform_je"], level_set),
     Figure(range(7, 8), "grid, cut grid and solution", ["uniform_je"], mesh),
     Figure(
         range(9, 10),
@@ -41,6 +44,7 @@ figures = [
         [
             *_with_rules("uniform_je", "uniform_jp1", "uniform_jp2_10", "uniform_jp2_100", "uniform_jp2_1000"),
             "uniform_jp1_balanced",
+            "uniform_jp2_poisson",
             "contact_nitsche_1",
         ],
         uniformity,

@@ -2,13 +2,9 @@
 
 import math
 
+from .family import Family, Values, judged, over
 from .runs import Run
-from .section import Album, Runs, both_ways, claims, joined, percent
-
-
-def _holes(run: Run) -> str:
-    """Length by width of every kind of hole, from the axle outwards."""
-    return ", ".join(map(str, run.holes)) + " mm"
+from .section import Album, Runs, both_ways, claims, joined, sizes, ways
 
 
 def _shape_gap(a: Run, b: Run) -> float:
@@ -18,21 +14,44 @@ def _shape_gap(a: Run, b: Run) -> float:
     return max(max(abs(x.length - y.length), abs(x.width - y.width)) for x, y in zip(a.holes, b.holes))
 
 
-def _stiffer(run: Run, rules: Run) -> tuple[str, str]:
+def _least_gap(values: Values) -> str:
+    return f"by at least {values.low:.1f} mm" if math.isfinite(values.low) else "in number"
+
+
+def _stiffer(family: Family, rules: Family) -> tuple[str, str]:
     """What is measured of the fall of J_e, and the verdict."""
+    falls = [f.change("strain_energy") for f in (family, rules)]
+    drifts = [f.change("volume fraction") for f in (family, rules)]
     return (
-        f"J_e {percent(run.change('strain_energy'))} in {len(run.history) - 1} shapes, volume "
-        f"{percent(run.change('volume fraction'), 4)}; by the paper's rules "
-        f"{percent(rules.change('strain_energy'))}, volume {percent(rules.change('volume fraction'))}",
-        both_ways(run.change("strain_energy") < -0.1, rules.change("strain_energy") < -0.1),
+        ways(
+            f"J_e {falls[0].change()} in {len(family.run.history) - 1} shapes, volume {drifts[0].change(4)}",
+            f"{falls[1].change()}, volume {drifts[1].change()}",
+        ),
+        both_ways(*(judged(lambda fall: fall < -0.1, values) for values in falls)),
+    )
+
+
+def _ends(name: str, family: Family) -> str:
+    """How many of the runs had to stop before their last shape, and why."""
+    early = [run for run in family.members if run.end]
+    reasons = ", ".join(sorted({run.end for run in early}))
+    return (
+        f"Of the {len(family.members)} runs of {name} by the paper's rules, {len(early) or 'none'} end before their last "
+        "shape" + (f", because the next one is rejected ({reasons}) and the paper's rules have no shorter step" if early else "")
+        + ".\n"
     )
 
 
 def holes_48(r: Runs, album: Album) -> str:
     je, jp2 = r["holes48_je"], r["holes48_jp2"]
     rules_je, rules_jp2 = r["rules_holes48_je"], r["rules_holes48_jp2"]
-    spread = {run.name: run.peak_spread("final") for run in (je, jp2, rules_je, rules_jp2)}
-    p = lambda value: f"{100 * value:.1f} %"  # noqa: E731
+    spread = {family.name: family.of(lambda run: run.peak_spread("final")) for family in (je, jp2, rules_je, rules_jp2)}
+    gaps = [over(_shape_gap, je, jp2), over(_shape_gap, rules_je, rules_jp2)]
+    evener = [
+        Values(value / spread[alone.name].mean for value in spread[with_jp2.name])
+        for alone, with_jp2 in ((je, jp2), (rules_je, rules_jp2))
+    ]
+    share = jp2.of(lambda run: 50 * run.last["uniformity_dual"] / run.last["objective"])
     return joined(
         "The paper does not say how its 48 holes are arranged. Here they form two rings of 24, in 24 sectors: their "
         "centres are 70 mm apart radially and 71 mm along the middle circle. 12 k^2 holes in k rings of 12 k always "
@@ -43,48 +62,48 @@ def holes_48(r: Runs, album: Album) -> str:
             ("J_e alone finds a stiffer design", *_stiffer(je, rules_je)),
             (
                 "J_e + 50 J_p2 gives another design (holes that differ by at least 2 mm)",
-                f"holes of {_holes(je)} with J_e alone, {_holes(jp2)} with J_p2; by the paper's rules "
-                f"{_holes(rules_je)} and {_holes(rules_jp2)}",
-                both_ways(_shape_gap(je, jp2) > 2, _shape_gap(rules_je, rules_jp2) > 2),
+                ways(
+                    f"holes of {sizes(je)} with J_e alone, {sizes(jp2)} with J_p2",
+                    f"{sizes(rules_je)} and {sizes(rules_jp2)}, which differ {_least_gap(gaps[1])}",
+                ),
+                both_ways(*(judged(lambda gap: gap > 2, values) for values in gaps)),
             ),
             (
                 "... with more uniform contact stress",
-                f"peak spread {p(je.peak_spread('initial'))} initially, {p(spread[je.name])} with J_e alone, "
-                f"{p(spread[jp2.name])} with J_p2; J_p2 {percent(jp2.change('uniformity_dual'))}, J_e "
-                f"{percent(jp2.change('strain_energy'))}; by the paper's rules {p(spread[rules_je.name])} and "
-                f"{p(spread[rules_jp2.name])}",
-                both_ways(spread[jp2.name] < spread[je.name], spread[rules_jp2.name] < spread[rules_je.name]),
+                ways(
+                    f"peak spread {100 * je.run.peak_spread('initial'):.1f} % initially, {spread[je.name].percent()} "
+                    f"with J_e alone, {spread[jp2.name].percent()} with J_p2; J_p2 "
+                    f"{jp2.change('uniformity_dual').change()}, J_e {jp2.change('strain_energy').change()}",
+                    f"{spread[rules_je.name].percent(2)} and {spread[rules_jp2.name].percent(2)}, a ratio of "
+                    f"{evener[1].text(2)}",
+                ),
+                both_ways(*(judged(lambda ratio: ratio < 1, values) for values in evener)),
             ),
         ),
         "With the volume held J_p2 has little influence: J_e alone already ends with a peak spread of "
-        f"{p(spread[je.name])}, and at the end 50 J_p2 is "
-        f"{p(50 * jp2.last['uniformity_dual'] / jp2.last['objective'])} of J.\n",
-        *(
-            f"The run {run.name} ends after {len(run.history) - 1} shapes: the next one is rejected "
-            f"({run.end}), and the paper's rules have no shorter step.\n"
-            for run in (rules_je, rules_jp2)
-            if run.end
-        ),
-        album.comparison(je, "J_e alone, volume held"),
-        album.comparison(jp2, "J_e + 50 J_p2, volume held"),
-        album.comparison(rules_je, "J_e alone, the paper's rules"),
-        album.comparison(rules_jp2, "J_e + 50 J_p2, the paper's rules"),
-        album.copied(je, "pressures_final.svg", "J_e alone"),
-        album.copied(jp2, "pressures_final.svg", "J_e + 50 J_p2"),
+        f"{spread[je.name].percent()}, and at the end 50 J_p2 is {share.percent()} of J.\n",
+        _ends("J_e alone", rules_je),
+        _ends("J_e + 50 J_p2", rules_jp2),
+        album.comparison(je.run, "J_e alone, volume held"),
+        album.comparison(jp2.run, "J_e + 50 J_p2, volume held"),
+        album.comparison(rules_je.run, "J_e alone, the paper's rules"),
+        album.comparison(rules_jp2.run, "J_e + 50 J_p2, the paper's rules"),
+        album.copied(je.run, "pressures_final.svg", "J_e alone"),
+        album.copied(jp2.run, "pressures_final.svg", "J_e + 50 J_p2"),
         album.curves(
             "holes48_je.svg",
             "Strain energy, 48 holes",
             "J_e, 8 positions [J/m]",
-            ("J_e alone", je.column("strain_energy")),
-            ("J_e + 50 J_p2", jp2.column("strain_energy")),
-            ("J_e alone, paper's rules", rules_je.column("strain_energy")),
-            ("J_e + 50 J_p2, paper's rules", rules_jp2.column("strain_energy")),
+            ("J_e alone", je.run.column("strain_energy")),
+            ("J_e + 50 J_p2", jp2.run.column("strain_energy")),
+            ("J_e alone, paper's rules", rules_je.run.column("strain_energy")),
+            ("J_e + 50 J_p2, paper's rules", rules_jp2.run.column("strain_energy")),
         ),
     )
 
 
 def holes_108(r: Runs, album: Album) -> str:
-    run, rules = r["holes108_je"], r["rules_holes108_je"]
+    ours, rules = r["holes108_je"], r["rules_holes108_je"]
     return joined(
         "The 108 holes form three rings of 36 (47 mm apart in both directions), in 36 sectors. The shape repeats with "
         "every hole, so this is the smallest possible sector; 8 positions per sector are 288 per turn. With 12 sectors "
@@ -94,18 +113,18 @@ def holes_108(r: Runs, album: Album) -> str:
         "file are in 2D, plane strain, and cannot run a shape that varies along the axle. The solver itself is tested "
         "in 3D as a library, on coarse grids.\n",
         claims(
-            ("J_e alone finds a stiffer design (2D)", *_stiffer(run, rules)),
+            ("J_e alone finds a stiffer design (2D)", *_stiffer(ours, rules)),
             ("a shape in 3D", "not computed", "not examined"),
         ),
-        f"The holes of the three rings become {_holes(run)} with the volume held, and {_holes(rules)} by the paper's "
+        f"The holes of the three rings become {sizes(ours)} with the volume held, and {sizes(rules)} by the paper's "
         "rules.\n",
-        album.comparison(run, "108 holes, volume held"),
-        album.comparison(rules, "108 holes, the paper's rules"),
+        album.comparison(ours.run, "108 holes, volume held"),
+        album.comparison(rules.run, "108 holes, the paper's rules"),
         album.curves(
             "holes108_je.svg",
             "Strain energy, 108 holes",
             "J_e, 8 positions [J/m]",
-            ("volume held", run.column("objective")),
-            ("the paper's rules", rules.column("objective")),
+            ("volume held", ours.run.column("objective")),
+            ("the paper's rules", rules.run.column("objective")),
         ),
     )

@@ -6,7 +6,7 @@ from .section import Album, Runs, joined
 
 
 def mesh(r: Runs, album: Album) -> str:
-    run = r["uniform_je"]
+    run = r["uniform_je"].run
     text = (run.folder / "shapes/shape_0000_mesh.svg").read_text()
     inside, cut, outside = (re.search(rf">(\d+) cells {kind}", text)[1] for kind in ("inside", "cut", "outside"))
     return joined(

@@ -1,45 +1,26 @@
-"""Runs cases with the built program and reads what it wrote."""
+"""Reads what runs of the program wrote."""
 
 import csv
 import math
 import re
-import shutil
-import subprocess
-import time
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path
 
-from .progress import CaseProgress
+from .hole import Hole, measured
 from .vtu import read_array, read_polygons
 
-cases = Path("cases/paper")
 shear_modulus = 200e6 / 2 / 1.48  # of the paper's material [Pa]
-expectations_unmet = 7  # exit code of the program
 
 
-@dataclass
-class Hole:
-    length: float  # radial extent [mm]
-    width: float  # azimuthal extent at mid-length [mm]
-    outer_radius: float  # farthest from the axle [mm]
-
-    def __str__(self) -> str:
-        return f"{self.length:.1f} x {self.width:.1f}"
-
-    def resembles(self, other: "Hole") -> bool:
-        return abs(self.length - other.length) < 0.5 and abs(self.outer_radius - other.outer_radius) < 0.5
-
-
-@dataclass
+@dataclass(eq=False)
 class Run:
-    """A run of cases/paper/NAME.toml. `failure` is the program's last line if it gave up, `unmet` are its lines
+    """A run of a case. `failure` is the program's last line if it gave up, `unmet` are its lines
     about values that are not as the case expects, `expected` how many values it expects."""
 
     name: str
     folder: Path
-    seconds: float
+    seconds: float  # of processor time
     failure: str | None = None
     unmet: list[str] = field(default_factory=list)
     expected: int = 0
@@ -84,11 +65,13 @@ class Run:
                 positions.setdefault(point["position"], []).append(point)
         return list(positions.values())
 
+    @cache
     def peak_spread(self, shape: str) -> float:
         """(largest - smallest) / mean of the peak pressures of the load positions."""
         peaks = [max(p["pressure"] for p in points) for points in self.pressures(shape)]
         return (max(peaks) - min(peaks)) / (sum(peaks) / len(peaks))
 
+    @cache
     def curve_deviation(self, shape: str) -> float:
         """Root mean square of pressure minus mean pressure at the same place of the ground, over that of
         the mean."""
@@ -142,48 +125,10 @@ class Run:
             if "A" in contour or "L" not in contour:
                 continue
             numbers = [float(n) for n in re.findall(r"-?\d+\.?\d*", contour)]
-            hole = _measure(list(zip(numbers[::2], numbers[1::2])))
+            hole = measured(list(zip(numbers[::2], numbers[1::2])))
             if not any(hole.resembles(kind) for kind in kinds):
                 kinds.append(hole)
         return sorted(kinds, key=lambda hole: hole.outer_radius)
-
-
-def execute(program: str, name: str, folder: Path, options: list[str]) -> Run:
-    """Runs a case into `folder`, replacing what an earlier call left there."""
-    shutil.rmtree(folder, ignore_errors=True)
-    start = time.monotonic()
-    result = subprocess.run(
-        [program, "run", str(cases / f"{name}.toml"), "--output", str(folder), *options],
-        capture_output=True,
-        text=True,
-    )
-    run = Run(name, folder, time.monotonic() - start)
-    said_by = "wheelwright: "
-    complaints = [
-        line.removeprefix(said_by) for line in result.stderr.splitlines() if line.startswith(said_by)
-    ]
-    if result.returncode == expectations_unmet:
-        run.unmet = [line for line in complaints if ", expected " in line]
-    elif result.returncode != 0:
-        run.failure = complaints[-1] if complaints else f"exit code {result.returncode}"
-    found = re.search(r"^expected +(\d+) of (\d+) values", result.stdout, re.MULTILINE)
-    if found:
-        run.expected = int(found[2])
-    return run
-
-
-def execute_all(program: str, names: list[str], folder: Path, options: list[str], jobs: int,
-                progress: CaseProgress) -> dict[str, Run]:
-    """All cases, `jobs` at a time; the result is the same however many."""
-
-    def one(name: str) -> Run:
-        progress.started(name)
-        run = execute(program, name, folder / name, options)
-        progress.finished(name, run.failure or "; ".join(run.unmet))
-        return run
-
-    with ThreadPoolExecutor(jobs) as pool:
-        return dict(zip(names, pool.map(one, names)))
 
 
 def _is_small_and_near(piece: list[int], points: list[float]) -> bool:
@@ -224,11 +169,3 @@ def _interpolate(curve: list[tuple[float, float]], x: float) -> float:
         if x0 <= x <= x1 and x1 > x0:
             return y0 + (y1 - y0) * (x - x0) / (x1 - x0)
     return 0.0
-
-
-def _measure(points: list[tuple[float, float]]) -> Hole:
-    radii = [math.hypot(x, y) for x, y in points]
-    start = math.atan2(points[0][1], points[0][0])
-    angles = [math.remainder(math.atan2(y, x) - start, 2 * math.pi) for x, y in points]
-    middle = (min(radii) + max(radii)) / 2
-    return Hole(max(radii) - min(radii), (max(angles) - min(angles)) * middle, max(radii))

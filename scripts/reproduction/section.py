@@ -6,10 +6,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from .family import Family, Verdict
 from .plot import Curve, line_plot
 from .runs import Run
 
-Runs = dict[str, Run]
+Runs = dict[str, Family]  # by the names of their cases
 
 
 @dataclass
@@ -68,23 +69,36 @@ def table(head: list[str], *rows: tuple[str, ...]) -> str:
     return "".join(f"| {line} |\n" if not line.startswith("---") else f"|{line}|\n" for line in lines)
 
 
-def verdict(holds: bool) -> str:
-    return "**confirmed**" if holds else "**contradicted**"
+def told(verdict: Verdict) -> str:
+    return f"**{verdict.value}**"
 
 
-def verdicts(*parts: tuple[str, bool]) -> str:
+def verdicts(*parts: tuple[str, Verdict]) -> str:
     """One verdict where all agree, else one for each condition."""
-    if len({holds for _, holds in parts}) == 1:
-        return verdict(parts[0][1])
-    return ", ".join(f"{verdict(holds)} {condition}" for condition, holds in parts)
+    if len({verdict for _, verdict in parts}) == 1:
+        return told(parts[0][1])
+    return ", ".join(f"{told(verdict)} {condition}" for condition, verdict in parts)
 
 
-def both_ways(ours: bool, rules: bool) -> str:
+def both_ways(ours: Verdict, rules: Verdict) -> str:
     return verdicts(("at constant volume", ours), ("by the paper's rules", rules))
 
 
-def percent(value: float, digits: int = 1) -> str:
-    return f"{100 * value:+.{digits}f} %"
+def sizes(family: Family) -> str:
+    """Length by width of every kind of hole of the last shape, from the axle outwards."""
+    counts = family.of(lambda run: len(run.holes))
+    if counts.low != counts.high:
+        return f"{counts.text(0)} kinds of holes"
+    kinds = []
+    for k in range(len(family.run.holes)):
+        length, width = (family.of(lambda run: getattr(run.holes[k], size)) for size in ("length", "width"))
+        kinds.append(f"{length.text(1)} x {width.text(1)}")
+    return ", ".join(kinds) + " mm"
+
+
+def ways(ours: str, rules: str) -> str:
+    """What is measured of the one and of the other."""
+    return f"{ours}; by the paper's rules {rules}"
 
 
 def joined(*parts: str) -> str:

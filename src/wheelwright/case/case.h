@@ -10,6 +10,7 @@
 #include "wheelwright/base/quantity.h"
 #include "wheelwright/drawing/fill.h"
 #include "wheelwright/elasticity/contact_form.h"
+#include "wheelwright/elasticity/dual_norm.h"
 #include "wheelwright/elasticity/ghost_penalty.h"
 #include "wheelwright/elasticity/material.h"
 
@@ -231,6 +232,7 @@ struct Objective {
   std::optional<double> annulus;               ///< epsilon; absent: one radial cell
   std::optional<double> length;                ///< L; absent: epsilon
   MeanStress mean = MeanStress::exact;
+  DualNorm dual_norm = DualNorm::elasticity;  ///< of J_p2
   bool operator==(const Objective&) const = default;
 };
 

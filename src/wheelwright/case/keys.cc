@@ -613,7 +613,14 @@ const Section<Objective>& objective_section() {
            .unit = "",
            .field = choice<&Objective::mean>({"exact", "held"}),
            .meaning = "mean contact stress p_mean (73); exact: of the shape itself; held: of the last "
-                      "accepted shape, as in the paper"}}};
+                      "accepted shape, as in the paper"},
+          {.name = "dual_norm",
+           .unit = "",
+           .field = choice<&Objective::dual_norm>({"elasticity", "poisson"}),
+           .meaning =
+               "the problem on the ring without holes that defines the H^-1/2 norm of J_p2; elasticity: "
+               "(68), as in the paper; poisson: Poisson's problem of Remark 7, with E in place of the "
+               "elasticity tensor"}}};
   return section;
 }
 
@@ -724,8 +731,9 @@ const Section<Output>& output_section() {
           {.name = "pictures_every",
            .unit = "shapes",
            .field = IntegerField<Output>{&Output::pictures_every, between(0, 1000000)},
-           .meaning = "how often the loaded wheel is drawn in the folder shapes; 0 means never; the last "
-                      "shape is always drawn"},
+           .meaning =
+               "how often the loaded wheel, its shape gradient and its level set are drawn in the folder "
+               "shapes; 0 means never; the last shape is always drawn under load"},
           {.name = "checkpoint_every",
            .unit = "shapes",
            .field = IntegerField<Output>{&Output::checkpoint_every, between(0, 1000000)},

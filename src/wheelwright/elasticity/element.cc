@@ -160,6 +160,21 @@ auto ElasticElement<dim>::with_pointwise_strain(const Vec<dim>& xi) const -> Poi
 }
 
 template <int dim>
+auto ElasticElement<dim>::gradient(const Vec<dim>& xi) const
+    -> std::array<std::array<double, max_dofs>, dim * dim> {
+  const ShapeFunctions<dim> shape(degree_, xi);
+  const Mat<dim> inverse_jacobian = inverse<dim>(map_.jacobian(shape));
+  std::array<std::array<double, max_dofs>, dim * dim> result{};
+  for (int a = 0; a < n_nodes(); ++a) {
+    const Vec<dim> gradient = transpose_times<dim>(inverse_jacobian, shape.gradient[a]);
+    for (int c = 0; c < dim; ++c)
+      for (int i = 0; i < dim; ++i)
+        for (int j = 0; j < dim; ++j) result[dim * i + j][dof(a, c)] = frames_[a][i][c] * gradient[j];
+  }
+  return result;
+}
+
+template <int dim>
 auto ElasticElement<dim>::second_derivative(const Vec<dim>& xi, const Vec<dim>& n) const
     -> std::array<std::array<double, max_dofs>, dim> {
   const ShapeFunctions<dim> shape(degree_, xi);
@@ -229,6 +244,20 @@ Matrix cell_stiffness(const ElasticElement<dim>& element, const Material& materi
 }
 
 template <int dim>
+Matrix gradient_stiffness(const ElasticElement<dim>& element, const Material& material,
+                          std::span<const ReferencePoint<dim>> points) {
+  const int n = element.n_dofs();
+  Matrix k(n, n);
+  for (const auto& q : points) {
+    const double weight = q.weight * element.at(q.xi).determinant * material.scaling_modulus();
+    for (const auto& derivative : element.gradient(q.xi))
+      for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) k(i, j) += weight * derivative[i] * derivative[j];
+  }
+  return k;
+}
+
+template <int dim>
 Matrix ghost_stiffness(const ElasticElement<dim>& minus, const ElasticElement<dim>& plus, int axis,
                        double angle, const Material& material, const GhostPenalty& ghost) {
   const int n_minus = minus.n_dofs(), n = n_minus + plus.n_dofs();
@@ -285,6 +314,8 @@ Matrix ghost_stiffness(const ElasticElement<dim>& minus, const ElasticElement<di
       const ElasticElement<dim>&, const Material&, const ElasticElement<dim>::Point&, const Vec<dim>&);     \
   template Matrix cell_stiffness<dim>(const ElasticElement<dim>&, const Material&,                          \
                                       std::span<const ReferencePoint<dim>>);                                \
+  template Matrix gradient_stiffness<dim>(const ElasticElement<dim>&, const Material&,                      \
+                                          std::span<const ReferencePoint<dim>>);                            \
   template Matrix ghost_stiffness<dim>(const ElasticElement<dim>&, const ElasticElement<dim>&, int, double, \
                                        const Material&, const GhostPenalty&);
 WHEELWRIGHT_INSTANTIATE(2)

@@ -71,6 +71,9 @@ class ElasticElement {
   };
   Point at(const Vec<dim>& xi) const;
 
+  /// The gradient of u: du_i / dx_j in row dim * i + j.
+  std::array<std::array<double, max_dofs>, dim * dim> gradient(const Vec<dim>& xi) const;
+
   /// The second derivative d^2 u / dn^2 along a unit vector n, as a linear map of the dofs (rows: components
   /// of u).
   std::array<std::array<double, max_dofs>, dim> second_derivative(const Vec<dim>& xi,
@@ -111,6 +114,12 @@ std::array<std::array<double, ElasticElement<dim>::max_dofs>, dim> traction_map(
 template <int dim>
 Matrix cell_stiffness(const ElasticElement<dim>& element, const Material& material,
                       std::span<const ReferencePoint<dim>> points);
+
+/// E times the integral of grad u : grad v, with E = Material::scaling_modulus(), in place of the bulk
+/// stiffness: every Cartesian component of u obeys Poisson's equation.
+template <int dim>
+Matrix gradient_stiffness(const ElasticElement<dim>& element, const Material& material,
+                          std::span<const ReferencePoint<dim>> points);
 
 /// The ghost penalty of one face F on the dofs (minus cell, plus cell): 1/2 int_F xi h_F / E [[sigma
 /// n]].[[sigma n]] as in (81), and for GhostPenaltyKind::full also 1/2 int_F xi h_F^3 E [[d_nn u]].[[d_nn

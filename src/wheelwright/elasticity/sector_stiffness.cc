@@ -17,12 +17,12 @@ Material for_ghost_penalty(Material material) {
 
 template <int dim>
 ElementTable<dim>::ElementTable(const PolarGrid<dim>& grid, int degree, const Materials& materials,
-                                const GhostPenalty& ghost)
-    : grid_(grid), degree_(degree), materials_(materials), ghost_(ghost) {
+                                const GhostPenalty& ghost, CellStiffness<dim>* bulk)
+    : grid_(grid), degree_(degree), materials_(materials), ghost_(ghost), bulk_(bulk) {
   const auto rule = unit_cell_rule<dim>(degree + 2);
   for (int radial = 0; radial < grid.cells[0]; ++radial) {
     elements_.emplace_back(grid, degree, std::array<int, dim>{radial}, materials.in_row(radial));
-    stiffness_.push_back(cell_stiffness<dim>(elements_.back(), materials.in_row(radial), rule));
+    stiffness_.push_back(bulk(elements_.back(), materials.in_row(radial), rule));
   }
   const double column_angle = grid.cell_size()[1];
   for (int radial = 0; radial < grid.cells[0]; ++radial) {
@@ -68,7 +68,7 @@ SectorStiffness<dim> sector_stiffness(const CutDomain<dim>& domain, const Elemen
     const CutCell<dim>& cut = domain.cut[i];
     const int radial = grid.cell_position(cut.cell)[0];
     cut_stiffness[i] =
-        cell_stiffness<dim>(table.element(radial), table.materials().in_row(radial), cut.material);
+        table.bulk_stiffness(table.element(radial), table.materials().in_row(radial), cut.material);
   });
   for (size_t i = 0; i < domain.cut.size(); ++i) matrix.add(cell_nodes[domain.cut[i].cell], cut_stiffness[i]);
   for (const auto& ghost : sector.ghosts) matrix.add(ghost.nodes, *ghost.stiffness);

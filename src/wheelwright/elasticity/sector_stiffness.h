@@ -6,17 +6,29 @@
 
 namespace wheelwright {
 
+/// The stiffness of a part of a cell: cell_stiffness(), or another form in its place.
+template <int dim>
+using CellStiffness = Matrix(const ElasticElement<dim>& element, const Material& material,
+                             std::span<const ReferencePoint<dim>> points);
+
 /// The parts of the discretization that do not depend on the shape: one element, one stiffness of a full cell
 /// and the ghost penalties of its faces per radial row. Built once per run.
 template <int dim>
 class ElementTable {
  public:
-  ElementTable(const PolarGrid<dim>& grid, int degree, const Materials& materials, const GhostPenalty& ghost);
+  ElementTable(const PolarGrid<dim>& grid, int degree, const Materials& materials, const GhostPenalty& ghost,
+               CellStiffness<dim>* bulk = cell_stiffness<dim>);
 
   const PolarGrid<dim>& grid() const { return grid_; }
   int degree() const { return degree_; }
   const Materials& materials() const { return materials_; }
   const GhostPenalty& ghost() const { return ghost_; }
+
+  /// The stiffness of a part of a cell, which may be one of a refined grid.
+  Matrix bulk_stiffness(const ElasticElement<dim>& element, const Material& material,
+                        std::span<const ReferencePoint<dim>> points) const {
+    return bulk_(element, material, points);
+  }
 
   const ElasticElement<dim>& element(int radial) const { return elements_[radial]; }
   const Matrix& full_cell_stiffness(int radial) const { return stiffness_[radial]; }
@@ -28,6 +40,7 @@ class ElementTable {
   int degree_;
   Materials materials_;
   GhostPenalty ghost_;
+  CellStiffness<dim>* bulk_;
   std::vector<ElasticElement<dim>> elements_;
   std::vector<Matrix> stiffness_;
   std::vector<Matrix> ghosts_;

@@ -5,7 +5,7 @@
 namespace wheelwright {
 
 /// J_p2 (61), (71): half the squared H^-1/2 norm of sigma(u)n - p_mean on Gamma_C, computed as the work of
-/// the traction on its Neumann-to-Dirichlet image.
+/// the traction on its Neumann-to-Dirichlet image. Which norm, the operator decides (DualNorm).
 template <int dim>
 class UniformityDual : public Functional<dim> {
  public:

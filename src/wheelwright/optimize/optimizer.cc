@@ -199,7 +199,7 @@ std::optional<StopReason> ShapeOptimizer<dim>::advance(OptimizationState<dim>& s
                                                        const std::function<bool()>& stop_requested) const {
   if (const auto reason = reason_to_stop(options_, state)) return reason;
   if (stop_requested()) return StopReason::stop_requested;
-  const auto velocity = descent_velocity(state);
+  const auto velocity = descent_velocity(evolver_, options_, state);
   if (!velocity) {
     observer(failed_trial(state, 0, state.step, velocity.failure()), state);
     return StopReason::gave_up;
@@ -251,16 +251,15 @@ double ShapeOptimizer<dim>::objective_of(const Evaluation<dim>& evaluation) cons
 }
 
 template <int dim>
-Expected<std::vector<double>> ShapeOptimizer<dim>::descent_velocity(
-    const OptimizationState<dim>& state) const {
-  auto gradient = state.evaluation.gradient(options_.objective);
-  if (options_.measure_control == MeasureControl::exact)
-    return evolver_.measure_preserving_velocity(gradient);
-  const double whole = sector_measure<dim>(lattice_.grid());
+Expected<std::vector<double>> descent_velocity(const Evolver<dim>& evolver, const OptimizerOptions& options,
+                                               const OptimizationState<dim>& state) {
+  auto gradient = state.evaluation.gradient(options.objective);
+  if (options.measure_control == MeasureControl::exact) return evolver.measure_preserving_velocity(gradient);
+  const double whole = sector_measure<dim>(state.shape.lattice.grid());
   const double multiplier =
       proportional_multiplier<dim>(gradient, state.target_measure / whole, state.measure / whole);
   for (auto& sample : gradient) sample.value -= multiplier;
-  return evolver_.velocity(gradient);
+  return evolver.velocity(gradient);
 }
 
 template <int dim>

@@ -130,6 +130,12 @@ template <int dim>
 std::optional<StopReason> reason_to_stop(const OptimizerOptions& options,
                                          const OptimizationState<dim>& state);
 
+/// The velocity by which a state's shape moves next: that of its gradient, with the correction for the
+/// measure that the options ask for.
+template <int dim>
+Expected<std::vector<double>> descent_velocity(const Evolver<dim>& evolver, const OptimizerOptions& options,
+                                               const OptimizationState<dim>& state);
+
 /// Gradient descent on shapes: velocity, transport, redistancing and smoothing when due, measure, removal of
 /// islands, evaluation.
 /// A measure that is not the target's moves towards it in every shape by measure_rate at most, in proportion
@@ -176,7 +182,6 @@ class ShapeOptimizer {
   double objective_of(const Evaluation<dim>& evaluation) const;
 
  private:
-  Expected<std::vector<double>> descent_velocity(const OptimizationState<dim>& state) const;
   using MadeCells = std::optional<CutDomain<dim>>;  ///< of the trial's shape; empty: not made yet
   Trial<dim> attempt(const OptimizationState<dim>& state, std::span<const double> velocity, double step,
                      int halvings) const;

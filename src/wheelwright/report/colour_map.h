@@ -8,4 +8,7 @@ namespace wheelwright {
 /// "#rrggbb"; t outside is clamped, NaN is grey.
 std::string viridis(double t);
 
+/// Colour of t in [-1, 1], from blue over white to red; t outside is clamped, NaN is grey.
+std::string blue_to_red(double t);
+
 }  // namespace wheelwright

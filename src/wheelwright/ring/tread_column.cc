@@ -217,7 +217,8 @@ class ColumnAssembly {
  public:
   ColumnAssembly(const ElementTable<dim>& table, const ColumnNodes<dim>& nodes, const TreadGrid& tread,
                  const ContactForm& form, int points_per_direction)
-      : grid_(table.grid()),
+      : table_(table),
+        grid_(table.grid()),
         materials_(table.materials()),
         nodes_(nodes),
         form_(form),
@@ -258,7 +259,7 @@ class ColumnAssembly {
     const double height = layer.inner_radius + (row + 0.5) * fine.cell_size()[0] - grid_.inner_radius;
     const Material& material = materials_.in_row(static_cast<int>(height / grid_.cell_size()[0]));
     const ElasticElement<dim> element(fine, degree_, {row}, material);
-    const Matrix stiffness = cell_stiffness<dim>(element, material, volume_rule_);
+    const Matrix stiffness = table_.bulk_stiffness(element, material, volume_rule_);
     const bool at_tread = &layer == &nodes_.all_layers().back() && row + 1 == layer.rows;
     add_face_rows(1 << layer.level, at_tread);
     for (int axial = 0; axial < axial_cells_; ++axial)
@@ -398,6 +399,7 @@ class ColumnAssembly {
     }
   }
 
+  const ElementTable<dim>& table_;
   const PolarGrid<dim>& grid_;
   const Materials& materials_;
   const ColumnNodes<dim>& nodes_;

@@ -2,10 +2,24 @@
 
 namespace wheelwright {
 
+namespace {
+
+/// E alone takes part in Poisson's problem: a material without Poisson's ratio needs no element of its own.
 template <int dim>
-Expected<NeumannToDirichlet<dim>> NeumannToDirichlet<dim>::create(const RollingModel<dim>& model) {
-  auto elements =
-      std::make_shared<const ElementTable<dim>>(model.grid, model.degree, model.materials, model.ghost);
+std::shared_ptr<const ElementTable<dim>> elements_of(const RollingModel<dim>& model, DualNorm norm) {
+  if (norm == DualNorm::elasticity)
+    return std::make_shared<const ElementTable<dim>>(model.grid, model.degree, model.materials, model.ghost);
+  const Material material{model.materials.at_tread().scaling_modulus(), 0};
+  return std::make_shared<const ElementTable<dim>>(model.grid, model.degree, material, model.ghost,
+                                                   gradient_stiffness<dim>);
+}
+
+}  // namespace
+
+template <int dim>
+Expected<NeumannToDirichlet<dim>> NeumannToDirichlet<dim>::create(const RollingModel<dim>& model,
+                                                                  DualNorm norm) {
+  auto elements = elements_of(model, norm);
   // The penalty form has no term of its own in the stiffness.
   auto tread = Tread<dim>::condense(*elements, {model.tread.rows, model.tread.levels, 0},
                                     {.method = ContactMethod::penalty}, model.contact_points);

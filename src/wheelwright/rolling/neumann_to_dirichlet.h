@@ -5,18 +5,19 @@
 namespace wheelwright {
 
 /// The operator g -> w[g] of (68) on the full ring B, which no shape changes: -div sigma(w) = 0, sigma(w)n =
-/// g on Gamma_C, w = 0 on the rim. Discretized on the model's own grid, tread refinement included. Built once
-/// per run.
+/// g on Gamma_C, w = 0 on the rim; or that of Poisson's problem in its place (DualNorm). Discretized on the
+/// model's own grid, tread refinement included. Built once per run.
 template <int dim>
 class NeumannToDirichlet {
  public:
-  static Expected<NeumannToDirichlet> create(const RollingModel<dim>& model);
+  static Expected<NeumannToDirichlet> create(const RollingModel<dim>& model, DualNorm norm);
 
   /// w at the tread's points for tractions g there: dim rows per point (Cartesian, column frame), one
   /// column per (right-hand side, ring column).
   Matrix operator()(const Matrix& tractions) const;
 
-  /// 1/2 int_B A eps(w):eps(w) of every right-hand side, from the displacements in the whole ring.
+  /// 1/2 int_B A eps(w):eps(w), or 1/2 E int_B grad w:grad w, of every right-hand side, from the
+  /// displacements in the whole ring.
   std::vector<double> energies(const Matrix& tractions) const;
 
  private:

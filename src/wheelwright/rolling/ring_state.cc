@@ -84,8 +84,9 @@ Expected<std::shared_ptr<const State<dim>>> RollingProblem<dim>::states(const Cu
 }
 
 template <int dim>
-Expected<typename StateSolver<dim>::TractionMap> RollingProblem<dim>::neumann_to_dirichlet() const {
-  auto created = NeumannToDirichlet<dim>::create(model_);
+Expected<typename StateSolver<dim>::TractionMap> RollingProblem<dim>::neumann_to_dirichlet(
+    DualNorm norm) const {
+  auto created = NeumannToDirichlet<dim>::create(model_, norm);
   if (!created) return created.failure();
   const auto map = std::make_shared<const NeumannToDirichlet<dim>>(*std::move(created));
   return typename StateSolver<dim>::TractionMap([map](const Matrix& tractions) { return (*map)(tractions); });
@@ -95,7 +96,7 @@ Expected<typename StateSolver<dim>::TractionMap> RollingProblem<dim>::neumann_to
   template std::shared_ptr<const State<dim>> ring_state(const RollingProblem<dim>&, RollingSolution<dim>); \
   template Expected<std::shared_ptr<const State<dim>>> RollingProblem<dim>::states(                        \
       const CutShape<dim>&, LoadPositions, const Interrupt&) const;                                        \
-  template Expected<StateSolver<dim>::TractionMap> RollingProblem<dim>::neumann_to_dirichlet() const;
+  template Expected<StateSolver<dim>::TractionMap> RollingProblem<dim>::neumann_to_dirichlet(DualNorm) const;
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)
 #undef WHEELWRIGHT_INSTANTIATE

@@ -52,7 +52,7 @@ class RollingProblem : public StateSolver<dim> {
   const TreadSurface<dim>& tread_surface() const override { return tread_.surface(); }
   Expected<std::shared_ptr<const State<dim>>> states(const CutShape<dim>& shape, LoadPositions positions,
                                                      const Interrupt& interrupt) const override;
-  Expected<typename StateSolver<dim>::TractionMap> neumann_to_dirichlet() const override;
+  Expected<typename StateSolver<dim>::TractionMap> neumann_to_dirichlet(DualNorm norm) const override;
 
   const ElementTable<dim>& elements() const { return *elements_; }
   const Tread<dim>& tread() const { return tread_; }

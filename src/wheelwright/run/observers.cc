@@ -1,6 +1,7 @@
 #include "wheelwright/run/observers.h"
 
 #include "wheelwright/run/checkpointer.h"
+#include "wheelwright/run/descent_pictures.h"
 #include "wheelwright/run/expectations.h"
 #include "wheelwright/run/failure_report.h"
 #include "wheelwright/run/history_writer.h"
@@ -20,6 +21,7 @@ Observers<dim> make_observers(const Case& c, const CheckpointFolder& checkpoints
   if constexpr (dim == 2) {
     observers.push_back(std::make_unique<ShapeFiles>());
     observers.push_back(std::make_unique<ShapePictures>());
+    observers.push_back(std::make_unique<DescentPictures>());
   }
   observers.push_back(std::make_unique<ExpectationWatch<dim>>(c.expectations, resumed));
   if constexpr (dim == 2) {

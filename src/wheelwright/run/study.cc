@@ -99,7 +99,7 @@ Expected<WeightedSum<dim>> objective_terms(const Case& c, const StateSolver<dim>
   };
   std::shared_ptr<const Functional<dim>> dual;
   if (o.uniformity_dual > 0 || o.annulus_matches_dual) {
-    auto map = solver.neumann_to_dirichlet();
+    auto map = solver.neumann_to_dirichlet(o.dual_norm);
     if (!map) return map.failure();
     dual = std::make_shared<UniformityDual<dim>>(*std::move(map));
   }

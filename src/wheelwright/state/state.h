@@ -8,6 +8,7 @@
 #include "wheelwright/base/interrupt.h"
 #include "wheelwright/base/phase_time.h"
 #include "wheelwright/cut/cut_shape.h"
+#include "wheelwright/elasticity/dual_norm.h"
 #include "wheelwright/state/contact_patch.h"
 #include "wheelwright/state/functional_derivative.h"
 #include "wheelwright/state/load_positions.h"
@@ -100,11 +101,11 @@ class StateSolver {
                                                              LoadPositions positions,
                                                              const Interrupt& interrupt) const = 0;
 
-  /// The operator g -> w[g] of (68) on the full ring, which no shape changes: tractions on the tread to the
-  /// displacement there. dim rows per contact point (Cartesian, column frame), one column per (right-hand
-  /// side, ring column), both ways. Fails as states() does.
+  /// The operator g -> w[g] of (68), or of Poisson's problem in its place, on the full ring, which no shape
+  /// changes: tractions on the tread to the displacement there. dim rows per contact point (Cartesian, column
+  /// frame), one column per (right-hand side, ring column), both ways. Fails as states() does.
   using TractionMap = std::function<Matrix(const Matrix& tractions)>;
-  virtual Expected<TractionMap> neumann_to_dirichlet() const = 0;
+  virtual Expected<TractionMap> neumann_to_dirichlet(DualNorm norm) const = 0;
 
   /// All load positions of a sector.
   LoadPositions all_positions() const { return load_positions(model().grid, model().n_positions); }
