@@ -173,8 +173,8 @@ double estimated_memory(const Case& c) {
   for (const HoleRing& ring : c.holes.rings) holes += ring.count / sectors;
 
   // The size of each array is known; how many of them exist at the peak is fitted to measurements.
-  const double libraries = 20e6;
-  const double fields = number * (56 * cells + 1.4 * dofs * positions);
+  const double libraries = 26e6;
+  const double fields = number * (56 * cells + 4.6 * dofs * positions);
   const double factor = number * 0.6 * sector_dofs * std::log2(std::max(sector_dofs, 2.0));
   const double condensed = number * 3.5 * square(2 * radial_line + sector_line);
   const double harmonics = complex * 1.8 * (sectors / 2 + 1) * square(radial_line + sector_line);

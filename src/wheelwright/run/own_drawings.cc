@@ -25,7 +25,7 @@ Case with_own_drawings(Case c) {
 
 void write_drawings(const std::filesystem::path& folder, const Case& c) {
   if (c.shapes.files.empty() && c.shapes.pictures.empty()) return;
-  make_folder(folder / folder_of_drawings);
+  make_subfolder(folder / folder_of_drawings);
   for (const FileShape& shape : c.shapes.files)
     if (shape.drawing.contents) write_atomically(folder / shape.path, shape.drawing.contents->bytes);
   for (const PictureShape& shape : c.shapes.pictures)
