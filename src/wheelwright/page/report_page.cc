@@ -92,11 +92,12 @@ std::vector<std::int16_t> as_shorts(const std::vector<double>& values, double fu
   return result;
 }
 
-std::vector<std::uint8_t> as_bytes(const std::vector<double>& values, double full_scale) {
+/// Square roots of shares of the full scale: small values keep their digits, and the page colours by them.
+std::vector<std::uint8_t> as_bytes_of_roots(const std::vector<double>& values, double full_scale) {
   std::vector<std::uint8_t> result;
   for (const double v : values)
     result.push_back(static_cast<std::uint8_t>(
-        std::isfinite(v) ? std::clamp(std::lround(255 * v / full_scale), 0L, 255L) : 0));
+        std::isfinite(v) ? std::lround(255 * std::sqrt(std::clamp(v / full_scale, 0.0, 1.0))) : 0));
   return result;
 }
 
@@ -118,7 +119,7 @@ Json fields_json(const ReportRun& run) {
     positions.push_back({{"azimuth_rad", run.positions[i].ground_azimuth},
                          {"x", encoded(as_shorts(x[i], full_displacement))},
                          {"y", encoded(as_shorts(y[i], full_displacement))},
-                         {"stress", encoded(as_bytes(stress[i], full_stress))}});
+                         {"root_of_stress", encoded(as_bytes_of_roots(stress[i], full_stress))}});
   return {{"points", encoded(points)},
           {"triangles", encoded(mesh.triangles)},
           {"full_displacement_m", full_displacement},

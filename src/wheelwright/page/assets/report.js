@@ -117,7 +117,7 @@
     }
     const positions = fields.positions.map((p) => ({
       azimuth: p.azimuth_rad,
-      x: new Int16Array(bytes(p.x).buffer), y: new Int16Array(bytes(p.y).buffer), stress: bytes(p.stress),
+      x: new Int16Array(bytes(p.x).buffer), y: new Int16Array(bytes(p.y).buffer), stress: bytes(p.root_of_stress),
     }));
     return { places, corners, positions };
   }
@@ -133,7 +133,7 @@
     }`;
   const fragmentShader = `
     precision mediump float; varying float value; uniform sampler2D colours;
-    void main() { gl_FragColor = texture2D(colours, vec2(sqrt(value), 0.5)); }`;
+    void main() { gl_FragColor = texture2D(colours, vec2(value, 0.5)); }`;
 
   function program(gl) {
     const made = gl.createProgram();
