@@ -8,12 +8,12 @@
 #include "wheelwright/evolution/closest_point.h"
 #include "wheelwright/evolution/evolver.h"
 #include "wheelwright/evolution/multilinear.h"
-#include "wheelwright/geometry/nearest_point.h"
 #include "wheelwright/evolution/redistance.h"
 #include "wheelwright/evolution/seeds.h"
 #include "wheelwright/evolution/sub_cell_filter.h"
 #include "wheelwright/evolution/transport.h"
 #include "wheelwright/evolution/volume.h"
+#include "wheelwright/geometry/nearest_point.h"
 #include "wheelwright/geometry/shapes.h"
 
 using namespace wheelwright;

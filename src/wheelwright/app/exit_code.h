@@ -6,9 +6,9 @@ namespace wheelwright {
 enum ExitCode {
   exit_done = 0,
   exit_bug = 1,
-  exit_usage = 2,          ///< wrong command line, or a case that is wrong or cannot be read
-  exit_no_solution = 3,    ///< the solver gave up
-  exit_refused = 4,        ///< to overwrite, to share a folder, to export a faulty outline, or for lack of memory
+  exit_usage = 2,        ///< wrong command line, or a case that is wrong or cannot be read
+  exit_no_solution = 3,  ///< the solver gave up
+  exit_refused = 4,  ///< to overwrite, to share a folder, to export a faulty outline, or for lack of memory
   exit_input_output = 5,   ///< a file could not be written
   exit_checkpoint = 6,     ///< no checkpoint can be used
   exit_unexpected = 7,     ///< the run is done, but something that the case expects of it is not so

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "wheelwright/geometry/nearest_point.h"
 #include "wheelwright/evolution/redistance.h"
 #include "wheelwright/geometry/finite.h"
+#include "wheelwright/geometry/nearest_point.h"
 #include "wheelwright/geometry/place.h"
 
 namespace wheelwright {

@@ -1,8 +1,8 @@
 #include "wheelwright/evolution/redistance.h"
 
 #include "wheelwright/evolution/closest_point.h"
-#include "wheelwright/geometry/nearest_point.h"
 #include "wheelwright/evolution/seeds.h"
+#include "wheelwright/geometry/nearest_point.h"
 
 namespace wheelwright {
 

@@ -189,8 +189,8 @@ void write_pvd(const std::filesystem::path& path, std::span<const PvdEntry> entr
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n  <Collection>\n";
   for (const PvdEntry& e : entries)
-    content += fmt::format("    <DataSet timestep=\"{:.12g}\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n", e.time,
-                           e.part, e.name, e.file);
+    content += fmt::format("    <DataSet timestep=\"{:.12g}\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n",
+                           e.time, e.part, e.name, e.file);
   content += "  </Collection>\n</VTKFile>\n";
   write_atomically(path, content);
 }

@@ -27,8 +27,8 @@ class VtuMesh {
           std::string_view length_unit = "m");
   ~VtuMesh();
 
-  /// The bytes of a ParaView file with psi and nodal fields; a field's unit follows its name. Scalars, vectors
-  /// (2 components) and symmetric tensors (xx, yy, zz, xy).
+  /// The bytes of a ParaView file with psi and nodal fields; a field's unit follows its name. Scalars,
+  /// vectors (2 components) and symmetric tensors (xx, yy, zz, xy).
   std::string file(std::span<const NamedField> fields) const;
 
   /// Writes that file, atomically. Throws OutputError.
