@@ -147,7 +147,7 @@ std::vector<ContactPoint> points_of_solved(const StateSolver<dim>& solver, const
     const auto in_ground_frame = [&](int first_row) {
       Vec<dim> v;
       std::copy_n(observed + first_row, dim, v.begin());
-      return rotated<dim>(v, point.angle);
+      return point.frame.template to_ground<dim>(v);
     };
     const Vec<dim> u = in_ground_frame(rows.displacement(point.point)),
                    stress = in_ground_frame(rows.traction(point.point));
@@ -161,7 +161,7 @@ std::vector<ContactPoint> points_of_solved(const StateSolver<dim>& solver, const
                       .normal_stress = stress[0],
                       .gap = point.gap - approach};
     if constexpr (dim == 3) {
-      seen.z = point.position[2] - 0.5 * solver.model().grid.width;
+      seen.z = point.position[2];
       seen.axial_friction = point.traction[2];
     }
     result.push_back(seen);
