@@ -7,6 +7,7 @@
 #include "wheelwright/app/shared_options.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/base/text.h"
+#include "wheelwright/cut/measure.h"
 #include "wheelwright/run/resume_point.h"
 
 namespace wheelwright {
@@ -39,6 +40,17 @@ Expected<WheelInput, ExitCode> initial_wheel(const fs::path& file, const Computa
   LevelSet<2> shape = initial_shape<2>(*c);
   return WheelInput{with_positions(*std::move(c), computation), std::move(shape),
                     without_control_characters(file.stem().string()), "initial shape"};
+}
+
+/// A run that was stopped on a coarser grid, as if that were its case's.
+RunInput on_grid_of_checkpoint(RunInput run) {
+  const int level = *level_of(run.source, run.checkpoint.state.shape);
+  if (level == 0) return run;
+  run.source = on_coarser_grid(std::move(run.source), level);
+  InitialShape<2>& initial = run.checkpoint.initial;
+  initial.shape = initial_shape<2>(run.source);
+  initial.measure = material_measure(initial.shape);
+  return run;
 }
 
 Expected<WheelInput, ExitCode> last_wheel(const fs::path& folder, const Computation& computation) {
@@ -75,7 +87,7 @@ Expected<RunInput, ExitCode> read_run_or_tell(const fs::path& folder, const Comp
     tell("{}: no checkpoint can be used\n", folder.string());
     return exit_checkpoint;
   }
-  return RunInput{folder, *std::move(c), *std::move(point.newest)};
+  return on_grid_of_checkpoint({folder, *std::move(c), *std::move(point.newest)});
 }
 
 }  // namespace wheelwright
