@@ -5,6 +5,7 @@
 
 #include "wheelwright/evolution/redistance.h"
 #include "wheelwright/evolution/seeds.h"
+#include "wheelwright/geometry/cell_map.h"
 #include "wheelwright/geometry/nearest_point.h"
 
 namespace wheelwright {
