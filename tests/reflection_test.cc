@@ -50,7 +50,7 @@ struct Tolerances {
 };
 
 /// The place of the peak may be that of its mirror image where the position is its own.
-void expect_same_peak_and_rim(const PositionFields& a, const PositionFields& b, bool is_own_image,
+void expect_same_peak_and_rim(const PositionFields<2>& a, const PositionFields<2>& b, bool is_own_image,
                               const Tolerances& tolerances) {
   EXPECT_NEAR(a.von_mises.value, b.von_mises.value, 10 * tolerances.stress * b.von_mises.value);
   const Vec<2> ground{std::cos(b.ground_azimuth), std::sin(b.ground_azimuth)};

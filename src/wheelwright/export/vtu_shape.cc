@@ -10,7 +10,7 @@ std::string vtu_shape(const WheelModel& wheel) {
     *length *= millimetres_per_metre;
   LevelSet<2> psi{Lattice<2>(grid, wheel.shape.lattice.degree()), wheel.shape.values};
   for (double& value : psi.values) value *= millimetres_per_metre;
-  return VtuMesh(psi, psi.lattice, vtu_cut_subdivisions, "mm").file({});
+  return VtuMesh<2>(psi, psi.lattice, vtu_cut_subdivisions, "mm").file({});
 }
 
 }  // namespace wheelwright

@@ -7,7 +7,7 @@
 #include "wheelwright/geometry/cell_map.h"
 #include "wheelwright/geometry/contour.h"
 #include "wheelwright/page/assets.h"
-#include "wheelwright/page/base64.h"
+#include "wheelwright/files/base64.h"
 #include "wheelwright/page/report_run.h"
 #include "wheelwright/report/svg.h"
 
@@ -107,7 +107,7 @@ Json fields_json(const ReportRun& run) {
   std::vector<float> points;
   for (const Vec<2>& x : mesh.points) points.insert(points.end(), {float(x[0]), float(x[1])});
   std::vector<std::vector<double>> x, y, stress;
-  for (const PositionFields& position : run.positions) {
+  for (const PositionFields<2>& position : run.positions) {
     const NamedField von_mises = von_mises_field(position.stress);
     x.push_back(at_points(mesh, position.lattice, position.displacement, [](auto u) { return u[0]; }));
     y.push_back(at_points(mesh, position.lattice, position.displacement, [](auto u) { return u[1]; }));

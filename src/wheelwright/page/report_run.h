@@ -49,7 +49,7 @@ struct ReportRun {
   std::vector<std::string> flags;        ///< what deserves attention, in sentences
   std::optional<RunSummary<2>> summary;  ///< absent while the run goes on
   const LevelSet<2>* shape = nullptr;    ///< the last one, with the fields of all positions
-  std::vector<PositionFields> positions;
+  std::vector<PositionFields<2>> positions;
   std::vector<ContactPoint> contact_points;
 };
 

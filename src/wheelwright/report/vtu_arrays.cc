@@ -48,9 +48,13 @@ std::string add_field(const std::string& name, const std::vector<std::vector<flo
       return arrays.add(name, 1, components[0]);
     case 2:
       return arrays.add(name, 3, interleaved(components, {0, 1, -1}));
-    default:
-      assert(components.size() == 4);
+    case 3:
+      return arrays.add(name, 3, interleaved(components, {0, 1, 2}));
+    case 4:
       return arrays.add(name, 6, interleaved(components, {0, 1, 2, 3, -1, -1}));
+    default:
+      assert(components.size() == 6);
+      return arrays.add(name, 6, interleaved(components, {0, 1, 2, 3, 4, 5}));
   }
 }
 

@@ -10,7 +10,8 @@
 namespace wheelwright {
 
 /// VTK's numbers for the kinds of cells.
-inline constexpr std::uint8_t vtk_line = 3, vtk_triangle = 5, vtk_quadrilateral = 9;
+inline constexpr std::uint8_t vtk_line = 3, vtk_triangle = 5, vtk_quadrilateral = 9, vtk_tetrahedron = 10,
+                              vtk_hexahedron = 12, vtk_wedge = 13;
 
 template <class Number>
 inline constexpr const char* vtk_type = nullptr;
@@ -51,8 +52,9 @@ std::string add_mesh(const std::vector<float>& points, const std::vector<std::in
                      const std::vector<std::int32_t>& offsets, const std::vector<std::uint8_t>& types,
                      AppendedArrays& arrays);
 
-/// Adds a field at the points, given by components: a scalar, a vector in the plane, or a symmetric tensor
-/// (xx, yy, zz, xy). ParaView's vectors have 3 components, its symmetric tensors xx, yy, zz, xy, yz and xz.
+/// Adds a field at the points, given by components: a scalar, a vector (2 or 3 components), or a symmetric
+/// tensor (xx, yy, zz, xy, and in 3D yz and xz). ParaView's vectors have 3 components, its symmetric tensors
+/// xx, yy, zz, xy, yz and xz.
 std::string add_field(const std::string& name, const std::vector<std::vector<float>>& components,
                       AppendedArrays& arrays);
 

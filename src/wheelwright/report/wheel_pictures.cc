@@ -20,15 +20,15 @@ int worst_position(std::span<const double> strain_energy) {
 
 void write_wheel_pictures(const std::filesystem::path& folder, const PictureNames& names,
                           const LevelSet<2>& shape, const CutDomain<2>& domain,
-                          const PositionFields& fields) {
+                          const PositionFields<2>& fields) {
   const PolarGrid<2>& grid = shape.lattice.grid();
   NamedField stress = von_mises_field(fields.stress);
   stress.name = "von Mises stress";
   const NamedField vertical{"displacement down", unit<2>(UnitKind::length),
-                            vertical_field(fields.displacement, fields.ground_azimuth)};
+                            vertical_field<2>(fields.displacement, fields.ground_azimuth)};
   const double magnification = picture_magnification(fields.displacement, grid.outer_radius);
   const auto draw = [&](const char* file, double factor, std::optional<double> window,
-                        const NamedField& scalar, ScaleKind scale, std::optional<DrawnPeak> peak) {
+                        const NamedField& scalar, ScaleKind scale, std::optional<DrawnPeak<2>> peak) {
     write_atomically(folder / (names.prefix + file),
                      deformed_svg(shape, fields.lattice,
                                   {.title = names.title,

@@ -22,6 +22,7 @@ struct PictureNames {
 /// scale, with its pressure), PREFIXdisplacement.svg (towards the ground) and PREFIXmesh.svg (the cut grid,
 /// `domain`). Where the whole wheel is drawn its displacement is magnified. Throws OutputError.
 void write_wheel_pictures(const std::filesystem::path& folder, const PictureNames& names,
-                          const LevelSet<2>& shape, const CutDomain<2>& domain, const PositionFields& fields);
+                          const LevelSet<2>& shape, const CutDomain<2>& domain,
+                          const PositionFields<2>& fields);
 
 }  // namespace wheelwright

@@ -15,7 +15,7 @@ void write(const RunView<2>& run, const StateSolver<2>& solver, const State<2>& 
   std::vector<double> azimuths;
   for (const GroundPosition& ground : solver.all_positions().grounds)
     azimuths.push_back(ground.azimuth(run.study.grid()));
-  write_pressure_csv(run.folder / fmt::format("pressures_{}.csv", name), points);
+  write_pressure_csv<2>(run.folder / fmt::format("pressures_{}.csv", name), points);
   write_atomically(
       run.folder / fmt::format("pressures_{}.svg", name),
       plot_svg(pressure_plot(points, azimuths, fmt::format("Contact pressure, {} shape", name))));

@@ -15,7 +15,7 @@
 namespace wheelwright {
 namespace {
 
-WheelState wheel_state(const std::string& heading, const LevelSet<2>& shape, double objective,
+WheelState<2> wheel_state(const std::string& heading, const LevelSet<2>& shape, double objective,
                        double measure) {
   return {heading, material_contours(shape, contour_subdivisions(shape.lattice.degree())), objective,
           volume_fraction(shape.lattice.grid(), measure)};
@@ -25,10 +25,10 @@ void write_shapes(const RunView<2>& run, const OptimizationState<2>& last) {
   const PolarGrid<2>& grid = run.study.grid();
   const std::string title = run_title(run.study.source);
   const InitialShape<2>& initial = *run.initial;
-  const WheelState before = wheel_state("initial", initial.shape, initial.objective, initial.measure);
-  const WheelState after = wheel_state(fmt::format("after {} shapes", last.iteration), last.shape,
+  const WheelState<2> before = wheel_state("initial", initial.shape, initial.objective, initial.measure);
+  const WheelState<2> after = wheel_state(fmt::format("after {} shapes", last.iteration), last.shape,
                                        last.evaluation.function("objective").value, last.measure);
-  write_atomically(run.folder / "shape.svg", shape_svg(grid, after.contours, title));
+  write_atomically(run.folder / "shape.svg", shape_svg(grid, after.boundary, title));
   write_atomically(run.folder / "comparison.svg",
                    comparison_svg(grid, {.title = title,
                                          .caption = fmt::format("sum over {} load positions, {}",
@@ -42,9 +42,9 @@ void write_shapes(const RunView<2>& run, const OptimizationState<2>& last) {
 
 /// The wheel, its tread and the ground in every load position, at the azimuth of the contact in degrees.
 void write_rolling(const RunView<2>& run, const LevelSet<2>& shape,
-                   const std::vector<PositionFields>& positions, const std::vector<TreadContact>& treads) {
+                   const std::vector<PositionFields<2>>& positions, const std::vector<TreadContact>& treads) {
   make_subfolder(run.folder / "rolling");
-  const VtuMesh mesh(shape, positions.front().lattice, vtu_cut_subdivisions);
+  const VtuMesh<2> mesh(shape, positions.front().lattice, vtu_cut_subdivisions);
   std::vector<PvdEntry> entries;
   for (size_t i = 0; i < positions.size(); ++i) {
     const auto file = [&](const char* part) { return fmt::format("rolling/{}_{:02d}.vtu", part, i); };

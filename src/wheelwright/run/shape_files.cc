@@ -46,14 +46,14 @@ void ShapeFiles::list_shapes(const std::filesystem::path& folder, int last_itera
 void ShapeFiles::write(const TrialDone<2>& done, const RunView<2>& run) {
   const StateSolver<2>& solver = *run.study.solver;
   const State<2>& solution = *done.trial.solution;
-  const PositionFields worst = position_fields(solver, solution, worst_position(solution.strain_energy()));
+  const PositionFields<2> worst = position_fields(solver, solution, worst_position(solution.strain_energy()));
   auto fields = named_fields(worst);
   if (const auto gradient = shape_gradient_field(done.state, run.evolver))
     fields.push_back(
         {"shape_gradient", unit<2>(UnitKind::stress), repeated_field(solver.model(), *gradient)});
   const int iteration = done.state.iteration;
   make_subfolder(run.folder / "shapes");
-  VtuMesh(done.state.shape, worst.lattice, vtu_cut_subdivisions)
+  VtuMesh<2>(done.state.shape, worst.lattice, vtu_cut_subdivisions)
       .write(run.folder / shape_file(iteration), fields);
   std::erase_if(shapes_, [&](const PvdEntry& entry) { return entry.time == iteration; });
   shapes_.push_back({static_cast<double>(iteration), shape_file(iteration)});

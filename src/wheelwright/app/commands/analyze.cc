@@ -59,7 +59,7 @@ void write_folder(const std::filesystem::path& folder, const RollingReport& repo
   plot("peak_pressure.svg", peak_pressure_plot(report));
   plot("pressures.svg", pressure_plot(points, report.analysis.azimuths, "Contact pressure"));
   if (!report.loads.empty()) plot("loads.svg", load_plot(report));
-  write_pressure_csv(folder / "pressures.csv", points);
+  write_pressure_csv<2>(folder / "pressures.csv", points);
   write_atomically(folder / result_file, rolling_json(report));
 }
 
