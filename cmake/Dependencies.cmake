@@ -37,12 +37,11 @@ add_library(wheelwright_cgal INTERFACE)
 target_include_directories(wheelwright_cgal SYSTEM INTERFACE ${CGAL_INCLUDE_DIR})
 target_link_libraries(wheelwright_cgal INTERFACE ${GMP_LIBRARY})
 
-# AGG draws pictures, stb encodes them: both become part of the library.
+# AGG draws pictures and becomes part of the library.
 find_path(AGG_INCLUDE_DIR agg2/agg_path_storage.h REQUIRED)
 find_library(AGG_LIBRARY agg_pic REQUIRED)
-find_path(STB_INCLUDE_DIR stb/stb_image_write.h REQUIRED)
 add_library(wheelwright_agg INTERFACE)
-target_include_directories(wheelwright_agg SYSTEM INTERFACE ${AGG_INCLUDE_DIR} ${AGG_INCLUDE_DIR}/agg2 ${STB_INCLUDE_DIR})
+target_include_directories(wheelwright_agg SYSTEM INTERFACE ${AGG_INCLUDE_DIR} ${AGG_INCLUDE_DIR}/agg2)
 target_link_libraries(wheelwright_agg INTERFACE ${AGG_LIBRARY})
 
 # For plugins, which are left out where their library is missing.

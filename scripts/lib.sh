@@ -5,7 +5,7 @@
 packages=(
   g++ cmake ninja-build pkg-config
   libsuitesparse-dev libopenblas-dev liblapacke-dev libnanoflann-dev libtbb-dev
-  libcgal-dev libagg-dev libstb-dev
+  libcgal-dev libagg-dev
   libtomlplusplus-dev libcli11-dev libfmt-dev nlohmann-json3-dev zlib1g-dev
   libpugixml-dev libpng-dev
   libjs-chart.js

@@ -9,7 +9,7 @@
 #include "wheelwright/geometry/cell_map.h"
 #include "wheelwright/report/colour_map.h"
 #include "wheelwright/report/colour_scale.h"
-#include "wheelwright/report/field_points.h"
+#include "wheelwright/report/surface_vtp.h"
 #include "wheelwright/report/svg.h"
 
 namespace wheelwright {
@@ -21,7 +21,7 @@ constexpr double picture_width = wheel_size + 2 * margin + bar_space,
                  picture_height = wheel_size + top + foot;
 constexpr int image_pixels = 1040;  // on screens with more than one for each of the picture's
 constexpr double outliers = 0.01;   // fraction of the vertices beyond a scale without tail
-constexpr double half_view = 1.1;  // over the wheel's radius
+constexpr double half_view = 1.1;   // over the wheel's radius
 
 /// How far magnified displacements carry the tread below the ground, at the displacement's nodes there.
 class Press {
@@ -89,12 +89,6 @@ LitBody ground(const PolarGrid<3>& grid) {
           false};
 }
 
-FieldPoints<3> field_points(const SurfaceMesh& surface, const Lattice<3>& lattice) {
-  FieldPoints<3> points(lattice);
-  for (const CellPoint& place : surface.places) points.add(place.cell, place.xi);
-  return points;
-}
-
 std::string peak_text(const DeformedPicture<3>& picture) {
   if (!picture.peak) return "";
   const Vec<3>& x = picture.peak->place;
@@ -120,6 +114,13 @@ std::vector<Vec<3>> standing_on_the_ground(std::vector<Vec<3>> points, const Pol
 Camera wheel_camera(const PolarGrid<3>& grid) {
   constexpr double yaw = 0.6, pitch = 0.24;
   return {yaw, pitch, {}, half_view * std::hypot(grid.outer_radius, 0.25 * grid.width)};
+}
+
+LitBody lit_wheel(const SurfaceMesh& surface, const PolarGrid<3>& grid) {
+  constexpr Rgb blue{0x6f, 0x9a, 0xc4};
+  return {.points = standing_on_the_ground(surface.points, grid, 0),
+          .triangles = surface.triangles,
+          .colours = std::vector<Rgb>(surface.points.size(), blue)};
 }
 
 std::vector<Vec<3>> displaced(const std::vector<Vec<3>>& points,

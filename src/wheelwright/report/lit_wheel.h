@@ -17,6 +17,9 @@ std::vector<Vec<3>> standing_on_the_ground(std::vector<Vec<3>> points, const Pol
 /// A view of the whole wheel from the right and from above.
 Camera wheel_camera(const PolarGrid<3>& grid);
 
+/// A surface without load, in one colour, in the scene of that view.
+LitBody lit_wheel(const SurfaceMesh& surface, const PolarGrid<3>& grid);
+
 /// Where a picture's displacement takes points of the body frame: `displacement` [component][point],
 /// magnified. Like DeformedMaterial it lays on the ground what magnified displacements would carry through
 /// it: points of the tread, and the material between them and the rim by a share of that.

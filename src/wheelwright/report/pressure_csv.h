@@ -16,7 +16,7 @@ struct ContactPoint {
   double friction;            ///< the ground's tangential traction on the tread, of the law [Pa]
   double normal_stress;       ///< sigma_n of the displacement, tension positive [Pa]
   double gap;                 ///< distance to the ground in the deformed state, negative: penetration [m]
-  double z = 0;               ///< from the first side face [m]; in 3D
+  double z = 0;               ///< along the axle, from the middle of the width [m]; in 3D
   double axial_friction = 0;  ///< the part of the traction along the axle [Pa]; in 3D
 };
 

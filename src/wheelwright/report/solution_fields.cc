@@ -193,7 +193,7 @@ std::vector<ContactPoint> points_of_solved(const StateSolver<dim>& solver, const
                       .normal_stress = in_ground_frame(rows.traction(point.point))[0],
                       .gap = point.gap - approach});
     if constexpr (dim == 3) {
-      result.back().z = point.position[2];
+      result.back().z = point.position[2] - 0.5 * solver.model().grid.width;
       result.back().axial_friction = point.traction[2];
     }
   }

@@ -119,11 +119,7 @@ std::string wheel_panel(const PolarGrid<2>& grid, const WheelState<2>& wheel, do
 
 std::string wheel_panel(const PolarGrid<3>& grid, const WheelState<3>& wheel, double centre_x) {
   constexpr int pixels = 720;  // on screens with more than one for each of the picture's
-  constexpr Rgb material{0x6f, 0x9a, 0xc4};
-  const Image image = lit_image({{.points = standing_on_the_ground(wheel.boundary.points, grid, 0),
-                                  .triangles = wheel.boundary.triangles,
-                                  .colours = std::vector<Rgb>(wheel.boundary.points.size(), material)}},
-                                wheel_camera(grid), pixels);
+  const Image image = lit_image({lit_wheel(wheel.boundary, grid)}, wheel_camera(grid), pixels);
   return fmt::format("<image x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{2}\" href=\"{3}\"/>\n",
                      centre_x - 0.5 * wheel_diameter, top, wheel_diameter, data_url(image));
 }

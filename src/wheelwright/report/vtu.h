@@ -11,8 +11,10 @@
 
 namespace wheelwright {
 
-/// Fine enough for ParaView: at 28 x 384 cells a piece of a cut cell is about a millimetre wide.
-inline constexpr int vtu_cut_subdivisions = 4;
+/// Fine enough for ParaView: in the plane, at 28 x 384 cells, a piece of a cut cell is about a millimetre
+/// wide.
+template <int dim>
+inline constexpr int vtu_cut_subdivisions = dim == 2 ? 4 : 2;
 
 /// The material of the full ring as cells for ParaView, with psi at their points, which the cells of a sector
 /// share. Files of the same shape share one mesh. In 2D full cells are divided by the lattice's degree; cut

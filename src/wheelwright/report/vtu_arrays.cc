@@ -71,6 +71,30 @@ std::string vtu_beginning(std::size_t n_points, std::size_t n_cells, std::string
       n_points, n_cells, mesh_tags);
 }
 
+std::string add_surface(const std::vector<float>& points, const std::vector<std::int32_t>& connectivity,
+                        const std::vector<std::int32_t>& offsets, AppendedArrays& arrays) {
+  const std::string point_tag = arrays.add("Points", 3, points),
+                    polygon_tags =
+                        arrays.add("connectivity", 1, connectivity) + arrays.add("offsets", 1, offsets);
+  return fmt::format("  <Points>\n{}  </Points>\n  <Polys>\n{}  </Polys>\n", point_tag, polygon_tags);
+}
+
+std::string vtp_beginning(std::size_t n_points, std::size_t n_polygons, std::string_view mesh_tags) {
+  return fmt::format(
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
+      "header_type=\"UInt64\">\n<PolyData>\n"
+      "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
+      "NumberOfPolys=\"{}\">\n{}  <PointData>\n",
+      n_points, n_polygons, mesh_tags);
+}
+
+std::string vtp_end(std::string_view polygon_fields, const std::string& arrays) {
+  return fmt::format("  </PointData>\n  <CellData>\n{}  </CellData>\n", polygon_fields) +
+         "</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_" + arrays +
+         "\n</AppendedData>\n</VTKFile>\n";
+}
+
 std::string vtu_end(const std::string& arrays) {
   return "  </PointData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_" + arrays +
          "\n</AppendedData>\n</VTKFile>\n";

@@ -61,7 +61,16 @@ std::string add_field(const std::string& name, const std::vector<std::vector<flo
 /// A field's name in files: the unit, made a word, follows it.
 std::string vtu_name(std::string_view name, std::string_view unit);
 
-/// The XML before the fields, and what follows them.
+/// Adds points and the polygons of a surface, for a VTP file; their tags.
+std::string add_surface(const std::vector<float>& points, const std::vector<std::int32_t>& connectivity,
+                        const std::vector<std::int32_t>& offsets, AppendedArrays& arrays);
+
+/// The XML of a VTP file before the fields at the points, between them and those of the polygons, and what
+/// follows.
+std::string vtp_beginning(std::size_t n_points, std::size_t n_polygons, std::string_view mesh_tags);
+std::string vtp_end(std::string_view polygon_fields, const std::string& arrays);
+
+/// The XML of a VTU file before the fields, and what follows them.
 std::string vtu_beginning(std::size_t n_points, std::size_t n_cells, std::string_view mesh_tags);
 std::string vtu_end(const std::string& arrays);
 

@@ -25,4 +25,10 @@ void write_wheel_pictures(const std::filesystem::path& folder, const PictureName
                           const LevelSet<2>& shape, const CutDomain<2>& domain,
                           const PositionFields<2>& fields);
 
+/// The same in 3D, with lit surfaces: PREFIXstress.svg, PREFIXdisplacement.svg and PREFIXpressure.svg, the
+/// contact pressure seen from above.
+void write_wheel_pictures(const std::filesystem::path& folder, const PictureNames& names,
+                          const LevelSet<3>& shape, const CutDomain<3>& domain,
+                          const PositionFields<3>& fields);
+
 }  // namespace wheelwright

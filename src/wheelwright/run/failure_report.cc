@@ -91,7 +91,7 @@ std::string picture(const RunEnded<2>& failure) {
   if (!failure.state) return shape_svg(grid, rejected.boundary, rejected.heading);
   const OptimizationState<2>& last = *failure.state;
   const WheelState<2> accepted = wheel(fmt::format("shape {}, accepted", last.iteration), last.shape,
-                                    last.evaluation.function("objective").value, last.measure);
+                                       last.evaluation.function("objective").value, last.measure);
   return comparison_svg(grid, {.title = "Where the run gave up",
                                .caption = trial.failure->detail,
                                .objective_name = std::string(name(Quantity::objective)),

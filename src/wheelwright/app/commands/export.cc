@@ -136,7 +136,7 @@ class ExportCommand : public Subcommand {
         return exit_refused;
       }
       try {
-        files.emplace_back(path, format->file(wheel));
+        files.emplace_back(path, format->of_plane(wheel));
       } catch (const MissingPlugin& missing) {
         tell("wheelwright {}: {}: {}\n", name(), format->name, missing.what());
         return exit_refused;
