@@ -11,6 +11,7 @@ find_package(TBB REQUIRED)
 pkg_check_modules(TOMLPP REQUIRED IMPORTED_TARGET tomlplusplus)
 # Drawn into the page that explains a run.
 find_file(CHART_JS chart.min.js PATHS /usr/share/javascript/chart.js /usr/share/javascript REQUIRED)
+find_file(THREE_JS three.min.js PATHS /usr/share/javascript/three /usr/share/javascript REQUIRED)
 pkg_check_modules(CLI11 REQUIRED IMPORTED_TARGET CLI11)
 
 # The C interfaces of BLAS and LAPACK. OpenBLAS has the cblas functions itself; liblapacke calls the LAPACK of the BLAS

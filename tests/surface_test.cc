@@ -8,6 +8,8 @@
 #include "wheelwright/geometry/cell_map.h"
 #include "wheelwright/geometry/shapes.h"
 #include "wheelwright/surface/check_surface.h"
+#include "wheelwright/surface/deviation.h"
+#include "wheelwright/surface/material_cells.h"
 #include "wheelwright/surface/surface_mesh.h"
 
 namespace wheelwright {
@@ -120,26 +122,69 @@ TEST(Surface, VolumeAndAreaConvergeToTheLevelSetsWithOrderTwo) {
   }
 }
 
-TEST(Surface, VerticesLieWherePsiVanishesAndNormalsPointOutOfTheMaterial) {
-  const Vec<3> centre{0.27, 0.5, 0.06};
-  const double radius = 0.04;
-  const SurfaceMesh mesh = material_surface(balls(ring, 2, centre, radius), 4, 2);
-  const Vec<3> c = cartesian<3>(centre);
-  double worst = 0;
+/// The radial distance is a polynomial of degree 2 on the grid: only the tetrahedra's linear psi is inexact.
+TEST(Surface, VerticesLieOnTheLevelSetAndNormalsPointOutOfTheMaterial) {
+  const auto psi = level_set(ring, 2, [](const Vec<3>& p) {
+    return 0.04 * 0.04 - (p[0] - 0.27) * (p[0] - 0.27) - 0.01 * (p[1] - 0.5) * (p[1] - 0.5);
+  });
+  const SurfaceMesh coarse = material_surface(psi, 4, 2), mesh = material_surface(psi, 8, 2);
+  EXPECT_EQ(topology(checked(mesh)), (std::array{1, 0, 1 + 5}));
+  const SurfaceDeviation a = deviation(coarse, psi, 2), b = deviation(mesh, psi, 2);
+  EXPECT_GT(std::log2(a.distance / b.distance), 1.6);
+  EXPECT_LT(b.distance, 2e-4);
   for (std::size_t k = 0; k < mesh.triangles.size() / 5; ++k) {
     if (mesh.parts[k] != SurfacePart::hole) continue;
     const auto& t = mesh.triangles[k];
-    Vec<3> u, v, from_centre;
+    Vec<3> u, v;
     for (int d = 0; d < 3; ++d) {
       u[d] = mesh.points[t[1]][d] - mesh.points[t[0]][d];
       v[d] = mesh.points[t[2]][d] - mesh.points[t[0]][d];
-      from_centre[d] = mesh.points[t[0]][d] - c[d];
     }
-    worst = std::max(worst, std::abs(norm<3>(from_centre) - radius));
-    const double towards_centre = -determinant<3>({u, v, from_centre});
-    EXPECT_GT(towards_centre, 0);
+    const Vec<3>& x = mesh.points[t[0]];
+    const double radius = std::hypot(x[0], x[1]), azimuth = std::atan2(x[1], x[0]);
+    // Out of the material, into the hole: along grad psi.
+    const double radial = -2 * (radius - 0.27), along = -0.02 * (azimuth - 0.5) / radius;
+    const Vec<3> gradient{radial * std::cos(azimuth) - along * std::sin(azimuth),
+                          radial * std::sin(azimuth) + along * std::cos(azimuth), 0};
+    EXPECT_GT(determinant<3>({u, v, gradient}), 0);
   }
-  EXPECT_LT(worst, 2e-4);
+}
+
+/// The cells fill what the surface encloses.
+TEST(MaterialCells, HaveTheSurfacesVolumeAndNoneIsInsideOut) {
+  const auto psi = balls(ring, 2, {0.27, 0.1, 0.09}, 0.045);
+  const MaterialCells cells = material_cells(psi, 2, 2);
+  const auto corner = [&](std::size_t k) {
+    const auto [vertex, in_next] = cells.corners[k];
+    return in_next ? rotated<3>(cells.points[vertex], ring.sector_angle()) : cells.points[vertex];
+  };
+  const auto volume = [&](std::size_t begin, const std::array<int, 4>& t) {
+    Mat<3> edges;
+    for (int i = 0; i < 3; ++i)
+      for (int d = 0; d < 3; ++d) edges[i][d] = corner(begin + t[i + 1])[d] - corner(begin + t[0])[d];
+    return determinant<3>(edges) / 6;
+  };
+  // VTK's corners: a prism of triangles (0, 1, 2) and (3, 4, 5), the first clockwise from the second.
+  const std::vector<std::array<int, 4>> of_tetrahedron{{0, 1, 2, 3}},
+      of_wedge{{0, 2, 1, 3}, {1, 3, 5, 4}, {1, 2, 5, 3}},
+      of_hexahedron{{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6}, {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}};
+  double sum = 0;
+  std::size_t begin = 0;
+  std::array<int, 3> count{};
+  for (const MaterialCellKind kind : cells.kinds) {
+    ++count[static_cast<int>(kind)];
+    for (const auto& t : kind == MaterialCellKind::tetrahedron ? of_tetrahedron
+                         : kind == MaterialCellKind::wedge     ? of_wedge
+                                                               : of_hexahedron) {
+      const double part = volume(begin, t);
+      EXPECT_GT(part, 0) << static_cast<int>(kind);
+      sum += part;
+    }
+    begin += n_corners(kind);
+  }
+  EXPECT_EQ(begin, cells.corners.size());
+  for (const int n : count) EXPECT_GT(n, 100);
+  EXPECT_NEAR(5 * sum / enclosed_volume(material_surface(psi, 2, 2)), 1, 1e-4);
 }
 
 /// The worst that can be: every node a small whole number, most of them 0.

@@ -28,7 +28,7 @@ Observers<dim> make_observers(const Case& c, const CheckpointFolder& checkpoints
   }
   observers.push_back(std::make_unique<ResultFiles<dim>>());
   observers.push_back(std::make_unique<SummaryFile<dim>>());
-  if constexpr (dim == 2) observers.push_back(std::make_unique<ReportFile>());
+  observers.push_back(std::make_unique<ReportFile<dim>>());
   observers.push_back(std::make_unique<Checkpointer<dim>>(checkpoints, resumed));
   return observers;
 }

@@ -19,7 +19,7 @@ Expected<DescribedWheel<2>> described(const StateSolver<2>& solver, const LevelS
 }
 
 /// Solves the first and the last shape of a run again, for what its folder does not keep.
-Expected<ReportRun> report_of_run(const RunInput& run) {
+Expected<PageRun> report_of_run(const RunInput& run) {
   const auto made = make_solver(rolling_model<2>(with_levels_of_results(run.source)));
   if (!made) return made.failure();
   const StateSolver<2>& solver = **made;
@@ -37,8 +37,8 @@ Expected<ReportRun> report_of_run(const RunInput& run) {
   const RunSummary<2> summary{.title = run_title(run.source),
                               .before = {0, initial.objective, *before},
                               .after = {last.iteration, last.evaluation.function("objective").value, *after}};
-  return report_of_results(run.folder, run.source, summary, {&last.shape, &solver, last_states->get()},
-                           run.checkpoint.finished);
+  return page_run(report_of_results<2>(run.folder, run.source, summary,
+                                       {&last.shape, &solver, last_states->get()}, run.checkpoint.finished));
 }
 
 class ReportCommand : public Subcommand {
@@ -57,7 +57,7 @@ class ReportCommand : public Subcommand {
       tell("{}: exists already; choose another file with --output, or remove it\n", file);
       return exit_refused;
     }
-    std::vector<ReportRun> runs;
+    std::vector<PageRun> runs;
     std::vector<RunInput> inputs;  // the reports refer to their shapes
     for (const std::string& folder : folders_) {
       auto input = read_run_or_tell(folder, {name(), threads_});
