@@ -98,12 +98,15 @@ TreadContact<3> tread_of_solved(const StateSolver<3>& solver, const State<3>& st
   const auto lines = lines_of_points(surface);
   TreadContact<3> tread;
   std::vector<size_t> place_in_tread(surface.points.size() * surface.n_columns);
-  for (const auto& line : lines)
+  for (const auto& line : lines) {
+    const double z = surface.points[line.front()].position[2];  // of the others up to rounding
     for (int column = 0; column < surface.n_columns; ++column)
       for (const int q : line) {
         place_in_tread[column * surface.points.size() + q] = tread.size();
         tread.push_back(free_point(solver, state, position, column, q));
+        tread.back().position[2] = z;
       }
+  }
   const double ground = state.positions().grounds[position].azimuth(solver.model().grid);
   for (const auto& point : state.contacts()[position].points)
     set_traction<3>(point.traction, ground,
