@@ -25,4 +25,12 @@ constexpr const char* unit(UnitKind kind) {
   return "";
 }
 
+inline const char* unit(UnitKind kind, int dimension) {
+  return dimension == 2 ? unit<2>(kind) : unit<3>(kind);
+}
+
+/// The width that energies, forces and torques of this dimension stand for, as a factor that turns them into
+/// those of the whole width [m, or 1 in 3D].
+constexpr double whole_width(int dimension, double width) { return dimension == 2 ? width : 1; }
+
 }  // namespace wheelwright

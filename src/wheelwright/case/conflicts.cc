@@ -91,7 +91,7 @@ void check_radii(const Case& c, Conflicts& found) {
 void check_size(const Case& c, Conflicts& found) {
   constexpr long long most = 1'000'000'000;
   if (dof_bound(c) <= most) return;
-  found.push_back({{"grid.radial_cells", "grid.angular_cells", "grid.degree"},
+  found.push_back({{"grid.radial_cells", "grid.angular_cells", "grid.axial_cells", "grid.degree"},
                    fmt::format("the grid has up to {} unknowns", dof_bound(c)),
                    fmt::format("take a grid with at most {}", most)});
 }
@@ -290,6 +290,28 @@ void check_incompressible(const Case& c, Conflicts& found) {
                      fmt::format("take at most {}: the difference to 1/2 does not matter", largest)});
 }
 
+/// What one dimension knows and the other does not.
+void check_dimension(const Case& c, Conflicts& found) {
+  if (c.wheel.dimension == 2) {
+    if (c.wheel.side_faces != SideFaces::free)
+      found.push_back({{"wheel.side_faces", "wheel.dimension"},
+                       "a wheel in 2D has no side faces; plane strain already holds them",
+                       "leave the key out, or take dimension = 3"});
+    return;
+  }
+  if (c.material.plane == Plane::stress)
+    found.push_back({{"material.plane", "wheel.dimension"},
+                     "plane stress is an assumption for two dimensions",
+                     "leave the key out: in 3D the side faces are free of stress"});
+  constexpr double largest = 0.4;
+  if (c.grid.degree == 1 && c.material.poissons_ratio > largest && !c.material.nearly_incompressible())
+    found.push_back({{"grid.degree", "material.poissons_ratio", "wheel.dimension"},
+                     fmt::format("elements of degree 1 lock: with poissons_ratio = {} the wheel would be "
+                                 "tens of percent too stiff, and its optimum another one",
+                                 c.material.poissons_ratio),
+                     fmt::format("take degree = 2, or poissons_ratio <= {}", largest)});
+}
+
 /// Friction must resist the force or torque that moves or turns the rim.
 void check_friction(const Case& c, Conflicts& found) {
   const Load& load = c.load;
@@ -409,6 +431,7 @@ std::vector<Conflict> conflicts(const Case& c) {
   check_load(c, found);
   check_contact_points(c, found);
   check_incompressible(c, found);
+  check_dimension(c, found);
   check_friction(c, found);
   check_annulus(c, found);
   check_objective(c, found);

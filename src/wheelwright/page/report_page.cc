@@ -4,6 +4,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "wheelwright/base/units.h"
 #include "wheelwright/files/base64.h"
 #include "wheelwright/geometry/cell_map.h"
 #include "wheelwright/geometry/contour.h"
@@ -130,7 +131,7 @@ Json fields_json(const ReportRun<2>& run) {
 template <int dim>
 Json rolling_json(const DescribedWheel<dim>& wheel) {
   const RollingAnalysis& a = wheel.rolling;
-  const double width = dim == 2 ? wheel.grid.width : 1;  // that forces are given for
+  const double width = whole_width(dim, wheel.grid.width);
   Json json{{"azimuths_rad", a.azimuths},
             {"travel_at_load_m", a.travel_at_load},
             {"force_at_travel_N", Json::array()},

@@ -5,6 +5,7 @@
 
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/files/output_error.h"
+#include "wheelwright/geometry/section.h"
 #include "wheelwright/run/run_report.h"
 
 namespace wheelwright {
@@ -36,7 +37,7 @@ void ReportFile<dim>::operator()(const Event<dim>& event, const RunView<dim>& ru
     keep_outlines(run.folder, started->resumed_after);
   if (const auto* done = std::get_if<TrialDone<dim>>(&event);
       done && done->trial.verdict == Verdict::accepted) {
-    if constexpr (dim == 2) add_outline(run.folder, shape_outline(done->state.iteration, done->state.shape));
+    add_outline(run.folder, shape_outline(done->state.iteration, mid_plane_section(done->state.shape)));
     waited_ += since_written_.lap();
     if (waited_ >= seconds_between_pages) {
       write_atomically(run.folder / page_file,

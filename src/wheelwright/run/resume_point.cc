@@ -49,7 +49,7 @@ Expected<Checkpoint<dim>, Unusable> read_checkpoint(const fs::path& file, const 
         fmt::format("{}: {}", to_string(checkpoint.failure().fault), checkpoint.failure().detail)};
   const std::string &then = checkpoint->provenance.resolved_case, now = provenance(c).resolved_case;
   if (then != now) return Unusable{fmt::format("written for another case: {}", first_difference(then, now))};
-  const Lattice<dim> lattice(polar_grid<dim>(c), c.grid.level_set_degree);
+  const Lattice<dim> lattice(polar_grid<dim>(c), level_set_degree(c));
   for (const LevelSet<dim>* psi : {&checkpoint->state.shape, &checkpoint->initial.shape})
     if (psi->lattice.grid() != lattice.grid() || psi->lattice.degree() != lattice.degree())
       return Unusable{"its shape stands on another grid than the case's"};

@@ -298,8 +298,7 @@ template <int dim>
 std::optional<Refusal> RunLoop<dim>::change_case(const Case& changed, const std::string& what) {
   const auto c = checked(changed, folder_);
   if (!c) return c.failure();
-  if (polar_grid<dim>(*c) != work_->study.grid() ||
-      c->grid.level_set_degree != state_->shape.lattice.degree())
+  if (polar_grid<dim>(*c) != work_->study.grid() || level_set_degree(*c) != state_->shape.lattice.degree())
     return Refusal{"the shape stands on another grid than the case's"};
   auto study = make_study<dim>(*c);
   if (!study) return refusal(study.failure());
