@@ -181,6 +181,7 @@ const SectionArray<HoleRing>& ring_sections();
 const SectionArray<HoleCircle>& circle_sections();
 const SectionArray<HoleSphere>& sphere_sections();
 const SectionArray<HoleTapered>& tapered_sections();
+const Section<SavedShape>& saved_shape_section();
 const SectionArray<CircleShape>& circle_shape_sections();
 const SectionArray<EllipseShape>& ellipse_shape_sections();
 const SectionArray<SlotShape>& slot_shape_sections();
@@ -222,6 +223,7 @@ void for_each_section(Visitor&& visit) {
   visit(circle_sections());
   visit(sphere_sections());
   visit(tapered_sections());
+  visit(saved_shape_section());
   for_each_shape_section(visit);
   visit(grid_section());
   visit(ghost_penalty_section());
