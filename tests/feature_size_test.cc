@@ -125,8 +125,10 @@ TEST(FeatureSize, SlitsAndSmallHolesAreFilled) {
 TEST(FeatureSize, AShapeOfAGivenMeasureHasTheWidthsToo) {
   const auto grid = grid_of(28, 384);
   const double usual = 0.01;
-  const Evolver<2> evolver(Lattice<2>(grid, 2),
-                           {.bands = {{usual, 1}, {usual, 2}}, .features = {.wall = 0.011, .gap = 0.012}});
+  EvolutionOptions options;
+  options.bands = {{usual, 1}, {usual, 2}};
+  options.features = {.wall = 0.011, .gap = 0.012};
+  const Evolver<2> evolver(Lattice<2>(grid, 2), options);
   for (const auto& psi :
        {two_holes(grid, 0.006), two_holes(grid, 0.006, 0.5), holes_across_the_face(grid, 0.005)}) {
     const double target = material_measure(psi);
