@@ -11,11 +11,14 @@
 #include <numbers>
 #include <numeric>
 
+#include "wheelwright/case/coarse_grid.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/drawn_shapes.h"
 #include "wheelwright/case/hole_rings.h"
+#include "wheelwright/case/keys.h"
 #include "wheelwright/case/number_text.h"
 #include "wheelwright/case/shape_conflicts.h"
+#include "wheelwright/geometry/values_on.h"
 
 namespace wheelwright {
 
@@ -220,6 +223,70 @@ void check_holes(const Case& c, Conflicts& found) {
     check_holes_apart(c.wheel.sectors, center_radius, circle.radius, {keys[0], keys[1], "wheel.sectors"},
                       found);
   }
+}
+
+/// A saved shape takes the place of holes and drawn shapes, and must fit the ring and its sectors.
+void check_saved_shape(const Case& c, Conflicts& found) {
+  if (c.saved_shape.from.empty()) return;
+  const auto refuse_besides = [&](const std::string& key) {
+    found.push_back({{key, "shape.from"},
+                     "holes and shapes cannot be drawn over the shape of another run",
+                     "keep the shape of the other run, or what is drawn"});
+  };
+  if (!c.holes.rings.empty()) refuse_besides("holes.ring[1]");
+  if (!c.holes.circles.empty()) refuse_besides("holes.circle[1]");
+  for_each_shape_section([&](const auto& section) {
+    if (!section.of(c).empty()) refuse_besides(section.path() + "[1]");
+  });
+  if (c.wheel.dimension == 3)
+    found.push_back({{"shape.from", "wheel.dimension"},
+                     "a wheel in 3D cannot begin with the shape of another run yet",
+                     "draw its holes"});
+  const LevelSet<2>* shape = c.saved_shape.shape.contents.get();
+  if (!shape || c.wheel.inner_radius >= c.wheel.outer_radius) return;
+  const PolarGrid<2>& grid = shape->lattice.grid();
+  const std::string problem = misfit(grid, polar_grid<2>(c));
+  if (problem.empty()) return;
+  found.push_back({{"shape.from", "wheel.inner_radius", "wheel.outer_radius", "wheel.sectors"},
+                   fmt::format("the saved shape does not fit: {}", problem),
+                   fmt::format("give wheel.inner_radius = {}, wheel.outer_radius = {}, and for wheel.sectors "
+                               "one of {}",
+                               number_text(grid.inner_radius), number_text(grid.outer_radius),
+                               fmt::join(divisors(grid.n_sectors), ", "))});
+}
+
+/// The coarser grids must have whole cells in each sector, room between their wider bands, and rows of cells
+/// that make up the annulus.
+void check_coarse_levels(const Case& c, Conflicts& found) {
+  const int levels = c.optimizer.coarse_levels;
+  if (levels == 0 || c.wheel.inner_radius >= c.wheel.outer_radius ||
+      c.grid.angular_cells % c.wheel.sectors != 0)
+    return;
+  const auto refuse = [&](std::vector<std::string> keys, std::string problem, std::string remedy) {
+    keys.insert(keys.begin(), "optimizer.coarse_levels");
+    found.push_back({std::move(keys), std::move(problem), std::move(remedy)});
+  };
+  if (!can_be_halved(c, levels)) {
+    int possible = levels;
+    while (!can_be_halved(c, possible)) --possible;
+    refuse({"grid.radial_cells", "grid.angular_cells", "wheel.sectors"},
+           fmt::format("{} x {} cells of each sector cannot be doubled {} times", c.grid.radial_cells,
+                       c.grid.angular_cells / c.wheel.sectors, levels),
+           fmt::format("take {}, or multiples of {} cells along the radius and in each sector", possible,
+                       1 << levels));
+    return;
+  }
+  const Case coarse = on_coarser_grid(c, levels);
+  const double cell = (c.wheel.outer_radius - c.wheel.inner_radius) / coarse.grid.radial_cells;
+  if (wants_annulus(c) && std::abs(annulus_thickness(c) - tread_rows(coarse) * cell) > 1e-6 * cell)
+    refuse({"objective.annulus", "grid.radial_cells"},
+           fmt::format("the annulus of {:.6g} m is no whole number of the coarse cells of {:.6g} m",
+                       annulus_thickness(c), cell),
+           fmt::format("take fewer coarse_levels, or objective.annulus = {:.6g}", tread_rows(coarse) * cell));
+  if (coarse.optimizer.rim_band.value() + coarse.optimizer.tread_band.value() >=
+      c.wheel.outer_radius - c.wheel.inner_radius - cell)
+    refuse(with_ring_shape({}), "on the coarse grid the bands at rim and tread leave no room for holes",
+           "take fewer coarse_levels, or a finer grid");
 }
 
 void check_nitsche(const Case& c, Conflicts& found) {
@@ -473,6 +540,8 @@ std::vector<Conflict> conflicts(const Case& c) {
   check_counts(c, shapes, found);
   check_holes(c, found);
   check_nested_holes(c, found);
+  check_saved_shape(c, found);
+  check_coarse_levels(c, found);
   const Conflicts of_shapes = shape_conflicts(c, shapes);
   found.insert(found.end(), of_shapes.begin(), of_shapes.end());
   check_nitsche(c, found);

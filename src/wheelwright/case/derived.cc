@@ -132,7 +132,8 @@ HoleRange room_for_holes(const Case& c) {
 }
 
 bool has_holes(const Case& c) {
-  return !c.holes.rings.empty() || !c.holes.circles.empty() || c.shapes != Shapes{};
+  return !c.holes.rings.empty() || !c.holes.circles.empty() || c.shapes != Shapes{} ||
+         !c.saved_shape.from.empty();
 }
 
 std::vector<Circle> sector_holes(const Case& c) {
