@@ -92,20 +92,26 @@ const Section<Material>& material_section() {
       .name = "material",
       .meaning = "linear isotropic elasticity",
       .in = [](Case& c) -> Material& { return c.material; },
-      .keys = {{.name = "youngs_modulus",
-                .unit = "Pa",
-                .field = NumberField<Material>{&Material::youngs_modulus, above(0, 1e13)},
-                .meaning = "E: Young's modulus"},
-               {.name = "poissons_ratio",
-                .unit = "",
-                .field = NumberField<Material>{&Material::poissons_ratio, at_least_and_below(0, 0.5)},
-                .meaning = "nu: Poisson's ratio; at most 0.49999 and, above 0.485, with grid.degree = 2, "
-                           "if plane = \"strain\""},
-               {.name = "plane",
-                .unit = "",
-                .field = choice<&Material::plane>({"strain", "stress"}),
-                .meaning = "strain: no strain along the axle, for wide wheels; stress: no stress along the "
-                           "axle, for wheels cut from sheet"}}};
+      .keys = {
+          {.name = "youngs_modulus",
+           .unit = "Pa",
+           .field = NumberField<Material>{&Material::youngs_modulus, above(0, 1e13)},
+           .meaning = "E: Young's modulus"},
+          {.name = "poissons_ratio",
+           .unit = "",
+           .field = NumberField<Material>{&Material::poissons_ratio, at_least_and_below(0, 0.5)},
+           .meaning = "nu: Poisson's ratio; at most 0.49999 and, above 0.485, with grid.degree = 2, "
+                      "if plane = \"strain\""},
+          {.name = "plane",
+           .unit = "",
+           .field = choice<&Material::plane>({"strain", "stress"}),
+           .meaning = "strain: no strain along the axle, for wide wheels; stress: no stress along the "
+                      "axle, for wheels cut from sheet"},
+          {.name = "density",
+           .unit = "kg/m^3",
+           .field = OptionalNumberField<Material>{&Material::density, above(0, 1e5), "no mass is told"},
+           .meaning = "for the mass of the wheel, and where a case minimizes or bounds it; load.body_force "
+                      "has its weight"}}};
   return section;
 }
 

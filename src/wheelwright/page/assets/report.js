@@ -40,9 +40,10 @@
     });
     const body = element("tbody");
     for (const { key, label, unit, factor } of wheels[0].units) {
+      if (wheels.every(({ numbers }) => numbers[key] === undefined)) continue;
       const row = element("tr", {}, element("th", { scope: "row" }, `${label} [${unit}]`));
       wheels.forEach(({ numbers }, k) => {
-        row.append(element("td", { "data-key": key }, shown(numbers[key] * factor)));
+        row.append(element("td", { "data-key": key }, key in numbers ? shown(numbers[key] * factor) : "\u2013"));
         if (k > 0) row.append(element("td", {}, change(wheels[0].numbers[key], numbers[key])));
       });
       body.append(row);
@@ -287,7 +288,7 @@
     const draw = () => {
       const pixels = Math.min(1200, Math.round(canvas.clientWidth * (window.devicePixelRatio || 1))) || 600;
       renderer.setSize(pixels, pixels, false);
-      const half = 1.15 / view.size;
+      const half = 1.2 / view.size;
       Object.assign(camera, { left: -half, right: half, top: half, bottom: -half });
       camera.updateProjectionMatrix();
       turned.rotation.set(view.pitch, view.yaw, 0);
