@@ -4,6 +4,7 @@
 
 #include "wheelwright/analysis/deformation_size.h"
 #include "wheelwright/app/terminal.h"
+#include "wheelwright/run/feature_warnings.h"
 
 namespace wheelwright {
 namespace {
@@ -26,10 +27,17 @@ template <int dim>
 void TerminalObserver<dim>::operator()(const Event<dim>& event, const RunView<dim>& run) {
   if (const auto* started = std::get_if<RunStarted>(&event)) begin(*started, run);
   if (const auto* done = std::get_if<TrialDone<dim>>(&event)) show(*done, run);
+  if (const auto* changed = std::get_if<GridChanged>(&event))
+    progress_.note("going on with the " + changed->text);
   if (const auto* command = std::get_if<CommandDone>(&event); command && !command->text.empty())
     progress_.note((command->was_obeyed ? "" : "refused: ") + command->text);
   if (const auto* ended = std::get_if<RunEnded<dim>>(&event)) {
-    if (ended->summary) warn(ended->summary->after.wheel.summary.deformation);
+    if (ended->summary) {
+      const DescribedWheel<dim>& wheel = ended->summary->after.wheel;
+      warn(wheel.summary.deformation);
+      for (const std::string& warning : feature_warnings(run.study.source, wheel.clearances))
+        progress_.note("warning: " + warning);
+    }
     progress_.end();
   }
 }
@@ -38,6 +46,7 @@ template <int dim>
 void TerminalObserver<dim>::begin(const RunStarted& started, const RunView<dim>& run) {
   print_weights(run.study.objective().terms);
   if (started.resumed_after) return;
+  if (const auto change = volume_change_of_saved_shape<dim>(run.study.source)) progress_.note(text(*change));
   for (const auto& event : lost_on_the_grid<dim>(run.study.source))
     progress_.note("warning: the grid is too coarse for the case's holes: " + text(event));
 }

@@ -7,6 +7,7 @@
 #include "wheelwright/app/shared_options.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/base/text.h"
+#include "wheelwright/cut/measure.h"
 #include "wheelwright/run/resume_point.h"
 
 namespace wheelwright {
@@ -45,6 +46,18 @@ WheelInput<dim> initial_wheel(Case c, const fs::path& file, const Computation& c
           without_control_characters(file.stem().string()), "initial shape"};
 }
 
+/// A run that was stopped on a coarser grid, as if that were its case's.
+template <int dim>
+RunInput<dim> on_grid_of_checkpoint(RunInput<dim> run) {
+  const int level = *level_of(run.source, run.checkpoint.state.shape);
+  if (level == 0) return run;
+  run.source = on_coarser_grid(std::move(run.source), level);
+  InitialShape<dim>& initial = run.checkpoint.initial;
+  initial.shape = initial_shape<dim>(run.source);
+  initial.measure = material_measure(initial.shape);
+  return run;
+}
+
 template <int dim>
 Expected<RunInput<dim>, ExitCode> run_in(const fs::path& folder, Case c) {
   auto point = resume_point<dim>(folder, c);
@@ -53,7 +66,7 @@ Expected<RunInput<dim>, ExitCode> run_in(const fs::path& folder, Case c) {
     tell("{}: no checkpoint can be used\n", folder.string());
     return exit_checkpoint;
   }
-  return RunInput<dim>{folder, std::move(c), *std::move(point.newest)};
+  return on_grid_of_checkpoint<dim>({folder, std::move(c), *std::move(point.newest)});
 }
 
 /// The wheel of a file or folder, which has this case.

@@ -19,6 +19,8 @@ namespace wheelwright {
 
 struct Drawing;
 struct Picture;
+template <int dim>
+struct LevelSet;
 
 // A case: everything that defines one optimization, as plain data in SI units and radians. The initial values
 // here are the defaults of the case file; names, units, ranges and meanings are declared in case/keys.cc.
@@ -198,6 +200,14 @@ struct PictureShape {
   bool operator==(const PictureShape&) const = default;
 };
 
+/// The shape of an earlier run, to begin with instead of holes and drawn shapes.
+struct SavedShape {
+  std::string from;      ///< a run's folder or a file of its kind; relative to the case's file; empty: none
+  std::string checksum;  ///< of the file; never empty in a case that was read from a file with `from`
+  Loaded<LevelSet<2>> shape;
+  bool operator==(const SavedShape&) const = default;
+};
+
 struct Shapes {
   std::vector<CircleShape> circles;
   std::vector<EllipseShape> ellipses;
@@ -256,6 +266,7 @@ enum class VelocityKind { h1, harmonic };
 
 struct Optimizer {
   int iterations = 100;
+  int coarse_levels = 0;  ///< on how many coarser grids the descent begins, one after the other
   VelocityKind velocity = VelocityKind::h1;
   double velocity_length = 2;  ///< [cells]
   double step = 0.5;           ///< maximum move of the boundary per shape [cells]
@@ -265,8 +276,9 @@ struct Optimizer {
   int redistance_every = 5;
   double smoothing = 0;  ///< tau of (76) [cells^2]
   int smooth_every = 5;
-  std::optional<double> rim_band;    ///< absent: 1/14 of the ring
-  std::optional<double> tread_band;  ///< absent: see bands()
+  std::optional<double> rim_band;                   ///< absent: 1/14 of the ring
+  std::optional<double> tread_band;                 ///< absent: see bands()
+  std::optional<double> minimum_wall, minimum_gap;  ///< of what is cut [m]; absent: any
   bool operator==(const Optimizer&) const = default;
 };
 
@@ -295,6 +307,7 @@ struct Case {
   Load load;
   Contact contact;
   Holes holes;
+  SavedShape saved_shape;
   Shapes shapes;
   Grid grid;
   GhostPenalty ghost_penalty;

@@ -11,11 +11,14 @@
 #include <numbers>
 #include <numeric>
 
+#include "wheelwright/case/coarse_grid.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/drawn_shapes.h"
 #include "wheelwright/case/hole_rings.h"
+#include "wheelwright/case/keys.h"
 #include "wheelwright/case/number_text.h"
 #include "wheelwright/case/shape_conflicts.h"
+#include "wheelwright/geometry/values_on.h"
 
 namespace wheelwright {
 
@@ -222,6 +225,70 @@ void check_holes(const Case& c, Conflicts& found) {
   }
 }
 
+/// A saved shape takes the place of holes and drawn shapes, and must fit the ring and its sectors.
+void check_saved_shape(const Case& c, Conflicts& found) {
+  if (c.saved_shape.from.empty()) return;
+  const auto refuse_besides = [&](const std::string& key) {
+    found.push_back({{key, "shape.from"},
+                     "holes and shapes cannot be drawn over the shape of another run",
+                     "keep the shape of the other run, or what is drawn"});
+  };
+  if (!c.holes.rings.empty()) refuse_besides("holes.ring[1]");
+  if (!c.holes.circles.empty()) refuse_besides("holes.circle[1]");
+  for_each_shape_section([&](const auto& section) {
+    if (!section.of(c).empty()) refuse_besides(section.path() + "[1]");
+  });
+  if (c.wheel.dimension == 3)
+    found.push_back({{"shape.from", "wheel.dimension"},
+                     "a wheel in 3D cannot begin with the shape of another run yet",
+                     "draw its holes"});
+  const LevelSet<2>* shape = c.saved_shape.shape.contents.get();
+  if (!shape || c.wheel.inner_radius >= c.wheel.outer_radius) return;
+  const PolarGrid<2>& grid = shape->lattice.grid();
+  const std::string problem = misfit(grid, polar_grid<2>(c));
+  if (problem.empty()) return;
+  found.push_back({{"shape.from", "wheel.inner_radius", "wheel.outer_radius", "wheel.sectors"},
+                   fmt::format("the saved shape does not fit: {}", problem),
+                   fmt::format("give wheel.inner_radius = {}, wheel.outer_radius = {}, and for wheel.sectors "
+                               "one of {}",
+                               number_text(grid.inner_radius), number_text(grid.outer_radius),
+                               fmt::join(divisors(grid.n_sectors), ", "))});
+}
+
+/// The coarser grids must have whole cells in each sector, room between their wider bands, and rows of cells
+/// that make up the annulus.
+void check_coarse_levels(const Case& c, Conflicts& found) {
+  const int levels = c.optimizer.coarse_levels;
+  if (levels == 0 || c.wheel.inner_radius >= c.wheel.outer_radius ||
+      c.grid.angular_cells % c.wheel.sectors != 0)
+    return;
+  const auto refuse = [&](std::vector<std::string> keys, std::string problem, std::string remedy) {
+    keys.insert(keys.begin(), "optimizer.coarse_levels");
+    found.push_back({std::move(keys), std::move(problem), std::move(remedy)});
+  };
+  if (!can_be_halved(c, levels)) {
+    int possible = levels;
+    while (!can_be_halved(c, possible)) --possible;
+    refuse({"grid.radial_cells", "grid.angular_cells", "wheel.sectors"},
+           fmt::format("{} x {} cells of each sector cannot be doubled {} times", c.grid.radial_cells,
+                       c.grid.angular_cells / c.wheel.sectors, levels),
+           fmt::format("take {}, or multiples of {} cells along the radius and in each sector", possible,
+                       1 << levels));
+    return;
+  }
+  const Case coarse = on_coarser_grid(c, levels);
+  const double cell = (c.wheel.outer_radius - c.wheel.inner_radius) / coarse.grid.radial_cells;
+  if (wants_annulus(c) && std::abs(annulus_thickness(c) - tread_rows(coarse) * cell) > 1e-6 * cell)
+    refuse({"objective.annulus", "grid.radial_cells"},
+           fmt::format("the annulus of {:.6g} m is no whole number of the coarse cells of {:.6g} m",
+                       annulus_thickness(c), cell),
+           fmt::format("take fewer coarse_levels, or objective.annulus = {:.6g}", tread_rows(coarse) * cell));
+  if (coarse.optimizer.rim_band.value() + coarse.optimizer.tread_band.value() >=
+      c.wheel.outer_radius - c.wheel.inner_radius - cell)
+    refuse(with_ring_shape({}), "on the coarse grid the bands at rim and tread leave no room for holes",
+           "take fewer coarse_levels, or a finer grid");
+}
+
 void check_nitsche(const Case& c, Conflicts& found) {
   if (c.contact.method != ContactMethod::nitsche) return;
   const double least = least_gamma_0(c.contact.theta, c.material);
@@ -390,6 +457,26 @@ void check_volume(const Case& c, Conflicts& found) {
                      fmt::format("take at most {:.9g}, or a finer grid", std::floor(most * 1e9) / 1e9)});
 }
 
+/// Finds least widths that the bands or the ring contradict.
+void check_feature_size(const Case& c, Conflicts& found) {
+  const double ring = c.wheel.outer_radius - c.wheel.inner_radius;
+  const auto check = [&](const char* key, std::optional<double> width) {
+    if (width && *width >= ring)
+      found.push_back({with_ring_shape({key}), fmt::format("the ring is only {:.6g} m thick", ring),
+                       "take less" + if_in_millimetres(*width, ring)});
+  };
+  check("optimizer.minimum_wall", c.optimizer.minimum_wall);
+  check("optimizer.minimum_gap", c.optimizer.minimum_gap);
+  const auto check_band_of = [&](const char* key, std::optional<double> band) {
+    if (band && c.optimizer.minimum_wall && *band < *c.optimizer.minimum_wall)
+      found.push_back({{"optimizer.minimum_wall", key},
+                       fmt::format("the wall between a hole and this edge may be {:.6g} m", *band),
+                       "take a band at least as thick as the wall, or leave it out"});
+  };
+  check_band_of("optimizer.rim_band", c.optimizer.rim_band);
+  check_band_of("optimizer.tread_band", c.optimizer.tread_band);
+}
+
 /// Finds expected quantities that the run does not compute, and shapes that it does not reach.
 void check_expectations(const Case& c, Conflicts& found) {
   const Objective& o = c.objective;
@@ -398,6 +485,30 @@ void check_expectations(const Case& c, Conflicts& found) {
       {Quantity::uniformity_annulus, o.uniformity_annulus > 0 || o.annulus_matches_dual},
       {Quantity::uniformity_dual, o.uniformity_dual > 0},
       {Quantity::uniformity_l2, o.uniformity_l2 > 0}};
+  struct Need {
+    std::vector<Quantity> quantities;
+    const char* key;
+    bool is_given;
+    const char* problem;
+  };
+  const std::vector<Need> needs{
+      {{Quantity::mass}, "material.density", c.material.density.has_value(), "the mass needs a density"},
+      {{Quantity::force_variation, Quantity::force_variation_harmonic},
+       "load.travel",
+       c.load.travel.has_value(),
+       "the force varies at a held travel; under a load it is that load"},
+      {{Quantity::run_out, Quantity::run_out_harmonic},
+       "load.travel",
+       !c.load.travel,
+       "the travel varies under a load; here it is held"},
+      {{Quantity::tangential_stiffness},
+       "load.horizontal_force",
+       c.load.horizontal_force != 0,
+       "without that force the rim does not move along the ground"},
+      {{Quantity::torsional_stiffness},
+       "load.torque",
+       c.load.torque != 0,
+       "without a torque the rim does not turn"}};
   for (std::size_t i = 0; i < c.expectations.size(); ++i) {
     const Expectation& expectation = c.expectations[i];
     const auto key = [&](std::string_view name) { return fmt::format("expect[{}].{}", i + 1, name); };
@@ -406,6 +517,10 @@ void check_expectations(const Case& c, Conflicts& found) {
       found.push_back({{key("quantity"), fmt::format("objective.{}", name(expectation.quantity))},
                        "it has no weight in the objective, so the run does not compute it",
                        "give it a weight, however small, or expect another quantity"});
+    for (const Need& need : needs)
+      if (!need.is_given && std::ranges::find(need.quantities, expectation.quantity) != need.quantities.end())
+        found.push_back(
+            {{key("quantity"), need.key}, need.problem, "change that key, or expect another quantity"});
     if (expectation.iteration && *expectation.iteration > c.optimizer.iterations)
       found.push_back({{key("iteration"), "optimizer.iterations"},
                        fmt::format("the run ends at shape {} at the latest", c.optimizer.iterations),
@@ -425,6 +540,8 @@ std::vector<Conflict> conflicts(const Case& c) {
   check_counts(c, shapes, found);
   check_holes(c, found);
   check_nested_holes(c, found);
+  check_saved_shape(c, found);
+  check_coarse_levels(c, found);
   const Conflicts of_shapes = shape_conflicts(c, shapes);
   found.insert(found.end(), of_shapes.begin(), of_shapes.end());
   check_nitsche(c, found);
@@ -436,6 +553,7 @@ std::vector<Conflict> conflicts(const Case& c) {
   check_annulus(c, found);
   check_objective(c, found);
   check_volume(c, found);
+  check_feature_size(c, found);
   check_expectations(c, found);
   return found;
 }

@@ -473,6 +473,21 @@ Key<Struct> checksum_key() {
 
 }  // namespace
 
+const Section<SavedShape>& saved_shape_section() {
+  static const Section<SavedShape> section{
+      .name = "shape",
+      .meaning = "the shape to begin with, if it is that of an earlier run ([saved shapes](shapes.md))",
+      .in = [](Case& c) -> SavedShape& { return c.saved_shape; },
+      .keys = {{.name = "from",
+                .unit = "",
+                .field = TextField<SavedShape>{&SavedShape::from, "holes and shapes are drawn"},
+                .meaning = "the folder of a run, for its last saved shape, or a file of this kind "
+                           "(shape.levelset); relative to the folder of the case file; the grid may differ, "
+                           "the radii may not, and the number of sectors must divide that of the run"},
+               checksum_key<SavedShape>()}};
+  return section;
+}
+
 const SectionArray<FileShape>& file_shape_sections() {
   static const SectionArray<FileShape> sections{
       .parent = "shape",
@@ -680,6 +695,13 @@ const Section<Optimizer>& optimizer_section() {
            .unit = "",
            .field = IntegerField<Optimizer>{&Optimizer::iterations, between(0, 1000000)},
            .meaning = "maximum number of accepted shapes after the initial one"},
+          {.name = "coarse_levels",
+           .unit = "",
+           .field = IntegerField<Optimizer>{&Optimizer::coarse_levels, between(0, 4)},
+           .meaning =
+               "the descent begins on a grid whose cells are doubled so many times along each axis, and "
+               "moves on to the next finer one when J has fallen by less than 0.5 % over 10 shapes, until "
+               "it is on the case's own grid; 0: on the case's own grid from the beginning"},
           {.name = "velocity",
            .unit = "",
            .field = choice<&Optimizer::velocity>({"h1", "harmonic"}),
@@ -730,7 +752,18 @@ const Section<Optimizer>& optimizer_section() {
                                                    "1/14 of the ring, or 1/28 more than the annulus"},
            .meaning =
                "thickness of the band at the tread that stays material, at least one radial cell more than "
-               "the annulus"}}};
+               "the annulus"},
+          {.name = "minimum_wall",
+           .unit = "m",
+           .field = OptionalNumberField<Optimizer>{&Optimizer::minimum_wall, above(0, 1000), "any"},
+           .meaning = "least thickness of the material between two edges: thinner walls are made as thick in "
+                      "every shape; the bands at rim and tread must be as thick"},
+          {.name = "minimum_gap",
+           .unit = "m",
+           .field = OptionalNumberField<Optimizer>{&Optimizer::minimum_gap, above(0, 1000), "any"},
+           .meaning =
+               "least width of a hole: narrower parts of holes, and smaller holes, are filled in every "
+               "shape"}}};
   return section;
 }
 

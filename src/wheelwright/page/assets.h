@@ -6,6 +6,7 @@
 /// for lit surfaces that the system has.
 namespace wheelwright::assets {
 
-extern const std::string_view report_html, report_css, report_js, chart_js, three_js;
+extern const std::string_view report_html, report_css, report_js, designs_html, designs_css, designs_js,
+    chart_js, three_js;
 
 }  // namespace wheelwright::assets

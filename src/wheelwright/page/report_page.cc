@@ -9,6 +9,7 @@
 #include "wheelwright/geometry/cell_map.h"
 #include "wheelwright/geometry/contour.h"
 #include "wheelwright/page/assets.h"
+#include "wheelwright/page/html_template.h"
 #include "wheelwright/page/report_run.h"
 #include "wheelwright/report/svg.h"
 
@@ -264,31 +265,11 @@ Json run_json(const ReportRun<dim>& run) {
   return json;
 }
 
-/// JSON that can stand in a script element whatever its texts hold.
-std::string in_script(const Json& json) {
-  std::string text;
-  for (const char c : json.dump(-1, ' ', true, Json::error_handler_t::replace))
-    text += c == '<' ? std::string("\\u003c") : std::string(1, c);
-  return text;
-}
-
-/// The template with contents in the place of marks, in the order in which they stand there.
-std::string filled(std::string_view page,
-                   const std::vector<std::pair<std::string_view, std::string>>& contents) {
-  std::string result;
-  for (const auto& [mark, content] : contents) {
-    const std::size_t at = page.find(mark);
-    result.append(page.substr(0, at)).append(content);
-    page.remove_prefix(at + mark.size());
-  }
-  return result.append(page);
-}
-
 }  // namespace
 
 template <int dim>
 PageRun page_run(const ReportRun<dim>& run) {
-  return {run.title, in_script(run_json(run)), dim == 3 && run.shape};
+  return {run.title, json_in_script(run_json(run)), dim == 3 && run.shape};
 }
 
 template PageRun page_run(const ReportRun<2>&);
@@ -298,13 +279,13 @@ std::string report_page(const std::vector<PageRun>& runs) {
   std::string data;
   for (const PageRun& run : runs) data += (data.empty() ? "" : ",\n") + run.json;
   const bool has_surface = std::ranges::any_of(runs, &PageRun::is_solid);
-  return filled(assets::report_html,
-                {{"@TITLE@", escape_xml(runs.size() == 1 ? runs.front().title : "Wheels compared")},
-                 {"@STYLE@", std::string(assets::report_css)},
-                 {"@DATA@", "{\"runs\":[" + data + "]}"},
-                 {"@CHART_LIBRARY@", std::string(assets::chart_js)},
-                 {"@SCENE_LIBRARY@", has_surface ? std::string(assets::three_js) : ""},
-                 {"@SCRIPT@", std::string(assets::report_js)}});
+  return filled_template(assets::report_html,
+                         {{"@TITLE@", escape_xml(runs.size() == 1 ? runs.front().title : "Wheels compared")},
+                          {"@STYLE@", std::string(assets::report_css)},
+                          {"@DATA@", "{\"runs\":[" + data + "]}"},
+                          {"@CHART_LIBRARY@", std::string(assets::chart_js)},
+                          {"@SCENE_LIBRARY@", has_surface ? std::string(assets::three_js) : ""},
+                          {"@SCRIPT@", std::string(assets::report_js)}});
 }
 
 }  // namespace wheelwright

@@ -76,6 +76,7 @@ void HistoryWriter<dim>::operator()(const Event<dim>& event, const RunView<dim>&
     notes_.push_back(changed->text);
     add_missing_columns(run);
   }
+  if (const auto* changed = std::get_if<GridChanged>(&event)) notes_.push_back(changed->text);
   if (const auto* done = std::get_if<TrialDone<dim>>(&event)) record(*done, run);
 }
 

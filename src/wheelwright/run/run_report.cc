@@ -11,6 +11,7 @@
 #include "wheelwright/report/shape_boundary.h"
 #include "wheelwright/report/surface_vtp.h"
 #include "wheelwright/report/wheel_pictures.h"
+#include "wheelwright/run/feature_warnings.h"
 #include "wheelwright/run/history.h"
 #include "wheelwright/run/provenance.h"
 #include "wheelwright/run/run_title.h"
@@ -88,6 +89,7 @@ std::vector<std::string> flags(const Case& c, const DescribedWheel<dim>& wheel,
   std::vector<std::string> result;
   if (const auto warning = deformation_warning(wheel.summary.deformation); !warning.empty())
     result.push_back(warning);
+  for (const std::string& warning : feature_warnings(c, wheel.clearances)) result.push_back(warning);
   const Case shown = with_levels_of_results(c);
   if (const double cells = cells_per_contact_patch(shown); cells < least_cells_per_contact_patch)
     result.push_back(
