@@ -75,8 +75,8 @@ std::string rectangles(const std::vector<Line>& all, const MapView& view, const 
       const double pressure = all[i][k].pressure;
       if (!(to > from) || !(pressure > 0)) continue;
       svg += fmt::format("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"/>\n",
-                         view.x(from), view.y(z[i + 1]), (to - from) * view.scale + 0.2,
-                         (z[i + 1] - z[i]) * view.scale + 0.2, viridis(scale.fraction(pressure)));
+                         view.x(z[i]), view.y(to), view.x(z[i + 1]) - view.x(z[i]) + 0.2,
+                         view.y(from) - view.y(to) + 0.2, viridis(scale.fraction(pressure)));
     }
   }
   return svg;
