@@ -13,6 +13,7 @@
 #include "wheelwright/elasticity/dual_norm.h"
 #include "wheelwright/elasticity/ghost_penalty.h"
 #include "wheelwright/elasticity/material.h"
+#include "wheelwright/elasticity/side_faces.h"
 
 namespace wheelwright {
 
@@ -25,10 +26,12 @@ struct LevelSet;
 // here are the defaults of the case file; names, units, ranges and meanings are declared in case/keys.cc.
 
 struct Wheel {
+  int dimension = 2;           ///< 2: the plane of the wheel; 3: the whole width
   double inner_radius = 0.20;  ///< R_i, the rim
   double outer_radius = 0.34;  ///< R_e, the tread
   double width = 0.12;         ///< w_r, along the axle
   int sectors = 16;            ///< N_s
+  SideFaces side_faces = SideFaces::free;
   bool operator==(const Wheel&) const = default;
 };
 
@@ -219,10 +222,11 @@ struct Shapes {
 
 struct Grid {
   int radial_cells = 28;
-  int angular_cells = 384;  ///< round the full ring
-  int degree = 2;           ///< of the displacement
-  int level_set_degree = 2;
-  std::optional<int> tread_levels;  ///< halvings of the cells at the tread; absent: as the contact needs
+  int angular_cells = 384;              ///< round the full ring
+  int axial_cells = 4;                  ///< along the axle; in 3D
+  int degree = 2;                       ///< of the displacement
+  std::optional<int> level_set_degree;  ///< absent: 2, in 3D 1
+  std::optional<int> tread_levels;      ///< halvings of the cells at the tread; absent: as the contact needs
   bool operator==(const Grid&) const = default;
 };
 

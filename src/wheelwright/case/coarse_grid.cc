@@ -24,6 +24,7 @@ Case on_coarser_grid(Case c, int level) {
   c.objective.length = characteristic_length(c);
   c.grid.radial_cells >>= level;
   c.grid.angular_cells >>= level;
+  c.grid.axial_cells >>= level;
   if (c.grid.tread_levels)
     c.grid.tread_levels =
         std::min(*c.grid.tread_levels + level, std::max(most_tread_levels, *c.grid.tread_levels));
@@ -38,6 +39,7 @@ Case on_coarser_grid(Case c, int level) {
 
 bool can_be_halved(const Case& c, int times) {
   const int parts = 1 << times;
+  if (c.wheel.dimension == 3 && c.grid.axial_cells % parts != 0) return false;
   return c.grid.radial_cells % parts == 0 && c.grid.angular_cells % (parts * c.wheel.sectors) == 0;
 }
 

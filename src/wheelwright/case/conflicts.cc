@@ -94,7 +94,7 @@ void check_radii(const Case& c, Conflicts& found) {
 void check_size(const Case& c, Conflicts& found) {
   constexpr long long most = 1'000'000'000;
   if (dof_bound(c) <= most) return;
-  found.push_back({{"grid.radial_cells", "grid.angular_cells", "grid.degree"},
+  found.push_back({{"grid.radial_cells", "grid.angular_cells", "grid.axial_cells", "grid.degree"},
                    fmt::format("the grid has up to {} unknowns", dof_bound(c)),
                    fmt::format("take a grid with at most {}", most)});
 }
@@ -233,6 +233,10 @@ void check_saved_shape(const Case& c, Conflicts& found) {
                      "holes and shapes cannot be drawn over the shape of another run",
                      "keep the shape of the other run, or what is drawn"});
   };
+  if (c.wheel.dimension == 3)
+    found.push_back({{"shape.from", "wheel.dimension"},
+                     "only wheels in the plane can begin with a saved shape",
+                     "take wheel.dimension = 2, or draw the shape"});
   if (!c.holes.rings.empty()) refuse_besides("holes.ring[1]");
   if (!c.holes.circles.empty()) refuse_besides("holes.circle[1]");
   for_each_shape_section([&](const auto& section) {
@@ -351,6 +355,28 @@ void check_incompressible(const Case& c, Conflicts& found) {
     found.push_back({{"material.poissons_ratio", "material.plane"},
                      "so near to 1/2 that rounding would spoil the solution",
                      fmt::format("take at most {}: the difference to 1/2 does not matter", largest)});
+}
+
+/// What one dimension knows and the other does not.
+void check_dimension(const Case& c, Conflicts& found) {
+  if (c.wheel.dimension == 2) {
+    if (c.wheel.side_faces != SideFaces::free)
+      found.push_back({{"wheel.side_faces", "wheel.dimension"},
+                       "a wheel in 2D has no side faces; plane strain already holds them",
+                       "leave the key out, or take dimension = 3"});
+    return;
+  }
+  if (c.material.plane == Plane::stress)
+    found.push_back({{"material.plane", "wheel.dimension"},
+                     "plane stress is an assumption for two dimensions",
+                     "leave the key out: in 3D the side faces are free of stress"});
+  constexpr double largest = 0.4;
+  if (c.grid.degree == 1 && c.material.poissons_ratio > largest && !c.material.nearly_incompressible())
+    found.push_back({{"grid.degree", "material.poissons_ratio", "wheel.dimension"},
+                     fmt::format("elements of degree 1 lock: with poissons_ratio = {} the wheel would be "
+                                 "tens of percent too stiff, and its optimum another one",
+                                 c.material.poissons_ratio),
+                     fmt::format("take degree = 2, or poissons_ratio <= {}", largest)});
 }
 
 /// Friction must resist the force or torque that moves or turns the rim.
@@ -474,6 +500,7 @@ std::vector<Conflict> conflicts(const Case& c) {
   check_load(c, found);
   check_contact_points(c, found);
   check_incompressible(c, found);
+  check_dimension(c, found);
   check_friction(c, found);
   check_annulus(c, found);
   check_objective(c, found);

@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "wheelwright/analysis/deformation_size.h"
-#include "wheelwright/case/derived.h"
 #include "wheelwright/case/drawn_shapes.h"
 #include "wheelwright/cut/measure.h"
 #include "wheelwright/drawing/composed_level_set.h"
@@ -25,30 +24,13 @@
 namespace wheelwright {
 namespace {
 
-/// Cells along the axle in 3D, until a case can say so.
-constexpr int axial_cells = 2;
-
 /// What is given on the whole width as the model of this dimension takes it.
 template <int dim>
 double on_model_width(double on_whole_width, const Case& c) {
-  return dim == 2 ? on_whole_width / c.wheel.width : on_whole_width;
+  return on_whole_width / whole_width(dim, c.wheel.width);
 }
 
 }  // namespace
-
-template <int dim>
-PolarGrid<dim> polar_grid(const Case& c) {
-  const PolarGrid<2> plane = plane_grid(c);
-  if constexpr (dim == 2) {
-    return plane;
-  } else {
-    return {plane.inner_radius,
-            plane.outer_radius,
-            plane.width,
-            plane.n_sectors,
-            {plane.cells[0], plane.cells[1], axial_cells}};
-  }
-}
 
 template <int dim>
 RollingModel<dim> rolling_model(const Case& c) {
@@ -57,6 +39,7 @@ RollingModel<dim> rolling_model(const Case& c) {
   model.degree = c.grid.degree;
   model.materials = c.material;
   model.ghost = c.ghost_penalty;
+  model.side_faces = c.wheel.side_faces;
   model.contact = {.method = c.contact.method,
                    .theta_nitsche = c.contact.theta,
                    .gamma_0 = c.contact.gamma_0,
@@ -164,7 +147,7 @@ LevelSet<dim> drawn_on(const Lattice<dim>& lattice, const Case& c) {
 
 template <int dim>
 LevelSet<dim> initial_shape(const Case& c) {
-  const Lattice<dim> lattice(polar_grid<dim>(c), c.grid.level_set_degree);
+  const Lattice<dim> lattice(polar_grid<dim>(c), level_set_degree(c));
   const LevelSet<dim>* saved = saved_shape<dim>(c);
   return ProtectedBands<dim>(lattice, bands(c)).keep(saved ? regrid(*saved, lattice) : drawn_on(lattice, c));
 }
@@ -189,7 +172,7 @@ std::string text(const VolumeChange& change) {
 template <int dim>
 std::vector<ShapeEvent<dim>> lost_on_the_grid(const Case& c) {
   PolarGrid<dim> fine = polar_grid<dim>(c);
-  for (int d = 0; d < 2; ++d) fine.cells[d] *= component_samples;  // the holes are cylinders along the axle
+  for (int& cells : fine.cells) cells *= component_samples;
   const Lattice<dim> samples(fine, 1);
   const LevelSet<dim>* saved = saved_shape<dim>(c);
   const auto given = saved ? values_on(*saved, samples) : drawn_on(samples, c);
@@ -239,7 +222,7 @@ std::optional<int> level_of(const Case& c, const LevelSet<dim>& shape) {
   for (int level = 0; level <= c.optimizer.coarse_levels; ++level) {
     const Case computed = on_coarser_grid(c, level);
     if (shape.lattice.grid() == polar_grid<dim>(computed) &&
-        shape.lattice.degree() == computed.grid.level_set_degree)
+        shape.lattice.degree() == level_set_degree(computed))
       return level;
   }
   return {};
@@ -282,7 +265,6 @@ ShapeOptimizer<dim> optimizer_of(const Study<dim>& study, Interrupt interrupt) {
 }
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                        \
-  template PolarGrid<dim> polar_grid(const Case&);                                                          \
   template RollingModel<dim> rolling_model(const Case&);                                                    \
   template LevelSet<dim> initial_shape(const Case&);                                                        \
   template std::optional<VolumeChange> volume_change_of_saved_shape<dim>(const Case&);                      \

@@ -1,12 +1,11 @@
 #pragma once
 
 #include <memory>
-#include <type_traits>
-#include <utility>
 
 #include "wheelwright/base/interrupt.h"
-#include "wheelwright/case/case.h"
 #include "wheelwright/case/coarse_grid.h"
+#include "wheelwright/case/derived.h"
+#include "wheelwright/case/dimension.h"
 #include "wheelwright/geometry/topology.h"
 #include "wheelwright/optimize/optimizer.h"
 #include "wheelwright/sensitivity/evaluate.h"
@@ -16,8 +15,6 @@ namespace wheelwright {
 // From a case to what the solver, the evolution and the optimizer work on. In 2D, forces, torques and
 // energies are those of one metre of width.
 
-template <int dim>
-PolarGrid<dim> polar_grid(const Case& c);
 template <int dim>
 RollingModel<dim> rolling_model(const Case& c);
 
@@ -103,12 +100,5 @@ typename ShapeOptimizer<dim>::Evaluate evaluate_of(const Study<dim>& study, Inte
 /// The loop on the study's functions.
 template <int dim>
 ShapeOptimizer<dim> optimizer_of(const Study<dim>& study, Interrupt interrupt = {});
-
-/// Calls the visitor with the dimension in which a case is computed, as std::integral_constant<int, dim>: the
-/// one place that decides it.
-template <class Visitor>
-decltype(auto) in_dimension_of(const Case&, Visitor&& visitor) {
-  return std::forward<Visitor>(visitor)(std::integral_constant<int, 2>{});
-}
 
 }  // namespace wheelwright
