@@ -245,7 +245,7 @@ void check_saved_shape(const Case& c, Conflicts& found) {
   const LevelSet<2>* shape = c.saved_shape.shape.contents.get();
   if (!shape || c.wheel.inner_radius >= c.wheel.outer_radius) return;
   const PolarGrid<2>& grid = shape->lattice.grid();
-  const std::string problem = misfit(grid, plane_grid(c));
+  const std::string problem = misfit(grid, polar_grid<2>(c));
   if (problem.empty()) return;
   found.push_back({{"shape.from", "wheel.inner_radius", "wheel.outer_radius", "wheel.sectors"},
                    fmt::format("the saved shape does not fit: {}", problem),
