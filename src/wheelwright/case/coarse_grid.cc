@@ -24,7 +24,7 @@ Case on_coarser_grid(Case c, int level) {
   c.objective.length = characteristic_length(c);
   c.grid.radial_cells >>= level;
   c.grid.angular_cells >>= level;
-  c.grid.axial_cells >>= level;
+  c.grid.axial_cells = std::max(1, c.grid.axial_cells >> level);
   if (c.grid.tread_levels)
     c.grid.tread_levels =
         std::min(*c.grid.tread_levels + level, std::max(most_tread_levels, *c.grid.tread_levels));
@@ -44,7 +44,8 @@ bool can_be_halved(const Case& c, int times) {
 }
 
 std::string grid_text(const Case& c) {
-  return fmt::format("grid {} x {}", c.grid.radial_cells, c.grid.angular_cells);
+  const std::string along_axle = c.wheel.dimension == 3 ? fmt::format(" x {}", c.grid.axial_cells) : "";
+  return fmt::format("grid {} x {}{}", c.grid.radial_cells, c.grid.angular_cells, along_axle);
 }
 
 }  // namespace wheelwright
