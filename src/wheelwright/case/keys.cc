@@ -752,7 +752,18 @@ const Section<Optimizer>& optimizer_section() {
                                                    "1/14 of the ring, or 1/28 more than the annulus"},
            .meaning =
                "thickness of the band at the tread that stays material, at least one radial cell more than "
-               "the annulus"}}};
+               "the annulus"},
+          {.name = "minimum_wall",
+           .unit = "m",
+           .field = OptionalNumberField<Optimizer>{&Optimizer::minimum_wall, above(0, 1000), "any"},
+           .meaning = "least thickness of the material between two edges: thinner walls are made as thick in "
+                      "every shape; the bands at rim and tread must be as thick"},
+          {.name = "minimum_gap",
+           .unit = "m",
+           .field = OptionalNumberField<Optimizer>{&Optimizer::minimum_gap, above(0, 1000), "any"},
+           .meaning =
+               "least width of a hole: narrower parts of holes, and smaller holes, are filled in every "
+               "shape"}}};
   return section;
 }
 
