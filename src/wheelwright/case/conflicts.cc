@@ -278,6 +278,10 @@ void check_saved_shape(const Case& c, Conflicts& found) {
                      "holes and shapes cannot be drawn over the shape of another run",
                      "keep the shape of the other run, or what is drawn"});
   };
+  if (c.wheel.dimension == 3)
+    found.push_back({{"shape.from", "wheel.dimension"},
+                     "only wheels in the plane can begin with a saved shape",
+                     "take wheel.dimension = 2, or draw the shape"});
   if (!c.holes.rings.empty()) refuse_besides("holes.ring[1]");
   if (!c.holes.circles.empty()) refuse_besides("holes.circle[1]");
   for_each_shape_section([&](const auto& section) {
