@@ -250,11 +250,14 @@ struct Volume {
 
 enum class VelocityKind { h1, harmonic };
 
+enum class OptimizerMethod { sequential_quadratic, descent };
+
 struct Optimizer {
+  OptimizerMethod method = OptimizerMethod::sequential_quadratic;
   int iterations = 100;
   VelocityKind velocity = VelocityKind::h1;
   double velocity_length = 2;  ///< [cells]
-  double step = 0.5;           ///< maximum move of the boundary per shape [cells]
+  std::optional<double> step;  ///< maximum move of the boundary per shape [cells]; absent: by the method
   int max_halvings = 6;
   double accepted_increase = 1e-4;
   double tolerance = 1e-5;

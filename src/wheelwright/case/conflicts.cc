@@ -368,6 +368,18 @@ void check_volume(const Case& c, Conflicts& found) {
                      fmt::format("take at most {:.9g}, or a finer grid", std::floor(most * 1e9) / 1e9)});
 }
 
+/// The paper's own rules need the descent.
+void check_method(const Case& c, Conflicts& found) {
+  if (c.optimizer.method == OptimizerMethod::descent) return;
+  const auto refuse = [&](const char* key, const char* other) {
+    found.push_back({{key, "optimizer.method"},
+                     "it goes with steepest descent alone",
+                     fmt::format("add method = \"descent\" to [optimizer], or take {}", other)});
+  };
+  if (c.optimizer.velocity == VelocityKind::harmonic) refuse("optimizer.velocity", "\"h1\"");
+  if (c.volume.control == VolumeControl::paper) refuse("volume.control", "\"exact\"");
+}
+
 /// Finds expected quantities that the run does not compute, and shapes that it does not reach.
 void check_expectations(const Case& c, Conflicts& found) {
   const Objective& o = c.objective;
@@ -413,6 +425,7 @@ std::vector<Conflict> conflicts(const Case& c) {
   check_annulus(c, found);
   check_objective(c, found);
   check_volume(c, found);
+  check_method(c, found);
   check_expectations(c, found);
   return found;
 }

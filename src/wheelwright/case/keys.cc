@@ -652,9 +652,15 @@ const Section<Volume>& volume_section() {
 const Section<Optimizer>& optimizer_section() {
   static const Section<Optimizer> section{
       .name = "optimizer",
-      .meaning = "the descent; the unit \"cell\" is the shortest edge of a grid cell at mid-ring",
+      .meaning = "the search for a better shape; the unit \"cell\" is the shortest edge of a grid cell at "
+                 "mid-ring",
       .in = [](Case& c) -> Optimizer& { return c.optimizer; },
       .keys = {
+          {.name = "method",
+           .unit = "",
+           .field = choice<&Optimizer::method>({"sequential_quadratic", "descent"}),
+           .meaning = "sequential_quadratic: steps of a quadratic model that learns the curvature from the "
+                      "shapes before; descent: along the gradient"},
           {.name = "iterations",
            .unit = "",
            .field = IntegerField<Optimizer>{&Optimizer::iterations, between(0, 1000000)},
@@ -669,7 +675,8 @@ const Section<Optimizer>& optimizer_section() {
            .meaning = "length over which h1 smooths the velocity"},
           {.name = "step",
            .unit = "cells",
-           .field = NumberField<Optimizer>{&Optimizer::step, above(0, 10)},
+           .field = OptionalNumberField<Optimizer>{&Optimizer::step, above(0, 10),
+                                                   "1; with method = \"descent\" 0.5"},
            .meaning = "maximum move of the boundary from one shape to the next"},
           {.name = "max_halvings",
            .unit = "",

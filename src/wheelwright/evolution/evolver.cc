@@ -26,6 +26,7 @@ Evolver<dim>::Evolver(const Lattice<dim>& lattice, const EvolutionOptions& optio
     : lattice_(lattice),
       bands_(lattice, options.bands),
       extension_(make_velocity_extension<dim>(lattice, bands_, options.velocity)),
+      velocities_(lattice, bands_.nodes(), options.velocity.length * lattice.grid().resolution()),
       cut_points_(options.cut_points) {
   if (options.smoothing > 0)
     smoother_.emplace(lattice, std::sqrt(options.smoothing) * lattice.grid().resolution());
@@ -53,6 +54,26 @@ Expected<std::vector<double>> Evolver<dim>::measure_preserving_velocity(
   return movable_velocity(gradient, [&](std::span<const SurfaceSample<dim>> samples) {
     return wheelwright::measure_preserving_velocity<dim>(lattice_, *extension_, samples);
   });
+}
+
+/// Of the nodes around such a point those that decide its velocity: the point lies up to a tenth of a cell off
+/// the edge, so that nodes beyond the edge have small weights.
+template <int dim>
+std::vector<bool> Evolver<dim>::held_by_bands(std::span<const SurfacePoint<dim>> boundary,
+                                              std::span<const double> velocity) const {
+  constexpr double share = 0.3;
+  std::vector<bool> held(velocity.size(), false);
+  for (const auto& point : boundary) {
+    if (!bands_.touches(point)) continue;
+    const auto at = node_weights<dim>(lattice_, point.cell, point.xi);
+    if (interpolate(at, velocity) >= 0) continue;
+    double largest = 0;
+    for (std::size_t a = 0; a < at.node.size(); ++a)
+      if (!bands_.nodes()[at.node[a]]) largest = std::max(largest, at.weight[a]);
+    for (std::size_t a = 0; a < at.node.size(); ++a)
+      if (!bands_.nodes()[at.node[a]] && at.weight[a] > share * largest) held[at.node[a]] = true;
+  }
+  return held;
 }
 
 /// Post-processes the result of a stage: applies the sub-cell filter, restores mirror symmetry if the input

@@ -180,7 +180,9 @@ template <int dim>
 OptimizerOptions optimizer_options(const Case& c) {
   OptimizerOptions options;
   options.iterations = c.optimizer.iterations;
-  options.step = c.optimizer.step;
+  const bool descends = c.optimizer.method == OptimizerMethod::descent;
+  options.method = descends ? Method::descent : Method::sequential_quadratic;
+  options.step = c.optimizer.step.value_or(descends ? 0.5 : 1);
   options.max_halvings = c.optimizer.max_halvings;
   options.accepted_increase = c.optimizer.accepted_increase;
   options.tolerance = c.optimizer.tolerance;

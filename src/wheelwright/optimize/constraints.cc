@@ -1,0 +1,40 @@
+#include "wheelwright/optimize/constraints.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wheelwright {
+
+template <int dim>
+std::vector<BoundConstraint> bound_constraints(const Evaluation<dim>& evaluation) {
+  std::vector<BoundConstraint> result;
+  for (size_t k = 0; k < evaluation.functions.size(); ++k) {
+    const FunctionValue& f = evaluation.functions[k];
+    const bool is_equality = f.bounds.lower == f.bounds.upper;
+    const auto add = [&](double sign, double bound) {
+      const double scale = bound == 0 ? 1 : std::abs(bound);
+      result.push_back({static_cast<int>(k), sign, scale, sign * (f.value - bound) / scale, is_equality});
+    };
+    if (std::isfinite(f.bounds.lower) && !is_equality) add(-1, f.bounds.lower);
+    if (std::isfinite(f.bounds.upper)) add(1, f.bounds.upper);
+  }
+  return result;
+}
+
+double merit(double objective, const std::vector<BoundConstraint>& constraints,
+             const std::vector<double>& penalties) {
+  double sum = objective;
+  for (size_t i = 0; i < constraints.size(); ++i) sum += penalties[i] * constraints[i].violation();
+  return sum;
+}
+
+double largest_violation(const std::vector<BoundConstraint>& constraints) {
+  double largest = 0;
+  for (const auto& constraint : constraints) largest = std::max(largest, constraint.violation());
+  return largest;
+}
+
+template std::vector<BoundConstraint> bound_constraints(const Evaluation<2>&);
+template std::vector<BoundConstraint> bound_constraints(const Evaluation<3>&);
+
+}  // namespace wheelwright

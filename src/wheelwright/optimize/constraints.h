@@ -1,0 +1,34 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "wheelwright/sensitivity/evaluation.h"
+
+namespace wheelwright {
+
+/// One side of the bounds of a function, at one shape. Values and violations are relative to the bound, or
+/// absolute where the bound is zero.
+struct BoundConstraint {
+  int function;      ///< its place in Evaluation::functions
+  double sign;       ///< 1: at most the bound, -1: at least
+  double scale;      ///< by which values and gradients are divided
+  double gap;        ///< sign (value - bound) / scale: positive where it is violated
+  bool is_equality;  ///< both bounds are the same
+
+  double violation() const { return is_equality ? std::abs(gap) : std::max(gap, 0.0); }
+};
+
+/// The finite bounds of all functions, in their order, lower ones first; equal bounds once.
+template <int dim>
+std::vector<BoundConstraint> bound_constraints(const Evaluation<dim>& evaluation);
+
+/// The exact merit function: objective + sum penalty * violation.
+double merit(double objective, const std::vector<BoundConstraint>& constraints,
+             const std::vector<double>& penalties);
+
+/// The largest violation; 0 without constraints.
+double largest_violation(const std::vector<BoundConstraint>& constraints);
+
+}  // namespace wheelwright
