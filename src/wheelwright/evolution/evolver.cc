@@ -56,24 +56,31 @@ Expected<std::vector<double>> Evolver<dim>::measure_preserving_velocity(
   });
 }
 
-/// Of the nodes around such a point those that decide its velocity: the point lies up to a tenth of a cell off
-/// the edge, so that nodes beyond the edge have small weights.
 template <int dim>
 std::vector<bool> Evolver<dim>::held_by_bands(std::span<const SurfacePoint<dim>> boundary,
                                               std::span<const double> velocity) const {
+  std::vector<bool> held;
+  for (const auto& point : boundary)
+    held.push_back(bands_.touches(point) &&
+                   interpolate(node_weights<dim>(lattice_, point.cell, point.xi), velocity) < 0);
+  return held;
+}
+
+/// Of the nodes around a point those decide its velocity that are on its side of the edge: it lies up to a
+/// tenth of a cell off.
+template <int dim>
+void Evolver<dim>::hold(std::span<const SurfacePoint<dim>> boundary, const std::vector<bool>& held,
+                        std::vector<double>& velocity) const {
   constexpr double share = 0.3;
-  std::vector<bool> held(velocity.size(), false);
-  for (const auto& point : boundary) {
-    if (!bands_.touches(point)) continue;
-    const auto at = node_weights<dim>(lattice_, point.cell, point.xi);
-    if (interpolate(at, velocity) >= 0) continue;
+  for (std::size_t q = 0; q < boundary.size(); ++q) {
+    if (!held[q]) continue;
+    const auto at = node_weights<dim>(lattice_, boundary[q].cell, boundary[q].xi);
     double largest = 0;
     for (std::size_t a = 0; a < at.node.size(); ++a)
       if (!bands_.nodes()[at.node[a]]) largest = std::max(largest, at.weight[a]);
     for (std::size_t a = 0; a < at.node.size(); ++a)
-      if (!bands_.nodes()[at.node[a]] && at.weight[a] > share * largest) held[at.node[a]] = true;
+      if (at.weight[a] > share * largest) velocity[at.node[a]] = std::min(velocity[at.node[a]], 0.0);
   }
-  return held;
 }
 
 /// Post-processes the result of a stage: applies the sub-cell filter, restores mirror symmetry if the input

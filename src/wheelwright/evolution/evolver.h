@@ -41,10 +41,13 @@ class Evolver {
   /// representative.
   const VelocitySpace<dim>& velocities() const { return velocities_; }
 
-  /// The nodes that must stand still for the points of the boundary to stay that lie on the edge of a band
-  /// and would move into it with this velocity.
+  /// Which points of the boundary lie on the edge of a band and would move into it with this velocity.
   std::vector<bool> held_by_bands(std::span<const SurfacePoint<dim>> boundary,
                                   std::span<const double> velocity) const;
+
+  /// Keeps these points on the edge: takes away what moves them off it.
+  void hold(std::span<const SurfacePoint<dim>> boundary, const std::vector<bool>& held,
+            std::vector<double>& velocity) const;
 
   /// Transports the shape for the time in which the fastest node travels `distance` [m]. Fails if `velocity`
   /// vanishes everywhere.

@@ -44,22 +44,23 @@ double product(const Nodal& load, const Nodal& velocity) {
 /// The derivative with this density, as a load.
 template <int dim>
 Nodal load_of(const Lattice<dim>& lattice, const Evaluation<dim>& evaluation,
-              const std::vector<double>& density, double factor) {
+              const std::vector<double>& density, double factor, const std::vector<bool>& held) {
   std::vector<SurfaceSample<dim>> samples;
   for (size_t i = 0; i < density.size(); ++i)
-    samples.push_back({evaluation.boundary[i], factor * density[i]});
+    if (!held[i]) samples.push_back({evaluation.boundary[i], factor * density[i]});
   return boundary_load<dim>(lattice, samples);
 }
 
 /// The derivatives of the objective, of the measure, and of the constraints.
 template <int dim>
 std::vector<Nodal> loads(const Lattice<dim>& lattice, const Evaluation<dim>& evaluation,
-                         const std::string& objective, const std::vector<BoundConstraint>& constraints) {
+                         const std::string& objective, const std::vector<BoundConstraint>& constraints,
+                         const std::vector<bool>& held) {
   std::vector<Nodal> result{
-      load_of(lattice, evaluation, evaluation.function(objective).gradient, 1),
-      load_of(lattice, evaluation, std::vector<double>(evaluation.boundary.size(), 1.0), 1)};
+      load_of(lattice, evaluation, evaluation.function(objective).gradient, 1, held),
+      load_of(lattice, evaluation, std::vector<double>(evaluation.boundary.size(), 1.0), 1, held)};
   for (const auto& c : constraints)
-    result.push_back(load_of(lattice, evaluation, evaluation.functions[c.function].gradient, 1 / c.scale));
+    result.push_back(load_of(lattice, evaluation, evaluation.functions[c.function].gradient, 1 / c.scale, held));
   return result;
 }
 
@@ -96,9 +97,10 @@ SequentialQuadraticProposals<dim>::SequentialQuadraticProposals(const Evolver<di
 
 template <int dim>
 typename SequentialQuadraticProposals<dim>::Span SequentialQuadraticProposals<dim>::span_in(
-    const VelocitySpace<dim>& space) const {
+    const std::vector<bool>& held) const {
+  const auto& space = evolver_.velocities();
   Span span{.velocities = {},
-            .loads = loads(state_.shape.lattice, state_.evaluation, options_.objective, constraints_),
+            .loads = loads(state_.shape.lattice, state_.evaluation, options_.objective, constraints_, held),
             .first_move = 0,
             .n_pairs = static_cast<int>(state_.memory.pairs.size())};
   span.first_move = static_cast<int>(span.loads.size());
@@ -117,26 +119,24 @@ typename SequentialQuadraticProposals<dim>::Span SequentialQuadraticProposals<di
   return span;
 }
 
-/// Where points of the boundary would move into a band, the move is sought among those that hold them.
+/// Points of the boundary that would move into a band stand still: the move is sought without them.
 template <int dim>
 Expected<Move<dim>> SequentialQuadraticProposals<dim>::move(double step) const {
-  constexpr int most_searches = 3;
-  auto move = move_in(evolver_.velocities(), step);
-  std::vector<bool> held(move.velocity.size(), false);
-  for (int k = 0; k < most_searches; ++k) {
-    const auto more = evolver_.held_by_bands(state_.evaluation.boundary, move.velocity);
-    if (std::ranges::none_of(more, [](bool h) { return h; })) break;
-    for (size_t node = 0; node < held.size(); ++node) held[node] = held[node] || more[node];
-    move = move_in(evolver_.velocities().with_held(held), step);
+  const auto& boundary = state_.evaluation.boundary;
+  auto move = move_with(std::vector<bool>(boundary.size(), false), step);
+  const auto held = evolver_.held_by_bands(boundary, move.velocity);
+  if (std::ranges::any_of(held, [](bool h) { return h; })) {
+    move = move_with(held, step);
+    evolver_.hold(boundary, held, move.velocity);
   }
   if (!std::isfinite(move.step)) return Failure{FailureReason::not_finite, "the velocity"};
   return move;
 }
 
 template <int dim>
-Move<dim> SequentialQuadraticProposals<dim>::move_in(const VelocitySpace<dim>& space, double step) const {
+Move<dim> SequentialQuadraticProposals<dim>::move_with(const std::vector<bool>& held, double step) const {
   const double measure = next_measure(options_, state_, step);
-  const Span span = span_in(space);
+  const Span span = span_in(held);
   auto penalties = this->penalties();
   const auto found = step_in(span, state_.measure - measure, step, penalties);
   Move<dim> move{.velocity = span.velocity(found.coefficients),
@@ -254,7 +254,8 @@ StepMemory SequentialQuadraticProposals<dim>::remembered(const Move<dim>& move,
   for (const double m : move.multipliers) weights.push_back(m);
   for (size_t i = 0; i < constraints_.size(); ++i) weights[2 + i] *= constraints_[i].sign;
   const auto add_loads = [&](double factor, const Evaluation<dim>& e) {
-    const auto derivatives = loads(state_.shape.lattice, e, options_.objective, constraints_);
+    const auto derivatives = loads(state_.shape.lattice, e, options_.objective, constraints_,
+                                   std::vector<bool>(e.boundary.size(), false));
     for (size_t i = 0; i < derivatives.size(); ++i) add(factor * weights[i], derivatives[i], pair.change);
   };
   add_loads(unit, evaluation);

@@ -26,8 +26,8 @@ class SequentialQuadraticProposals final : public Proposals<dim> {
  private:
   struct Span;
 
-  Span span_in(const VelocitySpace<dim>& space) const;
-  Move<dim> move_in(const VelocitySpace<dim>& space, double step) const;
+  Span span_in(const std::vector<bool>& held) const;
+  Move<dim> move_with(const std::vector<bool>& held, double step) const;
   QuadraticStep step_in(const Span& span, double gap, double step, std::vector<double>& penalties) const;
   std::vector<double> penalties() const;
   double noise() const;
