@@ -1,7 +1,7 @@
 /// How many trial shapes the optimizer needs, rejected ones included: runs a case from several starts whose
-/// holes differ in their radii by 1e-6 to 1e-5, and prints for every start the trials to 1 % and to 0.1 % of a
-/// given best objective, and what it ends with; then the medians.
-/// usage: optimizer_trials CASE BEST [TRIALS [STARTS]]
+/// holes differ in their radii by 1e-6 to 1e-5, and prints for every start the trials to 1 % and to 0.1 % of
+/// a given best objective, and what it ends with; then the medians. usage: optimizer_trials CASE BEST [TRIALS
+/// [STARTS]]
 
 #include <fmt/format.h>
 
@@ -87,8 +87,8 @@ int run(const std::string& path, double best, int most_trials, int starts) {
     to_tenth.push_back(found->trials_to(1.001 * best));
     ends.push_back(found->best());
     fmt::print("start {}: {:>4} trials to 1 %, {:>4} to 0.1 %; best {:.4f} of {} trials, {} rejected ({})\n",
-               start, count_text(to_percent.back()), count_text(to_tenth.back()), ends.back(), found->trials(),
-               std::ranges::count(found->accepted, false), to_string(found->reason));
+               start, count_text(to_percent.back()), count_text(to_tenth.back()), ends.back(),
+               found->trials(), std::ranges::count(found->accepted, false), to_string(found->reason));
     std::fflush(stdout);
   }
   fmt::print("median:  {:>4}             {:>4}            {:.4f}\n", count_text(median(to_percent)),
@@ -105,6 +105,7 @@ int main(int count, char** arguments) {
     fmt::print(stderr, "usage: {} CASE BEST [TRIALS [STARTS]]\n", arguments[0]);
     return 2;
   }
-  return wheelwright::bench::run(arguments[1], std::atof(arguments[2]), count > 3 ? std::atoi(arguments[3]) : 40,
+  return wheelwright::bench::run(arguments[1], std::atof(arguments[2]),
+                                 count > 3 ? std::atoi(arguments[3]) : 40,
                                  count > 4 ? std::atoi(arguments[4]) : 7);
 }

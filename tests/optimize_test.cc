@@ -155,6 +155,39 @@ TEST(ShapeOptimizer, HandsOnTheCellsOfEveryShape) {
   }
 }
 
+// With a quadratic model of the objective far fewer shapes are tried than by descent.
+TEST(SequentialQuadratic, ConvergesToTheLevelLineInFewTrials) {
+  const auto trials_to = [](Method method, double objective, double step) {
+    OptimizerOptions options;
+    options.method = method;
+    options.step = step;
+    const ShapeOptimizer<2> optimizer(lattice, evolution, options,
+                                      wheelwright::testing::objective_of_shape<2>(bowl_objective));
+    Record record;
+    const auto outcome = optimize<2>(optimizer, displaced_hole(), record.observer(), never);
+    const auto [low, high] = range_of_q(outcome.state->shape);
+    EXPECT_LT(high - low, 0.06 * high) << to_string(method);
+    for (const auto& trial : record.trials)
+      if (trial.verdict == Verdict::accepted) {
+        EXPECT_NEAR(trial.measure, outcome.state->target_measure, 1e-6 * trial.measure);
+      }
+    const auto reached = std::ranges::find_if(record.trials, [&](const Trial<2>& trial) {
+      return trial.evaluation && trial.evaluation->function("objective").value <= objective;
+    });
+    EXPECT_NE(reached, record.trials.end()) << to_string(method);
+    return reached - record.trials.begin();
+  };
+  OptimizerOptions exact;
+  exact.iterations = 200;
+  const ShapeOptimizer<2> optimizer(lattice, evolution, exact,
+                                    wheelwright::testing::objective_of_shape<2>(bowl_objective));
+  const auto best = optimize<2>(optimizer, displaced_hole(), Record().observer(), never);
+  const double initial = evaluate_bowl(displaced_hole()).function("objective").value,
+               end = best.state->evaluation.function("objective").value;
+  const double near = end + 0.01 * (initial - end);
+  EXPECT_LT(trials_to(Method::sequential_quadratic, near, 1.5), trials_to(Method::descent, near, 0.5));
+}
+
 TEST(ShapeOptimizer, ReachesAGivenMeasure) {
   OptimizerOptions options;
   options.iterations = 3;
@@ -423,8 +456,9 @@ TEST(ShapeOptimizer, TreatsANotFiniteObjectiveAsAFailure) {
   EXPECT_EQ(outcome.failure->reason, FailureReason::not_finite);
 }
 
-TEST(ShapeOptimizer, ResumesACopyBitForBit) {
+void expect_resumes_a_copy_bit_for_bit(Method method) {
   OptimizerOptions options;
+  options.method = method;
   options.iterations = 12;
   options.redistance_every = 3;
   options.smooth_every = 4;
@@ -444,6 +478,11 @@ TEST(ShapeOptimizer, ResumesACopyBitForBit) {
   EXPECT_EQ(copy->shape.values, outcome.state->shape.values);
   EXPECT_EQ(copy->history, outcome.state->history);
   EXPECT_EQ(copy->step, outcome.state->step);
+}
+
+TEST(ShapeOptimizer, ResumesACopyBitForBit) { expect_resumes_a_copy_bit_for_bit(Method::descent); }
+TEST(SequentialQuadratic, ResumesACopyBitForBit) {
+  expect_resumes_a_copy_bit_for_bit(Method::sequential_quadratic);
 }
 
 TEST(ShapeOptimizer, StopsOnRequest) {

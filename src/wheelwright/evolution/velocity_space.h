@@ -8,9 +8,9 @@
 
 namespace wheelwright {
 
-/// Velocities along the outward normal, at the nodes of the lattice, that vanish at some of them; with the inner
-/// product (u, v) = int length^2 grad u . grad v + u v over one sector. A load is a linear function of the
-/// velocity, one value per node.
+/// Velocities along the outward normal, at the nodes of the lattice, that vanish at some of them; with the
+/// inner product (u, v) = int length^2 grad u . grad v + u v over one sector. A load is a linear function of
+/// the velocity, one value per node.
 template <int dim>
 class VelocitySpace {
  public:

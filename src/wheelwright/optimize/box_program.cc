@@ -182,7 +182,9 @@ BoxSolution solve(const BoxProgram& given) {
   }
   const auto answer = [&](bool is_bounded) {
     for (size_t i = 0; i < n; ++i)
-      x[i] = std::clamp(x[i] * unit[i], given.lower[i], given.upper[i]);
+      x[i] = x[i] == program.lower[i]   ? given.lower[i]
+             : x[i] == program.upper[i] ? given.upper[i]
+                                        : std::clamp(x[i] * unit[i], given.lower[i], given.upper[i]);
     return BoxSolution{x, is_bounded};
   };
   for (size_t k = 0; k < sweeps * (n + 1); ++k) {

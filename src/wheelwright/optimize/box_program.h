@@ -6,8 +6,8 @@
 
 namespace wheelwright {
 
-/// Minimize x.Q x / 2 + r.x for lower <= x <= upper, with Q symmetric and positive semidefinite. Bounds may be
-/// infinite. For a few unknowns: the dual of a quadratic program with few constraints.
+/// Minimize x.Q x / 2 + r.x for lower <= x <= upper, with Q symmetric and positive semidefinite. Bounds may
+/// be infinite. For a few unknowns: the dual of a quadratic program with few constraints.
 struct BoxProgram {
   Matrix quadratic;
   std::vector<double> linear, lower, upper;
@@ -18,8 +18,8 @@ struct BoxSolution {
   bool is_bounded;  ///< false: the program has no minimum; x is a point on the way down
 };
 
-/// By active sets: the unknowns that are free are moved to their minimum, or until one meets a bound; then one
-/// whose bound holds it back without need is set free. Q may be singular: along its null directions the
+/// By active sets: the unknowns that are free are moved to their minimum, or until one meets a bound; then
+/// one whose bound holds it back without need is set free. Q may be singular: along its null directions the
 /// program goes downhill until a bound.
 BoxSolution solve(const BoxProgram& program);
 

@@ -23,9 +23,9 @@ double ShiftedHessian::scale(const Matrix& products, int first_move, int n_pairs
   return products(change, change) / products(move, change);
 }
 
-// B = scale - W M^-1 W^T with W = (scale S, Y) and M = ((scale S.S, L), (L^T, -D)), where L is the strict lower
-// triangle of S.Y and D its diagonal. By Woodbury, with c = scale + shift,
-// (B + shift)^-1 = (1 + W (c M - W.W)^-1 W^T) / c.
+// B = scale - W M^-1 W^T with W = (scale S, Y) and M = ((scale S.S, L), (L^T, -D)), where L is the strict
+// lower triangle of S.Y and D its diagonal. By Woodbury, with c = scale + shift, (B + shift)^-1 = (1 + W (c M
+// - W.W)^-1 W^T) / c.
 ShiftedHessian::ShiftedHessian(const Matrix& products, int first_move, int n_pairs, double shift)
     : products_(products),
       first_move_(first_move),

@@ -26,8 +26,8 @@ void remember(CurvaturePair pair, double move_square, double move_change, double
 /// some vectors of an inner product space. A vector is given by its coefficients; the span holds the pairs.
 class ShiftedHessian {
  public:
-  /// `products`: inner products of the vectors of the span. The moves of the n_pairs pairs are its vectors from
-  /// `first_move` on, the changes follow them. Without pairs B is zero.
+  /// `products`: inner products of the vectors of the span. The moves of the n_pairs pairs are its vectors
+  /// from `first_move` on, the changes follow them. Without pairs B is zero.
   ShiftedHessian(const Matrix& products, int first_move, int n_pairs, double shift);
 
   /// (B + shift)^-1 of a vector.

@@ -64,8 +64,7 @@ bool DescentProposals<dim>::accepts(const Move<dim>&, const Evaluation<dim>& eva
   if (options_.measure_control == MeasureControl::proportional || is_approaching(options_, state_))
     return true;
   const double best = *std::min_element(state_.history.begin(), state_.history.end());
-  return evaluation.function(options_.objective).value <=
-         best + options_.accepted_increase * std::abs(best);
+  return evaluation.function(options_.objective).value <= best + options_.accepted_increase * std::abs(best);
 }
 
 /// A step that raised the objective, if within bounds, went past the minimum along its direction.

@@ -26,6 +26,10 @@ enum class Method {
   sequential_quadratic,  ///< a quadratic model with linearized constraints (sequential_quadratic.h)
 };
 
+constexpr const char* to_string(Method method) {
+  return method == Method::descent ? "descent" : "sequential_quadratic";
+}
+
 struct OptimizerOptions {
   Method method = Method::descent;
   std::string objective = "objective";  ///< the name of the function that is minimized

@@ -228,7 +228,11 @@ std::optional<StopReason> ShapeOptimizer<dim>::advance(OptimizationState<dim>& s
     if (trial.verdict == Verdict::accepted) return std::nullopt;
     all_failed = all_failed && trial.verdict == Verdict::failed;
     if (stop_requested()) return StopReason::stop_requested;
-    step = step_reduction * move->step;
+    // What redistancing or smoothing spoilt is tried again without them.
+    const bool was_reshaped = halvings == 0 && options_.method == Method::sequential_quadratic &&
+                              (is_due(options_.redistance_every, state.since_redistance, 0) ||
+                               is_due(options_.smooth_every, state.since_smoothing, 0));
+    step = was_reshaped ? move->radius : step_reduction * move->step;
     if (trial.verdict == Verdict::failed && halvings >= halvings_before_rest && !is_sound) {
       const Trial<dim> at_rest = attempt_at_rest(state, **proposals, *move, halvings + 1);
       if (was_interrupted(at_rest)) return StopReason::stop_requested;
@@ -280,14 +284,13 @@ Trial<dim> ShapeOptimizer<dim>::attempt(const OptimizationState<dim>& state, con
   trial.evolution_seconds = seconds_since(start);
   if (!trial.failure) evaluate(trial, std::move(cells), &state.evaluation);
   if (!trial.failure)
-    trial.failure = check_jump(objective_of(state.evaluation), objective_of(*trial.evaluation),
-                               move.objective_change);
+    trial.failure =
+        check_jump(objective_of(state.evaluation), objective_of(*trial.evaluation), move.objective_change);
   if (trial.failure) {
     name_target(state.measure, move.measure, state.target_measure, *trial.failure);
     return trial;
   }
-  trial.verdict =
-      proposals.accepts(move, *trial.evaluation) ? Verdict::accepted : Verdict::objective_rose;
+  trial.verdict = proposals.accepts(move, *trial.evaluation) ? Verdict::accepted : Verdict::objective_rose;
   if (trial.verdict == Verdict::accepted) add_changes(state.shape, trial);
   return trial;
 }
@@ -384,11 +387,11 @@ bool ShapeOptimizer<dim>::is_due(int every, int since, int halvings) const {
 
 template <int dim>
 OptimizationState<dim> ShapeOptimizer<dim>::successor(const OptimizationState<dim>& state,
-                                                      const Proposals<dim>& proposals,
-                                                      const Move<dim>& move,
+                                                      const Proposals<dim>& proposals, const Move<dim>& move,
                                                       const Trial<dim>& trial) const {
   const auto count = [&](int every, int since) {
-    return is_due(every, since, trial.halvings) ? 0 : since + 1;
+    const bool waits = options_.method == Method::descent && trial.halvings > 0;
+    return is_due(every, since, waits ? trial.halvings : 0) ? 0 : since + 1;
   };
   OptimizationState<dim> next{.shape = trial.shape,
                               .evaluation = *trial.evaluation,

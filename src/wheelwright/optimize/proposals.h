@@ -12,10 +12,10 @@ namespace wheelwright {
 template <int dim>
 struct Move {
   std::vector<double> velocity;
-  double distance;          ///< how far the fastest node travels [cells]
-  double step;              ///< how far the boundary travels, or the fastest node, as the method counts [cells]
-  double radius;            ///< the most that it was asked for [cells]
-  double measure;           ///< what the measure of the material is to become
+  double distance;  ///< how far the fastest node travels [cells]
+  double step;      ///< how far the boundary travels, or the fastest node, as the method counts [cells]
+  double radius;    ///< the most that it was asked for [cells]
+  double measure;   ///< what the measure of the material is to become
   double objective_change;  ///< foretold to first order
   double model_decrease;    ///< of the merit function, foretold by the method's model
   std::vector<double> multipliers = {};

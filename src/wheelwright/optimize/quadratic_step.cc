@@ -28,8 +28,8 @@ double violation(const LinearConstraint& c, double left) {
 }  // namespace
 
 // With the multipliers x, d = -(B + shift)^-1 (g + sum x_i sign_i a_i), and x minimizes the dual program
-// x.A (B + shift)^-1 A^T x / 2 + x.(A (B + shift)^-1 g - gap), A the rows sign_i a_i, for 0 <= x <= penalty, or
-// -penalty <= x <= penalty where there is an equality.
+// x.A (B + shift)^-1 A^T x / 2 + x.(A (B + shift)^-1 g - gap), A the rows sign_i a_i, for 0 <= x <= penalty,
+// or -penalty <= x <= penalty where there is an equality.
 QuadraticStep quadratic_step(const QuadraticModel& model, double shift) {
   const int n = model.products.rows(), m = static_cast<int>(model.constraints.size());
   const ShiftedHessian hessian(model.products, model.first_move, model.n_pairs, shift);
@@ -79,7 +79,7 @@ QuadraticStep quadratic_step(const QuadraticModel& model, double shift) {
 
 QuadraticStep trust_region_step(const QuadraticModel& model, double radius,
                                 const std::function<double(const std::vector<double>&)>& length) {
-  constexpr double near = 0.9, farthest_shift = 1e12;
+  constexpr double near = 0.97, farthest_shift = 1e12;
   constexpr int most_searches = 60;
   std::vector<double> gradient(model.products.rows(), 0.0);
   gradient[0] = 1;
@@ -90,28 +90,38 @@ QuadraticStep trust_region_step(const QuadraticModel& model, double radius,
     const auto whole = quadratic_step(model, 0);
     if (length(whole.coefficients) <= radius) return whole;
   }
-  // Search for the logarithm of the shift between one that is too small and one that is large enough.
-  double too_small = 0, enough = 0, shift = natural;
+  // 1 / length is nearly linear in the shift. The search is for its root between a shift that is too small
+  // and one that is large enough, by secants, or by geometric means where these leave the interval.
+  struct Point {
+    double shift, inverse;  ///< of the length, less that of the radius
+  };
+  std::optional<Point> too_small, enough;
   std::optional<QuadraticStep> best;
+  double shift = natural;
   for (int k = 0; k < most_searches; ++k) {
     const auto step = quadratic_step(model, shift);
     const double reached = length(step.coefficients);
+    const Point point{shift, 1 / reached - 1 / (std::sqrt(near) * radius)};
     if (reached <= radius) {
       best = step;
-      enough = shift;
-      if (reached >= near * radius) break;
+      enough = point;
+      if (reached >= near * radius || shift < natural / farthest_shift) break;
     } else {
       if (!best && shift >= farthest_shift * natural) return step;
-      too_small = shift;
+      too_small = point;
     }
-    if (too_small == 0)
-      shift = enough / 16;
-    else if (enough == 0)
-      shift = 16 * too_small;
-    else
-      shift = std::sqrt(too_small * enough);
-    if (too_small == 0 && shift < natural / farthest_shift) break;
-    if (too_small > 0 && enough > 0 && enough < (1 + 1e-9) * too_small) break;
+    if (!too_small) {
+      shift = enough->shift / 16;
+    } else if (!enough) {
+      shift = 16 * too_small->shift;
+    } else {
+      if (enough->shift < (1 + 1e-9) * too_small->shift) break;
+      shift = too_small->shift - too_small->inverse * (enough->shift - too_small->shift) /
+                                     (enough->inverse - too_small->inverse);
+      const double margin = 0.02 * (enough->shift - too_small->shift);
+      if (k % 3 == 2 || !(shift > too_small->shift + margin && shift < enough->shift - margin))
+        shift = std::sqrt(too_small->shift * enough->shift);
+    }
   }
   return *best;
 }

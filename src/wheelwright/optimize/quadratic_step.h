@@ -34,15 +34,15 @@ struct QuadraticStep {
   std::vector<double> coefficients;  ///< of d
   std::vector<double> multipliers;   ///< of the constraints; those of inequalities are >= 0
   double shift;
-  double slope;      ///< (g, d)
-  double decrease;   ///< of the model (without the shift) from d = 0; infinite penalties do not count
+  double slope;     ///< (g, d)
+  double decrease;  ///< of the model (without the shift) from d = 0; infinite penalties do not count
   std::vector<double> violations;  ///< of the linearized constraints after the step
-  bool is_feasible;  ///< false: the constraints with infinite penalties contradict each other
+  bool is_feasible;                ///< false: the constraints with infinite penalties contradict each other
 };
 
 QuadraticStep quadratic_step(const QuadraticModel& model, double shift);
 
-/// The step with the smallest shift for which length(d) <= radius; up to a tenth below it. Where constraints of
+/// The step with the smallest shift for which length(d) <= radius; up to 3 % below it. Where constraints of
 /// infinite penalty do not allow one, the shortest.
 QuadraticStep trust_region_step(const QuadraticModel& model, double radius,
                                 const std::function<double(const std::vector<double>&)>& length);

@@ -29,8 +29,8 @@ Nodal combination(const std::vector<double>& coefficients, const std::vector<Nod
 
 /// Of a nodal field at the points of the boundary.
 template <int dim>
-std::vector<double> boundary_values(const Lattice<dim>& lattice, const std::vector<SurfacePoint<dim>>& boundary,
-                                    const Nodal& field) {
+std::vector<double> boundary_values(const Lattice<dim>& lattice,
+                                    const std::vector<SurfacePoint<dim>>& boundary, const Nodal& field) {
   std::vector<double> values;
   for (const auto& point : boundary)
     values.push_back(interpolate(node_weights<dim>(lattice, point.cell, point.xi), field));
@@ -60,7 +60,8 @@ std::vector<Nodal> loads(const Lattice<dim>& lattice, const Evaluation<dim>& eva
       load_of(lattice, evaluation, evaluation.function(objective).gradient, 1, held),
       load_of(lattice, evaluation, std::vector<double>(evaluation.boundary.size(), 1.0), 1, held)};
   for (const auto& c : constraints)
-    result.push_back(load_of(lattice, evaluation, evaluation.functions[c.function].gradient, 1 / c.scale, held));
+    result.push_back(
+        load_of(lattice, evaluation, evaluation.functions[c.function].gradient, 1 / c.scale, held));
   return result;
 }
 
@@ -176,12 +177,15 @@ QuadraticStep SequentialQuadraticProposals<dim>::step_in(const Span& span, doubl
   for (const auto& velocity : span.velocities)
     at_boundary.push_back(boundary_values(state_.shape.lattice, state_.evaluation.boundary, velocity));
   const auto with = [&](double factor) {
-    for (size_t i = 0; i < penalties.size(); ++i) model.constraints[first + i].penalty = factor * penalties[i];
-    return trust_region_step(model, step * state_.shape.lattice.grid().resolution(),
-                             [&](const std::vector<double>& d) { return largest_magnitude(combination(d, at_boundary)); });
+    for (size_t i = 0; i < penalties.size(); ++i)
+      model.constraints[first + i].penalty = factor * penalties[i];
+    return trust_region_step(
+        model, step * state_.shape.lattice.grid().resolution(),
+        [&](const std::vector<double>& d) { return largest_magnitude(combination(d, at_boundary)); });
   };
   const auto total = [&](const QuadraticStep& s) {
-    return std::accumulate(s.violations.begin() + static_cast<std::ptrdiff_t>(first), s.violations.end(), 0.0);
+    return std::accumulate(s.violations.begin() + static_cast<std::ptrdiff_t>(first), s.violations.end(),
+                           0.0);
   };
   double now = 0;
   for (const auto& c : constraints_) now += c.violation();
@@ -229,8 +233,8 @@ double SequentialQuadraticProposals<dim>::next_step(const Move<dim>& move,
   const auto merit_of = [&](const Evaluation<dim>& e) {
     return merit(e.function(options_.objective).value, bound_constraints(e), move.penalties);
   };
-  const double quality = (merit_of(state_.evaluation) - merit_of(evaluation) + noise()) /
-                         (move.model_decrease + noise());
+  const double quality =
+      (merit_of(state_.evaluation) - merit_of(evaluation) + noise()) / (move.model_decrease + noise());
   double next = move.radius;
   if (!is_approaching(options_, state_) && quality < poor)
     next = shrink * move.step;

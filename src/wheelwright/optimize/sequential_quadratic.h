@@ -10,8 +10,8 @@ namespace wheelwright {
 /// merit function under the linearized measure and bounds of functions, where B is the L-BFGS matrix of the
 /// Lagrangian in the H1 inner product of velocities, and no point of the boundary moves farther than
 /// the step. The step shrinks
-/// where the model foretells badly, and grows where it foretells well. Bounds that cannot be met within a step
-/// are relaxed; their penalties grow until the step does about as much for them as one can.
+/// where the model foretells badly, and grows where it foretells well. Bounds that cannot be met within a
+/// step are relaxed; their penalties grow until the step does about as much for them as one can.
 template <int dim>
 class SequentialQuadraticProposals final : public Proposals<dim> {
  public:

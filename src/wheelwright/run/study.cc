@@ -182,7 +182,7 @@ OptimizerOptions optimizer_options(const Case& c) {
   options.iterations = c.optimizer.iterations;
   const bool descends = c.optimizer.method == OptimizerMethod::descent;
   options.method = descends ? Method::descent : Method::sequential_quadratic;
-  options.step = c.optimizer.step.value_or(descends ? 0.5 : 1);
+  options.step = c.optimizer.step.value_or(descends ? 0.5 : 1.5);
   options.max_halvings = c.optimizer.max_halvings;
   options.accepted_increase = c.optimizer.accepted_increase;
   options.tolerance = c.optimizer.tolerance;
