@@ -44,8 +44,10 @@ std::string contact_report(const Case& c) {
 }
 
 std::string size_report(const Case& c) {
-  return line("sector", fmt::format("{:.6g} deg, {} x {} cells", sector_angle(c) * 180 / std::numbers::pi,
-                                    c.grid.radial_cells, c.grid.angular_cells / c.wheel.sectors)) +
+  const std::string along_axle = c.wheel.dimension == 3 ? fmt::format(" x {}", c.grid.axial_cells) : "";
+  return line("sector",
+              fmt::format("{:.6g} deg, {} x {}{} cells", sector_angle(c) * 180 / std::numbers::pi,
+                          c.grid.radial_cells, c.grid.angular_cells / c.wheel.sectors, along_axle)) +
          line("unknowns", fmt::format("at most {}, {} of them per sector", dof_bound(c),
                                       dof_bound(c) / c.wheel.sectors)) +
          line("memory", fmt::format("about {:.0f} MB", std::ceil(estimated_memory(c) / 1e6)));
@@ -93,6 +95,13 @@ std::string coarse_contact_warning(const Case& c, double cells) {
 
 std::string derived_report(const Case& c) {
   return load_report(c) + material_report(c) + contact_report(c) + size_report(c);
+}
+
+std::string clearance_report(const cad::Clearances& clearances) {
+  const auto width = [](const char* name, const std::optional<cad::Clearance>& clearance) {
+    return clearance ? line(name, fmt::format("{:.4g} mm", clearance->width * 1e3)) : std::string();
+  };
+  return width("thinnest wall", clearances.wall) + width("narrowest gap", clearances.gap);
 }
 
 std::vector<std::string> warnings(const Case& c) {

@@ -11,11 +11,14 @@
 #include <numbers>
 #include <numeric>
 
+#include "wheelwright/case/coarse_grid.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/drawn_shapes.h"
 #include "wheelwright/case/hole_rings.h"
+#include "wheelwright/case/keys.h"
 #include "wheelwright/case/number_text.h"
 #include "wheelwright/case/shape_conflicts.h"
+#include "wheelwright/geometry/values_on.h"
 
 namespace wheelwright {
 
@@ -91,7 +94,7 @@ void check_radii(const Case& c, Conflicts& found) {
 void check_size(const Case& c, Conflicts& found) {
   constexpr long long most = 1'000'000'000;
   if (dof_bound(c) <= most) return;
-  found.push_back({{"grid.radial_cells", "grid.angular_cells", "grid.degree"},
+  found.push_back({{"grid.radial_cells", "grid.angular_cells", "grid.axial_cells", "grid.degree"},
                    fmt::format("the grid has up to {} unknowns", dof_bound(c)),
                    fmt::format("take a grid with at most {}", most)});
 }
@@ -222,6 +225,70 @@ void check_holes(const Case& c, Conflicts& found) {
   }
 }
 
+/// A saved shape takes the place of holes and drawn shapes, and must fit the ring and its sectors.
+void check_saved_shape(const Case& c, Conflicts& found) {
+  if (c.saved_shape.from.empty()) return;
+  const auto refuse_besides = [&](const std::string& key) {
+    found.push_back({{key, "shape.from"},
+                     "holes and shapes cannot be drawn over the shape of another run",
+                     "keep the shape of the other run, or what is drawn"});
+  };
+  if (!c.holes.rings.empty()) refuse_besides("holes.ring[1]");
+  if (!c.holes.circles.empty()) refuse_besides("holes.circle[1]");
+  for_each_shape_section([&](const auto& section) {
+    if (!section.of(c).empty()) refuse_besides(section.path() + "[1]");
+  });
+  if (c.wheel.dimension == 3)
+    found.push_back({{"shape.from", "wheel.dimension"},
+                     "a wheel in 3D cannot begin with the shape of another run yet",
+                     "draw its holes"});
+  const LevelSet<2>* shape = c.saved_shape.shape.contents.get();
+  if (!shape || c.wheel.inner_radius >= c.wheel.outer_radius) return;
+  const PolarGrid<2>& grid = shape->lattice.grid();
+  const std::string problem = misfit(grid, polar_grid<2>(c));
+  if (problem.empty()) return;
+  found.push_back({{"shape.from", "wheel.inner_radius", "wheel.outer_radius", "wheel.sectors"},
+                   fmt::format("the saved shape does not fit: {}", problem),
+                   fmt::format("give wheel.inner_radius = {}, wheel.outer_radius = {}, and for wheel.sectors "
+                               "one of {}",
+                               number_text(grid.inner_radius), number_text(grid.outer_radius),
+                               fmt::join(divisors(grid.n_sectors), ", "))});
+}
+
+/// The coarser grids must have whole cells in each sector, room between their wider bands, and rows of cells
+/// that make up the annulus.
+void check_coarse_levels(const Case& c, Conflicts& found) {
+  const int levels = c.optimizer.coarse_levels;
+  if (levels == 0 || c.wheel.inner_radius >= c.wheel.outer_radius ||
+      c.grid.angular_cells % c.wheel.sectors != 0)
+    return;
+  const auto refuse = [&](std::vector<std::string> keys, std::string problem, std::string remedy) {
+    keys.insert(keys.begin(), "optimizer.coarse_levels");
+    found.push_back({std::move(keys), std::move(problem), std::move(remedy)});
+  };
+  if (!can_be_halved(c, levels)) {
+    int possible = levels;
+    while (!can_be_halved(c, possible)) --possible;
+    refuse({"grid.radial_cells", "grid.angular_cells", "wheel.sectors"},
+           fmt::format("{} x {} cells of each sector cannot be doubled {} times", c.grid.radial_cells,
+                       c.grid.angular_cells / c.wheel.sectors, levels),
+           fmt::format("take {}, or multiples of {} cells along the radius and in each sector", possible,
+                       1 << levels));
+    return;
+  }
+  const Case coarse = on_coarser_grid(c, levels);
+  const double cell = (c.wheel.outer_radius - c.wheel.inner_radius) / coarse.grid.radial_cells;
+  if (wants_annulus(c) && std::abs(annulus_thickness(c) - tread_rows(coarse) * cell) > 1e-6 * cell)
+    refuse({"objective.annulus", "grid.radial_cells"},
+           fmt::format("the annulus of {:.6g} m is no whole number of the coarse cells of {:.6g} m",
+                       annulus_thickness(c), cell),
+           fmt::format("take fewer coarse_levels, or objective.annulus = {:.6g}", tread_rows(coarse) * cell));
+  if (coarse.optimizer.rim_band.value() + coarse.optimizer.tread_band.value() >=
+      c.wheel.outer_radius - c.wheel.inner_radius - cell)
+    refuse(with_ring_shape({}), "on the coarse grid the bands at rim and tread leave no room for holes",
+           "take fewer coarse_levels, or a finer grid");
+}
+
 void check_nitsche(const Case& c, Conflicts& found) {
   if (c.contact.method != ContactMethod::nitsche) return;
   const double least = least_gamma_0(c.contact.theta, c.material);
@@ -290,6 +357,28 @@ void check_incompressible(const Case& c, Conflicts& found) {
                      fmt::format("take at most {}: the difference to 1/2 does not matter", largest)});
 }
 
+/// What one dimension knows and the other does not.
+void check_dimension(const Case& c, Conflicts& found) {
+  if (c.wheel.dimension == 2) {
+    if (c.wheel.side_faces != SideFaces::free)
+      found.push_back({{"wheel.side_faces", "wheel.dimension"},
+                       "a wheel in 2D has no side faces; plane strain already holds them",
+                       "leave the key out, or take dimension = 3"});
+    return;
+  }
+  if (c.material.plane == Plane::stress)
+    found.push_back({{"material.plane", "wheel.dimension"},
+                     "plane stress is an assumption for two dimensions",
+                     "leave the key out: in 3D the side faces are free of stress"});
+  constexpr double largest = 0.4;
+  if (c.grid.degree == 1 && c.material.poissons_ratio > largest && !c.material.nearly_incompressible())
+    found.push_back({{"grid.degree", "material.poissons_ratio", "wheel.dimension"},
+                     fmt::format("elements of degree 1 lock: with poissons_ratio = {} the wheel would be "
+                                 "tens of percent too stiff, and its optimum another one",
+                                 c.material.poissons_ratio),
+                     fmt::format("take degree = 2, or poissons_ratio <= {}", largest)});
+}
+
 /// Friction must resist the force or torque that moves or turns the rim.
 void check_friction(const Case& c, Conflicts& found) {
   const Load& load = c.load;
@@ -332,7 +421,7 @@ void check_objective(const Case& c, Conflicts& found) {
                      "the weight of J_p1 is given twice",
                      "keep one of annulus_matches_dual and uniformity_annulus"});
   if (o.strain_energy > 0 || o.uniformity_annulus > 0 || o.uniformity_dual > 0 || o.uniformity_l2 > 0 ||
-      o.annulus_matches_dual)
+      o.annulus_matches_dual || o.minimize != Quantity::objective)
     return;
   found.push_back({{"objective.strain_energy"},
                    "all weights are 0: there is nothing to minimize",
@@ -380,6 +469,140 @@ void check_method(const Case& c, Conflicts& found) {
   if (c.volume.control == VolumeControl::paper) refuse("volume.control", "\"exact\"");
 }
 
+/// Finds least widths that the bands or the ring contradict.
+void check_feature_size(const Case& c, Conflicts& found) {
+  const double ring = c.wheel.outer_radius - c.wheel.inner_radius;
+  const auto check = [&](const char* key, std::optional<double> width) {
+    if (width && *width >= ring)
+      found.push_back({with_ring_shape({key}), fmt::format("the ring is only {:.6g} m thick", ring),
+                       "take less" + if_in_millimetres(*width, ring)});
+  };
+  check("optimizer.minimum_wall", c.optimizer.minimum_wall);
+  check("optimizer.minimum_gap", c.optimizer.minimum_gap);
+  const auto check_band_of = [&](const char* key, std::optional<double> band) {
+    if (band && c.optimizer.minimum_wall && *band < *c.optimizer.minimum_wall)
+      found.push_back({{"optimizer.minimum_wall", key},
+                       fmt::format("the wall between a hole and this edge may be {:.6g} m", *band),
+                       "take a band at least as thick as the wall, or leave it out"});
+  };
+  check_band_of("optimizer.rim_band", c.optimizer.rim_band);
+  check_band_of("optimizer.tread_band", c.optimizer.tread_band);
+}
+
+/// What a quantity needs of the case to mean something.
+struct Need {
+  std::vector<Quantity> quantities;
+  const char* key;
+  bool is_given;
+  const char* problem;
+};
+
+std::vector<Need> unmet_needs(const Case& c, Quantity quantity) {
+  std::vector<Need> needs{
+      {{Quantity::mass}, "material.density", c.material.density.has_value(), "the mass needs a density"},
+      {{Quantity::force_variation, Quantity::force_variation_harmonic},
+       "load.travel",
+       c.load.travel.has_value(),
+       "the force varies at a held travel; under a load it is that load"},
+      {{Quantity::run_out, Quantity::run_out_harmonic},
+       "load.travel",
+       !c.load.travel,
+       "the travel varies under a load; here it is held"},
+      {{Quantity::tangential_stiffness},
+       "load.horizontal_force",
+       c.load.horizontal_force != 0,
+       "without that force the rim does not move along the ground"},
+      {{Quantity::torsional_stiffness},
+       "load.torque",
+       c.load.torque != 0,
+       "without a torque the rim does not turn"}};
+  std::erase_if(needs, [&](const Need& need) {
+    return need.is_given || std::ranges::find(need.quantities, quantity) == need.quantities.end();
+  });
+  return needs;
+}
+
+/// What the optimizer has no derivative of, with what to do; empty for the others.
+std::string_view without_derivative(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::objective:
+      return "bound one of its terms, or another quantity";
+    case Quantity::pressure_spread:
+      return "take uniformity_dual, run_out or peak_pressure";
+    case Quantity::minimum_wall:
+      return "give optimizer.minimum_wall, which every shape keeps";
+    case Quantity::minimum_gap:
+      return "give optimizer.minimum_gap, which every shape keeps";
+    default:
+      return "";
+  }
+}
+
+/// What is minimized in place of the weighted sum.
+void check_minimized(const Case& c, Conflicts& found) {
+  const Objective& o = c.objective;
+  if (o.minimize == Quantity::objective) {
+    if (o.over != OverPositions::mean)
+      found.push_back({{"objective.over", "objective.minimize"},
+                       "the weighted sum is over all load positions",
+                       "give objective.minimize too, or omit the key"});
+    return;
+  }
+  if (c.optimizer.method == OptimizerMethod::descent)
+    found.push_back({{"objective.minimize", "optimizer.method"},
+                     "steepest descent minimizes the weighted sum alone",
+                     "take method = \"sequential_quadratic\", or omit the key"});
+  if (const auto remedy = without_derivative(o.minimize); !remedy.empty())
+    found.push_back({{"objective.minimize"}, "the optimizer has no derivative of it", std::string(remedy)});
+  for (const Need& need : unmet_needs(c, o.minimize))
+    found.push_back({{"objective.minimize", need.key}, need.problem, "change that key, or minimize another"});
+  if ((o.minimize == Quantity::volume_fraction || o.minimize == Quantity::mass) && c.constraints.empty())
+    found.push_back({{"objective.minimize"},
+                     "nothing keeps the wheel from vanishing",
+                     "add a [[constraint]], for example on stiffness"});
+}
+
+/// Bounds that no wheel can keep, or that the run cannot see.
+void check_constraints(const Case& c, Conflicts& found) {
+  for (std::size_t i = 0; i < c.constraints.size(); ++i) {
+    const Constraint& constraint = c.constraints[i];
+    const auto key = [&](std::string_view name) { return fmt::format("constraint[{}].{}", i + 1, name); };
+    const auto refuse = [&](std::string_view name, std::string problem, std::string remedy) {
+      found.push_back({{key(name)}, std::move(problem), std::move(remedy)});
+    };
+    if (c.optimizer.method == OptimizerMethod::descent)
+      found.push_back({{key("quantity"), "optimizer.method"},
+                       "steepest descent knows no bounds",
+                       "take method = \"sequential_quadratic\""});
+    if (!constraint.at_least && !constraint.at_most && !constraint.equals)
+      refuse("quantity", "no bound is given", "add at_least, at_most or equals");
+    if (constraint.equals && (constraint.at_least || constraint.at_most))
+      refuse("equals", "a value and bounds are given", "keep one of them");
+    if (constraint.at_least && constraint.at_most && *constraint.at_least >= *constraint.at_most)
+      refuse("at_least", fmt::format("must be less than at_most = {:.6g}", *constraint.at_most),
+             "exchange them, or take equals");
+    if (constraint.over == OverPositions::worst &&
+        (constraint.equals || (constraint.at_least && constraint.at_most)))
+      refuse("over", "which position is the worst depends on the side of the bound",
+             "give one bound, or over = \"each\"");
+    if (const auto remedy = without_derivative(constraint.quantity); !remedy.empty())
+      refuse("quantity", "the optimizer has no derivative of it", std::string(remedy));
+    for (const Need& need : unmet_needs(c, constraint.quantity))
+      found.push_back(
+          {{key("quantity"), need.key}, need.problem, "change that key, or bound another quantity"});
+    for (const auto& [name, bound] : {std::pair{"at_least", constraint.at_least},
+                                      {"at_most", constraint.at_most},
+                                      {"equals", constraint.equals}})
+      if (constraint.quantity == Quantity::volume_fraction && bound && *bound >= 1 &&
+          std::string_view(name) != "at_most")
+        refuse(name, "more than the whole ring", "take a fraction below 1");
+  }
+  if (!holds_volume(c) && c.volume.target)
+    found.push_back({{"volume.target"},
+                     "the volume is free, for a bound or what is minimized is about it",
+                     "omit the key, or bound volume_fraction instead"});
+}
+
 /// Finds expected quantities that the run does not compute, and shapes that it does not reach.
 void check_expectations(const Case& c, Conflicts& found) {
   const Objective& o = c.objective;
@@ -396,6 +619,9 @@ void check_expectations(const Case& c, Conflicts& found) {
       found.push_back({{key("quantity"), fmt::format("objective.{}", name(expectation.quantity))},
                        "it has no weight in the objective, so the run does not compute it",
                        "give it a weight, however small, or expect another quantity"});
+    for (const Need& need : unmet_needs(c, expectation.quantity))
+      found.push_back(
+          {{key("quantity"), need.key}, need.problem, "change that key, or expect another quantity"});
     if (expectation.iteration && *expectation.iteration > c.optimizer.iterations)
       found.push_back({{key("iteration"), "optimizer.iterations"},
                        fmt::format("the run ends at shape {} at the latest", c.optimizer.iterations),
@@ -415,17 +641,23 @@ std::vector<Conflict> conflicts(const Case& c) {
   check_counts(c, shapes, found);
   check_holes(c, found);
   check_nested_holes(c, found);
+  check_saved_shape(c, found);
+  check_coarse_levels(c, found);
   const Conflicts of_shapes = shape_conflicts(c, shapes);
   found.insert(found.end(), of_shapes.begin(), of_shapes.end());
   check_nitsche(c, found);
   check_load(c, found);
   check_contact_points(c, found);
   check_incompressible(c, found);
+  check_dimension(c, found);
   check_friction(c, found);
   check_annulus(c, found);
   check_objective(c, found);
   check_volume(c, found);
   check_method(c, found);
+  check_feature_size(c, found);
+  check_minimized(c, found);
+  check_constraints(c, found);
   check_expectations(c, found);
   return found;
 }

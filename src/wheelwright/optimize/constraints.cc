@@ -1,7 +1,10 @@
 #include "wheelwright/optimize/constraints.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace wheelwright {
 
@@ -34,6 +37,33 @@ double largest_violation(const std::vector<BoundConstraint>& constraints) {
   return largest;
 }
 
+std::string BoundState::text() const {
+  const char* words = relation == '<' ? "at most" : relation == '>' ? "at least" : "equal to";
+  return fmt::format("{} = {:.6g}, {} {} {:.6g}", name, value, is_kept() ? "is" : "is not", words, bound);
+}
+
+template <int dim>
+std::vector<BoundState> bound_states(const Evaluation<dim>& evaluation,
+                                     const std::vector<double>& multipliers) {
+  const auto constraints = bound_constraints(evaluation);
+  const bool is_known = multipliers.size() == constraints.size();
+  std::vector<BoundState> states;
+  for (size_t i = 0; i < constraints.size(); ++i) {
+    const BoundConstraint& c = constraints[i];
+    const FunctionValue& f = evaluation.functions[c.function];
+    states.push_back({.name = f.name,
+                      .value = f.value,
+                      .bound = c.sign > 0 ? f.bounds.upper : f.bounds.lower,
+                      .relation = c.is_equality ? '=' : c.sign > 0 ? '<' : '>',
+                      .multiplier = is_known ? multipliers[i] / c.scale
+                                             : std::numeric_limits<double>::quiet_NaN(),
+                      .violation = c.violation()});
+  }
+  return states;
+}
+
+template std::vector<BoundState> bound_states(const Evaluation<2>&, const std::vector<double>&);
+template std::vector<BoundState> bound_states(const Evaluation<3>&, const std::vector<double>&);
 template std::vector<BoundConstraint> bound_constraints(const Evaluation<2>&);
 template std::vector<BoundConstraint> bound_constraints(const Evaluation<3>&);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "wheelwright/sensitivity/evaluation.h"
@@ -27,6 +28,29 @@ std::vector<BoundConstraint> bound_constraints(const Evaluation<dim>& evaluation
 /// The exact merit function: objective + sum penalty * violation.
 double merit(double objective, const std::vector<BoundConstraint>& constraints,
              const std::vector<double>& penalties);
+
+/// A bound that is violated by less counts as kept, relative.
+inline constexpr double feasible_violation = 1e-3;
+
+/// A bound of a function, for people and files.
+struct BoundState {
+  std::string name;   ///< of the function
+  double value;       ///< of the function
+  double bound;
+  char relation;      ///< '<', '>' or '=': what the value must be to the bound
+  double multiplier;  ///< by how much the objective would fall per unit by which the bound is relaxed; NaN
+                      ///< before the first step
+  double violation;   ///< relative to the bound
+
+  bool is_kept() const { return violation <= feasible_violation; }
+  /// One line: name, value, relation and bound.
+  std::string text() const;
+};
+
+/// All bounds of an evaluation, with the multipliers of the last step, which may be missing.
+template <int dim>
+std::vector<BoundState> bound_states(const Evaluation<dim>& evaluation,
+                                     const std::vector<double>& multipliers);
 
 /// The largest violation; 0 without constraints.
 double largest_violation(const std::vector<BoundConstraint>& constraints);

@@ -17,6 +17,7 @@ template <int dim>
 Expected<std::vector<double>> descent_velocity(const Evolver<dim>& evolver, const OptimizerOptions& options,
                                                const OptimizationState<dim>& state) {
   auto gradient = state.evaluation.gradient(options.objective);
+  if (options.measure_control == MeasureControl::free) return evolver.velocity(gradient);
   if (options.measure_control == MeasureControl::exact) return evolver.measure_preserving_velocity(gradient);
   const double whole = sector_measure<dim>(state.shape.lattice.grid());
   const double multiplier =

@@ -8,14 +8,14 @@
 #include "wheelwright/base/expected.h"
 #include "wheelwright/geometry/topology.h"
 #include "wheelwright/optimize/curvature_memory.h"
-#include "wheelwright/sensitivity/evaluation.h"
-#include "wheelwright/state/state.h"
+#include "wheelwright/sensitivity/evaluate.h"
 
 namespace wheelwright {
 
 /// How the measure of the material is held.
 enum class MeasureControl {
   exact,         ///< measure-preserving velocity, then a shift of the level set to the target
+  free,          ///< it moves with the boundary
   proportional,  ///< the paper's multiplier lambda_k and fixed step: every shape that can be evaluated, and
                  ///< whose objective does not jump, is accepted
 };

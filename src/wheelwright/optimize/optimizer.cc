@@ -10,6 +10,7 @@
 #include "wheelwright/evolution/volume.h"
 #include "wheelwright/geometry/finite.h"
 #include "wheelwright/geometry/place.h"
+#include "wheelwright/optimize/constraints.h"
 
 namespace wheelwright {
 
@@ -49,12 +50,12 @@ double largest_magnitude(std::span<const double> values) {
   return largest;
 }
 
-bool is_converged(const OptimizerOptions& options, const std::vector<double>& history) {
+bool is_converged(const OptimizerOptions& options, const std::vector<double>& history, bool has_bounds) {
   if (options.tolerance <= 0 || history.size() <= convergence_window) return false;
   const double before = history[history.size() - 1 - convergence_window];
   double fall = before - history.back();
-  // The paper's rule lets the measure drift, and the objective rise with it.
-  if (options.measure_control == MeasureControl::proportional) fall = std::abs(fall);
+  // The paper's rule lets the measure drift, and the objective rise with it; so do bounds that are violated.
+  if (options.measure_control == MeasureControl::proportional || has_bounds) fall = std::abs(fall);
   return fall < options.tolerance * std::abs(before);
 }
 
@@ -145,7 +146,10 @@ template <int dim>
 std::optional<StopReason> reason_to_stop(const OptimizerOptions& options,
                                          const OptimizationState<dim>& state) {
   if (state.iteration >= options.iterations) return StopReason::iterations;
-  if (is_converged(options, state.history)) return StopReason::converged;
+  const auto bounds = bound_constraints(state.evaluation);
+  if (largest_violation(bounds) <= feasible_violation &&
+      is_converged(options, state.history, !bounds.empty()))
+    return StopReason::converged;
   return {};
 }
 

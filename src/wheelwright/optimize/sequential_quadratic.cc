@@ -249,7 +249,8 @@ StepMemory SequentialQuadraticProposals<dim>::remembered(const Move<dim>& move,
                                                          const Evaluation<dim>& evaluation) const {
   StepMemory memory = state_.memory;
   memory.penalties = move.penalties;
-  memory.multipliers = move.multipliers;
+  memory.multipliers.assign(move.multipliers.end() - static_cast<std::ptrdiff_t>(constraints_.size()),
+                            move.multipliers.end());
   const double unit = 1 / largest_magnitude(move.velocity);
   CurvaturePair pair{move.velocity, Nodal(move.velocity.size(), 0.0)};
   for (double& v : pair.move) v *= unit;

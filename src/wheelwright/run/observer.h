@@ -46,6 +46,11 @@ struct CaseChanged {
   std::string text;  ///< what changed
 };
 
+/// The descent proceeds on another grid (RunView::study); the current shape, moved there, is evaluated next.
+struct GridChanged {
+  std::string text;  ///< the grid
+};
+
 /// The run ended, by itself or by request.
 template <int dim>
 struct RunEnded {
@@ -58,8 +63,8 @@ struct RunEnded {
 };
 
 template <int dim>
-using Event =
-    std::variant<RunStarted, TrialDone<dim>, SaveRequested<dim>, CommandDone, CaseChanged, RunEnded<dim>>;
+using Event = std::variant<RunStarted, TrialDone<dim>, SaveRequested<dim>, CommandDone, CaseChanged,
+                           GridChanged, RunEnded<dim>>;
 
 template <int dim>
 class Observer;
