@@ -752,7 +752,7 @@ const Section<Optimizer>& optimizer_section() {
            .field = IntegerField<Optimizer>{&Optimizer::coarse_levels, between(0, 4)},
            .meaning =
                "the descent begins on a grid whose cells are doubled so many times along each axis, and "
-               "moves on to the next finer one when J has fallen by less than 1e-3 over 10 shapes, until "
+               "moves on to the next finer one when J has fallen by less than 0.5 % over 10 shapes, until "
                "it is on the case's own grid; 0: on the case's own grid from the beginning"},
           {.name = "velocity",
            .unit = "",
