@@ -24,6 +24,22 @@ int report_findings(const std::vector<Finding>& findings) {
   return unmet > 0 ? exit_unexpected : exit_done;
 }
 
+/// Tells which bounds the last shape keeps.
+template <int dim>
+int report_bounds(const OptimizationState<dim>& state) {
+  const auto bounds = bound_states(state.evaluation, state.memory.multipliers);
+  int code = exit_done;
+  for (const BoundState& bound : bounds) {
+    if (bound.is_kept()) {
+      print("bound      {}\n", bound.text());
+      continue;
+    }
+    tell("wheelwright: bound {}\n", bound.text());
+    code = exit_infeasible;
+  }
+  return code;
+}
+
 /// One overload for each reason not to begin.
 template <int dim>
 struct NotBegunReport {
@@ -67,7 +83,9 @@ struct NotBegunReport {
     print("{}: finished: {} shapes ({})\n", folder.string(), end.state.iteration, to_string(*end.finished));
     if (end.finished == StopReason::iterations)
       print("to go further: wheelwright resume {} --iterations N\n", folder.string());
-    return report_findings(finished.findings);
+    const int bounds = report_bounds(end.state);
+    const int expected = report_findings(finished.findings);
+    return bounds == exit_done ? expected : bounds;
   }
   int operator()(const Failure& failure) const {
     tell("wheelwright: {}: {}\n", to_string(failure.reason), failure.detail);
@@ -177,7 +195,8 @@ int report_result(const RunResult<dim>& result, const fs::path& folder, const Si
   if (result.reason == StopReason::failed_start) return report_failure(result, folder);
   print_summary(result, folder);
   if (result.reason == StopReason::gave_up) return report_failure(result, folder);
-  return report_findings(result.findings);
+  const int bounds = report_bounds(*result.state), expected = report_findings(result.findings);
+  return bounds == exit_done ? expected : bounds;
 }
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                    \
