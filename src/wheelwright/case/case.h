@@ -260,7 +260,16 @@ enum class MeanStress {
 };
 
 /// Weights of the functionals in J, and parameters of the functionals.
+/// Which load positions a bound, or what is minimized, is about.
+enum class OverPositions {
+  mean,   ///< their mean
+  worst,  ///< the one with the worst value
+  each,   ///< every one
+};
+
 struct Objective {
+  Quantity minimize = Quantity::objective;  ///< objective: the sum with the weights below
+  OverPositions over = OverPositions::mean;
   double strain_energy = 1;
   double uniformity_annulus = 0;               ///< alpha_1 of J_p1
   double uniformity_dual = 0;                  ///< alpha_2 of J_p2
@@ -271,6 +280,14 @@ struct Objective {
   MeanStress mean = MeanStress::exact;
   DualNorm dual_norm = DualNorm::elasticity;  ///< of J_p2
   bool operator==(const Objective&) const = default;
+};
+
+/// Bounds of a quantity.
+struct Constraint {
+  Quantity quantity = Quantity::objective;
+  std::optional<double> at_least, at_most, equals;
+  OverPositions over = OverPositions::mean;
+  bool operator==(const Constraint&) const = default;
 };
 
 enum class VolumeControl {
@@ -287,12 +304,15 @@ struct Volume {
 
 enum class VelocityKind { h1, harmonic };
 
+enum class OptimizerMethod { sequential_quadratic, descent };
+
 struct Optimizer {
+  OptimizerMethod method = OptimizerMethod::sequential_quadratic;
   int iterations = 100;
   int coarse_levels = 0;  ///< on how many coarser grids the descent begins, one after the other
   VelocityKind velocity = VelocityKind::h1;
   double velocity_length = 2;  ///< [cells]
-  double step = 0.5;           ///< maximum move of the boundary per shape [cells]
+  std::optional<double> step;  ///< maximum move of the boundary per shape [cells]; absent: by the method
   int max_halvings = 6;
   double accepted_increase = 1e-4;
   double tolerance = 1e-5;
@@ -335,6 +355,7 @@ struct Case {
   Grid grid;
   GhostPenalty ghost_penalty;
   Objective objective;
+  std::vector<Constraint> constraints;
   Volume volume;
   Optimizer optimizer;
   Output output;

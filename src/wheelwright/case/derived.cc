@@ -84,12 +84,30 @@ double radial_cell(const Case& c) {
 }
 }  // namespace
 
+bool holds_volume(const Case& c) {
+  const auto is_free = [](Quantity q) { return q == Quantity::volume_fraction || q == Quantity::mass; };
+  return !is_free(c.objective.minimize) &&
+         std::ranges::none_of(c.constraints, is_free, &Constraint::quantity);
+}
+
+namespace {
+
+/// Whether a quantity is minimized or bounded, other than by its weight in the sum.
+bool is_optimized(const Case& c, Quantity quantity) {
+  return c.objective.minimize == quantity ||
+         std::ranges::find(c.constraints, quantity, &Constraint::quantity) != c.constraints.end();
+}
+
+}  // namespace
+
 bool wants_annulus(const Case& c) {
-  return c.objective.uniformity_annulus > 0 || c.objective.annulus_matches_dual.has_value();
+  return c.objective.uniformity_annulus > 0 || c.objective.annulus_matches_dual.has_value() ||
+         is_optimized(c, Quantity::uniformity_annulus);
 }
 
 bool wants_uniformity(const Case& c) {
-  return wants_annulus(c) || c.objective.uniformity_dual > 0 || c.objective.uniformity_l2 > 0;
+  return wants_annulus(c) || c.objective.uniformity_dual > 0 || c.objective.uniformity_l2 > 0 ||
+         is_optimized(c, Quantity::uniformity_dual) || is_optimized(c, Quantity::uniformity_l2);
 }
 
 double annulus_thickness(const Case& c) { return c.objective.annulus.value_or(radial_cell(c)); }

@@ -675,6 +675,16 @@ const Section<Objective>& objective_section() {
           "minimized",
       .in = [](Case& c) -> Objective& { return c.objective; },
       .keys = {
+          {.name = "minimize",
+           .unit = "",
+           .field = choice<&Objective::minimize>({quantity_names.begin(), quantity_names.end()}),
+           .meaning = "what is minimized; objective: the weighted sum; any other quantity takes its place, "
+                      "and the weights then only say which functionals history.csv has"},
+          {.name = "over",
+           .unit = "",
+           .field = choice<&Objective::over>({"mean", "worst"}),
+           .meaning = "which load positions `minimize` is about: their mean, or the one with the greatest "
+                      "value; not for the weighted sum"},
           {.name = "strain_energy",
            .unit = "",
            .field = NumberField<Objective>{&Objective::strain_energy, between(0, 1e9)},
@@ -723,6 +733,42 @@ const Section<Objective>& objective_section() {
   return section;
 }
 
+const SectionArray<Constraint>& constraint_sections() {
+  static const SectionArray<Constraint> sections{
+      .parent = "",
+      .name = "constraint",
+      .meaning =
+          "a bound that the optimized wheel must keep, with method = \"sequential_quadratic\"; a run that does "
+          "not keep it ends with exit code 9; give any number of them, ten bounds in all; the volume is free "
+          "when a bound, or what is minimized, is about volume_fraction or mass",
+      .in = [](Case& c) -> std::vector<Constraint>& { return c.constraints; },
+      .example = {.quantity = Quantity::strain_energy, .at_least = {}, .at_most = 5, .equals = {}},
+      .keys = {{.name = "quantity",
+                .unit = "",
+                .field = choice<&Constraint::quantity>({quantity_names.begin(), quantity_names.end()}),
+                .meaning = "what is bounded, by the names of history.csv and [[expect]]",
+                .presence = Presence::required},
+               {.name = "at_least",
+                .unit = "",
+                .field = OptionalNumberField<Constraint>{&Constraint::at_least, above(0, 1e15), "no such bound"},
+                .meaning = "lower bound, in SI units; of forces, energies, masses and stiffnesses in 2D per metre "
+                           "of width, as in history.csv"},
+               {.name = "at_most",
+                .unit = "",
+                .field = OptionalNumberField<Constraint>{&Constraint::at_most, above(0, 1e15), "no such bound"},
+                .meaning = "upper bound"},
+               {.name = "equals",
+                .unit = "",
+                .field = OptionalNumberField<Constraint>{&Constraint::equals, above(0, 1e15), "no such bound"},
+                .meaning = "the value to keep, in place of bounds"},
+               {.name = "over",
+                .unit = "",
+                .field = choice<&Constraint::over>({"mean", "worst", "each"}),
+                .meaning = "which load positions it is about: their mean, the worst one, or each one with a "
+                           "bound of its own"}}};
+  return sections;
+}
+
 const Section<Volume>& volume_section() {
   static const Section<Volume> section{
       .name = "volume",
@@ -751,9 +797,15 @@ const Section<Volume>& volume_section() {
 const Section<Optimizer>& optimizer_section() {
   static const Section<Optimizer> section{
       .name = "optimizer",
-      .meaning = "the descent; the unit \"cell\" is the shortest edge of a grid cell at mid-ring",
+      .meaning = "the search for a better shape; the unit \"cell\" is the shortest edge of a grid cell at "
+                 "mid-ring",
       .in = [](Case& c) -> Optimizer& { return c.optimizer; },
       .keys = {
+          {.name = "method",
+           .unit = "",
+           .field = choice<&Optimizer::method>({"sequential_quadratic", "descent"}),
+           .meaning = "sequential_quadratic: steps of a quadratic model that learns the curvature from the "
+                      "shapes before; descent: along the gradient"},
           {.name = "iterations",
            .unit = "",
            .field = IntegerField<Optimizer>{&Optimizer::iterations, between(0, 1000000)},
@@ -775,7 +827,8 @@ const Section<Optimizer>& optimizer_section() {
            .meaning = "length over which h1 smooths the velocity"},
           {.name = "step",
            .unit = "cells",
-           .field = NumberField<Optimizer>{&Optimizer::step, above(0, 10)},
+           .field = OptionalNumberField<Optimizer>{&Optimizer::step, above(0, 10),
+                                                   "1.5; with method = \"descent\" 0.5"},
            .meaning = "maximum move of the boundary from one shape to the next"},
           {.name = "max_halvings",
            .unit = "",

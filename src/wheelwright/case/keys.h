@@ -193,6 +193,7 @@ const SectionArray<PictureShape>& picture_shape_sections();
 const Section<Grid>& grid_section();
 const Section<GhostPenalty>& ghost_penalty_section();
 const Section<Objective>& objective_section();
+const SectionArray<Constraint>& constraint_sections();
 const Section<Volume>& volume_section();
 const Section<Optimizer>& optimizer_section();
 const Section<Output>& output_section();
@@ -228,6 +229,7 @@ void for_each_section(Visitor&& visit) {
   visit(grid_section());
   visit(ghost_penalty_section());
   visit(objective_section());
+  visit(constraint_sections());
   visit(volume_section());
   visit(optimizer_section());
   visit(output_section());

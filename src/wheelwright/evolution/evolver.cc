@@ -41,6 +41,7 @@ Evolver<dim>::Evolver(const Lattice<dim>& lattice, const EvolutionOptions& optio
     : lattice_(lattice),
       bands_(lattice, options.bands),
       extension_(make_velocity_extension<dim>(lattice, bands_, options.velocity)),
+      velocities_(lattice, bands_.nodes(), options.velocity.length * lattice.grid().resolution()),
       features_(options.features),
       cut_points_(options.cut_points) {
   if (options.smoothing > 0)
@@ -69,6 +70,33 @@ Expected<std::vector<double>> Evolver<dim>::measure_preserving_velocity(
   return movable_velocity(gradient, [&](std::span<const SurfaceSample<dim>> samples) {
     return wheelwright::measure_preserving_velocity<dim>(lattice_, *extension_, samples);
   });
+}
+
+template <int dim>
+std::vector<bool> Evolver<dim>::held_by_bands(std::span<const SurfacePoint<dim>> boundary,
+                                              std::span<const double> velocity) const {
+  std::vector<bool> held;
+  for (const auto& point : boundary)
+    held.push_back(bands_.touches(point) &&
+                   interpolate(node_weights<dim>(lattice_, point.cell, point.xi), velocity) < 0);
+  return held;
+}
+
+/// Of the nodes around a point those decide its velocity that are on its side of the edge: it lies up to a
+/// tenth of a cell off.
+template <int dim>
+void Evolver<dim>::hold(std::span<const SurfacePoint<dim>> boundary, const std::vector<bool>& held,
+                        std::vector<double>& velocity) const {
+  constexpr double share = 0.3;
+  for (std::size_t q = 0; q < boundary.size(); ++q) {
+    if (!held[q]) continue;
+    const auto at = node_weights<dim>(lattice_, boundary[q].cell, boundary[q].xi);
+    double largest = 0;
+    for (std::size_t a = 0; a < at.node.size(); ++a)
+      if (!bands_.nodes()[at.node[a]]) largest = std::max(largest, at.weight[a]);
+    for (std::size_t a = 0; a < at.node.size(); ++a)
+      if (at.weight[a] > share * largest) velocity[at.node[a]] = std::min(velocity[at.node[a]], 0.0);
+  }
 }
 
 /// Post-processes the result of a stage: applies the sub-cell filter, restores the mirror symmetries that the

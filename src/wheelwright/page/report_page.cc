@@ -9,7 +9,6 @@
 #include "wheelwright/geometry/cell_map.h"
 #include "wheelwright/geometry/contour.h"
 #include "wheelwright/page/assets.h"
-#include "wheelwright/page/base64.h"
 #include "wheelwright/page/html_template.h"
 #include "wheelwright/page/report_run.h"
 #include "wheelwright/report/svg.h"

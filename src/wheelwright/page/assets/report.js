@@ -288,7 +288,7 @@
     const draw = () => {
       const pixels = Math.min(1200, Math.round(canvas.clientWidth * (window.devicePixelRatio || 1))) || 600;
       renderer.setSize(pixels, pixels, false);
-      const half = 1.15 / view.size;
+      const half = 1.2 / view.size;
       Object.assign(camera, { left: -half, right: half, top: half, bottom: -half });
       camera.updateProjectionMatrix();
       turned.rotation.set(view.pitch, view.yaw, 0);
