@@ -109,9 +109,8 @@ def holes_108(r: Runs, album: Album) -> str:
         "every hole, so this is the smallest possible sector; 8 positions per sector are 288 per turn. With 12 sectors "
         "of three holes in each ring, neighbouring holes could become different, but they start equal, and 8 positions "
         "per sector would be three times as coarse.\n",
-        "The paper's third picture is a shape in three dimensions, which is not reproduced: the commands and the case "
-        "file are in 2D, plane strain, and cannot run a shape that varies along the axle. The solver itself is tested "
-        "in 3D as a library, on coarse grids.\n",
+        "The paper's third picture is a shape in three dimensions. Cases in 3D run (`wheel.dimension = 3`), but this "
+        "one is not part of the reproduction yet.\n",
         claims(
             ("J_e alone finds a stiffer design (2D)", *_stiffer(ours, rules)),
             ("a shape in 3D", "not computed", "not examined"),
