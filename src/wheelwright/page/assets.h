@@ -2,10 +2,11 @@
 
 #include <string_view>
 
-/// Files of the page that are compiled into the library: those of page/assets, and a library for charts that
+/// Files of the pages that are compiled into the library: those of page/assets, and a library for charts that
 /// the system has.
 namespace wheelwright::assets {
 
-extern const std::string_view report_html, report_css, report_js, chart_js;
+extern const std::string_view report_html, report_css, report_js, parts_js, watch_html, watch_css, watch_js,
+    chart_js;
 
 }  // namespace wheelwright::assets

@@ -236,6 +236,7 @@ std::string report_page(const std::vector<ReportRun>& runs) {
                  {"@STYLE@", std::string(assets::report_css)},
                  {"@DATA@", in_script(data)},
                  {"@CHART_LIBRARY@", std::string(assets::chart_js)},
+                 {"@PARTS@", std::string(assets::parts_js)},
                  {"@SCRIPT@", std::string(assets::report_js)}});
 }
 

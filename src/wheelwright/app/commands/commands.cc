@@ -8,6 +8,7 @@ namespace wheelwright {
   apply(resume);                    \
   apply(analyze);                   \
   apply(compare);                   \
+  apply(watch);                     \
   apply(report);                    \
   apply(verify);                    \
   apply(export_);                   \
