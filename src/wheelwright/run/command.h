@@ -141,7 +141,7 @@ struct Custom {
 
 /// The commands that a run obeys. To add one: a struct with obey() as above, in a file of its own, and its
 /// name in this list.
-using Command = std::variant<Save, Stop, Pause, Continue, Step, NewWeights, NewLoad, NewVolume, Paint, MoveHole,
-                             FillHole, Reset, Undo, Custom>;
+using Command = std::variant<Save, Stop, Pause, Continue, Step, NewWeights, NewLoad, NewVolume, Paint,
+                             MoveHole, FillHole, Reset, Undo, Custom>;
 
 }  // namespace wheelwright

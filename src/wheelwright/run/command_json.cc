@@ -15,13 +15,12 @@ using Pair = std::array<double, 2>;
 // for all of them, to write and to read.
 
 template <class Struct, class Visit>
-void fields(Struct&, Visit&&)
-  requires std::is_empty_v<Struct>
-{}
+void fields(Struct&, Visit&&) requires std::is_empty_v<Struct> {}
 
 template <class Visit>
-void fields(auto& c, Visit&& visit)
-  requires requires { c.uniformity_l2; }
+void fields(auto& c, Visit&& visit) requires requires {
+  c.uniformity_l2;
+}
 {
   visit("strain_energy", c.strain_energy);
   visit("uniformity_annulus", c.uniformity_annulus);
@@ -30,8 +29,9 @@ void fields(auto& c, Visit&& visit)
 }
 
 template <class Visit>
-void fields(auto& c, Visit&& visit)
-  requires requires { c.load.force; }
+void fields(auto& c, Visit&& visit) requires requires {
+  c.load.force;
+}
 {
   visit("force_N", c.load.force);
   visit("travel_m", c.load.travel);
@@ -43,15 +43,15 @@ void fields(auto& c, Visit&& visit)
 }
 
 template <class Visit>
-void fields(auto& c, Visit&& visit)
-  requires requires { c.target; }
-{
-  visit("target", c.target);
+void fields(auto& c, Visit&& visit) requires requires {
+  c.target;
 }
+{ visit("target", c.target); }
 
 template <class Visit>
-void fields(auto& c, Visit&& visit)
-  requires requires { c.path; }
+void fields(auto& c, Visit&& visit) requires requires {
+  c.path;
+}
 {
   visit("as", c.as);
   visit("path_m", c.path);
@@ -59,8 +59,9 @@ void fields(auto& c, Visit&& visit)
 }
 
 template <class Visit>
-void fields(auto& c, Visit&& visit)
-  requires requires { c.scale; }
+void fields(auto& c, Visit&& visit) requires requires {
+  c.scale;
+}
 {
   visit("at_m", c.at);
   visit("by_m", c.by);
@@ -68,9 +69,8 @@ void fields(auto& c, Visit&& visit)
 }
 
 template <class Visit>
-void fields(auto& c, Visit&& visit)
-  requires(std::is_same_v<std::remove_const_t<std::remove_reference_t<decltype(c)>>, FillHole>)
-{
+void fields(auto& c, Visit&& visit) requires(
+    std::is_same_v<std::remove_const_t<std::remove_reference_t<decltype(c)>>, FillHole>) {
   visit("at_m", c.at);
 }
 

@@ -81,7 +81,10 @@ template <int dim>
 CommandQueue::Source CommandReplay<dim>::source() const {
   return [progress = progress_]() -> std::optional<Command> {
     auto& [log, given, moments, is_waiting, is_stopped] = *progress;
-    if (given < log.size() && log[given].moment <= moments.now()) return log[given++].command;
+    if (given < log.size() && log[given].moment <= moments.now()) {
+      is_stopped = is_stopped || std::holds_alternative<Stop>(log[given].command);
+      return log[given++].command;
+    }
     if (given < log.size() || !is_waiting || is_stopped) return {};
     is_stopped = true;
     return Stop{};

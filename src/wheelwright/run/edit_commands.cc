@@ -44,8 +44,9 @@ std::vector<Outline> brush_outlines(const Paint& paint) {
 Obeyed Paint::obey(RunControl& run) const {
   if (path.empty() || !(radius > 0)) return Refusal{"a brush needs a path and a radius above 0"};
   const Stroke stroke{{as, brush_outlines(*this)}, 0};
-  return drawn(run, std::span(&stroke, 1),
-               fmt::format("{} painted at {}", as == Fill::hole ? "a hole" : "material", place_text(path.front())));
+  return drawn(
+      run, std::span(&stroke, 1),
+      fmt::format("{} painted at {}", as == Fill::hole ? "a hole" : "material", place_text(path.front())));
 }
 
 Obeyed MoveHole::obey(RunControl& run) const {
@@ -57,7 +58,8 @@ Obeyed MoveHole::obey(RunControl& run) const {
   for (const Point& p : edge) moved.push_back(centre + Point(by) + scale * (p - centre));
   const std::array<Stroke, 2> strokes{filling(edge), Stroke{{Fill::hole, {polygon_outline(moved)}}, 0}};
   const std::string size = scale == 1 ? "" : fmt::format(" and made {:.3g} times as wide", scale);
-  return drawn(run, strokes, fmt::format("the hole at {} moved by {}{}", place_text(at), place_text(by), size));
+  return drawn(run, strokes,
+               fmt::format("the hole at {} moved by {}{}", place_text(at), place_text(by), size));
 }
 
 Obeyed FillHole::obey(RunControl& run) const {

@@ -78,6 +78,7 @@ RunResult<dim> RunLoop<dim>::resume(const Checkpoint<dim>& checkpoint) {
   initial_ = checkpoint.initial;
   elapsed_ = checkpoint.elapsed_seconds;
   notify(RunStarted{.resumed_after = state_->iteration});
+  if (at_end_ == AtEnd::wait) search_anew();  // a checkpoint has no solution to show
   return advance();
 }
 
@@ -393,8 +394,8 @@ Expected<OptimizationState<dim>> RunLoop<dim>::state_at(const ShapeOptimizer<dim
                                                         std::optional<Trial<dim>>& trial) const {
   OptimizationState<dim> from = *state_;
   from.shape = shape;
-  return optimizer.restart(
-      from, [&](const Trial<dim>& seen, const OptimizationState<dim>&) { trial = seen; });
+  return optimizer.restart(from,
+                           [&](const Trial<dim>& seen, const OptimizationState<dim>&) { trial = seen; });
 }
 
 /// Proceeds from another shape under the same case.

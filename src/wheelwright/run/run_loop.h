@@ -92,11 +92,11 @@ class RunLoop : private RunControl {
   std::optional<InitialShape<dim>> initial_;
   std::optional<DescribedWheel<dim>> initial_wheel_;  ///< by the run's own solver, if it was seen
   std::vector<Trial<dim>> failed_trials_;
-  std::deque<Past> past_;  ///< newest last
+  std::deque<Past> past_;         ///< newest last
   SharedSolution last_solution_;  ///< of the last accepted shape, kept when nothing follows it
 
   bool is_stopped_ = false;
-  std::optional<int> pause_at_;  ///< the number of the shape after which the run waits
+  std::optional<int> pause_at_;       ///< the number of the shape after which the run waits
   int changes_ = 0;                   ///< of case or shape by commands, so far
   bool has_ended_by_itself_ = false;  ///< and waits for commands
   Stopwatch watch_;

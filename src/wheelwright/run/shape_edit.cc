@@ -37,8 +37,8 @@ int turns_round(std::span<const Point> corners, const Point& x) {
 
 template <int dim>
 LevelSet<dim> with_stroke(const LevelSet<dim>& psi, const Stroke& stroke) {
-  const auto drawn = make_level_set(
-      psi.lattice, in_all_sectors(stroke.figure.outlines, psi.lattice.grid().n_sectors));
+  const auto drawn =
+      make_level_set(psi.lattice, in_all_sectors(stroke.figure.outlines, psi.lattice.grid().n_sectors));
   LevelSet<dim> result = psi;
   for (std::size_t k = 0; k < result.values.size(); ++k) {
     const double inside = drawn.values[k] + stroke.growth;

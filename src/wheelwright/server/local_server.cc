@@ -32,6 +32,23 @@ class Connections {
     const std::scoped_lock lock(mutex_);
     open_.erase(connection);
   }
+  void begin_answer() {
+    const std::scoped_lock lock(mutex_);
+    ++answers_;
+  }
+  void end_answer() {
+    {
+      const std::scoped_lock lock(mutex_);
+      --answers_;
+    }
+    answered_.notify_all();
+  }
+  /// Waits, but not for long, for the answers that are being made.
+  void finish_answers() {
+    constexpr std::chrono::seconds most{1};
+    std::unique_lock lock(mutex_);
+    answered_.wait_for(lock, most, [this] { return answers_ == 0; });
+  }
   /// Those that serve them see the end of the stream.
   void close() {
     const std::scoped_lock lock(mutex_);
@@ -41,7 +58,9 @@ class Connections {
 
  private:
   std::mutex mutex_;
+  std::condition_variable answered_;
   std::set<int> open_;
+  int answers_ = 0;
   bool is_closed_ = false;
 };
 
@@ -94,15 +113,15 @@ RequestHeaders headers_of(const httplib::Request& request) {
           .authorization = header(request, "Authorization")};
 }
 
-const httplib::Headers default_headers{
-    {"Cache-Control", "no-store"},
-    {"Content-Security-Policy",
-     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src 'self'; "
-     "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"},
-    {"Cross-Origin-Opener-Policy", "same-origin"},
-    {"Cross-Origin-Resource-Policy", "same-origin"},
-    {"Referrer-Policy", "no-referrer"},
-    {"X-Content-Type-Options", "nosniff"}};
+const httplib::Headers default_headers{{"Cache-Control", "no-store"},
+                                       {"Content-Security-Policy",
+                                        "default-src 'none'; script-src 'self'; style-src 'self'; img-src "
+                                        "'self' data: blob:; connect-src 'self'; "
+                                        "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"},
+                                       {"Cross-Origin-Opener-Policy", "same-origin"},
+                                       {"Cross-Origin-Resource-Policy", "same-origin"},
+                                       {"Referrer-Policy", "no-referrer"},
+                                       {"X-Content-Type-Options", "nosniff"}};
 
 }  // namespace
 
@@ -119,9 +138,8 @@ class LocalServer::Http : private httplib::Server {
     set_tcp_nodelay(true);
     set_payload_max_length(limits.request_bytes);
     set_default_headers(default_headers);
-    set_exception_handler([](const httplib::Request&, httplib::Response& response, const std::exception_ptr&) {
-      response.status = 500;
-    });
+    set_exception_handler([](const httplib::Request&, httplib::Response& response,
+                             const std::exception_ptr&) { response.status = 500; });
     set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
       const int status = refusal(request);
       if (status == 0) return HandlerResponse::Unhandled;
@@ -149,6 +167,7 @@ class LocalServer::Http : private httplib::Server {
   }
 
   ~Http() override {
+    connections_.finish_answers();
     stop();
     connections_.close();
     thread_.join();
@@ -165,7 +184,8 @@ class LocalServer::Http : private httplib::Server {
     const RequestHeaders headers = headers_of(request);
     if (!is_of_own_origin(headers, port_)) return 403;
     for (const Route& route : routes_)
-      if (request.path == route.path && request.method == (route.method == Route::Method::get ? "GET" : "POST"))
+      if (request.path == route.path &&
+          request.method == (route.method == Route::Method::get ? "GET" : "POST"))
         return route.access == Route::Access::token && !has_token(headers, token_) ? 401 : 0;
     return 404;
   }
@@ -184,10 +204,13 @@ class LocalServer::Http : private httplib::Server {
     BoundedStream stream(connection, limits_);
     while (!stream.is_last() && stream.next_request()) {
       bool is_closed = false;
+      connections_.begin_answer();
       const bool is_answered = process_request(stream, false, is_closed, [&](httplib::Request& request) {
-        request.headers.erase("Accept-Encoding");  // nothing leaves the machine: packing costs more than it saves
+        request.headers.erase(
+            "Accept-Encoding");  // nothing leaves the machine: packing costs more than it saves
         if (refusal(request) != 0) stream.end_after_this();  // its body is not read
       });
+      connections_.end_answer();
       if (!is_answered || is_closed) return;
     }
   }

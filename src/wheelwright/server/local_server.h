@@ -39,8 +39,8 @@ struct Route {
 
 /// What one client can make the server hold or wait for. A connection that goes beyond is closed.
 struct ServerLimits {
-  int connections = 32;                       ///< at a time
-  std::size_t request_bytes = 1 << 18;        ///< first line, headers and body
+  int connections = 32;                          ///< at a time
+  std::size_t request_bytes = 1 << 18;           ///< first line, headers and body
   std::chrono::milliseconds request_time{5000};  ///< from a request's first byte to its last
   std::chrono::milliseconds idle_time{30000};    ///< between two requests
   std::chrono::milliseconds answer_time{30000};  ///< for the client to take an answer
@@ -55,7 +55,7 @@ class LocalServer {
   LocalServer(std::vector<Route> routes, int port, const ServerLimits& limits = {});
   LocalServer(const LocalServer&) = delete;
   LocalServer& operator=(const LocalServer&) = delete;
-  /// Closes all connections and waits for the answers that are being made.
+  /// Closes all connections; answers that are being made are finished if that takes less than a second.
   ~LocalServer();
 
   int port() const;

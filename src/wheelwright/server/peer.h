@@ -1,11 +1,10 @@
 #pragma once
 
 #include <netinet/in.h>
+#include <sys/types.h>
 
 #include <optional>
 #include <string_view>
-
-#include <sys/types.h>
 
 namespace wheelwright {
 

@@ -15,7 +15,8 @@ bool is_of_own_origin(const RequestHeaders& headers, int port) {
 }
 
 bool has_token(const RequestHeaders& headers, const std::string& token) {
-  return headers.authorization && equal_in_constant_time(*headers.authorization, fmt::format("Bearer {}", token));
+  return headers.authorization &&
+         equal_in_constant_time(*headers.authorization, fmt::format("Bearer {}", token));
 }
 
 }  // namespace wheelwright

@@ -32,17 +32,17 @@ void BoardObserver::operator()(const Event<2>& event, const RunView<2>& run) {
 void BoardObserver::show(const TrialDone<2>& done, const RunView<2>& run) {
   if (!source_) source_ = std::make_shared<const Case>(run.study.source);
   const OptimizationState<2>& state = done.state;
-  auto shape = std::make_shared<WatchedShape>(
-      WatchedShape{.source = source_,
-                   .solver = run.study.solver,
-                   .solution = done.trial.solution,
-                   .psi = state.shape,
-                   .number = state.iteration,
-                   .objective = state.evaluation.function("objective").value,
-                   .terms = state.evaluation.terms,
-                   .measures = state.evaluation.measures,
-                   .measure = state.measure,
-                   .target_measure = state.target_measure});
+  auto shape =
+      std::make_shared<WatchedShape>(WatchedShape{.source = source_,
+                                                  .solver = run.study.solver,
+                                                  .solution = done.trial.solution,
+                                                  .psi = state.shape,
+                                                  .number = state.iteration,
+                                                  .objective = state.evaluation.function("objective").value,
+                                                  .terms = state.evaluation.terms,
+                                                  .measures = state.evaluation.measures,
+                                                  .measure = state.measure,
+                                                  .target_measure = state.target_measure});
   if (board_->view().activity == Activity::starting)
     board_->update([](BoardView& view) { view.activity = Activity::computing; });
   board_->show(std::move(shape));

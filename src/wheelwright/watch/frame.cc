@@ -38,9 +38,12 @@ Json settings_json(const WatchedShape& shape) {
 Json wheel_json(const WatchedShape& shape) {
   const PolarGrid<2>& grid = shape.psi.lattice.grid();
   const HoleRange room = free_region(*shape.source);
-  return {{"inner_radius_m", grid.inner_radius}, {"outer_radius_m", grid.outer_radius},
-          {"width_m", grid.width},               {"sectors", grid.n_sectors},
-          {"hole_inner_radius_m", room.inner},     {"hole_outer_radius_m", room.outer},
+  return {{"inner_radius_m", grid.inner_radius},
+          {"outer_radius_m", grid.outer_radius},
+          {"width_m", grid.width},
+          {"sectors", grid.n_sectors},
+          {"hole_inner_radius_m", room.inner},
+          {"hole_outer_radius_m", room.outer},
           {"cell_m", grid.resolution()}};
 }
 
@@ -107,7 +110,8 @@ std::string frame_json(const BoardView& view, const std::vector<CurvePoint>& cur
             {"is_refusal", view.is_refusal}};
   Json points = Json::array();
   for (const CurvePoint& p : curve)
-    points.push_back({p.shape, number(p.objective), number(p.mean_travel), number(p.run_out), p.volume_fraction});
+    points.push_back(
+        {p.shape, number(p.objective), number(p.mean_travel), number(p.run_out), p.volume_fraction});
   json["curve"] = std::move(points);
   if (view.shape) {
     const WatchedShape& shape = *view.shape;

@@ -30,7 +30,8 @@ long parameter(const PageRequest& request, const std::string& name) {
 
 PageAnswer message(int status, bool was_obeyed, const std::string& text) {
   const nlohmann::ordered_json json{{"obeyed", was_obeyed}, {"text", text}};
-  return {.status = status, .body = json.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace)};
+  return {.status = status,
+          .body = json.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace)};
 }
 
 Route asset(std::string path, std::string type, std::string_view content) {

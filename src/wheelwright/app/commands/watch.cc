@@ -36,7 +36,8 @@ std::string content(const fs::path& file) {
 class WatchCommand : public Subcommand {
  public:
   WatchCommand()
-      : Subcommand("watch", "Optimize a case while a page in the browser shows the wheel and steers the run") {}
+      : Subcommand("watch",
+                   "Optimize a case while a page in the browser shows the wheel and steers the run") {}
 
   void declare(Options& options) override {
     options.argument("WHEEL", input_, not_empty,
@@ -79,7 +80,8 @@ class WatchCommand : public Subcommand {
 
   void tell_address(const LocalServer& server, const AddressFile& address) const {
     if (is_kept(STDOUT_FILENO))
-      print("the page is at http://127.0.0.1:{}/; open {} to enter\n", server.port(), address.path().string());
+      print("the page is at http://127.0.0.1:{}/; open {} to enter\n", server.port(),
+            address.path().string());
     else
       print("{}\n", server.address());
     std::fflush(stdout);

@@ -105,7 +105,7 @@
 
   // Drawing curves takes longer than drawing the wheel: a few times per second is enough.
   const betweenCurves = 250;
-  let curvesDrawn = 0;
+  let curvesDrawn = 0, curvesOf = 0;  // when, and of which view
   function showCurves() {
     const { sectors } = frame.wheel, n = frame.travel_m.length;
     charts.objective.update([{ name: "objective", x: curve.map((p) => p[0]), y: curve.map((p) => p[1]) }]);
@@ -120,6 +120,7 @@
     position.max = n - 1;
     at("position-text").textContent = `ground at ${shown(Number(position.value) * 360 / sectors / n)}\u00b0`;
     curvesDrawn = performance.now();
+    curvesOf = frame.version;
   }
 
   // --- Settings ---------------------------------------------------------------------------------------
@@ -153,6 +154,7 @@
       want(v);
     });
     number.addEventListener("change", () => {
+      if (number.value === "") return;
       slider.value = toSlider(Number(number.value));
       want(Number(number.value));
     });
@@ -198,14 +200,20 @@
   at("reset").addEventListener("click", () => give({ do: "reset" }));
   at("position").addEventListener("input", () => look());
 
-  let version = 0, curveVersion = 0, painted = 0;
+  let version = 0, curveVersion = 0, painted = 0, framed = 0;
   let waiting = new AbortController();
 
   // Asks at once for what is there, e.g. when another load position is to be shown.
   function look() {
-    version = 0;
+    version = curvesDrawn = 0;
     waiting.abort();
   }
+
+  // The curves of the last shape, when no other follows.
+  setInterval(() => {
+    const isQuiet = frame?.outline && performance.now() - framed > betweenCurves;
+    if (isQuiet && curvesOf !== frame.version) look();
+  }, betweenCurves);
 
   async function next() {
     waiting = new AbortController();
@@ -220,6 +228,7 @@
   function take(news) {
     const isNew = news.version !== frame?.version;
     frame = news;
+    framed = performance.now();
     version = curveVersion = news.version;
     curve.push(...news.curve);
     if (curve.length > mostPoints) curve.splice(0, curve.length - mostPoints);
