@@ -361,7 +361,7 @@ TEST(Ghost, PenalizesTheJumpOfTheStress) {
       return Vec<2>{u * x[0], u * x[1]};
     };
     const Matrix k = ghost_stiffness<2>(minus, plus, 0, face.angle, material, {GhostPenaltyKind::paper, xi});
-    const double h = 0.5 * (minus.diameter() + plus.diameter());
+    const double h = 0.5 * (minus.size_across(0) + plus.size_across(0));
     const double jump = material.lambda() + 2 * material.mu();
     const double expected =
         xi * h / (2 * material.youngs_modulus) * jump * jump * radius * grid.cell_size()[1];
@@ -380,7 +380,7 @@ TEST(Ghost, PenalizesTheJumpOfTheSecondDerivative) {
     return Vec<2>{u * x[0], u * x[1]};
   };
   const Matrix k = ghost_stiffness<2>(minus, plus, 0, face.angle, material, {GhostPenaltyKind::full, xi});
-  const double h = 0.5 * (minus.diameter() + plus.diameter());
+  const double h = 0.5 * (minus.size_across(0) + plus.size_across(0));
   const double expected = 0.5 * xi * h * h * h * material.youngs_modulus * radius * grid.cell_size()[1];
   EXPECT_NEAR(energy(k, face.interpolate_both(grid, 2, bend)), expected, 5e-3 * expected);
 }

@@ -192,7 +192,8 @@ TEST(Friction, TheAdjointIsTheTransposeOfTheTangent) {
         for (size_t k = 0; k < loads.entries().size(); ++k)
           difference.entries()[k] += 0.5 * sign * loads.entries()[k];
       }
-      const auto adjoint = contact.adjoints(s->states[position], std::span(&observed, 1));
+      const ContactAdjointLoads<2> loads_of_adjoint{observed};
+      const auto adjoint = contact.adjoints(s->states[position], std::span(&loads_of_adjoint, 1));
       ASSERT_TRUE(adjoint);
       const double direct = product(observed, difference),
                    transposed = product(adjoint->front().loads, change);

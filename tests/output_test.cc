@@ -360,7 +360,7 @@ TEST_F(PressureFile, AzimuthIsInDegrees) {
                                           .friction = -1e5,
                                           .normal_stress = -1.5e6,
                                           .gap = -1e-6}};
-  write_pressure_csv(folder / "p.csv", points);
+  write_pressure_csv<2>(folder / "p.csv", points);
   const auto rows = lines(content(folder / "p.csv"));
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_EQ(count(rows[0], ","), count(rows[1], ","));

@@ -64,7 +64,7 @@ class RandomWheels {
     const Bands thinnest = bands(c);
     c.optimizer.rim_band = thinnest.rim.full_rows * cell;
     c.optimizer.tread_band = thinnest.tread.full_rows * cell;
-    const auto [low, high] = hole_range(plane_grid(c), bands(c));
+    const auto [low, high] = hole_range(polar_grid<2>(c), bands(c));
     for (int k = integer(0, 2); k > 0 && low < high; --k) {
       HoleRing ring;
       ring.count = c.wheel.sectors * integer(1, 3);

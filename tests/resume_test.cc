@@ -123,6 +123,22 @@ control = "paper"
                                   5);
 }
 
+// The wheel with its width, with holes that change along it.
+TEST_F(Resume, AWheelInThreeDimensionsGoesOnTheSame) {
+  std::string text = small_case(3, R"([material]
+poissons_ratio = 0.3
+[contact]
+quadrature_points = 2
+)");
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace("[wheel]\n", "[wheel]\ndimension = 3\n");
+  replace("radial_cells = 8\n", "radial_cells = 8\naxial_cells = 2\ndegree = 1\n");
+  expect_the_same_from_every_stop(text, 3);
+  EXPECT_TRUE(fs::exists(folder() / "straight/run/pressures_final.csv"));
+}
+
 // On the way to the target, at it, and after it: 81 % of the ring become 75 % in four shapes.
 TEST_F(Resume, AVolumeOnItsWayGoesOnTheSame) {
   expect_the_same_from_every_stop(small_case(6, "[volume]\ntarget = 0.75\nrate = 0.02\n"), 6);

@@ -92,7 +92,7 @@ TEST(Ring, ErrorsOfNitscheAndPenaltyAreTheListedOnes) {
     const ElasticElement<2> outermost(model.grid, 2, {model.grid.cells[0] - 1, 0},
                                       model.materials.at_tread());
     model.contact.method = listed.method;
-    model.contact.gamma_0 = listed.gamma_0 * outermost.diameter() / length;
+    model.contact.gamma_0 = listed.gamma_0 * outermost.plane_diameter() / length;
     model.contact_points = 6;
     const RollingRing ring = roll(model);
     const bool sign_only = listed.method == nitsche && listed.gamma_0 == 1 && listed.angular_cells == 160;

@@ -6,27 +6,10 @@
 #include <vector>
 
 #include "wheelwright/base/parallel.h"
+#include "wheelwright/elasticity/von_mises.h"
 
 namespace wheelwright {
 namespace {
-
-/// e:e - (tr e)^2 / 3, the square of the strain's deviator: the von Mises stress is mu sqrt(6) times its
-/// root. When dim = 2, e_33 is `axial_strain_ratio` times the trace in the plane.
-template <int dim>
-double squared_deviator(const double* strain, double axial_strain_ratio) {
-  double trace = 0, square = 0;
-  for (int k = 0; k < dim; ++k) {
-    trace += strain[k];
-    square += strain[k] * strain[k];
-  }
-  if constexpr (dim == 2) {
-    const double axial = axial_strain_ratio * trace;
-    trace += axial;
-    square += axial * axial;
-  }
-  for (int k = dim; k < n_strains<dim>; ++k) square += 0.5 * strain[k] * strain[k];
-  return square - trace * trace / 3;
-}
 
 /// The squared peaks of some cells: of the strain's deviator times mu, and of the largest principal strain.
 template <int dim>
@@ -85,7 +68,7 @@ void add_cell(const StateSolver<dim>& solver, const Displacement<dim>& displacem
     const int position = j / grid.n_sectors;
     for (size_t q = 0; q < points.size(); ++q) {
       const double* strain = strains.column(j) + q * n_strains<dim>;
-      const double deviator = squared_mu * squared_deviator<dim>(strain, axial);
+      const double deviator = squared_mu * SquaredDeviator<dim>(strain, axial).value;
       if (deviator > peaks.deviator[position]) {
         peaks.deviator[position] = deviator;
         peaks.places[position] = place_in_body<dim>(grid, cell, points[q], j % grid.n_sectors);

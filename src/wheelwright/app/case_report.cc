@@ -44,8 +44,10 @@ std::string contact_report(const Case& c) {
 }
 
 std::string size_report(const Case& c) {
-  return line("sector", fmt::format("{:.6g} deg, {} x {} cells", sector_angle(c) * 180 / std::numbers::pi,
-                                    c.grid.radial_cells, c.grid.angular_cells / c.wheel.sectors)) +
+  const std::string along_axle = c.wheel.dimension == 3 ? fmt::format(" x {}", c.grid.axial_cells) : "";
+  return line("sector",
+              fmt::format("{:.6g} deg, {} x {}{} cells", sector_angle(c) * 180 / std::numbers::pi,
+                          c.grid.radial_cells, c.grid.angular_cells / c.wheel.sectors, along_axle)) +
          line("unknowns", fmt::format("at most {}, {} of them per sector", dof_bound(c),
                                       dof_bound(c) / c.wheel.sectors)) +
          line("memory", fmt::format("about {:.0f} MB", std::ceil(estimated_memory(c) / 1e6)));

@@ -26,6 +26,8 @@ template <int dim>
 void TerminalObserver<dim>::operator()(const Event<dim>& event, const RunView<dim>& run) {
   if (const auto* started = std::get_if<RunStarted>(&event)) begin(*started, run);
   if (const auto* done = std::get_if<TrialDone<dim>>(&event)) show(*done, run);
+  if (const auto* changed = std::get_if<GridChanged>(&event))
+    progress_.note("going on with the " + changed->text);
   if (const auto* command = std::get_if<CommandDone>(&event); command && !command->text.empty())
     progress_.note((command->was_obeyed ? "" : "refused: ") + command->text);
   if (const auto* ended = std::get_if<RunEnded<dim>>(&event)) {
@@ -38,6 +40,7 @@ template <int dim>
 void TerminalObserver<dim>::begin(const RunStarted& started, const RunView<dim>& run) {
   print_weights(run.study.objective().terms);
   if (started.resumed_after) return;
+  if (const auto change = volume_change_of_saved_shape<dim>(run.study.source)) progress_.note(text(*change));
   for (const auto& event : lost_on_the_grid<dim>(run.study.source))
     progress_.note("warning: the grid is too coarse for the case's holes: " + text(event));
 }

@@ -7,6 +7,7 @@
 #include "wheelwright/app/shared_options.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/base/text.h"
+#include "wheelwright/cut/measure.h"
 #include "wheelwright/run/resume_point.h"
 
 namespace wheelwright {
@@ -24,8 +25,13 @@ Case with_positions(Case c, const Computation& computation) {
   return c;
 }
 
-/// The case of a file, if the memory suffices for it.
-Expected<Case, ExitCode> affordable_case(const fs::path& file, const Computation& computation) {
+/// The case of a file or of a run's folder, if the memory suffices for it.
+Expected<Case, ExitCode> affordable_case(const fs::path& input, const Computation& computation) {
+  const fs::path file = fs::is_directory(input) ? input / "case.toml" : input;
+  if (fs::is_directory(input) && !fs::exists(file)) {
+    tell("{}: this folder holds no run: there is no case.toml\n", input.string());
+    return exit_usage;
+  }
   auto c = read_or_tell(file);
   if (!c) return exit_usage;
   if (!may_compute(computation.command, with_positions(*c, computation), file, computation.threads))
@@ -33,21 +39,54 @@ Expected<Case, ExitCode> affordable_case(const fs::path& file, const Computation
   return *std::move(c);
 }
 
-Expected<WheelInput, ExitCode> initial_wheel(const fs::path& file, const Computation& computation) {
-  auto c = affordable_case(file, computation);
-  if (!c) return c.failure();
-  LevelSet<2> shape = initial_shape<2>(*c);
-  return WheelInput{with_positions(*std::move(c), computation), std::move(shape),
-                    without_control_characters(file.stem().string()), "initial shape"};
+template <int dim>
+WheelInput<dim> initial_wheel(Case c, const fs::path& file, const Computation& computation) {
+  LevelSet<dim> shape = initial_shape<dim>(c);
+  return {with_positions(std::move(c), computation), std::move(shape),
+          without_control_characters(file.stem().string()), "initial shape"};
 }
 
-Expected<WheelInput, ExitCode> last_wheel(const fs::path& folder, const Computation& computation) {
-  auto run = read_run_or_tell(folder, computation);
+/// A run that was stopped on a coarser grid, as if that were its case's.
+template <int dim>
+RunInput<dim> on_grid_of_checkpoint(RunInput<dim> run) {
+  const int level = *level_of(run.source, run.checkpoint.state.shape);
+  if (level == 0) return run;
+  run.source = on_coarser_grid(std::move(run.source), level);
+  InitialShape<dim>& initial = run.checkpoint.initial;
+  initial.shape = initial_shape<dim>(run.source);
+  initial.measure = material_measure(initial.shape);
+  return run;
+}
+
+template <int dim>
+Expected<RunInput<dim>, ExitCode> run_in(const fs::path& folder, Case c) {
+  auto point = resume_point<dim>(folder, c);
+  report_unusable(point.unusable);
+  if (!point.newest) {
+    tell("{}: no checkpoint can be used\n", folder.string());
+    return exit_checkpoint;
+  }
+  return on_grid_of_checkpoint<dim>({folder, std::move(c), *std::move(point.newest)});
+}
+
+/// The wheel of a file or folder, which has this case.
+template <int dim>
+Expected<WheelInput<dim>, ExitCode> wheel_of(Case c, const fs::path& input, const Computation& computation) {
+  if (!fs::is_directory(input)) return initial_wheel<dim>(std::move(c), input, computation);
+  auto run = run_in<dim>(input, std::move(c));
   if (!run) return run.failure();
-  OptimizationState<2>& state = run->checkpoint.state;
-  return WheelInput{with_positions(std::move(run->source), computation), std::move(state.shape),
-                    without_control_characters(folder_name(folder)),
-                    fmt::format("shape {}", state.iteration)};
+  OptimizationState<dim>& state = run->checkpoint.state;
+  return WheelInput<dim>{with_positions(std::move(run->source), computation), std::move(state.shape),
+                         without_control_characters(folder_name(input)),
+                         fmt::format("shape {}", state.iteration)};
+}
+
+Expected<Case, ExitCode> plane_case(const fs::path& input, const Computation& computation) {
+  auto c = affordable_case(input, computation);
+  if (!c || c->wheel.dimension == 2) return c;
+  tell("wheelwright {}: {}: this command works on cases with wheel.dimension = 2 alone\n",
+       computation.command, input.string());
+  return exit_refused;
 }
 
 }  // namespace
@@ -57,25 +96,32 @@ void add_wheel(Options& options, std::string& input) {
                    "A case file, for its initial shape, or a run's folder, for its last shape");
 }
 
-Expected<WheelInput, ExitCode> read_wheel_or_tell(const fs::path& input, const Computation& computation) {
-  return fs::is_directory(input) ? last_wheel(input, computation) : initial_wheel(input, computation);
+Expected<AnyWheel, ExitCode> read_wheel_or_tell(const fs::path& input, const Computation& computation) {
+  auto c = affordable_case(input, computation);
+  if (!c) return c.failure();
+  return in_dimension_of(*c, [&](auto dim) -> Expected<AnyWheel, ExitCode> {
+    auto wheel = wheel_of<dim>(*std::move(c), input, computation);
+    if (!wheel) return wheel.failure();
+    return AnyWheel(*std::move(wheel));
+  });
 }
 
-Expected<RunInput, ExitCode> read_run_or_tell(const fs::path& folder, const Computation& computation) {
-  const fs::path case_file = folder / "case.toml";
-  if (!fs::exists(case_file)) {
+Expected<WheelInput<2>, ExitCode> read_plane_wheel_or_tell(const fs::path& input,
+                                                           const Computation& computation) {
+  auto c = plane_case(input, computation);
+  if (!c) return c.failure();
+  return wheel_of<2>(*std::move(c), input, computation);
+}
+
+Expected<RunInput<2>, ExitCode> read_plane_run_or_tell(const fs::path& folder,
+                                                       const Computation& computation) {
+  if (!fs::is_directory(folder)) {
     tell("{}: this folder holds no run: there is no case.toml\n", folder.string());
     return exit_usage;
   }
-  auto c = affordable_case(case_file, computation);
+  auto c = plane_case(folder, computation);
   if (!c) return c.failure();
-  auto point = resume_point<2>(folder, *c);
-  report_unusable(point.unusable);
-  if (!point.newest) {
-    tell("{}: no checkpoint can be used\n", folder.string());
-    return exit_checkpoint;
-  }
-  return RunInput{folder, *std::move(c), *std::move(point.newest)};
+  return run_in<2>(folder, *std::move(c));
 }
 
 }  // namespace wheelwright

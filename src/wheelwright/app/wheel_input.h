@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <variant>
 
 #include "wheelwright/app/exit_code.h"
 #include "wheelwright/app/options.h"
@@ -14,18 +15,23 @@
 namespace wheelwright {
 
 /// A wheel that a command works on: the initial shape of a case file, or the last accepted shape of a run.
+template <int dim>
 struct WheelInput {
   Case source;
-  LevelSet<2> shape;
+  LevelSet<dim> shape;
   std::string name;   ///< of the case file or of the run's folder; without control characters
   std::string which;  ///< e.g. "initial shape", "shape 31"
 };
 
+/// In the dimension of its case.
+using AnyWheel = std::variant<WheelInput<2>, WheelInput<3>>;
+
 /// A run's folder and what it continues from.
+template <int dim>
 struct RunInput {
   std::filesystem::path folder;
   Case source;
-  Checkpoint<2> checkpoint;
+  Checkpoint<dim> checkpoint;
 };
 
 /// WHEEL, a case file or a run's folder.
@@ -41,11 +47,16 @@ struct Computation {
 /// The wheel in a case file, or in a run's folder, of which nothing is changed; the run may still go on.
 /// Tells what is wrong, and whether the memory is too small, before it allocates any; the command ends with
 /// the code then.
-Expected<WheelInput, ExitCode> read_wheel_or_tell(const std::filesystem::path& input,
-                                                  const Computation& computation);
+Expected<AnyWheel, ExitCode> read_wheel_or_tell(const std::filesystem::path& input,
+                                                const Computation& computation);
+
+// For commands that work in the plane of the wheel alone: they tell it of a case in 3D.
+
+Expected<WheelInput<2>, ExitCode> read_plane_wheel_or_tell(const std::filesystem::path& input,
+                                                           const Computation& computation);
 
 /// The run in a folder, in the same way.
-Expected<RunInput, ExitCode> read_run_or_tell(const std::filesystem::path& folder,
-                                              const Computation& computation);
+Expected<RunInput<2>, ExitCode> read_plane_run_or_tell(const std::filesystem::path& folder,
+                                                       const Computation& computation);
 
 }  // namespace wheelwright

@@ -22,6 +22,17 @@ enum class Quantity {
   pressure_spread,
   volume_fraction,
   peak_von_mises,
+  peak_von_mises_inside,
+  mass,
+  perimeter,
+  travel,
+  stiffness,
+  tangential_stiffness,
+  torsional_stiffness,
+  radial_force,
+  run_out_harmonic,
+  force_variation,
+  force_variation_harmonic,
 };
 
 struct QuantityDescription {
@@ -30,7 +41,7 @@ struct QuantityDescription {
 };
 
 /// In the order of the enumerators: the one place for names and units.
-inline constexpr std::array<QuantityDescription, 11> quantity_descriptions{
+inline constexpr std::array<QuantityDescription, 22> quantity_descriptions{
     {{"objective", UnitKind::energy},
      {"strain_energy", UnitKind::energy},
      {"uniformity_annulus", UnitKind::energy},
@@ -41,7 +52,18 @@ inline constexpr std::array<QuantityDescription, 11> quantity_descriptions{
      {"peak_pressure", UnitKind::stress},
      {"pressure_spread", UnitKind::ratio},
      {"volume_fraction", UnitKind::ratio},
-     {"peak_von_mises", UnitKind::stress}}};
+     {"peak_von_mises", UnitKind::stress},
+     {"peak_von_mises_inside", UnitKind::stress},
+     {"mass", UnitKind::mass},
+     {"perimeter", UnitKind::length},
+     {"travel", UnitKind::length},
+     {"stiffness", UnitKind::stiffness},
+     {"tangential_stiffness", UnitKind::stiffness},
+     {"torsional_stiffness", UnitKind::torsional_stiffness},
+     {"radial_force", UnitKind::force},
+     {"run_out_harmonic", UnitKind::length},
+     {"force_variation", UnitKind::force},
+     {"force_variation_harmonic", UnitKind::force}}};
 
 constexpr std::string_view name(Quantity quantity) {
   return quantity_descriptions[static_cast<std::size_t>(quantity)].name;

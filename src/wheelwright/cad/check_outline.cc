@@ -16,8 +16,8 @@ namespace wheelwright::cad {
 namespace {
 
 constexpr double largest_area_error = 1e-4;
-/// Distances of points on edges, as shares of the outer radius.
-constexpr double step_of_deviation = 1.5e-3, step_of_clearance = 6e-4;
+/// Distance of points on edges, as a share of the outer radius.
+constexpr double step_of_deviation = 1.5e-3;
 
 using Faults = std::vector<OutlineFault>;
 
@@ -200,14 +200,13 @@ Expected<OutlineReport, std::vector<OutlineFault>> check_outline(const Outline& 
   const double area_error = checked_area_error(outline, psi, faults);
   const Deviation deviation = checked_deviation(outline, psi, zero, polygons, tolerance, faults);
   if (!faults.empty()) return faults;
-  return OutlineReport{
-      .curves = count(outline),
-      .bodies = static_cast<int>(bodies(outline).size()),
-      .area = material_area(outline),
-      .area_error = area_error,
-      .deviation = deviation.distance,
-      .deviation_place = deviation.place,
-      .clearances = clearances(outline, grid.n_sectors, step_of_clearance * grid.outer_radius)};
+  return OutlineReport{.curves = count(outline),
+                       .bodies = static_cast<int>(bodies(outline).size()),
+                       .area = material_area(outline),
+                       .area_error = area_error,
+                       .deviation = deviation.distance,
+                       .deviation_place = deviation.place,
+                       .clearances = clearances(outline, grid.n_sectors, clearance_step * grid.outer_radius)};
 }
 
 std::string text(const OutlineReport& report) {

@@ -21,6 +21,9 @@ struct Clearances {
   std::optional<Clearance> gap;
 };
 
+/// A step that misses no neck, by the tread's radius.
+inline constexpr double clearance_step = 6e-4;
+
 /// Measures an outline whose loops are repeated in every sector. Every edge is walked along with steps of at
 /// most `step` [m]; at each the largest circle is found that touches it there, on one side, and holds no
 /// other edge. Where such a circle also touches on its opposite side there may be a neck, whose ends are then

@@ -13,20 +13,25 @@
 #include "wheelwright/elasticity/dual_norm.h"
 #include "wheelwright/elasticity/ghost_penalty.h"
 #include "wheelwright/elasticity/material.h"
+#include "wheelwright/elasticity/side_faces.h"
 
 namespace wheelwright {
 
 struct Drawing;
 struct Picture;
+template <int dim>
+struct LevelSet;
 
 // A case: everything that defines one optimization, as plain data in SI units and radians. The initial values
 // here are the defaults of the case file; names, units, ranges and meanings are declared in case/keys.cc.
 
 struct Wheel {
+  int dimension = 2;           ///< 2: the plane of the wheel; 3: the whole width
   double inner_radius = 0.20;  ///< R_i, the rim
   double outer_radius = 0.34;  ///< R_e, the tread
   double width = 0.12;         ///< w_r, along the axle
   int sectors = 16;            ///< N_s
+  SideFaces side_faces = SideFaces::free;
   bool operator==(const Wheel&) const = default;
 };
 
@@ -195,6 +200,14 @@ struct PictureShape {
   bool operator==(const PictureShape&) const = default;
 };
 
+/// The shape of an earlier run, to begin with instead of holes and drawn shapes.
+struct SavedShape {
+  std::string from;      ///< a run's folder or a file of its kind; relative to the case's file; empty: none
+  std::string checksum;  ///< of the file; never empty in a case that was read from a file with `from`
+  Loaded<LevelSet<2>> shape;
+  bool operator==(const SavedShape&) const = default;
+};
+
 struct Shapes {
   std::vector<CircleShape> circles;
   std::vector<EllipseShape> ellipses;
@@ -209,10 +222,11 @@ struct Shapes {
 
 struct Grid {
   int radial_cells = 28;
-  int angular_cells = 384;  ///< round the full ring
-  int degree = 2;           ///< of the displacement
-  int level_set_degree = 2;
-  std::optional<int> tread_levels;  ///< halvings of the cells at the tread; absent: as the contact needs
+  int angular_cells = 384;              ///< round the full ring
+  int axial_cells = 4;                  ///< along the axle; in 3D
+  int degree = 2;                       ///< of the displacement
+  std::optional<int> level_set_degree;  ///< absent: 2, in 3D 1
+  std::optional<int> tread_levels;      ///< halvings of the cells at the tread; absent: as the contact needs
   bool operator==(const Grid&) const = default;
 };
 
@@ -252,6 +266,7 @@ enum class VelocityKind { h1, harmonic };
 
 struct Optimizer {
   int iterations = 100;
+  int coarse_levels = 0;  ///< on how many coarser grids the descent begins, one after the other
   VelocityKind velocity = VelocityKind::h1;
   double velocity_length = 2;  ///< [cells]
   double step = 0.5;           ///< maximum move of the boundary per shape [cells]
@@ -291,6 +306,7 @@ struct Case {
   Load load;
   Contact contact;
   Holes holes;
+  SavedShape saved_shape;
   Shapes shapes;
   Grid grid;
   GhostPenalty ghost_penalty;

@@ -11,11 +11,14 @@
 #include <numbers>
 #include <numeric>
 
+#include "wheelwright/case/coarse_grid.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/drawn_shapes.h"
 #include "wheelwright/case/hole_rings.h"
+#include "wheelwright/case/keys.h"
 #include "wheelwright/case/number_text.h"
 #include "wheelwright/case/shape_conflicts.h"
+#include "wheelwright/geometry/values_on.h"
 
 namespace wheelwright {
 
@@ -91,7 +94,7 @@ void check_radii(const Case& c, Conflicts& found) {
 void check_size(const Case& c, Conflicts& found) {
   constexpr long long most = 1'000'000'000;
   if (dof_bound(c) <= most) return;
-  found.push_back({{"grid.radial_cells", "grid.angular_cells", "grid.degree"},
+  found.push_back({{"grid.radial_cells", "grid.angular_cells", "grid.axial_cells", "grid.degree"},
                    fmt::format("the grid has up to {} unknowns", dof_bound(c)),
                    fmt::format("take a grid with at most {}", most)});
 }
@@ -222,6 +225,70 @@ void check_holes(const Case& c, Conflicts& found) {
   }
 }
 
+/// A saved shape takes the place of holes and drawn shapes, and must fit the ring and its sectors.
+void check_saved_shape(const Case& c, Conflicts& found) {
+  if (c.saved_shape.from.empty()) return;
+  const auto refuse_besides = [&](const std::string& key) {
+    found.push_back({{key, "shape.from"},
+                     "holes and shapes cannot be drawn over the shape of another run",
+                     "keep the shape of the other run, or what is drawn"});
+  };
+  if (!c.holes.rings.empty()) refuse_besides("holes.ring[1]");
+  if (!c.holes.circles.empty()) refuse_besides("holes.circle[1]");
+  for_each_shape_section([&](const auto& section) {
+    if (!section.of(c).empty()) refuse_besides(section.path() + "[1]");
+  });
+  if (c.wheel.dimension == 3)
+    found.push_back({{"shape.from", "wheel.dimension"},
+                     "a wheel in 3D cannot begin with the shape of another run yet",
+                     "draw its holes"});
+  const LevelSet<2>* shape = c.saved_shape.shape.contents.get();
+  if (!shape || c.wheel.inner_radius >= c.wheel.outer_radius) return;
+  const PolarGrid<2>& grid = shape->lattice.grid();
+  const std::string problem = misfit(grid, polar_grid<2>(c));
+  if (problem.empty()) return;
+  found.push_back({{"shape.from", "wheel.inner_radius", "wheel.outer_radius", "wheel.sectors"},
+                   fmt::format("the saved shape does not fit: {}", problem),
+                   fmt::format("give wheel.inner_radius = {}, wheel.outer_radius = {}, and for wheel.sectors "
+                               "one of {}",
+                               number_text(grid.inner_radius), number_text(grid.outer_radius),
+                               fmt::join(divisors(grid.n_sectors), ", "))});
+}
+
+/// The coarser grids must have whole cells in each sector, room between their wider bands, and rows of cells
+/// that make up the annulus.
+void check_coarse_levels(const Case& c, Conflicts& found) {
+  const int levels = c.optimizer.coarse_levels;
+  if (levels == 0 || c.wheel.inner_radius >= c.wheel.outer_radius ||
+      c.grid.angular_cells % c.wheel.sectors != 0)
+    return;
+  const auto refuse = [&](std::vector<std::string> keys, std::string problem, std::string remedy) {
+    keys.insert(keys.begin(), "optimizer.coarse_levels");
+    found.push_back({std::move(keys), std::move(problem), std::move(remedy)});
+  };
+  if (!can_be_halved(c, levels)) {
+    int possible = levels;
+    while (!can_be_halved(c, possible)) --possible;
+    refuse({"grid.radial_cells", "grid.angular_cells", "wheel.sectors"},
+           fmt::format("{} x {} cells of each sector cannot be doubled {} times", c.grid.radial_cells,
+                       c.grid.angular_cells / c.wheel.sectors, levels),
+           fmt::format("take {}, or multiples of {} cells along the radius and in each sector", possible,
+                       1 << levels));
+    return;
+  }
+  const Case coarse = on_coarser_grid(c, levels);
+  const double cell = (c.wheel.outer_radius - c.wheel.inner_radius) / coarse.grid.radial_cells;
+  if (wants_annulus(c) && std::abs(annulus_thickness(c) - tread_rows(coarse) * cell) > 1e-6 * cell)
+    refuse({"objective.annulus", "grid.radial_cells"},
+           fmt::format("the annulus of {:.6g} m is no whole number of the coarse cells of {:.6g} m",
+                       annulus_thickness(c), cell),
+           fmt::format("take fewer coarse_levels, or objective.annulus = {:.6g}", tread_rows(coarse) * cell));
+  if (coarse.optimizer.rim_band.value() + coarse.optimizer.tread_band.value() >=
+      c.wheel.outer_radius - c.wheel.inner_radius - cell)
+    refuse(with_ring_shape({}), "on the coarse grid the bands at rim and tread leave no room for holes",
+           "take fewer coarse_levels, or a finer grid");
+}
+
 void check_nitsche(const Case& c, Conflicts& found) {
   if (c.contact.method != ContactMethod::nitsche) return;
   const double least = least_gamma_0(c.contact.theta, c.material);
@@ -288,6 +355,28 @@ void check_incompressible(const Case& c, Conflicts& found) {
     found.push_back({{"material.poissons_ratio", "material.plane"},
                      "so near to 1/2 that rounding would spoil the solution",
                      fmt::format("take at most {}: the difference to 1/2 does not matter", largest)});
+}
+
+/// What one dimension knows and the other does not.
+void check_dimension(const Case& c, Conflicts& found) {
+  if (c.wheel.dimension == 2) {
+    if (c.wheel.side_faces != SideFaces::free)
+      found.push_back({{"wheel.side_faces", "wheel.dimension"},
+                       "a wheel in 2D has no side faces; plane strain already holds them",
+                       "leave the key out, or take dimension = 3"});
+    return;
+  }
+  if (c.material.plane == Plane::stress)
+    found.push_back({{"material.plane", "wheel.dimension"},
+                     "plane stress is an assumption for two dimensions",
+                     "leave the key out: in 3D the side faces are free of stress"});
+  constexpr double largest = 0.4;
+  if (c.grid.degree == 1 && c.material.poissons_ratio > largest && !c.material.nearly_incompressible())
+    found.push_back({{"grid.degree", "material.poissons_ratio", "wheel.dimension"},
+                     fmt::format("elements of degree 1 lock: with poissons_ratio = {} the wheel would be "
+                                 "tens of percent too stiff, and its optimum another one",
+                                 c.material.poissons_ratio),
+                     fmt::format("take degree = 2, or poissons_ratio <= {}", largest)});
 }
 
 /// Friction must resist the force or torque that moves or turns the rim.
@@ -403,12 +492,15 @@ std::vector<Conflict> conflicts(const Case& c) {
   check_counts(c, shapes, found);
   check_holes(c, found);
   check_nested_holes(c, found);
+  check_saved_shape(c, found);
+  check_coarse_levels(c, found);
   const Conflicts of_shapes = shape_conflicts(c, shapes);
   found.insert(found.end(), of_shapes.begin(), of_shapes.end());
   check_nitsche(c, found);
   check_load(c, found);
   check_contact_points(c, found);
   check_incompressible(c, found);
+  check_dimension(c, found);
   check_friction(c, found);
   check_annulus(c, found);
   check_objective(c, found);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "wheelwright/case/dimension.h"
 #include "wheelwright/case/hole_rings.h"
 
 namespace wheelwright {
@@ -25,8 +26,10 @@ double likely_half_width(const Case& c) {
 
 namespace {
 
-/// The smallest number of halvings that gives so many cells per patch, within so many points per column.
+/// The smallest number of halvings that gives so many cells per patch, within so many points per column; in
+/// 3D none.
 int levels_for(const Case& c, double cells_per_patch, int most_points) {
+  if (c.wheel.dimension == 3) return 0;
   const double cell = 2 * pi * c.wheel.outer_radius / c.grid.angular_cells;
   int levels = 0;
   while (2 * likely_half_width(c) * (1 << levels) < cells_per_patch * cell &&
@@ -36,6 +39,10 @@ int levels_for(const Case& c, double cells_per_patch, int most_points) {
 }
 
 }  // namespace
+
+int level_set_degree(const Case& c) {
+  return c.grid.level_set_degree.value_or(c.wheel.dimension == 3 ? 1 : 2);
+}
 
 int tread_levels(const Case& c) { return c.grid.tread_levels.value_or(levels_for(c, 8, 80)); }
 
@@ -93,13 +100,17 @@ int tread_rows(const Case& c) {
   return std::max(1, static_cast<int>(std::lround(annulus_thickness(c) / radial_cell(c))));
 }
 
-PolarGrid<2> plane_grid(const Case& c) {
-  return {c.wheel.inner_radius,
-          c.wheel.outer_radius,
-          c.wheel.width,
-          c.wheel.sectors,
-          {c.grid.radial_cells, c.grid.angular_cells / c.wheel.sectors}};
+template <int dim>
+PolarGrid<dim> polar_grid(const Case& c) {
+  PolarGrid<dim> grid{c.wheel.inner_radius, c.wheel.outer_radius, c.wheel.width, c.wheel.sectors,
+                      std::array<int, dim>{}};
+  grid.cells[0] = c.grid.radial_cells;
+  grid.cells[1] = c.grid.angular_cells / c.wheel.sectors;
+  if constexpr (dim == 3) grid.cells[2] = c.grid.axial_cells;
+  return grid;
 }
+template PolarGrid<2> polar_grid(const Case&);
+template PolarGrid<3> polar_grid(const Case&);
 
 Bands bands(const Case& c) {
   const double ring = c.wheel.outer_radius - c.wheel.inner_radius, usual = ring / 14;
@@ -108,16 +119,19 @@ Bands bands(const Case& c) {
           .tread = {c.optimizer.tread_band.value_or(std::max(usual, with_annulus)), tread_rows(c) + 1}};
 }
 
-HoleRange free_region(const Case& c) { return hole_range(plane_grid(c), bands(c)); }
+HoleRange free_region(const Case& c) {
+  return in_dimension_of(c, [&](auto dim) { return hole_range(polar_grid<dim>(c), bands(c)); });
+}
 
 HoleRange room_for_holes(const Case& c) {
   const auto [inner, outer] = free_region(c);
-  const double touch = 0.001 * plane_grid(c).resolution();
+  const double touch = in_dimension_of(c, [&](auto dim) { return 0.001 * polar_grid<dim>(c).resolution(); });
   return {inner - touch, outer + touch};
 }
 
 bool has_holes(const Case& c) {
-  return !c.holes.rings.empty() || !c.holes.circles.empty() || c.shapes != Shapes{};
+  return !c.holes.rings.empty() || !c.holes.circles.empty() || c.shapes != Shapes{} ||
+         !c.saved_shape.from.empty();
 }
 
 std::vector<Circle> sector_holes(const Case& c) {
@@ -134,10 +148,19 @@ std::vector<Circle> sector_holes(const Case& c) {
   return holes;
 }
 
+namespace {
+
+/// Nodes of the displacement along the axle.
+long long axial_nodes(const Case& c) {
+  return c.wheel.dimension == 3 ? static_cast<long long>(c.grid.degree) * c.grid.axial_cells + 1 : 1;
+}
+
+}  // namespace
+
 long long dof_bound(const Case& c) {
   const long long radial = static_cast<long long>(c.grid.degree) * c.grid.radial_cells + 1;
   const long long angular = static_cast<long long>(c.grid.degree) * c.grid.angular_cells;
-  return 2 * radial * angular;
+  return c.wheel.dimension * radial * angular * axial_nodes(c);
 }
 
 namespace {
@@ -164,18 +187,24 @@ double estimated_memory(const Case& c) {
   const double sectors = c.wheel.sectors, positions = c.load.positions;
   const double columns = c.grid.angular_cells, cells = columns * c.grid.radial_cells;
   const double dofs = static_cast<double>(dof_bound(c)), sector_dofs = dofs / sectors;
-  const double radial_line = 2 * (c.grid.degree * c.grid.radial_cells + 1);
-  const double ring_line = 2 * c.grid.degree * columns, sector_line = ring_line / sectors;
-  const double tractions =
-      2.0 * c.contact.quadrature_points * (1 << tread_levels_of_results(c));  // per column
+  const bool in_3d = c.wheel.dimension == 3;
+  const double per_line_node = c.wheel.dimension * static_cast<double>(axial_nodes(c));
+  const double radial_line = per_line_node * (c.grid.degree * c.grid.radial_cells + 1);
+  const double ring_line = per_line_node * c.grid.degree * columns, sector_line = ring_line / sectors;
+  const double points = c.contact.quadrature_points * (1 << tread_levels_of_results(c)) *
+                        (in_3d ? c.contact.quadrature_points * c.grid.axial_cells : 1);  // per column
+  const double tractions = c.wheel.dimension * points;
   const double observations = 2 * tractions, zone_columns = contact_columns(c);
   double holes = 0;
   for (const HoleRing& ring : c.holes.rings) holes += ring.count / sectors;
 
   // The size of each array is known; how many of them exist at the peak is fitted to measurements.
   const double libraries = 26e6;
-  const double fields = number * (56 * cells + 4.6 * dofs * positions);
-  const double factor = number * 0.6 * sector_dofs * std::log2(std::max(sector_dofs, 2.0));
+  const double fields = number * (56 * cells * (in_3d ? c.grid.axial_cells : 1) + 4.6 * dofs * positions);
+  // Fill of nested dissection: n log n in the plane, n^(4/3) in space.
+  const double fill =
+      in_3d ? 6 * std::pow(sector_dofs, 4.0 / 3) : 0.6 * sector_dofs * std::log2(std::max(sector_dofs, 2.0));
+  const double factor = number * fill;
   const double condensed = number * 3.5 * square(2 * radial_line + sector_line);
   const double harmonics = complex * 1.8 * (sectors / 2 + 1) * square(radial_line + sector_line);
   const double compliance = number * 7.6 * square(ring_line) / sectors;

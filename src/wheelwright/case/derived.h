@@ -24,8 +24,12 @@ double hertz_peak_pressure(const Case& c);
 /// given.
 double likely_half_width(const Case& c);
 
+/// Degree of the level set: the case's own, or 2, in 3D 1.
+int level_set_degree(const Case& c);
+
 /// Halvings of the cells at the tread in a run and in results: the case's own, or as many as give 8 and 18
-/// cells across the likely contact patch, as far as the number of contact points stays reasonable.
+/// cells across the likely contact patch, as far as the number of contact points stays reasonable; in 3D,
+/// where they are far more, none.
 int tread_levels(const Case& c);
 int tread_levels_of_results(const Case& c);
 
@@ -67,8 +71,9 @@ bool wants_uniformity(const Case& c);
 double annulus_thickness(const Case& c);
 double characteristic_length(const Case& c);
 
-/// One sector of the grid in the plane of the wheel.
-PolarGrid<2> plane_grid(const Case& c);
+/// One sector of the grid; with dim = 2 in the plane of the wheel.
+template <int dim>
+PolarGrid<dim> polar_grid(const Case& c);
 
 /// The bands that stay material. Unless the case gives them, they are 1/14 of the ring's thickness, whatever
 /// the grid is; at the tread, they are also at least 1/28 of it thicker than the annulus of J_p1. The
@@ -89,7 +94,8 @@ bool has_holes(const Case& c);
 /// hole may lie in any sector and cross the interfaces between sectors.
 std::vector<Circle> sector_holes(const Case& c);
 
-/// Number of displacement unknowns of the full ring if every cell held material: an upper bound.
+/// Number of displacement unknowns of the full ring if every cell held material: an upper bound. Those of
+/// rim and side faces that are held count too.
 long long dof_bound(const Case& c);
 
 /// Estimated peak memory of a run [bytes], within a factor of 1.25 (docs/performance.md): the libraries, the

@@ -57,7 +57,12 @@ const Section<Wheel>& wheel_section() {
       .name = "wheel",
       .meaning = "dimensions of the ring, and its number of equal sectors",
       .in = [](Case& c) -> Wheel& { return c.wheel; },
-      .keys = {{.name = "inner_radius",
+      .keys = {{.name = "dimension",
+                .unit = "",
+                .field = IntegerField<Wheel>{&Wheel::dimension, between(2, 3)},
+                .meaning = "2: the plane of the wheel, the same over its whole width; 3: the wheel with its "
+                           "width"},
+               {.name = "inner_radius",
                 .unit = "m",
                 .field = NumberField<Wheel>{&Wheel::inner_radius, length},
                 .meaning = "R_i: radius at which the structure is bonded to the rigid rim"},
@@ -72,7 +77,13 @@ const Section<Wheel>& wheel_section() {
                {.name = "sectors",
                 .unit = "",
                 .field = IntegerField<Wheel>{&Wheel::sectors, between(1, 10000)},
-                .meaning = "N_s: number of equal sectors of the shape; 1 means no cyclic symmetry"}}};
+                .meaning = "N_s: number of equal sectors of the shape; 1 means no cyclic symmetry"},
+               {.name = "side_faces",
+                .unit = "",
+                .field = choice<&Wheel::side_faces>({"free", "symmetric"}),
+                .meaning = "in 3D; free: nothing acts on the side faces; symmetric: they do not move along "
+                           "the axle, as in a slice of a much wider wheel, which is plane strain where the "
+                           "shape does not change along the axle"}}};
   return section;
 }
 
@@ -81,20 +92,26 @@ const Section<Material>& material_section() {
       .name = "material",
       .meaning = "linear isotropic elasticity",
       .in = [](Case& c) -> Material& { return c.material; },
-      .keys = {{.name = "youngs_modulus",
-                .unit = "Pa",
-                .field = NumberField<Material>{&Material::youngs_modulus, above(0, 1e13)},
-                .meaning = "E: Young's modulus"},
-               {.name = "poissons_ratio",
-                .unit = "",
-                .field = NumberField<Material>{&Material::poissons_ratio, at_least_and_below(0, 0.5)},
-                .meaning = "nu: Poisson's ratio; at most 0.49999 and, above 0.485, with grid.degree = 2, "
-                           "if plane = \"strain\""},
-               {.name = "plane",
-                .unit = "",
-                .field = choice<&Material::plane>({"strain", "stress"}),
-                .meaning = "strain: no strain along the axle, for wide wheels; stress: no stress along the "
-                           "axle, for wheels cut from sheet"}}};
+      .keys = {
+          {.name = "youngs_modulus",
+           .unit = "Pa",
+           .field = NumberField<Material>{&Material::youngs_modulus, above(0, 1e13)},
+           .meaning = "E: Young's modulus"},
+          {.name = "poissons_ratio",
+           .unit = "",
+           .field = NumberField<Material>{&Material::poissons_ratio, at_least_and_below(0, 0.5)},
+           .meaning = "nu: Poisson's ratio; at most 0.49999 and, above 0.485, with grid.degree = 2, "
+                      "if plane = \"strain\""},
+          {.name = "plane",
+           .unit = "",
+           .field = choice<&Material::plane>({"strain", "stress"}),
+           .meaning = "strain: no strain along the axle, for wide wheels; stress: no stress along the "
+                      "axle, for wheels cut from sheet"},
+          {.name = "density",
+           .unit = "kg/m^3",
+           .field = OptionalNumberField<Material>{&Material::density, above(0, 1e5), "no mass is told"},
+           .meaning = "for the mass of the wheel, and where a case minimizes or bounds it; load.body_force "
+                      "has its weight"}}};
   return section;
 }
 
@@ -456,6 +473,21 @@ Key<Struct> checksum_key() {
 
 }  // namespace
 
+const Section<SavedShape>& saved_shape_section() {
+  static const Section<SavedShape> section{
+      .name = "shape",
+      .meaning = "the shape to begin with, if it is that of an earlier run ([saved shapes](shapes.md))",
+      .in = [](Case& c) -> SavedShape& { return c.saved_shape; },
+      .keys = {{.name = "from",
+                .unit = "",
+                .field = TextField<SavedShape>{&SavedShape::from, "holes and shapes are drawn"},
+                .meaning = "the folder of a run, for its last saved shape, or a file of this kind "
+                           "(shape.levelset); relative to the folder of the case file; the grid may differ, "
+                           "the radii may not, and the number of sectors must divide that of the run"},
+               checksum_key<SavedShape>()}};
+  return section;
+}
+
 const SectionArray<FileShape>& file_shape_sections() {
   static const SectionArray<FileShape> sections{
       .parent = "shape",
@@ -530,19 +562,23 @@ const Section<Grid>& grid_section() {
            .unit = "",
            .field = IntegerField<Grid>{&Grid::angular_cells, cell_count},
            .meaning = "number of cells round the full ring, a multiple of wheel.sectors"},
+          {.name = "axial_cells",
+           .unit = "",
+           .field = IntegerField<Grid>{&Grid::axial_cells, cell_count},
+           .meaning = "number of cells along the axle; in 3D"},
           {.name = "degree",
            .unit = "",
            .field = IntegerField<Grid>{&Grid::degree, between(1, 2)},
            .meaning = "polynomial degree of the displacement"},
           {.name = "level_set_degree",
            .unit = "",
-           .field = IntegerField<Grid>{&Grid::level_set_degree, between(1, 2)},
+           .field = OptionalIntegerField<Grid>{&Grid::level_set_degree, between(1, 2), "2; in 3D 1", "auto"},
            .meaning = "polynomial degree of the level set"},
           {.name = "tread_levels",
            .unit = "",
            .field = OptionalIntegerField<Grid>{&Grid::tread_levels, between(0, 6),
                                                "8 cells across the contact patch in a run, 18 in an analysis "
-                                               "and in the results of a run",
+                                               "and in the results of a run; in 3D 0",
                                                "auto"},
            .meaning =
                "how many times the cells at the tread are halved, for accurate contact pressures; the level "
@@ -659,6 +695,13 @@ const Section<Optimizer>& optimizer_section() {
            .unit = "",
            .field = IntegerField<Optimizer>{&Optimizer::iterations, between(0, 1000000)},
            .meaning = "maximum number of accepted shapes after the initial one"},
+          {.name = "coarse_levels",
+           .unit = "",
+           .field = IntegerField<Optimizer>{&Optimizer::coarse_levels, between(0, 4)},
+           .meaning =
+               "the descent begins on a grid whose cells are doubled so many times along each axis, and "
+               "moves on to the next finer one when J has fallen by less than 1e-3 over 10 shapes, until "
+               "it is on the case's own grid; 0: on the case's own grid from the beginning"},
           {.name = "velocity",
            .unit = "",
            .field = choice<&Optimizer::velocity>({"h1", "harmonic"}),

@@ -179,6 +179,7 @@ const Section<Load>& load_section();
 const Section<Contact>& contact_section();
 const SectionArray<HoleRing>& ring_sections();
 const SectionArray<HoleCircle>& circle_sections();
+const Section<SavedShape>& saved_shape_section();
 const SectionArray<CircleShape>& circle_shape_sections();
 const SectionArray<EllipseShape>& ellipse_shape_sections();
 const SectionArray<SlotShape>& slot_shape_sections();
@@ -218,6 +219,7 @@ void for_each_section(Visitor&& visit) {
   visit(contact_section());
   visit(ring_sections());
   visit(circle_sections());
+  visit(saved_shape_section());
   for_each_shape_section(visit);
   visit(grid_section());
   visit(ghost_penalty_section());

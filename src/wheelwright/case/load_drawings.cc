@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <optional>
 
 #include "wheelwright/case/keys.h"
+#include "wheelwright/case/named_file.h"
 #include "wheelwright/drawing/drawing.h"
 #include "wheelwright/drawing/png_file.h"
-#include "wheelwright/files/checksum.h"
 
 namespace wheelwright {
 
@@ -17,37 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 using Kind = Diagnostic::Kind;
 using Problems = std::vector<FileProblem>;
-
-/// The bytes of a file; nothing, after a problem, if it cannot be read.
-std::optional<std::string> read_bytes(const fs::path& file, const std::string& key, Problems& problems) {
-  const auto refuse = [&](std::string problem, std::string remedy) {
-    problems.push_back({Kind::unreadable, key, "", 0, std::move(problem), std::move(remedy)});
-    return std::nullopt;
-  };
-  std::error_code error;
-  if (file.string().find('\0') != std::string::npos || !fs::is_regular_file(file, error))
-    return refuse(fmt::format("there is no file {}", file.string()),
-                  "paths are relative to the folder of the case file");
-  const auto size = fs::file_size(file, error);
-  if (size > most_drawing_bytes)
-    return refuse(fmt::format("{} has {} bytes", file.string(), size),
-                  fmt::format("drawings may have {} bytes: simplify it", most_drawing_bytes));
-  std::string bytes(size, '\0');
-  if (!std::ifstream(file, std::ios::binary).read(bytes.data(), static_cast<std::streamsize>(size)))
-    return refuse(fmt::format("{} cannot be read", file.string()), "check its permissions");
-  return bytes;
-}
-
-/// Sets the checksum of a shape's file, or compares it with the one that is given.
-void check_checksum(std::string& stated, const std::string& bytes, const std::string& key,
-                    Problems& problems) {
-  const std::string found = fmt::format("crc32:{:08x}", checksum(bytes));
-  if (!stated.empty() && stated != found)
-    problems.push_back(
-        {Kind::conflict, key + ".checksum", "", 0, fmt::format("the file's checksum is {}", found),
-         "this is not the file that the case was written for: restore it, or remove the checksum"});
-  stated = found;
-}
 
 std::optional<double> metres(DrawingUnit unit) {
   switch (unit) {
@@ -86,7 +54,7 @@ void load(FileShape& shape, const fs::path& folder, const std::string& key, Prob
     return;
   }
   const fs::path file = folder / shape.path;
-  auto bytes = read_bytes(file, key + ".path", problems);
+  auto bytes = read_named_file(file, key + ".path", most_drawing_bytes, problems);
   if (!bytes) return;
   check_checksum(shape.checksum, *bytes, key, problems);
   DrawingResult result = read_drawing(*format, *std::move(bytes), {metres(shape.unit), shape.axle});
@@ -96,7 +64,7 @@ void load(FileShape& shape, const fs::path& folder, const std::string& key, Prob
 
 void load(PictureShape& shape, const fs::path& folder, const std::string& key, Problems& problems) {
   const fs::path file = folder / shape.path;
-  auto bytes = read_bytes(file, key + ".path", problems);
+  auto bytes = read_named_file(file, key + ".path", most_drawing_bytes, problems);
   if (!bytes) return;
   check_checksum(shape.checksum, *bytes, key, problems);
   PictureResult result = read_png(*std::move(bytes));

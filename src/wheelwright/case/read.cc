@@ -18,6 +18,7 @@
 #include "wheelwright/case/conflicts.h"
 #include "wheelwright/case/keys.h"
 #include "wheelwright/case/load_drawings.h"
+#include "wheelwright/case/load_saved_shape.h"
 #include "wheelwright/case/number_text.h"
 #include "wheelwright/case/suggest.h"
 #include "wheelwright/case/toml_guard.h"
@@ -416,7 +417,6 @@ void put_shapes_in_order(const std::vector<std::pair<int, int>>& places, Case& c
 Case read_root(Reading& reading, const toml::table& root) {
   Case result;
   read_parent(reading, root, ring_sections().parent, result.holes);
-  read_parent(reading, root, circle_shape_sections().parent, result.shapes);
   for_each_section([&](const auto& section) { read_section(reading, root, section, result); });
   put_shapes_in_order(reading.shape_places, result);
   return result;
@@ -457,13 +457,16 @@ void check_conflicts(Reading& reading, const Case& c) {
 /// The table of a key: "shape.file[1]" of "shape.file[1].unit".
 std::string table_of(const std::string& key) { return key.substr(0, key.rfind('.')); }
 
-/// Loads the drawings of shapes without problems. Returns the problems that stand in the drawings; those of
-/// the case's own lines are added to the reading's.
+/// Loads the drawings of shapes without problems, and the saved shape. Returns the problems that stand in the
+/// drawings; those of the case's own lines are added to the reading's.
 std::vector<Diagnostic> load_drawings(Reading& reading, Case& c) {
   const auto may_be_read = [&](const std::string& key) { return !is_faulty(reading, key); };
   std::vector<Diagnostic> in_drawings;
   const auto folder = std::filesystem::path(reading.file).parent_path();
-  for (FileProblem& problem : load_drawings(c, folder, may_be_read)) {
+  std::vector<FileProblem> problems = load_drawings(c, folder, may_be_read);
+  if (may_be_read(std::string(saved_shape_section().name)))
+    std::ranges::move(load_saved_shape(c, folder), std::back_inserter(problems));
+  for (FileProblem& problem : problems) {
     const auto given = reading.entries.find(problem.key);
     const Entry at =
         given != reading.entries.end() ? given->second : reading.entries.at(table_of(problem.key));

@@ -343,11 +343,11 @@ Matrix ReducedContact<dim>::contact_loads(const ContactState<dim>& state) const 
 
 template <int dim>
 Expected<std::vector<ContactAdjoint>> ReducedContact<dim>::adjoints(
-    const ContactState<dim>& state, std::span<const Matrix> observations) const {
-  // With Te p = h + F^T m: m - W Phi'^T F^T m + sum_k beta_k W Phi'^T m_k = W Phi'^T h and, for every free
-  // motion, sum gamma m.m_k = 0. m vanishes off the active points; on them the matrix is newton_step()'s,
-  // transposed.
-  const int nc = components(), n_functions = static_cast<int>(observations.size());
+    const ContactState<dim>& state, std::span<const ContactAdjointLoads<dim>> functions) const {
+  // With Te p = h + F^T m: m - W Phi'^T F^T m + sum_k beta_k W Phi'^T m_k = Phi'^T (W h + dJ/dPhi) and, for
+  // every free motion, sum gamma m.m_k = dJ/d(motion k). m vanishes off the active points; on them the matrix
+  // is newton_step()'s, transposed.
+  const int nc = components(), n_functions = static_cast<int>(functions.size());
   const ObservationRows<dim> rows = observation_rows();
   const auto active = active_rows(state.augmented);
   const int n_active = static_cast<int>(active.size());
@@ -360,15 +360,20 @@ Expected<std::vector<ContactAdjoint>> ReducedContact<dim>::adjoints(
     const Point& point = points_[i];
     const auto r = response(i, state.augmented[i]);
     for (int f = 0; f < n_functions; ++f) {
-      const double* observed = observations[f].column(zone_column(i));
+      const double* observed = functions[f].observations.column(zone_column(i));
       Vec<dim> tested;
       for (int d = 0; d < dim; ++d)
         tested[d] =
             theta_ / point.gamma * observed[rows.traction(q) + d] - observed[rows.displacement(q) + d];
       tested = rotated<dim>(tested, point.angle);
-      for (int d = 0; d < nc; ++d) m(k, f) += point.weight * r.tangent[d][component] * tested[d];
+      const auto& tractions = functions[f].tractions;
+      for (int d = 0; d < nc; ++d)
+        m(k, f) += r.tangent[d][component] *
+                   (point.weight * tested[d] + (tractions.empty() ? 0.0 : tractions[i][d]));
     }
   }
+  for (int f = 0; f < n_functions; ++f)
+    for (int k = 0; k < n_free(); ++k) m(n_active + k, f) = work(functions[f].rim, rim_.free[k].direction);
   if (!lu_solve(a, m)) return Failure{FailureReason::no_contact, "the adjoint contact system is singular"};
 
   std::vector<ContactAdjoint> result;

@@ -41,6 +41,14 @@ struct ContactState {
   int newton_iterations;  ///< of all attempts
 };
 
+/// What a function's adjoint problem (79) brings to the contact of one load position.
+template <int dim>
+struct ContactAdjointLoads {
+  Matrix observations;                   ///< of p without the contact part, in the zone
+  RimForce rim = {};                     ///< the function's derivative with respect to the rim's motion
+  std::vector<Vec<dim>> tractions = {};  ///< and to the ground's tractions at points(); empty: zero
+};
+
 /// The contact part of the adjoint problem (79) at one load position.
 struct ContactAdjoint {
   Matrix loads;   ///< -S^T m on the zone's observations, m the multiplier
@@ -119,9 +127,9 @@ class ReducedContact {
   Matrix contact_loads(const ContactState<dim>& state) const;
 
   /// The multipliers of several functions' adjoint problems (79): the transpose of Newton's last linear
-  /// system, factored once. `observations` of every p without the contact part, in the zone.
+  /// system, factored once.
   Expected<std::vector<ContactAdjoint>> adjoints(const ContactState<dim>& state,
-                                                 std::span<const Matrix> observations) const;
+                                                 std::span<const ContactAdjointLoads<dim>> functions) const;
 
   /// What a solution looks like from outside.
   ContactPatch<dim> patch(const ContactState<dim>& state) const;

@@ -53,7 +53,9 @@ Box box(const Outline& outline) {
 
 std::vector<Crossing> crossings(const Outline& outline, int most) {
   const double size = box(outline).size(), tolerance = touching * size;
-  const auto [curves, loops] = pieces(outline);
+  const Pieces divided = pieces(outline);
+  const auto& curves = divided.curves;
+  const auto& loops = divided.loops;
   const CurveTree tree(curves);
   std::vector<Crossing> found;
   const auto add = [&](const Point& at, int i, int j) {

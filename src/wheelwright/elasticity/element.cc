@@ -76,14 +76,11 @@ ElasticElement<dim>::ElasticElement(const PolarGrid<dim>& grid, int degree, cons
     std::copy(p.begin(), p.end(), xi.begin());
     corners[k] = map_.position(ShapeFunctions<dim>(degree, xi));
   }
-  diameter_ = 0;
-  for (const auto& a : corners) {
-    for (const auto& b : corners) {
-      Vec<dim> difference;
-      for (int d = 0; d < dim; ++d) difference[d] = a[d] - b[d];
-      diameter_ = std::max(diameter_, norm<dim>(difference));
-    }
-  }
+  plane_diameter_ = 0;
+  for (const auto& a : corners)
+    for (const auto& b : corners)
+      plane_diameter_ = std::max(plane_diameter_, norm<2>({a[0] - b[0], a[1] - b[1]}));
+  if constexpr (dim == 3) axial_length_ = grid.cell_size()[2];
   if (degree == 2 && material.nearly_incompressible())
     dilatation_ = project_dilatation(unit_cell_rule<dim>(degree + 2)).coefficients;
 }
@@ -94,7 +91,7 @@ std::array<double, dim + 1> ElasticElement<dim>::linear_functions(const Vec<dim>
   middle.fill(0.5);
   const Vec<dim> centre = map_.position(ShapeFunctions<dim>(degree_, middle));
   std::array<double, dim + 1> values{1};
-  for (int d = 0; d < dim; ++d) values[d + 1] = (x[d] - centre[d]) / diameter_;
+  for (int d = 0; d < dim; ++d) values[d + 1] = (x[d] - centre[d]) / plane_diameter_;
   return values;
 }
 
@@ -261,7 +258,8 @@ template <int dim>
 Matrix ghost_stiffness(const ElasticElement<dim>& minus, const ElasticElement<dim>& plus, int axis,
                        double angle, const Material& material, const GhostPenalty& ghost) {
   const int n_minus = minus.n_dofs(), n = n_minus + plus.n_dofs();
-  const double h = 0.5 * (minus.diameter() + plus.diameter()), modulus = material.scaling_modulus();
+  const double h = 0.5 * (minus.size_across(axis) + plus.size_across(axis)),
+               modulus = material.scaling_modulus();
   Matrix k(n, n);
   std::array<std::vector<double>, dim> jump;
   for (auto& row : jump) row.resize(n);

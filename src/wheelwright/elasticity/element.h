@@ -57,7 +57,12 @@ class ElasticElement {
   int n_nodes() const { return nodes_per_cell<dim>(degree_); }
   int n_dofs() const { return dim * n_nodes(); }
   static constexpr int dof(int node, int component) { return dim * node + component; }
-  double diameter() const { return diameter_; }  ///< h_T, the maximum distance of two corners [m]
+  /// h_T, the maximum distance of two corners in the plane of the wheel [m]: contact and ghost penalty are
+  /// the same however long the cells are along the axle.
+  double plane_diameter() const { return plane_diameter_; }
+  /// The size of the cell across its faces normal to an axis, for the ghost penalty there [m]: h_T, or along
+  /// the axle the cell's length.
+  double size_across(int axis) const { return axis == 2 ? axial_length_ : plane_diameter_; }
 
   /// Linear maps from the dofs of the cell to the fields at one point of the unit cell. There is one column
   /// per dof.
@@ -99,7 +104,7 @@ class ElasticElement {
   int degree_;
   CellMap<dim> map_;
   std::array<Mat<dim>, max_nodes> frames_;  ///< polar to Cartesian components at each node
-  double diameter_;
+  double plane_diameter_, axial_length_ = 0;
   Matrix dilatation_;  ///< coefficients of div u projected on the whole cell; empty if it is not projected
 };
 
@@ -123,9 +128,9 @@ Matrix gradient_stiffness(const ElasticElement<dim>& element, const Material& ma
 
 /// The ghost penalty of one face F on the dofs (minus cell, plus cell): 1/2 int_F xi h_F / E [[sigma
 /// n]].[[sigma n]] as in (81), and for GhostPenaltyKind::full also 1/2 int_F xi h_F^3 E [[d_nn u]].[[d_nn
-/// u]], where h_F is the mean diameter of the two cells and E is Material::scaling_modulus(). `axis` is the
-/// axis normal to the face, and `angle` is the azimuth of the frame of the plus cell minus that of the minus
-/// cell [rad].
+/// u]], where h_F is the mean size_across(axis) of the two cells and E is Material::scaling_modulus(). `axis`
+/// is the axis normal to the face, and `angle` is the azimuth of the frame of the plus cell minus that of the
+/// minus cell [rad].
 template <int dim>
 Matrix ghost_stiffness(const ElasticElement<dim>& minus, const ElasticElement<dim>& plus, int axis,
                        double angle, const Material& material, const GhostPenalty& ghost);

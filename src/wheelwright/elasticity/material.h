@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 namespace wheelwright {
 
 /// What is zero along the axle when dim = 2.
@@ -11,30 +13,32 @@ enum class Plane {
 /// Isotropic linear elasticity (2). When dim = 2, in plane strain or plane stress, and nothing else knows
 /// which: the law in the plane is the same for both, with the constants of plane_strain_equivalent().
 struct Material {
-  double youngs_modulus = 200e6;  ///< E [Pa]
-  double poissons_ratio = 0.48;   ///< nu, 0 <= nu < 1/2
-  Plane plane = Plane::strain;    ///< must be strain when dim = 3
+  double youngs_modulus = 200e6;       ///< E [Pa]
+  double poissons_ratio = 0.48;        ///< nu, 0 <= nu < 1/2
+  Plane plane = Plane::strain;         ///< must be strain when dim = 3
+  std::optional<double> density = {};  ///< [kg/m^3]; no equation needs it
 
   /// The material that answers strains in the plane with the same stresses in plane strain: itself, or for
   /// plane stress E' = E (1 + 2 nu) / (1 + nu)^2 and nu' = nu / (1 + nu).
   Material plane_strain_equivalent() const {
     if (plane == Plane::strain) return *this;
     const double nu = poissons_ratio;
-    return {youngs_modulus * (1 + 2 * nu) / ((1 + nu) * (1 + nu)), nu / (1 + nu)};
+    return {youngs_modulus * (1 + 2 * nu) / ((1 + nu) * (1 + nu)), nu / (1 + nu), Plane::strain, density};
   }
 
   /// Lame's parameters of the law sigma = lambda tr(eps) I + 2 mu eps in the model's dimension [Pa]. In plane
   /// stress lambda is E nu / (1 - nu^2).
   double lambda() const {
-    const auto [e, nu, in_strain] = plane_strain_equivalent();
+    const Material strained = plane_strain_equivalent();
+    const double e = strained.youngs_modulus, nu = strained.poissons_ratio;
     return e * nu / ((1 + nu) * (1 - 2 * nu));
   }
   double mu() const { return youngs_modulus / (2 * (1 + poissons_ratio)); }
 
   /// E* of Hertz's theory [Pa]: E / (1 - nu^2) in plane strain, E in plane stress.
   double contact_modulus() const {
-    const auto [e, nu, in_strain] = plane_strain_equivalent();
-    return e / (1 - nu * nu);
+    const Material strained = plane_strain_equivalent();
+    return strained.youngs_modulus / (1 - strained.poissons_ratio * strained.poissons_ratio);
   }
 
   /// The modulus by which the contact parameter, the ghost penalty and the functionals are scaled [Pa]: E in

@@ -5,8 +5,8 @@
 namespace wheelwright {
 
 template <int dim>
-SectorSpace<dim>::SectorSpace(const CutDomain<dim>& domain, int degree, int core_rows)
-    : lattice_(domain.grid, degree), core_rows_(core_rows) {
+SectorSpace<dim>::SectorSpace(const CutDomain<dim>& domain, int degree, int core_rows, SideFaces sides)
+    : lattice_(domain.grid, degree), core_rows_(core_rows), sides_(sides) {
   const PolarGrid<dim>& grid = domain.grid;
   std::array<int, dim> last{};
   for (int d = 0; d < dim; ++d) last[d] = lattice_.nodes()[d] - 1;

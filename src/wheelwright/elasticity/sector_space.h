@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "wheelwright/cut/cut_domain.h"
+#include "wheelwright/elasticity/side_faces.h"
 
 namespace wheelwright {
 
@@ -17,7 +18,7 @@ class SectorSpace {
  public:
   /// `degree` is that of the displacement, 1 or 2; `core_rows` is the number of radial rows of cells in the
   /// core.
-  SectorSpace(const CutDomain<dim>& domain, int degree, int core_rows);
+  SectorSpace(const CutDomain<dim>& domain, int degree, int core_rows, SideFaces sides);
 
   const PolarGrid<dim>& grid() const { return lattice_.grid(); }
   int degree() const { return lattice_.degree(); }
@@ -32,6 +33,12 @@ class SectorSpace {
 
   /// Number of the node at an extended lattice position; -1 if it has no dofs.
   int number(const std::array<int, dim>& position) const { return numbers_[extended_index(position)]; }
+
+  /// Whether the side faces hold a component of a node's displacement: that dof is zero.
+  bool is_held(int node, int component) const {
+    return wheelwright::is_held<dim>(sides_, positions_[node][dim - 1], lattice_.nodes()[dim - 1] - 1,
+                                     component);
+  }
 
   /// Numbers of the nodes of a cell in the order of its local nodes, -1 for nodes without dofs.
   /// `sectors_ahead` = 1 stands for the image of the cell in the next sector.
@@ -52,6 +59,7 @@ class SectorSpace {
 
   Lattice<dim> lattice_;
   int core_rows_;
+  SideFaces sides_;
   std::vector<int> numbers_;
   std::vector<std::array<int, dim>> positions_;
 };

@@ -17,8 +17,8 @@ Material for_ghost_penalty(Material material) {
 
 template <int dim>
 ElementTable<dim>::ElementTable(const PolarGrid<dim>& grid, int degree, const Materials& materials,
-                                const GhostPenalty& ghost, CellStiffness<dim>* bulk)
-    : grid_(grid), degree_(degree), materials_(materials), ghost_(ghost), bulk_(bulk) {
+                                const GhostPenalty& ghost, CellStiffness<dim>* bulk, SideFaces sides)
+    : grid_(grid), degree_(degree), materials_(materials), ghost_(ghost), bulk_(bulk), sides_(sides) {
   const auto rule = unit_cell_rule<dim>(degree + 2);
   for (int radial = 0; radial < grid.cells[0]; ++radial) {
     elements_.emplace_back(grid, degree, std::array<int, dim>{radial}, materials.in_row(radial));
@@ -39,7 +39,7 @@ template <int dim>
 SectorStiffness<dim> sector_stiffness(const CutDomain<dim>& domain, const ElementTable<dim>& table,
                                       int core_rows) {
   const PolarGrid<dim>& grid = domain.grid;
-  SectorStiffness<dim> sector{SectorSpace<dim>(domain, table.degree(), core_rows), {}, {}};
+  SectorStiffness<dim> sector{SectorSpace<dim>(domain, table.degree(), core_rows, table.sides()), {}, {}};
   const SectorSpace<dim>& space = sector.space;
 
   typename StencilMatrix<dim>::Pattern pattern(space);
@@ -72,6 +72,7 @@ SectorStiffness<dim> sector_stiffness(const CutDomain<dim>& domain, const Elemen
   });
   for (size_t i = 0; i < domain.cut.size(); ++i) matrix.add(cell_nodes[domain.cut[i].cell], cut_stiffness[i]);
   for (const auto& ghost : sector.ghosts) matrix.add(ghost.nodes, *ghost.stiffness);
+  matrix.hold(table.held_stiffness());
   sector.matrix = std::move(matrix).release();
   return sector;
 }

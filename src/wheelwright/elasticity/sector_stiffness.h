@@ -17,12 +17,18 @@ template <int dim>
 class ElementTable {
  public:
   ElementTable(const PolarGrid<dim>& grid, int degree, const Materials& materials, const GhostPenalty& ghost,
-               CellStiffness<dim>* bulk = cell_stiffness<dim>);
+               CellStiffness<dim>* bulk = cell_stiffness<dim>, SideFaces sides = SideFaces::free);
 
   const PolarGrid<dim>& grid() const { return grid_; }
   int degree() const { return degree_; }
   const Materials& materials() const { return materials_; }
   const GhostPenalty& ghost() const { return ghost_; }
+  SideFaces sides() const { return sides_; }
+
+  /// The stiffness of dofs that the side faces hold: so large that they are zero up to rounding [N/m].
+  double held_stiffness() const {
+    return 1e20 * materials_.at_tread().scaling_modulus() * grid_.resolution();
+  }
 
   /// The stiffness of a part of a cell, which may be one of a refined grid.
   Matrix bulk_stiffness(const ElasticElement<dim>& element, const Material& material,
@@ -41,13 +47,14 @@ class ElementTable {
   Materials materials_;
   GhostPenalty ghost_;
   CellStiffness<dim>* bulk_;
+  SideFaces sides_;
   std::vector<ElasticElement<dim>> elements_;
   std::vector<Matrix> stiffness_;
   std::vector<Matrix> ghosts_;
 };
 
-/// Stiffness of the core of one sector: bulk (2) and ghost penalty (81), with a fixed rim and free sector
-/// faces.
+/// Stiffness of the core of one sector: bulk (2) and ghost penalty (81), with a fixed rim, free sector faces
+/// and, when dim = 3, the table's side faces.
 template <int dim>
 struct SectorStiffness {
   SectorSpace<dim> space;

@@ -1,6 +1,15 @@
 #include "wheelwright/elasticity/stencil_matrix.h"
 
+#include <algorithm>
+
 namespace wheelwright {
+namespace {
+
+void clear_row_and_column(Matrix& a, int k) {
+  for (int i = 0; i < a.rows(); ++i) a(i, k) = a(k, i) = 0;
+}
+
+}  // namespace
 
 template <int dim>
 StencilMatrix<dim>::StencilMatrix(Pattern pattern) : pattern_(std::move(pattern)) {
@@ -44,8 +53,30 @@ StencilMatrix<dim>::StencilMatrix(Pattern pattern) : pattern_(std::move(pattern)
 }
 
 template <int dim>
-void StencilMatrix<dim>::add(std::span<const int> nodes, const Matrix& block) {
+bool StencilMatrix<dim>::holds_any(std::span<const int> nodes) const {
+  return std::ranges::any_of(nodes, [&](int a) { return a >= 0 && pattern_.space_->is_held(a, dim - 1); });
+}
+
+template <int dim>
+void StencilMatrix<dim>::hold(double stiffness) {
+  const SectorSpace<dim>& space = *pattern_.space_;
+  for (int a = 0; a < space.n_nodes(); ++a)
+    for (int c = 0; c < dim; ++c)
+      if (space.is_held(a, c)) matrix_.values[matrix_.column_start[space.dof(a, c)]] = stiffness;
+}
+
+template <int dim>
+void StencilMatrix<dim>::add(std::span<const int> nodes, const Matrix& given) {
   const int n = static_cast<int>(nodes.size());
+  Matrix without_held;
+  if (holds_any(nodes)) {
+    without_held = given;
+    for (int i = 0; i < n; ++i)
+      for (int c = 0; c < dim; ++c)
+        if (nodes[i] >= 0 && pattern_.space_->is_held(nodes[i], c))
+          clear_row_and_column(without_held, SectorSpace<dim>::dof(i, c));
+  }
+  const Matrix& block = without_held.rows() > 0 ? without_held : given;
   const auto dof = SectorSpace<dim>::dof;
   for (int i = 0; i < n; ++i) {
     const int a = nodes[i];

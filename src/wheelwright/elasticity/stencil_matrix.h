@@ -42,12 +42,18 @@ class StencilMatrix {
   explicit StencilMatrix(Pattern pattern);
 
   /// Adds a dense symmetric block whose dofs are those of ElasticElement on these nodes. Negative numbers are
-  /// skipped.
+  /// skipped, and so are dofs that the side faces hold.
   void add(std::span<const int> nodes, const Matrix& block);
+
+  /// Gives the dofs that the side faces hold a stiffness of their own, which couples with nothing.
+  void hold(double stiffness);
 
   SparseSymmetric release() && { return std::move(matrix_); }
 
  private:
+  /// Whether the side faces hold a dof of these nodes.
+  bool holds_any(std::span<const int> nodes) const;
+
   /// Position of the coupling a -> b > a in the mask of a; it increases with b.
   static int slot(const SectorSpace<dim>& space, int a, int b) {
     const int reach = 2 * space.degree(), width = 2 * reach + 1;

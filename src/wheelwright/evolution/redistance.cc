@@ -6,30 +6,6 @@
 
 namespace wheelwright {
 
-namespace {
-
-/// The points of one sector and their images in the two neighbouring sectors.
-template <int dim>
-std::vector<Vec<dim>> with_images(const Lattice<dim>& lattice, const std::vector<Vec<dim>>& points) {
-  std::vector<Vec<dim>> result;
-  for (int sector = -1; sector <= 1; ++sector)
-    for (Vec<dim> point : points) {
-      point[1] += sector * lattice.nodes()[1];
-      result.push_back(point);
-    }
-  return result;
-}
-
-template <int dim>
-Vec<dim> cartesian_position(const Lattice<dim>& lattice, const Vec<dim>& point) {
-  Vec<dim> polar;
-  for (int d = 0; d < dim; ++d) polar[d] = point[d] * lattice.spacing()[d];
-  polar[0] += lattice.grid().inner_radius;
-  return cartesian<dim>(polar);
-}
-
-}  // namespace
-
 template <int dim>
 LevelSet<dim> redistance(const LevelSet<dim>& psi) {
   const auto& lattice = psi.lattice;

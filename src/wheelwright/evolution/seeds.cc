@@ -75,6 +75,29 @@ std::vector<Vec<dim>> zero_seeds(const CubicInterpolant<dim>& psi) {
   return seeds;
 }
 
+template <int dim>
+std::vector<Vec<dim>> with_images(const Lattice<dim>& lattice, const std::vector<Vec<dim>>& points) {
+  std::vector<Vec<dim>> result;
+  for (int sector = -1; sector <= 1; ++sector)
+    for (Vec<dim> point : points) {
+      point[1] += sector * lattice.nodes()[1];
+      result.push_back(point);
+    }
+  return result;
+}
+
+template <int dim>
+Vec<dim> cartesian_position(const Lattice<dim>& lattice, const Vec<dim>& point) {
+  Vec<dim> polar;
+  for (int d = 0; d < dim; ++d) polar[d] = point[d] * lattice.spacing()[d];
+  polar[0] += lattice.grid().inner_radius;
+  return cartesian<dim>(polar);
+}
+
+template std::vector<Vec<2>> with_images<2>(const Lattice<2>&, const std::vector<Vec<2>>&);
+template std::vector<Vec<3>> with_images<3>(const Lattice<3>&, const std::vector<Vec<3>>&);
+template Vec<2> cartesian_position<2>(const Lattice<2>&, const Vec<2>&);
+template Vec<3> cartesian_position<3>(const Lattice<3>&, const Vec<3>&);
 template std::vector<Vec<2>> zero_seeds<2>(const CubicInterpolant<2>&);
 template std::vector<Vec<3>> zero_seeds<3>(const CubicInterpolant<3>&);
 

@@ -12,4 +12,12 @@ namespace wheelwright {
 template <int dim>
 std::vector<Vec<dim>> zero_seeds(const CubicInterpolant<dim>& psi);
 
+/// The points of one sector and their images in the two neighbouring sectors.
+template <int dim>
+std::vector<Vec<dim>> with_images(const Lattice<dim>& lattice, const std::vector<Vec<dim>>& points);
+
+/// A point in units of the node spacing in the body frame [m].
+template <int dim>
+Vec<dim> cartesian_position(const Lattice<dim>& lattice, const Vec<dim>& point);
+
 }  // namespace wheelwright

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "wheelwright/base/quantity.h"
@@ -15,9 +16,16 @@ struct FunctionalValue {
   double of_shape = 0;
   std::vector<double> gradient_of_shape = {};
 
-  /// The part that depends on the states, and its derivative: J_i of every position that was solved for,
-  /// which is also that of the position's mirror image. Empty: zero.
+  /// The part that depends on the states: J_i of every position that was solved for, which is also that of
+  /// the position's mirror image. Empty: zero.
   std::vector<double> by_position = {};
+
+  /// In place of by_position: a value of all positions together, in which no position has a share of its own.
+  /// Weights per position do not apply to it.
+  std::optional<double> over_positions = {};
+
+  /// The derivative of the part that depends on the states. With over_positions, a position's entries are per
+  /// position that it represents.
   FunctionalDerivative<dim> derivative = {};
 
   /// Whether the tread loads are derivatives with respect to the deviations from the mean over the positions.

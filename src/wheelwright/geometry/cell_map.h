@@ -1,5 +1,6 @@
 #pragma once
 
+#include "wheelwright/geometry/axle_rotation.h"
 #include "wheelwright/geometry/lagrange.h"
 #include "wheelwright/geometry/polar_grid.h"
 
@@ -70,10 +71,7 @@ SurfaceElement<dim> map_surface(const Mat<dim>& jacobian, const Vec<dim>& refere
 /// Returns v rotated by an angle [rad] about the axle.
 template <int dim>
 Vec<dim> rotated(const Vec<dim>& v, double angle) {
-  Vec<dim> result = v;
-  result[0] = std::cos(angle) * v[0] - std::sin(angle) * v[1];
-  result[1] = std::sin(angle) * v[0] + std::cos(angle) * v[1];
-  return result;
+  return AxleRotation(angle).forward(v);
 }
 
 }  // namespace wheelwright

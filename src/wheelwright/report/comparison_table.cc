@@ -10,8 +10,9 @@ namespace {
 
 constexpr int value_width = 12, change_width = 12;
 
-std::string change(double first, double value) {
-  const double percents = 100 * (value / first - 1);
+std::string change(std::optional<double> first, std::optional<double> value) {
+  if (!first || !value) return "";
+  const double percents = 100 * (*value / *first - 1);
   if (!std::isfinite(percents)) return "";
   if (std::abs(percents) < 0.005) return "0 %";
   return fmt::format("{:+.2f} %", percents);
@@ -22,6 +23,24 @@ std::string shortened(const std::string& name) {
 }
 
 }  // namespace
+
+template <int dim>
+std::vector<ComparedRow> compared_rows(const std::vector<const DescribedWheel<dim>*>& wheels) {
+  std::vector<ComparedRow> rows;
+  for (const WheelNumber<dim>& number : wheel_numbers<dim>()) {
+    ComparedRow row{fmt::format("{} [{}]", number.label, number.unit), {}};
+    for (const DescribedWheel<dim>* wheel : wheels) {
+      const auto value = number.value(*wheel);
+      row.values.push_back(value ? std::optional(*value * number.factor) : std::nullopt);
+    }
+    if (std::ranges::any_of(row.values, [](const auto& value) { return value.has_value(); }))
+      rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+template std::vector<ComparedRow> compared_rows(const std::vector<const DescribedWheel<2>*>&);
+template std::vector<ComparedRow> compared_rows(const std::vector<const DescribedWheel<3>*>&);
 
 std::string comparison_table(const std::vector<std::string>& wheels, const std::vector<ComparedRow>& rows) {
   std::size_t label_width = 0;
@@ -36,7 +55,8 @@ std::string comparison_table(const std::vector<std::string>& wheels, const std::
   for (const ComparedRow& row : rows) {
     table += fmt::format("{:<{}}", row.label, label_width);
     for (std::size_t k = 0; k < row.values.size(); ++k)
-      table += cells(k > 0, fmt::format("{:.6g}", row.values[k]), change(row.values[0], row.values[k]));
+      table += cells(k > 0, row.values[k] ? fmt::format("{:.6g}", *row.values[k]) : "-",
+                     change(row.values[0], row.values[k]));
     table += '\n';
   }
   return table;

@@ -1,15 +1,22 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "wheelwright/report/described_wheel.h"
 
 namespace wheelwright {
 
 /// A quantity of several wheels, in the unit that its label names.
 struct ComparedRow {
   std::string label;
-  std::vector<double> values;  ///< one per wheel
+  std::vector<std::optional<double>> values;  ///< one per wheel; nothing where it has none
 };
+
+/// The numbers of wheels (wheel_numbers) that at least one of them has.
+template <int dim>
+std::vector<ComparedRow> compared_rows(const std::vector<const DescribedWheel<dim>*>& wheels);
 
 /// One line per quantity: the value of every wheel and, from the second wheel on, its relative change from
 /// the first. A change that is not finite is left out.

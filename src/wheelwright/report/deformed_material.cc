@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "wheelwright/geometry/cell_map.h"
-#include "wheelwright/geometry/contour.h"
 
 namespace wheelwright {
 namespace {
@@ -16,11 +16,15 @@ std::array<double, 9> shape_values(int degree, const Vec<2>& xi) {
   return ShapeFunctions<2>(degree, xi).value;
 }
 
+Vec<2> interpolated(const RingField& field, std::span<const std::size_t> nodes,
+                    std::span<const double> shape) {
+  return {interpolate(field, nodes, shape, 0), interpolate(field, nodes, shape, 1)};
+}
+
 Vec<2> interpolated(const RingField& field, const Lattice<2>& lattice, const std::array<int, 2>& cell,
                     const std::array<double, 9>& shape) {
-  const auto nodes = ring_cell_nodes<2>(lattice, cell);
-  const std::span values(shape.data(), nodes_per_cell<2>(lattice.degree()));
-  return {interpolate(field, nodes, values, 0), interpolate(field, nodes, values, 1)};
+  return interpolated(field, ring_cell_nodes<2>(lattice, cell),
+                      std::span(shape.data(), nodes_per_cell<2>(lattice.degree())));
 }
 
 /// How far magnified displacements carry the tread below the ground, at equal azimuths.
@@ -61,13 +65,13 @@ DeformedMaterial::DeformedMaterial(const LevelSet<2>& psi, const Lattice<2>& lat
       lattice_(lattice),
       displacement_(displacement),
       magnification_(magnification),
-      contact_azimuth_(contact_azimuth),
+      to_picture_(-0.5 * std::numbers::pi - contact_azimuth),
       press_(press_of_tread(lattice, displacement, magnification, contact_azimuth)) {}
 
 double DeformedMaterial::greatest_press() const { return std::ranges::max(press_); }
 
 Vec<2> DeformedMaterial::undeformed(const Vec<2>& x) const {
-  const Vec<2> turned = rotated<2>(x, -0.5 * std::numbers::pi - contact_azimuth_);
+  const Vec<2> turned = to_picture_.forward(x);
   return {turned[0], -turned[1]};
 }
 
@@ -78,77 +82,93 @@ double DeformedMaterial::press_at(double azimuth) const {
   return std::lerp(press_[first], press_[(first + 1) % n], position - below);
 }
 
-Vec<2> DeformedMaterial::moved(const Vec<2>& x, const Vec<2>& u) const {
+Vec<2> DeformedMaterial::moved(const Vec<2>& x, double radius, double azimuth, const Vec<2>& u) const {
   const PolarGrid<2>& grid = lattice_.grid();
-  const double share = (std::hypot(x[0], x[1]) - grid.inner_radius) / (grid.outer_radius - grid.inner_radius);
+  const double share = (radius - grid.inner_radius) / (grid.outer_radius - grid.inner_radius);
   Vec<2> place = undeformed({x[0] + magnification_ * u[0], x[1] + magnification_ * u[1]});
-  place[1] -= share * press_at(std::atan2(x[1], x[0]));
+  place[1] -= share * press_at(azimuth);
   return {place[0], place[1] > grid.outer_radius ? grid.outer_radius : place[1]};
 }
 
 Vec<2> DeformedMaterial::drawn(const Vec<2>& x) const {
   const PolarGrid<2>& grid = lattice_.grid();
-  const double row = (std::hypot(x[0], x[1]) - grid.inner_radius) / grid.cell_size()[0],
-               column = std::atan2(x[1], x[0]) / grid.cell_size()[1];
+  const double radius = std::hypot(x[0], x[1]), azimuth = std::atan2(x[1], x[0]);
+  const double row = (radius - grid.inner_radius) / grid.cell_size()[0],
+               column = azimuth / grid.cell_size()[1];
   const std::array<int, 2> cell{std::clamp(static_cast<int>(row), 0, grid.cells[0] - 1),
                                 static_cast<int>(std::floor(column))};
   const Vec<2> xi{std::clamp(row - cell[0], 0.0, 1.0), column - cell[1]};
-  return moved(x, interpolated(displacement_, lattice_, cell, shape_values(lattice_.degree(), xi)));
+  return moved(x, radius, azimuth,
+               interpolated(displacement_, lattice_, cell, shape_values(lattice_.degree(), xi)));
 }
 
-std::vector<DeformedMaterial::CellPiece> DeformedMaterial::sector_pieces(int parts) const {
+DeformedMaterial::CellPieces DeformedMaterial::cell_pieces(int cell,
+                                                           const std::vector<MaterialPolygon>& polygons,
+                                                           int parts) const {
   const PolarGrid<2>& grid = lattice_.grid();
-  const auto polygons = material_polygons(psi_, parts);
-  std::vector<CellPiece> pieces;
-  for (int cell = 0; cell < grid.n_cells(); ++cell) {
-    const auto c = grid.cell_position(cell);
-    const CellMap<2> map(grid, psi_.lattice.degree(), c);
-    const auto position = [&](const Vec<2>& xi) {
-      return rotated<2>(map.position(ShapeFunctions<2>(psi_.lattice.degree(), xi)),
-                        c[1] * grid.cell_size()[1]);
-    };
-    for (const MaterialPolygon& whole : polygons[cell])
-      for (const MaterialPolygon& polygon : divided(whole, parts)) {
-        CellPiece piece{cell, position({0.5, 0.5}), {}, {}};
-        for (const Vec<2>& xi : polygon) {
-          piece.corners.push_back(position(xi));
-          piece.shapes.push_back(shape_values(lattice_.degree(), xi));
-        }
-        pieces.push_back(std::move(piece));
+  const auto c = grid.cell_position(cell);
+  const CellMap<2> map(grid, psi_.lattice.degree(), c);
+  const auto position = [&](const Vec<2>& xi) {
+    return rotated<2>(map.position(ShapeFunctions<2>(psi_.lattice.degree(), xi)), c[1] * grid.cell_size()[1]);
+  };
+  CellPieces pieces{cell, position({0.5, 0.5}), {}, {}};
+  std::map<Vec<2>, int> numbers;
+  for (const MaterialPolygon& whole : polygons)
+    for (const MaterialPolygon& polygon : divided(whole, parts)) {
+      std::vector<int>& corners = pieces.polygons.emplace_back();
+      for (const Vec<2>& xi : polygon) {
+        const auto [number, is_new] = numbers.try_emplace(xi, pieces.points.size());
+        corners.push_back(number->second);
+        if (!is_new) continue;
+        const Vec<2> x = position(xi);
+        pieces.points.push_back(
+            {x, std::hypot(x[0], x[1]), std::atan2(x[1], x[0]), shape_values(lattice_.degree(), xi)});
       }
-  }
+    }
   return pieces;
 }
 
-DrawnPiece DeformedMaterial::drawn(const CellPiece& piece, int sector, const NamedField& scalar) const {
+std::vector<DrawnPoint> DeformedMaterial::drawn(const CellPieces& pieces, int sector,
+                                                const NamedField& scalar) const {
   const PolarGrid<2>& grid = lattice_.grid();
-  auto cell = grid.cell_position(piece.cell);
+  auto cell = grid.cell_position(pieces.cell);
   cell[1] += sector * grid.columns();
   const auto nodes = ring_cell_nodes<2>(lattice_, cell);
-  DrawnPiece result;
+  const double turn = sector * grid.sector_angle();
+  const AxleRotation to_sector(turn);
+  std::vector<DrawnPoint> result;
   std::vector<double> components(scalar.field.components);
-  for (size_t k = 0; k < piece.corners.size(); ++k) {
-    const Vec<2> x = rotated<2>(piece.corners[k], sector * grid.sector_angle()),
-                 u = interpolated(displacement_, lattice_, cell, piece.shapes[k]);
-    const std::span shape(piece.shapes[k].data(), nodes_per_cell<2>(lattice_.degree()));
+  for (const CellPoint& point : pieces.points) {
+    const std::span shape(point.shape.data(), nodes_per_cell<2>(lattice_.degree()));
     for (int c = 0; c < scalar.field.components; ++c)
       components[c] = interpolate(scalar.field, nodes, shape, c);
-    result.push_back({moved(x, u), scalar.scalar ? scalar.scalar(components) : components[0]});
+    result.push_back({moved(to_sector.forward(point.x), point.radius, point.azimuth + turn,
+                            interpolated(displacement_, nodes, shape)),
+                      scalar.scalar ? scalar.scalar(components) : components[0]});
   }
   return result;
 }
 
 std::vector<DrawnPiece> DeformedMaterial::pieces(const NamedField& scalar, int parts, const Vec<2>& centre,
                                                  double radius) const {
-  const std::vector<CellPiece> of_sector = sector_pieces(parts);
   const PolarGrid<2>& grid = lattice_.grid();
+  const auto polygons = material_polygons(psi_, parts);
+  std::vector<CellPieces> of_sector;
+  for (int cell = 0; cell < grid.n_cells(); ++cell)
+    if (!polygons[cell].empty()) of_sector.push_back(cell_pieces(cell, polygons[cell], parts));
   std::vector<DrawnPiece> result;
-  for (int sector = 0; sector < grid.n_sectors; ++sector)
-    for (const CellPiece& piece : of_sector) {
-      const Vec<2> middle = undeformed(rotated<2>(piece.middle, sector * grid.sector_angle()));
-      if (std::hypot(middle[0] - centre[0], middle[1] - centre[1]) < radius)
-        result.push_back(drawn(piece, sector, scalar));
+  for (int sector = 0; sector < grid.n_sectors; ++sector) {
+    const AxleRotation to_sector(sector * grid.sector_angle());
+    for (const CellPieces& cell : of_sector) {
+      const Vec<2> middle = undeformed(to_sector.forward(cell.middle));
+      if (std::hypot(middle[0] - centre[0], middle[1] - centre[1]) >= radius) continue;
+      const std::vector<DrawnPoint> points = drawn(cell, sector, scalar);
+      for (const auto& polygon : cell.polygons) {
+        DrawnPiece& piece = result.emplace_back();
+        for (const int corner : polygon) piece.push_back(points[corner]);
+      }
     }
+  }
   return result;
 }
 

@@ -3,6 +3,8 @@
 #include <array>
 #include <vector>
 
+#include "wheelwright/geometry/axle_rotation.h"
+#include "wheelwright/geometry/contour.h"
 #include "wheelwright/geometry/level_set.h"
 #include "wheelwright/state/ring_field.h"
 
@@ -43,23 +45,31 @@ class DeformedMaterial {
   double greatest_press() const;
 
  private:
-  /// A polygon of a cell in sector 0.
-  struct CellPiece {
-    int cell;
-    Vec<2> middle;  ///< Cartesian
-    std::vector<Vec<2>> corners;
-    std::vector<std::array<double, 9>> shapes;  ///< values of the field's shape functions there
+  /// A point of a cell in sector 0.
+  struct CellPoint {
+    Vec<2> x;  ///< Cartesian
+    double radius, azimuth;
+    std::array<double, 9> shape;  ///< values of the field's shape functions there
   };
 
-  std::vector<CellPiece> sector_pieces(int parts) const;
-  DrawnPiece drawn(const CellPiece& piece, int sector, const NamedField& scalar) const;
-  Vec<2> moved(const Vec<2>& x, const Vec<2>& displacement) const;
+  /// The polygons of material of a cell in sector 0.
+  struct CellPieces {
+    int cell;
+    Vec<2> middle;  ///< Cartesian
+    std::vector<CellPoint> points;
+    std::vector<std::vector<int>> polygons;  ///< indices of points
+  };
+
+  CellPieces cell_pieces(int cell, const std::vector<MaterialPolygon>& polygons, int parts) const;
+  std::vector<DrawnPoint> drawn(const CellPieces& pieces, int sector, const NamedField& scalar) const;
+  Vec<2> moved(const Vec<2>& x, double radius, double azimuth, const Vec<2>& displacement) const;
   double press_at(double azimuth) const;
 
   const LevelSet<2>& psi_;
   const Lattice<2>& lattice_;
   const RingField& displacement_;
-  double magnification_, contact_azimuth_;
+  double magnification_;
+  AxleRotation to_picture_;  ///< by which the contact comes to lie below, before the second axis is reversed
   std::vector<double> press_;  ///< of the tread, at equal azimuths round the ring [m]
 };
 

@@ -107,10 +107,10 @@ std::string coloured_paths(const PictureScalar& scalar, const ColourScale& scale
   if (!(scale.upper > scale.lower)) return svg;
   std::vector<double> up, down;
   for (int k = middle + 1; k <= last; ++k) up.push_back(scale.level(k));
-  for (int k = middle; k > 0; --k) down.push_back(scale.level(k));
+  for (int k = 1; k <= middle; ++k) down.push_back(scale.level(k));
   const auto above = scalar.superlevels(up), below = scalar.sublevels(down);
   for (size_t k = 0; k < above.size(); ++k) svg += level_path(middle + 1 + static_cast<int>(k), above[k]);
-  for (size_t k = 0; k < below.size(); ++k) svg += level_path(middle - 1 - static_cast<int>(k), below[k]);
+  for (int k = middle - 1; k >= 0; --k) svg += level_path(k, below[k]);
   return svg;
 }
 

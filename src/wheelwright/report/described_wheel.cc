@@ -1,8 +1,10 @@
 #include "wheelwright/report/described_wheel.h"
 
+#include <numbers>
 #include <numeric>
 
 #include "wheelwright/base/units.h"
+#include "wheelwright/cad/fit_outline.h"
 
 namespace wheelwright {
 namespace {
@@ -29,7 +31,35 @@ double first_harmonic(const std::vector<double>& values) {
 /// What turns forces of the analysis into those on the whole width.
 template <int dim>
 double whole_width(const DescribedWheel<dim>& wheel) {
-  return dim == 2 ? wheel.grid.width : 1;
+  return whole_width(dim, wheel.grid.width);
+}
+
+template <int dim>
+std::optional<double> mass(const StateSolver<dim>& solver, double volume_fraction) {
+  const RollingModel<dim>& model = solver.model();
+  const std::optional<double> density = model.materials.at_tread().density;
+  if (!density) return {};
+  const PolarGrid<dim>& grid = model.grid;
+  const double area =
+      std::numbers::pi * (grid.outer_radius * grid.outer_radius - grid.inner_radius * grid.inner_radius);
+  return *density * volume_fraction * area * (dim == 3 ? grid.width : 1);
+}
+
+/// How far the curves may be from the edge, by the tread's radius: as exported outlines are.
+constexpr double curve_tolerance = 3e-5;
+
+template <int dim>
+cad::Clearances clearances(const LevelSet<dim>& psi) {
+  if constexpr (dim == 2) {
+    const PolarGrid<2>& grid = psi.lattice.grid();
+    const auto outline = cad::fit_outline(psi, curve_tolerance * grid.outer_radius);
+    if (outline) return cad::clearances(*outline, grid.n_sectors, cad::clearance_step * grid.outer_radius);
+  }
+  return {};
+}
+
+std::optional<double> width(const std::optional<cad::Clearance>& clearance) {
+  return clearance ? std::optional(clearance->width) : std::nullopt;
 }
 
 }  // namespace
@@ -43,6 +73,8 @@ Expected<DescribedWheel<dim>> described_wheel(const StateSolver<dim>& solver, co
                              .which = {},
                              .grid = solver.model().grid,
                              .volume_fraction = volume_fraction,
+                             .mass = mass(solver, volume_fraction),
+                             .clearances = clearances(psi),
                              .summary = shape_summary(solver, psi, state),
                              .rolling = *std::move(rolling)};
 }
@@ -50,35 +82,42 @@ Expected<DescribedWheel<dim>> described_wheel(const StateSolver<dim>& solver, co
 template <int dim>
 const std::vector<WheelNumber<dim>>& wheel_numbers() {
   using Wheel = DescribedWheel<dim>;
+  using Number = std::optional<double>;
   static const std::vector<WheelNumber<dim>> numbers{
       {"volume of the ring", "%", percent, "volume_fraction",
-       [](const Wheel& w) { return w.volume_fraction; }},
-      {"load", "N", 1, "load_N", [](const Wheel& w) { return w.rolling.load * whole_width(w); }},
+       [](const Wheel& w) -> Number { return w.volume_fraction; }},
+      {"mass", "kg", 1, "mass_kg",
+       [](const Wheel& w) -> Number { return w.mass ? Number(*w.mass * whole_width(w)) : std::nullopt; }},
+      {"load", "N", 1, "load_N", [](const Wheel& w) -> Number { return w.rolling.load * whole_width(w); }},
       {"mean travel", "mm", mm, "mean_travel_m",
-       [](const Wheel& w) { return mean(of_positions(w, &ContactSummary::travel)); }},
+       [](const Wheel& w) -> Number { return mean(of_positions(w, &ContactSummary::travel)); }},
       {"stiffness", "N/mm", N_per_mm, "stiffness_N_per_m",
-       [](const Wheel& w) { return w.summary.stiffness * whole_width(w); }},
+       [](const Wheel& w) -> Number { return w.summary.stiffness * whole_width(w); }},
       {"run-out at fixed load", "mm", mm, "run_out_m",
-       [](const Wheel& w) { return rolling_variation(w.rolling.travel_at_load).peak_to_peak(); }},
+       [](const Wheel& w) -> Number { return rolling_variation(w.rolling.travel_at_load).peak_to_peak(); }},
       {"  its first sector harmonic", "mm", mm, "run_out_first_harmonic_m",
-       [](const Wheel& w) { return first_harmonic(w.rolling.travel_at_load); }},
+       [](const Wheel& w) -> Number { return first_harmonic(w.rolling.travel_at_load); }},
       {"radial force variation at fixed travel", "N", 1, "force_variation_N",
-       [](const Wheel& w) {
+       [](const Wheel& w) -> Number {
          return rolling_variation(w.rolling.force_at_travel).peak_to_peak() * whole_width(w);
        }},
       {"  its first sector harmonic", "N", 1, "force_first_harmonic_N",
-       [](const Wheel& w) { return first_harmonic(w.rolling.force_at_travel) * whole_width(w); }},
+       [](const Wheel& w) -> Number { return first_harmonic(w.rolling.force_at_travel) * whole_width(w); }},
       {"peak contact pressure", "MPa", MPa, "peak_pressure_Pa",
-       [](const Wheel& w) { return w.summary.rolling.peak_pressure; }},
+       [](const Wheel& w) -> Number { return w.summary.rolling.peak_pressure; }},
       {"mean length of the contact patch", "mm", mm, "patch_length_m",
-       [](const Wheel& w) { return mean(of_positions(w, &ContactSummary::patch_length)); }},
+       [](const Wheel& w) -> Number { return mean(of_positions(w, &ContactSummary::patch_length)); }},
       {"peak von Mises stress", "MPa", MPa, "peak_von_mises_Pa",
-       [](const Wheel& w) { return w.summary.von_mises.value; }},
+       [](const Wheel& w) -> Number { return w.summary.von_mises.value; }},
       {"largest strain", "%", percent, "largest_strain",
-       [](const Wheel& w) { return w.summary.deformation.strain; }},
+       [](const Wheel& w) -> Number { return w.summary.deformation.strain; }},
       {"strain energy per position", unit<dim>(UnitKind::energy), 1,
        dim == 2 ? "strain_energy_J_per_m" : "strain_energy_J",
-       [](const Wheel& w) { return w.summary.strain_energy; }},
+       [](const Wheel& w) -> Number { return w.summary.strain_energy; }},
+      {"thinnest wall", "mm", mm, "minimum_wall_m",
+       [](const Wheel& w) -> Number { return width(w.clearances.wall); }},
+      {"narrowest gap", "mm", mm, "minimum_gap_m",
+       [](const Wheel& w) -> Number { return width(w.clearances.gap); }},
   };
   return numbers;
 }

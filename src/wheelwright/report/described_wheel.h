@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "wheelwright/analysis/rolling_analysis.h"
 #include "wheelwright/analysis/shape_summary.h"
+#include "wheelwright/cad/clearance.h"
 
 namespace wheelwright {
 
@@ -14,7 +16,11 @@ struct DescribedWheel {
   std::string name;   ///< e.g. of its case file or run, or "before"
   std::string which;  ///< e.g. "shape 31"
   PolarGrid<dim> grid;
-  double volume_fraction;  ///< material area over the area of the full ring
+  double volume_fraction;      ///< material area over the area of the full ring
+  std::optional<double> mass;  ///< [kg, per metre of width when dim = 2], if the material has a density
+  /// The thinnest wall and the narrowest gap of the outline, measured on its fitted curves. Nothing when dim
+  /// = 3, where there are no holes, and where no curves can be fitted.
+  cad::Clearances clearances;
   ShapeSummary<dim> summary;
   RollingAnalysis rolling;
 };
@@ -28,10 +34,11 @@ Expected<DescribedWheel<dim>> described_wheel(const StateSolver<dim>& solver, co
 template <int dim>
 struct WheelNumber {
   const char* label;
-  const char* unit;                             ///< for people
-  double factor;                                ///< from SI to that unit
-  const char* key;                              ///< for programs, with the SI unit
-  double (*value)(const DescribedWheel<dim>&);  ///< in SI units, on the whole width
+  const char* unit;  ///< for people
+  double factor;     ///< from SI to that unit
+  const char* key;   ///< for programs, with the SI unit
+  /// In SI units, on the whole width; nothing where a wheel has no such number.
+  std::optional<double> (*value)(const DescribedWheel<dim>&);
 };
 
 /// The numbers by which wheels are judged and compared, in the order in which they are told.

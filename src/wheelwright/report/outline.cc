@@ -44,6 +44,27 @@ double distance_to_chord(const PicturePoint& p, const PicturePoint& a, const Pic
   return std::hypot(px - t * dx, py - t * dy);
 }
 
+/// Points as one number, in the order of the points.
+std::uint64_t packed(const PicturePoint& p) {
+  constexpr std::uint32_t sign = 0x80000000u;
+  return std::uint64_t(std::uint32_t(p[0]) ^ sign) << 32 | (std::uint32_t(p[1]) ^ sign);
+}
+PicturePoint unpacked(std::uint64_t p) {
+  constexpr std::uint32_t sign = 0x80000000u;
+  return {int(std::uint32_t(p >> 32) ^ sign), int(std::uint32_t(p) ^ sign)};
+}
+
+struct UndirectedSide {
+  std::uint64_t lower, upper;
+  int direction;  ///< 1 from the lower point to the upper one, -1 back
+  auto operator<=>(const UndirectedSide&) const = default;
+};
+
+UndirectedSide without_direction(const PictureSide& side) {
+  const std::uint64_t from = packed(side.from), to = packed(side.to);
+  return from < to ? UndirectedSide{from, to, 1} : UndirectedSide{to, from, -1};
+}
+
 auto by_beginning(const PictureSide& side) { return std::tie(side.from, side.to); }
 
 }  // namespace
@@ -58,18 +79,21 @@ void add_sides(const PicturePolygon& polygon, std::vector<PictureSide>& sides) {
   }
 }
 
-std::vector<PictureSide> without_opposites(std::vector<PictureSide> sides) {
-  std::erase_if(sides, [](const PictureSide& s) { return s.from == s.to; });
-  const auto ends = [](const PictureSide& s) {
-    return std::pair(std::min(s.from, s.to), std::max(s.from, s.to));
-  };
-  std::ranges::sort(sides, {}, ends);
+std::vector<PictureSide> without_opposites(const std::vector<PictureSide>& sides) {
+  std::vector<UndirectedSide> undirected;
+  undirected.reserve(sides.size());
+  for (const PictureSide& side : sides)
+    if (side.from != side.to) undirected.push_back(without_direction(side));
+  std::ranges::sort(undirected);
   std::vector<PictureSide> result;
-  for (std::size_t k = 0; k < sides.size();) {
-    const auto [lower, upper] = ends(sides[k]);
+  for (std::size_t k = 0; k < undirected.size();) {
+    const std::size_t first = k;
     int surplus = 0;  // of the sides from the lower point to the upper one
-    for (; k < sides.size() && ends(sides[k]) == std::pair(lower, upper); ++k)
-      surplus += sides[k].from == lower ? 1 : -1;
+    for (; k < undirected.size() && undirected[k].lower == undirected[first].lower &&
+           undirected[k].upper == undirected[first].upper;
+         ++k)
+      surplus += undirected[k].direction;
+    const PicturePoint lower = unpacked(undirected[first].lower), upper = unpacked(undirected[first].upper);
     result.insert(result.end(), std::abs(surplus),
                   surplus > 0 ? PictureSide{lower, upper} : PictureSide{upper, lower});
   }
@@ -101,7 +125,7 @@ std::vector<PicturePolygon> closed_curves(std::vector<PictureSide> sides) {
 std::vector<PicturePolygon> union_outlines(const std::vector<PicturePolygon>& polygons) {
   std::vector<PictureSide> sides;
   for (const PicturePolygon& polygon : polygons) add_sides(polygon, sides);
-  return closed_curves(without_opposites(std::move(sides)));
+  return closed_curves(without_opposites(sides));
 }
 
 PicturePolygon simplified(const PicturePolygon& curve, double tolerance) {

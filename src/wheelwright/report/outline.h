@@ -19,7 +19,7 @@ struct PictureSide {
 void add_sides(const PicturePolygon& polygon, std::vector<PictureSide>& sides);
 
 /// What remains when every side is taken away together with its reverse; sides of no length are dropped.
-std::vector<PictureSide> without_opposites(std::vector<PictureSide> sides);
+std::vector<PictureSide> without_opposites(const std::vector<PictureSide>& sides);
 
 /// Joins sides to closed curves. As many sides must end at every point as begin there.
 std::vector<PicturePolygon> closed_curves(std::vector<PictureSide> sides);

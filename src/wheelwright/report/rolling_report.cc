@@ -12,6 +12,9 @@ namespace {
 constexpr double mm = 1e3, MPa = 1e-6, N_per_mm = 1e-3, degree = 180 / std::numbers::pi;
 constexpr size_t most_harmonics_shown = 4;
 
+/// What turns forces of the analysis into those on the whole width.
+double forces(const RollingReport& report) { return whole_width(report.dimension, report.width); }
+
 /// A quantity over the positions.
 struct ShownQuantity {
   std::string name;
@@ -35,12 +38,12 @@ RollingVariation travel_variation(const std::vector<ContactSummary>& positions) 
 std::vector<ShownQuantity> quantities(const RollingReport& report) {
   const RollingAnalysis& a = report.analysis;
   return {{"rim travel at fixed load", "mm", mm, rolling_variation(a.travel_at_load)},
-          {"radial force at fixed travel", "N", report.width, rolling_variation(a.force_at_travel)},
+          {"radial force at fixed travel", "N", forces(report), rolling_variation(a.force_at_travel)},
           {"peak of the contact pressure", "MPa", MPa, rolling_variation(peak_pressures(a.positions))}};
 }
 
 std::string load_text(const RollingReport& report) {
-  return fmt::format("{:.6g} N", report.analysis.load * report.width);
+  return fmt::format("{:.6g} N", report.analysis.load * forces(report));
 }
 
 std::string travel_text(const RollingReport& report) {
@@ -56,15 +59,16 @@ std::string position_lines(const RollingReport& report) {
   table += fmt::format(words, "azimuth", "stiffness", "pressure", "patch", "von Mises", "energy", "travel at",
                        "force at");
   table += fmt::format(words, "", "", "peak", "length", "peak", "", load_text(report), travel_text(report));
-  table += fmt::format(words, "[deg]", "[N/mm]", "[MPa]", "[mm]", "[MPa]",
-                       fmt::format("[{}]", unit<2>(kind(Quantity::strain_energy))), "[mm]", "[N]");
+  table +=
+      fmt::format(words, "[deg]", "[N/mm]", "[MPa]", "[mm]", "[MPa]",
+                  fmt::format("[{}]", unit(kind(Quantity::strain_energy), report.dimension)), "[mm]", "[N]");
   for (size_t i = 0; i < a.positions.size(); ++i) {
     const ContactSummary& p = a.positions[i];
-    const double force = p.radial_force * report.width;
+    const double force = p.radial_force * forces(report);
     table += fmt::format("{:9.3f}{:11.2f}{:11.4f}{:9.3f}{:11.4f}{:11.5f}{:13.6f}{:13.2f}\n",
                          a.azimuths[i] * degree, force / p.travel * N_per_mm, p.peak_pressure * MPa,
                          p.patch_length * mm, a.peak_von_mises[i] * MPa, a.strain_energy[i],
-                         a.travel_at_load[i] * mm, a.force_at_travel[i] * report.width);
+                         a.travel_at_load[i] * mm, a.force_at_travel[i] * forces(report));
   }
   return table;
 }
@@ -84,7 +88,7 @@ std::string friction_lines(const RollingReport& report) {
   for (size_t i = 0; i < report.analysis.positions.size(); ++i) {
     const ContactSummary& p = report.analysis.positions[i];
     table += fmt::format("{:9.3f}{:13.2f}{:13.4f}{:13.6f}{:13.6f}\n", report.analysis.azimuths[i] * degree,
-                         p.friction_force * report.width, p.peak_friction * MPa, p.travel_along_ground * mm,
+                         p.friction_force * forces(report), p.peak_friction * MPa, p.travel_along_ground * mm,
                          p.wind_up * degree);
   }
   return table;
@@ -124,7 +128,7 @@ std::string load_lines(const RollingReport& report) {
                   "least", "greatest", "stiffness", "[N]", "[mm]", "[mm]", "[mm]", "[N/mm]");
   for (size_t k = 0; k < report.loads.size(); ++k) {
     const RollingVariation travel = travel_variation(report.under_loads[k]);
-    const double load = report.loads[k] * report.width;
+    const double load = report.loads[k] * forces(report);
     table += fmt::format("{:11.2f}{:12.6f}{:12.6f}{:12.6f}{:12.2f}\n", load, travel.mean * mm,
                          travel.least * mm, travel.greatest * mm, load / travel.mean * N_per_mm);
   }
@@ -150,21 +154,22 @@ Json positions_json(const RollingReport& report) {
   Json positions = Json::array();
   for (size_t i = 0; i < a.positions.size(); ++i) {
     const ContactSummary& p = a.positions[i];
-    positions.push_back({{"azimuth_rad", a.azimuths[i]},
-                         {"radial_force_N", p.radial_force * report.width},
-                         {"travel_m", p.travel},
-                         {"stiffness_N_per_m", p.radial_force * report.width / p.travel},
-                         {"peak_pressure_Pa", p.peak_pressure},
-                         {"patch_length_m", p.patch_length},
-                         {"friction_force_N", p.friction_force * report.width},
-                         {"peak_friction_Pa", p.peak_friction},
-                         {"travel_along_ground_m", p.travel_along_ground},
-                         {"wind_up_rad", p.wind_up},
-                         {"peak_von_mises_Pa", a.peak_von_mises[i]},
-                         {"peak_strain", a.peak_strain[i]},
-                         {"strain_energy_J_per_m", a.strain_energy[i]},
-                         {"travel_at_load_m", a.travel_at_load[i]},
-                         {"force_at_travel_N", a.force_at_travel[i] * report.width}});
+    positions.push_back(
+        {{"azimuth_rad", a.azimuths[i]},
+         {"radial_force_N", p.radial_force * forces(report)},
+         {"travel_m", p.travel},
+         {"stiffness_N_per_m", p.radial_force * forces(report) / p.travel},
+         {"peak_pressure_Pa", p.peak_pressure},
+         {"patch_length_m", p.patch_length},
+         {"friction_force_N", p.friction_force * forces(report)},
+         {"peak_friction_Pa", p.peak_friction},
+         {"travel_along_ground_m", p.travel_along_ground},
+         {"wind_up_rad", p.wind_up},
+         {"peak_von_mises_Pa", a.peak_von_mises[i]},
+         {"peak_strain", a.peak_strain[i]},
+         {report.dimension == 2 ? "strain_energy_J_per_m" : "strain_energy_J", a.strain_energy[i]},
+         {"travel_at_load_m", a.travel_at_load[i]},
+         {"force_at_travel_N", a.force_at_travel[i] * forces(report)}});
   }
   return positions;
 }
@@ -172,7 +177,7 @@ Json positions_json(const RollingReport& report) {
 Json loads_json(const RollingReport& report) {
   Json loads = Json::array();
   for (size_t k = 0; k < report.loads.size(); ++k) {
-    const double load = report.loads[k] * report.width;
+    const double load = report.loads[k] * forces(report);
     Json positions = Json::array();
     for (const ContactSummary& p : report.under_loads[k])
       positions.push_back({{"travel_m", p.travel},
@@ -219,7 +224,7 @@ std::string rolling_json(const RollingReport& report) {
   Json json{{"title", report.title},
             {"width_m", report.width},
             {"sectors", report.n_sectors},
-            {"load_N", a.load * report.width},
+            {"load_N", a.load * forces(report)},
             {"travel_m", a.travel},
             {"positions", positions_json(report)},
             {"peak_von_mises",
@@ -228,7 +233,7 @@ std::string rolling_json(const RollingReport& report) {
               {"azimuth_rad", a.peak_azimuth},
               {"load_position_rad", a.azimuths[a.most_stressed]}}},
             {"travel_at_load_m", variation(all[0], 1)},
-            {"force_at_travel_N", variation(all[1], report.width)},
+            {"force_at_travel_N", variation(all[1], forces(report))},
             {"peak_pressure_Pa", variation(all[2], 1)}};
   if (!report.loads.empty()) json["loads"] = loads_json(report);
   return json.dump(2) + '\n';
@@ -241,7 +246,7 @@ LinePlot travel_plot(const RollingReport& report) {
 
 LinePlot force_plot(const RollingReport& report) {
   return sector_plot(report, "Radial force at a rim travel of " + travel_text(report), {"radial force", "N"},
-                     report.analysis.force_at_travel, report.width);
+                     report.analysis.force_at_travel, forces(report));
 }
 
 LinePlot peak_pressure_plot(const RollingReport& report) {
@@ -258,7 +263,7 @@ LinePlot load_plot(const RollingReport& report) {
     const RollingVariation travel = travel_variation(report.under_loads[k]);
     const double travels[] = {travel.greatest, travel.mean, travel.least};
     for (size_t i = 0; i < plot.curves.size(); ++i) {
-      plot.curves[i].x.push_back(report.loads[k] * report.width);
+      plot.curves[i].x.push_back(report.loads[k] * forces(report));
       plot.curves[i].y.push_back(travels[i] * mm);
     }
   }

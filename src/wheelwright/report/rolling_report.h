@@ -8,14 +8,15 @@
 
 namespace wheelwright {
 
-/// What is told about one shape of a 2D wheel. Forces are shown on the whole width.
+/// What is told about one shape. Forces are shown on the whole width.
 struct RollingReport {
   std::string title;
   double width;  ///< w_r [m]
   int n_sectors;
   RollingAnalysis analysis;
-  std::vector<double> loads;                             ///< [N/m], ascending; empty: none were asked for
+  std::vector<double> loads;  ///< as in the analysis, ascending; empty: none were asked for
   std::vector<std::vector<ContactSummary>> under_loads;  ///< [load][position]
+  int dimension = 2;                                     ///< of the analysis
 };
 
 /// For people: one line per load position, another one where there is friction or torque, what varies in

@@ -17,7 +17,8 @@ template <int dim>
 Json shape_json(const SummarizedShape<dim>& shape) {
   Json json{{"shape", shape.iteration}};
   json[dim == 2 ? "objective_J_per_m" : "objective_J"] = shape.objective;
-  for (const WheelNumber<dim>& number : wheel_numbers<dim>()) json[number.key] = number.value(shape.wheel);
+  for (const WheelNumber<dim>& number : wheel_numbers<dim>())
+    if (const auto value = number.value(shape.wheel)) json[number.key] = *value;
   const ShapeSummary<dim>& summary = shape.wheel.summary;
   json["pressure_spread"] = summary.rolling.pressure_spread;
   json["peak_von_mises_place"] = {{"radius_m", summary.von_mises.place[0]},
@@ -37,10 +38,8 @@ std::string summary_table(const RunSummary<dim>& summary) {
   constexpr double mm = 1e3, degree = 180 / std::numbers::pi;
   std::vector<ComparedRow> rows{{fmt::format("objective [{}]", unit<dim>(UnitKind::energy)),
                                  {summary.before.objective, summary.after.objective}}};
-  for (const WheelNumber<dim>& number : wheel_numbers<dim>())
-    rows.push_back({fmt::format("{} [{}]", number.label, number.unit),
-                    {number.value(summary.before.wheel) * number.factor,
-                     number.value(summary.after.wheel) * number.factor}});
+  for (ComparedRow& row : compared_rows<dim>({&summary.before.wheel, &summary.after.wheel}))
+    rows.push_back(std::move(row));
   const StressPeak<dim>& peak = summary.after.wheel.summary.von_mises;
   return comparison_table({"before", "after"}, rows) +
          fmt::format(

@@ -135,26 +135,36 @@ double ground_azimuth(const StateSolver<2>& solver, int position) {
   return solver.all_positions().grounds[position].azimuth(solver.model().grid);
 }
 
-std::vector<ContactPoint> points_of_solved(const StateSolver<2>& solver, const State<2>& state,
+template <int dim>
+std::vector<ContactPoint> points_of_solved(const StateSolver<dim>& solver, const State<dim>& state,
                                            int position) {
-  const ObservationRows<2> rows = solver.tread_surface().rows();
-  const ContactPatch<2>& contact = state.contacts()[position];
+  const ObservationRows<dim> rows = solver.tread_surface().rows();
+  const ContactPatch<dim>& contact = state.contacts()[position];
   std::vector<ContactPoint> result;
   for (const auto& point : contact.points) {
     const double* observed =
         state.observations().column(position * solver.tread_surface().n_columns + point.column);
-    const double *displacement = observed + rows.displacement(point.point),
-                 *traction = observed + rows.traction(point.point);
-    const Vec<2> u = rotated<2>({displacement[0], displacement[1]}, point.angle);
-    const double approach = u[0] + wheelwright::displacement<2>(contact.rim, point.position)[0];
-    result.push_back({.position = position,
+    const auto in_ground_frame = [&](int first_row) {
+      Vec<dim> v;
+      std::copy_n(observed + first_row, dim, v.begin());
+      return rotated<dim>(v, point.angle);
+    };
+    const Vec<dim> u = in_ground_frame(rows.displacement(point.point)),
+                   stress = in_ground_frame(rows.traction(point.point));
+    const double approach = u[0] + wheelwright::displacement<dim>(contact.rim, point.position)[0];
+    ContactPoint seen{.position = position,
                       .azimuth = std::atan2(point.position[1], point.position[0]),
                       .x = point.position[1],
                       .weight = point.weight,
                       .pressure = -point.traction[0],
                       .friction = point.traction[1],
-                      .normal_stress = rotated<2>({traction[0], traction[1]}, point.angle)[0],
-                      .gap = point.gap - approach});
+                      .normal_stress = stress[0],
+                      .gap = point.gap - approach};
+    if constexpr (dim == 3) {
+      seen.z = point.position[2] - 0.5 * solver.model().grid.width;
+      seen.axial_friction = point.traction[2];
+    }
+    result.push_back(seen);
   }
   return result;
 }
@@ -170,7 +180,8 @@ std::vector<ContactPoint> mirror_images(std::vector<ContactPoint> points) {
   return points;
 }
 
-std::vector<ContactPoint> points_at(const StateSolver<2>& solver, const State<2>& state,
+template <int dim>
+std::vector<ContactPoint> points_at(const StateSolver<dim>& solver, const State<dim>& state,
                                     const PositionSource& source, int position) {
   auto points = points_of_solved(solver, state, source.solved);
   if (source.is_image) points = mirror_images(std::move(points));
@@ -252,7 +263,8 @@ RingField repeated_field(const RollingModel<2>& model, const LevelSet<2>& sector
   return field;
 }
 
-std::vector<ContactPoint> contact_points(const StateSolver<2>& solver, const State<2>& state) {
+template <int dim>
+std::vector<ContactPoint> contact_points(const StateSolver<dim>& solver, const State<dim>& state) {
   std::vector<ContactPoint> result;
   const auto sources = position_sources(state.positions(), solver.model().n_positions);
   for (size_t position = 0; position < sources.size(); ++position)
@@ -260,5 +272,8 @@ std::vector<ContactPoint> contact_points(const StateSolver<2>& solver, const Sta
                       std::back_inserter(result));
   return result;
 }
+
+template std::vector<ContactPoint> contact_points(const StateSolver<2>&, const State<2>&);
+template std::vector<ContactPoint> contact_points(const StateSolver<3>&, const State<3>&);
 
 }  // namespace wheelwright

@@ -54,6 +54,7 @@ RingField repeated_field(const RollingModel<2>& model, const LevelSet<2>& sector
 
 /// The contact zones of all load positions of a sector, those of images reflected; in each position the
 /// points follow each other along the ground by columns.
-std::vector<ContactPoint> contact_points(const StateSolver<2>& solver, const State<2>& solution);
+template <int dim>
+std::vector<ContactPoint> contact_points(const StateSolver<dim>& solver, const State<dim>& solution);
 
 }  // namespace wheelwright

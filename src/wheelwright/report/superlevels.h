@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <unordered_map>
 #include <vector>
 
 #include "wheelwright/report/outline.h"
@@ -26,7 +25,7 @@ class PictureScalar {
   /// The outlines of the whole region.
   std::vector<PicturePolygon> region() const;
 
-  /// For every level the outlines of the part of the region where the scalar reaches it.
+  /// For every level, in ascending order, the outlines of the part of the region where the scalar reaches it.
   std::vector<std::vector<PicturePolygon>> superlevels(const std::vector<double>& levels) const;
 
   /// The same where the scalar does not reach it.
@@ -36,19 +35,23 @@ class PictureScalar {
   double median() const;
 
  private:
-  struct Hash {
-    std::size_t operator()(const PicturePoint& p) const;
+  /// A corner of a triangle with the value there.
+  struct Corner {
+    PicturePoint place;
+    double value;
+  };
+  /// A directed side of the region.
+  struct Side {
+    Corner from, to;
   };
 
-  double value(const PicturePoint& point) const { return values_.at(point); }
-  PicturePoint crossing(PicturePoint a, PicturePoint b, double level) const;
+  static PicturePoint crossing(const Corner& a, const Corner& b, double level);
+  static std::optional<PictureSide> part_above(const Side& side, double level);
+  static std::optional<PictureSide> part_below(const Side& side, double level);
   std::vector<std::vector<PictureSide>> level_lines(const std::vector<double>& levels) const;
-  std::optional<PictureSide> part_above(const PictureSide& side, double level) const;
-  std::optional<PictureSide> part_below(const PictureSide& side, double level) const;
 
-  std::unordered_map<PicturePoint, double, Hash> values_;
-  std::vector<Corners> triangles_;     ///< all of one sense of rotation
-  std::vector<PictureSide> boundary_;  ///< the sides that no two triangles share
+  std::vector<std::array<Corner, 3>> triangles_;  ///< all of one sense of rotation
+  std::vector<Side> boundary_;                    ///< the sides that no two triangles share
 };
 
 }  // namespace wheelwright

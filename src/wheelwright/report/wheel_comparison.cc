@@ -22,15 +22,12 @@ std::string heading(const ComparedWheel& wheel) {
 
 std::string wheels_table(const std::vector<ComparedWheel>& wheels) {
   std::vector<std::string> names;
-  for (const ComparedWheel& wheel : wheels) names.push_back(wheel.numbers.name);
-  std::vector<ComparedRow> rows;
-  for (const WheelNumber<2>& number : wheel_numbers<2>()) {
-    ComparedRow row{fmt::format("{} [{}]", number.label, number.unit), {}};
-    for (const ComparedWheel& wheel : wheels)
-      row.values.push_back(number.value(wheel.numbers) * number.factor);
-    rows.push_back(std::move(row));
+  std::vector<const DescribedWheel<2>*> described;
+  for (const ComparedWheel& wheel : wheels) {
+    names.push_back(wheel.numbers.name);
+    described.push_back(&wheel.numbers);
   }
-  return comparison_table(names, rows);
+  return comparison_table(names, compared_rows(described));
 }
 
 std::string wheels_json(const std::vector<ComparedWheel>& wheels) {
@@ -38,7 +35,8 @@ std::string wheels_json(const std::vector<ComparedWheel>& wheels) {
   for (const ComparedWheel& wheel : wheels) {
     nlohmann::ordered_json entry{
         {"name", wheel.numbers.name}, {"shape", wheel.numbers.which}, {"width_m", wheel.numbers.grid.width}};
-    for (const WheelNumber<2>& number : wheel_numbers<2>()) entry[number.key] = number.value(wheel.numbers);
+    for (const WheelNumber<2>& number : wheel_numbers<2>())
+      if (const auto value = number.value(wheel.numbers)) entry[number.key] = *value;
     json.push_back(std::move(entry));
   }
   return nlohmann::ordered_json{{"wheels", std::move(json)}}.dump(2) + '\n';

@@ -89,6 +89,15 @@ class ColumnNodes {
     return map;
   }
 
+  /// The free dofs that the side faces hold.
+  std::vector<int> held_dofs(SideFaces sides) const {
+    std::vector<int> dofs;
+    for (const auto& [place, number] : numbers_)
+      for (int c = 0; c < dim; ++c)
+        if (is_held<dim>(sides, place[2], axial_nodes_ - 1, c)) dofs.push_back(dim * number + c);
+    return dofs;
+  }
+
   /// The free node at a node of the level set's grid: `row_node` and `across` in units of its node spacing.
   int grid_node(int row_node, int across, int axial) const {
     const double height = static_cast<double>(row_node) / (degree_ * rows_);
@@ -244,6 +253,10 @@ class ColumnAssembly {
     const int n_layers = static_cast<int>(nodes_.all_layers().size());
     for (int layer = 0; layer < n_layers; ++layer)
       for (int row = 0; row < nodes_.all_layers()[layer].rows; ++row) add_row(layer, row);
+    for (const int dof : nodes_.held_dofs(table_.sides())) {
+      for (int i = 0; i < nodes_.n_dofs(); ++i) column_.stiffness(i, dof) = column_.stiffness(dof, i) = 0;
+      column_.stiffness(dof, dof) = table_.held_stiffness();
+    }
     column_.surface.mirror_images = all_mirror_images();
     return std::move(column_);
   }
@@ -348,7 +361,7 @@ class ColumnAssembly {
   }
 
   void add_contact_face(ColumnCell<dim>& cell) {
-    const double gamma = form_.gamma_0 * cell.material.scaling_modulus() / cell.element.diameter();
+    const double gamma = form_.gamma_0 * cell.material.scaling_modulus() / cell.element.plane_diameter();
     append_images(mirror_images(face_rule_, 0), cell, point_images_);
     for (const auto& q : face_rule_) {
       Vec<dim> xi{}, outward{};

@@ -98,7 +98,8 @@ class Loads {
   void add_on_observations(const RollingProblem<dim>& problem, int f) {
     materials_.emplace_back();
     const int per_function = s_.observations.columns(), n_columns = per_function / s_.positions.size();
-    const auto& [energy, loads, integrals] = functions_[f];
+    const auto& energy = functions_[f].energy;
+    const Matrix& loads = functions_[f].tread_loads;
     if (loads.columns() > 0) put_columns(loads, f * per_function, tread.on_observations);
     if (energy.empty()) return;
     const Matrix nitsche = problem.nitsche_loads(s_.observations);
@@ -168,16 +169,21 @@ std::vector<int> zone_columns(const RollingSolution<dim>& s, int n_functions, in
 /// from what is observed of p without them in `columns`, those of zone_columns().
 template <int dim>
 Expected<std::pair<Matrix, std::vector<std::vector<RimMotion>>>> contact_adjoints(
-    const RollingSolution<dim>& s, int n_functions, const Matrix& observed, std::span<const int> columns) {
+    const RollingSolution<dim>& s, std::span<const FunctionalDerivative<dim>> functions,
+    const Matrix& observed, std::span<const int> columns) {
+  const int n_functions = static_cast<int>(functions.size());
   Matrix loads(s.observations.rows(), n_functions * s.observations.columns());
   std::vector<std::vector<RimMotion>> rim(n_functions);
   const int per_function = static_cast<int>(columns.size()) / n_functions;
   int first = 0;
   for (size_t i = 0; i < s.contacts.size(); ++i) {
     const int n = s.contacts[i].zone().n_columns;
-    std::vector<Matrix> of_functions;
-    for (int f = 0; f < n_functions; ++f)
-      of_functions.push_back(block(observed, 0, f * per_function + first, observed.rows(), n));
+    std::vector<ContactAdjointLoads<dim>> of_functions;
+    for (int f = 0; f < n_functions; ++f) {
+      of_functions.push_back({block(observed, 0, f * per_function + first, observed.rows(), n)});
+      if (!functions[f].rim.empty()) of_functions.back().rim = functions[f].rim[i];
+      if (!functions[f].tractions.empty()) of_functions.back().tractions = functions[f].tractions[i];
+    }
     const auto adjoints = s.contacts[i].adjoints(s.states[i], of_functions);
     if (!adjoints) return adjoints.failure();
     for (int f = 0; f < n_functions; ++f) {
@@ -251,7 +257,7 @@ Expected<std::vector<Adjoint>> solve_adjoints(const RollingProblem<dim>& problem
   const auto columns = zone_columns(s, n_functions, tread.n_columns());
   Matrix observed = observations(tread, tread_field(tread, without_contact, on_tread), on_tread, columns);
   subtract_states(s, functions, columns, observed);
-  auto contact = contact_adjoints(s, n_functions, observed, columns);
+  auto contact = contact_adjoints(s, functions, observed, columns);
   if (!contact) return contact.failure();
 
   const Matrix outer =

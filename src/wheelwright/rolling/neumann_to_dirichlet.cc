@@ -8,10 +8,11 @@ namespace {
 template <int dim>
 std::shared_ptr<const ElementTable<dim>> elements_of(const RollingModel<dim>& model, DualNorm norm) {
   if (norm == DualNorm::elasticity)
-    return std::make_shared<const ElementTable<dim>>(model.grid, model.degree, model.materials, model.ghost);
+    return std::make_shared<const ElementTable<dim>>(model.grid, model.degree, model.materials, model.ghost,
+                                                     cell_stiffness<dim>, model.side_faces);
   const Material material{model.materials.at_tread().scaling_modulus(), 0};
   return std::make_shared<const ElementTable<dim>>(model.grid, model.degree, material, model.ghost,
-                                                   gradient_stiffness<dim>);
+                                                   gradient_stiffness<dim>, model.side_faces);
 }
 
 }  // namespace

@@ -4,37 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "wheelwright/geometry/axle_rotation.h"
+
 namespace wheelwright {
-namespace {
-
-/// A rotation about the axle by one angle.
-class Turn {
- public:
-  explicit Turn(double angle) : cosine_(std::cos(angle)), sine_(std::sin(angle)) {}
-
-  template <std::size_t dim>
-  std::array<double, dim> forward(std::array<double, dim> v) const {
-    return turned(v, sine_);
-  }
-  template <std::size_t dim>
-  std::array<double, dim> back(std::array<double, dim> v) const {
-    return turned(v, -sine_);
-  }
-
- private:
-  template <std::size_t dim>
-  std::array<double, dim> turned(std::array<double, dim> v, double sine) const {
-    const double x = v[0], y = v[1];
-    v[0] = cosine_ * x - sine * y;
-    v[1] = sine * x + cosine_ * y;
-    return v;
-  }
-
-  double cosine_, sine_;
-};
-
-}  // namespace
-
 template <int dim>
 RingDisplacement<dim>::RingDisplacement(const RollingProblem<dim>& problem,
                                         const RollingSolution<dim>& solution)
@@ -95,7 +67,7 @@ RingField RingDisplacement<dim>::at_nodes(int position) const {
   for (int sector = 0; sector < grid.n_sectors; ++sector)
     for (int line = 0; line < lattice_.nodes()[1]; ++line) {
       const double azimuth = sector * grid.sector_angle() + line * lattice_.spacing()[1];
-      const Turn from_polar(azimuth), from_ground(azimuth - ground);
+      const AxleRotation from_polar(azimuth), from_ground(azimuth - ground);
       for (int k = 0; k < nodes_per_azimuth; ++k) {
         const int node = line * nodes_per_azimuth + k;
         const auto place = lattice_.node_position(node);

@@ -154,7 +154,8 @@ template <int dim>
 Expected<RollingProblem<dim>> RollingProblem<dim>::create(const RollingModel<dim>& model) {
   if (dim == 3 && model.materials.at_tread().plane == Plane::stress)
     return Failure{FailureReason::unsupported_model, "plane stress is for two dimensions only"};
-  auto elements = std::make_unique<ElementTable<dim>>(model.grid, model.degree, model.materials, model.ghost);
+  auto elements = std::make_unique<ElementTable<dim>>(model.grid, model.degree, model.materials, model.ghost,
+                                                      cell_stiffness<dim>, model.side_faces);
   auto tread = Tread<dim>::condense(*elements, model.tread, model.contact, model.contact_points);
   if (!tread) return tread.failure();
   return RollingProblem(model, std::move(elements), *std::move(tread));

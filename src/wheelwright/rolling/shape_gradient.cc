@@ -183,7 +183,8 @@ class Densities {
       densities.push_back(energy_and_work(functions_[f].energy, material, strain_u, strain_p));
       for (size_t q = 0; q < points.size(); ++q) densities[f][q] += loads_[f].density(points[q], angle, p);
       if (projected) add_projection(functions_[f].energy, material, u, p, dilatations, densities[f]);
-      if (!functions_[f].integrals.empty()) add_integrands(f, material, strain_u, densities[f]);
+      const auto integrals = integrals_in_row<dim>(functions_[f].integrals, grid, place[0]);
+      if (!integrals.empty()) add_integrands(integrals, material, strain_u, densities[f]);
     }
     return densities;
   }
@@ -234,12 +235,12 @@ class Densities {
     }
   }
 
-  void add_integrands(size_t f, const Material& material, const Matrix& strain_u,
+  void add_integrands(std::span<const typename FunctionalDerivative<dim>::Integral> integrals,
+                      const Material& material, const Matrix& strain_u,
                       std::vector<double>& densities) const {
     const Matrix of_cases = product(strain_u, Op::transpose, s_.displacement.weights, Op::transpose);
     for (size_t q = 0; q < densities.size(); ++q)
-      densities[q] += integrand<dim>(s_, material, of_cases, n_strains<dim> * static_cast<int>(q),
-                                     functions_[f].integrals);
+      densities[q] += integrand<dim>(s_, material, of_cases, n_strains<dim> * static_cast<int>(q), integrals);
   }
 
   const RollingProblem<dim>& problem_;

@@ -1,5 +1,8 @@
 #include "wheelwright/run/checkpointer.h"
 
+#include "wheelwright/case/load_saved_shape.h"
+#include "wheelwright/files/atomic_file.h"
+#include "wheelwright/files/level_set_file.h"
 #include "wheelwright/run/provenance.h"
 
 namespace wheelwright {
@@ -14,7 +17,8 @@ Checkpointer<dim>::Checkpointer(CheckpointFolder folder, const std::optional<Che
 
 template <int dim>
 void Checkpointer<dim>::operator()(const Event<dim>& event, const RunView<dim>& run) {
-  if (std::holds_alternative<CaseChanged>(event) || std::holds_alternative<ShapeReplaced>(event))
+  if (std::holds_alternative<CaseChanged>(event) || std::holds_alternative<ShapeReplaced>(event) ||
+      std::holds_alternative<GridChanged>(event))
     saved_iteration_.reset();
   if (const auto* done = std::get_if<TrialDone<dim>>(&event)) {
     if (done->trial.verdict == Verdict::accepted) elapsed_ = run.elapsed_seconds;
@@ -47,6 +51,7 @@ void Checkpointer<dim>::write(const OptimizationState<dim>& state, const RunView
                              .finished = finished};
   for (const auto& observer : run.observers) observer->add_to(checkpoint);
   folder_.save(state.iteration, checkpoint_file(checkpoint));
+  write_atomically(run.folder / saved_shape_file, level_set_file(state.shape));
   saved_iteration_ = state.iteration;
   since_saved_.lap();
 }

@@ -9,6 +9,7 @@
 #include "wheelwright/cut/measure.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/files/level_set_file.h"
+#include "wheelwright/geometry/section.h"
 #include "wheelwright/report/svg.h"
 #include "wheelwright/run/own_drawings.h"
 
@@ -44,71 +45,77 @@ template std::string failure_headline(const OptimizationState<3>*, std::span<con
 
 namespace {
 
-std::string report(const RunEnded<2>& failure, const RunView<2>& run) {
-  const PolarGrid<2>& grid = run.study.grid();
-  std::string text = failure_headline<2>(failure.state, failure.failed_trials) + "\n\n";
+template <int dim>
+std::string report(const RunEnded<dim>& failure, const RunView<dim>& run) {
+  const PolarGrid<dim>& grid = run.study.grid();
+  std::string text = failure_headline<dim>(failure.state, failure.failed_trials) + "\n\n";
   if (failure.state)
     if (const std::string hint = volume_hint(*run.initial, *failure.state); !hint.empty())
       text += hint + "\n\n";
   if (failure.state)
     text += fmt::format("last accepted shape: {}, objective {:.8g} {}, volume {:.6f} of the ring\n",
                         failure.state->iteration, failure.state->evaluation.function("objective").value,
-                        unit<2>(kind(Quantity::objective)), volume_fraction(grid, failure.state->measure));
-  for (const Trial<2>& trial : failure.failed_trials)
+                        unit<dim>(kind(Quantity::objective)), volume_fraction(grid, failure.state->measure));
+  for (const Trial<dim>& trial : failure.failed_trials)
     text += fmt::format("trial {} of shape {}: step {:.4g} cells = {:.4g} mm, volume {:.6f}: {}: {}\n",
                         trial.halvings, trial.iteration, trial.step, 1e3 * trial.step * grid.resolution(),
                         volume_fraction(grid, material_measure(trial.shape)),
                         to_string(trial.failure->reason), trial.failure->detail);
   return text +
          "\n"
-         "rejected.svg        the shape that failed last\n"
+         "rejected.svg        the shape that failed last; in 3D its mid-plane\n"
          "rejected.levelset   its level set; the format is in src/wheelwright/files/level_set_file.h\n"
          "accepted.levelset   that of the last accepted shape, if there is one\n"
          "case.toml           the case with every key; `wheelwright check` tells what follows from it\n"
          "../history.csv      every trial of the run\n";
 }
 
-/// The shape as it can be drawn: nodes without a finite value as holes.
-LevelSet<2> drawable(LevelSet<2> psi) {
+/// The shape as it can be drawn: its mid-plane section, nodes without a finite value as holes.
+template <int dim>
+LevelSet<2> drawable(const LevelSet<dim>& shape) {
+  LevelSet<2> psi = mid_plane_section(shape);
   for (double& value : psi.values)
     if (!std::isfinite(value)) value = psi.lattice.grid().resolution();
   return psi;
 }
 
-WheelState wheel(const std::string& heading, const LevelSet<2>& shape, double objective, double measure) {
+template <int dim>
+WheelState wheel(const std::string& heading, const LevelSet<dim>& shape, double objective, double measure) {
   return {heading, material_contours(drawable(shape), contour_subdivisions(shape.lattice.degree())),
           objective, volume_fraction(shape.lattice.grid(), measure)};
 }
 
-std::string picture(const RunEnded<2>& failure) {
-  const Trial<2>& trial = failure.failed_trials.back();
-  const PolarGrid<2>& grid = trial.shape.lattice.grid();
+template <int dim>
+std::string picture(const RunEnded<dim>& failure) {
+  const Trial<dim>& trial = failure.failed_trials.back();
+  const PolarGrid<2> grid = mid_plane_section(trial.shape).lattice.grid();
   const std::string reason = to_string(trial.failure->reason);
   const double objective = trial.evaluation ? trial.evaluation->function("objective").value
                                             : std::numeric_limits<double>::quiet_NaN();
   const WheelState rejected =
       wheel("rejected: " + reason, trial.shape, objective, material_measure(trial.shape));
   if (!failure.state) return shape_svg(grid, rejected.contours, rejected.heading);
-  const OptimizationState<2>& last = *failure.state;
+  const OptimizationState<dim>& last = *failure.state;
   const WheelState accepted = wheel(fmt::format("shape {}, accepted", last.iteration), last.shape,
                                     last.evaluation.function("objective").value, last.measure);
   return comparison_svg(grid, {.title = "Where the run gave up",
                                .caption = trial.failure->detail,
                                .objective_name = std::string(name(Quantity::objective)),
-                               .objective_unit = unit<2>(kind(Quantity::objective)),
+                               .objective_unit = unit<dim>(kind(Quantity::objective)),
                                .before = accepted,
                                .after = rejected});
 }
 
 }  // namespace
 
-void FailureReport::operator()(const Event<2>& event, const RunView<2>& run) {
-  const auto* ended = std::get_if<RunEnded<2>>(&event);
+template <int dim>
+void FailureReport<dim>::operator()(const Event<dim>& event, const RunView<dim>& run) {
+  const auto* ended = std::get_if<RunEnded<dim>>(&event);
   if (!ended || ended->failed_trials.empty() ||
       (ended->reason != StopReason::gave_up && ended->reason != StopReason::failed_start))
     return;
   make_subfolder(run.folder / "failure");
-  const LevelSet<2>& rejected = ended->failed_trials.back().shape;
+  const LevelSet<dim>& rejected = ended->failed_trials.back().shape;
   write_drawings(run.folder / "failure", run.study.source);
   write_atomically(run.folder / "failure/case.toml", to_toml(run.study.source));
   write_atomically(run.folder / failure_report_file, report(*ended, run));
@@ -117,5 +124,8 @@ void FailureReport::operator()(const Event<2>& event, const RunView<2>& run) {
   if (ended->state)
     write_atomically(run.folder / "failure/accepted.levelset", level_set_file(ended->state->shape));
 }
+
+template class FailureReport<2>;
+template class FailureReport<3>;
 
 }  // namespace wheelwright

@@ -22,10 +22,11 @@ std::string volume_hint(const InitialShape<dim>& initial, const OptimizationStat
 
 /// For a run that gave up, writes what is needed to find the reason to the folder `failure`: report.txt with
 /// every failed trial, a picture of the last one's shape, its level set and that of the last accepted shape,
-/// and the case. In 2D: it draws the shape.
-class FailureReport : public Observer<2> {
+/// and the case.
+template <int dim>
+class FailureReport : public Observer<dim> {
  public:
-  void operator()(const Event<2>& event, const RunView<2>& run) override;
+  void operator()(const Event<dim>& event, const RunView<dim>& run) override;
 };
 
 }  // namespace wheelwright

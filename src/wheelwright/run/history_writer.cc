@@ -77,6 +77,7 @@ void HistoryWriter<dim>::operator()(const Event<dim>& event, const RunView<dim>&
     add_missing_columns(run);
   }
   if (const auto* replaced = std::get_if<ShapeReplaced>(&event)) notes_.push_back(replaced->text);
+  if (const auto* changed = std::get_if<GridChanged>(&event)) notes_.push_back(changed->text);
   if (const auto* done = std::get_if<TrialDone<dim>>(&event)) record(*done, run);
 }
 

@@ -61,6 +61,11 @@ struct RunWaits {
 /// A run that waited proceeds.
 struct RunProceeds {};
 
+/// The descent proceeds on another grid (RunView::study); the current shape, moved there, is evaluated next.
+struct GridChanged {
+  std::string text;  ///< the grid
+};
+
 /// The run ended, by itself or by request.
 template <int dim>
 struct RunEnded {
@@ -74,7 +79,7 @@ struct RunEnded {
 
 template <int dim>
 using Event = std::variant<RunStarted, TrialDone<dim>, SaveRequested<dim>, CommandDone, CaseChanged,
-                           ShapeReplaced, RunWaits, RunProceeds, RunEnded<dim>>;
+                           ShapeReplaced, GridChanged, RunWaits, RunProceeds, RunEnded<dim>>;
 
 template <int dim>
 class Observer;

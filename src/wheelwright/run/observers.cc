@@ -24,11 +24,9 @@ Observers<dim> make_observers(const Case& c, const CheckpointFolder& checkpoints
     observers.push_back(std::make_unique<DescentPictures>());
   }
   observers.push_back(std::make_unique<ExpectationWatch<dim>>(c.expectations, resumed));
-  if constexpr (dim == 2) {
-    observers.push_back(std::make_unique<PressureFiles>());
-    observers.push_back(std::make_unique<ResultFiles>());
-    observers.push_back(std::make_unique<FailureReport>());
-  }
+  observers.push_back(std::make_unique<PressureFiles<dim>>());
+  if constexpr (dim == 2) observers.push_back(std::make_unique<ResultFiles>());
+  observers.push_back(std::make_unique<FailureReport<dim>>());
   observers.push_back(std::make_unique<SummaryFile<dim>>());
   if constexpr (dim == 2) observers.push_back(std::make_unique<ReportFile>());
   observers.push_back(std::make_unique<Checkpointer<dim>>(checkpoints, resumed));

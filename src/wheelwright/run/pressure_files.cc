@@ -9,13 +9,15 @@
 namespace wheelwright {
 namespace {
 
-void write(const RunView<2>& run, const StateSolver<2>& solver, const State<2>& solution,
+template <int dim>
+void write(const RunView<dim>& run, const StateSolver<dim>& solver, const State<dim>& solution,
            const std::string& name) {
   const auto points = contact_points(solver, solution);
   std::vector<double> azimuths;
   for (const GroundPosition& ground : solver.all_positions().grounds)
     azimuths.push_back(ground.azimuth(run.study.grid()));
-  write_pressure_csv(run.folder / fmt::format("pressures_{}.csv", name), points);
+  write_pressure_csv<dim>(run.folder / fmt::format("pressures_{}.csv", name), points);
+  if (dim == 3) return;  // there is no curve of the pressure along the ground
   write_atomically(
       run.folder / fmt::format("pressures_{}.svg", name),
       plot_svg(pressure_plot(points, azimuths, fmt::format("Contact pressure, {} shape", name))));
@@ -23,12 +25,16 @@ void write(const RunView<2>& run, const StateSolver<2>& solver, const State<2>& 
 
 }  // namespace
 
-void PressureFiles::operator()(const Event<2>& event, const RunView<2>& run) {
-  if (const auto* done = std::get_if<TrialDone<2>>(&event);
+template <int dim>
+void PressureFiles<dim>::operator()(const Event<dim>& event, const RunView<dim>& run) {
+  if (const auto* done = std::get_if<TrialDone<dim>>(&event);
       done && done->trial.verdict == Verdict::accepted && done->state.iteration == 0 && done->trial.solution)
     write(run, *run.study.solver, *done->trial.solution, "initial");
-  if (const auto* ended = std::get_if<RunEnded<2>>(&event); ended && ended->solution)
+  if (const auto* ended = std::get_if<RunEnded<dim>>(&event); ended && ended->solution)
     write(run, *ended->solver, *ended->solution, "final");
 }
+
+template class PressureFiles<2>;
+template class PressureFiles<3>;
 
 }  // namespace wheelwright

@@ -6,11 +6,12 @@
 
 namespace wheelwright {
 
-/// Writes pressures_initial.csv and pressures_final.csv with their plots: the contact of all load positions.
-/// In 2D: the files hold one coordinate along the ground.
-class PressureFiles : public Observer<2> {
+/// Writes pressures_initial.csv and pressures_final.csv: the contact of all load positions; in 2D with their
+/// plots over the ground.
+template <int dim>
+class PressureFiles : public Observer<dim> {
  public:
-  void operator()(const Event<2>& event, const RunView<2>& run) override;
+  void operator()(const Event<dim>& event, const RunView<dim>& run) override;
 };
 
 }  // namespace wheelwright

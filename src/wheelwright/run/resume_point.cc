@@ -49,10 +49,8 @@ Expected<Checkpoint<dim>, Unusable> read_checkpoint(const fs::path& file, const 
         fmt::format("{}: {}", to_string(checkpoint.failure().fault), checkpoint.failure().detail)};
   const std::string &then = checkpoint->provenance.resolved_case, now = provenance(c).resolved_case;
   if (then != now) return Unusable{fmt::format("written for another case: {}", first_difference(then, now))};
-  const Lattice<dim> lattice(polar_grid<dim>(c), c.grid.level_set_degree);
-  for (const LevelSet<dim>* psi : {&checkpoint->state.shape, &checkpoint->initial.shape})
-    if (psi->lattice.grid() != lattice.grid() || psi->lattice.degree() != lattice.degree())
-      return Unusable{"its shape stands on another grid than the case's"};
+  if (!level_of(c, checkpoint->state.shape) || level_of(c, checkpoint->initial.shape) != 0)
+    return Unusable{"its shape stands on another grid than the case's"};
   if (!History::holds(history, checkpoint->history))
     return Unusable{fmt::format("{} does not hold the rows that were written before it", history.string())};
   return *std::move(checkpoint);

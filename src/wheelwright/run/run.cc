@@ -114,7 +114,7 @@ Expected<Run<dim>, NotBegun<dim>> Run<dim>::resume(const Case& c, const fs::path
   if (checkpoint && is_finished(*checkpoint, c))
     return already_finished(c, *std::move(checkpoint), std::move(unusable));
 
-  auto study = make_study<dim>(c);
+  auto study = make_study<dim>(c, checkpoint ? *level_of(c, checkpoint->state.shape) : 0);
   if (!study) return NotBegun<dim>(study.failure());
   Resumption resumption{.unusable = std::move(unusable), .shape = {}, .other_program = {}};
   if (checkpoint) {

@@ -5,8 +5,12 @@
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/write.h"
+#include "wheelwright/cut/measure.h"
+#include "wheelwright/evolution/regrid.h"
 #include "wheelwright/evolution/volume.h"
 #include "wheelwright/files/atomic_file.h"
+#include "wheelwright/geometry/components.h"
+#include "wheelwright/geometry/values_on.h"
 #include "wheelwright/run/own_drawings.h"
 #include "wheelwright/run/provenance.h"
 #include "wheelwright/run/run_title.h"
@@ -29,6 +33,27 @@ Expected<Case, Refusal> checked(const Case& c, const std::filesystem::path& fold
   for (const Diagnostic& problem : result.problems)
     reason += (reason.empty() ? "" : "; ") + problem_text(problem);
   return Refusal{reason};
+}
+
+template <int dim>
+Trial<dim> failed_trial(int iteration, const LevelSet<dim>& shape, const Failure& failure) {
+  return {.iteration = iteration,
+          .halvings = 0,
+          .step = 0,
+          .max_velocity = 0,
+          .evolution_seconds = 0,
+          .shape = shape,
+          .measure = 0,
+          .verdict = Verdict::failed,
+          .failure = failure};
+}
+
+/// How the holes of a shape changed on its way to another grid.
+template <int dim>
+std::vector<ShapeEvent<dim>> changes_by_grid(const LevelSet<dim>& before, const LevelSet<dim>& after) {
+  PolarGrid<dim> fine = after.lattice.grid();
+  for (int& cells : fine.cells) cells *= component_samples;
+  return topology_changes(components(values_on(before, Lattice<dim>(fine, 1)), 1), components(after));
 }
 
 Refusal refusal(const Failure& failure) {
@@ -87,14 +112,88 @@ RunResult<dim> RunLoop<dim>::advance() {
   const auto observer = [this](const Trial<dim>& trial, const OptimizationState<dim>& state) {
     observe(trial, state);
   };
+  if (begins_on_coarser_grid()) begin_on_coarser_grid();
   while (!is_stopped_) {
     const auto work = work_;  // a command may replace it while the loop is in it
     const auto reason = work->optimizer.advance(*state_, observer, [this] { return must_yield(); });
-    if (reason && *reason != StopReason::stop_requested && at_end_ == AtEnd::finish) return end(*reason);
-    if (reason && *reason != StopReason::stop_requested) wait_for_more(*reason);
-    if (reason) must_yield();  // an evaluation was interrupted: by a command to stop
+    if (!reason) continue;
+    if (*reason == StopReason::stop_requested) {
+      must_yield();  // an evaluation was interrupted: by a command to stop
+      continue;
+    }
+    if (work_->study.level == 0 && at_end_ == AtEnd::finish) return end(*reason);
+    if (work_->study.level == 0) {
+      wait_for_more(*reason);
+      continue;
+    }
+    // Where no shapes are left for finer grids, the results still are those of the case's own.
+    const auto failure = move_to_grid(*reason == StopReason::iterations ? 0 : work_->study.level - 1);
+    if (failure && failure->reason != FailureReason::interrupted) return end_between_grids(*failure);
+    if (failure) must_yield();
   }
   return end(StopReason::stop_requested);
+}
+
+/// Also true for a run that was stopped before the descent began.
+template <int dim>
+bool RunLoop<dim>::begins_on_coarser_grid() const {
+  const Case& c = work_->study.source;
+  return work_->study.level == 0 && state_->iteration == 0 && c.optimizer.coarse_levels > 0 &&
+         c.optimizer.iterations > 0;
+}
+
+/// The coarsest grid on which the initial shape can be solved.
+template <int dim>
+void RunLoop<dim>::begin_on_coarser_grid() {
+  for (int level = work_->study.source.optimizer.coarse_levels; level > 0; --level) {
+    const auto failure = move_to_grid(level);
+    if (!failure) return;
+    if (failure->reason == FailureReason::interrupted) {
+      must_yield();
+      return;
+    }
+    notify(CommandDone{fmt::format("{}: {}: {}", grid_text(on_coarser_grid(work_->study.source, level)),
+                                   to_string(failure->reason), failure->detail),
+                       false});
+  }
+}
+
+/// Proceeds with the current shape on the grid of a level. If that fails, nothing has changed.
+template <int dim>
+std::optional<Failure> RunLoop<dim>::move_to_grid(int level) {
+  auto study = make_study<dim>(work_->study.source, level);
+  if (!study) return study.failure();
+  const auto work = make_work(*std::move(study));
+  std::vector<ShapeEvent<dim>> events;
+  const auto moved = state_on(*work, events);
+  if (!moved) return moved.failure();
+  std::optional<Trial<dim>> trial;
+  auto anew = work->optimizer.restart(
+      *moved, [&](const Trial<dim>& seen, const OptimizationState<dim>&) { trial = seen; });
+  if (!anew) return anew.failure();
+  trial->events = std::move(events);
+  work_ = work;
+  state_ = *std::move(anew);
+  notify(GridChanged{grid_text(work_->study.computed())});
+  observe(*trial, *state_);
+  return {};
+}
+
+/// The current shape on the grid of other work, with the same measure; what the grid makes of its holes.
+template <int dim>
+Expected<OptimizationState<dim>> RunLoop<dim>::state_on(const Work& work,
+                                                        std::vector<ShapeEvent<dim>>& events) const {
+  const Evolver<dim>& evolver = work.optimizer.evolver();
+  const LevelSet<dim> there = evolver.keep_bands(regrid(state_->shape, work.study.initial.lattice));
+  double edges = 0;
+  for (const auto& point : state_->evaluation.boundary) edges += point.weight;
+  auto with_measure = evolver.with_measure(there, state_->measure, edges);
+  if (!with_measure) return with_measure.failure();
+  OptimizationState<dim> state = *state_;
+  state.shape = std::move(with_measure->shape);
+  state.measure = with_measure->measure;
+  events = changes_by_grid(state_->shape, state.shape);
+  return state;
 }
 
 template <int dim>
@@ -122,17 +221,16 @@ RunResult<dim> RunLoop<dim>::end_without_a_shape(const Failure& failure) {
     notify(RunEnded<dim>{StopReason::stop_requested, nullptr, nullptr, nullptr, nullptr, {}});
     return result(StopReason::stop_requested);
   }
-  failed_trials_ = {{.iteration = 0,
-                     .halvings = 0,
-                     .step = 0,
-                     .max_velocity = 0,
-                     .evolution_seconds = 0,
-                     .shape = work_->study.initial,
-                     .measure = 0,
-                     .verdict = Verdict::failed,
-                     .failure = failure}};
+  failed_trials_ = {failed_trial(0, work_->study.initial, failure)};
   notify(RunEnded<dim>{StopReason::failed_start, nullptr, nullptr, nullptr, nullptr, failed_trials_});
   return result(StopReason::failed_start);
+}
+
+/// The shape cannot be computed on the next grid: the run gives up with the one that it has.
+template <int dim>
+RunResult<dim> RunLoop<dim>::end_between_grids(const Failure& failure) {
+  failed_trials_ = {failed_trial(state_->iteration, state_->shape, failure)};
+  return end(StopReason::gave_up);
 }
 
 template <int dim>
@@ -179,7 +277,7 @@ template <int dim>
 std::pair<typename RunLoop<dim>::SharedSolver, typename RunLoop<dim>::SharedSolution>
 RunLoop<dim>::solution_of_results(const SharedSolution& own, const Interrupt& interrupt) {
   const Study<dim>& study = work_->study;
-  const Case& c = study.source;
+  const Case c = study.computed();
   if (!own || tread_levels_of_results(c) == tread_levels(c)) return {study.solver, own};
   const auto finer = make_solver(rolling_model<dim>(with_levels_of_results(c)));
   if (!finer) return {study.solver, own};
@@ -189,14 +287,16 @@ RunLoop<dim>::solution_of_results(const SharedSolution& own, const Interrupt& in
 }
 
 /// The initial shape as the solver of the results sees it: what was noted of its trial, where that solver is
-/// the run's own. Else, and in a resumed run, it is solved here.
+/// the run's own. Else, and in a resumed run, it is solved here; for a run that was stopped on a coarser
+/// grid, on that.
 template <int dim>
 std::optional<DescribedWheel<dim>> RunLoop<dim>::initial_wheel(const StateSolver<dim>& solver) const {
   if (initial_wheel_ && &solver == work_->study.solver.get()) return initial_wheel_;
-  const LevelSet<dim>& shape = initial_->shape;
+  const bool is_coarser = work_->study.level > 0;
+  const LevelSet<dim>& shape = is_coarser ? work_->study.initial : initial_->shape;
   const auto states = solver.states(shape, solver.distinct_positions(shape), Interrupt());
   if (!states) return {};
-  return described(solver, shape, initial_->measure, **states);
+  return described(solver, shape, is_coarser ? material_measure(shape) : initial_->measure, **states);
 }
 
 template <int dim>
@@ -231,7 +331,9 @@ void RunLoop<dim>::observe(const Trial<dim>& trial, const OptimizationState<dim>
       initial_ =
           InitialShape<dim>{state.shape, work_->optimizer.objective_of(state.evaluation), state.measure};
     const Case& c = work_->study.source;
-    if (state.iteration == 0 && trial.solution && tread_levels_of_results(c) == tread_levels(c))
+    const bool is_initial =
+        state.iteration == 0 && work_->study.level == 0 && state.shape.values == initial_->shape.values;
+    if (is_initial && trial.solution && tread_levels_of_results(c) == tread_levels(c))
       initial_wheel_ = described(*work_->study.solver, state.shape, state.measure, *trial.solution);
     last_solution_ = reason_to_stop(work_->study.optimizer, state) ? trial.solution : nullptr;
   } else if (trial.verdict == Verdict::failed) {
@@ -393,7 +495,7 @@ Expected<OptimizationState<dim>> RunLoop<dim>::state_at(const ShapeOptimizer<dim
                                                         const LevelSet<dim>& shape,
                                                         std::optional<Trial<dim>>& trial) const {
   OptimizationState<dim> from = *state_;
-  from.shape = shape;
+  from.shape = regrid(shape, state_->shape.lattice);  // a shape of the past may stand on another grid
   return optimizer.restart(from,
                            [&](const Trial<dim>& seen, const OptimizationState<dim>&) { trial = seen; });
 }
@@ -418,13 +520,15 @@ std::optional<Refusal> RunLoop<dim>::work_on(const Case& changed, const LevelSet
                                              const std::string& what) {
   const auto c = checked(changed, folder_);
   if (!c) return c.failure();
-  if (polar_grid<dim>(*c) != work_->study.grid() ||
-      c->grid.level_set_degree != state_->shape.lattice.degree())
+  const int level = work_->study.level;
+  if (level_of(*c, initial_->shape) != 0 || level_of(*c, state_->shape) != level)
     return Refusal{"the shape stands on another grid than the case's"};
-  auto study = make_study<dim>(*c);
+  auto study = make_study<dim>(*c, level);
   if (!study) return refusal(study.failure());
+  const auto of_initial = level == 0 ? study : make_study<dim>(*c);
+  if (!of_initial) return refusal(of_initial.failure());
   // Without interruption: a command to stop that comes later is obeyed later.
-  const auto first = evaluate_of(*study)(initial_->shape, nullptr);
+  const auto first = evaluate_of(*of_initial)(initial_->shape, nullptr);
   if (!first) return refusal(first.failure());
   std::optional<Trial<dim>> trial;
   auto anew = state_at(optimizer_of(*study), shape, trial);

@@ -59,8 +59,13 @@ class RunLoop : private RunControl {
                                             std::optional<Trial<dim>>& trial) const;
 
   RunResult<dim> advance();
+  bool begins_on_coarser_grid() const;
+  void begin_on_coarser_grid();
+  std::optional<Failure> move_to_grid(int level);
+  Expected<OptimizationState<dim>> state_on(const Work& work, std::vector<ShapeEvent<dim>>& events) const;
   RunResult<dim> end(StopReason reason);
   RunResult<dim> end_without_a_shape(const Failure& failure);
+  RunResult<dim> end_between_grids(const Failure& failure);
   std::vector<Finding> findings_at_the_end(const State<dim>* solution);
   RunResult<dim> result(StopReason reason) const;
   SharedSolution final_solution(const Interrupt& interrupt);

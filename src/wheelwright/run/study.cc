@@ -6,9 +6,10 @@
 #include <numeric>
 
 #include "wheelwright/analysis/deformation_size.h"
-#include "wheelwright/case/derived.h"
 #include "wheelwright/case/drawn_shapes.h"
+#include "wheelwright/cut/measure.h"
 #include "wheelwright/drawing/composed_level_set.h"
+#include "wheelwright/evolution/regrid.h"
 #include "wheelwright/evolution/volume.h"
 #include "wheelwright/functionals/material_volume.h"
 #include "wheelwright/functionals/mean_contact_stress.h"
@@ -17,35 +18,19 @@
 #include "wheelwright/functionals/uniformity_dual.h"
 #include "wheelwright/functionals/uniformity_l2.h"
 #include "wheelwright/geometry/components.h"
+#include "wheelwright/geometry/values_on.h"
 #include "wheelwright/rolling/rolling_problem.h"
 
 namespace wheelwright {
 namespace {
 
-/// Cells along the axle in 3D, until a case can say so.
-constexpr int axial_cells = 2;
-
 /// What is given on the whole width as the model of this dimension takes it.
 template <int dim>
 double on_model_width(double on_whole_width, const Case& c) {
-  return dim == 2 ? on_whole_width / c.wheel.width : on_whole_width;
+  return on_whole_width / whole_width(dim, c.wheel.width);
 }
 
 }  // namespace
-
-template <int dim>
-PolarGrid<dim> polar_grid(const Case& c) {
-  const PolarGrid<2> plane = plane_grid(c);
-  if constexpr (dim == 2) {
-    return plane;
-  } else {
-    return {plane.inner_radius,
-            plane.outer_radius,
-            plane.width,
-            plane.n_sectors,
-            {plane.cells[0], plane.cells[1], axial_cells}};
-  }
-}
 
 template <int dim>
 RollingModel<dim> rolling_model(const Case& c) {
@@ -54,6 +39,7 @@ RollingModel<dim> rolling_model(const Case& c) {
   model.degree = c.grid.degree;
   model.materials = c.material;
   model.ghost = c.ghost_penalty;
+  model.side_faces = c.wheel.side_faces;
   model.contact = {.method = c.contact.method,
                    .theta_nitsche = c.contact.theta,
                    .gamma_0 = c.contact.gamma_0,
@@ -143,9 +129,16 @@ const ShapeFunction<dim>& Study<dim>::objective() const {
 
 namespace {
 
+/// The shape of another run that a case begins with; null if it draws its own.
+template <int dim>
+const LevelSet<dim>* saved_shape(const Case& c) {
+  if constexpr (dim == 2) return c.saved_shape.shape.contents.get();
+  return nullptr;
+}
+
 /// The shape that a case draws, at the nodes of a lattice.
 template <int dim>
-LevelSet<dim> shape_on(const Lattice<dim>& lattice, const Case& c) {
+LevelSet<dim> drawn_on(const Lattice<dim>& lattice, const Case& c) {
   if (c.shapes == Shapes{}) return make_level_set(lattice, sector_holes(c));
   return make_level_set(lattice, Composition(figures(c)));
 }
@@ -154,15 +147,35 @@ LevelSet<dim> shape_on(const Lattice<dim>& lattice, const Case& c) {
 
 template <int dim>
 LevelSet<dim> initial_shape(const Case& c) {
-  const Lattice<dim> lattice(polar_grid<dim>(c), c.grid.level_set_degree);
-  return ProtectedBands<dim>(lattice, bands(c)).keep(shape_on(lattice, c));
+  const Lattice<dim> lattice(polar_grid<dim>(c), level_set_degree(c));
+  const LevelSet<dim>* saved = saved_shape<dim>(c);
+  return ProtectedBands<dim>(lattice, bands(c)).keep(saved ? regrid(*saved, lattice) : drawn_on(lattice, c));
+}
+
+template <int dim>
+std::optional<VolumeChange> volume_change_of_saved_shape(const Case& c) {
+  const LevelSet<dim>* saved = saved_shape<dim>(c);
+  if (!saved) return {};
+  const LevelSet<dim> here = initial_shape<dim>(c);
+  const auto fraction = [](const LevelSet<dim>& shape) {
+    return volume_fraction(shape.lattice.grid(), material_measure(shape));
+  };
+  return VolumeChange{fraction(*saved), fraction(here)};
+}
+
+std::string text(const VolumeChange& change) {
+  return fmt::format(
+      "volume of the saved shape: {:.6g} % of the ring there, {:.6g} % on the grid here ({:+.2g} %)",
+      100 * change.there, 100 * change.here, 100 * (change.here / change.there - 1));
 }
 
 template <int dim>
 std::vector<ShapeEvent<dim>> lost_on_the_grid(const Case& c) {
   PolarGrid<dim> fine = polar_grid<dim>(c);
-  for (int d = 0; d < 2; ++d) fine.cells[d] *= component_samples;  // the holes are cylinders along the axle
-  const auto given = shape_on(Lattice<dim>(fine, 1), c);
+  for (int& cells : fine.cells) cells *= component_samples;
+  const Lattice<dim> samples(fine, 1);
+  const LevelSet<dim>* saved = saved_shape<dim>(c);
+  const auto given = saved ? values_on(*saved, samples) : drawn_on(samples, c);
   return topology_changes(components(given, 1), components(initial_shape<dim>(c)));
 }
 
@@ -205,14 +218,27 @@ std::string load_text(const RollingModel<dim>& model) {
 }
 
 template <int dim>
-Expected<Study<dim>> make_study(const Case& c) {
+std::optional<int> level_of(const Case& c, const LevelSet<dim>& shape) {
+  for (int level = 0; level <= c.optimizer.coarse_levels; ++level) {
+    const Case computed = on_coarser_grid(c, level);
+    if (shape.lattice.grid() == polar_grid<dim>(computed) &&
+        shape.lattice.degree() == level_set_degree(computed))
+      return level;
+  }
+  return {};
+}
+
+template <int dim>
+Expected<Study<dim>> make_study(const Case& source, int level) {
+  const Case c = on_coarser_grid(source, level);
   auto solver = make_solver(rolling_model<dim>(c));
   if (!solver) return solver.failure();
   auto functions = shape_functions<dim>(c, **solver);
   if (!functions) return functions.failure();
   EvolutionOptions evolution = evolution_options(c);
   evolution.cut_points = (*solver)->model().points_in_cut_cells();
-  return Study<dim>{.source = c,
+  return Study<dim>{.source = source,
+                    .level = level,
                     .solver = *std::move(solver),
                     .functions = *std::move(functions),
                     .initial = initial_shape<dim>(c),
@@ -239,9 +265,9 @@ ShapeOptimizer<dim> optimizer_of(const Study<dim>& study, Interrupt interrupt) {
 }
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                        \
-  template PolarGrid<dim> polar_grid(const Case&);                                                          \
   template RollingModel<dim> rolling_model(const Case&);                                                    \
   template LevelSet<dim> initial_shape(const Case&);                                                        \
+  template std::optional<VolumeChange> volume_change_of_saved_shape<dim>(const Case&);                      \
   template OptimizerOptions optimizer_options<dim>(const Case&);                                            \
   template Expected<std::shared_ptr<const StateSolver<dim>>> make_solver(const RollingModel<dim>&);         \
   template Expected<std::vector<ShapeFunction<dim>>> shape_functions(const Case&, const StateSolver<dim>&); \
@@ -249,7 +275,8 @@ ShapeOptimizer<dim> optimizer_of(const Study<dim>& study, Interrupt interrupt) {
   template std::vector<ShapeEvent<dim>> lost_on_the_grid(const Case&);                                      \
   template double volume_fraction(const PolarGrid<dim>&, double);                                           \
   template std::string load_text(const RollingModel<dim>&);                                                 \
-  template Expected<Study<dim>> make_study(const Case&);                                                    \
+  template std::optional<int> level_of(const Case&, const LevelSet<dim>&);                                  \
+  template Expected<Study<dim>> make_study(const Case&, int);                                               \
   template ShapeOptimizer<dim>::Evaluate evaluate_of(const Study<dim>&, Interrupt);                         \
   template ShapeOptimizer<dim> optimizer_of(const Study<dim>&, Interrupt);
 WHEELWRIGHT_INSTANTIATE(2)

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <memory>
-#include <type_traits>
-#include <utility>
 
 #include "wheelwright/base/interrupt.h"
-#include "wheelwright/case/case.h"
+#include "wheelwright/case/coarse_grid.h"
+#include "wheelwright/case/derived.h"
+#include "wheelwright/case/dimension.h"
 #include "wheelwright/geometry/topology.h"
 #include "wheelwright/optimize/optimizer.h"
 #include "wheelwright/sensitivity/evaluate.h"
@@ -16,13 +16,24 @@ namespace wheelwright {
 // energies are those of one metre of width.
 
 template <int dim>
-PolarGrid<dim> polar_grid(const Case& c);
-template <int dim>
 RollingModel<dim> rolling_model(const Case& c);
 
 /// The shape of a case before its optimization, cut off at the bands that stay material.
 template <int dim>
 LevelSet<dim> initial_shape(const Case& c);
+
+/// The volume of the saved shape that a case begins with: on its own grid, and on the case's, where it is cut
+/// off at the case's bands; as fractions of the ring.
+struct VolumeChange {
+  double there, here;
+};
+
+/// Empty for a case that begins with no saved shape.
+template <int dim>
+std::optional<VolumeChange> volume_change_of_saved_shape(const Case& c);
+
+/// One line for people.
+std::string text(const VolumeChange& change);
 
 EvolutionOptions evolution_options(const Case& c);
 template <int dim>
@@ -55,6 +66,7 @@ std::string load_text(const RollingModel<dim>& model);
 template <int dim>
 struct Study {
   Case source;
+  int level;  ///< of the grid on which it is computed: 0 is the case's own (case/coarse_grid.h)
   std::shared_ptr<const StateSolver<dim>> solver;
   std::vector<ShapeFunction<dim>> functions;
   LevelSet<dim> initial;
@@ -64,13 +76,20 @@ struct Study {
   const RollingModel<dim>& model() const { return solver->model(); }
   const PolarGrid<dim>& grid() const { return solver->model().grid; }
 
+  /// The case as it is computed: on the grid of the level.
+  Case computed() const { return on_coarser_grid(source, level); }
+
   /// The function that is minimized.
   const ShapeFunction<dim>& objective() const;
 };
 
-/// Fails as make_solver() and shape_functions() do.
+/// On the grid of that level. Fails as make_solver() and shape_functions() do.
 template <int dim>
-Expected<Study<dim>> make_study(const Case& c);
+Expected<Study<dim>> make_study(const Case& c, int level = 0);
+
+/// The level at which a case's grid has the nodes of this shape, if there is one up to coarse_levels.
+template <int dim>
+std::optional<int> level_of(const Case& c, const LevelSet<dim>& shape);
 
 /// Evaluates the study's functions at a shape, for the loop. With `objective.mean = "held"` it compares with
 /// the mean contact stress of the previous shape, otherwise with that of the shape itself. Keeps what it
@@ -81,12 +100,5 @@ typename ShapeOptimizer<dim>::Evaluate evaluate_of(const Study<dim>& study, Inte
 /// The loop on the study's functions.
 template <int dim>
 ShapeOptimizer<dim> optimizer_of(const Study<dim>& study, Interrupt interrupt = {});
-
-/// Calls the visitor with the dimension in which a case is computed, as std::integral_constant<int, dim>: the
-/// one place that decides it.
-template <class Visitor>
-decltype(auto) in_dimension_of(const Case&, Visitor&& visitor) {
-  return std::forward<Visitor>(visitor)(std::integral_constant<int, 2>{});
-}
 
 }  // namespace wheelwright

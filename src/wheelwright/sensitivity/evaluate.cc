@@ -32,7 +32,7 @@ class FunctionalValues {
     std::vector<TermValue> terms;
     for (size_t k = 0; k < values_.size(); ++k) {
       const auto by_position = of_all(positions, values_[k].by_position);
-      double value = values_[k].of_shape;
+      double value = values_[k].of_shape + values_[k].over_positions.value_or(0);
       for (int i = 0; i < positions.size() && !values_[k].by_position.empty(); ++i)
         value += positions.multiplicities[i] * values_[k].by_position[i];
       terms.push_back({functionals_[k]->name(), value, by_position});
@@ -52,11 +52,12 @@ struct WeightedValues {
   FunctionalDerivative<dim> derivative;
 };
 
-/// Whether the deviations from the positions' own mean, and with them their loads, sum to zero: then the
+/// Whether the deviations from the positions' own mean, and with them a term's loads, sum to zero: then the
 /// mean's derivative vanishes.
 template <int dim>
-bool deviations_sum_to_zero(const ShapeFunction<dim>& function, const LoadPositions& positions) {
-  return function.position_weights.empty() && positions.stand_on_columns();
+bool deviations_sum_to_zero(const ShapeFunction<dim>& function, const FunctionalValue<dim>& term,
+                            const LoadPositions& positions) {
+  return function.position_weights.empty() && !term.over_positions && positions.stand_on_columns();
 }
 
 template <int dim>
@@ -67,20 +68,24 @@ WeightedValues<dim> weighted(const ShapeFunction<dim>& function, const Functiona
       .value = {function.name, 0, {}, std::vector<double>(state.boundary().size(), 0.0), function.bounds},
       .derivative = {}};
   std::vector<double> by_position(positions.size(), 0.0);
-  bool depends_on_states = false;
+  bool has_shares = false;
   for (const auto& [weight, functional] : function.terms) {
     const FunctionalValue<dim>& term = functionals.of(*functional);
     result.value.value += weight * term.of_shape;
     for (size_t q = 0; q < term.gradient_of_shape.size(); ++q)
       result.value.gradient[q] += weight * term.gradient_of_shape[q];
-    if (term.by_position.empty()) continue;
-    depends_on_states = true;
     std::vector<double> factors(positions.size(), weight);
-    for (int i = 0; i < positions.size(); ++i) {
-      if (!function.position_weights.empty()) factors[i] *= function.position_weights[i];
-      by_position[i] += factors[i] * term.by_position[i];
+    if (term.over_positions) {
+      result.value.value += weight * *term.over_positions;
+    } else {
+      if (term.by_position.empty()) continue;
+      has_shares = true;
+      for (int i = 0; i < positions.size(); ++i) {
+        if (!function.position_weights.empty()) factors[i] *= function.position_weights[i];
+        by_position[i] += factors[i] * term.by_position[i];
+      }
     }
-    if (term.compares_with_mean && !mean_is_held && !deviations_sum_to_zero(function, positions)) {
+    if (term.compares_with_mean && !mean_is_held && !deviations_sum_to_zero(function, term, positions)) {
       FunctionalDerivative<dim> derivative;
       add(term.derivative, factors, derivative);
       add_derivative_of_mean(solver.tread_surface(), positions, derivative.tread_loads);
@@ -89,7 +94,7 @@ WeightedValues<dim> weighted(const ShapeFunction<dim>& function, const Functiona
       add(term.derivative, factors, result.derivative);
     }
   }
-  if (!depends_on_states) return result;
+  if (!has_shares) return result;
   for (int i = 0; i < positions.size(); ++i)
     result.value.value += positions.multiplicities[i] * by_position[i];
   result.value.by_position = of_all(positions, by_position);
@@ -111,12 +116,6 @@ bool is_finite(const Evaluation<dim>& evaluation) {
     return std::isfinite(function.value) &&
            std::ranges::all_of(function.gradient, [](double g) { return std::isfinite(g); });
   });
-}
-
-/// Whether a function needs an adjoint: the others depend on the shape alone.
-template <int dim>
-bool depends_on_states(const FunctionalDerivative<dim>& derivative) {
-  return !derivative.energy.empty() || derivative.tread_loads.columns() > 0 || !derivative.integrals.empty();
 }
 
 }  // namespace
@@ -143,7 +142,7 @@ Expected<Evaluation<dim>> differentiate(const StateSolver<dim>& solver,
   std::vector<size_t> of_states;
   for (const ShapeFunction<dim>& function : functions) {
     auto [value, derivative] = weighted(function, functionals, solver, state, held_mean != nullptr);
-    if (depends_on_states(derivative)) {
+    if (!derivative.empty()) {  // the others depend on the shape alone and need no adjoint
       of_states.push_back(evaluation.functions.size());
       derivatives.push_back(std::move(derivative));
     }

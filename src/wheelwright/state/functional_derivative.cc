@@ -20,6 +20,28 @@ void accumulate(const std::vector<double>& factors, const Matrix& term, Matrix& 
     for (int i = 0; i < term.rows(); ++i) sum(i, j) += factors[j / per_position] * term(i, j);
 }
 
+/// The same of the rim's motions.
+void accumulate(const std::vector<double>& factors, const std::vector<RimForce>& term,
+                std::vector<RimForce>& sum) {
+  if (term.empty()) return;
+  sum.resize(term.size());
+  for (std::size_t i = 0; i < term.size(); ++i)
+    sum[i] = wheelwright::sum(sum[i], scaled(factors[i], term[i]));
+}
+
+/// The same of the tractions at every position's points.
+template <int dim>
+void accumulate(const std::vector<double>& factors, const std::vector<std::vector<Vec<dim>>>& term,
+                std::vector<std::vector<Vec<dim>>>& sum) {
+  if (term.empty()) return;
+  sum.resize(term.size());
+  for (std::size_t i = 0; i < term.size(); ++i) {
+    sum[i].resize(term[i].size(), Vec<dim>{});
+    for (std::size_t q = 0; q < term[i].size(); ++q)
+      for (int d = 0; d < dim; ++d) sum[i][q][d] += factors[i] * term[i][q][d];
+  }
+}
+
 }  // namespace
 
 template <int dim>
@@ -31,6 +53,8 @@ void add(const FunctionalDerivative<dim>& term, const std::vector<double>& facto
     sum.integrals.push_back({integral.density, {}});
     accumulate(factors, integral.factors, sum.integrals.back().factors);
   }
+  accumulate(factors, term.rim, sum.rim);
+  accumulate<dim>(factors, term.tractions, sum.tractions);
 }
 
 template void add(const FunctionalDerivative<2>&, const std::vector<double>&, FunctionalDerivative<2>&);

@@ -1,12 +1,16 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "wheelwright/elasticity/element.h"
+#include "wheelwright/geometry/polar_grid.h"
+#include "wheelwright/state/rim.h"
 
 namespace wheelwright {
 
-/// A function of the strain that is integrated over the material, including the tread: M(u) of (36).
+/// A function of the strain that is integrated over the material, including the tread: M(u) of (36). It may
+/// be zero in whole rows of cells.
 template <int dim>
 class MaterialDensity {
  public:
@@ -17,19 +21,23 @@ class MaterialDensity {
     Voigt<dim> by_strain;  ///< dM/d(eps), with respect to engineering shear strains
   };
   virtual Value at(const Voigt<dim>& strain, const Material& material) const = 0;
+
+  /// Whether it counts in a radial row of cells, the first of them at the rim.
+  virtual bool covers(const PolarGrid<dim>&, int) const { return true; }
 };
 
 /// How the values J_i of one function depend on the states u_i of the load positions that were solved for:
 /// all that an adjoint problem (79) and a shape derivative (42) need to know about the function.
 ///   dJ_i = energy_i dJ_e,i - tread_loads . d(observations) + density_i d(int M(u_i) dx)
+///          + rim_i . d(motion of the rim) + tractions_i . d(traction of the ground)
 template <int dim>
 struct FunctionalDerivative {
   /// dJ_i / dJ_e,i with J_e the strain energy (3), one per position; empty: zero.
-  std::vector<double> energy;
+  std::vector<double> energy = {};
 
   /// Minus the derivative with respect to what the tread observes (ObservationRows); one column per
   /// (position, ring column), as State::observations(); empty: zero.
-  Matrix tread_loads;
+  Matrix tread_loads = {};
 
   /// The derivative with respect to integrals over the material, one factor per position. The densities must
   /// outlive this.
@@ -37,8 +45,33 @@ struct FunctionalDerivative {
     const MaterialDensity<dim>* density;
     std::vector<double> factors;
   };
-  std::vector<Integral> integrals;
+  std::vector<Integral> integrals = {};
+
+  /// The derivative with respect to the motion of the rim (ContactPatch::rim), one per position; empty: zero.
+  /// Motions that the model prescribes do not change with the shape: their entries do not count.
+  std::vector<RimForce> rim = {};
+
+  /// The derivative with respect to the ground's tractions on the wheel, [position][point of the patch], in
+  /// the ground frame (ContactPatch::Point::traction); empty: zero.
+  std::vector<std::vector<Vec<dim>>> tractions = {};
+
+  /// Whether it is zero because the function does not depend on the states.
+  bool empty() const {
+    return energy.empty() && tread_loads.columns() == 0 && integrals.empty() && rim.empty() &&
+           tractions.empty();
+  }
 };
+
+/// Those of the integrals whose densities count in a radial row of cells.
+template <int dim>
+std::vector<typename FunctionalDerivative<dim>::Integral> integrals_in_row(
+    std::span<const typename FunctionalDerivative<dim>::Integral> integrals, const PolarGrid<dim>& grid,
+    int row) {
+  std::vector<typename FunctionalDerivative<dim>::Integral> result;
+  for (const auto& integral : integrals)
+    if (integral.density->covers(grid, row)) result.push_back(integral);
+  return result;
+}
 
 /// Adds a term's derivative to `sum`, multiplied at each position by that position's factor.
 template <int dim>

@@ -5,14 +5,14 @@
 namespace wheelwright {
 
 template <int dim>
-std::vector<double> material_integral(const StateSolver<dim>& solver, const State<dim>& state,
-                                      const MaterialDensity<dim>& density) {
+void for_each_strain(const StateSolver<dim>& solver, const State<dim>& state,
+                     const MaterialDensity<dim>& covered, const StrainVisitor<dim>& visit) {
   const RollingModel<dim>& model = solver.model();
   const auto displacement = state.displacement();
-  std::vector<double> integrals(state.positions().size(), 0.0);
   MaterialRule<dim>(state.domain(), model.degree)
       .for_each_cell([&](int cell, std::span<const ReferencePoint<dim>> points) {
         const auto place = model.grid.cell_position(cell);
+        if (!covered.covers(model.grid, place[0])) return;
         const CellMap<dim> map(model.grid, model.degree, place);
         std::vector<Vec<dim>> xi;
         std::vector<double> weights;
@@ -22,17 +22,31 @@ std::vector<double> material_integral(const StateSolver<dim>& solver, const Stat
                             determinant<dim>(map.jacobian(ShapeFunctions<dim>(model.degree, point.xi))));
         }
         const Material& material = model.materials.in_row(place[0]);
-        for_each_strain<dim>(displacement->strains(cell, xi), [&](int load_case, int q,
-                                                                  const Voigt<dim>& strain) {
-          integrals[load_case / model.grid.n_sectors] += weights[q] * density.at(strain, material).density;
-        });
+        for_each_strain<dim>(displacement->strains(cell, xi),
+                             [&](int load_case, int q, const Voigt<dim>& strain) {
+                               visit(load_case / model.grid.n_sectors, weights[q], material, strain);
+                             });
       });
+}
+
+template <int dim>
+std::vector<double> material_integral(const StateSolver<dim>& solver, const State<dim>& state,
+                                      const MaterialDensity<dim>& density) {
+  std::vector<double> integrals(state.positions().size(), 0.0);
+  for_each_strain<dim>(solver, state, density,
+                       [&](int position, double weight, const Material& material, const Voigt<dim>& strain) {
+                         integrals[position] += weight * density.at(strain, material).density;
+                       });
   return integrals;
 }
 
-template std::vector<double> material_integral(const StateSolver<2>&, const State<2>&,
-                                               const MaterialDensity<2>&);
-template std::vector<double> material_integral(const StateSolver<3>&, const State<3>&,
-                                               const MaterialDensity<3>&);
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                                     \
+  template void for_each_strain(const StateSolver<dim>&, const State<dim>&, const MaterialDensity<dim>&, \
+                                const StrainVisitor<dim>&);                                              \
+  template std::vector<double> material_integral(const StateSolver<dim>&, const State<dim>&,             \
+                                                 const MaterialDensity<dim>&);
+WHEELWRIGHT_INSTANTIATE(2)
+WHEELWRIGHT_INSTANTIATE(3)
+#undef WHEELWRIGHT_INSTANTIATE
 
 }  // namespace wheelwright

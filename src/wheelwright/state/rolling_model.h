@@ -5,6 +5,7 @@
 #include "wheelwright/elasticity/contact_form.h"
 #include "wheelwright/elasticity/ghost_penalty.h"
 #include "wheelwright/elasticity/materials.h"
+#include "wheelwright/elasticity/side_faces.h"
 #include "wheelwright/geometry/polar_grid.h"
 #include "wheelwright/state/rim.h"
 
@@ -37,6 +38,7 @@ struct RollingModel {
   std::optional<int> cut_points;  ///< Gauss points per direction in cut cells; absent: degree + 2
   Materials materials;
   GhostPenalty ghost;
+  SideFaces side_faces = SideFaces::free;  ///< when dim = 3
   ContactForm contact;
   int contact_points = 5;       ///< Gauss points per direction on each contact face
   TreadGrid tread;              ///< rows that are condensed once per run, and their refinement

@@ -29,8 +29,9 @@ constexpr std::string_view names_in_folder[] = {
     "loads.svg",     "mesh.svg",   "stress.svg", "stress_contact.svg", "displacement.svg"};
 
 /// Loads on the whole width [N]. The wheel's name stands for a title that is missing.
-Expected<RollingReport> rolling_report(const WheelInput& wheel, const std::vector<double>& loads,
-                                       const StateSolver<2>& solver, const State<2>& solution) {
+template <int dim>
+Expected<RollingReport> rolling_report(const WheelInput<dim>& wheel, const std::vector<double>& loads,
+                                       const StateSolver<dim>& solver, const State<dim>& solution) {
   const Case& c = wheel.source;
   auto analysis = rolling_analysis(solver, solution);
   if (!analysis) return analysis.failure();
@@ -40,27 +41,41 @@ Expected<RollingReport> rolling_report(const WheelInput& wheel, const std::vecto
                        .n_sectors = c.wheel.sectors,
                        .analysis = *std::move(analysis),
                        .loads = {},
-                       .under_loads = {}};
-  for (const double load : loads) report.loads.push_back(load / c.wheel.width);
-  auto under = under_loads<2>(solver, solution, report.loads);
+                       .under_loads = {},
+                       .dimension = dim};
+  for (const double load : loads) report.loads.push_back(load / whole_width(dim, c.wheel.width));
+  auto under = under_loads<dim>(solver, solution, report.loads);
   if (!under) return under.failure();
   report.under_loads = *std::move(under);
   return report;
 }
 
-void write_folder(const std::filesystem::path& folder, const RollingReport& report,
-                  const std::vector<ContactPoint>& points) {
-  make_folder(folder);
+void write_plots(const std::filesystem::path& folder, const RollingReport& report) {
   const auto plot = [&](const char* file, const LinePlot& picture) {
     write_atomically(folder / file, plot_svg(picture));
   };
   plot("travel.svg", travel_plot(report));
   plot("force.svg", force_plot(report));
   plot("peak_pressure.svg", peak_pressure_plot(report));
-  plot("pressures.svg", pressure_plot(points, report.analysis.azimuths, "Contact pressure"));
   if (!report.loads.empty()) plot("loads.svg", load_plot(report));
-  write_pressure_csv(folder / "pressures.csv", points);
-  write_atomically(folder / result_file, rolling_json(report));
+}
+
+/// The contact of all positions, and pictures of the loaded wheel.
+void write_fields(const std::filesystem::path& folder, const RollingReport& report, const LevelSet<2>& shape,
+                  const StateSolver<2>& solver, const State<2>& states) {
+  const auto points = contact_points(solver, states);
+  write_atomically(folder / "pressures.svg",
+                   plot_svg(pressure_plot(points, report.analysis.azimuths, "Contact pressure")));
+  write_pressure_csv<2>(folder / "pressures.csv", points);
+  write_wheel_pictures(folder, {.prefix = "", .title = report.title, .width = report.width}, shape,
+                       states.domain(),
+                       position_fields(solver, states, worst_position(states.strain_energy())));
+}
+
+/// The contact of all positions; pictures of the loaded wheel are plane.
+void write_fields(const std::filesystem::path& folder, const RollingReport&, const LevelSet<3>&,
+                  const StateSolver<3>& solver, const State<3>& states) {
+  write_pressure_csv<3>(folder / "pressures.csv", contact_points(solver, states));
 }
 
 std::string check_loads(const std::string& text) {
@@ -86,19 +101,20 @@ class AnalyzeCommand : public Subcommand {
     auto wheel = read_wheel_or_tell(input_, {name(), threads_, positions_});
     if (!wheel) return wheel.failure();
     if (output_ && !may_write_to(*output_, names_in_folder)) return exit_refused;
-    return analyze(*wheel);
+    return std::visit([this](const auto& input) { return analyze(input); }, *wheel);
   }
 
  private:
   std::filesystem::path folder() const { return *output_; }
 
   /// Computes the shape at its load positions and tells what an engineer asks of a wheel.
-  int analyze(const WheelInput& wheel) const {
+  template <int dim>
+  int analyze(const WheelInput<dim>& wheel) const {
     const Case& c = wheel.source;
-    const auto made = make_solver(rolling_model<2>(with_levels_of_results(c)));
+    const auto made = make_solver(rolling_model<dim>(with_levels_of_results(c)));
     if (!made) return tell_failure(name(), made.failure());
-    const StateSolver<2>& solver = **made;
-    const LevelSet<2>& shape = wheel.shape;
+    const StateSolver<dim>& solver = **made;
+    const LevelSet<dim>& shape = wheel.shape;
     const auto solved = solver.states(shape, solver.all_positions(), Interrupt());
     if (!solved) return tell_failure(name(), solved.failure());
     if (const auto failure = material_overlaps(solver, shape, **solved))
@@ -120,12 +136,13 @@ class AnalyzeCommand : public Subcommand {
                               : without_control_characters(report.title) + "\n\n" + rolling_table(report));
   }
 
-  void write(const RollingReport& report, const LevelSet<2>& shape, const StateSolver<2>& solver,
-             const State<2>& states) const {
-    write_folder(folder(), report, contact_points(solver, states));
-    write_wheel_pictures(folder(), {.prefix = "", .title = report.title, .width = report.width}, shape,
-                         states.domain(),
-                         position_fields(solver, states, worst_position(states.strain_energy())));
+  template <int dim>
+  void write(const RollingReport& report, const LevelSet<dim>& shape, const StateSolver<dim>& solver,
+             const State<dim>& states) const {
+    make_folder(folder());
+    write_plots(folder(), report);
+    write_fields(folder(), report, shape, solver, states);
+    write_atomically(folder() / result_file, rolling_json(report));
   }
 
   std::string input_;

@@ -7,6 +7,7 @@
 #include "wheelwright/app/memory.h"
 #include "wheelwright/app/shared_options.h"
 #include "wheelwright/app/terminal.h"
+#include "wheelwright/run/study.h"
 
 namespace wheelwright {
 namespace {
@@ -22,6 +23,7 @@ class CheckCommand : public Subcommand {
     if (!c) return exit_usage;
     print("{}\n", styled(stdout, Style::green, case_file_ + ": no problems"));
     print_lines(stdout, derived_report(*c));
+    if (const auto change = volume_change_of_saved_shape<2>(*c)) print("{}\n", text(*change));
     print_warnings(stdout, *c);
     if (const auto lack = lack_of_memory(*c, available_memory()))
       print_warning(stdout, "this case cannot run here: " + *lack);

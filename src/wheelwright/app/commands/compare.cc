@@ -17,7 +17,7 @@ namespace {
 constexpr std::string_view names_in_folder[] = {"comparison.txt", "comparison.json", "comparison.svg"};
 
 /// Solves a wheel in its load positions.
-Expected<ComparedWheel> compared(const WheelInput& wheel) {
+Expected<ComparedWheel> compared(const WheelInput<2>& wheel) {
   const auto solver = make_solver(rolling_model<2>(with_levels_of_results(wheel.source)));
   if (!solver) return solver.failure();
   const LevelSet<2>& shape = wheel.shape;
@@ -49,9 +49,9 @@ class CompareCommand : public Subcommand {
   }
 
   int run() override {
-    std::vector<WheelInput> wheels;
+    std::vector<WheelInput<2>> wheels;
     for (const std::string& input : inputs_) {
-      auto wheel = read_wheel_or_tell(input, {name(), threads_, positions_});
+      auto wheel = read_plane_wheel_or_tell(input, {name(), threads_, positions_});
       if (!wheel) return wheel.failure();
       wheels.push_back(*std::move(wheel));
     }
@@ -60,9 +60,9 @@ class CompareCommand : public Subcommand {
   }
 
  private:
-  int compare(const std::vector<WheelInput>& inputs) const {
+  int compare(const std::vector<WheelInput<2>>& inputs) const {
     std::vector<ComparedWheel> wheels;
-    for (const WheelInput& input : inputs) {
+    for (const WheelInput<2>& input : inputs) {
       auto wheel = compared(input);
       if (!wheel) {
         tell("{}:\n", input.name);

@@ -83,7 +83,7 @@ class ExportCommand : public Subcommand {
   }
 
   int run() override {
-    const auto wheel = read_wheel_or_tell(input_, {name(), {}});
+    const auto wheel = read_plane_wheel_or_tell(input_, {name(), {}});
     if (!wheel) return wheel.failure();
     return export_wheel(*wheel);
   }
@@ -94,7 +94,7 @@ class ExportCommand : public Subcommand {
     return metres_per_millimetre * (tolerance_ ? *parse_tolerance(*tolerance_) : default_tolerance);
   }
 
-  int export_wheel(const WheelInput& input) const {
+  int export_wheel(const WheelInput<2>& input) const {
     if (const double finest = finest_share * input.source.wheel.outer_radius; tolerance() < finest) {
       tell("wheelwright {}: the tolerance must be at least {:.3g} mm for a wheel of this size\n", name(),
            finest * 1e3);

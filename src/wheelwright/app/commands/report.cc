@@ -19,7 +19,7 @@ Expected<DescribedWheel<2>> described(const StateSolver<2>& solver, const LevelS
 }
 
 /// Solves the first and the last shape of a run again, for what its folder does not keep.
-Expected<ReportRun> report_of_run(const RunInput& run) {
+Expected<ReportRun> report_of_run(const RunInput<2>& run) {
   const auto made = make_solver(rolling_model<2>(with_levels_of_results(run.source)));
   if (!made) return made.failure();
   const StateSolver<2>& solver = **made;
@@ -58,13 +58,13 @@ class ReportCommand : public Subcommand {
       return exit_refused;
     }
     std::vector<ReportRun> runs;
-    std::vector<RunInput> inputs;  // the reports refer to their shapes
+    std::vector<RunInput<2>> inputs;  // the reports refer to their shapes
     for (const std::string& folder : folders_) {
-      auto input = read_run_or_tell(folder, {name(), threads_});
+      auto input = read_plane_run_or_tell(folder, {name(), threads_});
       if (!input) return input.failure();
       inputs.push_back(*std::move(input));
     }
-    for (const RunInput& input : inputs) {
+    for (const RunInput<2>& input : inputs) {
       auto report = report_of_run(input);
       if (!report) return tell_failure(name(), report.failure());
       runs.push_back(*std::move(report));

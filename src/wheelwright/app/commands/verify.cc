@@ -22,23 +22,28 @@ constexpr double balance_tolerance = 1e-9;
 constexpr int halvings = 3;
 
 /// A direction with several wave lengths, equal in all sectors, of size 1.
-std::vector<double> test_direction(const Lattice<2>& lattice) {
-  const PolarGrid<2>& grid = lattice.grid();
+template <int dim>
+std::vector<double> test_direction(const Lattice<dim>& lattice) {
+  const PolarGrid<dim>& grid = lattice.grid();
   std::vector<double> direction;
   for (int i = 0; i < lattice.n_nodes(); ++i) {
-    const Vec<2> p = lattice.polar_point(i);
+    const Vec<dim> p = lattice.polar_point(i);
     const double height = (p[0] - grid.inner_radius) / (grid.outer_radius - grid.inner_radius);
-    direction.push_back(1 + 0.4 * std::cos(grid.n_sectors * p[1]) + 0.3 * std::sin(6 * height));
+    double value = 1 + 0.4 * std::cos(grid.n_sectors * p[1]) + 0.3 * std::sin(6 * height);
+    if constexpr (dim == 3) value += 0.2 * std::sin(4 * p[2] / grid.width);
+    direction.push_back(value);
   }
   return direction;
 }
 
-LevelSet<2> moved(LevelSet<2> psi, const std::vector<double>& direction, double t) {
+template <int dim>
+LevelSet<dim> moved(LevelSet<dim> psi, const std::vector<double>& direction, double t) {
   for (size_t i = 0; i < direction.size(); ++i) psi.values[i] += t * direction[i];
   return psi;
 }
 
-std::optional<std::vector<CellKind>> cell_kinds(const LevelSet<2>& psi) {
+template <int dim>
+std::optional<std::vector<CellKind>> cell_kinds(const LevelSet<dim>& psi) {
   const auto domain = cut_domain(psi, 2);
   if (!domain) return {};
   return domain->kinds;
@@ -46,12 +51,13 @@ std::optional<std::vector<CellKind>> cell_kinds(const LevelSet<2>& psi) {
 
 /// The case's shape with its boundary moved by a fraction of a cell, so that no cell begins or ends to be cut
 /// within the test's steps: circles that touch grid lines are no place for a derivative.
-std::optional<LevelSet<2>> generic_shape(const LevelSet<2>& psi, const std::vector<double>& direction,
-                                         double step) {
+template <int dim>
+std::optional<LevelSet<dim>> generic_shape(const LevelSet<dim>& psi, const std::vector<double>& direction,
+                                           double step) {
   const double h = psi.lattice.grid().resolution();
   for (int attempt = 1; attempt <= 40; ++attempt) {
     const double offset = h * std::fmod(0.618 * attempt, 1.0) * 0.5;
-    LevelSet<2> shape = psi;
+    LevelSet<dim> shape = psi;
     for (double& value : shape.values) value -= offset;
     const auto here = cell_kinds(shape);
     if (here && cell_kinds(moved(shape, direction, step)) == here &&
@@ -69,9 +75,10 @@ double lowest_order(const TaylorTest& test) {
   return *std::min_element(test.orders.begin(), test.orders.end());
 }
 
+template <int dim>
 void report_remainders(const TaylorTest& test) {
   print("Taylor test of the shape gradient: J = {:.8g} {}, derivative {:.8g}\n", test.value,
-        unit<2>(kind(Quantity::objective)), test.derivative);
+        unit<dim>(kind(Quantity::objective)), test.derivative);
   for (size_t k = 0; k < test.steps.size(); ++k)
     print("  step {:.3e} m  remainder {:.4e}{}\n", test.steps[k], test.remainders[k],
           k == 0 ? "" : fmt::format("  order {:.4f}", test.orders[k - 1]));
@@ -84,7 +91,8 @@ bool report_order(const TaylorTest& test) {
 }
 
 /// The ground's forces and moments on the wheel against those on the rim, in the motions that are free.
-bool report_balance(const State<2>& solution, const RimControl& rim) {
+template <int dim>
+bool report_balance(const State<dim>& solution, const RimControl& rim) {
   double worst = 0;
   for (const auto& contact : solution.contacts())
     for (const FreeMotion& motion : rim.free)
@@ -95,24 +103,26 @@ bool report_balance(const State<2>& solution, const RimControl& rim) {
 }
 
 /// The objective of a case and its Taylor test at a shape.
-Expected<TaylorTest> test_gradient(const Case& c, const StateSolver<2>& solver, const LevelSet<2>& shape,
+template <int dim>
+Expected<TaylorTest> test_gradient(const Case& c, const StateSolver<dim>& solver, const LevelSet<dim>& shape,
                                    const std::vector<double>& direction, double step) {
-  const auto functions = shape_functions<2>(c, solver);
+  const auto functions = shape_functions<dim>(c, solver);
   if (!functions) return functions.failure();
-  const auto evaluation = [&](const LevelSet<2>& psi) -> Expected<Evaluation<2>> {
-    auto evaluated = evaluate<2>(solver, *functions, psi);
+  const auto evaluation = [&](const LevelSet<dim>& psi) -> Expected<Evaluation<dim>> {
+    auto evaluated = evaluate<dim>(solver, *functions, psi);
     if (!evaluated) return evaluated.failure();
     return std::move(evaluated->evaluation);
   };
-  return taylor_test<2>(evaluation, shape, direction, c.grid.degree, step, halvings);
+  return taylor_test<dim>(evaluation, shape, direction, c.grid.degree, step, halvings);
 }
 
 /// With the quadrature of a run.
-Expected<bool> report_taylor(const Case& c, const StateSolver<2>& solver, const LevelSet<2>& shape,
+template <int dim>
+Expected<bool> report_taylor(const Case& c, const StateSolver<dim>& solver, const LevelSet<dim>& shape,
                              const std::vector<double>& direction, double step) {
   const auto test = test_gradient(c, solver, shape, direction, step);
   if (!test) return test.failure();
-  report_remainders(*test);
+  report_remainders<dim>(*test);
   return report_order(*test);
 }
 
@@ -128,17 +138,19 @@ class VerifyCommand : public Subcommand {
   int run() override {
     const auto wheel = read_wheel_or_tell(input_, {name(), threads_});
     if (!wheel) return wheel.failure();
-    const auto passed = verify(wheel->source, wheel->shape);
+    const auto passed =
+        std::visit([](const auto& input) { return verify(input.source, input.shape); }, *wheel);
     if (!passed) return tell_failure(name(), passed.failure());
     return *passed ? exit_done : exit_no_solution;
   }
 
  private:
   /// Whether the case passes both tests at a shape.
-  static Expected<bool> verify(const Case& c, const LevelSet<2>& given) {
-    const auto made = make_solver(rolling_model<2>(c));
+  template <int dim>
+  static Expected<bool> verify(const Case& c, const LevelSet<dim>& given) {
+    const auto made = make_solver(rolling_model<dim>(c));
     if (!made) return made.failure();
-    const StateSolver<2>& solver = **made;
+    const StateSolver<dim>& solver = **made;
     const auto direction = test_direction(given.lattice);
     const double step = 1e-3 * given.lattice.grid().resolution();
     const auto shape = generic_shape(given, direction, step);

@@ -15,9 +15,10 @@
     });
     const body = element("tbody");
     for (const { key, label, unit, factor } of data.numbers) {
+      if (wheels.every(({ numbers }) => numbers[key] === undefined)) continue;
       const row = element("tr", {}, element("th", { scope: "row" }, `${label} [${unit}]`));
       wheels.forEach(({ numbers }, k) => {
-        row.append(element("td", { "data-key": key }, shown(numbers[key] * factor)));
+        row.append(element("td", { "data-key": key }, key in numbers ? shown(numbers[key] * factor) : "\u2013"));
         if (k > 0) row.append(element("td", {}, change(wheels[0].numbers[key], numbers[key])));
       });
       body.append(row);

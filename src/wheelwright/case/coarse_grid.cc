@@ -1,0 +1,50 @@
+#include "wheelwright/case/coarse_grid.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "wheelwright/case/derived.h"
+
+namespace wheelwright {
+
+namespace {
+
+constexpr double coarse_tolerance = 1e-3;
+constexpr int most_tread_levels = 6;
+
+/// The thickness of a band that holds its full rows of cells.
+double widened(const Band& band, double cell) { return std::max(band.thickness, band.full_rows * cell); }
+
+}  // namespace
+
+Case on_coarser_grid(Case c, int level) {
+  if (level == 0) return c;
+  if (wants_annulus(c)) c.objective.annulus = annulus_thickness(c);
+  c.objective.length = characteristic_length(c);
+  c.grid.radial_cells >>= level;
+  c.grid.angular_cells >>= level;
+  c.grid.axial_cells = std::max(1, c.grid.axial_cells >> level);
+  if (c.grid.tread_levels)
+    c.grid.tread_levels =
+        std::min(*c.grid.tread_levels + level, std::max(most_tread_levels, *c.grid.tread_levels));
+  const double cell = (c.wheel.outer_radius - c.wheel.inner_radius) / c.grid.radial_cells;
+  const auto [rim, tread] = bands(c);
+  c.optimizer.rim_band = widened(rim, cell);
+  c.optimizer.tread_band = widened(tread, cell);
+  c.optimizer.tolerance = std::max(c.optimizer.tolerance, coarse_tolerance);
+  c.optimizer.coarse_levels = 0;
+  return c;
+}
+
+bool can_be_halved(const Case& c, int times) {
+  const int parts = 1 << times;
+  return c.grid.radial_cells % parts == 0 && c.grid.angular_cells % (parts * c.wheel.sectors) == 0;
+}
+
+std::string grid_text(const Case& c) {
+  const std::string along_axle = c.wheel.dimension == 3 ? fmt::format(" x {}", c.grid.axial_cells) : "";
+  return fmt::format("grid {} x {}{}", c.grid.radial_cells, c.grid.angular_cells, along_axle);
+}
+
+}  // namespace wheelwright

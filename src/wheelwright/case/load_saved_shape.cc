@@ -1,0 +1,63 @@
+#include "wheelwright/case/load_saved_shape.h"
+
+#include <fmt/format.h>
+
+#include "wheelwright/files/level_set_file.h"
+
+namespace wheelwright {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Kind = Diagnostic::Kind;
+
+constexpr const char* table = "shape";
+constexpr const char* key = "shape.from";
+constexpr std::size_t most_bytes = std::size_t{1} << 28;
+
+/// Why these bytes are no shape of a wheel in the plane, with what to do.
+FileProblem fault(const fs::path& file, const std::string& bytes, const FormatError& error) {
+  if (parse_level_set_file<3>(bytes))
+    return {Kind::conflict,
+            key,
+            "",
+            0,
+            fmt::format("{} is a shape in three dimensions", file.string()),
+            "take the shape of a run in the plane"};
+  return {Kind::unreadable,
+          key,
+          "",
+          0,
+          fmt::format("{} cannot be used: {}: {}", file.string(), to_string(error.fault), error.detail),
+          fmt::format("give the folder of a run, or its file {}", saved_shape_file)};
+}
+
+}  // namespace
+
+std::vector<FileProblem> load_saved_shape(Case& c, const fs::path& folder) {
+  SavedShape& saved = c.saved_shape;
+  if (saved.from.empty()) return {};
+  std::vector<FileProblem> problems;
+  fs::path file = folder / saved.from;
+  std::error_code error;
+  if (fs::is_directory(file, error)) {
+    file /= saved_shape_file;
+    if (!fs::exists(file, error))
+      return {{Kind::unreadable, key, "", 0,
+               fmt::format("the folder {} holds no saved shape, {}", (folder / saved.from).string(),
+                           saved_shape_file),
+               "give the folder of a run that has saved a shape; `wheelwright resume` goes on with one that "
+               "has not"}};
+  }
+  const auto bytes = read_named_file(file, key, most_bytes, problems);
+  if (!bytes) return problems;
+  check_checksum(saved.checksum, *bytes, table, problems);
+  auto shape = parse_level_set_file<2>(*bytes);
+  if (shape)
+    saved.shape.contents = std::make_shared<const LevelSet<2>>(*std::move(shape));
+  else
+    problems.push_back(fault(file, *bytes, shape.failure()));
+  return problems;
+}
+
+}  // namespace wheelwright

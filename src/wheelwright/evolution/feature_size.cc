@@ -1,0 +1,184 @@
+#include "wheelwright/evolution/feature_size.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "wheelwright/evolution/redistance.h"
+#include "wheelwright/evolution/seeds.h"
+#include "wheelwright/geometry/cell_map.h"
+#include "wheelwright/geometry/nearest_point.h"
+
+namespace wheelwright {
+namespace {
+
+/// The cosine between the normals of places that face each other.
+constexpr double facing = -0.5;
+
+/// How much smaller than the wanted radius a ball must be to count, relative: less than the curves of an
+/// outline may deviate.
+constexpr double rounding = 1e-3;
+
+/// What filling must add at a node to count, by the resolution: redistancing moves the boundary by less.
+constexpr double least_filling = 0.1;
+
+/// Points of the boundary in the body frame, with images in the neighbouring sectors; the outward normals of
+/// those of the sector itself, which come in the middle third.
+template <int dim>
+struct BoundaryPoints {
+  NearestPoint<dim> points;
+  std::vector<Vec<dim>> normals;
+};
+
+template <int dim>
+Vec<dim> normal_at(const CubicInterpolant<dim>& psi, const Vec<dim>& point) {
+  Vec<dim> normal = psi(point).gradient;
+  const double length = norm<dim>(normal);
+  for (double& x : normal) x /= length;
+  return rotated<dim>(normal, point[1] * psi.lattice().spacing()[1]);
+}
+
+/// The ball of at most `radius` inside the boundary that touches it at a point and holds no other; the other
+/// point that it touches, or the point itself if it touches none.
+template <int dim>
+std::pair<MedialBall<dim>, int> shrunk_ball(const BoundaryPoints<dim>& boundary, int point, double radius) {
+  constexpr int most_steps = 30;
+  const Vec<dim>& p = boundary.points.points()[point];
+  const Vec<dim>& normal = boundary.normals[point];
+  const auto centre_of = [&](double r) {
+    Vec<dim> centre;
+    for (int d = 0; d < dim; ++d) centre[d] = p[d] - r * normal[d];
+    return centre;
+  };
+  int other = point;
+  for (int step = 0; step < most_steps; ++step) {
+    const Vec<dim> centre = centre_of(radius);
+    const int nearest = boundary.points.index_of_nearest(centre);
+    Vec<dim> to_nearest, apart;
+    for (int d = 0; d < dim; ++d) {
+      to_nearest[d] = boundary.points.points()[nearest][d] - centre[d];
+      apart[d] = boundary.points.points()[nearest][d] - p[d];
+    }
+    if (nearest == point || norm<dim>(to_nearest) >= radius * (1 - 1e-6)) break;
+    const double smaller = -dot<dim>(apart, apart) / (2 * dot<dim>(apart, normal));
+    if (!(smaller > 0 && smaller < radius)) break;
+    radius = smaller;
+    other = nearest;
+  }
+  return {{centre_of(radius), radius}, other};
+}
+
+template <int dim>
+BoundaryPoints<dim> boundary_points(const CubicInterpolant<dim>& psi, const std::vector<Vec<dim>>& seeds) {
+  std::vector<Vec<dim>> positions, normals;
+  for (const Vec<dim>& seed : with_images<dim>(psi.lattice(), seeds)) {
+    positions.push_back(cartesian_position<dim>(psi.lattice(), seed));
+    normals.push_back(normal_at<dim>(psi, seed));
+  }
+  return {NearestPoint<dim>(std::move(positions)), std::move(normals)};
+}
+
+/// The distance of nodes to the nearest centre of some balls, whose images in the neighbouring sectors count
+/// too.
+template <int dim>
+class DistanceToCentres {
+ public:
+  DistanceToCentres(const Lattice<dim>& lattice, const std::vector<MedialBall<dim>>& balls)
+      : lattice_(lattice), nearest_(images(lattice, balls)) {}
+
+  double operator()(int node) const {
+    const Vec<dim> x = cartesian<dim>(lattice_.polar_point(node));
+    Vec<dim> apart = nearest_.points()[nearest_.index_of_nearest(x)];
+    for (int d = 0; d < dim; ++d) apart[d] -= x[d];
+    return norm<dim>(apart);
+  }
+
+ private:
+  static std::vector<Vec<dim>> images(const Lattice<dim>& lattice,
+                                      const std::vector<MedialBall<dim>>& balls) {
+    std::vector<Vec<dim>> centres;
+    for (int sector = -1; sector <= 1; ++sector)
+      for (const auto& ball : balls)
+        centres.push_back(rotated<dim>(ball.centre, sector * lattice.grid().sector_angle()));
+    return centres;
+  }
+
+  const Lattice<dim>& lattice_;
+  NearestPoint<dim> nearest_;
+};
+
+/// The shape whose material is this one's holes.
+template <int dim>
+LevelSet<dim> negative(LevelSet<dim> psi) {
+  for (double& value : psi.values) value = -value;
+  return psi;
+}
+
+template <int dim>
+LevelSet<dim> shifted(LevelSet<dim> psi, double shift) {
+  for (double& value : psi.values) value += shift;
+  return psi;
+}
+
+}  // namespace
+
+template <int dim>
+std::vector<MedialBall<dim>> thin_walls(const LevelSet<dim>& psi, double radius) {
+  const CubicInterpolant<dim> interpolant(psi);
+  const auto seeds = zero_seeds<dim>(interpolant);
+  if (seeds.empty()) return {};
+  const auto boundary = boundary_points<dim>(interpolant, seeds);
+  const int n = static_cast<int>(seeds.size());
+  std::vector<MedialBall<dim>> balls;
+  for (int point = n; point < 2 * n; ++point) {
+    const auto [ball, other] = shrunk_ball<dim>(boundary, point, radius);
+    if (ball.radius < radius && dot<dim>(boundary.normals[point], boundary.normals[other]) < facing)
+      balls.push_back(ball);
+  }
+  return balls;
+}
+
+template <int dim>
+LevelSet<dim> with_thick_walls(const LevelSet<dim>& psi, double wall) {
+  const auto balls = thin_walls(psi, 0.5 * wall * (1 - rounding));
+  if (balls.empty()) return psi;
+  const DistanceToCentres<dim> distance(psi.lattice, balls);
+  LevelSet<dim> result = psi;
+  for (int node = 0; node < psi.lattice.n_nodes(); ++node)
+    result.values[node] = std::min(result.values[node], distance(node) - 0.5 * wall);
+  return result;
+}
+
+template <int dim>
+LevelSet<dim> without_narrow_gaps(const LevelSet<dim>& psi, double gap) {
+  const auto balls = thin_walls(negative(psi), 0.5 * gap * (1 - rounding));
+  if (balls.empty()) return psi;
+  const DistanceToCentres<dim> distance(psi.lattice, balls);
+  const auto signed_distance = redistance(psi);
+  const auto dilated = shifted(signed_distance, -0.5 * gap);
+  const auto closed = shifted(redistance(dilated), 0.5 * gap);
+  const double least = least_filling * psi.lattice.grid().resolution();
+  LevelSet<dim> result = psi;
+  for (int node = 0; node < psi.lattice.n_nodes(); ++node)
+    if (distance(node) < gap && closed.values[node] < signed_distance.values[node] - least)
+      result.values[node] = closed.values[node];
+  return result;
+}
+
+template <int dim>
+LevelSet<dim> with_feature_size(const LevelSet<dim>& psi, const FeatureSize& size) {
+  LevelSet<dim> result = psi;
+  if (size.gap > 0) result = without_narrow_gaps(result, size.gap);
+  if (size.wall > 0) result = with_thick_walls(result, size.wall);
+  return result;
+}
+
+#define WHEELWRIGHT_INSTANTIATE(dim)                                              \
+  template std::vector<MedialBall<dim>> thin_walls(const LevelSet<dim>&, double); \
+  template LevelSet<dim> with_thick_walls(const LevelSet<dim>&, double);          \
+  template LevelSet<dim> without_narrow_gaps(const LevelSet<dim>&, double);       \
+  template LevelSet<dim> with_feature_size(const LevelSet<dim>&, const FeatureSize&);
+WHEELWRIGHT_INSTANTIATE(2)
+WHEELWRIGHT_INSTANTIATE(3)
+#undef WHEELWRIGHT_INSTANTIATE
+
+}  // namespace wheelwright

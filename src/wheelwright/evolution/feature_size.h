@@ -1,0 +1,45 @@
+#pragma once
+
+#include "wheelwright/geometry/level_set.h"
+
+namespace wheelwright {
+
+/// The least width of what is cut [m]; 0: any.
+struct FeatureSize {
+  double wall = 0;  ///< of material between two places of the edges that face each other
+  double gap = 0;   ///< of a hole, likewise, and across the hole
+
+  bool any() const { return wall > 0 || gap > 0; }
+};
+
+/// A ball in the material that touches its boundary at two places.
+template <int dim>
+struct MedialBall {
+  Vec<dim> centre;  ///< Cartesian, body frame [m]
+  double radius;
+};
+
+/// The balls of less than `radius` in the material that touch the boundary at two places which face each
+/// other (their normals are more than 120 degrees apart), one for every seed point on {psi = 0} of a sector:
+/// the middle of walls thinner than 2 `radius`. They are found by shrinking, at every seed, a ball that
+/// touches the boundary there until it holds no other point of it (Ma, Bae, Choi 2012).
+template <int dim>
+std::vector<MedialBall<dim>> thin_walls(const LevelSet<dim>& psi, double radius);
+
+/// Walls thinner than `wall` with material added on both sides until they are as thick: a ball of that
+/// diameter is put in the place of every one of thin_walls(). Elsewhere the shape stays as it is.
+template <int dim>
+LevelSet<dim> with_thick_walls(const LevelSet<dim>& psi, double wall);
+
+/// Holes, and parts of holes, between whose edges less than `gap` is left are filled: near the middle of such
+/// gaps the material is moved outward by half of it and back, each from the signed distance (closing, Serra
+/// 1982). What is left between the edges in between may be too thin for the nodes: there a gap that is half
+/// a cell wider is filled too. Elsewhere the shape stays as it is.
+template <int dim>
+LevelSet<dim> without_narrow_gaps(const LevelSet<dim>& psi, double gap);
+
+/// Both: first the gaps, whose filling makes no thin walls.
+template <int dim>
+LevelSet<dim> with_feature_size(const LevelSet<dim>& psi, const FeatureSize& size);
+
+}  // namespace wheelwright

@@ -1,0 +1,58 @@
+#include "wheelwright/functionals/over_positions.h"
+
+#include <numeric>
+
+namespace wheelwright {
+
+template <int dim>
+void add_over_positions(const LoadPositions& positions, const FunctionalDerivative<dim>& of_functional,
+                        std::span<const double> slopes, FunctionalDerivative<dim>& sum) {
+  std::vector<double> solved(positions.size());
+  std::iota(solved.begin(), solved.end(), 0.0);
+  const std::vector<double> source = of_all(positions, solved);
+  std::vector<double> factors(positions.size(), 0.0);
+  for (std::size_t j = 0; j < source.size(); ++j) {
+    const auto i = static_cast<std::size_t>(source[j]);
+    factors[i] += slopes[j] / positions.multiplicities[i];
+  }
+  add(of_functional, factors, sum);
+}
+
+template <int dim>
+FunctionalValue<dim> OverPositions<dim>::evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
+                                                  const State<dim>& state, const Matrix& mean) const {
+  const FunctionalValue<dim> inner = functional_->evaluate(solver, psi, state, mean);
+  const OfPositions function = function_(of_all(state.positions(), inner.by_position));
+  FunctionalValue<dim> value{.over_positions = function.value,
+                             .compares_with_mean = inner.compares_with_mean};
+  add_over_positions(state.positions(), inner.derivative, function.slopes, value.derivative);
+  return value;
+}
+
+template <int dim>
+FunctionalValue<dim> RatioOfMeans<dim>::evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
+                                                 const State<dim>& state, const Matrix& mean) const {
+  const FunctionalValue<dim> numerator = numerator_->evaluate(solver, psi, state, mean),
+                             denominator = denominator_->evaluate(solver, psi, state, mean);
+  const auto total = [&](const FunctionalValue<dim>& x) {
+    return std::inner_product(x.by_position.begin(), x.by_position.end(),
+                              state.positions().multiplicities.begin(), 0.0);
+  };
+  const double below = total(denominator), ratio = total(numerator) / below;
+  FunctionalValue<dim> value{.over_positions = ratio};
+  const std::vector<double> up(state.positions().size(), 1 / below), down(up.size(), -ratio / below);
+  add(numerator.derivative, up, value.derivative);
+  add(denominator.derivative, down, value.derivative);
+  return value;
+}
+
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                       \
+  template void add_over_positions(const LoadPositions&, const FunctionalDerivative<dim>&, \
+                                   std::span<const double>, FunctionalDerivative<dim>&);   \
+  template class OverPositions<dim>;                                                       \
+  template class RatioOfMeans<dim>;
+WHEELWRIGHT_INSTANTIATE(2)
+WHEELWRIGHT_INSTANTIATE(3)
+#undef WHEELWRIGHT_INSTANTIATE
+
+}  // namespace wheelwright

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "wheelwright/functionals/functional.h"
+#include "wheelwright/functionals/peak_norm.h"
+
+namespace wheelwright {
+
+/// The largest contact pressure at every load position [Pa], as ContactSummary has it: a p-norm over the
+/// contact's quadrature points.
+template <int dim>
+class PeakPressure : public Functional<dim> {
+ public:
+  explicit PeakPressure(PeakNorm norm = {}) : norm_(norm) {}
+
+  std::string name() const override { return std::string(wheelwright::name(Quantity::peak_pressure)); }
+  FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
+                                const State<dim>& state, const Matrix& mean) const override;
+
+ private:
+  PeakNorm norm_;
+};
+
+}  // namespace wheelwright

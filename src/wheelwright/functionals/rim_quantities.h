@@ -1,0 +1,42 @@
+#pragma once
+
+#include "wheelwright/functionals/functional.h"
+
+namespace wheelwright {
+
+/// The rim's ways to move (RimMotion), and what does work on each of them.
+enum class RimWay { towards_ground, along_ground, rotation };
+
+/// How far the rim moves in one of its ways at every load position [m, or rad].
+template <int dim>
+class RimTravel : public Functional<dim> {
+ public:
+  explicit RimTravel(RimWay way) : way_(way) {}
+
+  /// As in RollingMeasures and ContactSummary: "travel", "travel_along_ground", "wind_up".
+  std::string name() const override;
+  FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
+                                const State<dim>& state, const Matrix& mean) const override;
+
+ private:
+  RimWay way_;
+};
+
+/// What the wheel exerts on the ground in one of the rim's ways at every load position: the force towards it,
+/// the force along it, the torque about the axle [N/m, N/m and N when dim = 2]. Without loads on the
+/// structure itself these are the loads on the rim, and the reactions in ways in which it cannot move.
+template <int dim>
+class GroundForce : public Functional<dim> {
+ public:
+  explicit GroundForce(RimWay way) : way_(way) {}
+
+  /// "radial_force", "tangential_force", "torque".
+  std::string name() const override;
+  FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
+                                const State<dim>& state, const Matrix& mean) const override;
+
+ private:
+  RimWay way_;
+};
+
+}  // namespace wheelwright

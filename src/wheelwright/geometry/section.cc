@@ -1,0 +1,29 @@
+#include "wheelwright/geometry/section.h"
+
+namespace wheelwright {
+
+template <>
+LevelSet<2> mid_plane_section(const LevelSet<2>& psi) {
+  return psi;
+}
+
+template <>
+LevelSet<2> mid_plane_section(const LevelSet<3>& psi) {
+  const PolarGrid<3>& grid = psi.lattice.grid();
+  const int degree = psi.lattice.degree(), cell = grid.cells[2] / 2;
+  const Lagrange1D basis(degree, 0.5 * (grid.cells[2] % 2));
+  const Lattice<2> plane(
+      {grid.inner_radius, grid.outer_radius, grid.width, grid.n_sectors, {grid.cells[0], grid.cells[1]}},
+      degree);
+  LevelSet<2> section{plane, std::vector<double>(plane.n_nodes(), 0.0)};
+  for (int node = 0; node < plane.n_nodes(); ++node) {
+    const auto p = plane.node_position(node);
+    for (int a = 0; a <= degree; ++a)
+      if (basis.value[a] != 0)
+        section.values[node] +=
+            basis.value[a] * psi.values[psi.lattice.node_index({p[0], p[1], degree * cell + a})];
+  }
+  return section;
+}
+
+}  // namespace wheelwright

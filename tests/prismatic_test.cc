@@ -1,0 +1,184 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support.h"
+#include "wheelwright/analysis/rolling_measures.h"
+#include "wheelwright/functionals/uniformity_dual.h"
+#include "wheelwright/geometry/shapes.h"
+
+// A wheel whose shape does not change along the axle, in 3D, against the same wheel in 2D.
+
+namespace wheelwright::testing {
+namespace {
+
+constexpr double width = 0.12;
+
+RollingModel<2> plane_model(double poissons_ratio) {
+  RollingModel<2> model;
+  model.grid = {0.20, 0.34, width, 12, {7, 7}};
+  model.materials = Material{200e6, poissons_ratio};
+  model.load = 2943 / width;
+  model.n_positions = 3;
+  model.contact_points = 3;
+  return model;
+}
+
+RollingModel<3> with_width(const RollingModel<2>& plane, int axial_cells, SideFaces sides) {
+  RollingModel<3> model;
+  const PolarGrid<2>& grid = plane.grid;
+  model.grid = {grid.inner_radius,
+                grid.outer_radius,
+                grid.width,
+                grid.n_sectors,
+                {grid.cells[0], grid.cells[1], axial_cells}};
+  model.degree = plane.degree;
+  model.materials = plane.materials;
+  model.ghost = plane.ghost;
+  model.side_faces = sides;
+  model.contact = plane.contact;
+  model.contact_points = plane.contact_points;
+  model.tread = plane.tread;
+  model.load = plane.load * grid.width;
+  model.horizontal_force = plane.horizontal_force * grid.width;
+  model.torque = plane.torque * grid.width;
+  model.distributed.body_force = {plane.distributed.body_force[0], plane.distributed.body_force[1], 0};
+  model.distributed.hole_pressure = plane.distributed.hole_pressure;
+  model.n_positions = plane.n_positions;
+  return model;
+}
+
+template <int dim>
+LevelSet<dim> shape(const PolarGrid<dim>& grid, int degree, double radius) {
+  const Circle hole{0.2681, 0.47 * grid.sector_angle(), radius};
+  return make_level_set<dim>(Lattice<dim>(grid, degree), std::span(&hole, radius > 0 ? 1 : 0));
+}
+
+/// What is compared: of one metre of width.
+struct Results {
+  std::vector<double> energy, travel, peak_pressure, friction, wind_up, derivative;
+};
+
+template <int dim>
+Results results(const RollingModel<dim>& model, const WeightedSum<dim>& terms, int level_set_degree,
+                double hole) {
+  Results found;
+  const auto problem = RollingProblem<dim>::create(model);
+  if (!problem) throw std::runtime_error(problem.failure().detail);
+  const LevelSet<dim> psi = shape<dim>(model.grid, level_set_degree, hole);
+  const ShapeFunction<dim> function = objective(terms);
+  const auto evaluated = evaluate<dim>(*problem, std::span(&function, 1), psi, nullptr);
+  if (!evaluated) throw std::runtime_error(evaluated.failure().detail);
+  const double per_metre = dim == 3 ? 1 / model.grid.width : 1;
+  for (const double e : evaluated->state->strain_energy()) found.energy.push_back(e * per_metre);
+  found.energy.push_back(evaluated->evaluation.function("objective").value * per_metre);
+  for (const auto& contact : evaluated->state->contacts()) {
+    const ContactSummary seen = contact_summary(contact);
+    found.travel.push_back(seen.travel);
+    found.peak_pressure.push_back(seen.peak_pressure);
+    found.friction.push_back(seen.friction_force * per_metre);
+    found.wind_up.push_back(seen.wind_up);
+  }
+  // The derivative in three directions: the gradient as it is used.
+  const auto gradient = evaluated->evaluation.gradient("objective");
+  for (int k = 0; k < 3; ++k) {
+    double derivative = 0;
+    for (const auto& sample : gradient) {
+      const auto cell = model.grid.cell_position(sample.cell);
+      const double radial = cell[0] + sample.xi[0], azimuthal = cell[1] + sample.xi[1];
+      derivative += sample.weight * sample.value * std::cos(k * (radial + 1.3 * azimuthal));
+    }
+    found.derivative.push_back(derivative * per_metre);
+  }
+  return found;
+}
+
+void expect_equal(const Results& a, const Results& b, double tolerance) {
+  EXPECT_LT(relative_difference(a.energy, b.energy), tolerance);
+  EXPECT_LT(relative_difference(a.travel, b.travel), tolerance);
+  EXPECT_LT(relative_difference(a.peak_pressure, b.peak_pressure), 10 * tolerance);
+  if (norm<1>({b.friction[0]}) > 0) {
+    EXPECT_LT(relative_difference(a.friction, b.friction), 10 * tolerance);
+  }
+  if (b.wind_up[0] != 0) {
+    EXPECT_LT(relative_difference(a.wind_up, b.wind_up), 10 * tolerance);
+  }
+  if (b.derivative[0] != 0) {
+    EXPECT_LT(relative_difference(a.derivative, b.derivative), tolerance);
+  }
+}
+
+template <int dim>
+WeightedSum<dim> energy() {
+  return {{1, std::make_shared<StrainEnergy<dim>>()}};
+}
+
+TEST(Prismatic, WithSymmetricSideFacesAndNoHolesIsThePlaneWheel) {
+  for (const int axial_cells : {1, 2})
+    for (const double nu : {0.3, 0.48}) {
+      SCOPED_TRACE(::testing::Message() << axial_cells << " cells, nu " << nu);
+      const auto plane = plane_model(nu);
+      expect_equal(results(with_width(plane, axial_cells, SideFaces::symmetric), energy<3>(), 1, 0),
+                   results(plane, energy<2>(), 1, 0), 1e-10);
+    }
+}
+
+TEST(Prismatic, WithSymmetricSideFacesAndHolesIsThePlaneWheel) {
+  for (const int level_set_degree : {1, 2}) {
+    SCOPED_TRACE(level_set_degree);
+    auto plane = plane_model(0.48);
+    plane.distributed = {{900, 300}, 2e4};
+    expect_equal(results(with_width(plane, 2, SideFaces::symmetric), energy<3>(), level_set_degree, 0.0373),
+                 results(plane, energy<2>(), level_set_degree, 0.0373), 1e-6);
+  }
+}
+
+TEST(Prismatic, WithFrictionAndTorqueIsThePlaneWheel) {
+  auto plane = plane_model(0.4);
+  plane.contact.friction = 0.4;
+  plane.torque = 150 / width;
+  expect_equal(results(with_width(plane, 1, SideFaces::symmetric), energy<3>(), 1, 0.0373),
+               results(plane, energy<2>(), 1, 0.0373), 1e-6);
+}
+
+/// Strain energy of a wheel of this width under the same load per metre of width, per metre of width.
+double energy_of_width(double wide, SideFaces sides, int axial_cells) {
+  auto plane = plane_model(0.4);
+  plane.grid.width = wide;
+  auto model = with_width(plane, axial_cells, sides);
+  model.n_positions = 1;
+  const auto problem = RollingProblem<3>::create(model);
+  const auto states = all_states<3>(*problem, shape<3>(model.grid, 1, 0.0373));
+  return (*states)->strain_energy()[0] / wide;
+}
+
+// Free side faces: plane stress in a disc that is thin against its cells, plane strain in a drum.
+TEST(Prismatic, FreeSideFacesTendToPlaneStressAndPlaneStrain) {
+  auto plane = plane_model(0.4);
+  plane.n_positions = 1;
+  const auto energy_of = [&](Plane assumption) {
+    Material material{200e6, 0.4};
+    material.plane = assumption;
+    plane.materials = material;
+    const auto problem = RollingProblem<2>::create(plane);
+    return (*all_states<2>(*problem, shape<2>(plane.grid, 1, 0.0373)))->strain_energy()[0];
+  };
+  const double strain = energy_of(Plane::strain), stress = energy_of(Plane::stress);
+  EXPECT_GT(stress, 1.1 * strain);
+  double farther = 1;
+  for (const double wide : {4e-2, 1e-2, 1e-3}) {
+    const double off = std::abs(energy_of_width(wide, SideFaces::free, 1) / stress - 1);
+    EXPECT_LT(off, farther);
+    farther = off;
+  }
+  EXPECT_LT(farther, 2e-3);
+  // What the side faces take away stays while the width grows.
+  const double off_4 = std::abs(energy_of_width(4, SideFaces::free, 8) / strain - 1),
+               off_2 = std::abs(energy_of_width(2, SideFaces::free, 8) / strain - 1);
+  EXPECT_LT(off_4, 0.02);
+  EXPECT_NEAR(off_4 / off_2, 0.5, 0.15);
+  EXPECT_NEAR(energy_of_width(4, SideFaces::symmetric, 2) / strain, 1, 1e-6);
+}
+
+}  // namespace
+}  // namespace wheelwright::testing
