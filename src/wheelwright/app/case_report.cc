@@ -97,6 +97,13 @@ std::string derived_report(const Case& c) {
   return load_report(c) + material_report(c) + contact_report(c) + size_report(c);
 }
 
+std::string clearance_report(const cad::Clearances& clearances) {
+  const auto width = [](const char* name, const std::optional<cad::Clearance>& clearance) {
+    return clearance ? line(name, fmt::format("{:.4g} mm", clearance->width * 1e3)) : std::string();
+  };
+  return width("thinnest wall", clearances.wall) + width("narrowest gap", clearances.gap);
+}
+
 std::vector<std::string> warnings(const Case& c) {
   std::vector<std::string> result = doubtful_lengths(c);
   if (const double cells = cells_per_contact_patch(c); cells < least_cells_per_contact_patch)

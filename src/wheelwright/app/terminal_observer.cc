@@ -4,6 +4,7 @@
 
 #include "wheelwright/analysis/deformation_size.h"
 #include "wheelwright/app/terminal.h"
+#include "wheelwright/run/feature_warnings.h"
 
 namespace wheelwright {
 namespace {
@@ -31,7 +32,12 @@ void TerminalObserver<dim>::operator()(const Event<dim>& event, const RunView<di
   if (const auto* command = std::get_if<CommandDone>(&event); command && !command->text.empty())
     progress_.note((command->was_obeyed ? "" : "refused: ") + command->text);
   if (const auto* ended = std::get_if<RunEnded<dim>>(&event)) {
-    if (ended->summary) warn(ended->summary->after.wheel.summary.deformation);
+    if (ended->summary) {
+      const DescribedWheel<dim>& wheel = ended->summary->after.wheel;
+      warn(wheel.summary.deformation);
+      for (const std::string& warning : feature_warnings(run.study.source, wheel.clearances))
+        progress_.note("warning: " + warning);
+    }
     progress_.end();
   }
 }

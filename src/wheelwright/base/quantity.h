@@ -8,8 +8,8 @@
 
 namespace wheelwright {
 
-/// The scalars that describe a shape: the objective and its terms, what history.csv records besides, and the
-/// peak stress.
+/// The scalars that describe a shape: the objective and its terms, what history.csv records besides, and what
+/// is computed where it is asked for.
 enum class Quantity {
   objective,
   strain_energy,
@@ -33,6 +33,8 @@ enum class Quantity {
   run_out_harmonic,
   force_variation,
   force_variation_harmonic,
+  minimum_wall,
+  minimum_gap,
 };
 
 struct QuantityDescription {
@@ -41,7 +43,7 @@ struct QuantityDescription {
 };
 
 /// In the order of the enumerators: the one place for names and units.
-inline constexpr std::array<QuantityDescription, 22> quantity_descriptions{
+inline constexpr std::array<QuantityDescription, 24> quantity_descriptions{
     {{"objective", UnitKind::energy},
      {"strain_energy", UnitKind::energy},
      {"uniformity_annulus", UnitKind::energy},
@@ -63,7 +65,9 @@ inline constexpr std::array<QuantityDescription, 22> quantity_descriptions{
      {"radial_force", UnitKind::force},
      {"run_out_harmonic", UnitKind::length},
      {"force_variation", UnitKind::force},
-     {"force_variation_harmonic", UnitKind::force}}};
+     {"force_variation_harmonic", UnitKind::force},
+     {"minimum_wall", UnitKind::length},
+     {"minimum_gap", UnitKind::length}}};
 
 constexpr std::string_view name(Quantity quantity) {
   return quantity_descriptions[static_cast<std::size_t>(quantity)].name;

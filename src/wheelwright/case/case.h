@@ -276,8 +276,9 @@ struct Optimizer {
   int redistance_every = 5;
   double smoothing = 0;  ///< tau of (76) [cells^2]
   int smooth_every = 5;
-  std::optional<double> rim_band;    ///< absent: 1/14 of the ring
-  std::optional<double> tread_band;  ///< absent: see bands()
+  std::optional<double> rim_band;                   ///< absent: 1/14 of the ring
+  std::optional<double> tread_band;                 ///< absent: see bands()
+  std::optional<double> minimum_wall, minimum_gap;  ///< of what is cut [m]; absent: any
   bool operator==(const Optimizer&) const = default;
 };
 

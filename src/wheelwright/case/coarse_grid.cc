@@ -10,7 +10,7 @@ namespace wheelwright {
 
 namespace {
 
-constexpr double coarse_tolerance = 1e-3;
+constexpr double coarse_tolerance = 5e-3;
 constexpr int most_tread_levels = 6;
 
 /// The thickness of a band that holds its full rows of cells.

@@ -11,7 +11,7 @@ namespace wheelwright {
 
 /// The case on the grid of that level. What is given in cells of the case's grid by default, such as the
 /// annulus of J_p1, keeps its size in metres. Bands grow to the full rows that the coarse cells need, and the
-/// descent ends at a tolerance of 1e-3 or more: it only has to come near. Level 0 is the case itself.
+/// descent ends at a tolerance of 5e-3 or more: it only has to come near. Level 0 is the case itself.
 Case on_coarser_grid(Case c, int level);
 
 /// Whether the case's grid can be halved so many times in whole cells of each sector.

@@ -457,6 +457,26 @@ void check_volume(const Case& c, Conflicts& found) {
                      fmt::format("take at most {:.9g}, or a finer grid", std::floor(most * 1e9) / 1e9)});
 }
 
+/// Finds least widths that the bands or the ring contradict.
+void check_feature_size(const Case& c, Conflicts& found) {
+  const double ring = c.wheel.outer_radius - c.wheel.inner_radius;
+  const auto check = [&](const char* key, std::optional<double> width) {
+    if (width && *width >= ring)
+      found.push_back({with_ring_shape({key}), fmt::format("the ring is only {:.6g} m thick", ring),
+                       "take less" + if_in_millimetres(*width, ring)});
+  };
+  check("optimizer.minimum_wall", c.optimizer.minimum_wall);
+  check("optimizer.minimum_gap", c.optimizer.minimum_gap);
+  const auto check_band_of = [&](const char* key, std::optional<double> band) {
+    if (band && c.optimizer.minimum_wall && *band < *c.optimizer.minimum_wall)
+      found.push_back({{"optimizer.minimum_wall", key},
+                       fmt::format("the wall between a hole and this edge may be {:.6g} m", *band),
+                       "take a band at least as thick as the wall, or leave it out"});
+  };
+  check_band_of("optimizer.rim_band", c.optimizer.rim_band);
+  check_band_of("optimizer.tread_band", c.optimizer.tread_band);
+}
+
 /// Finds expected quantities that the run does not compute, and shapes that it does not reach.
 void check_expectations(const Case& c, Conflicts& found) {
   const Objective& o = c.objective;
@@ -465,6 +485,30 @@ void check_expectations(const Case& c, Conflicts& found) {
       {Quantity::uniformity_annulus, o.uniformity_annulus > 0 || o.annulus_matches_dual},
       {Quantity::uniformity_dual, o.uniformity_dual > 0},
       {Quantity::uniformity_l2, o.uniformity_l2 > 0}};
+  struct Need {
+    std::vector<Quantity> quantities;
+    const char* key;
+    bool is_given;
+    const char* problem;
+  };
+  const std::vector<Need> needs{
+      {{Quantity::mass}, "material.density", c.material.density.has_value(), "the mass needs a density"},
+      {{Quantity::force_variation, Quantity::force_variation_harmonic},
+       "load.travel",
+       c.load.travel.has_value(),
+       "the force varies at a held travel; under a load it is that load"},
+      {{Quantity::run_out, Quantity::run_out_harmonic},
+       "load.travel",
+       !c.load.travel,
+       "the travel varies under a load; here it is held"},
+      {{Quantity::tangential_stiffness},
+       "load.horizontal_force",
+       c.load.horizontal_force != 0,
+       "without that force the rim does not move along the ground"},
+      {{Quantity::torsional_stiffness},
+       "load.torque",
+       c.load.torque != 0,
+       "without a torque the rim does not turn"}};
   for (std::size_t i = 0; i < c.expectations.size(); ++i) {
     const Expectation& expectation = c.expectations[i];
     const auto key = [&](std::string_view name) { return fmt::format("expect[{}].{}", i + 1, name); };
@@ -473,6 +517,10 @@ void check_expectations(const Case& c, Conflicts& found) {
       found.push_back({{key("quantity"), fmt::format("objective.{}", name(expectation.quantity))},
                        "it has no weight in the objective, so the run does not compute it",
                        "give it a weight, however small, or expect another quantity"});
+    for (const Need& need : needs)
+      if (!need.is_given && std::ranges::find(need.quantities, expectation.quantity) != need.quantities.end())
+        found.push_back(
+            {{key("quantity"), need.key}, need.problem, "change that key, or expect another quantity"});
     if (expectation.iteration && *expectation.iteration > c.optimizer.iterations)
       found.push_back({{key("iteration"), "optimizer.iterations"},
                        fmt::format("the run ends at shape {} at the latest", c.optimizer.iterations),
@@ -505,6 +553,7 @@ std::vector<Conflict> conflicts(const Case& c) {
   check_annulus(c, found);
   check_objective(c, found);
   check_volume(c, found);
+  check_feature_size(c, found);
   check_expectations(c, found);
   return found;
 }

@@ -115,8 +115,10 @@ template PolarGrid<3> polar_grid(const Case&);
 Bands bands(const Case& c) {
   const double ring = c.wheel.outer_radius - c.wheel.inner_radius, usual = ring / 14;
   const double with_annulus = wants_annulus(c) ? annulus_thickness(c) + ring / 28 : 0;
-  return {.rim = {c.optimizer.rim_band.value_or(usual), 1},
-          .tread = {c.optimizer.tread_band.value_or(std::max(usual, with_annulus)), tread_rows(c) + 1}};
+  const double wall = c.optimizer.minimum_wall.value_or(0);
+  return {
+      .rim = {c.optimizer.rim_band.value_or(std::max(usual, wall)), 1},
+      .tread = {c.optimizer.tread_band.value_or(std::max({usual, with_annulus, wall})), tread_rows(c) + 1}};
 }
 
 HoleRange free_region(const Case& c) {

@@ -700,7 +700,7 @@ const Section<Optimizer>& optimizer_section() {
            .field = IntegerField<Optimizer>{&Optimizer::coarse_levels, between(0, 4)},
            .meaning =
                "the descent begins on a grid whose cells are doubled so many times along each axis, and "
-               "moves on to the next finer one when J has fallen by less than 1e-3 over 10 shapes, until "
+               "moves on to the next finer one when J has fallen by less than 0.5 % over 10 shapes, until "
                "it is on the case's own grid; 0: on the case's own grid from the beginning"},
           {.name = "velocity",
            .unit = "",
@@ -752,7 +752,18 @@ const Section<Optimizer>& optimizer_section() {
                                                    "1/14 of the ring, or 1/28 more than the annulus"},
            .meaning =
                "thickness of the band at the tread that stays material, at least one radial cell more than "
-               "the annulus"}}};
+               "the annulus"},
+          {.name = "minimum_wall",
+           .unit = "m",
+           .field = OptionalNumberField<Optimizer>{&Optimizer::minimum_wall, above(0, 1000), "any"},
+           .meaning = "least thickness of the material between two edges: thinner walls are made as thick in "
+                      "every shape; the bands at rim and tread must be as thick"},
+          {.name = "minimum_gap",
+           .unit = "m",
+           .field = OptionalNumberField<Optimizer>{&Optimizer::minimum_gap, above(0, 1000), "any"},
+           .meaning =
+               "least width of a hole: narrower parts of holes, and smaller holes, are filled in every "
+               "shape"}}};
   return section;
 }
 

@@ -26,6 +26,7 @@ Evolver<dim>::Evolver(const Lattice<dim>& lattice, const EvolutionOptions& optio
     : lattice_(lattice),
       bands_(lattice, options.bands),
       extension_(make_velocity_extension<dim>(lattice, bands_, options.velocity)),
+      features_(options.features),
       cut_points_(options.cut_points) {
   if (options.smoothing > 0)
     smoother_.emplace(lattice, std::sqrt(options.smoothing) * lattice.grid().resolution());
@@ -105,14 +106,29 @@ LevelSet<dim> Evolver<dim>::keep_bands(const LevelSet<dim>& psi) const {
 }
 
 template <int dim>
+LevelSet<dim> Evolver<dim>::with_features(const LevelSet<dim>& psi) const {
+  if (!features_.any()) return psi;
+  LevelSet<dim> result = with_feature_size(psi, features_);
+  if (result.values == psi.values) return result;
+  return bands_.keep(is_mirror_symmetric(psi) ? mirror_symmetric_part(result) : std::move(result));
+}
+
+template <int dim>
 Expected<MeasuredShape<dim>> Evolver<dim>::measured(LevelSet<dim> psi) const {
-  return wheelwright::measured(std::move(psi), cut_points_);
+  return wheelwright::measured(with_features(psi), cut_points_);
 }
 
 template <int dim>
 Expected<MeasuredShape<dim>> Evolver<dim>::with_measure(const LevelSet<dim>& psi, double target,
                                                         double boundary_measure) const {
-  return wheelwright::with_measure<dim>(psi, bands_, target, boundary_measure, cut_points_);
+  constexpr int most_turns = 6;
+  LevelSet<dim> shape = with_features(psi);
+  for (int turn = 1;; ++turn) {
+    auto shifted = wheelwright::with_measure<dim>(shape, bands_, target, boundary_measure, cut_points_);
+    if (!shifted || !features_.any() || turn == most_turns) return shifted;
+    shape = with_features(shifted->shape);
+    if (shape.values == shifted->shape.values) return shifted;
+  }
 }
 
 template <int dim>

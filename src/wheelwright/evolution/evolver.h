@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "wheelwright/base/expected.h"
+#include "wheelwright/evolution/feature_size.h"
 #include "wheelwright/evolution/islands.h"
 #include "wheelwright/evolution/smoothing.h"
 #include "wheelwright/evolution/velocity.h"
@@ -15,8 +16,9 @@ struct EvolutionOptions {
   VelocityOptions velocity;
   /// tau of (76), in units of the squared resolution of the grid. With 0, smooth() is the identity.
   double smoothing = 0;
-  Bands bands;         ///< that stay material
-  int cut_points = 4;  ///< Gauss points per direction in cut cells; those of a solver that uses them again
+  Bands bands;           ///< that stay material
+  FeatureSize features;  ///< the least widths of walls and gaps
+  int cut_points = 4;    ///< Gauss points per direction in cut cells; those of a solver that uses them again
 };
 
 /// Moves shapes on one lattice. Matrices that depend only on the lattice are factored once. All returned
@@ -49,7 +51,11 @@ class Evolver {
   Expected<LevelSet<dim>> smooth(const LevelSet<dim>& psi) const;
   LevelSet<dim> keep_bands(const LevelSet<dim>& psi) const;
 
-  /// As the free functions with these names.
+  /// The shape with the least widths of walls and gaps (with_feature_size()).
+  LevelSet<dim> with_features(const LevelSet<dim>& psi) const;
+
+  /// As the free functions with these names, of the shape with_features(). The shift to the measure thins
+  /// walls or gaps again: shape and shift are found in turns, until the widths hold after the shift.
   Expected<MeasuredShape<dim>> measured(LevelSet<dim> psi) const;
   Expected<MeasuredShape<dim>> with_measure(const LevelSet<dim>& psi, double target,
                                             double boundary_measure) const;
@@ -70,6 +76,7 @@ class Evolver {
   ProtectedBands<dim> bands_;
   std::unique_ptr<VelocityExtension<dim>> extension_;
   std::optional<Smoother<dim>> smoother_;
+  FeatureSize features_;
   int cut_points_;
 };
 

@@ -83,6 +83,8 @@ std::shared_ptr<const Functional<dim>> quantity_functional(Quantity quantity, Ov
     case Quantity::uniformity_l2:
     case Quantity::pressure_spread:
     case Quantity::volume_fraction:
+    case Quantity::minimum_wall:
+    case Quantity::minimum_gap:
       return nullptr;
   }
   return nullptr;

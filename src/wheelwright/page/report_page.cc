@@ -8,6 +8,7 @@
 #include "wheelwright/geometry/contour.h"
 #include "wheelwright/page/assets.h"
 #include "wheelwright/page/base64.h"
+#include "wheelwright/page/html_template.h"
 #include "wheelwright/page/report_run.h"
 #include "wheelwright/report/svg.h"
 
@@ -206,38 +207,17 @@ Json numbers_json() {
   return numbers;
 }
 
-/// JSON that can stand in a script element whatever its texts hold.
-std::string in_script(const Json& json) {
-  std::string text;
-  for (const char c : json.dump(-1, ' ', true, Json::error_handler_t::replace))
-    text += c == '<' ? std::string("\\u003c") : std::string(1, c);
-  return text;
-}
-
-/// The template with contents in the place of marks, in the order in which they stand there.
-std::string filled(std::string_view page,
-                   const std::vector<std::pair<std::string_view, std::string>>& contents) {
-  std::string result;
-  for (const auto& [mark, content] : contents) {
-    const std::size_t at = page.find(mark);
-    result.append(page.substr(0, at)).append(content);
-    page.remove_prefix(at + mark.size());
-  }
-  return result.append(page);
-}
-
 }  // namespace
 
 std::string report_page(const std::vector<ReportRun>& runs) {
   Json data{{"numbers", numbers_json()}, {"runs", Json::array()}};
   for (const ReportRun& run : runs) data["runs"].push_back(run_json(run));
-  return filled(assets::report_html,
-                {{"@TITLE@", escape_xml(runs.size() == 1 ? runs.front().title : "Wheels compared")},
-                 {"@STYLE@", std::string(assets::report_css)},
-                 {"@DATA@", in_script(data)},
-                 {"@CHART_LIBRARY@", std::string(assets::chart_js)},
-                 {"@PARTS@", std::string(assets::parts_js)},
-                 {"@SCRIPT@", std::string(assets::report_js)}});
+  return filled_template(assets::report_html,
+                         {{"@TITLE@", escape_xml(runs.size() == 1 ? runs.front().title : "Wheels compared")},
+                          {"@STYLE@", std::string(assets::report_css)},
+                          {"@DATA@", json_in_script(data)},
+                          {"@CHART_LIBRARY@", std::string(assets::chart_js)},
+                          {"@SCRIPT@", std::string(assets::report_js)}});
 }
 
 }  // namespace wheelwright

@@ -48,8 +48,14 @@ std::optional<double> mass(const StateSolver<dim>& solver, double volume_fractio
 /// How far the curves may be from the edge, by the tread's radius: as exported outlines are.
 constexpr double curve_tolerance = 3e-5;
 
+std::optional<double> width(const std::optional<cad::Clearance>& clearance) {
+  return clearance ? std::optional(clearance->width) : std::nullopt;
+}
+
+}  // namespace
+
 template <int dim>
-cad::Clearances clearances(const LevelSet<dim>& psi) {
+cad::Clearances outline_clearances(const LevelSet<dim>& psi) {
   if constexpr (dim == 2) {
     const PolarGrid<2>& grid = psi.lattice.grid();
     const auto outline = cad::fit_outline(psi, curve_tolerance * grid.outer_radius);
@@ -57,12 +63,6 @@ cad::Clearances clearances(const LevelSet<dim>& psi) {
   }
   return {};
 }
-
-std::optional<double> width(const std::optional<cad::Clearance>& clearance) {
-  return clearance ? std::optional(clearance->width) : std::nullopt;
-}
-
-}  // namespace
 
 template <int dim>
 Expected<DescribedWheel<dim>> described_wheel(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
@@ -74,7 +74,7 @@ Expected<DescribedWheel<dim>> described_wheel(const StateSolver<dim>& solver, co
                              .grid = solver.model().grid,
                              .volume_fraction = volume_fraction,
                              .mass = mass(solver, volume_fraction),
-                             .clearances = clearances(psi),
+                             .clearances = outline_clearances(psi),
                              .summary = shape_summary(solver, psi, state),
                              .rolling = *std::move(rolling)};
 }
@@ -125,6 +125,7 @@ const std::vector<WheelNumber<dim>>& wheel_numbers() {
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                    \
   template Expected<DescribedWheel<dim>> described_wheel(const StateSolver<dim>&, const LevelSet<dim>&, \
                                                          double, const State<dim>&);                    \
+  template cad::Clearances outline_clearances(const LevelSet<dim>&);                                    \
   template const std::vector<WheelNumber<dim>>& wheel_numbers();
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)

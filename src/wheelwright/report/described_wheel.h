@@ -30,6 +30,11 @@ template <int dim>
 Expected<DescribedWheel<dim>> described_wheel(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                               double volume_fraction, const State<dim>& state);
 
+/// The thinnest wall and the narrowest gap of a shape, measured on the curves that follow its edges. Nothing
+/// when dim = 3 and where no curves can be fitted.
+template <int dim>
+cad::Clearances outline_clearances(const LevelSet<dim>& psi);
+
 /// One number about a wheel.
 template <int dim>
 struct WheelNumber {

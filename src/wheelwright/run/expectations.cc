@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "wheelwright/analysis/strain_peaks.h"
+#include "wheelwright/functionals/quantity_functional.h"
+#include "wheelwright/report/described_wheel.h"
 
 namespace wheelwright {
 namespace {
@@ -14,6 +17,24 @@ template <class NamedValue>
 std::optional<double> named_value(const std::vector<NamedValue>& values, std::string_view name) {
   const auto found = std::ranges::find(values, name, &NamedValue::name);
   return found == values.end() ? std::nullopt : std::optional(found->value);
+}
+
+template <int dim>
+std::optional<double> clearance(Quantity quantity, const LevelSet<dim>& shape) {
+  const cad::Clearances clearances = outline_clearances(shape);
+  const auto& clearance = quantity == Quantity::minimum_wall ? clearances.wall : clearances.gap;
+  return clearance ? std::optional(clearance->width) : std::nullopt;
+}
+
+/// What no history has: from the solution.
+template <int dim>
+std::optional<double> computed(Quantity quantity, const StateSolver<dim>& solver, const LevelSet<dim>& shape,
+                               const State<dim>& solution) {
+  const QuantityParameters parameters{.density = solver.model().materials.at_tread().density.value_or(0)};
+  const auto functional = quantity_functional<dim>(quantity, usual_positions(quantity), parameters);
+  if (!functional) return {};
+  const FunctionalValue<dim> value = functional->evaluate(solver, shape, solution, {});
+  return value.over_positions.value_or(value.of_shape);
 }
 
 template <int dim>
@@ -26,7 +47,10 @@ std::optional<double> value_of(Quantity quantity, const StateSolver<dim>& solver
     return solution ? std::optional(std::ranges::max(strain_peaks(solver, *solution).von_mises))
                     : std::nullopt;
   if (const auto functional = named_value(evaluation.terms, name(quantity))) return functional;
-  return named_value(evaluation.measures, name(quantity));
+  if (const auto measure = named_value(evaluation.measures, name(quantity))) return measure;
+  if (quantity == Quantity::minimum_wall || quantity == Quantity::minimum_gap)
+    return clearance(quantity, state.shape);
+  return solution ? computed(quantity, solver, state.shape, *solution) : std::nullopt;
 }
 
 }  // namespace
@@ -99,8 +123,12 @@ std::vector<Finding> findings(const std::vector<Expectation>& expectations,
 }
 
 bool need_a_solution(const std::vector<Expectation>& expectations) {
-  return std::ranges::any_of(expectations,
-                             [](const Expectation& e) { return e.quantity == Quantity::peak_von_mises; });
+  constexpr std::array in_history{Quantity::strain_energy, Quantity::mean_travel, Quantity::run_out,
+                                  Quantity::peak_pressure};
+  return std::ranges::any_of(expectations, [&](const Expectation& e) {
+    return std::ranges::find(in_history, e.quantity) == in_history.end() &&
+           quantity_functional<2>(e.quantity, usual_positions(e.quantity), {}) != nullptr;
+  });
 }
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                         \

@@ -8,6 +8,7 @@
 
 #include "wheelwright/case/derived.h"
 #include "wheelwright/files/csv.h"
+#include "wheelwright/run/feature_warnings.h"
 #include "wheelwright/run/history.h"
 #include "wheelwright/run/provenance.h"
 #include "wheelwright/run/run_title.h"
@@ -82,6 +83,7 @@ std::vector<std::string> flags(const Case& c, const DescribedWheel<2>& wheel,
   std::vector<std::string> result;
   if (const auto warning = deformation_warning(wheel.summary.deformation); !warning.empty())
     result.push_back(warning);
+  for (const std::string& warning : feature_warnings(c, wheel.clearances)) result.push_back(warning);
   const Case shown = with_levels_of_results(c);
   if (const double cells = cells_per_contact_patch(shown); cells < least_cells_per_contact_patch)
     result.push_back(

@@ -186,6 +186,8 @@ EvolutionOptions evolution_options(const Case& c) {
   options.velocity.length = c.optimizer.velocity_length;
   options.smoothing = c.optimizer.smoothing;
   options.bands = bands(c);
+  options.features = {.wall = c.optimizer.minimum_wall.value_or(0),
+                      .gap = c.optimizer.minimum_gap.value_or(0)};
   return options;
 }
 

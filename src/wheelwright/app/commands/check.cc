@@ -7,6 +7,8 @@
 #include "wheelwright/app/memory.h"
 #include "wheelwright/app/shared_options.h"
 #include "wheelwright/app/terminal.h"
+#include "wheelwright/report/described_wheel.h"
+#include "wheelwright/run/feature_warnings.h"
 #include "wheelwright/run/study.h"
 
 namespace wheelwright {
@@ -24,7 +26,10 @@ class CheckCommand : public Subcommand {
     print("{}\n", styled(stdout, Style::green, case_file_ + ": no problems"));
     print_lines(stdout, derived_report(*c));
     if (const auto change = volume_change_of_saved_shape<2>(*c)) print("{}\n", text(*change));
+    const cad::Clearances clearances = outline_clearances(initial_shape<2>(*c));
+    print_lines(stdout, clearance_report(clearances));
     print_warnings(stdout, *c);
+    for (const std::string& warning : feature_warnings(*c, clearances)) print_warning(stdout, warning);
     if (const auto lack = lack_of_memory(*c, available_memory()))
       print_warning(stdout, "this case cannot run here: " + *lack);
     return exit_done;

@@ -6,6 +6,8 @@ namespace wheelwright {
 #define WHEELWRIGHT_COMMANDS(apply) \
   apply(run);                       \
   apply(resume);                    \
+  apply(explore);                   \
+  apply(sweep);                     \
   apply(analyze);                   \
   apply(compare);                   \
   apply(watch);                     \

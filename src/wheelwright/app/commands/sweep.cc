@@ -1,0 +1,81 @@
+#include "wheelwright/explore/sweep.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "wheelwright/app/case_input.h"
+#include "wheelwright/app/commands/commands.h"
+#include "wheelwright/app/design_session.h"
+#include "wheelwright/app/exit_code.h"
+#include "wheelwright/app/number_list.h"
+#include "wheelwright/app/shared_options.h"
+#include "wheelwright/app/terminal.h"
+#include "wheelwright/case/write.h"
+
+namespace wheelwright {
+namespace {
+
+constexpr const char* form = "KEY=A,B,... | KEY=FROM:TO:NUMBER | KEY=FROM:TO:NUMBER:log";
+
+std::optional<SweptKey> parse_swept_key(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) return {};
+  auto values = parse_number_list(std::string_view(text).substr(equals + 1));
+  if (!values) return {};
+  return SweptKey{text.substr(0, equals), *std::move(values)};
+}
+
+class SweepCommand : public Subcommand {
+ public:
+  SweepCommand() : Subcommand("sweep", "Optimize a case for all combinations of some keys' values") {}
+
+  void declare(Options& options) override {
+    add_case(options, case_file_);
+    options.arguments(
+        "KEYS", texts_, 1,
+        fmt::format("Keys of the case with their numbers, e.g. load.mass=100:300:5; each is {}", form));
+    options_.declare(options);
+  }
+
+  int run() override {
+    Signals signals;
+    std::vector<SweptKey> keys;
+    for (const std::string& text : texts_) {
+      auto key = parse_swept_key(text);
+      if (!key) {
+        tell("wheelwright {}: {}: must be {}\n", name(), text, form);
+        return exit_usage;
+      }
+      keys.push_back(*std::move(key));
+    }
+    const auto c = read_or_tell(case_file_);
+    if (!c) return exit_usage;
+    const auto designs = sweep_designs(*c, case_file_, keys);
+    if (!designs) {
+      tell("wheelwright {}: {}\n", name(), designs.failure().text);
+      return exit_usage;
+    }
+    if (!may_compute(name(), *c, case_file_, options_.threads)) return exit_refused;
+    return run_designs(*c, *designs, signals);
+  }
+
+ private:
+  int run_designs(const Case& c, const std::vector<Design>& designs, Signals& signals) const {
+    const auto folder = folder_for(options_, c, "-sweep");
+    std::string settings = fmt::format("{}\n\n", fmt::join(texts_, "\n")) + to_toml(c);
+    DesignSession session(name(), folder, options_, std::move(settings));
+    if (!session.may_begin()) return exit_refused;
+    return session.run(c, designs.size(), signals,
+                       [&](const RunSettings& how) { return run_all(folder, designs, how); });
+  }
+
+  std::string case_file_;
+  std::vector<std::string> texts_;
+  DesignOptions options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Subcommand> make_sweep() { return std::make_unique<SweepCommand>(); }
+
+}  // namespace wheelwright

@@ -1,0 +1,155 @@
+#include "wheelwright/app/design_session.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <thread>
+
+#include "wheelwright/app/exit_code.h"
+#include "wheelwright/app/memory.h"
+#include "wheelwright/app/shared_options.h"
+#include "wheelwright/app/terminal.h"
+#include "wheelwright/base/parallel.h"
+#include "wheelwright/base/stopwatch.h"
+#include "wheelwright/case/derived.h"
+#include "wheelwright/files/atomic_file.h"
+#include "wheelwright/files/written_files.h"
+#include "wheelwright/run/run_title.h"
+
+namespace wheelwright {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* settings_file = "settings.txt";
+constexpr const char* usual_quantities = "stiffness,run_out";
+constexpr int printed_rows = 12;
+
+std::vector<std::string> words(const std::string& text) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    parts.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
+}
+
+std::string check_quantities(const std::string& text) {
+  std::vector<std::string_view> known;
+  for (const RankedQuantity& quantity : ranked_quantities()) known.push_back(quantity.word);
+  for (const std::string& word : words(text))
+    if (!find_quantity(word)) return fmt::format("'{}' is none of {}", word, fmt::join(known, ", "));
+  return "";
+}
+
+std::string content(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+}  // namespace
+
+void DesignOptions::declare(Options& options) {
+  add_output(options, output, "Folder of the results, instead of the case's output.folder with an ending");
+  options.text(
+      "--for", "QUANTITY,...", quantities, check_quantities,
+      fmt::format("By what designs are ranked and drawn, without it {}; known: stiffness, strain_energy, "
+                  "mass, run_out, force_variation, peak_pressure, peak_stress, strain",
+                  usual_quantities));
+  constexpr int most_seconds = 10'000'000;
+  options.number("--seconds", seconds, {1, most_seconds},
+                 "Begin no further design after so much time; without it the number of designs decides");
+  add_threads(options, threads);
+}
+
+std::vector<RankedQuantity> DesignOptions::chosen_quantities() const {
+  std::vector<RankedQuantity> chosen;
+  for (const std::string& word : words(quantities.value_or(usual_quantities)))
+    chosen.push_back(*find_quantity(word));
+  return chosen;
+}
+
+int DesignOptions::n_threads() const {
+  return threads.value_or(static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
+}
+
+DesignSession::DesignSession(std::string name, fs::path folder, const DesignOptions& options,
+                             std::string settings)
+    : name_(std::move(name)), folder_(std::move(folder)), options_(options), settings_(std::move(settings)) {}
+
+bool DesignSession::may_begin() {
+  const std::string csv = name_ + ".csv", json = name_ + ".json", html = name_ + ".html";
+  const std::string_view names[] = {csv, json, html, pareto_picture, settings_file, folder_of_designs};
+  const auto foreign = WrittenFiles(folder_).foreign(names);
+  if (!foreign.empty()) {
+    tell("{}: {}: already there, and not written by this program; choose another folder with --output\n",
+         folder_.string(), fmt::format("{}", fmt::join(foreign, ", ")));
+    return false;
+  }
+  if (fs::exists(folder_ / settings_file) && content(folder_ / settings_file) != settings_) {
+    tell(
+        "{}: holds designs of another case or of other options, as its {} tells; choose another folder with "
+        "--output, or remove this one\n",
+        folder_.string(), settings_file);
+    return false;
+  }
+  make_folder(folder_);
+  write_atomically(folder_ / settings_file, settings_);
+  return true;
+}
+
+RunSettings DesignSession::run_settings(const Case& c, std::size_t n_designs, Signals& signals) const {
+  RunSettings settings;
+  settings.threads = options_.n_threads();
+  if (const auto available = available_memory())
+    settings.threads = std::clamp(static_cast<int>(*available / estimated_memory(c)), 1, settings.threads);
+  settings.stop_requested = [&signals] { return signals.stop().has_value(); };
+  if (options_.seconds)
+    settings.may_begin = [watch = Stopwatch(), seconds = *options_.seconds] {
+      return watch.seconds() < seconds;
+    };
+  settings.done = [this, n_designs, n_done = 0](const Design& design, const DesignResult& result) mutable {
+    tell("{:>3}/{}  ", ++n_done, n_designs);
+    show(design, result);
+  };
+  return settings;
+}
+
+void DesignSession::show(const Design& design, const DesignResult& result) const {
+  std::string numbers;
+  for (const RankedQuantity& quantity : options_.chosen_quantities())
+    if (!result.numbers.empty())
+      numbers += fmt::format(", {} {:.5g} {}", quantity.word, result.value(quantity) * quantity.factor,
+                             quantity.unit);
+  tell("{} {}: {} after {} shapes{}\n", design.name, design.text, result.status, result.shapes, numbers);
+}
+
+int DesignSession::run(const Case& c, std::size_t n_designs, Signals& signals, const Work& work) const {
+  const ThreadLimit one_thread_each(1);
+  const auto quantities = options_.chosen_quantities();
+  const std::vector<RatedDesign> designs = work(run_settings(c, n_designs, signals));
+  if (const auto signal = signals.stop()) {
+    tell("stopped, saved; to go on, give the same command again\n");
+    return designs.empty() ? exit_nothing_saved : 128 + *signal;
+  }
+  const auto order = write_designs(folder_, name_, designs, quantities, run_title(c));
+  print_lines(stdout, designs_table(order, quantities, printed_rows));
+  print("\n{} designs, * worse than no other one\n", order.size());
+  for (const auto& [file, meaning] : {std::pair{name_ + ".html", "all of them, for a browser"},
+                                      {std::string(pareto_picture), "the picture"},
+                                      {name_ + ".csv", "the numbers; .json too"},
+                                      {std::string(folder_of_designs), "one run per design"}})
+    print("  {:<36} {}\n", (folder_ / file).string(), meaning);
+  const bool any = std::ranges::any_of(order, [](const RankedDesign& one) { return one.front > 0; });
+  return any ? exit_done : exit_no_solution;
+}
+
+fs::path folder_for(const DesignOptions& options, const Case& c, const std::string& ending) {
+  return options.output ? fs::path(*options.output) : fs::path(c.output.folder + ending);
+}
+
+}  // namespace wheelwright

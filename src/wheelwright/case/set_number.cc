@@ -1,0 +1,99 @@
+#include "wheelwright/case/set_number.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <vector>
+
+#include "wheelwright/case/keys.h"
+#include "wheelwright/case/number_text.h"
+#include "wheelwright/case/suggest.h"
+
+namespace wheelwright {
+
+namespace {
+
+/// One overload per kind of field; whether the field takes the number.
+template <class Struct, class Field>
+std::optional<std::string> set_field(Struct& out, const Key<Struct>& key, const Field& field, double value) {
+  if constexpr (
+      !requires { field.range; } || requires { out.*field.member = std::array<double, 2>{}; } ||
+      requires { (out.*field.member).push_back({}); }) {
+    return fmt::format("{} is no number", key.name);
+  } else {
+    if (!field.range.contains(value))
+      return fmt::format("{} = {} is out of range: {}{}{}", key.name, number_text(value), field.range.text(),
+                         key.unit.empty() ? "" : " ", key.unit);
+    if constexpr (requires { field.factor; }) {
+      out.*field.member = value * field.factor;
+    } else {
+      if (value != std::round(value))
+        return fmt::format("{} = {} must be a whole number", key.name, number_text(value));
+      out.*field.member = static_cast<int>(value);
+    }
+    return {};
+  }
+}
+
+/// Takes back the optional keys that another one is given instead of.
+template <class Struct>
+void reset_alternatives(Struct& out, const std::vector<Key<Struct>>& keys, const Key<Struct>& given) {
+  for (const Key<Struct>& key : keys) {
+    if (key.name == given.name || !are_alternatives(key, given)) continue;
+    if (const auto* field = std::get_if<OptionalNumberField<Struct>>(&key.field))
+      (out.*field->member).reset();
+  }
+}
+
+/// Nothing if the table has no such key.
+template <class Struct>
+std::optional<std::optional<std::string>> set_in_table(Struct& out, const std::vector<Key<Struct>>& keys,
+                                                       const std::string& name, double value) {
+  const Key<Struct>* key = find_key(keys, name);
+  if (!key) return {};
+  auto problem =
+      std::visit([&](const auto& field) { return set_field(out, *key, field, value); }, key->field);
+  if (!problem) reset_alternatives(out, keys, *key);
+  return problem;
+}
+
+/// All paths that hold numbers, for suggestions.
+std::vector<std::string> known_paths(Case& c) {
+  std::vector<std::string> paths;
+  for_each_section([&](const auto& section) {
+    for (const auto& key : section.keys) {
+      if constexpr (requires { section.path(); }) {
+        for (std::size_t i = 0; i < section.in(c).size(); ++i)
+          paths.push_back(fmt::format("{}[{}].{}", section.path(), i + 1, key.name));
+      } else if (!section.name.empty()) {
+        paths.push_back(fmt::format("{}.{}", section.name, key.name));
+      }
+    }
+  });
+  return paths;
+}
+
+}  // namespace
+
+std::optional<std::string> set_number(Case& c, const std::string& path, double value) {
+  std::optional<std::optional<std::string>> outcome;
+  const auto dot = path.rfind('.');
+  const std::string table = dot == std::string::npos ? "" : path.substr(0, dot), name = path.substr(dot + 1);
+  for_each_section([&](const auto& section) {
+    if constexpr (requires { section.path(); }) {
+      auto& list = section.in(c);
+      for (std::size_t i = 0; i < list.size(); ++i)
+        if (table == fmt::format("{}[{}]", section.path(), i + 1))
+          outcome = set_in_table(list[i], section.keys, name, value);
+    } else if (table == section.name && !outcome) {
+      outcome = set_in_table(section.in(c), section.keys, name, value);
+    }
+  });
+  if (outcome) return *outcome;
+  const auto paths = known_paths(c);
+  const auto near = did_you_mean(path, std::vector<std::string_view>(paths.begin(), paths.end()));
+  return fmt::format("{} is no key of this case{}", path,
+                     near ? fmt::format("; did you mean {}?", *near) : "");
+}
+
+}  // namespace wheelwright

@@ -1,0 +1,44 @@
+#include "wheelwright/explore/design.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace wheelwright {
+
+double DesignResult::value(const RankedQuantity& quantity) const {
+  const auto found = numbers.find(std::string(quantity.key));
+  return found == numbers.end() ? std::nan("") : found->second;
+}
+
+std::vector<double> costs(const DesignResult& result, const std::vector<RankedQuantity>& quantities) {
+  std::vector<double> all;
+  for (const RankedQuantity& quantity : quantities)
+    all.push_back((quantity.is_larger_better ? -1 : 1) * result.value(quantity));
+  return all;
+}
+
+std::vector<std::vector<double>> costs(const std::vector<RatedDesign>& designs,
+                                       const std::vector<RankedQuantity>& quantities) {
+  std::vector<std::vector<double>> all;
+  for (const RatedDesign& one : designs) all.push_back(costs(one.result, quantities));
+  return all;
+}
+
+std::string to_json(const DesignResult& result) {
+  nlohmann::ordered_json json{{"progression", result.progression == Progression::full ? "full" : "preview"},
+                              {"status", result.status},
+                              {"shapes", result.shapes},
+                              {"numbers", nlohmann::ordered_json::object()}};
+  for (const auto& [key, value] : result.numbers) json["numbers"][key] = value;
+  return json.dump(2) + '\n';
+}
+
+DesignResult design_result(const std::string& text) {
+  const auto json = nlohmann::json::parse(text);
+  DesignResult result{json.at("progression") == "full" ? Progression::full : Progression::preview,
+                      json.at("status"), json.at("shapes")};
+  for (const auto& [key, value] : json.at("numbers").items()) result.numbers[key] = value.get<double>();
+  return result;
+}
+
+}  // namespace wheelwright

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "wheelwright/case/case.h"
+#include "wheelwright/explore/quantity.h"
+
+namespace wheelwright {
+
+/// One wheel of an exploration or a sweep, before it is optimized.
+struct Design {
+  std::string name;  ///< of its run's folder, e.g. "007"
+  std::string text;  ///< what it begins with, for people
+  Case source;
+  std::vector<std::pair<std::string, double>> parameters;  ///< in which it differs, for the table
+};
+
+/// How far the run of a design went.
+enum class Progression {
+  preview,  ///< optimized on coarse grids, or by a few shapes, and evaluated on the case's grid
+  full,     ///< until the run ended by itself
+};
+
+/// What became of a design. The same after a kill and a resumption: it holds no times.
+struct DesignResult {
+  Progression progression;
+  std::string status;  ///< why the run ended, as in StopReason; or why it did not begin
+  int shapes = 0;
+  /// By their keys in summary.json; empty if the run has no results.
+  std::map<std::string, double> numbers = {};
+
+  /// In SI units; NaN if it is not known.
+  double value(const RankedQuantity& quantity) const;
+};
+
+/// A design with its result.
+struct RatedDesign {
+  Design design;
+  DesignResult result;
+};
+
+/// What is small for good designs, in the order of the quantities.
+std::vector<double> costs(const DesignResult& result, const std::vector<RankedQuantity>& quantities);
+std::vector<std::vector<double>> costs(const std::vector<RatedDesign>& designs,
+                                       const std::vector<RankedQuantity>& quantities);
+
+/// As a file of its own, and back; throws std::exception on a text that is none.
+std::string to_json(const DesignResult& result);
+DesignResult design_result(const std::string& json);
+
+}  // namespace wheelwright

@@ -1,0 +1,166 @@
+#include "wheelwright/explore/design_runs.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <variant>
+
+#include "wheelwright/explore/workers.h"
+#include "wheelwright/files/atomic_file.h"
+#include "wheelwright/report/described_wheel.h"
+#include "wheelwright/run/own_drawings.h"
+#include "wheelwright/run/run.h"
+
+namespace wheelwright {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Shapes of a preview whose run does not begin on a coarser grid.
+constexpr int shapes_of_preview = 12;
+
+std::string content(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+fs::path result_file(const fs::path& designs, const Design& design, Progression progression) {
+  return designs /
+         fmt::format("{}.{}.json", design.name, progression == Progression::full ? "full" : "preview");
+}
+
+std::optional<DesignResult> known_result(const fs::path& file) {
+  if (!fs::exists(file)) return {};
+  try {
+    return design_result(content(file));
+  } catch (const nlohmann::json::exception&) {
+    return {};  // computed again
+  }
+}
+
+/// Stops a run once, when it is asked to.
+class StopOnce {
+ public:
+  explicit StopOnce(const std::function<bool()>& requested) : requested_(requested) {}
+  std::optional<Command> operator()() {
+    if (was_passed_on_ || !requested_()) return {};
+    was_passed_on_ = true;
+    return Stop{};
+  }
+
+ private:
+  const std::function<bool()>& requested_;
+  bool was_passed_on_ = false;
+};
+
+/// Stops a run where its preview ends: on the case's grid after the coarser ones, or after a few shapes.
+class EndOfPreview : public Observer<2> {
+ public:
+  explicit EndOfPreview(CommandQueue& commands) : commands_(commands) {}
+
+  void operator()(const Event<2>& event, const RunView<2>& run) override {
+    if (const auto* started = std::get_if<RunStarted>(&event); started && started->resumed_after)
+      has_changed_grid_ =
+          run.study.level == 0 && run.study.source.optimizer.coarse_levels > 0 && *started->resumed_after > 0;
+    if (std::holds_alternative<GridChanged>(event)) has_changed_grid_ = true;
+    if (std::holds_alternative<RunStarted>(event) && has_changed_grid_) end();
+    const auto* done = std::get_if<TrialDone<2>>(&event);
+    if (!done || done->trial.verdict != Verdict::accepted || run.study.level > 0 || is_over_) return;
+    if (has_changed_grid_ || done->state.iteration >= shapes_of_preview) end();
+  }
+
+  bool is_over() const { return is_over_; }
+
+ private:
+  void end() {
+    is_over_ = true;
+    commands_.push(Stop{});
+  }
+
+  CommandQueue& commands_;
+  bool has_changed_grid_ = false, is_over_ = false;
+};
+
+/// The numbers of the last shape that a run wrote to its folder.
+std::map<std::string, double> numbers_of(const fs::path& folder, int& shapes) {
+  std::map<std::string, double> numbers;
+  if (!fs::exists(folder / "summary.json")) return numbers;
+  const auto after = nlohmann::json::parse(content(folder / "summary.json")).at("after");
+  shapes = after.at("shape");
+  for (const WheelNumber<2>& number : wheel_numbers<2>())
+    numbers[number.key] = after.at(number.key).is_null() ? std::nan("") : after.at(number.key).get<double>();
+  return numbers;
+}
+
+std::string failure_text(const NotBegun<2>& reason) {
+  if (const auto* failure = std::get_if<Failure>(&reason)) return to_string(failure->reason);
+  if (std::holds_alternative<FolderInUse>(reason)) return "folder_in_use";
+  return "folder_not_usable";
+}
+
+Expected<Run<2>, NotBegun<2>> begun_or_resumed(const Design& design, const fs::path& folder) {
+  if (fs::exists(folder / "case.toml")) return Run<2>::resume(with_own_drawings(design.source), folder);
+  return Run<2>::begin(design.source, folder);
+}
+
+/// Empty for a run that was stopped.
+std::optional<DesignResult> run_design(const Design& design, const fs::path& folder, Progression progression,
+                                       const std::function<bool()>& stop_requested) {
+  DesignResult result{progression, ""};
+  auto run = begun_or_resumed(design, folder);
+  if (run) {
+    CommandQueue commands;
+    commands.add_source(StopOnce(stop_requested));
+    const EndOfPreview* end = nullptr;
+    if (progression == Progression::preview) {
+      auto observer = std::make_unique<EndOfPreview>(commands);
+      end = observer.get();
+      run->add(std::move(observer));
+    }
+    const RunResult<2> ended = run->execute(commands);
+    const bool is_end_of_preview = end && end->is_over();
+    if (ended.reason == StopReason::stop_requested && !is_end_of_preview) return {};
+    result.status = is_end_of_preview ? "preview" : to_string(ended.reason);
+  } else if (const auto* finished = std::get_if<AlreadyFinished<2>>(&run.failure())) {
+    result.status = to_string(*finished->end.finished);
+  } else {
+    result.status = failure_text(run.failure());
+    return result;
+  }
+  result.numbers = numbers_of(folder, result.shapes);
+  return result;
+}
+
+}  // namespace
+
+std::vector<std::optional<DesignResult>> run_designs(const fs::path& folder,
+                                                     const std::vector<Design>& designs,
+                                                     Progression progression, const RunSettings& settings) {
+  const fs::path place = folder / folder_of_designs;
+  make_subfolder(place);
+  std::vector<std::optional<DesignResult>> results(designs.size());
+  std::mutex mutex;
+  on_threads(settings.threads, static_cast<int>(designs.size()), [&](int i) {
+    const Design& design = designs[i];
+    const fs::path file = result_file(place, design, progression);
+    std::optional<DesignResult> result = known_result(file);
+    if (!result) {
+      if (settings.stop_requested() || !settings.may_begin()) return;
+      {
+        const std::scoped_lock lock(mutex);
+        make_subfolder(place / design.name);
+      }
+      result = run_design(design, place / design.name, progression, settings.stop_requested);
+      if (!result) return;
+    }
+    const std::scoped_lock lock(mutex);
+    if (!fs::exists(file)) write_atomically(file, to_json(*result));
+    settings.done(design, *result);
+    results[i] = std::move(result);
+  });
+  return results;
+}
+
+}  // namespace wheelwright

@@ -1,0 +1,150 @@
+#include "wheelwright/explore/exploration.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include "wheelwright/case/derived.h"
+#include "wheelwright/case/load_saved_shape.h"
+#include "wheelwright/case/read.h"
+#include "wheelwright/case/write.h"
+#include "wheelwright/explore/pareto.h"
+#include "wheelwright/files/atomic_file.h"
+#include "wheelwright/files/level_set_file.h"
+#include "wheelwright/report/svg.h"
+#include "wheelwright/run/study.h"
+#include "wheelwright/starts/start.h"
+
+namespace wheelwright {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// J_e / J_p2 of a case's initial shape, both summed over its load positions.
+Expected<double> weight_of_evenness(Case c) {
+  c.objective.strain_energy = c.objective.uniformity_dual = 1;
+  const auto study = make_study<2>(c);
+  if (!study) return study.failure();
+  const auto evaluated = evaluate_of(*study)(study->initial, nullptr);
+  if (!evaluated) return evaluated.failure();
+  const auto value = [&](std::string_view name) {
+    return std::ranges::find(evaluated->evaluation.terms, name, &TermValue::name)->value;
+  };
+  return value("strain_energy") / value("uniformity_dual");
+}
+
+/// The case as a design runs it: first on a grid of half as many cells if that shows the same holes, and
+/// without the many files of a run that nobody opens.
+Case as_design(Case c) {
+  if (c.optimizer.coarse_levels == 0 && can_be_halved(c, 1)) {
+    c.optimizer.coarse_levels = 1;
+    const bool is_valid = parse_case(to_toml(c), "design.toml").value.has_value();
+    if (!is_valid || !lost_on_the_grid<2>(on_coarser_grid(c, 1)).empty()) c.optimizer.coarse_levels = 0;
+  }
+  c.output.vtu_every = c.output.pictures_every = 0;
+  c.output.checkpoint_every = 50;
+  c.expectations = {};
+  return c;
+}
+
+std::string design_name(std::size_t i) { return fmt::format("{:03}", i + 1); }
+
+/// The wheel that a run's folder holds, as an SVG path.
+std::string outline(const fs::path& file) {
+  constexpr double size = 100;
+  std::ifstream stream(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  const auto psi = parse_level_set_file<2>(bytes);
+  if (!psi) return {};
+  const PolarGrid<2>& grid = psi->lattice.grid();
+  return material_path(grid, material_contours(*psi, 1), 0.5 * size / grid.outer_radius, 1,
+                       0.01 * grid.outer_radius);
+}
+
+std::vector<RatedDesign> rated(const std::vector<Design>& designs,
+                               const std::vector<std::optional<DesignResult>>& results) {
+  std::vector<RatedDesign> all;
+  for (std::size_t i = 0; i < designs.size(); ++i)
+    if (results[i]) all.push_back({designs[i], *results[i]});
+  return all;
+}
+
+}  // namespace
+
+Expected<std::vector<Design>> planned_designs(const Case& c, const ExplorationPlan& plan) {
+  if (!c.volume.target && !has_holes(c))
+    return Failure{
+        FailureReason::empty_shape,
+        "the case has neither holes nor volume.target, so that no volume is given for the designs"};
+  const StartRange range{c.volume.target ? *c.volume.target : initial_volume(c), plan.keeps_sectors};
+  std::vector<Start> starts;
+  if (has_holes(c)) starts.push_back({"the case's own shape", c});
+  for (int number = 0; static_cast<int>(starts.size()) < plan.starts && number < 4 * plan.starts; ++number)
+    if (auto start = draw_start(c, range, plan.seed, number)) starts.push_back(*std::move(start));
+  if (starts.empty())
+    return Failure{
+        FailureReason::empty_shape,
+        fmt::format("no shape of the volume {:.6g} was found that this grid resolves", range.volume)};
+  double weight = 0;
+  if (std::ranges::any_of(plan.quantities, &RankedQuantity::is_of_evenness)) {
+    const auto found = weight_of_evenness(starts.front().source);
+    if (!found) return found.failure();
+    weight = *found;
+  }
+  std::vector<Design> designs;
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const double relative =
+        relative_weights_of_evenness[(i + i / 10) % std::size(relative_weights_of_evenness)];
+    Case source = as_design(std::move(starts[i].source));
+    if (i > 0 && weight * relative > 0) source.objective.uniformity_dual += weight * relative;
+    designs.push_back({design_name(i),
+                       starts[i].text,
+                       std::move(source),
+                       {{"weight_of_evenness", designs.empty() ? 0 : weight * relative}}});
+  }
+  return designs;
+}
+
+std::vector<int> chosen_designs(const std::vector<RatedDesign>& previews,
+                                const std::vector<RankedQuantity>& quantities) {
+  std::vector<int> order = spread_order(costs(previews, quantities));
+  order.resize(std::min(order.size(), (previews.size() + 2) / 3));
+  std::ranges::sort(order);
+  return order;
+}
+
+std::vector<RatedDesign> explore(const fs::path& folder, const std::vector<Design>& designs,
+                                 const std::vector<RankedQuantity>& quantities, const RunSettings& settings) {
+  std::vector<RatedDesign> all = rated(designs, run_designs(folder, designs, Progression::preview, settings));
+  if (settings.stop_requested()) return all;
+  const std::vector<int> chosen = chosen_designs(all, quantities);
+  std::vector<Design> best;
+  for (const int i : chosen) best.push_back(all[i].design);
+  const auto results = run_designs(folder, best, Progression::full, settings);
+  for (std::size_t k = 0; k < chosen.size(); ++k)
+    if (results[k]) all[chosen[k]].result = *results[k];
+  return all;
+}
+
+std::vector<RatedDesign> run_all(const fs::path& folder, const std::vector<Design>& designs,
+                                 const RunSettings& settings) {
+  return rated(designs, run_designs(folder, designs, Progression::full, settings));
+}
+
+std::vector<RankedDesign> write_designs(const fs::path& folder, const std::string& name,
+                                        const std::vector<RatedDesign>& designs,
+                                        const std::vector<RankedQuantity>& quantities,
+                                        const std::string& title) {
+  std::vector<RankedDesign> order = ranked(designs, quantities);
+  for (RankedDesign& one : order)
+    one.outline = outline(folder / folder_of_designs / one.design.name / saved_shape_file);
+  write_atomically(folder / (name + ".csv"), designs_csv(order));
+  write_atomically(folder / (name + ".json"), designs_json(order, quantities));
+  write_atomically(folder / pareto_picture, pareto_svg(order, quantities, title));
+  write_atomically(folder / (name + ".html"), designs_page(order, quantities, title));
+  return order;
+}
+
+}  // namespace wheelwright

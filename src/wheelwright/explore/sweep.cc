@@ -1,0 +1,56 @@
+#include "wheelwright/explore/sweep.h"
+
+#include <fmt/format.h>
+
+#include "wheelwright/case/number_text.h"
+#include "wheelwright/case/read.h"
+#include "wheelwright/case/set_number.h"
+#include "wheelwright/case/write.h"
+
+namespace wheelwright {
+namespace {
+
+constexpr std::size_t most_designs = 999;
+
+/// The case as a file of its own would give it; what is wrong with it otherwise.
+Expected<Case, SweepProblem> checked(const Case& c, const std::filesystem::path& file,
+                                     const std::string& text) {
+  CaseResult result = parse_case(to_toml(c), file);
+  if (result.value) return *std::move(result.value);
+  const Diagnostic& first = result.problems.front();
+  return SweepProblem{fmt::format("{}: {}: {}{}{}", text, first.key, first.problem,
+                                  first.remedy.empty() ? "" : "; ", first.remedy)};
+}
+
+}  // namespace
+
+Expected<std::vector<Design>, SweepProblem> sweep_designs(const Case& c, const std::filesystem::path& file,
+                                                          const std::vector<SweptKey>& keys) {
+  std::size_t n = 1;
+  for (const SweptKey& swept : keys) n *= swept.values.size();
+  if (n > most_designs)
+    return SweepProblem{fmt::format("{} designs; at most {} are run in one folder", n, most_designs)};
+  std::vector<Design> designs;
+  for (std::size_t i = 0; i < n; ++i) {
+    Case source = c;
+    Design design{fmt::format("{:03}", i + 1), "", {}, {}};
+    std::size_t rest = i, block = n;
+    for (const SweptKey& swept : keys) {
+      block /= swept.values.size();
+      const double value = swept.values[rest / block];
+      rest %= block;
+      if (const auto problem = set_number(source, swept.key, value)) return SweepProblem{*problem};
+      design.text += fmt::format("{}{} = {}", design.text.empty() ? "" : ", ", swept.key, number_text(value));
+      design.parameters.emplace_back(swept.key, value);
+    }
+    auto valid = checked(source, file, design.text);
+    if (!valid) return valid.failure();
+    design.source = *std::move(valid);
+    design.source.title = design.text;
+    design.source.output.vtu_every = design.source.output.pictures_every = 0;
+    designs.push_back(std::move(design));
+  }
+  return designs;
+}
+
+}  // namespace wheelwright

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "wheelwright/base/expected.h"
+#include "wheelwright/explore/design.h"
+
+namespace wheelwright {
+
+/// A key of a case and the numbers that it takes, in the unit of the case file.
+struct SweptKey {
+  std::string key;  ///< e.g. "load.mass"
+  std::vector<double> values;
+};
+
+/// Why the designs of a sweep cannot be made, one line.
+struct SweepProblem {
+  std::string text;
+};
+
+/// One design for every combination of the values; the values of the last key change fastest. The file is the
+/// case's, from whose folder it reads drawings.
+Expected<std::vector<Design>, SweepProblem> sweep_designs(const Case& c, const std::filesystem::path& file,
+                                                          const std::vector<SweptKey>& keys);
+
+}  // namespace wheelwright

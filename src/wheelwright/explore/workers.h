@@ -1,0 +1,12 @@
+#pragma once
+
+#include <functional>
+
+namespace wheelwright {
+
+/// Calls work(0), ..., work(n - 1) on so many threads, each number once and begun in this order, and returns
+/// when all calls are done. After an exception no further call begins; the first one is thrown again at the
+/// end. Within a call parallel_for() should be limited to one thread (ThreadLimit).
+void on_threads(int n_threads, int n, const std::function<void(int)>& work);
+
+}  // namespace wheelwright

@@ -1,0 +1,48 @@
+#include "wheelwright/run/feature_warnings.h"
+
+#include <fmt/format.h>
+
+#include "wheelwright/cad/outline_fault.h"
+#include "wheelwright/case/derived.h"
+
+namespace wheelwright {
+namespace {
+
+constexpr double mm = 1e3;
+
+/// What curves and quadratic level sets may deviate, relative.
+constexpr double tolerated = 0.01;
+
+bool is_too_narrow(const std::optional<cad::Clearance>& measured, std::optional<double> least) {
+  return measured && least && measured->width < (1 - tolerated) * *least;
+}
+
+std::string place(const cad::Clearance& clearance) {
+  return cad::place_of(
+      {0.5 * (clearance.from[0] + clearance.to[0]), 0.5 * (clearance.from[1] + clearance.to[1])});
+}
+
+std::string too_narrow(const char* what, const cad::Clearance& measured, const char* key, double least) {
+  return fmt::format("{} is {:.4g} mm, at {}: optimizer.{} = {:.4g} mm is not met", what, measured.width * mm,
+                     place(measured), key, least * mm);
+}
+
+}  // namespace
+
+std::vector<std::string> feature_warnings(const Case& c, const cad::Clearances& measured) {
+  std::vector<std::string> result;
+  if (is_too_narrow(measured.wall, c.optimizer.minimum_wall))
+    result.push_back(
+        too_narrow("the thinnest wall", *measured.wall, "minimum_wall", *c.optimizer.minimum_wall));
+  if (is_too_narrow(measured.gap, c.optimizer.minimum_gap))
+    result.push_back(too_narrow("the narrowest gap", *measured.gap, "minimum_gap", *c.optimizer.minimum_gap));
+  const double cell = plane_grid(c).resolution();
+  if (measured.wall && measured.wall->width < least_cells_per_wall * cell)
+    result.push_back(fmt::format(
+        "the thinnest wall, {:.4g} mm at {}, is only {:.1f} cells thick: what it carries is not resolved; "
+        "optimizer.minimum_wall keeps walls thick, a finer grid resolves thinner ones",
+        measured.wall->width * mm, place(*measured.wall), measured.wall->width / cell));
+  return result;
+}
+
+}  // namespace wheelwright

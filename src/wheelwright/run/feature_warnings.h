@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "wheelwright/cad/clearance.h"
+#include "wheelwright/case/case.h"
+
+namespace wheelwright {
+
+/// Below so many cells a wall is computed too coarsely.
+inline constexpr double least_cells_per_wall = 3;
+
+/// What is measured on an outline, judged: a wall or a gap that is more than 1 % narrower than the case
+/// allows, with its place, and a wall of less than three cells.
+std::vector<std::string> feature_warnings(const Case& c, const cad::Clearances& measured);
+
+}  // namespace wheelwright

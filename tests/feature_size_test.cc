@@ -1,0 +1,160 @@
+#include "wheelwright/evolution/feature_size.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/support.h"
+#include "wheelwright/cad/clearance.h"
+#include "wheelwright/cad/fit_outline.h"
+#include "wheelwright/cut/measure.h"
+#include "wheelwright/evolution/evolver.h"
+#include "wheelwright/geometry/mirror.h"
+#include "wheelwright/report/described_wheel.h"
+
+namespace wheelwright {
+namespace {
+
+using testing::Hole;
+using testing::holes;
+
+PolarGrid<2> grid_of(int radial, int angular) { return {0.20, 0.34, 0.12, 16, {radial, angular / 16}}; }
+
+/// Two holes whose edges are `wall` apart along the radius.
+LevelSet<2> two_holes(const PolarGrid<2>& grid, double wall, double azimuth = 0.47) {
+  const double r = 0.018, middle = 0.27, at = azimuth * grid.sector_angle();
+  return holes(grid, 2, {{middle - r - wall / 2, at, r}, {middle + r + wall / 2, at, r}});
+}
+
+/// A hole across the face between sectors and one in the sector, `wall` apart along the azimuth.
+LevelSet<2> holes_across_the_face(const PolarGrid<2>& grid, double wall) {
+  const double r = 0.016, radius = 0.265, spacing = 2 * std::asin((2 * r + wall) / 2 / radius);
+  return holes(grid, 2, {{radius, 0, r}, {radius, spacing, r}});
+}
+
+/// Two holes joined by a slit of this width between parallel edges.
+LevelSet<2> holes_with_slit(const PolarGrid<2>& grid, double width) {
+  LevelSet<2> psi =
+      holes(grid, 2, {{0.235, 0.5 * grid.sector_angle(), 0.016}, {0.305, 0.5 * grid.sector_angle(), 0.016}});
+  for (int node = 0; node < psi.lattice.n_nodes(); ++node) {
+    const Vec<2> p = psi.lattice.polar_point(node);
+    const double across = std::abs(p[0] * std::sin(p[1] - 0.5 * grid.sector_angle()));
+    const double along = std::abs(p[0] * std::cos(p[1] - 0.5 * grid.sector_angle()) - 0.27) - 0.03;
+    psi.values[node] = std::max(psi.values[node], -std::max(across - width / 2, along));
+  }
+  return psi;
+}
+
+double wall_of(const LevelSet<2>& psi) { return outline_clearances(psi).wall->width; }
+
+TEST(FeatureSize, ShapesThatHaveItStayAsTheyAre) {
+  for (const auto& grid : {grid_of(14, 192), grid_of(28, 384)}) {
+    const auto psi = two_holes(grid, 0.014);
+    EXPECT_EQ(with_feature_size(psi, {.wall = 0.013, .gap = 0.02}).values, psi.values);
+    const auto across = holes_across_the_face(grid, 0.014);
+    EXPECT_EQ(with_feature_size(across, {.wall = 0.013, .gap = 0.02}).values, across.values);
+  }
+}
+
+/// What the fitted curves of the outline show, which know nothing of how the shape was made.
+TEST(FeatureSize, ThinWallsBecomeAsThickAsAsked) {
+  for (const auto& grid : {grid_of(28, 384), grid_of(28, 512)})
+    for (const double wall : {0.010, 0.013}) {
+      for (const auto& psi : {two_holes(grid, 0.006), holes_across_the_face(grid, 0.006)}) {
+        ASSERT_NEAR(wall_of(psi), 0.006, 2e-4);
+        const auto thick = with_thick_walls(psi, wall);
+        EXPECT_GT(wall_of(thick), 0.99 * wall);
+        EXPECT_LT(wall_of(thick), 1.03 * wall);
+        // Material is added, never taken; and it is added near the wall alone.
+        for (size_t i = 0; i < psi.values.size(); ++i) EXPECT_LE(thick.values[i], psi.values[i]);
+        EXPECT_LT(material_measure(thick) - material_measure(psi), 0.02 * wall);
+        // Once is enough.
+        const auto twice = with_thick_walls(thick, wall);
+        EXPECT_NEAR(material_measure(twice), material_measure(thick), 1e-6);
+      }
+    }
+}
+
+TEST(FeatureSize, TheMiddleOfAWallIsFound) {
+  const auto grid = grid_of(28, 384);
+  const double at = 0.47 * grid.sector_angle();
+  const auto balls = thin_walls(two_holes(grid, 0.008), 0.005);
+  ASSERT_FALSE(balls.empty());
+  double thinnest = 1;
+  for (const auto& ball : balls) thinnest = std::min(thinnest, ball.radius);
+  EXPECT_NEAR(thinnest, 0.004, 5e-5);
+  for (const auto& ball : balls) {
+    EXPECT_LT(ball.radius, 0.005);
+    // On the line that is as far from the one hole as from the other.
+    const Vec<2> middle = cartesian<2>({0.27, at});
+    EXPECT_LT(
+        std::abs((ball.centre[0] - middle[0]) * std::cos(at) + (ball.centre[1] - middle[1]) * std::sin(at)),
+        3e-4);
+  }
+  EXPECT_TRUE(thin_walls(two_holes(grid, 0.011), 0.005).empty());
+  EXPECT_TRUE(
+      thin_walls(LevelSet<2>{Lattice<2>(grid, 2), std::vector<double>(Lattice<2>(grid, 2).n_nodes(), -1.0)},
+                 0.005)
+          .empty());
+}
+
+TEST(FeatureSize, SlitsAndSmallHolesAreFilled) {
+  const auto grid = grid_of(28, 384);
+  const auto slit = holes_with_slit(grid, 0.006);
+  const auto filled = without_narrow_gaps(slit, 0.012);
+  const auto apart =
+      holes(grid, 2, {{0.235, 0.5 * grid.sector_angle(), 0.016}, {0.305, 0.5 * grid.sector_angle(), 0.016}});
+  EXPECT_LT(outline_clearances(slit).gap->width, 0.0065);
+  EXPECT_GT(outline_clearances(filled).gap->width, 0.99 * 0.012);
+  EXPECT_GT(material_measure(filled), material_measure(slit));
+  EXPECT_LT(material_measure(filled), 1.002 * material_measure(apart));
+  // A slit that is wide enough stays.
+  const auto wide = holes_with_slit(grid, 0.014);
+  EXPECT_EQ(without_narrow_gaps(wide, 0.012).values, wide.values);
+
+  const auto small =
+      holes(grid, 2, {{0.26, 0.5 * grid.sector_angle(), 0.03}, {0.315, 0.5 * grid.sector_angle(), 0.004}});
+  const auto without = without_narrow_gaps(small, 0.012);
+  EXPECT_NEAR(material_measure(without) - material_measure(small), M_PI * 0.004 * 0.004, 2e-6);
+  const auto nothing = without_narrow_gaps(holes(grid, 2, {{0.27, 0.5 * grid.sector_angle(), 0.004}}), 0.012);
+  EXPECT_TRUE(std::ranges::all_of(nothing.values, [](double x) { return x < 0; }));
+}
+
+/// The shift to a measure thins walls again; the shape that comes out has both.
+TEST(FeatureSize, AShapeOfAGivenMeasureHasTheWidthsToo) {
+  const auto grid = grid_of(28, 384);
+  const double usual = 0.01;
+  const Evolver<2> evolver(Lattice<2>(grid, 2),
+                           {.bands = {{usual, 1}, {usual, 2}}, .features = {.wall = 0.011, .gap = 0.012}});
+  for (const auto& psi :
+       {two_holes(grid, 0.006), two_holes(grid, 0.006, 0.5), holes_across_the_face(grid, 0.005)}) {
+    const double target = material_measure(psi);
+    const auto shape = evolver.with_measure(psi, target, 0.2);
+    ASSERT_TRUE(shape) << shape.failure().detail;
+    EXPECT_NEAR(shape->measure, target, 1e-6 * target);
+    EXPECT_GT(wall_of(shape->shape), 0.99 * 0.011);
+    EXPECT_EQ(is_mirror_symmetric(shape->shape), is_mirror_symmetric(psi));
+  }
+}
+
+TEST(FeatureSize, WallsOfA3DShapeBecomeThickToo) {
+  const PolarGrid<3> grid{0.20, 0.34, 0.12, 16, {14, 12, 3}};
+  LevelSet<3> psi{Lattice<3>(grid, 1), {}};
+  const double at = 0.5 * grid.sector_angle(), r = 0.018, wall = 0.010;
+  const auto distance = [&](const Vec<3>& polar, double radius) {
+    const Vec<2> x = cartesian<2>({polar[0], polar[1]}), c = cartesian<2>({radius, at});
+    return r - std::hypot(x[0] - c[0], x[1] - c[1]);
+  };
+  for (int i = 0; i < psi.lattice.n_nodes(); ++i) {
+    const Vec<3> p = psi.lattice.polar_point(i);
+    psi.values.push_back(std::max(distance(p, 0.27 - r - wall / 2), distance(p, 0.27 + r + wall / 2)));
+  }
+  const auto thick = with_thick_walls(psi, 0.020);
+  EXPECT_GT(material_measure(thick), material_measure(psi));
+  const auto balls = thin_walls(thick, 0.0095);
+  EXPECT_TRUE(balls.empty());
+}
+
+}  // namespace
+}  // namespace wheelwright
