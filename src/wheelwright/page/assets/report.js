@@ -2,33 +2,8 @@
 (() => {
   const data = JSON.parse(document.getElementById("data").textContent);
   const page = document.getElementById("page");
-  const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-  const curveColours = ["#1f77b4", "#d1495b", "#2e8b57", "#b8860b", "#7b4fa3", "#008b8b", "#c2549d", "#6b7280"];
-  const degree = 180 / Math.PI;
-
-  // --- Elements ---------------------------------------------------------------------------------------
-
-  function element(name, attributes = {}, ...children) {
-    const made = document.createElement(name);
-    for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
-    made.append(...children);
-    return made;
-  }
-
-  // At most five digits, without an exponent where people would not write one.
-  function shown(value) {
-    if (!Number.isFinite(value)) return "-";
-    const size = Math.abs(value);
-    return size !== 0 && (size < 1e-4 || size >= 1e7) ? value.toExponential(3) : String(Number(value.toPrecision(5)));
-  }
-
-  function change(before, after) {
-    const percents = 100 * (after / before - 1);
-    if (!Number.isFinite(percents)) return "";
-    return Math.abs(percents) < 0.005 ? "0 %" : `${percents > 0 ? "+" : "\u2212"}${Math.abs(percents).toFixed(2)} %`;
-  }
-
-  const minutes = (seconds) => seconds < 100 ? `${seconds.toFixed(1)} s` : `${(seconds / 60).toFixed(1)} min`;
+  const { colour, curveColours, degree, element, shown, change, minutes, viridis, gradient, bytes, wheelPainter,
+    drawGround, roundMagnification, chart, wheelPath, paintWheel } = parts;
 
   // --- Numbers ----------------------------------------------------------------------------------------
 
@@ -39,7 +14,7 @@
       if (k > 0) head.append(element("th", { scope: "col" }, "change"));
     });
     const body = element("tbody");
-    for (const { key, label, unit, factor } of data.numbers) {
+    for (const { key, label, unit, factor } of wheels[0].units) {
       if (wheels.every(({ numbers }) => numbers[key] === undefined)) continue;
       const row = element("tr", {}, element("th", { scope: "row" }, `${label} [${unit}]`));
       wheels.forEach(({ numbers }, k) => {
@@ -89,149 +64,160 @@
     return list;
   }
 
-  // --- Colours ----------------------------------------------------------------------------------------
+  // --- The lit surface of a wheel in 3D ---------------------------------------------------------------
 
-  const viridis = [[68, 1, 84], [72, 40, 120], [62, 74, 137], [49, 104, 142], [38, 130, 142], [31, 158, 137],
-    [53, 183, 121], [109, 205, 89], [180, 222, 44], [253, 231, 37]];
-  const gradient = `linear-gradient(90deg, ${viridis.map((c) => `rgb(${c})`).join(", ")})`;
-
-  // --- The wheel rolling ------------------------------------------------------------------------------
-
-  function bytes(text) {
-    return Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
-  }
-
-  // The mesh of sector 0 and the fields of all sectors, as one mesh of the whole wheel.
-  function wheelMesh(run) {
+  // The surface of the whole wheel from that of sector 0. Where the rim, the tread, side faces and holes meet, each of
+  // them has vertices of its own, so that the edges between them are sharp: `sources` tells of which vertex.
+  function wheelSurface(run) {
     const { fields, sectors } = run;
     const points = new Float32Array(bytes(fields.points).buffer);
-    const triangles = new Uint32Array(bytes(fields.triangles).buffer);
-    const n = points.length / 2;
-    const places = new Float32Array(2 * n * sectors), corners = new Uint32Array(triangles.length * sectors);
+    const triangles = new Uint32Array(bytes(fields.triangles).buffer), parts = bytes(fields.parts);
+    const n = points.length / 3, places = new Float32Array(points.length * sectors);
     for (let s = 0; s < sectors; ++s) {
       const c = Math.cos(2 * Math.PI * s / sectors), d = Math.sin(2 * Math.PI * s / sectors);
       for (let k = 0; k < n; ++k) {
-        places[2 * (s * n + k)] = c * points[2 * k] - d * points[2 * k + 1];
-        places[2 * (s * n + k) + 1] = d * points[2 * k] + c * points[2 * k + 1];
+        const x = points[3 * k], y = points[3 * k + 1];
+        places.set([c * x - d * y, d * x + c * y, points[3 * k + 2] - run.width_m / 2], 3 * (s * n + k));
       }
-      for (let k = 0; k < triangles.length; ++k) corners[s * triangles.length + k] = triangles[k] + s * n;
     }
+    const known = new Map(), sources = [], corners = new Uint32Array(triangles.length * sectors);
+    for (let s = 0; s < sectors; ++s)
+      for (let k = 0; k < triangles.length; ++k) {
+        const vertex = (triangles[k] + s * n) % (n * sectors), key = 4 * vertex + parts[Math.floor(k / 3)];
+        if (!known.has(key)) {
+          known.set(key, sources.length);
+          sources.push(vertex);
+        }
+        corners[s * triangles.length + k] = known.get(key);
+      }
     const positions = fields.positions.map((p) => ({
-      azimuth: p.azimuth_rad,
-      x: new Int16Array(bytes(p.x).buffer), y: new Int16Array(bytes(p.y).buffer), stress: bytes(p.root_of_stress),
+      azimuth: p.azimuth_rad, stress: bytes(p.root_of_stress),
+      displacement: [p.x, p.y, p.z].map((text) => new Int16Array(bytes(text).buffer)),
     }));
-    return { places, corners, positions };
+    return { places, sources, corners, positions };
   }
 
-  const vertexShader = `
-    attribute vec2 place; attribute float dx, dy, stress;
-    uniform float magnified, scale; uniform vec2 turn;
-    varying float value;
-    void main() {
-      vec2 p = place + magnified * vec2(dx, dy);
-      gl_Position = vec4(scale * vec2(turn.x * p.x - turn.y * p.y, turn.y * p.x + turn.x * p.y), 0.0, 1.0);
-      value = stress;
-    }`;
-  const fragmentShader = `
-    precision mediump float; varying float value; uniform sampler2D colours;
-    void main() { gl_FragColor = texture2D(colours, vec2(value, 0.5)); }`;
-
-  function program(gl) {
-    const made = gl.createProgram();
-    for (const [kind, source] of [[gl.VERTEX_SHADER, vertexShader], [gl.FRAGMENT_SHADER, fragmentShader]]) {
-      const shader = gl.createShader(kind);
-      gl.shaderSource(shader, source);
-      gl.compileShader(shader);
-      gl.attachShader(made, shader);
-    }
-    gl.linkProgram(made);
-    return made;
-  }
-
-  function buffer(gl, target, content) {
-    const made = gl.createBuffer();
-    gl.bindBuffer(target, made);
-    gl.bufferData(target, content, gl.STATIC_DRAW);
-    return made;
-  }
-
-  // Draws the wheel with the ground below: a function of the position and the magnification.
-  function wheelPainter(canvas, run) {
-    const gl = canvas.getContext("webgl", { antialias: true, preserveDrawingBuffer: true });
-    if (!gl || !gl.getExtension("OES_element_index_uint")) return null;
-    const mesh = wheelMesh(run), p = program(gl);
-    gl.useProgram(p);
-    const attribute = (name, content, size, type, normalized) => {
-      const place = gl.getAttribLocation(p, name), made = buffer(gl, gl.ARRAY_BUFFER, content);
-      return () => {
-        gl.bindBuffer(gl.ARRAY_BUFFER, made);
-        gl.enableVertexAttribArray(place);
-        gl.vertexAttribPointer(place, size, type, normalized, 0, 0);
-      };
-    };
-    const corners = buffer(gl, gl.ELEMENT_ARRAY_BUFFER, mesh.corners);
-    const places = attribute("place", mesh.places, 2, gl.FLOAT, false);
-    const fields = mesh.positions.map((position) => [
-      attribute("dx", position.x, 1, gl.SHORT, true), attribute("dy", position.y, 1, gl.SHORT, true),
-      attribute("stress", position.stress, 1, gl.UNSIGNED_BYTE, true)]);
-    const texture = gl.createTexture(), ramp = new Uint8Array(4 * 256);
-    for (let k = 0; k < 256; ++k) {
-      const at = k / 255 * (viridis.length - 1), low = Math.min(Math.floor(at), viridis.length - 2);
-      for (let c = 0; c < 3; ++c) ramp[4 * k + c] = viridis[low][c] + (at - low) * (viridis[low + 1][c] - viridis[low][c]);
-      ramp[4 * k + 3] = 255;
-    }
-    gl.bindTexture(gl.TEXTURE_2D, texture);
-    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, 256, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, ramp);
-    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
-    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
-    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE);
-    const uniform = (name) => gl.getUniformLocation(p, name);
-    const full = run.fields.full_displacement_m;
-    return (index, magnified) => {
-      const size = Math.min(1200, Math.round(canvas.clientWidth * (window.devicePixelRatio || 1))) || 600;
-      if (canvas.width !== size) canvas.width = canvas.height = size;
-      gl.viewport(0, 0, size, size);
-      gl.clearColor(0, 0, 0, 0);
-      gl.clear(gl.COLOR_BUFFER_BIT);
-      places();
-      for (const bind of fields[index]) bind();
-      const turn = -Math.PI / 2 - mesh.positions[index].azimuth;  // the ground's azimuth points down
-      gl.uniform2f(uniform("turn"), Math.cos(turn), Math.sin(turn));
-      gl.uniform1f(uniform("magnified"), magnified * full);
-      gl.uniform1f(uniform("scale"), 0.9 / run.outer_radius_m);
-      gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, corners);
-      gl.drawElements(gl.TRIANGLES, mesh.corners.length, gl.UNSIGNED_INT, 0);
+  // What the colours can stand for: a share in [0, 1] at a vertex, and the value at the scale's end.
+  function colourings(run, surface) {
+    const { full_stress_Pa, full_displacement_m } = run.fields;
+    const size = ({ displacement }, v) => Math.hypot(...displacement.map((d) => d[v])) / 32767;
+    const most = Math.max(...surface.positions.map((position) => {
+      let largest = 0;
+      for (let v = 0; v < position.stress.length; ++v) largest = Math.max(largest, size(position, v));
+      return largest;
+    }));
+    return {
+      stress: { name: "von Mises stress, on a scale of square roots", end: full_stress_Pa * 1e-6, unit: "MPa", power: 2,
+        share: (position, v) => position.stress[v] / 255 },
+      displacement: { name: "displacement", end: most * full_displacement_m * 1e3, unit: "mm", power: 1,
+        share: (position, v) => most > 0 ? size(position, v) / most : 0 },
     };
   }
 
-  // The ground, flat and solid. Near the contact, magnified displacements take the tread a little below it.
-  function drawGround(canvas, run) {
-    const size = canvas.width = canvas.height = Math.round(canvas.clientWidth * (window.devicePixelRatio || 1)) || 600;
-    const context = canvas.getContext("2d"), level = 0.95 * size, step = size / 60;
-    context.fillStyle = colour("--panel");
-    context.fillRect(0, level, size, size - level);
-    context.strokeStyle = colour("--ink");
-    context.lineWidth = size / 300;
-    context.beginPath();
-    context.moveTo(0, level);
-    context.lineTo(size, level);
-    context.stroke();
-    context.lineWidth /= 2;
-    context.beginPath();
-    for (let x = 0; x < size + step; x += step) {
-      context.moveTo(x, level);
-      context.lineTo(x - step, level + step);
+  // Draws the lit wheel on the ground: a function of the position, the magnification and the colouring. The wheel turns
+  // under the mouse or a finger, and with the arrow keys; the mouse's wheel and + and - change its size.
+  function surfacePainter(canvas, run) {
+    let renderer;
+    try {
+      renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
+    } catch {
+      return null;
     }
-    context.stroke();
+    const surface = wheelSurface(run), kinds = colourings(run, surface), { sources } = surface;
+    const radius = run.outer_radius_m, full = run.fields.full_displacement_m / 32767;
+    const geometry = new THREE.BufferGeometry();
+    const places = new Float32Array(3 * sources.length), colours = new Float32Array(3 * sources.length);
+    geometry.setAttribute("position", new THREE.BufferAttribute(places, 3));
+    geometry.setAttribute("color", new THREE.BufferAttribute(colours, 3));
+    geometry.setIndex(new THREE.BufferAttribute(surface.corners, 1));
+    const wheel = new THREE.Mesh(geometry, new THREE.MeshPhongMaterial(
+      { vertexColors: THREE.VertexColors, shininess: 25, specular: 0x222222 }));
+    const ground = new THREE.Mesh(new THREE.PlaneBufferGeometry(2.2 * radius, run.width_m + 0.5 * radius),
+      new THREE.MeshBasicMaterial({ transparent: true, opacity: 0.35, side: THREE.DoubleSide }));
+    ground.rotation.x = -Math.PI / 2;
+    ground.position.y = -radius * 1.001;
+    const turned = new THREE.Group(), scene = new THREE.Scene();
+    turned.add(wheel, ground);
+    scene.add(turned, new THREE.HemisphereLight(0xffffff, 0xc8c8d0, 0.75));
+    const key = new THREE.DirectionalLight(0xffffff, 0.55);
+    key.position.set(-0.5, 0.8, 1);
+    scene.add(key);
+    const camera = new THREE.OrthographicCamera(-1, 1, 1, -1, 0.1, 10);
+    camera.position.z = 5;
+    const view = { yaw: -0.6, pitch: 0.25, size: 1 };
+    const draw = () => {
+      const pixels = Math.min(1200, Math.round(canvas.clientWidth * (window.devicePixelRatio || 1))) || 600;
+      renderer.setSize(pixels, pixels, false);
+      const half = 1.2 / view.size;
+      Object.assign(camera, { left: -half, right: half, top: half, bottom: -half });
+      camera.updateProjectionMatrix();
+      turned.rotation.set(view.pitch, view.yaw, 0);
+      turned.scale.setScalar(1 / radius);
+      ground.material.color.set(colour("--quiet"));
+      renderer.render(scene, camera);
+    };
+    const paint = (index, magnified, kind) => {
+      const position = surface.positions[index], { share } = kinds[kind], factor = magnified * full;
+      const [dx, dy, dz] = position.displacement;
+      sources.forEach((v, k) => {
+        places[3 * k] = surface.places[3 * v] + factor * dx[v];
+        places[3 * k + 1] = surface.places[3 * v + 1] + factor * dy[v];
+        places[3 * k + 2] = surface.places[3 * v + 2] + factor * dz[v];
+        const at = share(position, v) * (viridis.length - 1), low = Math.min(Math.floor(at), viridis.length - 2);
+        for (let c = 0; c < 3; ++c)
+          colours[3 * k + c] = (viridis[low][c] + (at - low) * (viridis[low + 1][c] - viridis[low][c])) / 255;
+      });
+      wheel.rotation.z = -Math.PI / 2 - position.azimuth;  // the ground's azimuth points down
+      for (const name of ["position", "color"]) geometry.getAttribute(name).needsUpdate = true;
+      geometry.computeVertexNormals();
+      draw();
+    };
+    const turn = (yaw, pitch) => {
+      view.yaw += yaw;
+      view.pitch = Math.max(-1.5, Math.min(1.5, view.pitch + pitch));
+      draw();
+    };
+    const resize = (factor) => {
+      view.size = Math.max(0.5, Math.min(20, view.size * factor));
+      draw();
+    };
+    canvas.tabIndex = 0;
+    canvas.style.touchAction = "none";
+    canvas.style.cursor = "grab";
+    let held = null;
+    canvas.addEventListener("pointerdown", (event) => {
+      held = [event.clientX, event.clientY];
+      canvas.setPointerCapture(event.pointerId);
+    });
+    canvas.addEventListener("pointermove", (event) => {
+      if (!held) return;
+      const per_pixel = 3 / canvas.clientWidth;
+      turn((event.clientX - held[0]) * per_pixel, (event.clientY - held[1]) * per_pixel);
+      held = [event.clientX, event.clientY];
+    });
+    for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, () => { held = null; });
+    canvas.addEventListener("wheel", (event) => {
+      event.preventDefault();
+      resize(Math.exp(-0.001 * event.deltaY));
+    }, { passive: false });
+    canvas.addEventListener("keydown", (event) => {
+      const step = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, -0.1], ArrowDown: [0, 0.1] }[event.key];
+      const factor = { "+": 1.2, "-": 1 / 1.2 }[event.key];
+      if (!step && !factor) return;
+      event.preventDefault();
+      if (step) turn(...step);
+      else resize(factor);
+    });
+    return Object.assign(paint, { kinds });
   }
 
-  const roundMagnification = (wanted) => {
-    const power = 10 ** Math.floor(Math.log10(wanted));
-    return Math.max(1, [1, 2, 5, 10].map((m) => m * power).filter((m) => m <= wanted * 1.0001).pop());
-  };
+  // --- The wheel rolling ------------------------------------------------------------------------------
 
   function rolling(run) {
-    const picture = element("canvas", { role: "img", "aria-label": "The loaded wheel, coloured by von Mises stress" });
+    const is_surface = run.dimension === 3;
+    const picture = element("canvas", { role: "img", "aria-label": is_surface ?
+      "The loaded wheel as a lit surface; arrow keys turn it, plus and minus change its size" :
+      "The loaded wheel, coloured by von Mises stress" });
     const ground = element("canvas", { "aria-hidden": "true", style: "position:absolute;inset:0" });
     const n = run.fields.positions.length;
     const slider = element("input", { type: "range", min: 0, max: n - 1, value: 0, id: `${run.id}-position` });
@@ -240,23 +226,33 @@
     const choice = element("select", { id: `${run.id}-magnified`, "aria-label": "Displacement" });
     for (const m of [...new Set([1, best / 5, best / 2, best, 2 * best].filter((m) => m >= 1))])
       choice.append(element("option", { value: m, ...(m === best ? { selected: "" } : {}) }, `displacement \u00d7 ${m}`));
+    const kind = element("select", { id: `${run.id}-colours`, "aria-label": "Colours" },
+      element("option", { value: "stress" }, "stress"), element("option", { value: "displacement" }, "displacement"));
     const caption = element("figcaption", { id: `${run.id}-position-text`, "aria-live": "polite" });
-    const frame = element("div", { class: "picture", style: "position:relative" }, picture, ground);
-    const figure = element("figure", {}, frame,
-      element("div", { class: "scale", style: `background:${gradient}` }),
-      element("div", { class: "scale-labels" }, ...[0, 0.25, 0.5, 0.75, 1].map((t) => element("span", {},
-        `${Number((t * t * run.fields.full_stress_Pa * 1e-6).toPrecision(3))}${t === 1 ? " MPa" : ""}`))),
-      element("p", { class: "quiet" }, "von Mises stress, on a scale of square roots"),
-      element("div", { class: "controls" }, button, element("label", {}, "load position", slider), choice), caption);
+    const labels = element("div", { class: "scale-labels" }), scaleName = element("p", { class: "quiet" });
+    const frame = element("div", { class: "picture", style: "position:relative" }, picture,
+      ...(is_surface ? [] : [ground]));
+    const rollable = n > 1 ? [button, element("label", {}, "load position", slider)] : [];
+    const figure = element("figure", {}, frame, element("div", { class: "scale", style: `background:${gradient}` }), labels,
+      scaleName, element("div", { class: "controls" }, ...rollable, choice, ...(is_surface ? [kind] : [])), caption);
     let paint = null, timer = null;
+    const scale = ({ name, end, unit, power }) => {
+      labels.replaceChildren(...[0, 0.25, 0.5, 0.75, 1].map((t) => element("span", {},
+        `${Number((t ** power * end).toPrecision(3))}${t === 1 ? ` ${unit}` : ""}`)));
+      scaleName.textContent = name;
+    };
     const draw = () => {
       const i = Number(slider.value), magnified = Number(choice.value);
-      if (paint) paint(i, magnified);
-      drawGround(ground, run);
-      const at = run.rolling.after;
-      caption.textContent = `Ground at azimuth ${shown(run.fields.positions[i].azimuth_rad * degree)}\u00b0: travel ` +
-        `${shown(at.travel_at_load_m[i] * 1e3)} mm, peak pressure ${shown(at.peak_pressure_Pa[i] * 1e-6)} MPa, peak ` +
-        `stress ${shown(at.peak_von_mises_Pa[i] * 1e-6)} MPa. Displacements are drawn ${magnified} times as large.`;
+      if (paint) paint(i, magnified, kind.value);
+      scale(paint?.kinds?.[kind.value] ?? { name: "von Mises stress, on a scale of square roots",
+        end: run.fields.full_stress_Pa * 1e-6, unit: "MPa", power: 2 });
+      if (!is_surface) drawGround(ground, run);
+      const at = run.rolling.after, shown_azimuth = run.fields.positions[i].azimuth_rad;
+      const k = at.azimuths_rad.findIndex((azimuth) => Math.abs(azimuth - shown_azimuth) < 1e-9);
+      const numbers = k < 0 ? "" : `: travel ${shown(at.travel_at_load_m[k] * 1e3)} mm, peak pressure ` +
+        `${shown(at.peak_pressure_Pa[k] * 1e-6)} MPa, peak stress ${shown(at.peak_von_mises_Pa[k] * 1e-6)} MPa`;
+      caption.textContent = `Ground at azimuth ${shown(shown_azimuth * degree)}\u00b0${numbers}. Displacements are drawn ` +
+        `${magnified} times as large.${is_surface ? " Drag the wheel to turn it." : ""}`;
     };
     const roll = (on) => {
       clearInterval(timer);
@@ -266,8 +262,8 @@
     };
     button.addEventListener("click", () => roll(timer === null));
     slider.addEventListener("input", () => { roll(false); draw(); });
-    choice.addEventListener("change", draw);
-    const start = () => { paint = wheelPainter(picture, run); draw(); };
+    for (const control of [choice, kind]) control.addEventListener("change", draw);
+    const start = () => { paint = (is_surface ? surfacePainter : wheelPainter)(picture, run); draw(); };
     return { figure, start, draw };
   }
 
@@ -282,30 +278,15 @@
     const draw = () => {
       const size = canvas.width = canvas.height = Math.round(canvas.clientWidth * (window.devicePixelRatio || 1)) || 600;
       const context = canvas.getContext("2d"), unit = 0.48 * size / run.outline_units;
-      const path = (outline, withRing) => {
-        context.beginPath();
-        if (withRing)
-          for (const r of [run.outline_units, run.outline_units * run.inner_radius_m / run.outer_radius_m]) {
-            context.moveTo(r * unit, 0);
-            context.arc(0, 0, r * unit, 0, 2 * Math.PI);
-          }
-        for (const contour of outline.contours) {
-          contour.forEach(([x, y], k) => k ? context.lineTo(x * unit, -y * unit) : context.moveTo(x * unit, -y * unit));
-          context.closePath();
-        }
-      };
       context.setTransform(1, 0, 0, 1, 0.5 * size, 0.5 * size);
       context.clearRect(-size, -size, 2 * size, 2 * size);
       const i = Number(slider.value);
-      path(run.outlines[i], true);
-      context.fillStyle = colour("--material");
-      context.fill("evenodd");
-      context.strokeStyle = colour("--ink");
-      context.stroke();
-      path(run.outlines[0], false);
+      const outer = run.outline_units * unit, inner = outer * run.inner_radius_m / run.outer_radius_m;
+      const edges = (outline) => wheelPath(outline.contours.map((contour) => contour.flat()), 1, unit);
+      paintWheel(context, edges(run.outlines[i]), inner, outer);
       context.setLineDash([6, 4]);
       context.strokeStyle = colour("--bad");
-      context.stroke();
+      context.stroke(edges(run.outlines[0]));
       context.setLineDash([]);
       const value = run.history[column]?.[i];
       caption.textContent = `Shape ${run.outlines[i].shape} of ${run.outlines[last].shape}: ${column} ${shown(value)}; ` +
@@ -318,27 +299,6 @@
   }
 
   // --- Curves -----------------------------------------------------------------------------------------
-
-  function chart(title, xTitle, yTitle, curves, options = {}) {
-    const canvas = element("canvas", { role: "img", "aria-label": title });
-    const figure = element("figure", {}, element("figcaption", {}, title), element("div", { class: "chart" }, canvas));
-    const start = () => {
-      const axis = (text) => ({ title: { display: true, text, color: colour("--quiet") },
-        ticks: { color: colour("--quiet") }, grid: { color: colour("--line") } });
-      new Chart(canvas, {
-        type: options.bars ? "bar" : "line",
-        data: { labels: options.labels, datasets: curves.map(({ name, x, y }, k) => ({
-          label: name, data: x ? x.map((value, i) => ({ x: value, y: y[i] })) : y,
-          borderColor: curveColours[k % curveColours.length], backgroundColor: options.colours ??
-            curveColours[k % curveColours.length], borderWidth: options.bars ? 0 : 2,
-          pointRadius: y.length > 30 ? 0 : 2.5, pointHitRadius: 8 })) },
-        options: { animation: false, responsive: true, maintainAspectRatio: false, interaction: { mode: "nearest",
-          intersect: false }, scales: { x: { ...(options.bars ? {} : { type: "linear" }), ...axis(xTitle) },
-          y: axis(yTitle) }, plugins: { legend: { display: curves.length > 1, labels: { color: colour("--ink") } } } },
-      });
-    };
-    return { figure, start };
-  }
 
   function curves(run) {
     const charts = [], column = (word) => Object.keys(run.history).find((name) => name.startsWith(word));
@@ -380,7 +340,8 @@
           colours: stress.map((v) => v === most ? curveColours[1] : curveColours[0]) }));
     }
     if (run.pressures)
-      charts.push(chart("Contact pressure of all load positions", "along the ground [mm]", "[MPa]",
+      charts.push(chart(run.dimension === 3 ? "Contact pressure in the middle of the width, all load positions" :
+        "Contact pressure of all load positions", "along the ground [mm]", "[MPa]",
         run.pressures.map((p, k) => ({ name: `position ${k + 1}`, x: p.x_m.map((v) => v * 1e3),
           y: p.pressure_Pa.map((v) => v * 1e-6) }))));
     return charts;
@@ -405,7 +366,8 @@
     if (run.summary) made.append(answers(run));
     made.append(flags(run));
     if (run.summary) made.append(section("Before and after",
-      table([{ name: "before", numbers: run.summary.before }, { name: "after", numbers: run.summary.after }])));
+      table([["before", run.summary.before], ["after", run.summary.after]].map(([name, numbers]) =>
+        ({ name, numbers, units: run.numbers })))));
     const pictures = element("div", { class: "pictures" });
     if (run.fields) later.push(rolling(run));
     if (run.fields) pictures.append(later.at(-1).figure);
@@ -421,11 +383,13 @@
     return made;
   }
 
-  const later = [], summarized = data.runs.filter((run) => run.summary);
+  const later = [];
   data.runs.forEach((run, k) => { run.id = `run${k}`; });
-  if (summarized.length > 1)
-    page.append(element("h1", {}, "Wheels compared"),
-      table(summarized.map((run) => ({ name: run.name, numbers: run.summary.after }))));
+  // Energies in the plane belong to a metre of width: wheels are compared with those of the same dimension.
+  const compared = [2, 3].map((dimension) => data.runs.filter((run) => run.summary && run.dimension === dimension))
+    .filter((runs) => runs.length > 1);
+  if (compared.length) page.append(element("h1", {}, "Wheels compared"), ...compared.map((runs) => table(runs.map((run) =>
+    ({ name: run.name, numbers: run.summary.after, units: run.numbers })))));
   page.append(element("div", { class: "runs" }, ...data.runs.map((run) => article(run, later))));
   for (const part of later) part.start();
   addEventListener("resize", () => later.forEach((part) => part.draw?.()));
