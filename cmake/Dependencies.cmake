@@ -12,6 +12,7 @@ pkg_check_modules(TOMLPP REQUIRED IMPORTED_TARGET tomlplusplus)
 pkg_check_modules(HTTPLIB REQUIRED IMPORTED_TARGET cpp-httplib)
 # Drawn into the page that explains a run.
 find_file(CHART_JS chart.min.js PATHS /usr/share/javascript/chart.js /usr/share/javascript REQUIRED)
+find_file(THREE_JS three.min.js PATHS /usr/share/javascript/three /usr/share/javascript REQUIRED)
 pkg_check_modules(CLI11 REQUIRED IMPORTED_TARGET CLI11)
 
 # The C interfaces of BLAS and LAPACK. OpenBLAS has the cblas functions itself; liblapacke calls the LAPACK of the BLAS
@@ -38,12 +39,11 @@ add_library(wheelwright_cgal INTERFACE)
 target_include_directories(wheelwright_cgal SYSTEM INTERFACE ${CGAL_INCLUDE_DIR})
 target_link_libraries(wheelwright_cgal INTERFACE ${GMP_LIBRARY})
 
-# AGG draws pictures, stb encodes them: both become part of the library.
+# AGG draws pictures and becomes part of the library.
 find_path(AGG_INCLUDE_DIR agg2/agg_path_storage.h REQUIRED)
 find_library(AGG_LIBRARY agg_pic REQUIRED)
-find_path(STB_INCLUDE_DIR stb/stb_image_write.h REQUIRED)
 add_library(wheelwright_agg INTERFACE)
-target_include_directories(wheelwright_agg SYSTEM INTERFACE ${AGG_INCLUDE_DIR} ${AGG_INCLUDE_DIR}/agg2 ${STB_INCLUDE_DIR})
+target_include_directories(wheelwright_agg SYSTEM INTERFACE ${AGG_INCLUDE_DIR} ${AGG_INCLUDE_DIR}/agg2)
 target_link_libraries(wheelwright_agg INTERFACE ${AGG_LIBRARY})
 
 # For plugins, which are left out where their library is missing.

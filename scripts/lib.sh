@@ -5,10 +5,10 @@
 packages=(
   g++ cmake ninja-build pkg-config
   libsuitesparse-dev libopenblas-dev liblapacke-dev libnanoflann-dev libtbb-dev
-  libcgal-dev libagg-dev libstb-dev
+  libcgal-dev libagg-dev
   libtomlplusplus-dev libcli11-dev libfmt-dev nlohmann-json3-dev zlib1g-dev
   libpugixml-dev libpng-dev libcpp-httplib-dev
-  libjs-chart.js
+  libjs-chart.js libjs-three
   libgtest-dev libbenchmark-dev
 )
 # For export to STEP and 3MF, and what the tests read exported files with.

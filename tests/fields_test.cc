@@ -225,7 +225,7 @@ TEST(TreadContact, IsThatOfTheContactPointsAndFreeElsewhere) {
     const double ground = 2 * std::numbers::pi / 7 * position / 3;
     double length = 0, force = 0, expected_force = 0;
     std::size_t found = 0;
-    for (const TreadContactPoint& p : treads[position]) {
+    for (const TreadContactPoint<2>& p : treads[position]) {
       length += p.weight;
       force += p.weight * p.pressure;
       const Vec<2> in_ground_frame = rotated<2>(p.traction, -ground);

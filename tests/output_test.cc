@@ -161,7 +161,7 @@ TEST_F(VtuFile, CellsCoverTheMaterialAndFieldsAreInterpolated) {
                       return std::array{0.5 * x[1], x[0] - 2 * x[1]};
                     })},
         {"von_mises", "Pa", ring_field(lattice, 1, [](const Vec<2>& x) { return std::array{3e6 * x[0]}; })}};
-    VtuMesh(psi, lattice, 4).write(folder / "shape.vtu", fields);
+    VtuMesh<2>(psi, lattice, 4).write(folder / "shape.vtu", fields);
     const std::string vtu = content(folder / "shape.vtu");
     const DecodedMesh mesh(vtu);
     double contour_area = 0;
@@ -196,7 +196,7 @@ TEST_F(VtuFile, TensorsAreInterpolatedAndTheirVonMisesStressIsNeverNegative) {
     sign = -sign;
     return std::array{sign * 3e6 + 1e6 * x[0], -sign * 1e6, sign * 5e5, sign * 2e6 * x[1]};
   });
-  VtuMesh(psi, lattice, 4)
+  VtuMesh<2>(psi, lattice, 4)
       .write(folder / "s.vtu", std::vector<NamedField>{{"stress", "Pa", stress}, von_mises_field(stress)});
   const std::string vtu = content(folder / "s.vtu");
   const auto tensors = vtu_array<float>(vtu, "Name=\"stress_Pa\"");
@@ -221,7 +221,7 @@ TEST_F(VtuFile, TensorsAreInterpolatedAndTheirVonMisesStressIsNeverNegative) {
 TEST_F(VtuFile, CellsOfASectorShareTheirPoints) {
   for (int degree : {1, 2}) {
     const auto psi = holes_level_set(degree, 1.0);
-    VtuMesh(psi, Lattice<2>(wheel_grid, 2), 4).write(folder / "shape.vtu", {});
+    VtuMesh<2>(psi, Lattice<2>(wheel_grid, 2), 4).write(folder / "shape.vtu", {});
     const DecodedMesh mesh(content(folder / "shape.vtu"));
     const std::size_t n = mesh.points.size() / 3 / wheel_grid.n_sectors;
     std::set<std::pair<float, float>> places;
@@ -232,8 +232,8 @@ TEST_F(VtuFile, CellsOfASectorShareTheirPoints) {
 
 TEST_F(VtuFile, SameInputGivesTheSameBytes) {
   const auto psi = holes_level_set(2, 1.0);
-  VtuMesh(psi, psi.lattice, 2).write(folder / "a.vtu", {});
-  VtuMesh(psi, psi.lattice, 2).write(folder / "b.vtu", {});
+  VtuMesh<2>(psi, psi.lattice, 2).write(folder / "a.vtu", {});
+  VtuMesh<2>(psi, psi.lattice, 2).write(folder / "b.vtu", {});
   EXPECT_EQ(content(folder / "a.vtu"), content(folder / "b.vtu"));
 }
 
@@ -616,7 +616,7 @@ TEST(Magnification, IsRoundAndAsLargeAsThePictureBears) {
   EXPECT_EQ(picture_magnification({2, {0, 0}}, radius), 1);
 }
 
-DeformedPicture picture_of(const LevelSet<2>& psi, RingField displacement, double magnification) {
+DeformedPicture<2> picture_of(const LevelSet<2>& psi, RingField displacement, double magnification) {
   const auto radius =
       ring_field(psi.lattice, 1, [](const Vec<2>& x) { return std::array{std::hypot(x[0], x[1])}; });
   return {.title = "wheel",
@@ -691,13 +691,13 @@ TEST(DeformedSvg, TheTreadTouchesTheGroundAndNeverCrossesIt) {
 TEST(DeformedSvg, SaysLoadPositionAndMagnification) {
   const auto psi = holes_level_set(2, 1.0);
   const auto still = ring_field(psi.lattice, 2, [](const Vec<2>&) { return Vec<2>{}; });
-  DeformedPicture picture = picture_of(psi, still, 50);
+  DeformedPicture<2> picture = picture_of(psi, still, 50);
   const std::string svg = deformed_svg(psi, psi.lattice, picture);
   EXPECT_EQ(count(svg, "\u00d7 50<"), 1);
   EXPECT_EQ(count(svg, "17.19\u00b0"), 1);
   EXPECT_EQ(count(svg, ">3000 N<"), 1);
   EXPECT_EQ(count(svg, "peak 340 mm"), 1);
-  picture.peak = DrawnPeak{cartesian<2>({0.25, 0.31}), 7.25};
+  picture.peak = DrawnPeak<2>{cartesian<2>({0.25, 0.31}), 7.25};
   EXPECT_EQ(count(deformed_svg(psi, psi.lattice, picture), "peak 7.25 m"), 1);
 }
 
@@ -706,10 +706,10 @@ TEST(DeformedSvg, ThePeakIsMarkedAtItsDrawnPlace) {
   const auto psi = holes_level_set(2, 1.0);
   const Vec<2> u{1e-3, -2e-3};
   const auto shift = ring_field(psi.lattice, 2, [&](const Vec<2>&) { return u; });
-  DeformedPicture picture = picture_of(psi, shift, 3);
+  DeformedPicture<2> picture = picture_of(psi, shift, 3);
   for (const double azimuth : {0.3, 2.0, 5.1}) {
     const Vec<2> x = cartesian<2>({0.215, azimuth});
-    picture.peak = DrawnPeak{x, 1};
+    picture.peak = DrawnPeak<2>{x, 1};
     const std::string svg = deformed_svg(psi, psi.lattice, picture);
     const Vec<2> place = rotated<2>({x[0] + 3 * u[0], x[1] + 3 * u[1]}, -0.5 * pi - 0.3);
     static const std::regex ring("<circle cx=\"([0-9.]+)\" cy=\"([0-9.]+)\" r=\"6\"");
@@ -724,7 +724,7 @@ TEST(DeformedSvg, ThePeakIsMarkedAtItsDrawnPlace) {
 TEST(DeformedSvg, AWindowShowsThePartAtTheContact) {
   const auto psi = holes_level_set(2, 1.0);
   const auto still = ring_field(psi.lattice, 2, [](const Vec<2>&) { return Vec<2>{}; });
-  DeformedPicture picture = picture_of(psi, still, 1);
+  DeformedPicture<2> picture = picture_of(psi, still, 1);
   const std::string whole = deformed_svg(psi, psi.lattice, picture);
   picture.window = 0.03;
   picture.contact = {{.position = 0,
@@ -759,7 +759,7 @@ TEST(DeformedSvg, AWindowShowsThePartAtTheContact) {
 TEST(VerticalField, IsTheComponentTowardsTheGround) {
   const double azimuth = 1.1;
   const RingField field{2, {std::cos(azimuth), std::sin(azimuth), -std::sin(azimuth), std::cos(azimuth)}};
-  const RingField vertical = vertical_field(field, azimuth);
+  const RingField vertical = vertical_field<2>(field, azimuth);
   ASSERT_EQ(vertical.values.size(), 2u);
   EXPECT_NEAR(vertical.values[0], 1, 1e-15);
   EXPECT_NEAR(vertical.values[1], 0, 1e-15);
@@ -767,7 +767,7 @@ TEST(VerticalField, IsTheComponentTowardsTheGround) {
 
 TEST(DeformedSvg, MissingValuesAreLeftOutAndTextIsEscaped) {
   const auto psi = holes_level_set(2, 1.0);
-  DeformedPicture picture =
+  DeformedPicture<2> picture =
       picture_of(psi, ring_field(psi.lattice, 2, [](const Vec<2>& x) { return x; }), 0.1);
   picture.title = "a & b";
   picture.scalar = {"von Mises", "Pa",

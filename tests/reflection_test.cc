@@ -50,7 +50,7 @@ struct Tolerances {
 };
 
 /// The place of the peak may be that of its mirror image where the position is its own.
-void expect_same_peak_and_rim(const PositionFields& a, const PositionFields& b, bool is_own_image,
+void expect_same_peak_and_rim(const PositionFields<2>& a, const PositionFields<2>& b, bool is_own_image,
                               const Tolerances& tolerances) {
   EXPECT_NEAR(a.von_mises.value, b.von_mises.value, 10 * tolerances.stress * b.von_mises.value);
   const Vec<2> ground{std::cos(b.ground_azimuth), std::sin(b.ground_azimuth)};
@@ -67,17 +67,17 @@ void expect_same_peak_and_rim(const PositionFields& a, const PositionFields& b, 
 }
 
 /// The points in contact: zones may end one column apart, and the image's line begins a sector later.
-void expect_same_tread(TreadContact a, TreadContact b, const Tolerances& tolerances) {
+void expect_same_tread(TreadContact<2> a, TreadContact<2> b, const Tolerances& tolerances) {
   double peak = 0, size = 0, length_a = 0, length_b = 0;
-  for (const TreadContactPoint& p : a) length_a += p.weight;
-  for (const TreadContactPoint& p : b) {
+  for (const TreadContactPoint<2>& p : a) length_a += p.weight;
+  for (const TreadContactPoint<2>& p : b) {
     length_b += p.weight;
     peak = std::max(peak, p.pressure);
     size = std::max(size, std::hypot(p.displacement[0], p.displacement[1]));
   }
   EXPECT_NEAR(length_a, length_b, 1e-12);
-  std::erase_if(a, [](const TreadContactPoint& p) { return p.pressure == 0; });
-  std::erase_if(b, [](const TreadContactPoint& p) { return p.pressure == 0; });
+  std::erase_if(a, [](const TreadContactPoint<2>& p) { return p.pressure == 0; });
+  std::erase_if(b, [](const TreadContactPoint<2>& p) { return p.pressure == 0; });
   ASSERT_EQ(a.size(), b.size());
   ASSERT_GT(a.size(), 3u);
   std::size_t first = 0;
@@ -86,7 +86,7 @@ void expect_same_tread(TreadContact a, TreadContact b, const Tolerances& toleran
     ++first;
   ASSERT_LT(first, a.size());
   for (std::size_t k = 0; k < b.size(); ++k) {
-    const TreadContactPoint &p = a[(first + k) % a.size()], &q = b[k];
+    const TreadContactPoint<2>&p = a[(first + k) % a.size()], &q = b[k];
     for (int d = 0; d < 2; ++d) {
       EXPECT_NEAR(p.position[d], q.position[d], 1e-12);
       EXPECT_NEAR(p.displacement[d], q.displacement[d], tolerances.displacement * size);

@@ -52,8 +52,9 @@ int main(int, char** argv) {
                          .width = grid.width,
                          .tolerance = 1e-5};
   for (const ExportFormat& format : export_formats())
-    write_atomically(std::filesystem::path(argv[1]) / ("sample." + std::string(format.name)),
-                     format.file(wheel));
+    if (format.of_plane != nullptr)
+      write_atomically(std::filesystem::path(argv[1]) / ("sample." + std::string(format.name)),
+                       format.of_plane(wheel));
   std::cout.precision(12);
   for (const Loop& loop : outline.loops) {
     for (const Vec<2>& p : flattened(loop, 1e-7)) std::cout << 1e3 * p[0] << " " << 1e3 * p[1] << "\n";

@@ -113,15 +113,18 @@ Expected<WheelInput<2>, ExitCode> read_plane_wheel_or_tell(const fs::path& input
   return wheel_of<2>(*std::move(c), input, computation);
 }
 
-Expected<RunInput<2>, ExitCode> read_plane_run_or_tell(const fs::path& folder,
-                                                       const Computation& computation) {
+Expected<AnyRun, ExitCode> read_run_or_tell(const fs::path& folder, const Computation& computation) {
   if (!fs::is_directory(folder)) {
     tell("{}: this folder holds no run: there is no case.toml\n", folder.string());
     return exit_usage;
   }
-  auto c = plane_case(folder, computation);
+  auto c = affordable_case(folder, computation);
   if (!c) return c.failure();
-  return run_in<2>(folder, *std::move(c));
+  return in_dimension_of(*c, [&](auto dim) -> Expected<AnyRun, ExitCode> {
+    auto run = run_in<dim>(folder, *std::move(c));
+    if (!run) return run.failure();
+    return AnyRun(*std::move(run));
+  });
 }
 
 }  // namespace wheelwright

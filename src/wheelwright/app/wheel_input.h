@@ -34,6 +34,9 @@ struct RunInput {
   Checkpoint<dim> checkpoint;
 };
 
+/// In the dimension of its case.
+using AnyRun = std::variant<RunInput<2>, RunInput<3>>;
+
 /// WHEEL, a case file or a run's folder.
 void add_wheel(Options& options, std::string& input);
 
@@ -50,13 +53,12 @@ struct Computation {
 Expected<AnyWheel, ExitCode> read_wheel_or_tell(const std::filesystem::path& input,
                                                 const Computation& computation);
 
-// For commands that work in the plane of the wheel alone: they tell it of a case in 3D.
+/// The run in a folder, in the same way.
+Expected<AnyRun, ExitCode> read_run_or_tell(const std::filesystem::path& folder,
+                                            const Computation& computation);
 
+/// For commands that work in the plane of the wheel alone: they tell it of a case in 3D.
 Expected<WheelInput<2>, ExitCode> read_plane_wheel_or_tell(const std::filesystem::path& input,
                                                            const Computation& computation);
-
-/// The run in a folder, in the same way.
-Expected<RunInput<2>, ExitCode> read_plane_run_or_tell(const std::filesystem::path& folder,
-                                                       const Computation& computation);
 
 }  // namespace wheelwright

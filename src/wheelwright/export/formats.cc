@@ -5,6 +5,7 @@
 #include "wheelwright/export/dxf.h"
 #include "wheelwright/export/plugin.h"
 #include "wheelwright/export/png.h"
+#include "wheelwright/export/solid_mesh.h"
 #include "wheelwright/export/stl.h"
 #include "wheelwright/export/svg_outline.h"
 #include "wheelwright/export/vtu_shape.h"
@@ -12,17 +13,30 @@
 namespace wheelwright {
 namespace {
 
+SolidModel solid(const WheelModel& wheel) { return {wheel.title, wheel.program, solid_mesh(wheel)}; }
+SolidModel solid(const SurfaceModel& wheel) {
+  return {wheel.title, wheel.program, solid_mesh(wheel.surface)};
+}
+
+template <class Model>
+std::string stl_of(const Model& wheel) {
+  return stl(solid(wheel));
+}
+template <class Model>
+std::string three_mf(const Model& wheel) {
+  return plugin_file("3mf", solid(wheel));
+}
 std::string step(const WheelModel& wheel) { return plugin_file("step", wheel); }
-std::string three_mf(const WheelModel& wheel) { return plugin_file("3mf", wheel); }
 
 constexpr ExportFormat formats[] = {
-    {"dxf", "outline, curves in layers", dxf},
-    {"svg", "outline in true scale", svg_outline},
-    {"stl", "solid, triangles", stl},
-    {"3mf", "solid, triangles with unit", three_mf},
-    {"step", "solid, exact faces", step},
-    {"vtu", "shape for ParaView", vtu_shape},
-    {"png", "picture", png},
+    {"dxf", "outline, curves in layers", dxf, nullptr},
+    {"svg", "outline in true scale", svg_outline, nullptr},
+    {"stl", "solid, triangles", stl_of<WheelModel>, stl_of<SurfaceModel>},
+    {"3mf", "solid, triangles with unit", three_mf<WheelModel>, three_mf<SurfaceModel>},
+    {"step", "solid, exact faces", step, nullptr},
+    {"vtu", "shape for ParaView", vtu_shape, vtu_shape},
+    {"vtp", "surface for ParaView", nullptr, vtp_surface},
+    {"png", "picture", png, png},
 };
 
 }  // namespace

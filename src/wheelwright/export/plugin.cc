@@ -11,22 +11,20 @@ namespace {
 /// The folder of the library that this code is part of.
 std::filesystem::path library_folder() {
   Dl_info info;
-  if (dladdr(reinterpret_cast<void*>(&plugin_file), &info) == 0 || info.dli_fname == nullptr) return ".";
+  if (dladdr(reinterpret_cast<void*>(&plugin_writer), &info) == 0 || info.dli_fname == nullptr) return ".";
   return std::filesystem::absolute(info.dli_fname).parent_path();
 }
 
 }  // namespace
 
-std::string plugin_file(const std::string& name, const WheelModel& wheel) {
+void* plugin_writer(const std::string& name) {
   const std::filesystem::path file = library_folder() / "wheelwright-plugins" / (name + ".so");
   // Never closed: the libraries of a plugin may have started what ends with the program.
   void* plugin = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (plugin == nullptr) throw MissingPlugin(fmt::format("the writer cannot be loaded: {}", dlerror()));
-  auto* writer = reinterpret_cast<PluginWriter*>(dlsym(plugin, plugin_symbol));
+  void* writer = dlsym(plugin, plugin_symbol);
   if (writer == nullptr) throw MissingPlugin(fmt::format("{} is no writer", file.string()));
-  std::string bytes;
-  writer(wheel, bytes);
-  return bytes;
+  return writer;
 }
 
 }  // namespace wheelwright

@@ -14,12 +14,22 @@ class MissingPlugin : public std::runtime_error {
 };
 
 /// What a plugin has under the name `plugin_symbol`: it appends a file of its format to `bytes`, or throws.
-using PluginWriter = void(const WheelModel& wheel, std::string& bytes);
+/// What it takes as a model is its own: step a WheelModel, 3mf a SolidModel.
+template <class Model>
+using PluginWriter = void(const Model& model, std::string& bytes);
 inline constexpr const char* plugin_symbol = "wheelwright_plugin_file";
 
-/// The file that a plugin makes of a wheel. Plugins are shared modules, wheelwright-plugins/NAME.so beside
+/// The address of a plugin's writer.
+void* plugin_writer(const std::string& name);
+
+/// The file that a plugin makes of its model. Plugins are shared modules, wheelwright-plugins/NAME.so beside
 /// the library. A plugin and its libraries are loaded only here. Throws MissingPlugin if they cannot be
 /// loaded.
-std::string plugin_file(const std::string& name, const WheelModel& wheel);
+template <class Model>
+std::string plugin_file(const std::string& name, const Model& model) {
+  std::string bytes;
+  reinterpret_cast<PluginWriter<Model>*>(plugin_writer(name))(model, bytes);
+  return bytes;
+}
 
 }  // namespace wheelwright

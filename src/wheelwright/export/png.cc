@@ -6,12 +6,9 @@
 #include <agg2/agg_renderer_scanline.h>
 #include <agg2/agg_scanline_u.h>
 
-#include <stdexcept>
 #include <vector>
 
-#define STB_IMAGE_WRITE_IMPLEMENTATION
-#define STB_IMAGE_WRITE_STATIC
-#include <stb/stb_image_write.h>
+#include "wheelwright/report/lit_wheel.h"
 
 namespace wheelwright {
 namespace {
@@ -36,16 +33,12 @@ agg::path_storage path_of(const cad::Outline& outline) {
   return path;
 }
 
-void append(void* bytes, void* data, int size) {
-  static_cast<std::string*>(bytes)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
-}
-
 }  // namespace
 
 std::string png(const WheelModel& wheel) {
   const agg::rgba8 white(255, 255, 255), blue(59, 110, 165);
-  std::vector<agg::int8u> pixels(std::size_t{width} * width * bytes_per_pixel);
-  agg::rendering_buffer buffer(pixels.data(), width, width, width * bytes_per_pixel);
+  Image image{width, width, std::vector<std::uint8_t>(std::size_t{width} * width * bytes_per_pixel)};
+  agg::rendering_buffer buffer(image.rgb.data(), width, width, width * bytes_per_pixel);
   agg::pixfmt_rgb24 format(buffer);
   agg::renderer_base<agg::pixfmt_rgb24> renderer(format);
   renderer.clear(white);
@@ -55,11 +48,12 @@ std::string png(const WheelModel& wheel) {
   rasterizer.add_path(path);
   agg::scanline_u8 scanline;
   agg::render_scanlines_aa_solid(rasterizer, scanline, renderer, blue);
-  std::string bytes;
-  if (!stbi_write_png_to_func(append, &bytes, width, width, bytes_per_pixel, pixels.data(),
-                              width * bytes_per_pixel))
-    throw std::runtime_error("the picture could not be encoded");
-  return bytes;
+  return png_file(image);
+}
+
+std::string png(const SurfaceModel& wheel) {
+  return png_file(lit_image({lit_wheel(wheel.surface, wheel.shape.lattice.grid())},
+                            wheel_camera(wheel.shape.lattice.grid()), width));
 }
 
 }  // namespace wheelwright

@@ -7,6 +7,6 @@
 namespace wheelwright {
 
 /// The solid as a binary STL file.
-std::string stl(const WheelModel& wheel);
+std::string stl(const SolidModel& solid);
 
 }  // namespace wheelwright

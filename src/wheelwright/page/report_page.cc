@@ -4,10 +4,11 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "wheelwright/base/units.h"
+#include "wheelwright/files/base64.h"
 #include "wheelwright/geometry/cell_map.h"
 #include "wheelwright/geometry/contour.h"
 #include "wheelwright/page/assets.h"
-#include "wheelwright/page/base64.h"
 #include "wheelwright/page/html_template.h"
 #include "wheelwright/page/report_run.h"
 #include "wheelwright/report/svg.h"
@@ -103,12 +104,12 @@ std::vector<std::uint8_t> as_bytes_of_roots(const std::vector<double>& values, d
 }
 
 /// The deformed wheel in its load positions. Displacements are Cartesian, in the body frame.
-Json fields_json(const ReportRun& run) {
-  const SectorMesh mesh = sector_mesh(*run.shape, run.positions.front().lattice.degree());
+Json fields_json(const LevelSet<2>& shape, std::span<const PositionFields<2>> all) {
+  const SectorMesh mesh = sector_mesh(shape, all.front().lattice.degree());
   std::vector<float> points;
   for (const Vec<2>& x : mesh.points) points.insert(points.end(), {float(x[0]), float(x[1])});
   std::vector<std::vector<double>> x, y, stress;
-  for (const PositionFields& position : run.positions) {
+  for (const PositionFields<2>& position : all) {
     const NamedField von_mises = von_mises_field(position.stress);
     x.push_back(at_points(mesh, position.lattice, position.displacement, [](auto u) { return u[0]; }));
     y.push_back(at_points(mesh, position.lattice, position.displacement, [](auto u) { return u[1]; }));
@@ -116,8 +117,8 @@ Json fields_json(const ReportRun& run) {
   }
   const double full_displacement = std::max(largest(x), largest(y)), full_stress = largest(stress);
   Json positions = Json::array();
-  for (std::size_t i = 0; i < run.positions.size(); ++i)
-    positions.push_back({{"azimuth_rad", run.positions[i].ground_azimuth},
+  for (std::size_t i = 0; i < all.size(); ++i)
+    positions.push_back({{"azimuth_rad", all[i].ground_azimuth},
                          {"x", encoded(as_shorts(x[i], full_displacement))},
                          {"y", encoded(as_shorts(y[i], full_displacement))},
                          {"root_of_stress", encoded(as_bytes_of_roots(stress[i], full_stress))}});
@@ -128,9 +129,12 @@ Json fields_json(const ReportRun& run) {
           {"positions", std::move(positions)}};
 }
 
-Json rolling_json(const DescribedWheel<2>& wheel) {
+Json fields_json(const ReportRun<2>& run) { return fields_json(*run.shape, run.positions); }
+
+template <int dim>
+Json rolling_json(const DescribedWheel<dim>& wheel) {
   const RollingAnalysis& a = wheel.rolling;
-  const double width = wheel.grid.width;
+  const double width = whole_width(dim, wheel.grid.width);
   Json json{{"azimuths_rad", a.azimuths},
             {"travel_at_load_m", a.travel_at_load},
             {"force_at_travel_N", Json::array()},
@@ -143,6 +147,57 @@ Json rolling_json(const DescribedWheel<2>& wheel) {
   for (const double amplitude : rolling_variation(a.force_at_travel).harmonics)
     json["force_harmonics_N"].push_back(amplitude * width);
   return json;
+}
+
+/// A value of -32767 to 32767 is a share of the full scale.
+std::vector<double> widened(const std::vector<float>& values) { return {values.begin(), values.end()}; }
+
+/// The surface of sector 0, whose corners beyond its own vertices are those of the next sector, and the
+/// deformed wheel in its load positions.
+Json fields_json(const ReportRun<3>& run) {
+  const SurfaceMesh& mesh = run.surface;
+  const std::size_t n_triangles = mesh.triangles.size() / mesh.n_sectors;
+  std::vector<float> points;
+  for (int v = 0; v < mesh.sector_points(); ++v)
+    for (const double x : mesh.points[v]) points.push_back(static_cast<float>(x));
+  std::vector<std::uint32_t> corners;
+  std::vector<std::uint8_t> parts;
+  for (std::size_t t = 0; t < n_triangles; ++t) {
+    corners.insert(corners.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+    parts.push_back(static_cast<std::uint8_t>(mesh.parts[t]));
+  }
+  std::vector<std::vector<double>> displacement, stress;
+  for (const SurfacePosition& position : run.positions) {
+    for (const auto& component : position.displacement) displacement.push_back(widened(component));
+    stress.push_back(widened(position.von_mises));
+  }
+  const double full_displacement = largest(displacement), full_stress = largest(stress);
+  Json positions = Json::array();
+  for (std::size_t i = 0; i < run.positions.size(); ++i)
+    positions.push_back({{"azimuth_rad", run.positions[i].ground_azimuth},
+                         {"x", encoded(as_shorts(displacement[3 * i], full_displacement))},
+                         {"y", encoded(as_shorts(displacement[3 * i + 1], full_displacement))},
+                         {"z", encoded(as_shorts(displacement[3 * i + 2], full_displacement))},
+                         {"root_of_stress", encoded(as_bytes_of_roots(stress[i], full_stress))}});
+  return {{"is_surface", true},
+          {"points", encoded(points)},
+          {"triangles", encoded(corners)},
+          {"parts", encoded(parts)},
+          {"full_displacement_m", full_displacement},
+          {"full_stress_Pa", full_stress},
+          {"positions", std::move(positions)}};
+}
+
+/// In 2D all points, in 3D those of the line nearest to the middle of the width.
+template <int dim>
+std::vector<ContactPoint> points_of_curves(std::vector<ContactPoint> points) {
+  if constexpr (dim == 3) {
+    double nearest = INFINITY;
+    for (const ContactPoint& p : points) nearest = std::abs(p.z) < std::abs(nearest) ? p.z : nearest;
+    std::erase_if(points, [&](const ContactPoint& p) { return std::abs(p.z - nearest) > 1e-9; });
+    std::ranges::stable_sort(points, {}, &ContactPoint::x);
+  }
+  return points;
 }
 
 /// The contact pressures of every position along the ground.
@@ -160,7 +215,18 @@ Json pressures_json(const std::vector<ContactPoint>& points) {
   return all;
 }
 
-Json run_json(const ReportRun& run) {
+/// How numbers are told, in the order of the table.
+template <int dim>
+Json numbers_json() {
+  Json numbers = Json::array();
+  for (const WheelNumber<dim>& number : wheel_numbers<dim>())
+    numbers.push_back(
+        {{"key", number.key}, {"label", number.label}, {"unit", number.unit}, {"factor", number.factor}});
+  return numbers;
+}
+
+template <int dim>
+Json run_json(const ReportRun<dim>& run) {
   Json history = Json::object();
   for (const HistoryCurve& curve : run.history) {
     Json values = Json::array();
@@ -170,7 +236,9 @@ Json run_json(const ReportRun& run) {
   Json outlines = Json::array();
   for (const ShapeOutline& outline : run.outlines)
     outlines.push_back({{"shape", outline.shape}, {"contours", outline.contours}});
-  Json json{{"name", run.name},
+  Json json{{"dimension", dim},
+            {"numbers", numbers_json<dim>()},
+            {"name", run.name},
             {"title", run.title},
             {"status", run.status},
             {"is_running", run.is_running},
@@ -194,29 +262,36 @@ Json run_json(const ReportRun& run) {
                        {"after", rolling_json(run.summary->after.wheel)}};
   }
   if (run.shape) json["fields"] = fields_json(run);
-  if (!run.contact_points.empty()) json["pressures"] = pressures_json(run.contact_points);
+  if (!run.contact_points.empty())
+    json["pressures"] = pressures_json(points_of_curves<dim>(run.contact_points));
   return json;
-}
-
-/// How numbers are told, in the order of the table.
-Json numbers_json() {
-  Json numbers = Json::array();
-  for (const WheelNumber<2>& number : wheel_numbers<2>())
-    numbers.push_back(
-        {{"key", number.key}, {"label", number.label}, {"unit", number.unit}, {"factor", number.factor}});
-  return numbers;
 }
 
 }  // namespace
 
-std::string report_page(const std::vector<ReportRun>& runs) {
-  Json data{{"numbers", numbers_json()}, {"runs", Json::array()}};
-  for (const ReportRun& run : runs) data["runs"].push_back(run_json(run));
+template <int dim>
+PageRun page_run(const ReportRun<dim>& run) {
+  return {run.title, json_in_script(run_json(run)), dim == 3 && run.shape};
+}
+
+template PageRun page_run(const ReportRun<2>&);
+template PageRun page_run(const ReportRun<3>&);
+
+std::string loaded_wheel_json(const LevelSet<2>& shape, std::span<const PositionFields<2>> positions) {
+  return fields_json(shape, positions).dump();
+}
+
+std::string report_page(const std::vector<PageRun>& runs) {
+  std::string data;
+  for (const PageRun& run : runs) data += (data.empty() ? "" : ",\n") + run.json;
+  const bool has_surface = std::ranges::any_of(runs, &PageRun::is_solid);
   return filled_template(assets::report_html,
                          {{"@TITLE@", escape_xml(runs.size() == 1 ? runs.front().title : "Wheels compared")},
                           {"@STYLE@", std::string(assets::report_css)},
-                          {"@DATA@", json_in_script(data)},
+                          {"@DATA@", "{\"runs\":[" + data + "]}"},
                           {"@CHART_LIBRARY@", std::string(assets::chart_js)},
+                          {"@PARTS@", std::string(assets::parts_js)},
+                          {"@SCENE_LIBRARY@", has_surface ? std::string(assets::three_js) : ""},
                           {"@SCRIPT@", std::string(assets::report_js)}});
 }
 

@@ -2,11 +2,13 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "wheelwright/report/run_summary.h"
 #include "wheelwright/report/solution_fields.h"
+#include "wheelwright/surface/surface_mesh.h"
 
 namespace wheelwright {
 
@@ -32,7 +34,15 @@ ShapeOutline shape_outline(int shape, const LevelSet<2>& psi);
 std::string outline_line(const ShapeOutline& outline);
 std::optional<ShapeOutline> parse_outline_line(const std::string& line);
 
-/// What the page tells about one run. In 2D: its pictures are plane.
+/// One load position of a lit wheel: the fields at the vertices of its surface.
+struct SurfacePosition {
+  double ground_azimuth;                         ///< as in PositionFields
+  std::vector<std::vector<float>> displacement;  ///< [component][vertex] [m], body frame
+  std::vector<float> von_mises;                  ///< [Pa]
+};
+
+/// What the page tells about one run. In 2D its wheel is drawn in the plane, in 3D as a lit surface.
+template <int dim>
 struct ReportRun {
   std::string name;  ///< of the run's folder
   std::string title;
@@ -42,18 +52,32 @@ struct ReportRun {
   std::string case_text;  ///< case.toml
   double seconds;         ///< computed
   std::string load;       ///< for people
-  PolarGrid<2> grid;
+  PolarGrid<dim> grid;
   int trials, rejected;
   std::vector<HistoryCurve> history;
   std::vector<ShapeOutline> outlines;
-  std::vector<std::string> flags;        ///< what deserves attention, in sentences
-  std::optional<RunSummary<2>> summary;  ///< absent while the run goes on
-  const LevelSet<2>* shape = nullptr;    ///< the last one, with the fields of all positions
-  std::vector<PositionFields> positions;
+  std::vector<std::string> flags;          ///< what deserves attention, in sentences
+  std::optional<RunSummary<dim>> summary;  ///< absent while the run goes on
+  const LevelSet<dim>* shape = nullptr;    ///< the last one, with the fields of all positions
+  SurfaceMesh surface;                     ///< of it; in 3D
+  std::vector<std::conditional_t<dim == 2, PositionFields<2>, SurfacePosition>> positions;
   std::vector<ContactPoint> contact_points;
 };
 
+/// A run as the page holds it.
+struct PageRun {
+  std::string title;
+  std::string json;
+  bool is_solid;  ///< has a surface to be lit
+};
+
+template <int dim>
+PageRun page_run(const ReportRun<dim>& run);
+
+/// The loaded wheel in its load positions, as the page holds it.
+std::string loaded_wheel_json(const LevelSet<2>& shape, std::span<const PositionFields<2>> positions);
+
 /// One HTML file that needs no network: what came out, the wheel rolling, the shapes of the run, curves.
-std::string report_page(const std::vector<ReportRun>& runs);
+std::string report_page(const std::vector<PageRun>& runs);
 
 }  // namespace wheelwright

@@ -7,7 +7,6 @@
 #include <string_view>
 
 #include "wheelwright/export/plugin.h"
-#include "wheelwright/export/solid_mesh.h"
 #include "wheelwright/files/checksum.h"
 
 // The solid as a 3MF file by lib3mf: one mesh, in millimetres.
@@ -48,9 +47,9 @@ std::string uuid(const SolidMesh& mesh, std::string_view role) {
                      words[2] >> 20, words[2] & 0xffff, words[3]);
 }
 
-std::string file(const WheelModel& wheel) {
+std::string file(const SolidModel& solid) {
   using namespace NMR;
-  const SolidMesh mesh = solid_mesh(wheel);
+  const SolidMesh& mesh = solid.mesh;
   std::vector<MODELMESHVERTEX> vertices;
   for (const auto& p : mesh.points) vertices.push_back({{p[0], p[1], p[2]}});
   std::vector<MODELMESHTRIANGLE> triangles;
@@ -58,8 +57,8 @@ std::string file(const WheelModel& wheel) {
     triangles.push_back({{static_cast<DWORD>(t[0]), static_cast<DWORD>(t[1]), static_cast<DWORD>(t[2])}});
   const auto model = made<PLib3MFModel>([](auto m) { return lib3mf_createmodel(m); });
   check(lib3mf_model_setunit(model.get(), MODELUNIT_MILLIMETER));
-  check(lib3mf_model_addmetadatautf8(model.get(), "Title", wheel.title.c_str()));
-  check(lib3mf_model_addmetadatautf8(model.get(), "Application", wheel.program.c_str()));
+  check(lib3mf_model_addmetadatautf8(model.get(), "Title", solid.title.c_str()));
+  check(lib3mf_model_addmetadatautf8(model.get(), "Application", solid.program.c_str()));
   const auto object =
       made<PLib3MFModelMeshObject>([&](auto o) { return lib3mf_model_addmeshobject(model.get(), o); });
   check(lib3mf_object_setnameutf8(object.get(), "wheel"));
@@ -83,6 +82,6 @@ std::string file(const WheelModel& wheel) {
 }  // namespace wheelwright
 
 extern "C" __attribute__((visibility("default"))) void wheelwright_plugin_file(
-    const wheelwright::WheelModel& wheel, std::string& bytes) {
-  bytes += wheelwright::file(wheel);
+    const wheelwright::SolidModel& solid, std::string& bytes) {
+  bytes += wheelwright::file(solid);
 }

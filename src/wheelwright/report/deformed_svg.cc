@@ -50,7 +50,7 @@ bool is_shown(const DrawnPiece& piece, const PictureView& view) {
   return std::ranges::any_of(piece, [&](const DrawnPoint& p) { return view.holds(p.place); });
 }
 
-std::vector<DrawnPiece> shown_pieces(const DeformedMaterial& material, const DeformedPicture& picture,
+std::vector<DrawnPiece> shown_pieces(const DeformedMaterial& material, const DeformedPicture<2>& picture,
                                      const PictureView& view) {
   // The corner of a window, and what displacements carry into it.
   const double reach = picture.window ? 1.5 * view.half + 0.1 * std::abs(view.centre[1]) : 2 * view.half;
@@ -116,7 +116,7 @@ std::string coloured_paths(const PictureScalar& scalar, const ColourScale& scale
 
 /// The material, in units of its own coordinates.
 std::string material_svg(const PictureScalar& scalar, const ColourScale& scale, const PictureView& view,
-                         const DeformedPicture& picture) {
+                         const DeformedPicture<2>& picture) {
   const double units = units_per_pixel * view.size;
   return fmt::format(
              "<svg x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{2}\" viewBox=\"0 0 {3} {3}\" "
@@ -125,24 +125,11 @@ std::string material_svg(const PictureScalar& scalar, const ColourScale& scale, 
          coloured_paths(scalar, scale) + "</svg>\n";
 }
 
-std::string facts(const DeformedPicture& picture) {
-  std::string text = "load " + force_text(picture.rim_force.towards_ground, "N");
-  text += fmt::format(" \u00b7 contact at {:.4g}\u00b0", picture.contact_azimuth * 180 / std::numbers::pi);
-  text += fmt::format(" \u00b7 travel {}", value_text(picture.rim.towards_ground, "m"));
-  if (picture.rim.rotation != 0)
-    text += fmt::format(" \u00b7 wind-up {:.3g}\u00b0", picture.rim.rotation * 180 / std::numbers::pi);
-  return text + (picture.magnification == 1
-                     ? " \u00b7 true scale"
-                     : fmt::format(" \u00b7 displacement \u00d7 {:g}", picture.magnification));
-}
-
-std::string footnote(const DeformedMaterial& material, const DeformedPicture& picture,
-                     const PictureView& view) {
+std::string footnote_svg(const DeformedMaterial& material, const DeformedPicture<2>& picture,
+                         const PictureView& view) {
   if (material.greatest_press() * view.pixels_per_metre() < 0.5) return "";
-  return fmt::format(
-      "<text x=\"{}\" y=\"{}\" font-size=\"12\" fill=\"#57606a\">The tread lies on the ground where {:g} "
-      "times the displacement would cross it.</text>\n",
-      margin, picture_height - 12, picture.magnification);
+  return fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"12\" fill=\"#57606a\">{}</text>\n", margin,
+                     picture_height - 12, footnote(picture.magnification));
 }
 
 struct Peak {
@@ -160,15 +147,15 @@ Peak drawn_peak(const std::vector<DrawnPiece>& pieces) {
 }
 
 std::string peak_svg(const DeformedMaterial& material, const std::vector<DrawnPiece>& pieces,
-                     const DeformedPicture& picture, const PictureView& view) {
+                     const DeformedPicture<2>& picture, const PictureView& view) {
   if (pieces.empty()) return "";
   const Peak peak =
       picture.peak ? Peak{material.drawn(picture.peak->place), picture.peak->value} : drawn_peak(pieces);
   return peak_mark(view, peak.place, "peak " + value_text(peak.value, escape_xml(picture.scalar.unit)));
 }
 
-std::string marks(const DeformedMaterial& material, const PolarGrid<2>& grid, const DeformedPicture& picture,
-                  const PictureView& view) {
+std::string marks(const DeformedMaterial& material, const PolarGrid<2>& grid,
+                  const DeformedPicture<2>& picture, const PictureView& view) {
   const Vec<2> axle{picture.magnification * picture.rim.along_ground,
                     picture.magnification * picture.rim.towards_ground};
   const auto on_rim = [&](double share) {
@@ -183,12 +170,49 @@ std::string marks(const DeformedMaterial& material, const PolarGrid<2>& grid, co
 
 }  // namespace
 
+template <int dim>
+std::string facts(const DeformedPicture<dim>& picture) {
+  std::string text = "load " + force_text(picture.rim_force.towards_ground, "N");
+  text += fmt::format(" \u00b7 contact at {:.4g}\u00b0", picture.contact_azimuth * 180 / std::numbers::pi);
+  text += fmt::format(" \u00b7 travel {}", value_text(picture.rim.towards_ground, "m"));
+  if (picture.rim.rotation != 0)
+    text += fmt::format(" \u00b7 wind-up {:.3g}\u00b0", picture.rim.rotation * 180 / std::numbers::pi);
+  return text + (picture.magnification == 1
+                     ? " \u00b7 true scale"
+                     : fmt::format(" \u00b7 displacement \u00d7 {:g}", picture.magnification));
+}
+
+std::string footnote(double magnification) {
+  return fmt::format("The tread lies on the ground where {:g} times the displacement would cross it.",
+                     magnification);
+}
+
+template <int dim>
+std::string picture_beginning(const DeformedPicture<dim>& picture, double width, double height, double left) {
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
+      "font-family=\"Helvetica Neue,Helvetica,Arial,DejaVu Sans,sans-serif\" font-size=\"14\" "
+      "fill=\"#24292f\">\n"
+      "<title>{2}</title>\n<rect width=\"{0}\" height=\"{1}\" rx=\"8\" fill=\"#ffffff\"/>\n"
+      "<text x=\"{3}\" y=\"36\" font-size=\"20\" font-weight=\"600\">{2}</text>\n"
+      "<text x=\"{3}\" y=\"60\">{4}</text>\n",
+      width, height, escape_xml(picture.title), left, facts(picture));
+}
+
+template std::string facts(const DeformedPicture<2>&);
+template std::string facts(const DeformedPicture<3>&);
+template std::string picture_beginning(const DeformedPicture<2>&, double, double, double);
+template std::string picture_beginning(const DeformedPicture<3>&, double, double, double);
+
 double picture_magnification(const RingField& displacement, double outer_radius) {
   constexpr double largest_share = 0.05;
   double largest = 0;
-  for (size_t k = 0; k + 1 < displacement.values.size(); k += 2) {
-    const double size = std::hypot(displacement.values[k], displacement.values[k + 1]);
-    if (size > largest) largest = size;
+  for (size_t k = 0; k < displacement.values.size(); k += displacement.components) {
+    double square = 0;
+    for (int d = 0; d < displacement.components; ++d)
+      square += displacement.values[k + d] * displacement.values[k + d];
+    largest = std::sqrt(square) > largest ? std::sqrt(square) : largest;
   }
   const double wanted = largest_share * outer_radius / largest;
   if (!(wanted > 1) || !std::isfinite(wanted)) return 1;
@@ -198,7 +222,8 @@ double picture_magnification(const RingField& displacement, double outer_radius)
   return decade;
 }
 
-std::string deformed_svg(const LevelSet<2>& psi, const Lattice<2>& lattice, const DeformedPicture& picture) {
+std::string deformed_svg(const LevelSet<2>& psi, const Lattice<2>& lattice,
+                         const DeformedPicture<2>& picture) {
   const PolarGrid<2>& grid = lattice.grid();
   const PictureView view = view_of(grid, picture.window);
   const DeformedMaterial material(psi, lattice, picture.displacement, picture.magnification,
@@ -206,20 +231,12 @@ std::string deformed_svg(const LevelSet<2>& psi, const Lattice<2>& lattice, cons
   const std::vector<DrawnPiece> pieces = shown_pieces(material, picture, view);
   const ColourScale scale = scale_of(pieces, picture.scale);
   const double bar_x = margin + wheel_size + 40, bar_y = top + 0.5 * wheel_size + 160;
-  return fmt::format(
-             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
-             "font-family=\"Helvetica Neue,Helvetica,Arial,DejaVu Sans,sans-serif\" font-size=\"14\" "
-             "fill=\"#24292f\">\n"
-             "<title>{2}</title>\n<rect width=\"{0}\" height=\"{1}\" rx=\"8\" fill=\"#ffffff\"/>\n"
-             "<text x=\"{3}\" y=\"36\" font-size=\"20\" font-weight=\"600\">{2}</text>\n"
-             "<text x=\"{3}\" y=\"60\">{4}</text>\n",
-             picture_width, picture_height, escape_xml(picture.title), margin, facts(picture)) +
+  return picture_beginning(picture, picture_width, picture_height, margin) +
          (picture.window ? "" : undeformed_mark(view, grid.inner_radius, grid.outer_radius)) +
          material_svg(picture_scalar(pieces, view), scale, view, picture) +
          marks(material, grid, picture, view) + peak_svg(material, pieces, picture, view) +
          colour_bar(scale, picture.scalar.name, picture.scalar.unit, bar_x, bar_y) +
-         footnote(material, picture, view) + "</svg>\n";
+         footnote_svg(material, picture, view) + "</svg>\n";
 }
 
 }  // namespace wheelwright

@@ -18,9 +18,10 @@ enum class ScaleKind {
 };
 
 /// The deformed wheel under one load position, coloured by a scalar.
+template <int dim>
 struct DeformedPicture {
   std::string title;
-  RingField displacement;  ///< 2 components [m]
+  RingField displacement;  ///< dim components [m]
   double magnification;    ///< of the displacement in the picture
   double contact_azimuth;  ///< azimuth of the contact point in the body frame [rad]: drawn at the bottom
   /// Half the edge of a square view of the contact [m]; absent: the whole wheel.
@@ -31,7 +32,7 @@ struct DeformedPicture {
   RimForce rim_force;                 ///< on the whole width [N, N m]
   std::vector<ContactPoint> contact;  ///< of this position; its pressure is shown in a window
   /// The largest scalar and its place before the deformation (body frame); absent: that of the drawn points.
-  std::optional<DrawnPeak> peak;
+  std::optional<DrawnPeak<dim>> peak;
 };
 
 /// The largest of 1, 2, 5, 10, 20, ... that draws no displacement larger than 5 % of the wheel's radius, at
@@ -41,6 +42,19 @@ double picture_magnification(const RingField& displacement, double outer_radius)
 /// The picture as an SVG document: the material with colours between level lines, their scale, the ground as
 /// a line that the tread touches, load, position and magnification, and the place of the largest scalar.
 /// `lattice` carries the fields, on psi's grid.
-std::string deformed_svg(const LevelSet<2>& psi, const Lattice<2>& lattice, const DeformedPicture& picture);
+std::string deformed_svg(const LevelSet<2>& psi, const Lattice<2>& lattice,
+                         const DeformedPicture<2>& picture);
+
+/// What a picture says of load, position and magnification.
+template <int dim>
+std::string facts(const DeformedPicture<dim>& picture);
+
+/// What it says where the tread was laid on the ground.
+std::string footnote(double magnification);
+
+/// The beginning of such a picture, of this size in pixels: its title and facts.
+template <int dim>
+std::string picture_beginning(const DeformedPicture<dim>& picture, double width, double height,
+                              double margin);
 
 }  // namespace wheelwright

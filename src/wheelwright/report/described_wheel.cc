@@ -31,7 +31,7 @@ double first_harmonic(const std::vector<double>& values) {
 /// What turns forces of the analysis into those on the whole width.
 template <int dim>
 double whole_width(const DescribedWheel<dim>& wheel) {
-  return whole_width(dim, wheel.grid.width);
+  return wheelwright::whole_width(dim, wheel.grid.width);
 }
 
 template <int dim>

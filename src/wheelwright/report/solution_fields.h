@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "wheelwright/analysis/all_positions.h"
 #include "wheelwright/report/pressure_csv.h"
 #include "wheelwright/state/ring_field.h"
@@ -8,49 +10,70 @@
 namespace wheelwright {
 
 /// The largest von Mises stress at the quadrature points, and where it is (Cartesian, body frame).
+template <int dim>
 struct DrawnPeak {
-  Vec<2> place;  ///< [m]
-  double value;  ///< [Pa]
+  Vec<dim> place;  ///< [m]
+  double value;    ///< [Pa]
 };
+
+/// Components of a stress as it is written: xx, yy, zz, xy, and in 3D yz and xz, with z along the axle; body
+/// frame. They are those of ParaView's symmetric tensors.
+template <int dim>
+inline constexpr int stress_components = dim == 2 ? 4 : 6;
 
 /// What is drawn of one load position.
+template <int dim>
 struct PositionFields {
-  Lattice<2> lattice;  ///< of the fields
+  Lattice<dim> lattice;  ///< of the fields
   RingField displacement;
-  RingField stress;       ///< xx, yy, zz, xy, with z along the axle; body frame
+  RingField stress;       ///< stress_components
   double ground_azimuth;  ///< of n_y, body frame [rad]
   RimMotion rim;          ///< ground frame
-  RimForce rim_force;     ///< on the rim, per metre of width
+  RimForce rim_force;     ///< on the rim, per metre of width when dim = 2
   std::vector<ContactPoint> contact;
-  DrawnPeak von_mises;
+  DrawnPeak<dim> von_mises;
 };
 
-PositionFields position_fields(const StateSolver<2>& solver, const State<2>& state, int position);
+template <int dim>
+PositionFields<dim> position_fields(const StateSolver<dim>& solver, const State<dim>& state, int position);
 
-/// Those of all load positions of a sector; images are reflected.
-std::vector<PositionFields> all_position_fields(const StateSolver<2>& solver, const State<2>& solution);
+/// Calls visit(position, fields) for every load position of a sector, one after the other; images are
+/// reflected.
+template <int dim>
+void for_each_position(const StateSolver<dim>& solver, const State<dim>& state,
+                       const std::function<void(int, PositionFields<dim>)>& visit);
+
+/// The fields of all of them.
+template <int dim>
+std::vector<PositionFields<dim>> all_position_fields(const StateSolver<dim>& solver,
+                                                     const State<dim>& solution);
 
 /// Displacement, stress and von Mises stress, by the names that they have in files.
-std::vector<NamedField> named_fields(const PositionFields& fields);
+template <int dim>
+std::vector<NamedField> named_fields(const PositionFields<dim>& fields);
 
 /// The von Mises stress of stresses as in PositionFields. What is interpolated is the stress, so that it is
 /// never negative.
 NamedField von_mises_field(const RingField& stress);
 
 /// The lattice that carries these fields.
-Lattice<2> displacement_lattice(const RollingModel<2>& model);
+template <int dim>
+Lattice<dim> displacement_lattice(const RollingModel<dim>& model);
 
 /// Component of a displacement towards the ground of one load position [m].
+template <int dim>
 RingField vertical_field(const RingField& displacement, double ground_azimuth);
 
 /// The stress [Pa] of a displacement at the nodes, components as in PositionFields: the mean over the cells
 /// with material around a node.
-RingField stress_field(const RollingModel<2>& model, const CutDomain<2>& domain,
+template <int dim>
+RingField stress_field(const RollingModel<dim>& model, const CutDomain<dim>& domain,
                        const RingField& displacement);
 
 /// One value per node of a sector's level set lattice, as a field on the displacement's lattice, equal in all
 /// sectors.
-RingField repeated_field(const RollingModel<2>& model, const LevelSet<2>& sector_values);
+template <int dim>
+RingField repeated_field(const RollingModel<dim>& model, const LevelSet<dim>& sector_values);
 
 /// The contact zones of all load positions of a sector, those of images reflected; in each position the
 /// points follow each other along the ground by columns.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "wheelwright/base/text.h"
+#include "wheelwright/report/lit_wheel.h"
 #include "wheelwright/report/outline.h"
 
 namespace wheelwright {
@@ -36,6 +37,8 @@ constexpr double point_spacing = 1.5;  // along curves
 constexpr int units_per_pixel = 10;    // of the wheels
 constexpr double picture_width = 2 * wheel_diameter + 2 * margin + gap;
 constexpr double picture_height = top + wheel_diameter + foot;
+constexpr double first_middle = margin + 0.5 * wheel_diameter,
+                 second_middle = first_middle + wheel_diameter + gap;
 
 std::string text(double x, double y, std::string_view style, std::string_view content) {
   return fmt::format("<text x=\"{}\" y=\"{}\" class=\"{}\">{}</text>\n", x, y, style, escape_xml(content));
@@ -101,17 +104,58 @@ text{font-family:"Helvetica Neue",Helvetica,Arial,"DejaVu Sans",sans-serif;fill:
 </style>
 )";
 
-std::string wheel_panel(const PolarGrid<2>& grid, const WheelState& wheel, double centre_x,
+std::string wheel_panel(const PolarGrid<2>& grid, const WheelState<2>& wheel, double centre_x,
                         std::string_view overlay) {
   const double scale = 0.5 * wheel_diameter / grid.outer_radius;
   std::string panel = fmt::format("<g transform=\"translate({} {}) scale({})\">\n", centre_x,
                                   top + 0.5 * wheel_diameter, 1.0 / units_per_pixel);
-  panel += fmt::format("<path class=\"material\" d=\"{}{}\"/>\n", circle_paths(grid, wheel.contours, scale),
-                       outline_path(thinned(wheel.contours, scale)));
+  panel += fmt::format("<path class=\"material\" d=\"{}{}\"/>\n", circle_paths(grid, wheel.boundary, scale),
+                       outline_path(thinned(wheel.boundary, scale)));
   panel += fmt::format("<path class=\"rim\" d=\"{}\"/>\n",
                        circle_path(grid.inner_radius * scale * units_per_pixel, 0));
   panel += overlay;
-  return panel + "</g>\n" + text(centre_x, top - 18, "heading", wheel.heading);
+  return panel + "</g>\n";
+}
+
+std::string wheel_panel(const PolarGrid<3>& grid, const WheelState<3>& wheel, double centre_x) {
+  constexpr int pixels = 720;  // on screens with more than one for each of the picture's
+  const Image image = lit_image({lit_wheel(wheel.boundary, grid)}, wheel_camera(grid), pixels);
+  return fmt::format("<image x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{2}\" href=\"{3}\"/>\n",
+                     centre_x - 0.5 * wheel_diameter, top, wheel_diameter, data_url(image));
+}
+
+/// Two drawn wheels with their numbers.
+template <int dim>
+std::string with_numbers(const Comparison<dim>& comparison, const std::string& first_panel,
+                         const std::string& second_panel) {
+  const WheelState<dim>&before = comparison.before, &after = comparison.after;
+  const double first_line = top + wheel_diameter + 32, second_line = first_line + 22;
+  const auto objective = [&](double value) {
+    if (!std::isfinite(value)) return fmt::format("{}: not computed", comparison.objective_name);
+    return fmt::format("{}: {:.5g} {}", comparison.objective_name, value, comparison.objective_unit);
+  };
+  const double change = after.objective / before.objective - 1;
+  const auto volume = [](double fraction) {
+    return std::isfinite(fraction) ? fmt::format("volume: {} of the ring", percentage(fraction))
+                                   : "volume: not computed";
+  };
+
+  std::string svg = fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\">\n"
+      "<title>{2}</title>\n{3}"
+      "<rect width=\"{0}\" height=\"{1}\" rx=\"8\" fill=\"#ffffff\"/>\n",
+      picture_width, picture_height, escape_xml(comparison.title), comparison_style);
+  svg += text(0.5 * picture_width, 44, "title", comparison.title);
+  svg += first_panel + text(first_middle, top - 18, "heading", before.heading);
+  svg += second_panel + text(second_middle, top - 18, "heading", after.heading);
+  svg += text(first_middle, first_line, "fact", objective(before.objective));
+  svg += text(first_middle, second_line, "fact", volume(before.volume_fraction));
+  const std::string percent = std::isfinite(change) ? fmt::format("  ({})", signed_percentage(change)) : "";
+  svg += text(second_middle, first_line, "fact", objective(after.objective) + percent);
+  svg += text(second_middle, second_line, "fact", volume(after.volume_fraction));
+  svg += text(0.5 * picture_width, picture_height - 18, "caption", comparison.caption);
+  return svg + "</svg>\n";
 }
 
 }  // namespace
@@ -163,39 +207,17 @@ std::string shape_svg(const PolarGrid<2>& grid, std::span<const Contour> contour
       2 * half, -half, escape_xml(title), material_path(grid, contours, mm, 4, 0));
 }
 
-std::string comparison_svg(const PolarGrid<2>& grid, const Comparison& comparison) {
-  const WheelState &before = comparison.before, &after = comparison.after;
+std::string comparison_svg(const PolarGrid<2>& grid, const Comparison<2>& comparison) {
   const double scale = 0.5 * wheel_diameter / grid.outer_radius;
-  const double left = margin + 0.5 * wheel_diameter, right = left + wheel_diameter + gap;
-  const double first_line = top + wheel_diameter + 32, second_line = first_line + 22;
-  const std::string former =
-      fmt::format("<path class=\"former\" d=\"{}\"/>\n", outline_path(thinned(before.contours, scale)));
-  const auto objective = [&](double value) {
-    if (!std::isfinite(value)) return fmt::format("{}: not computed", comparison.objective_name);
-    return fmt::format("{}: {:.5g} {}", comparison.objective_name, value, comparison.objective_unit);
-  };
-  const double change = after.objective / before.objective - 1;
-  const auto volume = [](double fraction) {
-    return std::isfinite(fraction) ? fmt::format("volume: {} of the ring", percentage(fraction))
-                                   : "volume: not computed";
-  };
+  const std::string former = fmt::format("<path class=\"former\" d=\"{}\"/>\n",
+                                         outline_path(thinned(comparison.before.boundary, scale)));
+  return with_numbers(comparison, wheel_panel(grid, comparison.before, first_middle, ""),
+                      wheel_panel(grid, comparison.after, second_middle, former));
+}
 
-  std::string svg = fmt::format(
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\">\n"
-      "<title>{2}</title>\n{3}"
-      "<rect width=\"{0}\" height=\"{1}\" rx=\"8\" fill=\"#ffffff\"/>\n",
-      picture_width, picture_height, escape_xml(comparison.title), comparison_style);
-  svg += text(0.5 * picture_width, 44, "title", comparison.title);
-  svg += wheel_panel(grid, before, left, "");
-  svg += wheel_panel(grid, after, right, former);
-  svg += text(left, first_line, "fact", objective(before.objective));
-  svg += text(left, second_line, "fact", volume(before.volume_fraction));
-  const std::string percent = std::isfinite(change) ? fmt::format("  ({})", signed_percentage(change)) : "";
-  svg += text(right, first_line, "fact", objective(after.objective) + percent);
-  svg += text(right, second_line, "fact", volume(after.volume_fraction));
-  svg += text(0.5 * picture_width, picture_height - 18, "caption", comparison.caption);
-  return svg + "</svg>\n";
+std::string comparison_svg(const PolarGrid<3>& grid, const Comparison<3>& comparison) {
+  return with_numbers(comparison, wheel_panel(grid, comparison.before, first_middle),
+                      wheel_panel(grid, comparison.after, second_middle));
 }
 
 }  // namespace wheelwright

@@ -3,8 +3,10 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 #include "wheelwright/geometry/contour.h"
+#include "wheelwright/surface/surface_mesh.h"
 
 namespace wheelwright {
 
@@ -22,24 +24,32 @@ std::string material_path(const PolarGrid<2>& grid, std::span<const Contour> con
 /// with the axle at the origin.
 std::string shape_svg(const PolarGrid<2>& grid, std::span<const Contour> contours, std::string_view title);
 
+/// The boundary of a shape: closed curves, or a closed surface.
+template <int dim>
+using Boundary = std::conditional_t<dim == 2, std::vector<Contour>, SurfaceMesh>;
+
 /// One wheel of a comparison.
+template <int dim>
 struct WheelState {
   std::string heading;  ///< e.g. "initial"
-  std::vector<Contour> contours;
+  Boundary<dim> boundary;
   double objective;        ///< NaN: not computed
-  double volume_fraction;  ///< material area over the area of the full ring; NaN: not computed
+  double volume_fraction;  ///< measure of the material over that of the full ring; NaN: not computed
 };
 
-/// Two wheels side by side, with their numbers; the holes of the first are outlined in the second.
+/// Two wheels side by side, with their numbers.
+template <int dim>
 struct Comparison {
   std::string title;
   std::string caption;         ///< below the wheels
   std::string objective_name;  ///< e.g. "strain energy"
   std::string objective_unit;  ///< e.g. "J/m"
-  WheelState before, after;
+  WheelState<dim> before, after;
 };
 
-/// The comparison as an SVG document for pages and README files.
-std::string comparison_svg(const PolarGrid<2>& grid, const Comparison& comparison);
+/// The comparison as an SVG document for pages and README files. In 2D the holes of the first wheel are
+/// outlined in the second; in 3D the wheels are lit surfaces.
+std::string comparison_svg(const PolarGrid<2>& grid, const Comparison<2>& comparison);
+std::string comparison_svg(const PolarGrid<3>& grid, const Comparison<3>& comparison);
 
 }  // namespace wheelwright

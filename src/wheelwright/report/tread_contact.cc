@@ -2,38 +2,43 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "wheelwright/analysis/all_positions.h"
 #include "wheelwright/base/units.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/geometry/cell_map.h"
+#include "wheelwright/geometry/mirror.h"
 #include "wheelwright/report/vtu_arrays.h"
 
 namespace wheelwright {
 namespace {
 
 /// The columns of the contact zone.
-std::vector<bool> contact_columns(const ContactPatch<2>& contact, int n_columns) {
+template <int dim>
+std::vector<bool> contact_columns(const ContactPatch<dim>& contact, int n_columns) {
   std::vector<bool> in_zone(n_columns, false);
   for (const auto& point : contact.points) in_zone[point.column] = true;
   return in_zone;
 }
 
 /// A point of the tread without its tractions, under a position that was solved for.
-TreadContactPoint free_point(const StateSolver<2>& solver, const State<2>& state, int position, int column,
-                             int point) {
-  const TreadSurface<2>& surface = solver.tread_surface();
-  const PolarGrid<2>& grid = solver.model().grid;
+template <int dim>
+TreadContactPoint<dim> free_point(const StateSolver<dim>& solver, const State<dim>& state, int position,
+                                  int column, int point) {
+  const TreadSurface<dim>& surface = solver.tread_surface();
+  const PolarGrid<dim>& grid = solver.model().grid;
   const double ground = state.positions().grounds[position].azimuth(grid),
                turn = column * grid.cell_size()[1] - ground;
-  const double* u =
-      state.observations().column(position * surface.n_columns + column) + surface.rows().displacement(point);
-  const Vec<2> place = rotated<2>(surface.points[point].position, turn),
-               elastic = rotated<2>({u[0], u[1]}, turn),
-               rigid = displacement<2>(state.contacts()[position].rim, place);
-  const Vec<2> moved{elastic[0] + rigid[0], elastic[1] + rigid[1]};
-  return {.position = rotated<2>(place, ground),
-          .displacement = rotated<2>(moved, ground),
+  Vec<dim> u;
+  std::copy_n(
+      state.observations().column(position * surface.n_columns + column) + surface.rows().displacement(point),
+      dim, u.begin());
+  const Vec<dim> place = rotated<dim>(surface.points[point].position, turn), elastic = rotated<dim>(u, turn);
+  Vec<dim> moved = displacement<dim>(state.contacts()[position].rim, place);
+  for (int d = 0; d < dim; ++d) moved[d] += elastic[d];
+  return {.position = rotated<dim>(place, ground),
+          .displacement = rotated<dim>(moved, ground),
           .traction = {},
           .pressure = 0,
           .friction = 0,
@@ -41,15 +46,22 @@ TreadContactPoint free_point(const StateSolver<2>& solver, const State<2>& state
           .weight = surface.points[point].weight};
 }
 
+template <int dim>
+void set_traction(const Vec<dim>& traction, double ground, TreadContactPoint<dim>& point) {
+  point.traction = rotated<dim>(traction, ground);
+  point.pressure = -traction[0];
+  point.friction = traction[1];
+}
+
 /// Under a position that was solved for: all points of the columns in the contact zone, and of any other the
 /// middle one, which stands for the whole column.
-TreadContact tread_of_solved(const StateSolver<2>& solver, const State<2>& state, int position) {
+TreadContact<2> tread_of_solved(const StateSolver<2>& solver, const State<2>& state, int position) {
   const TreadSurface<2>& surface = solver.tread_surface();
   const int n_points = static_cast<int>(surface.points.size());
   double column_length = 0;
   for (const TreadPoint<2>& point : surface.points) column_length += point.weight;
   const auto in_zone = contact_columns(state.contacts()[position], surface.n_columns);
-  TreadContact tread;
+  TreadContact<2> tread;
   std::vector<size_t> first;  // of every column
   for (int column = 0; column < surface.n_columns; ++column) {
     first.push_back(tread.size());
@@ -60,91 +72,188 @@ TreadContact tread_of_solved(const StateSolver<2>& solver, const State<2>& state
     tread.back().weight = column_length;
   }
   const double ground = state.positions().grounds[position].azimuth(solver.model().grid);
-  for (const auto& point : state.contacts()[position].points) {
-    TreadContactPoint& p = tread[first[point.column] + point.point];
-    p.traction = rotated<2>(point.traction, ground);
-    p.pressure = -point.traction[0];
-    p.friction = point.traction[1];
+  for (const auto& point : state.contacts()[position].points)
+    set_traction<2>(point.traction, ground, tread[first[point.column] + point.point]);
+  return tread;
+}
+
+/// The contact points of a column, in lines of the same z from one side face to the other.
+std::vector<std::vector<int>> lines_of_points(const TreadSurface<3>& surface) {
+  std::vector<std::vector<int>> lines;
+  for (const FaceRow& row : surface.face_rows) {
+    const bool of_displacements = row.first < 2 * std::ssize(surface.points) && row.first % 2 == 0;
+    if (!of_displacements) continue;
+    lines.emplace_back();
+    for (int face = 0; face < row.faces; ++face)
+      for (int point = 0; point < row.points_per_face; ++point)
+        lines.back().push_back(row.observation(face, point) / 2);
   }
+  std::ranges::sort(lines, {}, [&](const auto& line) { return surface.points[line.front()].position[2]; });
+  return lines;
+}
+
+/// Under a position that was solved for: all points.
+TreadContact<3> tread_of_solved(const StateSolver<3>& solver, const State<3>& state, int position) {
+  const TreadSurface<3>& surface = solver.tread_surface();
+  const auto lines = lines_of_points(surface);
+  TreadContact<3> tread;
+  std::vector<size_t> place_in_tread(surface.points.size() * surface.n_columns);
+  for (const auto& line : lines) {
+    const double z = surface.points[line.front()].position[2];  // of the others up to rounding
+    for (int column = 0; column < surface.n_columns; ++column)
+      for (const int q : line) {
+        place_in_tread[column * surface.points.size() + q] = tread.size();
+        tread.push_back(free_point(solver, state, position, column, q));
+        tread.back().position[2] = z;
+      }
+  }
+  const double ground = state.positions().grounds[position].azimuth(solver.model().grid);
+  for (const auto& point : state.contacts()[position].points)
+    set_traction<3>(point.traction, ground,
+                    tread[place_in_tread[point.column * surface.points.size() + point.point]]);
   return tread;
 }
 
 /// What the image of a load position shows: reflected in the middle plane of sector 0, which takes position i
 /// of n to n - i.
-TreadContact mirror_image(TreadContact tread, double sector_angle) {
-  const auto image = [&](const Vec<2>& v) { return rotated<2>({v[0], -v[1]}, sector_angle); };
-  for (TreadContactPoint& p : tread) {
+template <int dim>
+TreadContact<dim> mirror_image(TreadContact<dim> tread, double sector_angle) {
+  const auto image = [&](const Vec<dim>& v) {
+    return rotated<dim>(wheelwright::mirror_image<dim>(v), sector_angle);
+  };
+  for (TreadContactPoint<dim>& p : tread) {
     p.position = image(p.position);
     p.displacement = image(p.displacement);
     p.traction = image(p.traction);
     p.friction = -p.friction;
   }
-  std::ranges::reverse(tread);
+  if constexpr (dim == 2) std::ranges::reverse(tread);
   return tread;
 }
 
-std::vector<float> coordinates(const std::vector<Vec<2>>& points) {
+template <int dim>
+std::vector<float> coordinates(const std::vector<Vec<dim>>& points) {
   std::vector<float> result;
-  for (const Vec<2>& p : points)
-    result.insert(result.end(), {static_cast<float>(p[0]), static_cast<float>(p[1]), 0});
+  for (const Vec<dim>& p : points)
+    for (int d = 0; d < 3; ++d) result.push_back(d < dim ? static_cast<float>(p[d]) : 0);
   return result;
 }
 
-std::vector<std::vector<float>> values(const TreadContact& tread, double TreadContactPoint::*member) {
+template <int dim>
+std::vector<std::vector<float>> values(const TreadContact<dim>& tread,
+                                       double TreadContactPoint<dim>::*member) {
   std::vector<std::vector<float>> result(1);
-  for (const TreadContactPoint& p : tread) result[0].push_back(static_cast<float>(p.*member));
+  for (const auto& p : tread) result[0].push_back(static_cast<float>(p.*member));
   return result;
 }
 
-std::vector<std::vector<float>> values(const TreadContact& tread, Vec<2> TreadContactPoint::*member) {
-  std::vector<std::vector<float>> result(2);
-  for (const TreadContactPoint& p : tread)
-    for (int d = 0; d < 2; ++d) result[d].push_back(static_cast<float>((p.*member)[d]));
+template <int dim>
+std::vector<std::vector<float>> values(const TreadContact<dim>& tread,
+                                       Vec<dim> TreadContactPoint<dim>::*member) {
+  std::vector<std::vector<float>> result(dim);
+  for (const auto& p : tread)
+    for (int d = 0; d < dim; ++d) result[d].push_back(static_cast<float>((p.*member)[d]));
   return result;
+}
+
+/// What joins the points of a tread: the corners of all cells, and those of one.
+struct TreadCells {
+  std::vector<std::int32_t> corners;
+  int per_cell;
+  std::uint8_t type;
+};
+
+TreadCells cells_of(const TreadContact<2>& tread) {
+  TreadCells cells{{}, 2, vtk_line};
+  const auto n = static_cast<std::int32_t>(tread.size());
+  for (std::int32_t k = 0; k < n; ++k) cells.corners.insert(cells.corners.end(), {k, (k + 1) % n});
+  return cells;
+}
+
+TreadCells cells_of(const TreadContact<3>& tread) {
+  TreadCells cells{{}, 4, vtk_quadrilateral};
+  const auto in_line = static_cast<std::int32_t>(
+      std::ranges::find_if(tread, [&](const auto& p) { return p.position[2] != tread[0].position[2]; }) -
+      tread.begin());
+  for (std::int32_t line = 0; line + in_line < std::ssize(tread); line += in_line)
+    for (std::int32_t k = 0; k < in_line; ++k) {
+      const std::int32_t next = (k + 1) % in_line;
+      cells.corners.insert(cells.corners.end(),
+                           {line + k, line + next, line + in_line + next, line + in_line + k});
+    }
+  return cells;
+}
+
+std::vector<std::int32_t> equal_offsets(std::size_t n_cells, int per_cell) {
+  std::vector<std::int32_t> offsets;
+  for (std::size_t k = 1; k <= n_cells; ++k) offsets.push_back(static_cast<std::int32_t>(k * per_cell));
+  return offsets;
 }
 
 }  // namespace
 
-std::vector<TreadContact> all_tread_contacts(const StateSolver<2>& solver, const State<2>& state) {
-  std::vector<TreadContact> all;
+template <int dim>
+std::vector<TreadContact<dim>> all_tread_contacts(const StateSolver<dim>& solver, const State<dim>& state) {
+  std::vector<TreadContact<dim>> all;
   for (const PositionSource& source : position_sources(state.positions(), solver.model().n_positions)) {
-    TreadContact tread = tread_of_solved(solver, state, source.solved);
-    all.push_back(source.is_image ? mirror_image(std::move(tread), solver.model().grid.sector_angle())
+    TreadContact<dim> tread = tread_of_solved(solver, state, source.solved);
+    all.push_back(source.is_image ? mirror_image<dim>(std::move(tread), solver.model().grid.sector_angle())
                                   : std::move(tread));
   }
   return all;
 }
 
-void write_tread_vtu(const std::filesystem::path& path, const TreadContact& tread) {
-  const auto n = static_cast<std::int32_t>(tread.size());
-  std::vector<Vec<2>> points;
-  for (const TreadContactPoint& p : tread) points.push_back(p.position);
-  std::vector<std::int32_t> connectivity, offsets;
-  for (std::int32_t k = 0; k < n; ++k) {
-    connectivity.insert(connectivity.end(), {k, (k + 1) % n});
-    offsets.push_back(2 * (k + 1));
-  }
+template <int dim>
+void write_tread_vtu(const std::filesystem::path& path, const TreadContact<dim>& tread) {
+  using Point = TreadContactPoint<dim>;
+  std::vector<Vec<dim>> points;
+  for (const Point& p : tread) points.push_back(p.position);
+  const TreadCells cells = cells_of(tread);
+  const std::size_t n_cells = cells.corners.size() / cells.per_cell;
   AppendedArrays arrays(0);
-  const std::string mesh = add_mesh(coordinates(points), connectivity, offsets,
-                                    std::vector<std::uint8_t>(tread.size(), vtk_line), arrays);
-  const char *length = unit<2>(UnitKind::length), *stress = unit<2>(UnitKind::stress);
+  const std::string mesh =
+      add_mesh(coordinates<dim>(points), cells.corners, equal_offsets(n_cells, cells.per_cell),
+               std::vector<std::uint8_t>(n_cells, cells.type), arrays);
+  const char *length = unit<dim>(UnitKind::length), *stress = unit<dim>(UnitKind::stress),
+             *weight = dim == 2 ? "m" : "m2";
   const std::string fields =
-      add_field(vtu_name("displacement", length), values(tread, &TreadContactPoint::displacement), arrays) +
-      add_field(vtu_name("traction", stress), values(tread, &TreadContactPoint::traction), arrays) +
-      add_field(vtu_name("pressure", stress), values(tread, &TreadContactPoint::pressure), arrays) +
-      add_field(vtu_name("friction", stress), values(tread, &TreadContactPoint::friction), arrays) +
-      add_field(vtu_name("gap", length), values(tread, &TreadContactPoint::gap), arrays) +
-      add_field(vtu_name("weight", length), values(tread, &TreadContactPoint::weight), arrays);
-  write_atomically(path, vtu_beginning(tread.size(), tread.size(), mesh) + fields + vtu_end(arrays.bytes()));
+      add_field(vtu_name("displacement", length), values<dim>(tread, &Point::displacement), arrays) +
+      add_field(vtu_name("traction", stress), values<dim>(tread, &Point::traction), arrays) +
+      add_field(vtu_name("pressure", stress), values<dim>(tread, &Point::pressure), arrays) +
+      add_field(vtu_name("friction", stress), values<dim>(tread, &Point::friction), arrays) +
+      add_field(vtu_name("gap", length), values<dim>(tread, &Point::gap), arrays) +
+      add_field(vtu_name("weight", weight), values<dim>(tread, &Point::weight), arrays);
+  write_atomically(path, vtu_beginning(tread.size(), n_cells, mesh) + fields + vtu_end(arrays.bytes()));
 }
 
-void write_ground_vtu(const std::filesystem::path& path, const PolarGrid<2>& grid, double ground_azimuth) {
+template <int dim>
+void write_ground_vtu(const std::filesystem::path& path, const PolarGrid<dim>& grid, double ground_azimuth) {
   const double top = grid.outer_radius, half = grid.outer_radius, bottom = 1.05 * grid.outer_radius;
-  std::vector<Vec<2>> corners{{top, -half}, {bottom, -half}, {bottom, half}, {top, half}};
-  for (Vec<2>& corner : corners) corner = rotated<2>(corner, ground_azimuth);
+  std::vector<Vec<dim>> corners;
+  const auto add_rectangle = [&](double z) {
+    for (const Vec<2>& corner : {Vec<2>{top, -half}, {bottom, -half}, {bottom, half}, {top, half}}) {
+      Vec<dim> x{corner[0], corner[1]};
+      if constexpr (dim == 3) x[2] = z;
+      corners.push_back(rotated<dim>(x, ground_azimuth));
+    }
+  };
+  const double beside = dim == 2 ? 0 : 0.1 * grid.outer_radius;
+  add_rectangle(-beside);
+  if constexpr (dim == 3) add_rectangle(grid.width + beside);
+  std::vector<std::int32_t> connectivity(corners.size());
+  std::iota(connectivity.begin(), connectivity.end(), 0);
   AppendedArrays arrays(0);
-  const std::string mesh = add_mesh(coordinates(corners), {0, 1, 2, 3}, {4}, {vtk_quadrilateral}, arrays);
+  const std::string mesh =
+      add_mesh(coordinates<dim>(corners), connectivity, {static_cast<std::int32_t>(corners.size())},
+               {dim == 2 ? vtk_quadrilateral : vtk_hexahedron}, arrays);
   write_atomically(path, vtu_beginning(corners.size(), 1, mesh) + vtu_end(arrays.bytes()));
 }
+
+template std::vector<TreadContact<2>> all_tread_contacts(const StateSolver<2>&, const State<2>&);
+template void write_tread_vtu<2>(const std::filesystem::path&, const TreadContact<2>&);
+template void write_ground_vtu(const std::filesystem::path&, const PolarGrid<2>&, double);
+template std::vector<TreadContact<3>> all_tread_contacts(const StateSolver<3>&, const State<3>&);
+template void write_tread_vtu<3>(const std::filesystem::path&, const TreadContact<3>&);
+template void write_ground_vtu(const std::filesystem::path&, const PolarGrid<3>&, double);
 
 }  // namespace wheelwright

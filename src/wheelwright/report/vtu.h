@@ -1,47 +1,43 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "wheelwright/geometry/level_set.h"
-#include "wheelwright/state/ring_field.h"
+#include "wheelwright/report/field_points.h"
 
 namespace wheelwright {
 
-/// Fine enough for ParaView: at 28 x 384 cells a piece of a cut cell is about a millimetre wide.
-inline constexpr int vtu_cut_subdivisions = 4;
+/// Fine enough for ParaView: in the plane, at 28 x 384 cells, a piece of a cut cell is about a millimetre
+/// wide.
+template <int dim>
+inline constexpr int vtu_cut_subdivisions = dim == 2 ? 4 : 2;
 
 /// The material of the full ring as cells for ParaView, with psi at their points, which the cells of a sector
-/// share. Full cells are divided by the lattice's degree; cut cells are clipped at {psi = 0} on a grid of
-/// `cut_subdivisions` squares along each axis and divided into triangles. Files of the same shape share one
-/// mesh.
+/// share. Files of the same shape share one mesh. In 2D full cells are divided by the lattice's degree; cut
+/// cells are clipped at {psi = 0} on a grid of `cut_subdivisions` squares along each axis and divided into
+/// triangles. In 3D all cells are divided into `cut_subdivisions` cubes along each axis; cubes that are cut
+/// become tetrahedra and wedges.
+template <int dim>
 class VtuMesh {
  public:
   /// `lattice` carries the fields, on psi's grid. The numbers of grid and psi are written as they are:
   /// `length_unit` is theirs.
-  VtuMesh(const LevelSet<2>& psi, const Lattice<2>& lattice, int cut_subdivisions,
+  VtuMesh(const LevelSet<dim>& psi, const Lattice<dim>& lattice, int cut_subdivisions,
           std::string_view length_unit = "m");
-  ~VtuMesh();
 
   /// The bytes of a ParaView file with psi and nodal fields; a field's unit follows its name. Scalars,
-  /// vectors (2 components) and symmetric tensors (xx, yy, zz, xy).
+  /// vectors (dim components) and symmetric tensors (xx, yy, zz, xy, in 3D also yz and xz).
   std::string file(std::span<const NamedField> fields) const;
 
   /// Writes that file, atomically. Throws OutputError.
   void write(const std::filesystem::path& path, std::span<const NamedField> fields) const;
 
  private:
-  struct Sector;
-
-  std::vector<std::vector<float>> values(const RingField& field) const;  ///< one list per component
-  std::vector<float> values(const RingField& field, int component) const;
-
-  Lattice<2> lattice_;
-  std::unique_ptr<Sector> sector_;
+  FieldPoints<dim> points_;
   std::string beginning_;  ///< of every file: what it says of the cells and psi
   std::string arrays_;     ///< their numbers
 };

@@ -48,9 +48,13 @@ std::string add_field(const std::string& name, const std::vector<std::vector<flo
       return arrays.add(name, 1, components[0]);
     case 2:
       return arrays.add(name, 3, interleaved(components, {0, 1, -1}));
-    default:
-      assert(components.size() == 4);
+    case 3:
+      return arrays.add(name, 3, interleaved(components, {0, 1, 2}));
+    case 4:
       return arrays.add(name, 6, interleaved(components, {0, 1, 2, 3, -1, -1}));
+    default:
+      assert(components.size() == 6);
+      return arrays.add(name, 6, interleaved(components, {0, 1, 2, 3, 4, 5}));
   }
 }
 
@@ -65,6 +69,30 @@ std::string vtu_beginning(std::size_t n_points, std::size_t n_cells, std::string
       "header_type=\"UInt64\">\n<UnstructuredGrid>\n"
       "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n{}  <PointData>\n",
       n_points, n_cells, mesh_tags);
+}
+
+std::string add_surface(const std::vector<float>& points, const std::vector<std::int32_t>& connectivity,
+                        const std::vector<std::int32_t>& offsets, AppendedArrays& arrays) {
+  const std::string point_tag = arrays.add("Points", 3, points),
+                    polygon_tags =
+                        arrays.add("connectivity", 1, connectivity) + arrays.add("offsets", 1, offsets);
+  return fmt::format("  <Points>\n{}  </Points>\n  <Polys>\n{}  </Polys>\n", point_tag, polygon_tags);
+}
+
+std::string vtp_beginning(std::size_t n_points, std::size_t n_polygons, std::string_view mesh_tags) {
+  return fmt::format(
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
+      "header_type=\"UInt64\">\n<PolyData>\n"
+      "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
+      "NumberOfPolys=\"{}\">\n{}  <PointData>\n",
+      n_points, n_polygons, mesh_tags);
+}
+
+std::string vtp_end(std::string_view polygon_fields, const std::string& arrays) {
+  return fmt::format("  </PointData>\n  <CellData>\n{}  </CellData>\n", polygon_fields) +
+         "</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_" + arrays +
+         "\n</AppendedData>\n</VTKFile>\n";
 }
 
 std::string vtu_end(const std::string& arrays) {

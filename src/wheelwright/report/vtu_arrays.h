@@ -10,7 +10,8 @@
 namespace wheelwright {
 
 /// VTK's numbers for the kinds of cells.
-inline constexpr std::uint8_t vtk_line = 3, vtk_triangle = 5, vtk_quadrilateral = 9;
+inline constexpr std::uint8_t vtk_line = 3, vtk_triangle = 5, vtk_quadrilateral = 9, vtk_tetrahedron = 10,
+                              vtk_hexahedron = 12, vtk_wedge = 13;
 
 template <class Number>
 inline constexpr const char* vtk_type = nullptr;
@@ -51,15 +52,25 @@ std::string add_mesh(const std::vector<float>& points, const std::vector<std::in
                      const std::vector<std::int32_t>& offsets, const std::vector<std::uint8_t>& types,
                      AppendedArrays& arrays);
 
-/// Adds a field at the points, given by components: a scalar, a vector in the plane, or a symmetric tensor
-/// (xx, yy, zz, xy). ParaView's vectors have 3 components, its symmetric tensors xx, yy, zz, xy, yz and xz.
+/// Adds a field at the points, given by components: a scalar, a vector (2 or 3 components), or a symmetric
+/// tensor (xx, yy, zz, xy, and in 3D yz and xz). ParaView's vectors have 3 components, its symmetric tensors
+/// xx, yy, zz, xy, yz and xz.
 std::string add_field(const std::string& name, const std::vector<std::vector<float>>& components,
                       AppendedArrays& arrays);
 
 /// A field's name in files: the unit, made a word, follows it.
 std::string vtu_name(std::string_view name, std::string_view unit);
 
-/// The XML before the fields, and what follows them.
+/// Adds points and the polygons of a surface, for a VTP file; their tags.
+std::string add_surface(const std::vector<float>& points, const std::vector<std::int32_t>& connectivity,
+                        const std::vector<std::int32_t>& offsets, AppendedArrays& arrays);
+
+/// The XML of a VTP file before the fields at the points, between them and those of the polygons, and what
+/// follows.
+std::string vtp_beginning(std::size_t n_points, std::size_t n_polygons, std::string_view mesh_tags);
+std::string vtp_end(std::string_view polygon_fields, const std::string& arrays);
+
+/// The XML of a VTU file before the fields, and what follows them.
 std::string vtu_beginning(std::size_t n_points, std::size_t n_cells, std::string_view mesh_tags);
 std::string vtu_end(const std::string& arrays);
 

@@ -22,6 +22,13 @@ struct PictureNames {
 /// scale, with its pressure), PREFIXdisplacement.svg (towards the ground) and PREFIXmesh.svg (the cut grid,
 /// `domain`). Where the whole wheel is drawn its displacement is magnified. Throws OutputError.
 void write_wheel_pictures(const std::filesystem::path& folder, const PictureNames& names,
-                          const LevelSet<2>& shape, const CutDomain<2>& domain, const PositionFields& fields);
+                          const LevelSet<2>& shape, const CutDomain<2>& domain,
+                          const PositionFields<2>& fields);
+
+/// The same in 3D, with lit surfaces: PREFIXstress.svg, PREFIXdisplacement.svg and PREFIXpressure.svg, the
+/// contact pressure seen from above.
+void write_wheel_pictures(const std::filesystem::path& folder, const PictureNames& names,
+                          const LevelSet<3>& shape, const CutDomain<3>& domain,
+                          const PositionFields<3>& fields);
 
 }  // namespace wheelwright

@@ -80,7 +80,8 @@ LevelSet<2> drawable(const LevelSet<dim>& shape) {
 }
 
 template <int dim>
-WheelState wheel(const std::string& heading, const LevelSet<dim>& shape, double objective, double measure) {
+WheelState<2> wheel(const std::string& heading, const LevelSet<dim>& shape, double objective,
+                    double measure) {
   return {heading, material_contours(drawable(shape), contour_subdivisions(shape.lattice.degree())),
           objective, volume_fraction(shape.lattice.grid(), measure)};
 }
@@ -92,12 +93,12 @@ std::string picture(const RunEnded<dim>& failure) {
   const std::string reason = to_string(trial.failure->reason);
   const double objective = trial.evaluation ? trial.evaluation->function("objective").value
                                             : std::numeric_limits<double>::quiet_NaN();
-  const WheelState rejected =
+  const WheelState<2> rejected =
       wheel("rejected: " + reason, trial.shape, objective, material_measure(trial.shape));
-  if (!failure.state) return shape_svg(grid, rejected.contours, rejected.heading);
+  if (!failure.state) return shape_svg(grid, rejected.boundary, rejected.heading);
   const OptimizationState<dim>& last = *failure.state;
-  const WheelState accepted = wheel(fmt::format("shape {}, accepted", last.iteration), last.shape,
-                                    last.evaluation.function("objective").value, last.measure);
+  const WheelState<2> accepted = wheel(fmt::format("shape {}, accepted", last.iteration), last.shape,
+                                       last.evaluation.function("objective").value, last.measure);
   return comparison_svg(grid, {.title = "Where the run gave up",
                                .caption = trial.failure->detail,
                                .objective_name = std::string(name(Quantity::objective)),

@@ -36,7 +36,7 @@ std::vector<std::string> feature_warnings(const Case& c, const cad::Clearances& 
         too_narrow("the thinnest wall", *measured.wall, "minimum_wall", *c.optimizer.minimum_wall));
   if (is_too_narrow(measured.gap, c.optimizer.minimum_gap))
     result.push_back(too_narrow("the narrowest gap", *measured.gap, "minimum_gap", *c.optimizer.minimum_gap));
-  const double cell = plane_grid(c).resolution();
+  const double cell = polar_grid<2>(c).resolution();
   if (measured.wall && measured.wall->width < least_cells_per_wall * cell)
     result.push_back(fmt::format(
         "the thinnest wall, {:.4g} mm at {}, is only {:.1f} cells thick: what it carries is not resolved; "

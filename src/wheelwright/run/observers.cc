@@ -18,17 +18,15 @@ Observers<dim> make_observers(const Case& c, const CheckpointFolder& checkpoints
                               const std::optional<Checkpoint<dim>>& resumed) {
   Observers<dim> observers;
   observers.push_back(std::make_unique<HistoryWriter<dim>>(resumed));
-  if constexpr (dim == 2) {
-    observers.push_back(std::make_unique<ShapeFiles>());
-    observers.push_back(std::make_unique<ShapePictures>());
-    observers.push_back(std::make_unique<DescentPictures>());
-  }
+  observers.push_back(std::make_unique<ShapeFiles<dim>>());
+  observers.push_back(std::make_unique<ShapePictures<dim>>());
+  if constexpr (dim == 2) observers.push_back(std::make_unique<DescentPictures>());
   observers.push_back(std::make_unique<ExpectationWatch<dim>>(c.expectations, resumed));
   observers.push_back(std::make_unique<PressureFiles<dim>>());
-  if constexpr (dim == 2) observers.push_back(std::make_unique<ResultFiles>());
+  observers.push_back(std::make_unique<ResultFiles<dim>>());
   observers.push_back(std::make_unique<FailureReport<dim>>());
   observers.push_back(std::make_unique<SummaryFile<dim>>());
-  if constexpr (dim == 2) observers.push_back(std::make_unique<ReportFile>());
+  observers.push_back(std::make_unique<ReportFile<dim>>());
   observers.push_back(std::make_unique<Checkpointer<dim>>(checkpoints, resumed));
   return observers;
 }

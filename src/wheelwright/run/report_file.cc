@@ -5,6 +5,7 @@
 
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/files/output_error.h"
+#include "wheelwright/geometry/section.h"
 #include "wheelwright/run/run_report.h"
 
 namespace wheelwright {
@@ -30,23 +31,28 @@ void add_outline(const std::filesystem::path& folder, const ShapeOutline& outlin
 
 }  // namespace
 
-void ReportFile::operator()(const Event<2>& event, const RunView<2>& run) {
+template <int dim>
+void ReportFile<dim>::operator()(const Event<dim>& event, const RunView<dim>& run) {
   if (const auto* started = std::get_if<RunStarted>(&event))
     keep_outlines(run.folder, started->resumed_after);
-  if (const auto* done = std::get_if<TrialDone<2>>(&event);
+  if (const auto* done = std::get_if<TrialDone<dim>>(&event);
       done && done->trial.verdict == Verdict::accepted) {
-    add_outline(run.folder, shape_outline(done->state.iteration, done->state.shape));
+    add_outline(run.folder, shape_outline(done->state.iteration, mid_plane_section(done->state.shape)));
     waited_ += since_written_.lap();
     if (waited_ >= seconds_between_pages) {
-      write_atomically(run.folder / page_file, report_page({report_of_folder(run.folder, run.study.source)}));
+      write_atomically(run.folder / page_file,
+                       report_page({page_run(report_of_folder<dim>(run.folder, run.study.source))}));
       waited_ = 0;
     }
   }
-  if (const auto* ended = std::get_if<RunEnded<2>>(&event); ended && ended->summary)
+  if (const auto* ended = std::get_if<RunEnded<dim>>(&event); ended && ended->summary)
     write_atomically(run.folder / page_file,
-                     report_page({report_of_results(run.folder, run.study.source, *ended->summary,
-                                                    {&ended->state->shape, ended->solver, ended->solution},
-                                                    ended->reason)}));
+                     report_page({page_run(report_of_results<dim>(
+                         run.folder, run.study.source, *ended->summary,
+                         {&ended->state->shape, ended->solver, ended->solution}, ended->reason))}));
 }
+
+template class ReportFile<2>;
+template class ReportFile<3>;
 
 }  // namespace wheelwright

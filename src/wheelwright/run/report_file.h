@@ -6,10 +6,11 @@
 namespace wheelwright {
 
 /// Writes report.html at the end, and every few seconds while the run goes on, for a browser that follows it;
-/// keeps the outlines of all accepted shapes for it. In 2D: its pictures are plane.
-class ReportFile : public Observer<2> {
+/// keeps the outlines of all accepted shapes for it.
+template <int dim>
+class ReportFile : public Observer<dim> {
  public:
-  void operator()(const Event<2>& event, const RunView<2>& run) override;
+  void operator()(const Event<dim>& event, const RunView<dim>& run) override;
 
  private:
   Stopwatch since_written_;

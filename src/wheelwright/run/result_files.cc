@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <numbers>
+#include <stdexcept>
 
 #include "wheelwright/files/atomic_file.h"
+#include "wheelwright/report/shape_boundary.h"
+#include "wheelwright/report/solid_mesh.h"
 #include "wheelwright/report/solution_fields.h"
+#include "wheelwright/report/surface_vtp.h"
 #include "wheelwright/report/svg.h"
 #include "wheelwright/report/tread_contact.h"
 #include "wheelwright/report/vtu.h"
@@ -15,63 +19,106 @@
 namespace wheelwright {
 namespace {
 
-WheelState wheel_state(const std::string& heading, const LevelSet<2>& shape, double objective,
-                       double measure) {
-  return {heading, material_contours(shape, contour_subdivisions(shape.lattice.degree())), objective,
+template <int dim>
+WheelState<dim> wheel_state(const RunView<dim>& run, const std::string& heading, const LevelSet<dim>& shape,
+                            double objective, double measure) {
+  return {heading, shape_boundary(shape, run.study.model().degree), objective,
           volume_fraction(shape.lattice.grid(), measure)};
 }
 
-void write_shapes(const RunView<2>& run, const OptimizationState<2>& last) {
-  const PolarGrid<2>& grid = run.study.grid();
-  const std::string title = run_title(run.study.source);
-  const InitialShape<2>& initial = *run.initial;
-  const WheelState before = wheel_state("initial", initial.shape, initial.objective, initial.measure);
-  const WheelState after = wheel_state(fmt::format("after {} shapes", last.iteration), last.shape,
-                                       last.evaluation.function("objective").value, last.measure);
-  write_atomically(run.folder / "shape.svg", shape_svg(grid, after.contours, title));
+void write_for_workshop(const RunView<2>& run, const std::vector<Contour>& contours) {
+  write_atomically(run.folder / "shape.svg",
+                   shape_svg(run.study.grid(), contours, run_title(run.study.source)));
+}
+
+void write_for_workshop(const RunView<3>& run, const SurfaceMesh& surface) {
+  const SolidMesh solid = solid_mesh(surface);
+  if (const auto checked = check_solid(solid); !checked)
+    throw std::logic_error("shape.stl: " + checked.failure().what);
+  write_atomically(run.folder / "shape.stl",
+                   stl_file(solid, "wheelwright, millimetres: " + run_title(run.study.source)));
+}
+
+template <int dim>
+void write_shapes(const RunView<dim>& run, const OptimizationState<dim>& last) {
+  const InitialShape<dim>& initial = *run.initial;
+  const auto before = wheel_state(run, "initial", initial.shape, initial.objective, initial.measure);
+  const auto after = wheel_state(run, fmt::format("after {} shapes", last.iteration), last.shape,
+                                 last.evaluation.function("objective").value, last.measure);
+  write_for_workshop(run, after.boundary);
   write_atomically(run.folder / "comparison.svg",
-                   comparison_svg(grid, {.title = title,
-                                         .caption = fmt::format("sum over {} load positions, {}",
-                                                                run.study.model().n_positions,
-                                                                load_text(run.study.model())),
-                                         .objective_name = std::string(name(Quantity::objective)),
-                                         .objective_unit = unit<2>(kind(Quantity::objective)),
-                                         .before = before,
-                                         .after = after}));
+                   comparison_svg(run.study.grid(),
+                                  Comparison<dim>{.title = run_title(run.study.source),
+                                                  .caption = fmt::format("sum over {} load positions, {}",
+                                                                         run.study.model().n_positions,
+                                                                         load_text(run.study.model())),
+                                                  .objective_name = std::string(name(Quantity::objective)),
+                                                  .objective_unit = unit<dim>(kind(Quantity::objective)),
+                                                  .before = before,
+                                                  .after = after}));
 }
 
 /// The wheel, its tread and the ground in every load position, at the azimuth of the contact in degrees.
-void write_rolling(const RunView<2>& run, const LevelSet<2>& shape,
-                   const std::vector<PositionFields>& positions, const std::vector<TreadContact>& treads) {
-  make_subfolder(run.folder / "rolling");
-  const VtuMesh mesh(shape, positions.front().lattice, vtu_cut_subdivisions);
-  std::vector<PvdEntry> entries;
-  for (size_t i = 0; i < positions.size(); ++i) {
-    const auto file = [&](const char* part) { return fmt::format("rolling/{}_{:02d}.vtu", part, i); };
-    const double ground_azimuth = positions[i].ground_azimuth;
-    mesh.write(run.folder / file("wheel"), named_fields(positions[i]));
-    write_tread_vtu(run.folder / file("tread"), treads[i]);
-    write_ground_vtu(run.folder / file("ground"), run.study.grid(), ground_azimuth);
-    const double degrees = ground_azimuth * 180 / std::numbers::pi;
-    for (const char* part : {"wheel", "tread", "ground"})
-      entries.push_back({degrees, file(part), static_cast<int>(entries.size() % 3), part});
+template <int dim>
+class RollingFiles {
+ public:
+  RollingFiles(const RunView<dim>& run, const LevelSet<dim>& shape, std::vector<TreadContact<dim>> treads)
+      : run_(run),
+        mesh_(shape, displacement_lattice(run.study.model()), vtu_cut_subdivisions<dim>),
+        treads_(std::move(treads)) {
+    make_subfolder(run.folder / "rolling");
   }
-  write_pvd(run.folder / "rolling.pvd", entries);
+
+  void write(int position, const PositionFields<dim>& fields) {
+    const auto file = [&](const char* part) { return fmt::format("rolling/{}_{:02d}.vtu", part, position); };
+    mesh_.write(run_.folder / file("wheel"), named_fields(fields));
+    write_tread_vtu<dim>(run_.folder / file("tread"), treads_[position]);
+    write_ground_vtu(run_.folder / file("ground"), run_.study.grid(), fields.ground_azimuth);
+    const double degrees = fields.ground_azimuth * 180 / std::numbers::pi;
+    for (const char* part : {"wheel", "tread", "ground"})
+      entries_.push_back({degrees, file(part), static_cast<int>(entries_.size() % 3), part});
+  }
+
+  void write_collection() const { write_pvd(run_.folder / "rolling.pvd", entries_); }
+
+ private:
+  const RunView<dim>& run_;
+  VtuMesh<dim> mesh_;
+  std::vector<TreadContact<dim>> treads_;
+  std::vector<PvdEntry> entries_;
+};
+
+void write_surface(const RunView<2>&, const LevelSet<2>&, const PositionFields<2>&) {}
+
+void write_surface(const RunView<3>& run, const LevelSet<3>& shape, const PositionFields<3>& worst) {
+  write_atomically(run.folder / "surface.vtp", surface_vtp(shape_boundary(shape, run.study.model().degree),
+                                                           worst.lattice, named_fields(worst)));
 }
 
 }  // namespace
 
-void ResultFiles::operator()(const Event<2>& event, const RunView<2>& run) {
-  const auto* ended = std::get_if<RunEnded<2>>(&event);
+template <int dim>
+void ResultFiles<dim>::operator()(const Event<dim>& event, const RunView<dim>& run) {
+  const auto* ended = std::get_if<RunEnded<dim>>(&event);
   if (!ended || !ended->solution) return;
-  const LevelSet<2>& shape = ended->state->shape;
-  const State<2>& solution = *ended->solution;
+  const LevelSet<dim>& shape = ended->state->shape;
+  const State<dim>& solution = *ended->solution;
   write_shapes(run, *ended->state);
-  const auto positions = all_position_fields(*ended->solver, solution);
-  write_rolling(run, shape, positions, all_tread_contacts(*ended->solver, solution));
-  write_wheel_pictures(
-      run.folder, {.prefix = "", .title = run_title(run.study.source), .width = run.study.source.wheel.width},
-      shape, solution.domain(), positions[worst_position(solution.strain_energy())]);
+  RollingFiles<dim> rolling(run, shape, all_tread_contacts(*ended->solver, solution));
+  const int worst = worst_position(solution.strain_energy());
+  for_each_position<dim>(*ended->solver, solution, [&](int position, const PositionFields<dim>& fields) {
+    rolling.write(position, fields);
+    if (position != worst) return;
+    write_surface(run, shape, fields);
+    write_wheel_pictures(
+        run.folder,
+        {.prefix = "", .title = run_title(run.study.source), .width = run.study.source.wheel.width}, shape,
+        solution.domain(), fields);
+  });
+  rolling.write_collection();
 }
+
+template class ResultFiles<2>;
+template class ResultFiles<3>;
 
 }  // namespace wheelwright

@@ -4,12 +4,14 @@
 
 namespace wheelwright {
 
-/// Writes the result of a run that ended by itself: shape.svg for cutting, comparison.svg and the pictures of
-/// wheel_pictures.h to look at, and rolling.pvd with the fields of every load position. In 2D: pictures and
-/// VTU files are plane.
-class ResultFiles : public Observer<2> {
+/// Writes the result of a run that ended by itself: the shape for the workshop (in 2D shape.svg for cutting,
+/// in 3D the closed surface shape.stl), comparison.svg and the pictures of wheel_pictures.h to look at, and
+/// rolling.pvd with the fields of every load position; in 3D also surface.vtp, the surface with the fields of
+/// the worst position.
+template <int dim>
+class ResultFiles : public Observer<dim> {
  public:
-  void operator()(const Event<2>& event, const RunView<2>& run) override;
+  void operator()(const Event<dim>& event, const RunView<dim>& run) override;
 };
 
 }  // namespace wheelwright

@@ -8,6 +8,9 @@
 
 #include "wheelwright/case/derived.h"
 #include "wheelwright/files/csv.h"
+#include "wheelwright/report/shape_boundary.h"
+#include "wheelwright/report/surface_vtp.h"
+#include "wheelwright/report/wheel_pictures.h"
 #include "wheelwright/run/feature_warnings.h"
 #include "wheelwright/run/history.h"
 #include "wheelwright/run/provenance.h"
@@ -26,7 +29,8 @@ double number(const std::string& cell) {
 }
 
 /// The columns of the accepted shapes that hold numbers, and how many trials there were.
-void read_history(const fs::path& file, ReportRun& run) {
+template <int dim>
+void read_history(const fs::path& file, ReportRun<dim>& run) {
   std::ifstream stream(file);
   std::string line;
   if (!std::getline(stream, line)) return;
@@ -53,7 +57,8 @@ std::string content(const fs::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-double last_elapsed(const ReportRun& run) {
+template <int dim>
+double last_elapsed(const ReportRun<dim>& run) {
   for (const HistoryCurve& curve : run.history)
     if (curve.name.starts_with("elapsed") && !curve.values.empty()) return curve.values.back();
   return 0;
@@ -78,7 +83,8 @@ std::string status_text(std::optional<StopReason> reason) {
   return "";
 }
 
-std::vector<std::string> flags(const Case& c, const DescribedWheel<2>& wheel,
+template <int dim>
+std::vector<std::string> flags(const Case& c, const DescribedWheel<dim>& wheel,
                                std::optional<StopReason> reason) {
   std::vector<std::string> result;
   if (const auto warning = deformation_warning(wheel.summary.deformation); !warning.empty())
@@ -99,6 +105,34 @@ std::vector<std::string> flags(const Case& c, const DescribedWheel<2>& wheel,
   return result;
 }
 
+void add_fields(const SolvedShape<2>& last, ReportRun<2>& run) {
+  run.positions = all_position_fields(*last.solver, *last.solution);
+}
+
+/// Bytes that the fields of so many positions take in the page.
+double page_bytes(const SurfaceMesh& surface, int positions) {
+  constexpr double bytes_per_vertex = (3 * 2 + 1) * 4.0 / 3;
+  return bytes_per_vertex * static_cast<double>(surface.points.size()) * positions;
+}
+
+/// The surface, as fine as the page holds it with all positions; where it is too large even with one cube per
+/// cell, only the worst position is shown.
+void add_fields(const SolvedShape<3>& last, ReportRun<3>& run) {
+  constexpr double most_bytes = 8e6;
+  const int degree = last.solver->model().degree, n_positions = last.solver->model().n_positions;
+  run.surface = shape_boundary(*last.shape, degree);
+  if (page_bytes(run.surface, n_positions) > most_bytes)
+    run.surface = material_surface(*last.shape, 1, degree);
+  const bool all = page_bytes(run.surface, n_positions) <= most_bytes;
+  const int worst = worst_position(last.solution->strain_energy());
+  const auto points = field_points(run.surface, displacement_lattice(last.solver->model()));
+  for_each_position<3>(*last.solver, *last.solution, [&](int position, const PositionFields<3>& fields) {
+    if (!all && position != worst) return;
+    run.positions.push_back({fields.ground_azimuth, points.values({"displacement", "m", fields.displacement}),
+                             points.values(von_mises_field(fields.stress))[0]});
+  });
+}
+
 }  // namespace
 
 std::vector<ShapeOutline> read_outlines(const fs::path& folder) {
@@ -109,41 +143,51 @@ std::vector<ShapeOutline> read_outlines(const fs::path& folder) {
   return outlines;
 }
 
-ReportRun report_of_folder(const fs::path& folder, const Case& c) {
-  ReportRun run{.name = (fs::absolute(folder).lexically_normal() / "").parent_path().filename().string(),
-                .title = run_title(c),
-                .status = "running",
-                .is_running = true,
-                .program = program_text(),
-                .case_text = content(folder / "case.toml"),
-                .seconds = 0,
-                .load = load_text(rolling_model<2>(c)),
-                .grid = polar_grid<2>(c),
-                .trials = 0,
-                .rejected = 0,
-                .history = {},
-                .outlines = read_outlines(folder),
-                .flags = {},
-                .summary = {},
-                .positions = {},
-                .contact_points = {}};
+template <int dim>
+ReportRun<dim> report_of_folder(const fs::path& folder, const Case& c) {
+  ReportRun<dim> run{.name = (fs::absolute(folder).lexically_normal() / "").parent_path().filename().string(),
+                     .title = run_title(c),
+                     .status = "running",
+                     .is_running = true,
+                     .program = program_text(),
+                     .case_text = content(folder / "case.toml"),
+                     .seconds = 0,
+                     .load = load_text(rolling_model<dim>(c)),
+                     .grid = polar_grid<dim>(c),
+                     .trials = 0,
+                     .rejected = 0,
+                     .history = {},
+                     .outlines = read_outlines(folder),
+                     .flags = {},
+                     .summary = {},
+                     .surface = {},
+                     .positions = {},
+                     .contact_points = {}};
   read_history(folder / history_file, run);
   run.seconds = last_elapsed(run);
   std::erase_if(run.history, [](const HistoryCurve& curve) { return curve.name.ends_with("[s]"); });
   return run;
 }
 
-ReportRun report_of_results(const fs::path& folder, const Case& c, const RunSummary<2>& summary,
-                            const SolvedShape& last, std::optional<StopReason> reason) {
-  ReportRun run = report_of_folder(folder, c);
+template <int dim>
+ReportRun<dim> report_of_results(const fs::path& folder, const Case& c, const RunSummary<dim>& summary,
+                                 const SolvedShape<dim>& last, std::optional<StopReason> reason) {
+  ReportRun<dim> run = report_of_folder<dim>(folder, c);
   run.is_running = false;
   run.status = status_text(reason);
   run.flags = flags(c, summary.after.wheel, reason);
   run.summary = summary;
   run.shape = last.shape;
-  run.positions = all_position_fields(*last.solver, *last.solution);
+  add_fields(last, run);
   run.contact_points = contact_points(*last.solver, *last.solution);
   return run;
 }
+
+template ReportRun<2> report_of_folder(const fs::path&, const Case&);
+template ReportRun<3> report_of_folder(const fs::path&, const Case&);
+template ReportRun<2> report_of_results(const fs::path&, const Case&, const RunSummary<2>&,
+                                        const SolvedShape<2>&, std::optional<StopReason>);
+template ReportRun<3> report_of_results(const fs::path&, const Case&, const RunSummary<3>&,
+                                        const SolvedShape<3>&, std::optional<StopReason>);
 
 }  // namespace wheelwright

@@ -15,17 +15,21 @@ inline constexpr const char* outline_file = "outlines.jsonl";
 std::vector<ShapeOutline> read_outlines(const std::filesystem::path& folder);
 
 /// What is known of a run while it goes on: what its folder says.
-ReportRun report_of_folder(const std::filesystem::path& folder, const Case& c);
+template <int dim>
+ReportRun<dim> report_of_folder(const std::filesystem::path& folder, const Case& c);
 
 /// A shape that was solved for results.
+template <int dim>
 struct SolvedShape {
-  const LevelSet<2>* shape;
-  const StateSolver<2>* solver;
-  const State<2>* solution;
+  const LevelSet<dim>* shape;
+  const StateSolver<dim>* solver;
+  const State<dim>* solution;
 };
 
 /// The same of a run that ended, with its last shape. `reason` is absent where it is not known to have ended.
-ReportRun report_of_results(const std::filesystem::path& folder, const Case& c, const RunSummary<2>& summary,
-                            const SolvedShape& last, std::optional<StopReason> reason);
+template <int dim>
+ReportRun<dim> report_of_results(const std::filesystem::path& folder, const Case& c,
+                                 const RunSummary<dim>& summary, const SolvedShape<dim>& last,
+                                 std::optional<StopReason> reason);
 
 }  // namespace wheelwright

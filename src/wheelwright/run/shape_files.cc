@@ -12,58 +12,65 @@ namespace {
 
 std::string shape_file(int iteration) { return fmt::format("shapes/shape_{:04d}.vtu", iteration); }
 
-bool is_due(const TrialDone<2>& done, int every) {
+template <int dim>
+bool is_due(const TrialDone<dim>& done, int every) {
   return done.trial.verdict == Verdict::accepted && done.trial.solution && every > 0 &&
          done.state.iteration % every == 0;
 }
 
 /// The extended shape gradient at the nodes, in the unit of its density; nothing where it cannot be computed.
-std::optional<LevelSet<2>> shape_gradient_field(const OptimizationState<2>& state,
-                                                const Evolver<2>& evolver) {
+template <int dim>
+std::optional<LevelSet<dim>> shape_gradient_field(const OptimizationState<dim>& state,
+                                                  const Evolver<dim>& evolver) {
   auto velocity = evolver.velocity(state.evaluation.gradient("objective"));
   if (!velocity) return {};
   for (double& value : *velocity) value = -value;
-  return LevelSet<2>{state.shape.lattice, *std::move(velocity)};
+  return LevelSet<dim>{state.shape.lattice, *std::move(velocity)};
 }
 
 }  // namespace
 
-void ShapeFiles::operator()(const Event<2>& event, const RunView<2>& run) {
+template <int dim>
+void ShapeFiles<dim>::operator()(const Event<dim>& event, const RunView<dim>& run) {
   if (const auto* started = std::get_if<RunStarted>(&event); started && started->resumed_after)
     list_shapes(run.folder, *started->resumed_after);
-  if (const auto* done = std::get_if<TrialDone<2>>(&event);
+  if (const auto* done = std::get_if<TrialDone<dim>>(&event);
       done && is_due(*done, run.study.source.output.vtu_every))
     write(*done, run);
 }
 
-void ShapeFiles::list_shapes(const std::filesystem::path& folder, int last_iteration) {
+template <int dim>
+void ShapeFiles<dim>::list_shapes(const std::filesystem::path& folder, int last_iteration) {
   for (int iteration = 0; iteration <= last_iteration; ++iteration)
     if (std::filesystem::exists(folder / shape_file(iteration)))
       shapes_.push_back({static_cast<double>(iteration), shape_file(iteration)});
   if (!shapes_.empty()) write_pvd(folder / "shapes.pvd", shapes_);
 }
 
-void ShapeFiles::write(const TrialDone<2>& done, const RunView<2>& run) {
-  const StateSolver<2>& solver = *run.study.solver;
-  const State<2>& solution = *done.trial.solution;
-  const PositionFields worst = position_fields(solver, solution, worst_position(solution.strain_energy()));
+template <int dim>
+void ShapeFiles<dim>::write(const TrialDone<dim>& done, const RunView<dim>& run) {
+  const StateSolver<dim>& solver = *run.study.solver;
+  const State<dim>& solution = *done.trial.solution;
+  const PositionFields<dim> worst =
+      position_fields(solver, solution, worst_position(solution.strain_energy()));
   auto fields = named_fields(worst);
   if (const auto gradient = shape_gradient_field(done.state, run.evolver))
     fields.push_back(
-        {"shape_gradient", unit<2>(UnitKind::stress), repeated_field(solver.model(), *gradient)});
+        {"shape_gradient", unit<dim>(UnitKind::stress), repeated_field(solver.model(), *gradient)});
   const int iteration = done.state.iteration;
   make_subfolder(run.folder / "shapes");
-  VtuMesh(done.state.shape, worst.lattice, vtu_cut_subdivisions)
+  VtuMesh<dim>(done.state.shape, worst.lattice, vtu_cut_subdivisions<dim>)
       .write(run.folder / shape_file(iteration), fields);
   std::erase_if(shapes_, [&](const PvdEntry& entry) { return entry.time == iteration; });
   shapes_.push_back({static_cast<double>(iteration), shape_file(iteration)});
   write_pvd(run.folder / "shapes.pvd", shapes_);
 }
 
-void ShapePictures::operator()(const Event<2>& event, const RunView<2>& run) {
-  const auto* done = std::get_if<TrialDone<2>>(&event);
+template <int dim>
+void ShapePictures<dim>::operator()(const Event<dim>& event, const RunView<dim>& run) {
+  const auto* done = std::get_if<TrialDone<dim>>(&event);
   if (!done || !is_due(*done, run.study.source.output.pictures_every)) return;
-  const State<2>& solution = *done->trial.solution;
+  const State<dim>& solution = *done->trial.solution;
   make_subfolder(run.folder / "shapes");
   write_wheel_pictures(
       run.folder / "shapes",
@@ -73,5 +80,10 @@ void ShapePictures::operator()(const Event<2>& event, const RunView<2>& run) {
       done->state.shape, solution.domain(),
       position_fields(*run.study.solver, solution, worst_position(solution.strain_energy())));
 }
+
+template class ShapeFiles<2>;
+template class ShapeFiles<3>;
+template class ShapePictures<2>;
+template class ShapePictures<3>;
 
 }  // namespace wheelwright

@@ -7,26 +7,28 @@
 
 namespace wheelwright {
 
-// Files of the shapes along the way. In 2D: the formats hold plane fields and pictures.
+// Files of the shapes along the way.
 
 /// Writes shapes/shape_NNNN.vtu with the fields of the worst load position, as often as the case asks, and
 /// shapes.pvd over all of them.
-class ShapeFiles : public Observer<2> {
+template <int dim>
+class ShapeFiles : public Observer<dim> {
  public:
-  void operator()(const Event<2>& event, const RunView<2>& run) override;
+  void operator()(const Event<dim>& event, const RunView<dim>& run) override;
 
  private:
   /// Of a run that is resumed: the files that exist already. Later ones are dropped from shapes.pvd.
   void list_shapes(const std::filesystem::path& folder, int last_iteration);
-  void write(const TrialDone<2>& done, const RunView<2>& run);
+  void write(const TrialDone<dim>& done, const RunView<dim>& run);
 
   std::vector<PvdEntry> shapes_;
 };
 
 /// Draws shapes/shape_NNNN_*.svg (wheel_pictures.h), as often as the case asks.
-class ShapePictures : public Observer<2> {
+template <int dim>
+class ShapePictures : public Observer<dim> {
  public:
-  void operator()(const Event<2>& event, const RunView<2>& run) override;
+  void operator()(const Event<dim>& event, const RunView<dim>& run) override;
 };
 
 }  // namespace wheelwright

@@ -45,7 +45,7 @@ std::optional<Draft> draft(const DraftSpace& space, Random& random, int number) 
 DraftSpace draft_space(const Case& c, const StartRange& range) {
   const auto [inner, outer] = free_region(c);
   const double thinnest = 1.5;  // cells
-  return {inner, outer, thinnest * plane_grid(c).resolution(), range.keeps_sectors ? c.wheel.sectors : 1};
+  return {inner, outer, thinnest * polar_grid<2>(c).resolution(), range.keeps_sectors ? c.wheel.sectors : 1};
 }
 
 /// About as many cells as the case has, a multiple of the sectors and, where the case's can be halved, of

@@ -25,8 +25,8 @@ constexpr const char* result_file = "analysis.json";
 
 /// What is written to the folder: whoever adds a file adds its name here.
 constexpr std::string_view names_in_folder[] = {
-    "analysis.json", "travel.svg", "force.svg",  "peak_pressure.svg",  "pressures.svg",   "pressures.csv",
-    "loads.svg",     "mesh.svg",   "stress.svg", "stress_contact.svg", "displacement.svg"};
+    "analysis.json", "travel.svg", "force.svg",  "peak_pressure.svg",  "pressures.svg",    "pressures.csv",
+    "loads.svg",     "mesh.svg",   "stress.svg", "stress_contact.svg", "displacement.svg", "pressure.svg"};
 
 /// Loads on the whole width [N]. The wheel's name stands for a title that is missing.
 template <int dim>
@@ -61,21 +61,17 @@ void write_plots(const std::filesystem::path& folder, const RollingReport& repor
 }
 
 /// The contact of all positions, and pictures of the loaded wheel.
-void write_fields(const std::filesystem::path& folder, const RollingReport& report, const LevelSet<2>& shape,
-                  const StateSolver<2>& solver, const State<2>& states) {
+template <int dim>
+void write_fields(const std::filesystem::path& folder, const RollingReport& report,
+                  const LevelSet<dim>& shape, const StateSolver<dim>& solver, const State<dim>& states) {
   const auto points = contact_points(solver, states);
-  write_atomically(folder / "pressures.svg",
-                   plot_svg(pressure_plot(points, report.analysis.azimuths, "Contact pressure")));
-  write_pressure_csv<2>(folder / "pressures.csv", points);
+  if constexpr (dim == 2)
+    write_atomically(folder / "pressures.svg",
+                     plot_svg(pressure_plot(points, report.analysis.azimuths, "Contact pressure")));
+  write_pressure_csv<dim>(folder / "pressures.csv", points);
   write_wheel_pictures(folder, {.prefix = "", .title = report.title, .width = report.width}, shape,
                        states.domain(),
                        position_fields(solver, states, worst_position(states.strain_energy())));
-}
-
-/// The contact of all positions; pictures of the loaded wheel are plane.
-void write_fields(const std::filesystem::path& folder, const RollingReport&, const LevelSet<3>&,
-                  const StateSolver<3>& solver, const State<3>& states) {
-  write_pressure_csv<3>(folder / "pressures.csv", contact_points(solver, states));
 }
 
 std::string check_loads(const std::string& text) {

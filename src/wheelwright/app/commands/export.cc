@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include "wheelwright/app/case_input.h"
 #include "wheelwright/app/commands/commands.h"
@@ -13,6 +14,7 @@
 #include "wheelwright/cad/check_outline.h"
 #include "wheelwright/cad/fit_outline.h"
 #include "wheelwright/case/version.h"
+#include "wheelwright/export/fit_surface.h"
 #include "wheelwright/export/formats.h"
 #include "wheelwright/export/plugin.h"
 #include "wheelwright/files/atomic_file.h"
@@ -22,17 +24,34 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* default_formats = "dxf,svg,stl";
-constexpr double default_tolerance = 0.01, least_tolerance = 0.001, greatest_tolerance = 1000;  // [mm]
-constexpr double finest_share = 1e-6;  // of the outer radius, that the tolerance may be
+constexpr const char *default_formats = "dxf,svg,stl", *default_formats_3d = "stl";
+constexpr double default_tolerance = 0.01, default_tolerance_3d = 0.1, least_tolerance = 0.001,
+                 greatest_tolerance = 1000;  // [mm]
+constexpr double finest_share = 1e-6;        // of the outer radius, that the tolerance may be
 
 using Formats = std::vector<const ExportFormat*>;
 
-std::string names_of_formats() {
+bool can_hold(const ExportFormat& format, const WheelModel*) { return format.of_plane != nullptr; }
+bool can_hold(const ExportFormat& format, const SurfaceModel*) { return format.of_surface != nullptr; }
+std::string file(const ExportFormat& format, const WheelModel& wheel) { return format.of_plane(wheel); }
+std::string file(const ExportFormat& format, const SurfaceModel& wheel) { return format.of_surface(wheel); }
+
+template <class Formats>
+std::string joined_names(Formats&& formats) {
   std::string names;
-  for (const ExportFormat& format : export_formats())
+  for (const ExportFormat& format : formats)
     names += fmt::format("{}{}", names.empty() ? "" : ", ", format.name);
   return names;
+}
+
+std::string names_of_formats() { return joined_names(export_formats()); }
+
+/// Those that can hold a wheel of this kind.
+template <class Model>
+std::string names_of_formats_for() {
+  return joined_names(export_formats() | std::views::filter([](const ExportFormat& format) {
+                        return can_hold(format, static_cast<const Model*>(nullptr));
+                      }));
 }
 
 /// The formats of a list like "dxf,svg", each once; nothing if one of them is unknown or the list is empty.
@@ -74,48 +93,97 @@ class ExportCommand : public Subcommand {
   void declare(Options& options) override {
     add_wheel(options, input_);
     options.text("--format", "NAME,NAME,...", formats_, check_formats,
-                 fmt::format("Any of {}; without it {}", names_of_formats(), default_formats));
-    options.text("--tolerance", "MM", tolerance_, check_tolerance,
-                 fmt::format("Largest distance of the curves from the shape's edges [mm]; without it {}",
-                             default_tolerance));
+                 fmt::format("Any of {}; without it {}, for a wheel in 3D {}", names_of_formats(),
+                             default_formats, default_formats_3d));
+    options.text(
+        "--tolerance", "MM", tolerance_, check_tolerance,
+        fmt::format("Largest distance of the curves, in 3D of the triangles, from the shape's edges [mm]; "
+                    "without it {}, in 3D {}",
+                    default_tolerance, default_tolerance_3d));
     add_output(options, output_, "Folder for the files; without it the current one");
     options.flag("--force", force_, "Overwrite files that exist");
   }
 
   int run() override {
-    const auto wheel = read_plane_wheel_or_tell(input_, {name(), {}});
+    const auto wheel = read_wheel_or_tell(input_, {name(), {}});
     if (!wheel) return wheel.failure();
-    return export_wheel(*wheel);
+    return std::visit([this](const auto& input) { return export_wheel(input); }, *wheel);
   }
 
  private:
-  double tolerance() const {
+  double tolerance(double without_option) const {
     constexpr double metres_per_millimetre = 1e-3;
-    return metres_per_millimetre * (tolerance_ ? *parse_tolerance(*tolerance_) : default_tolerance);
+    return metres_per_millimetre * (tolerance_ ? *parse_tolerance(*tolerance_) : without_option);
+  }
+
+  Formats formats(const char* without_option) const {
+    return *parse_formats(formats_ ? *formats_ : without_option);
+  }
+
+  /// Whether they can hold such a wheel; tells which cannot.
+  template <class Model>
+  bool can_hold_or_tell(const Formats& formats) const {
+    for (const ExportFormat* format : formats) {
+      if (can_hold(*format, static_cast<const Model*>(nullptr))) continue;
+      constexpr bool is_solid = std::is_same_v<Model, SurfaceModel>;
+      tell("wheelwright {}: {} cannot hold {}; choose from {}\n", name(), format->name,
+           is_solid ? "a wheel in 3D, whose shape changes along the axle" : "a plane wheel",
+           names_of_formats_for<Model>());
+      return false;
+    }
+    return true;
   }
 
   int export_wheel(const WheelInput<2>& input) const {
-    if (const double finest = finest_share * input.source.wheel.outer_radius; tolerance() < finest) {
+    const double accuracy = tolerance(default_tolerance);
+    const Formats chosen = formats(default_formats);
+    if (!can_hold_or_tell<WheelModel>(chosen)) return exit_usage;
+    if (const double finest = finest_share * input.source.wheel.outer_radius; accuracy < finest) {
       tell("wheelwright {}: the tolerance must be at least {:.3g} mm for a wheel of this size\n", name(),
            finest * 1e3);
       return exit_usage;
     }
-    const auto outline = cad::fit_outline(input.shape, tolerance());
+    const auto outline = cad::fit_outline(input.shape, accuracy);
     if (!outline) return refuse({outline.failure()});
-    const auto report = cad::check_outline(*outline, input.shape, tolerance());
+    const auto report = cad::check_outline(*outline, input.shape, accuracy);
     if (!report) return refuse(report.failure());
-    const std::string title =
-        without_control_characters(input.source.title.empty() ? input.name : input.source.title);
-    const WheelModel wheel{.title = fmt::format("{}, {}", title, input.which),
-                           .program = fmt::format("wheelwright {}", version()),
+    const WheelModel wheel{.title = title(input),
+                           .program = program(),
                            .shape = input.shape,
                            .outline = *outline,
                            .width = input.source.wheel.width,
-                           .tolerance = tolerance()};
+                           .tolerance = accuracy};
     fmt::print("{:<16} {}\n{}", "wheel", wheel.title, text(*report));
-    if (report->bodies > 1)
-      print_warning(stderr, fmt::format("the material is not connected: {} pieces", report->bodies));
-    return write(wheel, input.name);
+    warn_of_pieces(report->bodies);
+    return write(wheel, chosen, input.name);
+  }
+
+  int export_wheel(const WheelInput<3>& input) const {
+    const Formats chosen = formats(default_formats_3d);
+    if (!can_hold_or_tell<SurfaceModel>(chosen)) return exit_usage;
+    const auto fitted = fit_surface(input.shape, input.source.grid.degree, tolerance(default_tolerance_3d));
+    if (!fitted) return refuse({{fitted.failure().what}});
+    const SurfaceModel wheel{.title = title(input),
+                             .program = program(),
+                             .shape = input.shape,
+                             .surface = fitted->surface,
+                             .parts = fitted->parts,
+                             .map_degree = input.source.grid.degree};
+    fmt::print("{:<16} {}\n{}", "wheel", wheel.title, text(*fitted));
+    warn_of_pieces(fitted->report.bodies);
+    return write(wheel, chosen, input.name);
+  }
+
+  template <int dim>
+  static std::string title(const WheelInput<dim>& input) {
+    const std::string own = input.source.title.empty() ? input.name : input.source.title;
+    return fmt::format("{}, {}", without_control_characters(own), input.which);
+  }
+
+  static std::string program() { return fmt::format("wheelwright {}", version()); }
+
+  static void warn_of_pieces(int bodies) {
+    if (bodies > 1) print_warning(stderr, fmt::format("the material is not connected: {} pieces", bodies));
   }
 
   int refuse(const std::vector<cad::OutlineFault>& faults) const {
@@ -125,10 +193,10 @@ class ExportCommand : public Subcommand {
   }
 
   /// Makes all files before the first is written.
-  int write(const WheelModel& wheel, const std::string& stem) const {
+  template <class Model>
+  int write(const Model& wheel, const Formats& formats, const std::string& stem) const {
     const fs::path folder = output_ ? fs::path(*output_) : fs::path(".");
     std::vector<std::pair<fs::path, std::string>> files;
-    const Formats formats = *parse_formats(formats_ ? *formats_ : default_formats);
     for (const ExportFormat* format : formats) {
       const fs::path path = folder / fmt::format("{}.{}", stem, format->name);
       if (!force_ && fs::exists(fs::symlink_status(path))) {
@@ -136,7 +204,7 @@ class ExportCommand : public Subcommand {
         return exit_refused;
       }
       try {
-        files.emplace_back(path, format->file(wheel));
+        files.emplace_back(path, file(*format, wheel));
       } catch (const MissingPlugin& missing) {
         tell("wheelwright {}: {}: {}\n", name(), format->name, missing.what());
         return exit_refused;

@@ -13,18 +13,20 @@
 namespace wheelwright {
 namespace {
 
-Expected<DescribedWheel<2>> described(const StateSolver<2>& solver, const LevelSet<2>& psi, double measure,
-                                      const State<2>& states) {
+template <int dim>
+Expected<DescribedWheel<dim>> described(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
+                                        double measure, const State<dim>& states) {
   return described_wheel(solver, psi, volume_fraction(solver.model().grid, measure), states);
 }
 
 /// Solves the first and the last shape of a run again, for what its folder does not keep.
-Expected<ReportRun> report_of_run(const RunInput<2>& run) {
-  const auto made = make_solver(rolling_model<2>(with_levels_of_results(run.source)));
+template <int dim>
+Expected<PageRun> report_of_run(const RunInput<dim>& run) {
+  const auto made = make_solver(rolling_model<dim>(with_levels_of_results(run.source)));
   if (!made) return made.failure();
-  const StateSolver<2>& solver = **made;
-  const InitialShape<2>& initial = run.checkpoint.initial;
-  const OptimizationState<2>& last = run.checkpoint.state;
+  const StateSolver<dim>& solver = **made;
+  const InitialShape<dim>& initial = run.checkpoint.initial;
+  const OptimizationState<dim>& last = run.checkpoint.state;
   const auto first_states =
       solver.states(initial.shape, solver.distinct_positions(initial.shape), Interrupt());
   if (!first_states) return first_states.failure();
@@ -34,11 +36,12 @@ Expected<ReportRun> report_of_run(const RunInput<2>& run) {
              after = described(solver, last.shape, last.measure, **last_states);
   if (!before) return before.failure();
   if (!after) return after.failure();
-  const RunSummary<2> summary{.title = run_title(run.source),
-                              .before = {0, initial.objective, *before},
-                              .after = {last.iteration, last.evaluation.function("objective").value, *after}};
-  return report_of_results(run.folder, run.source, summary, {&last.shape, &solver, last_states->get()},
-                           run.checkpoint.finished);
+  const RunSummary<dim> summary{
+      .title = run_title(run.source),
+      .before = {0, initial.objective, *before},
+      .after = {last.iteration, last.evaluation.function("objective").value, *after}};
+  return page_run(report_of_results<dim>(
+      run.folder, run.source, summary, {&last.shape, &solver, last_states->get()}, run.checkpoint.finished));
 }
 
 class ReportCommand : public Subcommand {
@@ -57,15 +60,15 @@ class ReportCommand : public Subcommand {
       tell("{}: exists already; choose another file with --output, or remove it\n", file);
       return exit_refused;
     }
-    std::vector<ReportRun> runs;
-    std::vector<RunInput<2>> inputs;  // the reports refer to their shapes
+    std::vector<PageRun> runs;
+    std::vector<AnyRun> inputs;
     for (const std::string& folder : folders_) {
-      auto input = read_plane_run_or_tell(folder, {name(), threads_});
+      auto input = read_run_or_tell(folder, {name(), threads_});
       if (!input) return input.failure();
       inputs.push_back(*std::move(input));
     }
-    for (const RunInput<2>& input : inputs) {
-      auto report = report_of_run(input);
+    for (const AnyRun& input : inputs) {
+      auto report = std::visit([](const auto& run) { return report_of_run(run); }, input);
       if (!report) return tell_failure(name(), report.failure());
       runs.push_back(*std::move(report));
     }

@@ -231,6 +231,6 @@ const parts = (() => {
     return { figure, start, update };
   }
 
-  return { colour, curveColours, degree, element, shown, change, minutes, gradient, wheelPainter, drawGround,
+  return { bytes, viridis, colour, curveColours, degree, element, shown, change, minutes, gradient, wheelPainter, drawGround,
     roundMagnification, wheelPath, paintWheel, chart };
 })();

@@ -2,8 +2,8 @@
 (() => {
   const data = JSON.parse(document.getElementById("data").textContent);
   const page = document.getElementById("page");
-  const { colour, curveColours, degree, element, shown, change, minutes, gradient, wheelPainter, drawGround,
-    roundMagnification, chart, wheelPath, paintWheel } = parts;
+  const { bytes, colour, curveColours, degree, element, shown, change, minutes, viridis, gradient, wheelPainter,
+    drawGround, roundMagnification, chart, wheelPath, paintWheel } = parts;
 
   // --- Numbers ----------------------------------------------------------------------------------------
 
@@ -14,7 +14,7 @@
       if (k > 0) head.append(element("th", { scope: "col" }, "change"));
     });
     const body = element("tbody");
-    for (const { key, label, unit, factor } of data.numbers) {
+    for (const { key, label, unit, factor } of wheels[0].units) {
       if (wheels.every(({ numbers }) => numbers[key] === undefined)) continue;
       const row = element("tr", {}, element("th", { scope: "row" }, `${label} [${unit}]`));
       wheels.forEach(({ numbers }, k) => {
@@ -66,8 +66,159 @@
 
   // --- The wheel rolling ------------------------------------------------------------------------------
 
+  // --- The lit surface of a wheel in 3D ---------------------------------------------------------------
+
+  // The surface of the whole wheel from that of sector 0. Where the rim, the tread, side faces and holes meet, each of
+  // them has vertices of its own, so that the edges between them are sharp: `sources` tells of which vertex.
+  function wheelSurface(run) {
+    const { fields, sectors } = run;
+    const points = new Float32Array(bytes(fields.points).buffer);
+    const triangles = new Uint32Array(bytes(fields.triangles).buffer), parts = bytes(fields.parts);
+    const n = points.length / 3, places = new Float32Array(points.length * sectors);
+    for (let s = 0; s < sectors; ++s) {
+      const c = Math.cos(2 * Math.PI * s / sectors), d = Math.sin(2 * Math.PI * s / sectors);
+      for (let k = 0; k < n; ++k) {
+        const x = points[3 * k], y = points[3 * k + 1];
+        places.set([c * x - d * y, d * x + c * y, points[3 * k + 2] - run.width_m / 2], 3 * (s * n + k));
+      }
+    }
+    const known = new Map(), sources = [], corners = new Uint32Array(triangles.length * sectors);
+    for (let s = 0; s < sectors; ++s)
+      for (let k = 0; k < triangles.length; ++k) {
+        const vertex = (triangles[k] + s * n) % (n * sectors), key = 4 * vertex + parts[Math.floor(k / 3)];
+        if (!known.has(key)) {
+          known.set(key, sources.length);
+          sources.push(vertex);
+        }
+        corners[s * triangles.length + k] = known.get(key);
+      }
+    const positions = fields.positions.map((p) => ({
+      azimuth: p.azimuth_rad, stress: bytes(p.root_of_stress),
+      displacement: [p.x, p.y, p.z].map((text) => new Int16Array(bytes(text).buffer)),
+    }));
+    return { places, sources, corners, positions };
+  }
+
+  // What the colours can stand for: a share in [0, 1] at a vertex, and the value at the scale's end.
+  function colourings(run, surface) {
+    const { full_stress_Pa, full_displacement_m } = run.fields;
+    const size = ({ displacement }, v) => Math.hypot(...displacement.map((d) => d[v])) / 32767;
+    const most = Math.max(...surface.positions.map((position) => {
+      let largest = 0;
+      for (let v = 0; v < position.stress.length; ++v) largest = Math.max(largest, size(position, v));
+      return largest;
+    }));
+    return {
+      stress: { name: "von Mises stress, on a scale of square roots", end: full_stress_Pa * 1e-6, unit: "MPa", power: 2,
+        share: (position, v) => position.stress[v] / 255 },
+      displacement: { name: "displacement", end: most * full_displacement_m * 1e3, unit: "mm", power: 1,
+        share: (position, v) => most > 0 ? size(position, v) / most : 0 },
+    };
+  }
+
+  // Draws the lit wheel on the ground: a function of the position, the magnification and the colouring. The wheel turns
+  // under the mouse or a finger, and with the arrow keys; the mouse's wheel and + and - change its size.
+  function surfacePainter(canvas, run) {
+    let renderer;
+    try {
+      renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
+    } catch {
+      return null;
+    }
+    const surface = wheelSurface(run), kinds = colourings(run, surface), { sources } = surface;
+    const radius = run.outer_radius_m, full = run.fields.full_displacement_m / 32767;
+    const geometry = new THREE.BufferGeometry();
+    const places = new Float32Array(3 * sources.length), colours = new Float32Array(3 * sources.length);
+    geometry.setAttribute("position", new THREE.BufferAttribute(places, 3));
+    geometry.setAttribute("color", new THREE.BufferAttribute(colours, 3));
+    geometry.setIndex(new THREE.BufferAttribute(surface.corners, 1));
+    const wheel = new THREE.Mesh(geometry, new THREE.MeshPhongMaterial(
+      { vertexColors: THREE.VertexColors, shininess: 25, specular: 0x222222 }));
+    const ground = new THREE.Mesh(new THREE.PlaneBufferGeometry(2.2 * radius, run.width_m + 0.5 * radius),
+      new THREE.MeshBasicMaterial({ transparent: true, opacity: 0.35, side: THREE.DoubleSide }));
+    ground.rotation.x = -Math.PI / 2;
+    ground.position.y = -radius * 1.001;
+    const turned = new THREE.Group(), scene = new THREE.Scene();
+    turned.add(wheel, ground);
+    scene.add(turned, new THREE.HemisphereLight(0xffffff, 0xc8c8d0, 0.75));
+    const key = new THREE.DirectionalLight(0xffffff, 0.55);
+    key.position.set(-0.5, 0.8, 1);
+    scene.add(key);
+    const camera = new THREE.OrthographicCamera(-1, 1, 1, -1, 0.1, 10);
+    camera.position.z = 5;
+    const view = { yaw: -0.6, pitch: 0.25, size: 1 };
+    const draw = () => {
+      const pixels = Math.min(1200, Math.round(canvas.clientWidth * (window.devicePixelRatio || 1))) || 600;
+      renderer.setSize(pixels, pixels, false);
+      const half = 1.15 / view.size;
+      Object.assign(camera, { left: -half, right: half, top: half, bottom: -half });
+      camera.updateProjectionMatrix();
+      turned.rotation.set(view.pitch, view.yaw, 0);
+      turned.scale.setScalar(1 / radius);
+      ground.material.color.set(colour("--quiet"));
+      renderer.render(scene, camera);
+    };
+    const paint = (index, magnified, kind) => {
+      const position = surface.positions[index], { share } = kinds[kind], factor = magnified * full;
+      const [dx, dy, dz] = position.displacement;
+      sources.forEach((v, k) => {
+        places[3 * k] = surface.places[3 * v] + factor * dx[v];
+        places[3 * k + 1] = surface.places[3 * v + 1] + factor * dy[v];
+        places[3 * k + 2] = surface.places[3 * v + 2] + factor * dz[v];
+        const at = share(position, v) * (viridis.length - 1), low = Math.min(Math.floor(at), viridis.length - 2);
+        for (let c = 0; c < 3; ++c)
+          colours[3 * k + c] = (viridis[low][c] + (at - low) * (viridis[low + 1][c] - viridis[low][c])) / 255;
+      });
+      wheel.rotation.z = -Math.PI / 2 - position.azimuth;  // the ground's azimuth points down
+      for (const name of ["position", "color"]) geometry.getAttribute(name).needsUpdate = true;
+      geometry.computeVertexNormals();
+      draw();
+    };
+    const turn = (yaw, pitch) => {
+      view.yaw += yaw;
+      view.pitch = Math.max(-1.5, Math.min(1.5, view.pitch + pitch));
+      draw();
+    };
+    const resize = (factor) => {
+      view.size = Math.max(0.5, Math.min(20, view.size * factor));
+      draw();
+    };
+    canvas.tabIndex = 0;
+    canvas.style.touchAction = "none";
+    canvas.style.cursor = "grab";
+    let held = null;
+    canvas.addEventListener("pointerdown", (event) => {
+      held = [event.clientX, event.clientY];
+      canvas.setPointerCapture(event.pointerId);
+    });
+    canvas.addEventListener("pointermove", (event) => {
+      if (!held) return;
+      const per_pixel = 3 / canvas.clientWidth;
+      turn((event.clientX - held[0]) * per_pixel, (event.clientY - held[1]) * per_pixel);
+      held = [event.clientX, event.clientY];
+    });
+    for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, () => { held = null; });
+    canvas.addEventListener("wheel", (event) => {
+      event.preventDefault();
+      resize(Math.exp(-0.001 * event.deltaY));
+    }, { passive: false });
+    canvas.addEventListener("keydown", (event) => {
+      const step = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, -0.1], ArrowDown: [0, 0.1] }[event.key];
+      const factor = { "+": 1.2, "-": 1 / 1.2 }[event.key];
+      if (!step && !factor) return;
+      event.preventDefault();
+      if (step) turn(...step);
+      else resize(factor);
+    });
+    return Object.assign(paint, { kinds });
+  }
+
+  // The loaded wheel with its controls: in the plane, or as a surface that turns.
   function rolling(run) {
-    const picture = element("canvas", { role: "img", "aria-label": "The loaded wheel, coloured by von Mises stress" });
+    const is_surface = run.dimension === 3;
+    const picture = element("canvas", { role: "img", "aria-label": is_surface ?
+      "The loaded wheel as a lit surface; arrow keys turn it, plus and minus change its size" :
+      "The loaded wheel, coloured by von Mises stress" });
     const ground = element("canvas", { "aria-hidden": "true", style: "position:absolute;inset:0" });
     const n = run.fields.positions.length;
     const slider = element("input", { type: "range", min: 0, max: n - 1, value: 0, id: `${run.id}-position` });
@@ -76,23 +227,33 @@
     const choice = element("select", { id: `${run.id}-magnified`, "aria-label": "Displacement" });
     for (const m of [...new Set([1, best / 5, best / 2, best, 2 * best].filter((m) => m >= 1))])
       choice.append(element("option", { value: m, ...(m === best ? { selected: "" } : {}) }, `displacement \u00d7 ${m}`));
+    const kind = element("select", { id: `${run.id}-colours`, "aria-label": "Colours" },
+      element("option", { value: "stress" }, "stress"), element("option", { value: "displacement" }, "displacement"));
     const caption = element("figcaption", { id: `${run.id}-position-text`, "aria-live": "polite" });
-    const frame = element("div", { class: "picture", style: "position:relative" }, picture, ground);
-    const figure = element("figure", {}, frame,
-      element("div", { class: "scale", style: `background:${gradient}` }),
-      element("div", { class: "scale-labels" }, ...[0, 0.25, 0.5, 0.75, 1].map((t) => element("span", {},
-        `${Number((t * t * run.fields.full_stress_Pa * 1e-6).toPrecision(3))}${t === 1 ? " MPa" : ""}`))),
-      element("p", { class: "quiet" }, "von Mises stress, on a scale of square roots"),
-      element("div", { class: "controls" }, button, element("label", {}, "load position", slider), choice), caption);
+    const labels = element("div", { class: "scale-labels" }), scaleName = element("p", { class: "quiet" });
+    const frame = element("div", { class: "picture", style: "position:relative" }, picture,
+      ...(is_surface ? [] : [ground]));
+    const rollable = n > 1 ? [button, element("label", {}, "load position", slider)] : [];
+    const figure = element("figure", {}, frame, element("div", { class: "scale", style: `background:${gradient}` }), labels,
+      scaleName, element("div", { class: "controls" }, ...rollable, choice, ...(is_surface ? [kind] : [])), caption);
     let paint = null, timer = null;
+    const scale = ({ name, end, unit, power }) => {
+      labels.replaceChildren(...[0, 0.25, 0.5, 0.75, 1].map((t) => element("span", {},
+        `${Number((t ** power * end).toPrecision(3))}${t === 1 ? ` ${unit}` : ""}`)));
+      scaleName.textContent = name;
+    };
     const draw = () => {
       const i = Number(slider.value), magnified = Number(choice.value);
-      if (paint) paint(i, magnified);
-      drawGround(ground, run);
-      const at = run.rolling.after;
-      caption.textContent = `Ground at azimuth ${shown(run.fields.positions[i].azimuth_rad * degree)}\u00b0: travel ` +
-        `${shown(at.travel_at_load_m[i] * 1e3)} mm, peak pressure ${shown(at.peak_pressure_Pa[i] * 1e-6)} MPa, peak ` +
-        `stress ${shown(at.peak_von_mises_Pa[i] * 1e-6)} MPa. Displacements are drawn ${magnified} times as large.`;
+      if (paint) paint(i, magnified, kind.value);
+      scale(paint?.kinds?.[kind.value] ?? { name: "von Mises stress, on a scale of square roots",
+        end: run.fields.full_stress_Pa * 1e-6, unit: "MPa", power: 2 });
+      if (!is_surface) drawGround(ground, run);
+      const at = run.rolling.after, shown_azimuth = run.fields.positions[i].azimuth_rad;
+      const k = at.azimuths_rad.findIndex((azimuth) => Math.abs(azimuth - shown_azimuth) < 1e-9);
+      const numbers = k < 0 ? "" : `: travel ${shown(at.travel_at_load_m[k] * 1e3)} mm, peak pressure ` +
+        `${shown(at.peak_pressure_Pa[k] * 1e-6)} MPa, peak stress ${shown(at.peak_von_mises_Pa[k] * 1e-6)} MPa`;
+      caption.textContent = `Ground at azimuth ${shown(shown_azimuth * degree)}\u00b0${numbers}. Displacements are drawn ` +
+        `${magnified} times as large.${is_surface ? " Drag the wheel to turn it." : ""}`;
     };
     const roll = (on) => {
       clearInterval(timer);
@@ -102,8 +263,8 @@
     };
     button.addEventListener("click", () => roll(timer === null));
     slider.addEventListener("input", () => { roll(false); draw(); });
-    choice.addEventListener("change", draw);
-    const start = () => { paint = wheelPainter(picture, run); draw(); };
+    for (const control of [choice, kind]) control.addEventListener("change", draw);
+    const start = () => { paint = (is_surface ? surfacePainter : wheelPainter)(picture, run); draw(); };
     return { figure, start, draw };
   }
 
@@ -180,7 +341,8 @@
           colours: stress.map((v) => v === most ? curveColours[1] : curveColours[0]) }));
     }
     if (run.pressures)
-      charts.push(chart("Contact pressure of all load positions", "along the ground [mm]", "[MPa]",
+      charts.push(chart(run.dimension === 3 ? "Contact pressure in the middle of the width, all load positions" :
+        "Contact pressure of all load positions", "along the ground [mm]", "[MPa]",
         run.pressures.map((p, k) => ({ name: `position ${k + 1}`, x: p.x_m.map((v) => v * 1e3),
           y: p.pressure_Pa.map((v) => v * 1e-6) }))));
     return charts;
@@ -205,7 +367,8 @@
     if (run.summary) made.append(answers(run));
     made.append(flags(run));
     if (run.summary) made.append(section("Before and after",
-      table([{ name: "before", numbers: run.summary.before }, { name: "after", numbers: run.summary.after }])));
+      table([["before", run.summary.before], ["after", run.summary.after]].map(([name, numbers]) =>
+        ({ name, numbers, units: run.numbers })))));
     const pictures = element("div", { class: "pictures" });
     if (run.fields) later.push(rolling(run));
     if (run.fields) pictures.append(later.at(-1).figure);
@@ -221,11 +384,13 @@
     return made;
   }
 
-  const later = [], summarized = data.runs.filter((run) => run.summary);
+  const later = [];
   data.runs.forEach((run, k) => { run.id = `run${k}`; });
-  if (summarized.length > 1)
-    page.append(element("h1", {}, "Wheels compared"),
-      table(summarized.map((run) => ({ name: run.name, numbers: run.summary.after }))));
+  // Energies in the plane belong to a metre of width: wheels are compared with those of the same dimension.
+  const compared = [2, 3].map((dimension) => data.runs.filter((run) => run.summary && run.dimension === dimension))
+    .filter((runs) => runs.length > 1);
+  if (compared.length) page.append(element("h1", {}, "Wheels compared"), ...compared.map((runs) => table(runs.map((run) =>
+    ({ name: run.name, numbers: run.summary.after, units: run.numbers })))));
   page.append(element("div", { class: "runs" }, ...data.runs.map((run) => article(run, later))));
   for (const part of later) part.start();
   addEventListener("resize", () => later.forEach((part) => part.draw?.()));

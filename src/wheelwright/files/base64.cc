@@ -1,4 +1,4 @@
-#include "wheelwright/page/base64.h"
+#include "wheelwright/files/base64.h"
 
 #include <cstdint>
 

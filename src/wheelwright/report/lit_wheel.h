@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "wheelwright/report/deformed_svg.h"
+#include "wheelwright/report/lit_scene.h"
+#include "wheelwright/surface/surface_mesh.h"
+
+namespace wheelwright {
+
+/// Points of the body frame as a scene (Camera): the contact's azimuth points down, the axle is along z, and
+/// the origin is in the middle of the axle.
+std::vector<Vec<3>> standing_on_the_ground(std::vector<Vec<3>> points, const PolarGrid<3>& grid,
+                                           double contact_azimuth);
+
+/// A view of the whole wheel from the right and from above.
+Camera wheel_camera(const PolarGrid<3>& grid);
+
+/// A surface without load, in one colour, in the scene of that view.
+LitBody lit_wheel(const SurfaceMesh& surface, const PolarGrid<3>& grid);
+
+/// Where a picture's displacement takes points of the body frame: `displacement` [component][point],
+/// magnified. Like DeformedMaterial it lays on the ground what magnified displacements would carry through
+/// it: points of the tread, and the material between them and the rim by a share of that.
+std::vector<Vec<3>> displaced(const std::vector<Vec<3>>& points,
+                              const std::vector<std::vector<float>>& displacement, const Lattice<3>& lattice,
+                              const DeformedPicture<3>& picture);
+
+/// The picture as an SVG document: the lit surface with its colours, which holds pixels, the ground, the
+/// colours' scale, load, position and magnification.
+std::string deformed_svg(const SurfaceMesh& surface, const Lattice<3>& lattice,
+                         const DeformedPicture<3>& picture);
+
+}  // namespace wheelwright

@@ -1,0 +1,318 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <numbers>
+
+#include "wheelwright/report/lit_wheel.h"
+#include "wheelwright/report/solution_fields.h"
+#include "wheelwright/report/surface_vtp.h"
+#include "wheelwright/report/tread_contact.h"
+#include "wheelwright/report/vtu.h"
+#include "wheelwright/report/vtu_arrays.h"
+#include "wheelwright/run/study.h"
+#include "wheelwright/surface/check_surface.h"
+
+namespace wheelwright {
+namespace {
+
+using std::numbers::pi;
+
+/// Without any symmetry: the holes change along the axle and lie across a sector face; there is friction.
+RollingModel<3> asymmetric_model(int degree) {
+  RollingModel<3> model;
+  model.grid = {0.20, 0.34, 0.10, 7, {7, 8, 3}};
+  model.degree = degree;
+  model.materials = Material{60e6, 0.3};
+  model.contact.friction = 0.5;
+  model.contact_points = 3;
+  model.load = 2000;
+  model.horizontal_force = 60;
+  model.torque = 70;
+  model.n_positions = 2;
+  return model;
+}
+
+LevelSet<3> asymmetric_shape(const PolarGrid<3>& grid) {
+  LevelSet<3> psi{Lattice<3>(grid, 1), {}};
+  for (int i = 0; i < psi.lattice.n_nodes(); ++i) {
+    const Vec<3> p = psi.lattice.polar_point(i), x = cartesian<3>(p);
+    double value = -1;
+    for (int image = -1; image <= 1; ++image) {
+      const Vec<3> c = cartesian<3>({0.257, 0.07 + image * grid.sector_angle(), 0});
+      value = std::max(value, 0.024 + 0.08 * p[2] - std::hypot(x[0] - c[0], x[1] - c[1]));
+    }
+    psi.values.push_back(value);
+  }
+  return psi;
+}
+
+struct Solved {
+  std::shared_ptr<const StateSolver<3>> solver;
+  std::shared_ptr<const State<3>> state;
+};
+
+const Solved& solved() {
+  static const Solved result = [] {
+    const auto solver = make_solver(asymmetric_model(1));
+    EXPECT_TRUE(solver);
+    const auto shape = asymmetric_shape((*solver)->model().grid);
+    const auto states = (*solver)->states(shape, (*solver)->all_positions(), Interrupt());
+    EXPECT_TRUE(states) << states.failure().detail;
+    return Solved{*solver, *states};
+  }();
+  return result;
+}
+
+/// A displacement that is linear in x, y and z.
+const Mat<3> gradient{{{2e-3, -7e-3, 1e-3}, {1.5e-3, 4e-3, -2e-3}, {3e-3, 5e-3, -1e-3}}};
+
+Vec<3> linear(const Vec<3>& x) {
+  Vec<3> u{1e-3, -2e-3, 5e-4};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) u[i] += gradient[i][j] * x[j];
+  return u;
+}
+
+RingField linear_field(const Lattice<3>& lattice) {
+  RingField field{3, {}};
+  for (int sector = 0; sector < lattice.grid().n_sectors; ++sector)
+    for (int node = 0; node < lattice.n_nodes(); ++node) {
+      Vec<3> p = lattice.polar_point(node);
+      p[1] += sector * lattice.grid().sector_angle();
+      for (const double value : linear(cartesian<3>(p))) field.values.push_back(value);
+    }
+  return field;
+}
+
+// Isoparametric elements hold linear displacements exactly. The components are xx, yy, zz, xy, yz, xz.
+TEST(StressField3D, IsExactForLinearDisplacements) {
+  for (const int degree : {1, 2}) {
+    const auto model = asymmetric_model(degree);
+    const auto domain = cut_domain(asymmetric_shape(model.grid), 2);
+    ASSERT_TRUE(domain);
+    const Material material = model.materials.at_tread();
+    const auto shear = [&](int i, int j) { return material.mu() * (gradient[i][j] + gradient[j][i]); };
+    const double mean = material.lambda() * (gradient[0][0] + gradient[1][1] + gradient[2][2]);
+    const std::array<double, 6> expected{mean + shear(0, 0), mean + shear(1, 1), mean + shear(2, 2),
+                                         shear(0, 1),        shear(1, 2),        shear(0, 2)};
+    const RingField stress = stress_field(model, *domain, linear_field(displacement_lattice(model)));
+    std::size_t n = 0;
+    for (std::size_t k = 0; k < stress.values.size(); ++k) {
+      if (std::isnan(stress.values[k])) continue;
+      EXPECT_NEAR(stress.values[k], expected[k % 6], 1e-8 * std::abs(expected[0])) << k % 6;
+      ++n;
+    }
+    EXPECT_GT(n, 0.8 * stress.values.size());
+    // sqrt(3/2 s:s), with s the deviator.
+    double square = 0;
+    const double pressure = (expected[0] + expected[1] + expected[2]) / 3;
+    for (int k = 0; k < 3; ++k)
+      square += std::pow(expected[k] - pressure, 2) + 2 * std::pow(expected[3 + k], 2);
+    EXPECT_NEAR(von_mises_field(stress).scalar(expected), std::sqrt(1.5 * square), 1e-9 * std::sqrt(square));
+  }
+}
+
+TEST(ContactPoints3D, CarryTheLoadAndLieOnTheTread) {
+  const auto& [solver, state] = solved();
+  const RollingModel<3>& model = solver->model();
+  std::array<double, 2> down{}, along{};
+  for (const ContactPoint& p : contact_points(*solver, *state)) {
+    down[p.position] += p.weight * p.pressure;
+    along[p.position] += p.weight * p.friction;
+    EXPECT_LT(std::abs(p.z), 0.5 * model.grid.width);
+    EXPECT_NEAR(p.x, model.grid.outer_radius * std::sin(p.azimuth), 5e-3);
+  }
+  for (int position = 0; position < 2; ++position) {
+    EXPECT_NEAR(down[position], model.load, 1e-9 * model.load);
+    EXPECT_NEAR(along[position], -model.horizontal_force, 1e-8 * model.load);
+  }
+}
+
+TEST(TreadContact3D, IsTheWholeTreadInLinesAndCarriesTheLoad) {
+  const auto& [solver, state] = solved();
+  const PolarGrid<3>& grid = solver->model().grid;
+  const auto treads = all_tread_contacts(*solver, *state);
+  const auto points = contact_points(*solver, *state);
+  ASSERT_EQ(treads.size(), 2u);
+  for (int position = 0; position < 2; ++position) {
+    const double ground = position * grid.sector_angle() / 2;
+    double area = 0, last_z = -1;
+    std::size_t lines = 0;
+    Vec<3> force{};
+    std::multimap<double, const TreadContactPoint<3>*> by_z;
+    for (const auto& p : treads[position]) {
+      area += p.weight;
+      for (int d = 0; d < 3; ++d) force[d] += p.weight * p.traction[d];
+      if (p.position[2] != last_z) {
+        EXPECT_GT(p.position[2], last_z);
+        last_z = p.position[2];
+        ++lines;
+      }
+    }
+    EXPECT_EQ(lines, 3u * 3u);
+    const double n = grid.ring_columns();  // cells of degree 1
+    EXPECT_NEAR(area, 2 * n * std::sin(pi / n) * grid.outer_radius * grid.width, 1e-12);
+    const Vec<3> in_ground_frame = rotated<3>(force, -ground);
+    EXPECT_NEAR(in_ground_frame[0], -2000, 1e-6);
+    EXPECT_NEAR(in_ground_frame[1], -60, 1e-4);
+    // At the contact points it is what those show.
+    for (const ContactPoint& q : points) {
+      if (q.position != position) continue;
+      const auto same = std::ranges::find_if(treads[position], [&](const auto& p) {
+        const Vec<3> x = rotated<3>(p.position, -ground);
+        return x[0] > 0 && std::abs(x[1] - q.x) < 1e-12 && std::abs(x[2] - 0.5 * grid.width - q.z) < 1e-12;
+      });
+      ASSERT_NE(same, treads[position].end());
+      EXPECT_EQ(same->pressure, q.pressure);
+      EXPECT_EQ(same->friction, q.friction);
+      EXPECT_NEAR(same->gap, q.gap, 1e-12);
+    }
+  }
+}
+
+/// An array of a VTK file by its name, from the appended bytes.
+template <class T>
+std::vector<T> array_of(const std::string& file, const std::string& name) {
+  const auto tag = file.find("Name=\"" + name + "\"");
+  EXPECT_NE(tag, std::string::npos) << name;
+  const auto offset = file.find("offset=\"", tag) + 8;
+  const char* begin = file.data() + file.find("\n_") + 2 + std::strtoull(&file[offset], nullptr, 10);
+  std::uint64_t size;
+  std::memcpy(&size, begin, sizeof size);
+  std::vector<T> values(size / sizeof(T));
+  std::memcpy(values.data(), begin + sizeof size, size);
+  return values;
+}
+
+/// Fields of degree 2 at the points of a file: linear ones are exact there.
+void expect_linear_displacement(const std::string& file) {
+  const auto x = array_of<float>(file, "Points"), u = array_of<float>(file, "displacement_m");
+  ASSERT_EQ(x.size(), u.size());
+  for (std::size_t k = 0; k < x.size(); k += 3) {
+    const Vec<3> expected = linear({x[k], x[k + 1], x[k + 2]});
+    for (int d = 0; d < 3; ++d) EXPECT_NEAR(u[k + d], expected[d], 2e-6);
+  }
+}
+
+TEST(VtuFile3D, HoldsCellsOfTheMaterialWithTheirFields) {
+  const auto model = asymmetric_model(2);
+  const auto psi = asymmetric_shape(model.grid);
+  const Lattice<3> lattice = displacement_lattice(model);
+  const std::vector<NamedField> fields{{"displacement", "m", linear_field(lattice)}};
+  const std::string file = VtuMesh<3>(psi, lattice, 2).file(fields);
+  expect_linear_displacement(file);
+  const auto offsets = array_of<std::int32_t>(file, "offsets");
+  const auto types = array_of<std::uint8_t>(file, "types");
+  ASSERT_EQ(offsets.size(), types.size());
+  std::map<int, int> count;
+  for (std::size_t k = 0; k < types.size(); ++k) {
+    const int corners = offsets[k] - (k == 0 ? 0 : offsets[k - 1]);
+    EXPECT_EQ(corners, types[k] == vtk_hexahedron ? 8 : types[k] == vtk_wedge ? 6 : 4);
+    ++count[types[k]];
+  }
+  EXPECT_EQ(count.size(), 3u);
+  for (const float level : array_of<float>(file, "psi_m")) EXPECT_LE(level, 1e-3);
+  const auto connectivity = array_of<std::int32_t>(file, "connectivity");
+  EXPECT_EQ(static_cast<std::size_t>(offsets.back()), connectivity.size());
+  EXPECT_EQ(3u * (1 + *std::ranges::max_element(connectivity)), array_of<float>(file, "Points").size());
+}
+
+TEST(VtpFile, HoldsAClosedSurfaceWithItsFields) {
+  const auto model = asymmetric_model(2);
+  const auto psi = asymmetric_shape(model.grid);
+  const Lattice<3> lattice = displacement_lattice(model);
+  const SurfaceMesh surface = material_surface(psi, 2, 2);
+  const std::vector<NamedField> fields{{"displacement", "m", linear_field(lattice)}};
+  const std::string file = surface_vtp(surface, lattice, fields);
+  expect_linear_displacement(file);
+  std::vector<Vec<3>> points;
+  const auto x = array_of<float>(file, "Points");
+  for (std::size_t k = 0; k < x.size(); k += 3) points.push_back({x[k], x[k + 1], x[k + 2]});
+  std::vector<std::array<int, 3>> triangles;
+  const auto corners = array_of<std::int32_t>(file, "connectivity");
+  for (std::size_t k = 0; k < corners.size(); k += 3)
+    triangles.push_back({corners[k], corners[k + 1], corners[k + 2]});
+  const auto report = check_surface(points, triangles);
+  ASSERT_TRUE(report) << report.failure().what;
+  EXPECT_EQ(report->bodies, 1);
+  EXPECT_EQ(report->handles(), 1 + 7);
+  EXPECT_NEAR(report->volume, enclosed_volume(surface), 1e-5 * report->volume);
+  EXPECT_EQ(array_of<std::uint8_t>(file, "part").size(), triangles.size());
+}
+
+// --- Lit pictures ----------------------------------------------------------------------------------------
+
+constexpr Rgb red{200, 0, 0}, green{0, 200, 0};
+
+LitBody square(double half, double z, const Rgb& colour) {
+  return {{{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}},
+          {{0, 1, 2}, {0, 2, 3}},
+          std::vector<Rgb>(4, colour)};
+}
+
+std::array<int, 3> pixel(const Image& image, int x, int y) {
+  const std::uint8_t* p = &image.rgb[3 * (std::size_t(y) * image.width + x)];
+  return {p[0], p[1], p[2]};
+}
+
+TEST(LitScene, NearerSurfacesHideThoseBehindInAnyOrder) {
+  const Camera camera(0, 0, {}, 1);
+  for (const bool first : {true, false}) {
+    std::vector<LitBody> bodies{square(0.8, 0, red), square(0.4, 0.1, green)};
+    if (first) std::swap(bodies[0], bodies[1]);
+    const Image image = lit_image(bodies, camera, 100);
+    EXPECT_EQ(pixel(image, 2, 2), (std::array{255, 255, 255}));
+    EXPECT_GT(pixel(image, 15, 15)[0], 100);
+    EXPECT_LT(pixel(image, 15, 15)[1], 60);
+    EXPECT_GT(pixel(image, 50, 50)[1], 100);
+    EXPECT_LT(pixel(image, 50, 50)[0], 60);
+  }
+}
+
+TEST(LitScene, CoversTheAreaOfTheProjectionWithoutGaps) {
+  // Turned by 60 degrees a square is half as wide.
+  const Image image = lit_image({square(0.8, 0, red)}, Camera(pi / 3, 0, {}, 1), 200);
+  double covered = 0;
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < 200; ++x) covered += pixel(image, x, y)[1] < 200;
+  EXPECT_NEAR(covered / (200 * 200), 0.8 * 0.4, 5e-3);
+  EXPECT_LT(pixel(image, 100, 100)[1], 60);
+  // From behind there is nothing to see.
+  const Image back = lit_image({square(0.8, 0, red)}, Camera(pi, 0, {}, 1), 50);
+  EXPECT_EQ(pixel(back, 25, 25), (std::array{255, 255, 255}));
+}
+
+TEST(LitScene, LooksDownFromTheRight) {
+  const Camera camera(0.5, 0.3, {0, 0, 0}, 2);
+  EXPECT_GT(camera.seen({0, 1, 0})[1], 0.4);   // up is up
+  EXPECT_GT(camera.seen({1, 0, 0})[0], 0.4);   // right is right
+  EXPECT_GT(camera.seen({0, 0, 1})[2], 0.35);  // the viewer's side is in front
+  EXPECT_GT(camera.seen({1, 0, 0})[2], 0.1);   // what lies on the right is nearer than what lies on the left
+  EXPECT_GT(camera.seen({0, 1, 0})[2], 0.1);   // and the top is nearer than the bottom
+}
+
+TEST(LitWheel, StandsOnTheGroundAndNothingIsBelow) {
+  const auto& [solver, state] = solved();
+  const PositionFields<3> fields = position_fields(*solver, *state, 1);
+  const PolarGrid<3>& grid = solver->model().grid;
+  const SurfaceMesh surface = material_surface(asymmetric_shape(grid), 2, 1);
+  const auto displacement =
+      field_points(surface, fields.lattice).values({"displacement", "m", fields.displacement});
+  for (const double magnification : {1.0, 20.0}) {
+    DeformedPicture<3> picture{};
+    picture.displacement = fields.displacement;
+    picture.magnification = magnification;
+    picture.contact_azimuth = fields.ground_azimuth;
+    const auto points = standing_on_the_ground(
+        displaced(surface.points, displacement, fields.lattice, picture), grid, fields.ground_azimuth);
+    double lowest = 0;
+    for (const Vec<3>& x : points) lowest = std::min(lowest, x[1]);
+    EXPECT_NEAR(lowest, -grid.outer_radius, 2e-5);
+  }
+}
+
+}  // namespace
+}  // namespace wheelwright
