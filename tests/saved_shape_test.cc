@@ -60,7 +60,7 @@ class SavedShape : public TemporaryFolder {
   }
 
   RunResult<2> run(const Case& c, const std::string& name) {
-    auto run = Run<2>::begin(c, folder() / name);
+    auto run = wheelwright::Run<2>::begin(c, folder() / name);
     if (!run) throw std::runtime_error("the run does not begin");
     CommandQueue commands;
     return run->execute(commands);
@@ -200,7 +200,7 @@ TEST_F(CoarseLevels, AStoppedRunGoesOnTheSameFromEitherGrid) {
   for (const int n : {1, 2, 4, 13, 16}) {
     const std::string name = "stopped";
     {
-      auto stopped = Run<2>::begin(c, folder() / name);
+      auto stopped = wheelwright::Run<2>::begin(c, folder() / name);
       ASSERT_TRUE(stopped);
       CommandQueue commands;
       stopped->add(std::make_unique<StopAfter>(commands, n));
@@ -208,7 +208,7 @@ TEST_F(CoarseLevels, AStoppedRunGoesOnTheSameFromEitherGrid) {
       ASSERT_EQ(result.reason, StopReason::stop_requested) << n;
       EXPECT_TRUE(result.summary);
     }
-    auto resumed = Run<2>::resume(c, folder() / name);
+    auto resumed = wheelwright::Run<2>::resume(c, folder() / name);
     ASSERT_TRUE(resumed);
     CommandQueue commands;
     resumed->execute(commands);

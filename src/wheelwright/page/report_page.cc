@@ -290,8 +290,8 @@ std::string report_page(const std::vector<PageRun>& runs) {
                           {"@STYLE@", std::string(assets::report_css)},
                           {"@DATA@", "{\"runs\":[" + data + "]}"},
                           {"@CHART_LIBRARY@", std::string(assets::chart_js)},
-                          {"@PARTS@", std::string(assets::parts_js)},
                           {"@SCENE_LIBRARY@", has_surface ? std::string(assets::three_js) : ""},
+                          {"@PARTS@", std::string(assets::parts_js)},
                           {"@SCRIPT@", std::string(assets::report_js)}});
 }
 

@@ -49,12 +49,18 @@ std::string summary_table(const RunSummary<dim>& summary) {
 
 template <int dim>
 std::string summary_json(const RunSummary<dim>& summary) {
-  return Json{{"title", summary.title},
-              {"width_m", summary.after.wheel.grid.width},
-              {"before", shape_json(summary.before)},
-              {"after", shape_json(summary.after)}}
-             .dump(2) +
-         '\n';
+  Json json{{"title", summary.title},
+            {"width_m", summary.after.wheel.grid.width},
+            {"before", shape_json(summary.before)},
+            {"after", shape_json(summary.after)}};
+  for (const SummarizedBound& bound : summary.bounds)
+    json["bounds"].push_back({{"name", bound.name},
+                              {"value", bound.value},
+                              {"relation", std::string(1, bound.relation)},
+                              {"bound", bound.bound},
+                              {"multiplier", bound.multiplier},
+                              {"is_kept", bound.is_kept}});
+  return json.dump(2) + '\n';
 }
 
 template std::string summary_table(const RunSummary<2>&);

@@ -231,6 +231,6 @@ const parts = (() => {
     return { figure, start, update };
   }
 
-  return { bytes, viridis, colour, curveColours, degree, element, shown, change, minutes, gradient, wheelPainter, drawGround,
-    roundMagnification, wheelPath, paintWheel, chart };
+  return { colour, curveColours, degree, element, shown, change, minutes, viridis, gradient, bytes, wheelPainter,
+    drawGround, roundMagnification, wheelPath, paintWheel, chart };
 })();

@@ -2,7 +2,7 @@
 (() => {
   const data = JSON.parse(document.getElementById("data").textContent);
   const page = document.getElementById("page");
-  const { bytes, colour, curveColours, degree, element, shown, change, minutes, viridis, gradient, wheelPainter,
+  const { colour, curveColours, degree, element, shown, change, minutes, viridis, gradient, bytes, wheelPainter,
     drawGround, roundMagnification, chart, wheelPath, paintWheel } = parts;
 
   // --- Numbers ----------------------------------------------------------------------------------------
@@ -63,8 +63,6 @@
       "contact is resolved, the run ended by itself."));
     return list;
   }
-
-  // --- The wheel rolling ------------------------------------------------------------------------------
 
   // --- The lit surface of a wheel in 3D ---------------------------------------------------------------
 
@@ -150,7 +148,7 @@
     const draw = () => {
       const pixels = Math.min(1200, Math.round(canvas.clientWidth * (window.devicePixelRatio || 1))) || 600;
       renderer.setSize(pixels, pixels, false);
-      const half = 1.15 / view.size;
+      const half = 1.2 / view.size;
       Object.assign(camera, { left: -half, right: half, top: half, bottom: -half });
       camera.updateProjectionMatrix();
       turned.rotation.set(view.pitch, view.yaw, 0);
@@ -213,7 +211,8 @@
     return Object.assign(paint, { kinds });
   }
 
-  // The loaded wheel with its controls: in the plane, or as a surface that turns.
+  // --- The wheel rolling ------------------------------------------------------------------------------
+
   function rolling(run) {
     const is_surface = run.dimension === 3;
     const picture = element("canvas", { role: "img", "aria-label": is_surface ?
