@@ -93,19 +93,22 @@ struct NotBegunReport {
   }
 };
 
-/// 2D: of what make_observers() writes there.
+/// What make_observers() writes there.
 void print_files(const fs::path& folder) {
-  for (const auto& [file, meaning] :
-       {std::pair{"report.html", "all of it on one page, for a browser"},
-        {"comparison.svg", "before and after"},
-        {"shape.svg", "the shape in true scale, for cutting"},
-        {"stress.svg", "the loaded wheel; stress_contact.svg about the contact"},
-        {"displacement.svg", "the loaded wheel, how far its points come down"},
-        {"mesh.svg", "the grid and the cells that the boundary cuts"},
-        {"summary.json", "the numbers above, for programs"},
-        {"history.csv", "every trial shape"},
-        {"shapes.pvd", "all shapes, for ParaView"},
-        {"rolling.pvd", "all load positions, for ParaView"}})
+  for (const auto& [file, meaning] : {std::pair{"report.html", "all of it on one page, for a browser"},
+                                      {"comparison.svg", "before and after"},
+                                      {"shape.svg", "the shape in true scale, for cutting"},
+                                      {"shape.stl", "the shape as a closed surface, in millimetres"},
+                                      {"stress.svg", "the loaded wheel, coloured by stress"},
+                                      {"stress_contact.svg", "the same about the contact"},
+                                      {"pressure.svg", "the contact pressure, from above"},
+                                      {"displacement.svg", "the loaded wheel, how far its points come down"},
+                                      {"mesh.svg", "the grid and the cells that the boundary cuts"},
+                                      {"summary.json", "the numbers above, for programs"},
+                                      {"history.csv", "every trial shape"},
+                                      {"shapes.pvd", "all shapes, for ParaView"},
+                                      {"rolling.pvd", "all load positions, for ParaView"},
+                                      {"surface.vtp", "the surface with its stress, for ParaView"}})
     if (fs::exists(folder / file)) print("  {:<36} {}\n", (folder / file).string(), meaning);
 }
 

@@ -39,6 +39,8 @@ struct Load {
   double force = 300 * 9.81;           ///< on the whole width [N]
   std::optional<double> travel;        ///< of the rim towards the ground [m]; if given, the force is a result
   double horizontal_force = 0;         ///< on the rim, towards larger azimuth, on the whole width [N]
+  double lateral_force = 0;            ///< on the rim, towards larger z; in 3D [N]
+  double camber = 0;                   ///< the side at larger z nearer to the ground; in 3D [rad]
   double torque = 0;                   ///< on the rim, towards larger azimuth, on the whole width [N m]
   std::array<double, 2> body_force{};  ///< along the ground towards larger azimuth, and down [N/m^3]
   double hole_pressure = 0;            ///< in the holes [Pa]
@@ -71,9 +73,30 @@ struct HoleCircle {
   bool operator==(const HoleCircle&) const = default;
 };
 
+/// Equal spherical holes, evenly spaced on a circle about the axle; in 3D.
+struct HoleSphere {
+  int count = 0;
+  double center_radius = 0;
+  double radius = 0;
+  double z = 0;                 ///< of the centres, from the middle of the width
+  std::optional<double> phase;  ///< as for a ring
+  bool operator==(const HoleSphere&) const = default;
+};
+
+/// Equal round holes whose radius changes along the axle, evenly spaced on a circle about it; in 3D.
+struct HoleTapered {
+  int count = 0;
+  double center_radius = 0;
+  std::vector<std::array<double, 2>> profile;  ///< [z from the middle of the width, radius], z ascending
+  std::optional<double> phase;                 ///< as for a ring
+  bool operator==(const HoleTapered&) const = default;
+};
+
 struct Holes {
   std::vector<HoleRing> rings;
   std::vector<HoleCircle> circles;
+  std::vector<HoleSphere> spheres;
+  std::vector<HoleTapered> tapered;
   bool operator==(const Holes&) const = default;
 };
 

@@ -143,6 +143,10 @@ void check_counts(const Case& c, const std::vector<DrawnShape>& shapes, Conflict
                                  fmt::join(divisors(common), ", "))});
   };
   for (std::size_t i = 0; i < c.holes.rings.size(); ++i) check(ring_key(i, "count"), c.holes.rings[i].count);
+  for (std::size_t i = 0; i < c.holes.spheres.size(); ++i)
+    check(fmt::format("holes.sphere[{}].count", i + 1), c.holes.spheres[i].count);
+  for (std::size_t i = 0; i < c.holes.tapered.size(); ++i)
+    check(fmt::format("holes.tapered[{}].count", i + 1), c.holes.tapered[i].count);
   for (const DrawnShape& shape : shapes)
     if (shape.repetition == Repetition::by_count) check(shape.key + ".count", shape.count);
 }
@@ -225,6 +229,47 @@ void check_holes(const Case& c, Conflicts& found) {
   }
 }
 
+/// A sphere must reach into the width.
+void check_spheres(const Case& c, Conflicts& found) {
+  for (std::size_t i = 0; i < c.holes.spheres.size(); ++i) {
+    const HoleSphere& sphere = c.holes.spheres[i];
+    const auto key = [&](std::string_view name) { return fmt::format("holes.sphere[{}].{}", i + 1, name); };
+    check_hole_inside(c, sphere.center_radius, sphere.radius, {key("radius"), key("center_radius")}, found);
+    const double reach = 0.5 * c.wheel.width + sphere.radius;
+    if (std::abs(sphere.z) < reach) continue;
+    found.push_back(
+        {{key("z"), key("radius"), "wheel.width"},
+         "the hole lies beside the wheel",
+         fmt::format("take a value between {:.6g} m and {:.6g} m: z is from the middle of the width", -reach,
+                     reach)});
+  }
+}
+
+/// The profile of a tapered hole ascends, and its widest place is a ring.
+void check_tapered(const Case& c, Conflicts& found) {
+  for (std::size_t i = 0; i < c.holes.tapered.size(); ++i) {
+    const HoleTapered& hole = c.holes.tapered[i];
+    const auto key = [&](std::string_view name) { return fmt::format("holes.tapered[{}].{}", i + 1, name); };
+    double widest = 0;
+    bool ascends = true;
+    for (std::size_t k = 0; k < hole.profile.size(); ++k) {
+      widest = std::max(widest, hole.profile[k][1]);
+      ascends = ascends && (k == 0 || hole.profile[k][0] > hole.profile[k - 1][0]);
+    }
+    if (!ascends)
+      found.push_back({{key("profile")},
+                       "the places along the axle do not grow from point to point",
+                       "sort the points by their first number"});
+    const std::vector<std::string> keys{key("profile"), key("center_radius")};
+    if (widest <= 0) {
+      found.push_back({keys, "no radius is positive: there is no hole", "give radii > 0"});
+      continue;
+    }
+    check_hole_inside(c, hole.center_radius, widest, keys, found);
+    check_holes_apart(hole.count, hole.center_radius, widest, {keys[0], keys[1], key("count")}, found);
+  }
+}
+
 /// A saved shape takes the place of holes and drawn shapes, and must fit the ring and its sectors.
 void check_saved_shape(const Case& c, Conflicts& found) {
   if (c.saved_shape.from.empty()) return;
@@ -233,6 +278,10 @@ void check_saved_shape(const Case& c, Conflicts& found) {
                      "holes and shapes cannot be drawn over the shape of another run",
                      "keep the shape of the other run, or what is drawn"});
   };
+  if (c.wheel.dimension == 3)
+    found.push_back({{"shape.from", "wheel.dimension"},
+                     "only wheels in the plane can begin with a saved shape",
+                     "take wheel.dimension = 2, or draw the shape"});
   if (!c.holes.rings.empty()) refuse_besides("holes.ring[1]");
   if (!c.holes.circles.empty()) refuse_besides("holes.circle[1]");
   for_each_shape_section([&](const auto& section) {
@@ -364,12 +413,35 @@ void check_dimension(const Case& c, Conflicts& found) {
       found.push_back({{"wheel.side_faces", "wheel.dimension"},
                        "a wheel in 2D has no side faces; plane strain already holds them",
                        "leave the key out, or take dimension = 3"});
+    for (const auto& [key, value] :
+         {std::pair("load.lateral_force", c.load.lateral_force), std::pair("load.camber", c.load.camber)})
+      if (value != 0)
+        found.push_back({{key, "wheel.dimension"},
+                         "a wheel in 2D knows nothing along its axle",
+                         "leave the key out, or take dimension = 3"});
+    for (const auto& [name, n] :
+         {std::pair("sphere", c.holes.spheres.size()), std::pair("tapered", c.holes.tapered.size())})
+      if (n > 0)
+        found.push_back({{fmt::format("holes.{}[1].count", name), "wheel.dimension"},
+                         "such a hole needs the width of the wheel",
+                         "take dimension = 3, or [[holes.ring]]"});
     return;
   }
   if (c.material.plane == Plane::stress)
     found.push_back({{"material.plane", "wheel.dimension"},
                      "plane stress is an assumption for two dimensions",
                      "leave the key out: in 3D the side faces are free of stress"});
+  const bool leans = c.load.camber != 0, is_pushed = c.load.lateral_force != 0;
+  if (c.wheel.side_faces == SideFaces::symmetric && (leans || is_pushed))
+    found.push_back({{"wheel.side_faces", leans ? "load.camber" : "load.lateral_force"},
+                     "symmetric side faces hold the wheel along the axle, so that it can neither lean nor be "
+                     "pushed",
+                     "take side_faces = \"free\""});
+  if (leans &&
+      (c.load.torque != 0 || c.load.hole_pressure != 0 || c.load.body_force != std::array<double, 2>{}))
+    found.push_back({{"load.camber", "load.torque", "load.body_force", "load.hole_pressure"},
+                     "a wheel that leans can carry forces on its rim alone",
+                     "leave out torque, body_force and hole_pressure, or take camber = 0"});
   constexpr double largest = 0.4;
   if (c.grid.degree == 1 && c.material.poissons_ratio > largest && !c.material.nearly_incompressible())
     found.push_back({{"grid.degree", "material.poissons_ratio", "wheel.dimension"},
@@ -402,6 +474,15 @@ void check_friction(const Case& c, Conflicts& found) {
   };
   check("load.horizontal_force", load.horizontal_force, held, "N");
   check("load.torque", load.torque, held * arm, "N m");
+  check("load.lateral_force", load.lateral_force, held, "N");
+  const double along_ground = std::hypot(load.horizontal_force, load.lateral_force);
+  if (!load.travel && load.horizontal_force != 0 && load.lateral_force != 0 && along_ground >= held &&
+      std::max(std::abs(load.horizontal_force), std::abs(load.lateral_force)) < held)
+    found.push_back({{"load.lateral_force", "load.horizontal_force", "contact.friction"},
+                     fmt::format("the wheel would slide: both forces together are {:.6g} N, and friction "
+                                 "resists less than {:.6g} N",
+                                 along_ground, held),
+                     "take smaller values, or more contact.friction"});
 }
 
 void check_annulus(const Case& c, Conflicts& found) {
@@ -641,6 +722,8 @@ std::vector<Conflict> conflicts(const Case& c) {
   check_counts(c, shapes, found);
   check_holes(c, found);
   check_nested_holes(c, found);
+  check_spheres(c, found);
+  check_tapered(c, found);
   check_saved_shape(c, found);
   check_coarse_levels(c, found);
   const Conflicts of_shapes = shape_conflicts(c, shapes);

@@ -179,6 +179,8 @@ const Section<Load>& load_section();
 const Section<Contact>& contact_section();
 const SectionArray<HoleRing>& ring_sections();
 const SectionArray<HoleCircle>& circle_sections();
+const SectionArray<HoleSphere>& sphere_sections();
+const SectionArray<HoleTapered>& tapered_sections();
 const Section<SavedShape>& saved_shape_section();
 const SectionArray<CircleShape>& circle_shape_sections();
 const SectionArray<EllipseShape>& ellipse_shape_sections();
@@ -220,6 +222,8 @@ void for_each_section(Visitor&& visit) {
   visit(contact_section());
   visit(ring_sections());
   visit(circle_sections());
+  visit(sphere_sections());
+  visit(tapered_sections());
   visit(saved_shape_section());
   for_each_shape_section(visit);
   visit(grid_section());

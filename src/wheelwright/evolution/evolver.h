@@ -10,6 +10,7 @@
 #include "wheelwright/evolution/velocity.h"
 #include "wheelwright/evolution/velocity_space.h"
 #include "wheelwright/evolution/volume.h"
+#include "wheelwright/geometry/mirror.h"
 
 namespace wheelwright {
 
@@ -83,7 +84,8 @@ class Evolver {
                                                  Extend extend) const;
 
   /// Post-processes the result of a stage: filters, symmetrizes and clips it.
-  Expected<LevelSet<dim>> finished(const LevelSet<dim>& psi, bool is_symmetric, const char* what) const;
+  Expected<LevelSet<dim>> finished(const LevelSet<dim>& psi, const std::vector<MirrorPlane>& symmetries,
+                                   const char* what) const;
 
   Lattice<dim> lattice_;
   ProtectedBands<dim> bands_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "wheelwright/evolution/redistance.h"
 #include "wheelwright/evolution/seeds.h"
@@ -17,6 +18,10 @@ constexpr double facing = -0.5;
 /// How much smaller than the wanted radius a ball must be to count, relative: less than the curves of an
 /// outline may deviate.
 constexpr double rounding = 1e-3;
+
+/// How much thicker than asked a wall becomes, relative: the kink of the level set in its middle costs as
+/// much in walls of two cells, and the shift to a measure some more.
+constexpr double margin = 0.02;
 
 /// What filling must add at a node to count, by the resolution: redistancing moves the boundary by less.
 constexpr double least_filling = 0.1;
@@ -37,11 +42,13 @@ Vec<dim> normal_at(const CubicInterpolant<dim>& psi, const Vec<dim>& point) {
   return rotated<dim>(normal, point[1] * psi.lattice().spacing()[1]);
 }
 
-/// The ball of at most `radius` inside the boundary that touches it at a point and holds no other; the other
-/// point that it touches, or the point itself if it touches none.
+/// The ball of less than `radius` inside the boundary that touches it at a point and holds no other, if it
+/// lies between places that face each other: when it was hardly larger it touched a point that faces the
+/// first. (In a small round hole such a ball touches everywhere at last.)
 template <int dim>
-std::pair<MedialBall<dim>, int> shrunk_ball(const BoundaryPoints<dim>& boundary, int point, double radius) {
+std::optional<MedialBall<dim>> ball_between(const BoundaryPoints<dim>& boundary, int point, double radius) {
   constexpr int most_steps = 30;
+  constexpr double hardly_larger = 1.1;
   const Vec<dim>& p = boundary.points.points()[point];
   const Vec<dim>& normal = boundary.normals[point];
   const auto centre_of = [&](double r) {
@@ -49,7 +56,7 @@ std::pair<MedialBall<dim>, int> shrunk_ball(const BoundaryPoints<dim>& boundary,
     for (int d = 0; d < dim; ++d) centre[d] = p[d] - r * normal[d];
     return centre;
   };
-  int other = point;
+  double facing_radius = 0;
   for (int step = 0; step < most_steps; ++step) {
     const Vec<dim> centre = centre_of(radius);
     const int nearest = boundary.points.index_of_nearest(centre);
@@ -62,9 +69,10 @@ std::pair<MedialBall<dim>, int> shrunk_ball(const BoundaryPoints<dim>& boundary,
     const double smaller = -dot<dim>(apart, apart) / (2 * dot<dim>(apart, normal));
     if (!(smaller > 0 && smaller < radius)) break;
     radius = smaller;
-    other = nearest;
+    if (dot<dim>(normal, boundary.normals[nearest]) < facing) facing_radius = radius;
   }
-  return {{centre_of(radius), radius}, other};
+  if (facing_radius == 0 || facing_radius > hardly_larger * radius) return {};
+  return MedialBall<dim>{centre_of(radius), radius};
 }
 
 template <int dim>
@@ -129,11 +137,8 @@ std::vector<MedialBall<dim>> thin_walls(const LevelSet<dim>& psi, double radius)
   const auto boundary = boundary_points<dim>(interpolant, seeds);
   const int n = static_cast<int>(seeds.size());
   std::vector<MedialBall<dim>> balls;
-  for (int point = n; point < 2 * n; ++point) {
-    const auto [ball, other] = shrunk_ball<dim>(boundary, point, radius);
-    if (ball.radius < radius && dot<dim>(boundary.normals[point], boundary.normals[other]) < facing)
-      balls.push_back(ball);
-  }
+  for (int point = n; point < 2 * n; ++point)
+    if (const auto ball = ball_between<dim>(boundary, point, radius)) balls.push_back(*ball);
   return balls;
 }
 
@@ -144,7 +149,7 @@ LevelSet<dim> with_thick_walls(const LevelSet<dim>& psi, double wall) {
   const DistanceToCentres<dim> distance(psi.lattice, balls);
   LevelSet<dim> result = psi;
   for (int node = 0; node < psi.lattice.n_nodes(); ++node)
-    result.values[node] = std::min(result.values[node], distance(node) - 0.5 * wall);
+    result.values[node] = std::min(result.values[node], distance(node) - 0.5 * (1 + margin) * wall);
   return result;
 }
 
@@ -155,7 +160,8 @@ LevelSet<dim> without_narrow_gaps(const LevelSet<dim>& psi, double gap) {
   const DistanceToCentres<dim> distance(psi.lattice, balls);
   const auto signed_distance = redistance(psi);
   const auto dilated = shifted(signed_distance, -0.5 * gap);
-  const auto closed = shifted(redistance(dilated), 0.5 * gap);
+  const bool fills_all = std::ranges::all_of(dilated.values, [](double x) { return x < 0; });
+  const auto closed = fills_all ? dilated : shifted(redistance(dilated), 0.5 * gap);
   const double least = least_filling * psi.lattice.grid().resolution();
   LevelSet<dim> result = psi;
   for (int node = 0; node < psi.lattice.n_nodes(); ++node)

@@ -26,8 +26,8 @@ struct MedialBall {
 template <int dim>
 std::vector<MedialBall<dim>> thin_walls(const LevelSet<dim>& psi, double radius);
 
-/// Walls thinner than `wall` with material added on both sides until they are as thick: a ball of that
-/// diameter is put in the place of every one of thin_walls(). Elsewhere the shape stays as it is.
+/// Walls thinner than `wall` with material added on both sides until they are as thick, and 2 % more: a ball
+/// of that diameter is put in the place of every one of thin_walls(). Elsewhere the shape stays as it is.
 template <int dim>
 LevelSet<dim> with_thick_walls(const LevelSet<dim>& psi, double wall);
 

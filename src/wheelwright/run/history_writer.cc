@@ -102,6 +102,7 @@ void HistoryWriter<dim>::operator()(const Event<dim>& event, const RunView<dim>&
     notes_.push_back(changed->text);
     add_missing_columns(run);
   }
+  if (const auto* replaced = std::get_if<ShapeReplaced>(&event)) notes_.push_back(replaced->text);
   if (const auto* changed = std::get_if<GridChanged>(&event)) notes_.push_back(changed->text);
   if (const auto* done = std::get_if<TrialDone<dim>>(&event)) record(*done, run);
 }

@@ -49,6 +49,8 @@ RollingModel<dim> rolling_model(const Case& c) {
   model.tread = {tread_rows(c), tread_levels(c), wants_annulus(c) ? c.grid.degree + 1 : 0};
   model.load = on_model_width<dim>(c.load.force, c);
   model.horizontal_force = on_model_width<dim>(c.load.horizontal_force, c);
+  model.lateral_force = c.load.lateral_force;
+  model.camber = c.load.camber;
   model.torque = on_model_width<dim>(c.load.torque, c);
   model.travel = c.load.travel;
   const auto [along_ground, down] = c.load.body_force;
@@ -150,8 +152,13 @@ const LevelSet<dim>* saved_shape(const Case& c) {
 /// The shape that a case draws, at the nodes of a lattice.
 template <int dim>
 LevelSet<dim> drawn_on(const Lattice<dim>& lattice, const Case& c) {
-  if (c.shapes == Shapes{}) return make_level_set(lattice, sector_holes(c));
-  return make_level_set(lattice, Composition(figures(c)));
+  LevelSet<dim> psi = c.shapes == Shapes{} ? make_level_set(lattice, sector_holes(c))
+                                           : make_level_set(lattice, Composition(figures(c)));
+  if constexpr (dim == 3) {
+    for (const Sphere& hole : sector_spheres(c)) psi = with_hole(std::move(psi), hole);
+    for (const TaperedHole& hole : sector_tapered_holes(c)) psi = with_hole(std::move(psi), hole);
+  }
+  return psi;
 }
 
 }  // namespace
