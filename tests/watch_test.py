@@ -85,12 +85,6 @@ class Watched:
         return self.process.returncode, *output
 
 
-def luminance(colour):
-    channels = [int(colour[k:k + 2], 16) / 255 for k in (1, 3, 5)]
-    linear = [c / 12.92 if c <= 0.03928 else ((c + 0.055) / 1.055) ** 2.4 for c in channels]
-    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
-
-
 class Page(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -289,6 +283,96 @@ class Page(unittest.TestCase):
         self.browser.close()
         self.browser.switch_to.window(self.browser.window_handles[0])
 
+    def drag(self, start, end=None):
+        """The mouse on the wheel, from one place to another, in metres."""
+        unit, wheel = self.browser.execute_script(
+            "const w = document.getElementById('wheel'); return w.getBoundingClientRect().width * 0.47"), self.element("wheel")
+        unit /= self.watched.frame()["wheel"]["outer_radius_m"]
+        actions = ActionChains(self.browser, duration=20)
+        actions.move_to_element_with_offset(wheel, round(start[0] * unit), round(-start[1] * unit)).click_and_hold()
+        if end:
+            actions.move_by_offset(round((end[0] - start[0]) * unit), round(-(end[1] - start[1]) * unit))
+        actions.release().perform()
+
+    def changed(self, act):
+        """The volume before and after something that the user does to a paused wheel."""
+        before = self.watched.frame()
+        act()
+        after = self.watched.wait(lambda f: f["message"] != before["message"] or f["outline"] != before["outline"])
+        self.assertFalse(after["is_refusal"], after["message"])
+        self.until(lambda: int(self.wheel("version")) >= after["version"])
+        return before, self.watched.frame()
+
+    def test_holes_are_edited_by_mouse(self):
+        self.settled()
+        self.paused()
+        self.element("reset").click()
+        self.until(lambda: self.element("undo").is_enabled())
+        hole = (0.27 * 0.92387953, 0.27 * 0.38268343)
+        volume = lambda frames: [f["numbers"]["volume_fraction"] for f in frames]
+        picture = self.picture()
+        self.element("tool-move").click()
+        before, after = self.changed(lambda: self.drag(hole, (hole[0] + 0.012, hole[1] - 0.004)))
+        self.assertTrue(after["message"].startswith("the hole at"))
+        self.assertAlmostEqual(*volume((before, after)), delta=2e-3)
+        self.assertNotEqual(after["travel_m"], before["travel_m"])
+        self.assertNotEqual(self.picture(), picture)
+        self.element("undo").click()
+        self.watched.wait(lambda f: f["outline"] == before["outline"])
+        self.element("tool-resize").click()
+        first, second = volume(self.changed(lambda: self.drag((hole[0] + 0.02, hole[1]), (hole[0] + 0.01, hole[1]))))
+        self.assertGreater(second, first + 0.01)
+        self.element("tool-fill").click()
+        first, second = volume(self.changed(lambda: self.drag(hole)))
+        self.assertGreater(second, first)
+        between = (0.27, 0.0)
+        for tool, sign in (("add", -1), ("paint", 1), ("erase", -1)):
+            self.element(f"tool-{tool}").click()
+            first, second = volume(self.changed(lambda: self.drag(between, (between[0], between[1] + 0.015))))
+            self.assertGreater(sign * (second - first), 1e-3, tool)
+
+    def test_holes_are_edited_by_keyboard(self):
+        self.settled()
+        self.paused()
+        self.element("reset").click()
+        self.until(lambda: self.element("undo").is_enabled())
+        self.element("tool-look").send_keys(Keys.ARROW_RIGHT)
+        self.assertTrue(self.element("tool-move").is_selected())
+        wheel = self.element("wheel")
+        wheel.send_keys(Keys.ARROW_LEFT)  # the cross appears in the first hole
+        before, after = self.changed(
+            lambda: wheel.send_keys(Keys.ENTER, Keys.ARROW_DOWN, Keys.ARROW_DOWN, Keys.ENTER))
+        self.assertTrue(after["message"].startswith("the hole at"))
+        self.assertNotEqual(before["outline"], after["outline"])
+        version = self.watched.frame()["version"]
+        wheel.send_keys(Keys.ENTER, Keys.ARROW_UP, Keys.ESCAPE)
+        self.assertEqual(self.watched.frame()["version"], version)
+
+    def test_the_loaded_wheel_rolls(self):
+        self.settled()
+        self.element("load").click()
+        self.until(lambda: self.element("roll").is_enabled())
+        seen = set()
+        self.element("roll").send_keys(Keys.ENTER)
+        self.until(lambda: seen.add(self.browser.execute_script(
+            "return document.querySelector('#loaded-wheel canvas').toDataURL()")) or len(seen) >= 4)
+        self.assertEqual(self.element("roll").get_attribute("aria-pressed"), "true")
+        self.element("roll").click()
+        self.assertEqual(self.element("roll").get_attribute("aria-pressed"), "false")
+
+    def test_designs_are_taken_away(self):
+        self.settled()
+        self.element("name").send_keys(Keys.CONTROL, "a", Keys.NULL, "even-wheel")
+        self.element("save").click()
+        self.until(lambda: self.text("message").startswith("saved"))
+        self.element("save").click()
+        self.until(lambda: "already" in self.text("message"))
+        self.browser.get_log("browser")  # a refusal is an answer of its own status
+        self.element("export").send_keys(Keys.ENTER)
+        self.until(lambda: "even-wheel.step is downloaded" in self.text("message"))
+        self.element("report").click()
+        self.until(lambda: "even-wheel.html is downloaded" in self.text("message"))
+
     def test_controls_have_names(self):
         for control in self.browser.find_elements(By.CSS_SELECTOR, "input, select, button, canvas:not([aria-hidden])"):
             self.assertTrue(control.accessible_name, control.get_attribute("outerHTML"))
@@ -365,6 +449,41 @@ class Folder(unittest.TestCase):
         for name, content in first.items():
             self.assertEqual(content, again[name], name)
         self.assertEqual(len(first["commands.jsonl"].splitlines()), 9)
+
+    def test_a_saved_design_begins_with_the_same_numbers(self):
+        watched = self.watch(self.folder / "case.toml", "--output", self.folder / "run")
+        watched.wait(lambda f: f.get("shape", 0) >= 4)
+        watched.give({"do": "pause"})
+        hole = [0.27 * 0.92387953, 0.27 * 0.38268343]
+        self.assertTrue(watched.give({"do": "move_hole", "at_m": hole, "by_m": [0.001, 0.002], "scale": 1.1})["obeyed"])
+        shown = watched.frame()["numbers"]["objective_J_per_m"]
+        connection = watched.connect()
+        for name, status in (("a-design", 200), ("a-design", 422), ("../up", 422), ("", 422), ("x" * 41, 422)):
+            connection.request("POST", "/save", name, {"Authorization": f"Bearer {watched.token}"})
+            response = connection.getresponse()
+            response.read()
+            self.assertEqual(response.status, status, name)
+        case = self.folder / "run/designs/a-design.toml"
+        self.assertEqual({f.name for f in case.parent.iterdir()}, {"a-design.toml", "a-design.levelset"})
+        watched.end()
+        subprocess.run([program, "run", case, "--iterations", "0", "--output", self.folder / "from"], check=True,
+                       capture_output=True, timeout=300)
+        head, first = (line.split(",") for line in (self.folder / "from/history.csv").read_text().splitlines()[:2])
+        self.assertEqual(float(first[[k for k, c in enumerate(head) if c.startswith("objective")][0]]), shown)
+
+    def test_exports_are_what_the_command_writes(self):
+        watched = self.watch(self.folder / "case.toml", "--output", self.folder / "run")
+        watched.wait(lambda f: f["activity"] == "settled")
+        dxf, report = watched.get("/export?format=dxf"), watched.get("/report")
+        self.assertEqual(json.loads(watched.get("/export?format=/etc/passwd"))["obeyed"], False)
+        watched.end()
+        subprocess.run([program, "export", self.folder / "run", "--format", "dxf", "--output", self.folder / "files"],
+                       check=True, capture_output=True, timeout=300)
+        lines = [line for line in dxf.decode().splitlines()]
+        written = (self.folder / "files/run.dxf").read_text().splitlines()
+        self.assertEqual(len(lines), len(written))
+        self.assertLess(sum(a != b for a, b in zip(lines, written)), 3)  # the title
+        self.assertIn(b"<!DOCTYPE html>", report)
 
     def test_a_killed_run_goes_on(self):
         watched = self.watch(self.folder / "case.toml", "--output", self.folder / "run")

@@ -101,6 +101,8 @@ axial_cells = 4
 
 [optimizer]
 smoothing = 0.1  # keeps the edges smooth on a coarse grid
+rim_band = 0.0117
+tread_band = 0.0234
 )"},
     {"caster", "a small wheel of polyurethane, for 80 kg",
      R"(# A caster of 125 mm: a tyre of polyurethane with slots on a rigid hub.

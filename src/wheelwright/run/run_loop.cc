@@ -161,7 +161,8 @@ void RunLoop<dim>::begin_on_coarser_grid() {
       must_yield();
       return;
     }
-    notify(CommandDone{fmt::format("{}: {}: {}", grid_text(on_coarser_grid(work_->study.source, level)),
+    notify(CommandDone{nullptr,
+                       fmt::format("{}: {}: {}", grid_text(on_coarser_grid(work_->study.source, level)),
                                    to_string(failure->reason), failure->detail),
                        false});
   }
@@ -417,9 +418,9 @@ void RunLoop<dim>::obey(const Command& command) {
   const Obeyed obeyed = std::visit(
       [this](const auto& c) -> Obeyed { return c.obey(static_cast<RunControl&>(*this)); }, command);
   if (obeyed)
-    notify(CommandDone{command, *obeyed, true});
+    notify(CommandDone{&command, *obeyed, true});
   else
-    notify(CommandDone{command, obeyed.failure().reason, false});
+    notify(CommandDone{&command, obeyed.failure().reason, false});
 }
 
 template <int dim>

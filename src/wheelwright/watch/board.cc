@@ -26,6 +26,7 @@ void Board::show(std::shared_ptr<const WatchedShape> shape) {
                    .run_out = measure_named(*shape, name(Quantity::run_out)),
                    .volume_fraction = shape->measure / sector_measure<2>(shape->psi.lattice.grid())};
   update([&](BoardView& view) {
+    if (!view.first) view.first = shape;
     view.shape = std::move(shape);
     point.version = view.version + 1;
     curve_.push_back(point);

@@ -44,7 +44,7 @@ constexpr const char* to_string(Activity activity) {
 /// What a run looks like now.
 struct BoardView {
   long version = 0;  ///< grows with every change
-  std::shared_ptr<const WatchedShape> shape;
+  std::shared_ptr<const WatchedShape> shape, first;
   Activity activity = Activity::starting;
   std::optional<StopReason> reason;  ///< why it settled or ended
   bool can_undo = false;

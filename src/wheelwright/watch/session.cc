@@ -9,6 +9,7 @@
 #include "wheelwright/run/command_log.h"
 #include "wheelwright/watch/board_observer.h"
 #include "wheelwright/watch/frame.h"
+#include "wheelwright/watch/products.h"
 
 namespace wheelwright {
 namespace {
@@ -33,6 +34,8 @@ PageAnswer message(int status, bool was_obeyed, const std::string& text) {
   return {.status = status,
           .body = json.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace)};
 }
+
+PageAnswer no_shape() { return message(409, false, "there is no shape yet"); }
 
 Route asset(std::string path, std::string type, std::string_view content) {
   return {Route::Method::get, Route::Access::open, std::move(path),
@@ -59,6 +62,7 @@ WatchSession::WatchSession(CommandQueue& commands)
     : board_(std::make_shared<Board>()), commands_(std::make_shared<PageCommands>(commands)) {}
 
 void WatchSession::watch(Run<2>& run) {
+  folder_ = run.folder();
   run.add(std::make_unique<CommandLog<2>>());
   run.add(std::make_unique<BoardObserver>(board_));
   run.add(std::make_unique<PageCommandsObserver>(commands_));
@@ -75,6 +79,10 @@ std::vector<Route> WatchSession::routes() {
           asset("/parts.js", script, assets::parts_js),
           asset("/watch.js", script, assets::watch_js),
           {get, token, "/frame", [this](const PageRequest& request) { return frame(request); }},
+          {get, token, "/loaded", [this](const PageRequest&) { return loaded(); }},
+          {get, token, "/export", [this](const PageRequest& request) { return exported_file(request); }},
+          {get, token, "/report", [this](const PageRequest&) { return report(); }},
+          {post, token, "/save", [this](const PageRequest& request) { return save(request); }},
           {post, token, "/command", [this](const PageRequest& request) { return command(request); }}};
 }
 
@@ -99,6 +107,37 @@ PageAnswer WatchSession::command(const PageRequest& request) {
   const auto answer = commands_->answer(*ticket, patience);
   if (!answer) return message(202, false, "not obeyed yet");
   return message(200, answer->was_obeyed, answer->text);
+}
+
+PageAnswer WatchSession::loaded() const {
+  const BoardView view = board_->view();
+  if (!view.shape) return no_shape();
+  return {.body = loaded_wheel(*view.shape)};
+}
+
+PageAnswer WatchSession::exported_file(const PageRequest& request) const {
+  const BoardView view = board_->view();
+  const auto format = request.parameters.find("format");
+  if (!view.shape || format == request.parameters.end()) return no_shape();
+  const auto file = exported(*view.shape, format->second);
+  if (!file) return message(422, false, file.failure().reason);
+  return {.type = "application/octet-stream", .body = *file};
+}
+
+PageAnswer WatchSession::report() const {
+  const BoardView view = board_->view();
+  if (!view.shape) return no_shape();
+  const auto page = design_report(folder_, view.first->psi, *view.shape);
+  if (!page) return message(422, false, page.failure().reason);
+  return {.type = "application/octet-stream", .body = *page};
+}
+
+PageAnswer WatchSession::save(const PageRequest& request) const {
+  const BoardView view = board_->view();
+  if (!view.shape) return no_shape();
+  const auto file = save_design(folder_, request.body, *view.shape);
+  if (!file) return message(422, false, file.failure().reason);
+  return message(200, true, file->string());
 }
 
 }  // namespace wheelwright

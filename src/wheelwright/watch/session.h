@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <vector>
 
@@ -33,7 +34,12 @@ class WatchSession {
  private:
   PageAnswer frame(const PageRequest& request) const;
   PageAnswer command(const PageRequest& request);
+  PageAnswer loaded() const;
+  PageAnswer exported_file(const PageRequest& request) const;
+  PageAnswer report() const;
+  PageAnswer save(const PageRequest& request) const;
 
+  std::filesystem::path folder_;  ///< of the run
   std::shared_ptr<Board> board_;
   std::shared_ptr<PageCommands> commands_;
 };

@@ -66,7 +66,285 @@
       edges.addPath(wheelPath([points_um], in_every_sector ? frame.wheel.sectors : 1, unit * micrometre));
     context.lineWidth = size / 900;
     paintWheel(context, edges, frame.wheel.inner_radius_m * unit, frame.wheel.outer_radius_m * unit);
+    paintEdit(context, unit);
   }
+
+  // --- Editing ----------------------------------------------------------------------------------------
+
+  const tools = [["look", "look", "Choose what to do with the holes. All sectors change alike."],
+    ["move", "move", "Drag a hole. With the keys: arrows, Enter to take it, arrows, Enter to drop it."],
+    ["resize", "resize", "Drag away from a hole's centre or towards it. With the keys: arrows, Enter, arrows, Enter."],
+    ["add", "add", "Drag from the centre of the new hole outwards, or click. With the keys: arrows, Enter, Enter."],
+    ["fill", "delete", "Click into a hole to fill it. With the keys: arrows, Enter, or Delete with any tool."],
+    ["paint", "paint material", "Draw with the mouse. With the keys: arrows, Enter, arrows, Enter."],
+    ["erase", "erase material", "Draw with the mouse. With the keys: arrows, Enter, arrows, Enter."]];
+  const brushes = { paint: "material", erase: "hole" };
+  for (const [id, label] of tools)
+    at("tools").append(element("label", {}, element("input",
+      { type: "radio", name: "tool", value: id, id: `tool-${id}`, ...(id === "look" ? { checked: "" } : {}) }), label));
+  const tip = element("input", { type: "range", id: "tip", min: 2, max: 40, value: 10 });
+  at("tools").append(element("label", { class: "size" }, "tip", tip));
+  const tool = () => document.querySelector("input[name=tool]:checked").value;
+  const help = () => { at("wheel-help").textContent = tools.find(([id]) => id === tool())[2]; };
+  at("tools").addEventListener("change", help);
+  help();
+
+  let edit = null;    // { tool, from, to, path, hole } while the user draws, in metres
+  let cursor = null;  // where the keys point
+
+  const turned = ([x, y], angle) => [Math.cos(angle) * x - Math.sin(angle) * y, Math.sin(angle) * x + Math.cos(angle) * y];
+  const distance = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1]);
+
+  function isInside(points, [x, y]) {
+    let inside = false;
+    for (let i = 0, j = points.length - 1; i < points.length; j = i++)
+      if ((points[i][1] > y) !== (points[j][1] > y) &&
+          x < (points[j][0] - points[i][0]) * (y - points[i][1]) / (points[j][1] - points[i][1]) + points[i][0])
+        inside = !inside;
+    return inside;
+  }
+
+  // The edge of the hole round a point, with its centre.
+  function holeAt(point) {
+    for (const { in_every_sector, points_um } of frame.outline) {
+      const n = in_every_sector ? frame.wheel.sectors : 1;
+      for (let s = 0; s < n; ++s) {
+        const angle = 2 * Math.PI * s / n, edge = [];
+        for (let k = 0; k < points_um.length; k += 2)
+          edge.push(turned([points_um[k] * micrometre, points_um[k + 1] * micrometre], angle));
+        if (!isInside(edge, point) || isInside(edge, [0, 0])) continue;
+        const sum = edge.reduce(([a, b], [x, y]) => [a + x, b + y], [0, 0]);
+        return { edge, centre: sum.map((v) => v / edge.length) };
+      }
+    }
+    return null;
+  }
+
+  const holeTools = ["move", "resize", "fill"];
+  const tipRadius = () => Number(tip.value) * 1e-3;
+  const factorOf = ({ from, to, hole }) =>
+    Math.min(5, Math.max(0.2, distance(to, hole.centre) / Math.max(1e-3, distance(from, hole.centre))));
+  const addedRadius = ({ from, to }) => Math.max(tipRadius(), distance(from, to));
+
+  function begin(point) {
+    const kind = tool();
+    if (kind === "look" || !frame?.outline) return;
+    const hole = holeTools.includes(kind) ? holeAt(point) : null;
+    if (holeTools.includes(kind) && !hole) {
+      tell("there is no hole here", true);
+      return;
+    }
+    edit = { tool: kind, from: point, to: point, path: [point], hole };
+    if (kind === "fill") finish();
+    else paint();
+  }
+
+  function go(point) {
+    edit.to = point;
+    const least = Math.max(0.3 * tipRadius(), 1e-3);
+    if (edit.tool in brushes && distance(point, edit.path.at(-1)) > least && edit.path.length < 200) edit.path.push(point);
+    paint();
+  }
+
+  // Gives the command of what was drawn. It stays on the picture until the shape has it.
+  async function finish() {
+    const done = edit, { from, to } = done;
+    const by = [to[0] - from[0], to[1] - from[1]];
+    const command = {
+      move: () => ({ do: "move_hole", at_m: from, by_m: by, scale: 1 }),
+      resize: () => ({ do: "move_hole", at_m: from, by_m: [0, 0], scale: factorOf(done) }),
+      add: () => ({ do: "paint", as: "hole", path_m: [from], radius_m: addedRadius(done) }),
+      fill: () => ({ do: "fill_hole", at_m: from }),
+      paint: () => ({ do: "paint", as: "material", path_m: done.path, radius_m: tipRadius() }),
+      erase: () => ({ do: "paint", as: "hole", path_m: done.path, radius_m: tipRadius() }),
+    }[done.tool]();
+    wheel.dataset.given = String(performance.now());
+    await give(command);
+    if (edit === done) edit = null;
+    paint();
+  }
+
+  function editPath({ tool: kind, from, to, hole }, unit) {
+    const pixels = ([x, y]) => [x * unit, -y * unit], path = new Path2D();
+    const loop = (points) => {
+      points.map(pixels).forEach(([x, y], k) => k ? path.lineTo(x, y) : path.moveTo(x, y));
+      path.closePath();
+    };
+    if (kind === "move") loop(hole.edge.map(([x, y]) => [x + to[0] - from[0], y + to[1] - from[1]]));
+    if (kind === "resize") {
+      const f = factorOf(edit), [cx, cy] = hole.centre;
+      loop(hole.edge.map(([x, y]) => [cx + f * (x - cx), cy + f * (y - cy)]));
+    }
+    if (kind === "add") path.arc(...pixels(from), addedRadius(edit) * unit, 0, 2 * Math.PI);
+    return path;
+  }
+
+  function paintEdit(context, unit) {
+    const { sectors } = frame.wheel;
+    context.save();
+    context.strokeStyle = colour("--bad");
+    context.lineWidth = wheel.width / 400;
+    if (edit) {
+      const isBrush = edit.tool in brushes, path = isBrush ? new Path2D() : editPath(edit, unit);
+      if (isBrush) {
+        edit.path.forEach(([x, y], k) => k ? path.lineTo(x * unit, -y * unit) : path.moveTo(x * unit, -y * unit));
+        path.lineTo(edit.path[0][0] * unit + (edit.path.length === 1 ? 0.01 : 0), -edit.path[0][1] * unit);
+        context.lineWidth = 2 * tipRadius() * unit;
+        context.lineCap = context.lineJoin = "round";
+        context.strokeStyle = colour(edit.tool === "paint" ? "--accent" : "--bad");
+        context.globalAlpha = 0.5;
+      } else {
+        context.setLineDash([6, 4]);
+      }
+      for (let s = 0; s < sectors; ++s) {
+        context.stroke(path);
+        context.rotate(2 * Math.PI / sectors);
+      }
+    }
+    context.restore();
+    if (!cursor || document.activeElement !== wheel) return;
+    context.save();
+    context.strokeStyle = colour("--ink");
+    context.lineWidth = wheel.width / 300;
+    const [x, y] = [cursor[0] * unit, -cursor[1] * unit], size = wheel.width / 60;
+    context.stroke(new Path2D(`M${x - size} ${y}H${x + size}M${x} ${y - size}V${y + size}`));
+    context.restore();
+  }
+
+  function pointOf(event) {
+    const box = wheel.getBoundingClientRect(), unit = scale() * box.width / wheel.width;
+    return [(event.clientX - box.left - box.width / 2) / unit, -(event.clientY - box.top - box.height / 2) / unit];
+  }
+
+  wheel.addEventListener("pointerdown", (event) => {
+    if (!frame?.outline || edit) return;
+    wheel.setPointerCapture(event.pointerId);
+    cursor = null;
+    begin(pointOf(event));
+  });
+  wheel.addEventListener("pointermove", (event) => {
+    if (edit && event.buttons) go(pointOf(event));
+  });
+  wheel.addEventListener("pointerup", (event) => {
+    if (!edit || edit.tool === "fill") return;
+    go(pointOf(event));
+    finish();
+  });
+  wheel.addEventListener("pointercancel", () => { edit = null; });
+
+  wheel.addEventListener("keydown", (event) => {
+    if (!frame?.outline) return;
+    const step = event.shiftKey ? 0.01 : 0.002;
+    const moves = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, step], ArrowDown: [0, -step] };
+    const { inner_radius_m, outer_radius_m } = frame.wheel;
+    if (event.key in moves) {
+      const middle = (inner_radius_m + outer_radius_m) / 2, first = Math.PI / frame.wheel.sectors;
+      cursor = cursor ? [cursor[0] + moves[event.key][0], cursor[1] + moves[event.key][1]]
+        : [middle * Math.cos(first), middle * Math.sin(first)];
+      if (edit) go(cursor);
+    } else if (event.key === "Enter" || event.key === " ") {
+      if (edit) finish();
+      else if (cursor) begin(cursor);
+    } else if (event.key === "Escape") {
+      edit = null;
+    } else if (event.key === "Delete" && cursor) {
+      give({ do: "fill_hole", at_m: cursor });
+    } else {
+      return;
+    }
+    event.preventDefault();
+    paint();
+  });
+
+  // --- The loaded wheel -------------------------------------------------------------------------------
+
+  let loaded = null;  // { version, paint, drawGround, lose, positions }
+  let rolling = null, isLoading = false;
+  const loadedEvery = 1500;  // ms
+
+  async function loadWheel() {
+    if (isLoading || !frame?.outline) return;
+    isLoading = true;
+    const version = frame.version;
+    try {
+      const fields = await (await ask("/loaded")).json();
+      const picture = element("canvas", { role: "img", "aria-label": "The loaded wheel, coloured by von Mises stress" });
+      const ground = element("canvas", { "aria-hidden": "true" });
+      const run = { fields, sectors: frame.wheel.sectors, outer_radius_m: frame.wheel.outer_radius_m };
+      at("loaded").hidden = false;
+      const old = loaded;
+      at("loaded-wheel").replaceChildren(picture, ground);
+      const paint = parts.wheelPainter(picture, run);
+      old?.lose();
+      const magnified = parts.roundMagnification(0.03 * run.outer_radius_m / fields.full_displacement_m);
+      loaded = { version, run, ground, paint, magnified, n: fields.positions.length, at: performance.now(),
+        lose: () => picture.getContext("webgl")?.getExtension("WEBGL_lose_context")?.loseContext(), picture };
+      at("roll").disabled = false;
+      showLoaded();
+    } catch {
+      tell("the loaded wheel cannot be shown", true);
+    }
+    isLoading = false;
+  }
+
+  function showLoaded() {
+    const i = Number(at("position").value) % loaded.n;
+    loaded.paint?.(i, loaded.magnified);
+    parts.drawGround(loaded.ground, loaded.run);
+    at("loaded-wheel").dataset.position = String(i);
+    at("loaded-text").textContent = `Von Mises stress up to ${shown(loaded.run.fields.full_stress_Pa * 1e-6)} MPa; ` +
+      `displacements are drawn ${loaded.magnified} times as large.`;
+  }
+
+  function roll(on) {
+    clearInterval(rolling);
+    rolling = on ? setInterval(() => {
+      at("position").value = (Number(at("position").value) + 1) % loaded.n;
+      showLoaded();
+      look();
+    }, 150) : null;
+    at("roll").textContent = on ? "Stop" : "Roll";
+    at("roll").setAttribute("aria-pressed", String(on));
+  }
+
+  at("load").addEventListener("click", loadWheel);
+  at("roll").addEventListener("click", () => roll(rolling === null));
+  setInterval(() => { if (loaded && frame && loaded.version !== frame.version) loadWheel(); }, loadedEvery);
+
+  // --- To take away -----------------------------------------------------------------------------------
+
+  function download(name, blob) {
+    const link = element("a", { href: URL.createObjectURL(blob), download: name });
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+  }
+
+  async function takeAway(address, name) {
+    try {
+      const response = await ask(address);
+      if (!response.ok) return tell((await response.json()).text, true);
+      download(name, await response.blob());
+      return tell(`${name} is downloaded`, false);
+    } catch {
+      return tell("the program does not answer", true);
+    }
+  }
+
+  for (const format of ["step", "dxf", "svg", "stl", "3mf", "png", "vtu"])
+    at("format").append(element("option", { value: format }, format.toUpperCase()));
+  at("export").addEventListener("click", () =>
+    takeAway(`/export?format=${at("format").value}`, `${at("name").value}.${at("format").value}`));
+  at("report").addEventListener("click", () => takeAway("/report", `${at("name").value}.html`));
+  at("save").addEventListener("click", async () => {
+    try {
+      const answer = await (await ask("/save", { method: "POST", body: at("name").value })).json();
+      tell(answer.obeyed ? `saved: ${answer.text}` : answer.text, !answer.obeyed);
+    } catch {
+      tell("the program does not answer", true);
+    }
+  });
+
+  // --- Numbers ----------------------------------------------------------------------------------------
 
   // The numbers: id, label, unit, factor from SI, key of the frame's numbers.
   const numbers = [["objective", "objective", "J/m", 1, "objective_J_per_m"],
@@ -198,7 +476,10 @@
   at("step").addEventListener("click", () => give({ do: "step" }));
   at("undo").addEventListener("click", () => give({ do: "undo" }));
   at("reset").addEventListener("click", () => give({ do: "reset" }));
-  at("position").addEventListener("input", () => look());
+  at("position").addEventListener("input", () => {
+    if (loaded) showLoaded();
+    look();
+  });
 
   let version = 0, curveVersion = 0, painted = 0, framed = 0;
   let waiting = new AbortController();
