@@ -534,7 +534,7 @@ TEST(SubCellFilter, IsAProjection) {
 
 TEST(Evolution, DoesNotSeeWhereTheSectorBegins) {
   const auto lattice = lattice_of(2);
-  const Evolver<2> evolver(lattice, {{ExtensionKind::h1, 2}, 0.25, {{0.01, 1}, {0.01, 1}}});
+  const Evolver<2> evolver(lattice, {{ExtensionKind::h1, 2}, 0.25, {{0.01, 1}, {0.01, 1}}, {}});
   const int n_cells = 7;
   const auto evolved = [&](const LevelSet<2>& psi, const std::vector<SurfaceSample<2>>& gradient) {
     const auto velocity = *evolver.measure_preserving_velocity(gradient);

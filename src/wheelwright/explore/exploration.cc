@@ -8,8 +8,6 @@
 
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/load_saved_shape.h"
-#include "wheelwright/case/read.h"
-#include "wheelwright/case/write.h"
 #include "wheelwright/explore/pareto.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/files/level_set_file.h"
@@ -35,16 +33,8 @@ Expected<double> weight_of_evenness(Case c) {
   return value("strain_energy") / value("uniformity_dual");
 }
 
-/// Whether a grid of half as many cells has two cells and more across the walls and gaps of a case: a grid
-/// that is coarser still does not lose them.
-bool may_begin_coarse(Case c) {
-  c.optimizer.coarse_levels = 2;
-  return parse_case(to_toml(c), "design.toml").value && lost_on_the_grid<2>(on_coarser_grid(c, 2)).empty();
-}
-
 /// The case as a design runs it: without the many files of a run that nobody opens.
 Case as_design(Case c) {
-  if (c.optimizer.coarse_levels == 0 && may_begin_coarse(c)) c.optimizer.coarse_levels = 1;
   c.output.vtu_every = c.output.pictures_every = 0;
   c.output.checkpoint_every = 50;
   c.expectations = {};

@@ -195,6 +195,8 @@ Expected<OptimizationState<dim>> ShapeOptimizer<dim>::restart(const Optimization
   if (trial.failure) return *trial.failure;
   trial.verdict = Verdict::accepted;
   OptimizationState<dim> anew = state;
+  anew.shape = trial.shape;
+  anew.measure = trial.measure;
   anew.evaluation = *trial.evaluation;
   anew.target_measure = options_.target_measure.value_or(state.target_measure);
   anew.step = options_.step;

@@ -17,9 +17,17 @@ bool is_too_narrow(const std::optional<cad::Clearance>& measured, std::optional<
   return measured && least && measured->width < (1 - tolerated) * *least;
 }
 
-std::string place(const cad::Clearance& clearance) {
-  return cad::place_of(
-      {0.5 * (clearance.from[0] + clearance.to[0]), 0.5 * (clearance.from[1] + clearance.to[1])});
+Vec<2> middle(const cad::Clearance& clearance) {
+  return {0.5 * (clearance.from[0] + clearance.to[0]), 0.5 * (clearance.from[1] + clearance.to[1])};
+}
+
+std::string place(const cad::Clearance& clearance) { return cad::place_of(middle(clearance)); }
+
+/// Whether a wall is a band at the rim or the tread, whose thickness the case gives.
+bool is_a_band(const Case& c, const cad::Clearance& wall) {
+  const auto [inner, outer] = free_region(c);
+  const double radius = norm<2>(middle(wall));
+  return radius < inner || radius > outer;
 }
 
 std::string too_narrow(const char* what, const cad::Clearance& measured, const char* key, double least) {
@@ -37,7 +45,7 @@ std::vector<std::string> feature_warnings(const Case& c, const cad::Clearances& 
   if (is_too_narrow(measured.gap, c.optimizer.minimum_gap))
     result.push_back(too_narrow("the narrowest gap", *measured.gap, "minimum_gap", *c.optimizer.minimum_gap));
   const double cell = polar_grid<2>(c).resolution();
-  if (measured.wall && measured.wall->width < least_cells_per_wall * cell)
+  if (measured.wall && measured.wall->width < least_cells_per_wall * cell && !is_a_band(c, *measured.wall))
     result.push_back(fmt::format(
         "the thinnest wall, {:.4g} mm at {}, is only {:.1f} cells thick: what it carries is not resolved; "
         "optimizer.minimum_wall keeps walls thick, a finer grid resolves thinner ones",

@@ -12,7 +12,7 @@ namespace wheelwright {
 inline constexpr double least_cells_per_wall = 3;
 
 /// What is measured on an outline, judged: a wall or a gap that is more than 1 % narrower than the case
-/// allows, with its place, and a wall of less than three cells.
+/// allows, with its place, and a wall of less than three cells that is no band at rim or tread.
 std::vector<std::string> feature_warnings(const Case& c, const cad::Clearances& measured);
 
 }  // namespace wheelwright

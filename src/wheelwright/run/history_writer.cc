@@ -102,6 +102,7 @@ void HistoryWriter<dim>::operator()(const Event<dim>& event, const RunView<dim>&
     notes_.push_back(changed->text);
     add_missing_columns(run);
   }
+  if (const auto* replaced = std::get_if<ShapeReplaced>(&event)) notes_.push_back(replaced->text);
   if (const auto* changed = std::get_if<GridChanged>(&event)) notes_.push_back(changed->text);
   if (const auto* done = std::get_if<TrialDone<dim>>(&event)) record(*done, run);
 }
@@ -159,8 +160,8 @@ void HistoryWriter<dim>::record(const TrialDone<dim>& done, const RunView<dim>& 
     row.objective = trial.evaluation->function("objective").value;
     row.terms = trial.evaluation->terms;
     row.measures = trial.evaluation->measures;
-    row.bounds = bound_states(*trial.evaluation, row.accepted ? done.state.memory.multipliers
-                                                              : std::vector<double>());
+    row.bounds =
+        bound_states(*trial.evaluation, row.accepted ? done.state.memory.multipliers : std::vector<double>());
     row.max_newton_iterations = newton.empty() ? 0 : *std::max_element(newton.begin(), newton.end());
     row.phases = trial.evaluation->phases;
   }
