@@ -464,7 +464,8 @@ class Solid(unittest.TestCase):
                       "Backwards edges", "Normals fixed", "Total disconnected facets"):
             self.assertEqual(found[fault], 0, fault)
         volume = self.reference.area * 1e3 * WIDTH
-        self.assertAlmostEqual(found["Volume"], volume, delta=1e-3 * volume)
+        # The level set has degree 1: between nodes 5 mm apart its circles lie up to h^2 / 8 R = 0.16 mm inside of the exact ones.
+        self.assertAlmostEqual(found["Volume"], volume, delta=2e-3 * volume)
         heights = [p[2] for t in self.triangles for p in t]
         self.assertEqual((min(heights), max(heights)), (0, struct.unpack("f", struct.pack("f", 1e3 * WIDTH))[0]))
 
