@@ -9,6 +9,7 @@ find_package(PNG REQUIRED)
 find_package(pugixml REQUIRED)
 find_package(TBB REQUIRED)
 pkg_check_modules(TOMLPP REQUIRED IMPORTED_TARGET tomlplusplus)
+pkg_check_modules(HTTPLIB REQUIRED IMPORTED_TARGET cpp-httplib)
 # Drawn into the page that explains a run.
 find_file(CHART_JS chart.min.js PATHS /usr/share/javascript/chart.js /usr/share/javascript REQUIRED)
 find_file(THREE_JS three.min.js PATHS /usr/share/javascript/three /usr/share/javascript REQUIRED)

@@ -67,6 +67,11 @@ TEST(CheckpointFormat, HoldsTheWholeState) {
   EXPECT_EQ(a.step, b.step);
   EXPECT_EQ(a.since_redistance, b.since_redistance);
   EXPECT_EQ(a.since_smoothing, b.since_smoothing);
+  ASSERT_EQ(a.memory.pairs.size(), b.memory.pairs.size());
+  EXPECT_EQ(a.memory.pairs[1].move, b.memory.pairs[1].move);
+  EXPECT_EQ(a.memory.pairs[0].change, b.memory.pairs[0].change);
+  EXPECT_EQ(a.memory.penalties, b.memory.penalties);
+  EXPECT_EQ(a.memory.multipliers, b.memory.multipliers);
   EXPECT_EQ(a.history, b.history);
   EXPECT_EQ(a.history_begin, b.history_begin);
   EXPECT_EQ(written.initial.shape.values, parsed->initial.shape.values);
@@ -206,6 +211,8 @@ TEST(CheckpointFormat, RejectsStatesThatNoRunHas) {
   }));
   EXPECT_FALSE(accepts([](auto& c) { c.state.iteration = -1; }));
   EXPECT_FALSE(accepts([](auto& c) { c.state.step = 0; }));
+  EXPECT_FALSE(accepts([](auto& c) { c.state.memory.pairs[1].change.pop_back(); }));
+  EXPECT_FALSE(accepts([&](auto& c) { c.state.memory.multipliers[0] = nan; }));
   EXPECT_FALSE(accepts([](auto& c) { c.state.evaluation.mean_observations.entries().pop_back(); }));
 }
 

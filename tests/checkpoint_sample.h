@@ -56,6 +56,7 @@ Checkpoint<dim> some_checkpoint() {
       .phases = {{"cut", 0.25}, {"contact", 1e-3}},
       .measures = {{"run_out", std::numeric_limits<double>::denorm_min()},
                    {"pressure_spread", std::numeric_limits<double>::quiet_NaN()}}};
+  const int n_nodes = Lattice<dim>(small_grid<dim>(), 2).n_nodes();
   OptimizationState<dim> state{some_level_set<dim>(random, 2),
                                evaluation,
                                random.number(),
@@ -64,6 +65,10 @@ Checkpoint<dim> some_checkpoint() {
                                0.5,
                                2,
                                1,
+                               {{{random.numbers(n_nodes), random.numbers(n_nodes)},
+                                 {random.numbers(n_nodes), random.numbers(n_nodes)}},
+                                random.numbers(2),
+                                random.numbers(3)},
                                random.numbers(4)};
   return {{"[load]\nforce = 1\n", "wheelwright 1.2.3"},
           state,

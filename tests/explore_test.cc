@@ -1,4 +1,4 @@
-#include <numeric>
+#include <atomic>
 #include <set>
 
 #include "tests/run_support.h"
@@ -12,6 +12,7 @@
 #include "wheelwright/explore/pareto.h"
 #include "wheelwright/explore/sweep.h"
 #include "wheelwright/explore/workers.h"
+#include "wheelwright/files/atomic_file.h"
 #include "wheelwright/run/study.h"
 #include "wheelwright/starts/random.h"
 #include "wheelwright/starts/start.h"
@@ -197,7 +198,24 @@ TEST(Sweep, HoldsEveryCombinationOnce) {
 
 class Exploration : public TemporaryFolder {
  protected:
-  const Case small = case_of(small_wheel + "iterations = 12\n");
+  const Case small = case_of(R"(
+[wheel]
+sectors = 8
+[load]
+positions = 2
+[[holes.ring]]
+count = 16
+center_radius = 0.27
+radius = 0.04
+[grid]
+radial_cells = 16
+angular_cells = 128
+tread_levels = 0
+[optimizer]
+rim_band = 0.00875
+tread_band = 0.0175
+iterations = 10
+)");
   const std::vector<RankedQuantity> quantities{*find_quantity("stiffness"), *find_quantity("peak_pressure")};
   const ThreadLimit one_thread_each{1};
 

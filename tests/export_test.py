@@ -424,6 +424,108 @@ def exported(source, name):
     return folder
 
 
+def is_in_section(triangles, z, x, y):
+    """Whether a line from (x, y, z) leaves the solid an odd number of times."""
+    crossings = 0
+    for corners in triangles:
+        heights = [p[2] > z for p in corners]
+        if len(set(heights)) == 1:
+            continue
+        ends = []
+        for k in range(3):
+            a, b = corners[k], corners[(k + 1) % 3]
+            if heights[k] != heights[(k + 1) % 3]:
+                t = (z - a[2]) / (b[2] - a[2])
+                ends.append((a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])))
+        (ax, ay), (bx, by) = ends
+        crossings += (ay > y) != (by > y) and x < ax + (y - ay) / (by - ay) * (bx - ax)
+    return crossings % 2 == 1
+
+
+class Solid(unittest.TestCase):
+    """A wheel in 3D without symmetry, whose holes are cylinders."""
+
+    FORMATS = "stl,3mf,vtu,vtp,png"
+
+    @classmethod
+    def setUpClass(cls):
+        case = NO_SYMMETRY.replace("[wheel]", "[wheel]\ndimension = 3").replace("[grid]", "[grid]\naxial_cells = 3")
+        cls.source = temporary / "solid.toml"
+        cls.source.write_text(case)
+        cls.folder = temporary / "solid_export"
+        cls.told = wheelwright("export", cls.source, "--format", cls.FORMATS, "--output", cls.folder)
+        cls.reference = exact_reference()
+        cls.triangles = [(t[3:6], t[6:9], t[9:12]) for t in read_stl(cls.folder / "solid.stl")]
+
+    def test_stl_is_closed_and_has_the_volume(self):
+        found = admesh(self.folder / "solid.stl")
+        self.assertEqual(found["Number of parts"], 1)
+        for fault in ("Degenerate facets", "Edges fixed", "Facets removed", "Facets added", "Facets reversed",
+                      "Backwards edges", "Normals fixed", "Total disconnected facets"):
+            self.assertEqual(found[fault], 0, fault)
+        volume = self.reference.area * 1e3 * WIDTH
+        self.assertAlmostEqual(found["Volume"], volume, delta=1e-3 * volume)
+        heights = [p[2] for t in self.triangles for p in t]
+        self.assertEqual((min(heights), max(heights)), (0, struct.unpack("f", struct.pack("f", 1e3 * WIDTH))[0]))
+
+    def test_normals_point_outwards(self):
+        for nx, ny, nz, ax, ay, az, bx, by, bz, cx, cy, cz in read_stl(self.folder / "solid.stl")[::37]:
+            u, v = (bx - ax, by - ay, bz - az), (cx - ax, cy - ay, cz - az)
+            cross = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
+            self.assertGreater(nx * cross[0] + ny * cross[1] + nz * cross[2], 0)
+
+    def test_material_is_where_the_case_has_it(self):
+        slab = [t for t in self.triangles if min(p[2] for p in t) <= 41 <= max(p[2] for p in t)]
+        probes = self.reference.probes[::3]
+        wrong = [(x, y) for x, y, material in probes if is_in_section(slab, 41, x, y) != material]
+        self.assertEqual(wrong, [])
+        mirrored = sum(is_in_section(slab, 41, x, -y) != material for x, y, material in probes)
+        self.assertGreater(mirrored, 10)
+
+    def test_3mf_has_the_same_triangles(self):
+        copy = temporary / "solid_3mf.stl"
+        told = subprocess.run([read_3mf, self.folder / "solid.3mf", copy], capture_output=True, text=True, check=True).stdout
+        self.assertIn("objects 1\nwarnings 0", told)
+        found = admesh(copy)
+        self.assertEqual(found["Number of facets"], len(self.triangles))
+        self.assertEqual((found["Number of parts"], found["Edges fixed"], found["Degenerate facets"]), (1, 0, 0))
+
+    def test_report(self):
+        self.assertRegex(self.told, r"surface +\d+ triangles, closed")
+        # One handle of the ring and one per hole.
+        self.assertRegex(self.told, rf"bodies +1, with {1 + SECTORS * len(HOLES)} handles and 0 closed cavities")
+        error = float(re.search(r"mm\^3, ([+-][\d.e+-]+) of", self.told)[1])
+        self.assertLess(abs(error), 1e-3)
+        self.assertLessEqual(float(re.search(r"deviation +([\d.]+) mm", self.told)[1]), 0.1)
+
+    def test_a_smaller_tolerance_gives_more_triangles(self):
+        told = wheelwright("export", self.source, "--tolerance", 0.02, "--output", temporary / "solid_fine")
+        self.assertGreater(int(re.search(r"surface +(\d+)", told)[1]), len(self.triangles))
+        self.assertLessEqual(float(re.search(r"deviation +([\d.]+) mm", told)[1]), 0.02)
+
+    def test_png_shows_a_wheel_on_white(self):
+        image = Image.open(self.folder / "solid.png")
+        self.assertEqual(image.size, (1600, 1600))
+        colours = [image.getpixel((x, y)) for x in range(0, 1600, 20) for y in range(0, 1600, 20)]
+        white = sum(c == (255, 255, 255) for c in colours) / len(colours)
+        self.assertTrue(0.3 < white < 0.8, white)
+        self.assertGreater(len(set(colours)), 100)  # lit, not of one colour
+
+    def test_formats_of_plane_wheels_are_refused(self):
+        folder = Path(tempfile.mkdtemp(dir=temporary))
+        for name in ("dxf", "svg", "step"):
+            told = wheelwright("export", self.source, "--format", f"stl,{name}", "--output", folder, code=2)
+            self.assertIn(name, told)
+            self.assertIn("vtp", told)
+        self.assertEqual(os.listdir(folder), [])
+
+    def test_the_same_input_gives_the_same_bytes(self):
+        again = temporary / "solid_again"
+        wheelwright("export", self.source, "--format", self.FORMATS, "--output", again)
+        for ending in self.FORMATS.split(","):
+            self.assertEqual((again / f"solid.{ending}").read_bytes(), (self.folder / f"solid.{ending}").read_bytes(), ending)
+
+
 class Command(unittest.TestCase):
     @classmethod
     def setUpClass(cls):

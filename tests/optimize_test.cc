@@ -8,6 +8,7 @@
 #include "wheelwright/evolution/volume.h"
 #include "wheelwright/geometry/cell_map.h"
 #include "wheelwright/geometry/shapes.h"
+#include "wheelwright/optimize/constraints.h"
 #include "wheelwright/optimize/optimizer.h"
 
 using namespace wheelwright;
@@ -153,6 +154,99 @@ TEST(ShapeOptimizer, HandsOnTheCellsOfEveryShape) {
     for (const auto& trial : record.trials)
       EXPECT_EQ(trial.measure, material_measure(*cut_domain(trial.shape, 5), 2));
   }
+}
+
+// With a quadratic model of the objective far fewer shapes are tried than by descent.
+TEST(SequentialQuadratic, ConvergesToTheLevelLineInFewTrials) {
+  const auto trials_to = [](Method method, double objective, double step) {
+    OptimizerOptions options;
+    options.method = method;
+    options.step = step;
+    const ShapeOptimizer<2> optimizer(lattice, evolution, options,
+                                      wheelwright::testing::objective_of_shape<2>(bowl_objective));
+    Record record;
+    const auto outcome = optimize<2>(optimizer, displaced_hole(), record.observer(), never);
+    const auto [low, high] = range_of_q(outcome.state->shape);
+    EXPECT_LT(high - low, 0.06 * high) << to_string(method);
+    for (const auto& trial : record.trials)
+      if (trial.verdict == Verdict::accepted) {
+        EXPECT_NEAR(trial.measure, outcome.state->target_measure, 1e-6 * trial.measure);
+      }
+    const auto reached = std::ranges::find_if(record.trials, [&](const Trial<2>& trial) {
+      return trial.evaluation && trial.evaluation->function("objective").value <= objective;
+    });
+    EXPECT_NE(reached, record.trials.end()) << to_string(method);
+    return reached - record.trials.begin();
+  };
+  OptimizerOptions exact;
+  exact.iterations = 200;
+  const ShapeOptimizer<2> optimizer(lattice, evolution, exact,
+                                    wheelwright::testing::objective_of_shape<2>(bowl_objective));
+  const auto best = optimize<2>(optimizer, displaced_hole(), Record().observer(), never);
+  const double initial = evaluate_bowl(displaced_hole()).function("objective").value,
+               end = best.state->evaluation.function("objective").value;
+  const double near = end + 0.01 * (initial - end);
+  EXPECT_LT(trials_to(Method::sequential_quadratic, near, 1.5), trials_to(Method::descent, near, 0.5));
+}
+
+/// The bowl with a second function, the measure of the material, between bounds.
+auto bowl_with_bounds(Bounds bounds) {
+  return [bounds](const LevelSet<2>& psi) -> Expected<Evaluation<2>> {
+    auto evaluation = evaluate_bowl(psi);
+    evaluation.functions.push_back({"material",
+                                    material_measure(psi),
+                                    {},
+                                    std::vector<double>(evaluation.boundary.size(), 1.0),
+                                    bounds});
+    return evaluation;
+  };
+}
+
+// J grows with the measure: the lower bound is active. Where both are stationary, 2 - q is the multiplier all
+// along the boundary. The runs begin below the bound, above it, and on it.
+TEST(SequentialQuadratic, KeepsABoundWithItsMultiplier) {
+  const double initial = material_measure(displaced_hole());
+  for (const double share : {0.98, 1.0, 1.015})
+    for (const bool is_equality : {false, true}) {
+      const double bound = share * initial;
+      OptimizerOptions options;
+      options.method = Method::sequential_quadratic;
+      options.measure_control = MeasureControl::free;
+      options.step = 1.5;
+      options.iterations = 60;
+      Bounds bounds{.lower = bound};
+      if (is_equality) bounds.upper = bound;
+      const ShapeOptimizer<2> optimizer(
+          lattice, evolution, options, wheelwright::testing::objective_of_shape<2>(bowl_with_bounds(bounds)));
+      const auto outcome = optimize<2>(optimizer, displaced_hole(), Record().observer(), never);
+      const auto states = bound_states(outcome.state->evaluation, outcome.state->memory.multipliers);
+      ASSERT_EQ(states.size(), 1u);
+      EXPECT_TRUE(states[0].is_kept()) << share << ": " << states[0].text();
+      EXPECT_NEAR(outcome.state->measure, bound, 1e-3 * bound) << share;
+      const auto [low, high] = range_of_q(outcome.state->shape);
+      EXPECT_LT(high - low, 0.08 * high) << share;
+      const double expected = 2 - (low + high) / 2;
+      EXPECT_NEAR(std::abs(states[0].multiplier), expected, 0.03 * expected) << share;
+    }
+}
+
+// A bound that the optimum keeps anyway has no multiplier; bounds that contradict each other are violated.
+TEST(SequentialQuadratic, SaysWhenABoundIsNotActiveAndWhenNoneCanBeKept) {
+  const double initial = material_measure(displaced_hole());
+  OptimizerOptions options;
+  options.method = Method::sequential_quadratic;
+  options.iterations = 15;
+  const auto end = [&](Bounds bounds) {
+    const ShapeOptimizer<2> optimizer(lattice, evolution, options,
+                                      wheelwright::testing::objective_of_shape<2>(bowl_with_bounds(bounds)));
+    const auto outcome = optimize<2>(optimizer, displaced_hole(), Record().observer(), never);
+    return bound_states(outcome.state->evaluation, outcome.state->memory.multipliers).front();
+  };
+  // The measure is held at its initial value.
+  const BoundState idle = end({.lower = 0.9 * initial});
+  EXPECT_TRUE(idle.is_kept());
+  EXPECT_EQ(idle.multiplier, 0);
+  EXPECT_FALSE(end({.lower = 1.1 * initial}).is_kept());
 }
 
 TEST(ShapeOptimizer, ReachesAGivenMeasure) {
@@ -423,8 +517,9 @@ TEST(ShapeOptimizer, TreatsANotFiniteObjectiveAsAFailure) {
   EXPECT_EQ(outcome.failure->reason, FailureReason::not_finite);
 }
 
-TEST(ShapeOptimizer, ResumesACopyBitForBit) {
+void expect_resumes_a_copy_bit_for_bit(Method method) {
   OptimizerOptions options;
+  options.method = method;
   options.iterations = 12;
   options.redistance_every = 3;
   options.smooth_every = 4;
@@ -444,6 +539,11 @@ TEST(ShapeOptimizer, ResumesACopyBitForBit) {
   EXPECT_EQ(copy->shape.values, outcome.state->shape.values);
   EXPECT_EQ(copy->history, outcome.state->history);
   EXPECT_EQ(copy->step, outcome.state->step);
+}
+
+TEST(ShapeOptimizer, ResumesACopyBitForBit) { expect_resumes_a_copy_bit_for_bit(Method::descent); }
+TEST(SequentialQuadratic, ResumesACopyBitForBit) {
+  expect_resumes_a_copy_bit_for_bit(Method::sequential_quadratic);
 }
 
 TEST(ShapeOptimizer, StopsOnRequest) {

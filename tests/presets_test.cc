@@ -26,6 +26,20 @@ TEST(Presets, HaveNamesOfTheirOwn) {
   EXPECT_EQ(find_preset("no such wheel"), nullptr);
 }
 
+template <int dim>
+void expect_to_carry_its_load(const Case& c) {
+  const auto study = make_study<dim>(c);
+  ASSERT_TRUE(study);
+  const auto shape = evaluate<dim>(*study->solver, study->functions, study->initial);
+  ASSERT_TRUE(shape) << shape.failure().detail;
+  EXPECT_GT(shape->evaluation.function("objective").value, 0);
+  EXPECT_TRUE(lost_on_the_grid<dim>(c).empty());
+  // The ground carries the load at every position.
+  const double load = c.load.force / whole_width(dim, c.wheel.width);
+  for (const ContactPatch<dim>& contact : shape->state->contacts())
+    EXPECT_NEAR(contact_summary(contact).radial_force, load, 1e-6 * load);
+}
+
 TEST(Presets, AreCasesThatCarryTheirLoad) {
   for (const Preset& preset : presets()) {
     SCOPED_TRACE(preset.name);
@@ -33,16 +47,7 @@ TEST(Presets, AreCasesThatCarryTheirLoad) {
     for (const Diagnostic& problem : result.problems) ADD_FAILURE() << problem.text();
     ASSERT_TRUE(result.value);
     result.value->load.positions = 2;
-    const auto study = make_study<2>(*result.value);
-    ASSERT_TRUE(study);
-    const auto shape = evaluate<2>(*study->solver, study->functions, study->initial);
-    ASSERT_TRUE(shape) << shape.failure().detail;
-    EXPECT_GT(shape->evaluation.function("objective").value, 0);
-    EXPECT_TRUE(lost_on_the_grid<2>(*result.value).empty());
-    // The ground carries the load at every position.
-    const double load = result.value->load.force / result.value->wheel.width;
-    for (const ContactPatch<2>& contact : shape->state->contacts())
-      EXPECT_NEAR(contact_summary(contact).radial_force, load, 1e-6 * load);
+    in_dimension_of(*result.value, [&](auto dim) { expect_to_carry_its_load<dim>(*result.value); });
   }
 }
 

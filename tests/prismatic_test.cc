@@ -21,6 +21,7 @@ RollingModel<2> plane_model(double poissons_ratio) {
   model.load = 2943 / width;
   model.n_positions = 3;
   model.contact_points = 3;
+  model.cut_points = 8;  // 2D and 3D integrate cut cells in other ways: both exactly
   return model;
 }
 
@@ -33,6 +34,7 @@ RollingModel<3> with_width(const RollingModel<2>& plane, int axial_cells, SideFa
                 grid.n_sectors,
                 {grid.cells[0], grid.cells[1], axial_cells}};
   model.degree = plane.degree;
+  model.cut_points = plane.cut_points;
   model.materials = plane.materials;
   model.ghost = plane.ghost;
   model.side_faces = sides;
@@ -50,7 +52,7 @@ RollingModel<3> with_width(const RollingModel<2>& plane, int axial_cells, SideFa
 
 template <int dim>
 LevelSet<dim> shape(const PolarGrid<dim>& grid, int degree, double radius) {
-  const Circle hole{0.2681, 0.47 * grid.sector_angle(), radius};
+  const Circle hole{0.2581, 0.47 * grid.sector_angle(), radius};
   return make_level_set<dim>(Lattice<dim>(grid, degree), std::span(&hole, radius > 0 ? 1 : 0));
 }
 
@@ -128,8 +130,8 @@ TEST(Prismatic, WithSymmetricSideFacesAndHolesIsThePlaneWheel) {
     SCOPED_TRACE(level_set_degree);
     auto plane = plane_model(0.48);
     plane.distributed = {{900, 300}, 2e4};
-    expect_equal(results(with_width(plane, 2, SideFaces::symmetric), energy<3>(), level_set_degree, 0.0373),
-                 results(plane, energy<2>(), level_set_degree, 0.0373), 1e-6);
+    expect_equal(results(with_width(plane, 2, SideFaces::symmetric), energy<3>(), level_set_degree, 0.0273),
+                 results(plane, energy<2>(), level_set_degree, 0.0273), 1e-6);
   }
 }
 
@@ -137,23 +139,25 @@ TEST(Prismatic, WithFrictionAndTorqueIsThePlaneWheel) {
   auto plane = plane_model(0.4);
   plane.contact.friction = 0.4;
   plane.torque = 150 / width;
-  expect_equal(results(with_width(plane, 1, SideFaces::symmetric), energy<3>(), 1, 0.0373),
-               results(plane, energy<2>(), 1, 0.0373), 1e-6);
+  expect_equal(results(with_width(plane, 1, SideFaces::symmetric), energy<3>(), 1, 0.0273),
+               results(plane, energy<2>(), 1, 0.0273), 1e-6);
 }
 
 /// Strain energy of a wheel of this width under the same load per metre of width, per metre of width.
-double energy_of_width(double wide, SideFaces sides, int axial_cells) {
+double energy_of_width(double wide, SideFaces sides, int axial_cells, double gamma_0 = 1) {
   auto plane = plane_model(0.4);
+  plane.cut_points.reset();
   plane.grid.width = wide;
+  plane.contact.gamma_0 = gamma_0;
   auto model = with_width(plane, axial_cells, sides);
   model.n_positions = 1;
   const auto problem = RollingProblem<3>::create(model);
-  const auto states = all_states<3>(*problem, shape<3>(model.grid, 1, 0.0373));
+  const auto states = all_states<3>(*problem, shape<3>(model.grid, 1, 0.0273));
   return (*states)->strain_energy()[0] / wide;
 }
 
 // Free side faces: plane stress in a disc that is thin against its cells, plane strain in a drum.
-TEST(Prismatic, FreeSideFacesTendToPlaneStressAndPlaneStrain) {
+TEST(Prismatic, FreeSideFacesTendToPlaneStressAndPlaneStrain_Slow) {
   auto plane = plane_model(0.4);
   plane.n_positions = 1;
   const auto energy_of = [&](Plane assumption) {
@@ -161,23 +165,23 @@ TEST(Prismatic, FreeSideFacesTendToPlaneStressAndPlaneStrain) {
     material.plane = assumption;
     plane.materials = material;
     const auto problem = RollingProblem<2>::create(plane);
-    return (*all_states<2>(*problem, shape<2>(plane.grid, 1, 0.0373)))->strain_energy()[0];
+    return (*all_states<2>(*problem, shape<2>(plane.grid, 1, 0.0273)))->strain_energy()[0];
   };
   const double strain = energy_of(Plane::strain), stress = energy_of(Plane::stress);
   EXPECT_GT(stress, 1.1 * strain);
+  const double same_gamma = Material{200e6, 0.4, Plane::stress}.scaling_modulus() / 200e6;
   double farther = 1;
   for (const double wide : {4e-2, 1e-2, 1e-3}) {
-    const double off = std::abs(energy_of_width(wide, SideFaces::free, 1) / stress - 1);
+    const double off = std::abs(energy_of_width(wide, SideFaces::free, 1, same_gamma) / stress - 1);
     EXPECT_LT(off, farther);
     farther = off;
   }
-  EXPECT_LT(farther, 2e-3);
+  EXPECT_LT(farther, 1e-2);
   // What the side faces take away stays while the width grows.
-  const double off_4 = std::abs(energy_of_width(4, SideFaces::free, 8) / strain - 1),
-               off_2 = std::abs(energy_of_width(2, SideFaces::free, 8) / strain - 1);
-  EXPECT_LT(off_4, 0.02);
-  EXPECT_NEAR(off_4 / off_2, 0.5, 0.15);
-  EXPECT_NEAR(energy_of_width(4, SideFaces::symmetric, 2) / strain, 1, 1e-6);
+  const double off_2 = std::abs(energy_of_width(2, SideFaces::free, 6) / strain - 1),
+               off_1 = std::abs(energy_of_width(1, SideFaces::free, 6) / strain - 1);
+  EXPECT_LT(off_2, 0.02);
+  EXPECT_NEAR(off_2 / off_1, 0.5, 0.15);
 }
 
 }  // namespace

@@ -11,8 +11,10 @@ from pathlib import Path
 
 try:
     from selenium import webdriver
+    from selenium.webdriver.common.action_chains import ActionChains
     from selenium.webdriver.common.by import By
     from selenium.webdriver.common.keys import Keys
+    from selenium.webdriver.support.ui import Select
 except ImportError:
     print("The tests of report.html were skipped: they need chromium, chromium-driver and python3-selenium.")
     sys.exit(77)
@@ -74,13 +76,43 @@ def contrast(a, b):
     return (high + 0.05) / (low + 0.05)
 
 
-class Page(unittest.TestCase):
+# In 3D, small, without symmetry.
+SOLID_CASE = """
+[wheel]
+dimension = 3
+sectors = 7
+[material]
+poissons_ratio = 0.3
+[load]
+positions = 2
+[[holes.ring]]
+count = 7
+center_radius = 0.255
+radius = 0.025
+phase = 0.2
+[grid]
+degree = 1
+radial_cells = 10
+angular_cells = 112
+axial_cells = 2
+[optimizer]
+iterations = 1
+rim_band = 0.014
+tread_band = 0.028
+"""
+
+
+class Browser:
+    """A page opened in a browser, for the classes below."""
+
+    case = None
+
     @classmethod
     def setUpClass(cls):
         cls.temporary = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.temporary.cleanup)
         cls.folder = Path(cls.temporary.name)
-        (cls.folder / "case.toml").write_text(CASE)
+        (cls.folder / "case.toml").write_text(cls.case)
         run_program("run", cls.folder / "case.toml", "--output", cls.folder / "run")
         cls.summary = json.loads((cls.folder / "run/summary.json").read_text())
         options = webdriver.ChromeOptions()
@@ -103,6 +135,10 @@ class Page(unittest.TestCase):
         return self.browser.execute_script(
             "return document.getElementById(arguments[0]).closest('figure').querySelector('canvas').toDataURL()", name)
 
+    @property
+    def page(self):
+        return self.folder / "run/report.html"
+
     def test_nothing_fails_and_nothing_is_fetched(self):
         page = self.folder / "run/report.html"
         self.open(page)
@@ -113,6 +149,10 @@ class Page(unittest.TestCase):
         self.assertEqual({u for u in urls if not u.startswith("data:")}, {f"file://{page}"})
         self.assertLess(page.stat().st_size, 5e6)
 
+
+class Page(Browser, unittest.TestCase):
+    case = CASE
+
     def test_a_title_stays_a_title(self):
         self.open(self.folder / "run/report.html")
         self.assertNotEqual(self.browser.title, "broken out")
@@ -121,7 +161,7 @@ class Page(unittest.TestCase):
     def test_the_table_has_the_numbers_of_the_summary(self):
         self.open(self.folder / "run/report.html")
         data = json.loads(self.browser.execute_script("return document.getElementById('data').textContent"))
-        for number in data["numbers"]:
+        for number in data["runs"][0]["numbers"]:
             before, after = self.browser.find_elements(By.CSS_SELECTOR, f"td[data-key={number['key']}]")
             for cell, wheel in ((before, "before"), (after, "after")):
                 value = self.summary[wheel][number["key"]] * number["factor"]
@@ -213,6 +253,75 @@ class Page(unittest.TestCase):
         again = subprocess.run([program, "report", self.folder / "run", "--output", page], check=False,
                                capture_output=True)
         self.assertEqual(again.returncode, 4)
+
+
+class SolidPage(Browser, unittest.TestCase):
+    """The page of a run in 3D: a lit surface that turns."""
+
+    case = SOLID_CASE
+
+    def picture(self):
+        return self.browser.find_element(By.ID, "run0-position-text").find_element(By.XPATH, "..").find_element(By.TAG_NAME, "canvas")
+
+    def pixels_of_surface(self):
+        return self.browser.execute_script("return arguments[0].toDataURL()", self.picture())
+
+    def test_the_surface_is_lit_and_coloured(self):
+        self.open(self.page)
+        colours = self.browser.execute_script("""
+            const canvas = arguments[0], copy = document.createElement("canvas");
+            [copy.width, copy.height] = [canvas.width, canvas.height];
+            const context = copy.getContext("2d");
+            context.drawImage(canvas, 0, 0);
+            const data = context.getImageData(0, 0, copy.width, copy.height).data, found = new Set();
+            let covered = 0;
+            for (let k = 0; k < data.length; k += 4) if (data[k + 3] === 255) {
+              ++covered;
+              found.add(data[k] << 16 | data[k + 1] << 8 | data[k + 2]);
+            }
+            return [found.size, covered / (data.length / 4)];""", self.picture())
+        self.assertGreater(colours[0], 200)
+        self.assertTrue(0.2 < colours[1] < 0.8, colours)
+
+    def test_it_turns_under_the_mouse_and_by_keyboard(self):
+        self.open(self.page)
+        before = self.pixels_of_surface()
+        ActionChains(self.browser).drag_and_drop_by_offset(self.picture(), 60, 20).perform()
+        turned = self.pixels_of_surface()
+        self.assertNotEqual(turned, before)
+        self.picture().send_keys(Keys.ARROW_LEFT)
+        further = self.pixels_of_surface()
+        self.assertNotEqual(further, turned)
+        self.picture().send_keys(Keys.ARROW_RIGHT)
+        self.assertEqual(self.pixels_of_surface(), turned)
+        self.picture().send_keys("+")
+        self.assertNotEqual(self.pixels_of_surface(), turned)
+
+    def test_colours_stand_for_stress_or_displacement(self):
+        self.open(self.page)
+        figure = self.browser.find_element(By.ID, "run0-position-text").find_element(By.XPATH, "..")
+        stress, scale = self.pixels_of_surface(), figure.find_element(By.CLASS_NAME, "scale-labels").text
+        self.assertIn("MPa", scale)
+        Select(self.browser.find_element(By.ID, "run0-colours")).select_by_value("displacement")
+        self.assertNotEqual(self.pixels_of_surface(), stress)
+        end = float(re.search(r"([\d.]+) mm", figure.find_element(By.CLASS_NAME, "scale-labels").text)[1])
+        # No point moves much farther than the rim, and some as far.
+        travel = 1e3 * self.summary["after"]["mean_travel_m"]
+        self.assertTrue(0.8 * travel < end < 2 * travel, (end, travel))
+
+    def test_load_positions_differ(self):
+        self.open(self.page)
+        first = self.pixels_of_surface()
+        self.browser.find_element(By.ID, "run0-position").send_keys(Keys.ARROW_RIGHT)
+        self.assertNotEqual(self.pixels_of_surface(), first)
+
+    def test_a_plane_run_and_a_solid_one_stand_on_one_page(self):
+        (self.folder / "plane.toml").write_text(CASE)
+        run_program("run", self.folder / "plane.toml", "--output", self.folder / "plane", "--iterations", 1)
+        run_program("report", self.folder / "run", self.folder / "plane", "--output", self.folder / "both.html")
+        self.open(self.folder / "both.html")
+        self.assertEqual([e for e in self.browser.get_log("browser") if e["level"] == "SEVERE"], [])
+        self.assertEqual(len(self.browser.find_elements(By.TAG_NAME, "article")), 2)
 
 
 if __name__ == "__main__":

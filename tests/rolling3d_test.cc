@@ -2,6 +2,8 @@
 
 #include "tests/support.h"
 #include "wheelwright/functionals/strain_energy.h"
+#include "wheelwright/functionals/uniformity_annulus.h"
+#include "wheelwright/functionals/uniformity_dual.h"
 #include "wheelwright/geometry/shapes.h"
 #include "wheelwright/sensitivity/evaluate.h"
 #include "wheelwright/sensitivity/taylor_test.h"
@@ -58,6 +60,181 @@ TEST(Rolling3D, ContactCarriesTheLoadAndSectorsAgree) {
     EXPECT_NEAR(force, model.load, 1e-9 * model.load);
     EXPECT_GT(s->strain_energy[i], 0);
   }
+}
+
+/// A wheel without any symmetry: holes that change along the axle, friction, all forces on the rim, and a
+/// lean.
+RollingModel<3> pushed_wheel() {
+  auto model = small_wheel(1, 2);
+  model.contact.friction = 0.5;
+  model.torque = 120;
+  model.lateral_force = 350;
+  model.n_positions = 2;
+  return model;
+}
+
+RollingModel<3> leaning_wheel() {
+  auto model = small_wheel(1, 3);
+  model.contact.friction = 0.5;
+  model.horizontal_force = -250;
+  model.lateral_force = 400;
+  model.camber = 0.004;
+  return model;
+}
+
+LevelSet<3> uneven_hole(const PolarGrid<3>& grid, int degree = 1) {
+  const Circle hole{0.2581, 0.47 * grid.sector_angle(), 0.0273};
+  auto psi = make_level_set<3>(Lattice<3>(grid, degree), std::span(&hole, 1));
+  for (int i = 0; i < psi.lattice.n_nodes(); ++i)
+    psi.values[i] += 0.002 * std::cos(20 * psi.lattice.polar_point(i)[2]);
+  return psi;
+}
+
+/// A direction with waves along all axes.
+std::vector<double> uneven_direction(const Lattice<3>& lattice) {
+  std::vector<double> direction;
+  for (int i = 0; i < lattice.n_nodes(); ++i) {
+    const Vec<3> p = lattice.polar_point(i);
+    direction.push_back(1 + 0.4 * std::cos(16 * p[1]) + 0.3 * std::sin(15 * p[2]));
+  }
+  return direction;
+}
+
+void expect_taylor_orders(const RollingModel<3>& model, const WeightedSum<3>& terms,
+                          const RollingProblem<3>& problem) {
+  const auto psi = uneven_hole(model.grid);
+  const auto test = taylor_test<3>(
+      [&](const LevelSet<3>& shape) { return testing::evaluate_objective<3>(problem, terms, shape); }, psi,
+      uneven_direction(psi.lattice), model.degree, 2e-5, 3);
+  ASSERT_TRUE(test) << test.failure().detail;
+  for (double order : test->orders) EXPECT_GT(order, 1.9);
+}
+
+TEST(Rolling3D, WithFrictionAndAllForcesTheGradientPassesTheTaylorTest) {
+  for (const auto& model : {pushed_wheel(), leaning_wheel()}) {
+    SCOPED_TRACE(model.camber);
+    const auto problem = RollingProblem<3>::create(model);
+    ASSERT_TRUE(problem) << problem.failure().detail;
+    expect_taylor_orders(model, strain_energy, *problem);
+  }
+}
+
+TEST(Rolling3D, UniformityPassesTheTaylorTest) {
+  auto model = small_wheel(1, 2);
+  model.tread.annulus_points = 2;
+  const auto problem = RollingProblem<3>::create(model);
+  ASSERT_TRUE(problem) << problem.failure().detail;
+  expect_taylor_orders(model, {{1, std::make_shared<UniformityAnnulus<3>>(0.02)}}, *problem);
+  auto map = problem->neumann_to_dirichlet(DualNorm::elasticity);
+  ASSERT_TRUE(map);
+  expect_taylor_orders(model, {{1, std::make_shared<UniformityDual<3>>(*std::move(map))}}, *problem);
+}
+
+// The ground's forces on the tread carry what acts on the rim, and nothing else.
+TEST(Rolling3D, ForcesAndMomentsBalance) {
+  for (const auto& model : {pushed_wheel(), leaning_wheel()}) {
+    SCOPED_TRACE(model.camber);
+    const auto problem = RollingProblem<3>::create(model);
+    ASSERT_TRUE(problem) << problem.failure().detail;
+    const auto states = testing::all_states<3>(*problem, uneven_hole(model.grid));
+    ASSERT_TRUE(states) << states.failure().detail;
+    for (const ContactPatch<3>& contact : (*states)->contacts()) {
+      Vec<3> force{};
+      double moment = 0;
+      for (const auto& point : contact.points) {
+        for (int d = 0; d < 3; ++d) force[d] += point.weight * point.traction[d];
+        moment +=
+            point.weight * (point.traction[1] * point.position[0] - point.traction[0] * point.position[1]);
+      }
+      EXPECT_NEAR(force[0], -model.load, 1e-9 * model.load);
+      EXPECT_NEAR(force[2], -model.lateral_force, 1e-9 * model.load);
+      if (model.horizontal_force != 0) {
+        EXPECT_NEAR(force[1], -model.horizontal_force, 1e-9 * model.load);
+      }
+      if (model.torque != 0) {
+        EXPECT_NEAR(moment, -model.torque, 1e-9 * model.load);
+      }
+      // An upright wheel yields to the force that pushes it along the axle.
+      if (model.camber == 0) {
+        EXPECT_GT(contact.rim.along_axle, 0);
+      }
+    }
+  }
+}
+
+/// The mirror image of a level set in the middle of the width.
+LevelSet<3> reflected(const LevelSet<3>& psi) {
+  LevelSet<3> image = psi;
+  for (int i = 0; i < psi.lattice.n_nodes(); ++i) {
+    auto p = psi.lattice.node_position(i);
+    p[2] = psi.lattice.nodes()[2] - 1 - p[2];
+    image.values[psi.lattice.node_index(p)] = psi.values[i];
+  }
+  return image;
+}
+
+LevelSet<3> turned(const LevelSet<3>& psi, int columns) {
+  LevelSet<3> image = psi;
+  for (int i = 0; i < psi.lattice.n_nodes(); ++i) {
+    auto p = psi.lattice.node_position(i);
+    p[1] += columns * psi.lattice.degree();
+    image.values[psi.lattice.node_index(p)] = psi.values[i];
+  }
+  return image;
+}
+
+struct Seen {
+  double energy, travel, sideways;
+};
+Seen seen(const RollingModel<3>& model, const LevelSet<3>& psi, GroundPosition ground) {
+  const auto problem = RollingProblem<3>::create(model);
+  ground.camber = model.camber;
+  const auto states = problem->states(psi, {{ground}, {1}}, Interrupt());
+  EXPECT_TRUE(states) << states.failure().detail;
+  const auto& contact = (*states)->contacts()[0];
+  return {(*states)->strain_energy()[0], contact.rim.towards_ground, contact.rim.along_axle};
+}
+
+void expect_same(const Seen& a, const Seen& b, double sign) {
+  EXPECT_NEAR(a.energy / b.energy, 1, 1e-7);  // the cut quadrature is not mirror-symmetric to rounding
+  EXPECT_NEAR(a.travel / b.travel, 1, 1e-7);
+  EXPECT_NEAR(a.sideways, sign * b.sideways, 1e-7 * std::abs(b.travel));
+}
+
+TEST(Rolling3D, TheMirrorImageInTheMiddleOfTheWidthIsPushedTheOtherWay) {
+  auto model = leaning_wheel();
+  model.horizontal_force = 0;
+  const auto psi = uneven_hole(model.grid);
+  const Seen before = seen(model, psi, {0});
+  model.lateral_force = -model.lateral_force;
+  model.camber = -model.camber;
+  expect_same(seen(model, reflected(psi), {0}), before, -1);
+}
+
+TEST(Rolling3D, AWheelTurnedByAColumnIsTheSame) {
+  const auto model = leaning_wheel();
+  const auto psi = uneven_hole(model.grid);
+  expect_same(seen(model, turned(psi, 1), {1}), seen(model, psi, {0}), 1);
+}
+
+TEST(Rolling3D, TheLeanMovesThePressureToItsSide) {
+  auto model = small_wheel(2, 2);
+  model.n_positions = 1;
+  const auto load_at_larger_z = [&](double camber) {
+    model.camber = camber;
+    const auto problem = RollingProblem<3>::create(model);
+    const Circle hole{0.26, 0.5 * model.grid.sector_angle(), 0.03};
+    const auto states =
+        testing::all_states<3>(*problem, make_level_set<3>(Lattice<3>(model.grid, 1), std::span(&hole, 1)));
+    double share = 0;
+    for (const auto& point : (*states)->contacts()[0].points)
+      if (point.position[2] > 0) share -= point.weight * point.traction[0] / model.load;
+    return share;
+  };
+  const double upright = load_at_larger_z(0), leaning = load_at_larger_z(0.003);
+  EXPECT_NEAR(upright, 0.5, 1e-9);
+  EXPECT_GT(leaning, 0.6);
+  EXPECT_NEAR(load_at_larger_z(-0.003), 1 - leaning, 0.01);
 }
 
 }  // namespace

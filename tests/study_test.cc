@@ -37,7 +37,8 @@ Case uneven_case() {
   c.objective.strain_energy = 41;
   c.volume.target = 0.43;
   c.volume.rate = 0.0071;
-  c.optimizer = {.iterations = 47,
+  c.optimizer = {.method = OptimizerMethod::descent,
+                 .iterations = 47,
                  .velocity = VelocityKind::harmonic,
                  .velocity_length = 2.3,
                  .step = 0.53,
@@ -127,6 +128,7 @@ TEST(LoopOfACase, HasItsOptions) {
   Case c = uneven_case();
   const OptimizerOptions options = optimizer_options<2>(c);
   EXPECT_EQ(options.iterations, 47);
+  EXPECT_EQ(options.method, Method::descent);
   EXPECT_EQ(options.step, 0.53);
   EXPECT_EQ(options.max_halvings, 5);
   EXPECT_EQ(options.accepted_increase, 0.0059);

@@ -52,9 +52,23 @@ double end_of_contact(std::span<const GroundPoint> points) {
   return centre + std::sqrt((sx - sy / slope) / n);
 }
 
+/// Of the points across the ground at each place along it, the one that is pressed most.
+std::vector<GroundPoint> most_pressed(std::vector<GroundPoint> points) {
+  std::ranges::sort(points, {}, &GroundPoint::along);
+  const double same = 1e-9 * (points.back().along - points.front().along);
+  std::vector<GroundPoint> result;
+  for (const GroundPoint& p : points) {
+    if (result.empty() || p.along - result.back().along > same)
+      result.push_back(p);
+    else
+      result.back().augmented = std::min(result.back().augmented, p.augmented);
+  }
+  return result;
+}
+
 double patch_length(std::vector<GroundPoint> points) {
   if (std::ranges::none_of(points, touches)) return 0;
-  std::ranges::sort(points, {}, &GroundPoint::along);
+  points = most_pressed(std::move(points));
   const double end = end_of_contact(points);
   for (GroundPoint& p : points) p.along = -p.along;
   std::ranges::reverse(points);

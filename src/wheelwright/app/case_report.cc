@@ -50,7 +50,10 @@ std::string size_report(const Case& c) {
                           c.grid.radial_cells, c.grid.angular_cells / c.wheel.sectors, along_axle)) +
          line("unknowns", fmt::format("at most {}, {} of them per sector", dof_bound(c),
                                       dof_bound(c) / c.wheel.sectors)) +
-         line("memory", fmt::format("about {:.0f} MB", std::ceil(estimated_memory(c) / 1e6)));
+         line("memory", fmt::format("about {:.0f} MB", std::ceil(estimated_memory(c) / 1e6))) +
+         (c.wheel.dimension == 3 ? line("time", fmt::format("about {:.2g} s for one shape on one core",
+                                                            estimated_seconds_in_3d(c)))
+                                 : "");
 }
 
 /// Lengths in millimetres make a wheel of hundreds of metres.

@@ -148,6 +148,12 @@ int DesignSession::run(const Case& c, std::size_t n_designs, Signals& signals, c
   return any ? exit_done : exit_no_solution;
 }
 
+bool is_plane_or_tell(const std::string& command, const Case& c, const std::string& file) {
+  if (c.wheel.dimension == 2) return true;
+  tell("wheelwright {}: {}: this command works on cases with wheel.dimension = 2 alone\n", command, file);
+  return false;
+}
+
 fs::path folder_for(const DesignOptions& options, const Case& c, const std::string& ending) {
   return options.output ? fs::path(*options.output) : fs::path(c.output.folder + ending);
 }

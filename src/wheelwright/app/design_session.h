@@ -53,6 +53,9 @@ class DesignSession {
   std::string settings_;
 };
 
+/// Whether a case is one in the plane. Tells if not: the command ends with exit_refused.
+bool is_plane_or_tell(const std::string& command, const Case& c, const std::string& file);
+
 /// The case's folder with an ending, e.g. runs/wheel-explore, unless --output gives another one.
 std::filesystem::path folder_for(const DesignOptions& options, const Case& c, const std::string& ending);
 

@@ -13,6 +13,7 @@ enum ExitCode {
   exit_checkpoint = 6,     ///< no checkpoint can be used
   exit_unexpected = 7,     ///< the run is done, but something that the case expects of it is not so
   exit_nothing_saved = 8,  ///< stopped before the first shape of a run was saved
+  exit_infeasible = 9,     ///< the run is done, but its last shape does not keep the bounds of the case
   exit_hung_up = 129,      ///< by SIGHUP, the terminal was closed; the run can be resumed
   exit_interrupted = 130,  ///< by SIGINT; the run can be resumed
   exit_terminated = 143,   ///< by SIGTERM or a file STOP; the run can be resumed

@@ -31,6 +31,7 @@ constexpr const char* exit_codes =
     "  6    no checkpoint can be used\n"
     "  7    done, but the results differ from those that the case expects\n"
     "  8    stopped before the first shape was saved: there is nothing to go on from\n"
+    "  9    done, but the last shape does not keep every bound of the case\n"
     "  129  stopped by SIGHUP (the terminal was closed); the run can be resumed\n"
     "  130  stopped by SIGINT (Ctrl-C); the run can be resumed\n"
     "  143  stopped by SIGTERM or by a file STOP in the run's folder; the run can be resumed";

@@ -24,6 +24,22 @@ int report_findings(const std::vector<Finding>& findings) {
   return unmet > 0 ? exit_unexpected : exit_done;
 }
 
+/// Tells which bounds the last shape keeps.
+template <int dim>
+int report_bounds(const OptimizationState<dim>& state) {
+  const auto bounds = bound_states(state.evaluation, state.memory.multipliers);
+  int code = exit_done;
+  for (const BoundState& bound : bounds) {
+    if (bound.is_kept()) {
+      print("bound      {}\n", bound.text());
+      continue;
+    }
+    tell("wheelwright: bound {}\n", bound.text());
+    code = exit_infeasible;
+  }
+  return code;
+}
+
 /// One overload for each reason not to begin.
 template <int dim>
 struct NotBegunReport {
@@ -67,7 +83,9 @@ struct NotBegunReport {
     print("{}: finished: {} shapes ({})\n", folder.string(), end.state.iteration, to_string(*end.finished));
     if (end.finished == StopReason::iterations)
       print("to go further: wheelwright resume {} --iterations N\n", folder.string());
-    return report_findings(finished.findings);
+    const int bounds = report_bounds(end.state);
+    const int expected = report_findings(finished.findings);
+    return bounds == exit_done ? expected : bounds;
   }
   int operator()(const Failure& failure) const {
     tell("wheelwright: {}: {}\n", to_string(failure.reason), failure.detail);
@@ -75,19 +93,22 @@ struct NotBegunReport {
   }
 };
 
-/// 2D: of what make_observers() writes there.
+/// What make_observers() writes there.
 void print_files(const fs::path& folder) {
-  for (const auto& [file, meaning] :
-       {std::pair{"report.html", "all of it on one page, for a browser"},
-        {"comparison.svg", "before and after"},
-        {"shape.svg", "the shape in true scale, for cutting"},
-        {"stress.svg", "the loaded wheel; stress_contact.svg about the contact"},
-        {"displacement.svg", "the loaded wheel, how far its points come down"},
-        {"mesh.svg", "the grid and the cells that the boundary cuts"},
-        {"summary.json", "the numbers above, for programs"},
-        {"history.csv", "every trial shape"},
-        {"shapes.pvd", "all shapes, for ParaView"},
-        {"rolling.pvd", "all load positions, for ParaView"}})
+  for (const auto& [file, meaning] : {std::pair{"report.html", "all of it on one page, for a browser"},
+                                      {"comparison.svg", "before and after"},
+                                      {"shape.svg", "the shape in true scale, for cutting"},
+                                      {"shape.stl", "the shape as a closed surface, in millimetres"},
+                                      {"stress.svg", "the loaded wheel, coloured by stress"},
+                                      {"stress_contact.svg", "the same about the contact"},
+                                      {"pressure.svg", "the contact pressure, from above"},
+                                      {"displacement.svg", "the loaded wheel, how far its points come down"},
+                                      {"mesh.svg", "the grid and the cells that the boundary cuts"},
+                                      {"summary.json", "the numbers above, for programs"},
+                                      {"history.csv", "every trial shape"},
+                                      {"shapes.pvd", "all shapes, for ParaView"},
+                                      {"rolling.pvd", "all load positions, for ParaView"},
+                                      {"surface.vtp", "the surface with its stress, for ParaView"}})
     if (fs::exists(folder / file)) print("  {:<36} {}\n", (folder / file).string(), meaning);
 }
 
@@ -174,7 +195,8 @@ int report_result(const RunResult<dim>& result, const fs::path& folder, const Si
   if (result.reason == StopReason::failed_start) return report_failure(result, folder);
   print_summary(result, folder);
   if (result.reason == StopReason::gave_up) return report_failure(result, folder);
-  return report_findings(result.findings);
+  const int bounds = report_bounds(*result.state), expected = report_findings(result.findings);
+  return bounds == exit_done ? expected : bounds;
 }
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                    \

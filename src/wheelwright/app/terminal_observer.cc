@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "wheelwright/analysis/deformation_size.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/run/feature_warnings.h"
@@ -57,6 +59,18 @@ void TerminalObserver<dim>::warn(const DeformationSize& size) {
   if (!warning.empty()) progress_.note("warning: " + warning);
 }
 
+/// Tells of bounds that the first shape violates, and when all are kept for the first time.
+template <int dim>
+void TerminalObserver<dim>::note_bounds(const OptimizationState<dim>& state) {
+  const auto bounds = bound_states(state.evaluation, {});
+  const bool are_kept = std::ranges::all_of(bounds, &BoundState::is_kept);
+  if (state.iteration == 0)
+    for (const BoundState& bound : bounds)
+      if (!bound.is_kept()) progress_.note("the initial shape does not keep a bound: " + bound.text());
+  if (are_kept && !were_kept_) progress_.note(fmt::format("shape {}: all bounds are kept", state.iteration));
+  were_kept_ = are_kept;
+}
+
 template <int dim>
 void TerminalObserver<dim>::show(const TrialDone<dim>& done, const RunView<dim>& run) {
   const auto& [trial, state, seconds] = done;
@@ -69,6 +83,7 @@ void TerminalObserver<dim>::show(const TrialDone<dim>& done, const RunView<dim>&
     progress_.note(fmt::format("shape {}: {}", trial.iteration, text(event)));
   if (state.iteration == 0 && trial.solution)
     warn(deformation_size(*run.study.solver, trial.shape, *trial.solution));
+  note_bounds(state);
   const PolarGrid<dim>& grid = run.study.grid();
   progress_.show({.shape = state.iteration,
                   .n_shapes = run.study.optimizer.iterations,

@@ -16,11 +16,13 @@ class TerminalObserver : public Observer<dim> {
  private:
   void begin(const RunStarted& started, const RunView<dim>& run);
   void show(const TrialDone<dim>& done, const RunView<dim>& run);
+  void note_bounds(const OptimizationState<dim>& state);
 
   /// Tells when a solution is beyond what linear elasticity describes.
   void warn(const DeformationSize& size);
 
   Progress progress_;
+  bool were_kept_ = true;  ///< the bounds, by the last shape seen
 };
 
 }  // namespace wheelwright

@@ -39,6 +39,8 @@ struct Load {
   double force = 300 * 9.81;           ///< on the whole width [N]
   std::optional<double> travel;        ///< of the rim towards the ground [m]; if given, the force is a result
   double horizontal_force = 0;         ///< on the rim, towards larger azimuth, on the whole width [N]
+  double lateral_force = 0;            ///< on the rim, towards larger z; in 3D [N]
+  double camber = 0;                   ///< the side at larger z nearer to the ground; in 3D [rad]
   double torque = 0;                   ///< on the rim, towards larger azimuth, on the whole width [N m]
   std::array<double, 2> body_force{};  ///< along the ground towards larger azimuth, and down [N/m^3]
   double hole_pressure = 0;            ///< in the holes [Pa]
@@ -71,9 +73,30 @@ struct HoleCircle {
   bool operator==(const HoleCircle&) const = default;
 };
 
+/// Equal spherical holes, evenly spaced on a circle about the axle; in 3D.
+struct HoleSphere {
+  int count = 0;
+  double center_radius = 0;
+  double radius = 0;
+  double z = 0;                 ///< of the centres, from the middle of the width
+  std::optional<double> phase;  ///< as for a ring
+  bool operator==(const HoleSphere&) const = default;
+};
+
+/// Equal round holes whose radius changes along the axle, evenly spaced on a circle about it; in 3D.
+struct HoleTapered {
+  int count = 0;
+  double center_radius = 0;
+  std::vector<std::array<double, 2>> profile;  ///< [z from the middle of the width, radius], z ascending
+  std::optional<double> phase;                 ///< as for a ring
+  bool operator==(const HoleTapered&) const = default;
+};
+
 struct Holes {
   std::vector<HoleRing> rings;
   std::vector<HoleCircle> circles;
+  std::vector<HoleSphere> spheres;
+  std::vector<HoleTapered> tapered;
   bool operator==(const Holes&) const = default;
 };
 
@@ -237,7 +260,16 @@ enum class MeanStress {
 };
 
 /// Weights of the functionals in J, and parameters of the functionals.
+/// Which load positions a bound, or what is minimized, is about.
+enum class OverPositions {
+  mean,   ///< their mean
+  worst,  ///< the one with the worst value
+  each,   ///< every one
+};
+
 struct Objective {
+  Quantity minimize = Quantity::objective;  ///< objective: the sum with the weights below
+  OverPositions over = OverPositions::mean;
   double strain_energy = 1;
   double uniformity_annulus = 0;               ///< alpha_1 of J_p1
   double uniformity_dual = 0;                  ///< alpha_2 of J_p2
@@ -248,6 +280,14 @@ struct Objective {
   MeanStress mean = MeanStress::exact;
   DualNorm dual_norm = DualNorm::elasticity;  ///< of J_p2
   bool operator==(const Objective&) const = default;
+};
+
+/// Bounds of a quantity.
+struct Constraint {
+  Quantity quantity = Quantity::objective;
+  std::optional<double> at_least, at_most, equals;
+  OverPositions over = OverPositions::mean;
+  bool operator==(const Constraint&) const = default;
 };
 
 enum class VolumeControl {
@@ -264,12 +304,15 @@ struct Volume {
 
 enum class VelocityKind { h1, harmonic };
 
+enum class OptimizerMethod { sequential_quadratic, descent };
+
 struct Optimizer {
+  OptimizerMethod method = OptimizerMethod::sequential_quadratic;
   int iterations = 100;
   int coarse_levels = 0;  ///< on how many coarser grids the descent begins, one after the other
   VelocityKind velocity = VelocityKind::h1;
   double velocity_length = 2;  ///< [cells]
-  double step = 0.5;           ///< maximum move of the boundary per shape [cells]
+  std::optional<double> step;  ///< maximum move of the boundary per shape [cells]; absent: by the method
   int max_halvings = 6;
   double accepted_increase = 1e-4;
   double tolerance = 1e-5;
@@ -312,6 +355,7 @@ struct Case {
   Grid grid;
   GhostPenalty ghost_penalty;
   Objective objective;
+  std::vector<Constraint> constraints;
   Volume volume;
   Optimizer optimizer;
   Output output;

@@ -39,6 +39,7 @@ Case on_coarser_grid(Case c, int level) {
 
 bool can_be_halved(const Case& c, int times) {
   const int parts = 1 << times;
+  if (c.wheel.dimension == 3 && c.grid.axial_cells % parts != 0) return false;
   return c.grid.radial_cells % parts == 0 && c.grid.angular_cells % (parts * c.wheel.sectors) == 0;
 }
 

@@ -143,6 +143,10 @@ void check_counts(const Case& c, const std::vector<DrawnShape>& shapes, Conflict
                                  fmt::join(divisors(common), ", "))});
   };
   for (std::size_t i = 0; i < c.holes.rings.size(); ++i) check(ring_key(i, "count"), c.holes.rings[i].count);
+  for (std::size_t i = 0; i < c.holes.spheres.size(); ++i)
+    check(fmt::format("holes.sphere[{}].count", i + 1), c.holes.spheres[i].count);
+  for (std::size_t i = 0; i < c.holes.tapered.size(); ++i)
+    check(fmt::format("holes.tapered[{}].count", i + 1), c.holes.tapered[i].count);
   for (const DrawnShape& shape : shapes)
     if (shape.repetition == Repetition::by_count) check(shape.key + ".count", shape.count);
 }
@@ -225,6 +229,47 @@ void check_holes(const Case& c, Conflicts& found) {
   }
 }
 
+/// A sphere must reach into the width.
+void check_spheres(const Case& c, Conflicts& found) {
+  for (std::size_t i = 0; i < c.holes.spheres.size(); ++i) {
+    const HoleSphere& sphere = c.holes.spheres[i];
+    const auto key = [&](std::string_view name) { return fmt::format("holes.sphere[{}].{}", i + 1, name); };
+    check_hole_inside(c, sphere.center_radius, sphere.radius, {key("radius"), key("center_radius")}, found);
+    const double reach = 0.5 * c.wheel.width + sphere.radius;
+    if (std::abs(sphere.z) < reach) continue;
+    found.push_back(
+        {{key("z"), key("radius"), "wheel.width"},
+         "the hole lies beside the wheel",
+         fmt::format("take a value between {:.6g} m and {:.6g} m: z is from the middle of the width", -reach,
+                     reach)});
+  }
+}
+
+/// The profile of a tapered hole ascends, and its widest place is a ring.
+void check_tapered(const Case& c, Conflicts& found) {
+  for (std::size_t i = 0; i < c.holes.tapered.size(); ++i) {
+    const HoleTapered& hole = c.holes.tapered[i];
+    const auto key = [&](std::string_view name) { return fmt::format("holes.tapered[{}].{}", i + 1, name); };
+    double widest = 0;
+    bool ascends = true;
+    for (std::size_t k = 0; k < hole.profile.size(); ++k) {
+      widest = std::max(widest, hole.profile[k][1]);
+      ascends = ascends && (k == 0 || hole.profile[k][0] > hole.profile[k - 1][0]);
+    }
+    if (!ascends)
+      found.push_back({{key("profile")},
+                       "the places along the axle do not grow from point to point",
+                       "sort the points by their first number"});
+    const std::vector<std::string> keys{key("profile"), key("center_radius")};
+    if (widest <= 0) {
+      found.push_back({keys, "no radius is positive: there is no hole", "give radii > 0"});
+      continue;
+    }
+    check_hole_inside(c, hole.center_radius, widest, keys, found);
+    check_holes_apart(hole.count, hole.center_radius, widest, {keys[0], keys[1], key("count")}, found);
+  }
+}
+
 /// A saved shape takes the place of holes and drawn shapes, and must fit the ring and its sectors.
 void check_saved_shape(const Case& c, Conflicts& found) {
   if (c.saved_shape.from.empty()) return;
@@ -233,6 +278,10 @@ void check_saved_shape(const Case& c, Conflicts& found) {
                      "holes and shapes cannot be drawn over the shape of another run",
                      "keep the shape of the other run, or what is drawn"});
   };
+  if (c.wheel.dimension == 3)
+    found.push_back({{"shape.from", "wheel.dimension"},
+                     "only wheels in the plane can begin with a saved shape",
+                     "take wheel.dimension = 2, or draw the shape"});
   if (!c.holes.rings.empty()) refuse_besides("holes.ring[1]");
   if (!c.holes.circles.empty()) refuse_besides("holes.circle[1]");
   for_each_shape_section([&](const auto& section) {
@@ -364,12 +413,35 @@ void check_dimension(const Case& c, Conflicts& found) {
       found.push_back({{"wheel.side_faces", "wheel.dimension"},
                        "a wheel in 2D has no side faces; plane strain already holds them",
                        "leave the key out, or take dimension = 3"});
+    for (const auto& [key, value] :
+         {std::pair("load.lateral_force", c.load.lateral_force), std::pair("load.camber", c.load.camber)})
+      if (value != 0)
+        found.push_back({{key, "wheel.dimension"},
+                         "a wheel in 2D knows nothing along its axle",
+                         "leave the key out, or take dimension = 3"});
+    for (const auto& [name, n] :
+         {std::pair("sphere", c.holes.spheres.size()), std::pair("tapered", c.holes.tapered.size())})
+      if (n > 0)
+        found.push_back({{fmt::format("holes.{}[1].count", name), "wheel.dimension"},
+                         "such a hole needs the width of the wheel",
+                         "take dimension = 3, or [[holes.ring]]"});
     return;
   }
   if (c.material.plane == Plane::stress)
     found.push_back({{"material.plane", "wheel.dimension"},
                      "plane stress is an assumption for two dimensions",
                      "leave the key out: in 3D the side faces are free of stress"});
+  const bool leans = c.load.camber != 0, is_pushed = c.load.lateral_force != 0;
+  if (c.wheel.side_faces == SideFaces::symmetric && (leans || is_pushed))
+    found.push_back({{"wheel.side_faces", leans ? "load.camber" : "load.lateral_force"},
+                     "symmetric side faces hold the wheel along the axle, so that it can neither lean nor be "
+                     "pushed",
+                     "take side_faces = \"free\""});
+  if (leans &&
+      (c.load.torque != 0 || c.load.hole_pressure != 0 || c.load.body_force != std::array<double, 2>{}))
+    found.push_back({{"load.camber", "load.torque", "load.body_force", "load.hole_pressure"},
+                     "a wheel that leans can carry forces on its rim alone",
+                     "leave out torque, body_force and hole_pressure, or take camber = 0"});
   constexpr double largest = 0.4;
   if (c.grid.degree == 1 && c.material.poissons_ratio > largest && !c.material.nearly_incompressible())
     found.push_back({{"grid.degree", "material.poissons_ratio", "wheel.dimension"},
@@ -402,6 +474,15 @@ void check_friction(const Case& c, Conflicts& found) {
   };
   check("load.horizontal_force", load.horizontal_force, held, "N");
   check("load.torque", load.torque, held * arm, "N m");
+  check("load.lateral_force", load.lateral_force, held, "N");
+  const double along_ground = std::hypot(load.horizontal_force, load.lateral_force);
+  if (!load.travel && load.horizontal_force != 0 && load.lateral_force != 0 && along_ground >= held &&
+      std::max(std::abs(load.horizontal_force), std::abs(load.lateral_force)) < held)
+    found.push_back({{"load.lateral_force", "load.horizontal_force", "contact.friction"},
+                     fmt::format("the wheel would slide: both forces together are {:.6g} N, and friction "
+                                 "resists less than {:.6g} N",
+                                 along_ground, held),
+                     "take smaller values, or more contact.friction"});
 }
 
 void check_annulus(const Case& c, Conflicts& found) {
@@ -421,7 +502,7 @@ void check_objective(const Case& c, Conflicts& found) {
                      "the weight of J_p1 is given twice",
                      "keep one of annulus_matches_dual and uniformity_annulus"});
   if (o.strain_energy > 0 || o.uniformity_annulus > 0 || o.uniformity_dual > 0 || o.uniformity_l2 > 0 ||
-      o.annulus_matches_dual)
+      o.annulus_matches_dual || o.minimize != Quantity::objective)
     return;
   found.push_back({{"objective.strain_energy"},
                    "all weights are 0: there is nothing to minimize",
@@ -457,6 +538,18 @@ void check_volume(const Case& c, Conflicts& found) {
                      fmt::format("take at most {:.9g}, or a finer grid", std::floor(most * 1e9) / 1e9)});
 }
 
+/// The paper's own rules need the descent.
+void check_method(const Case& c, Conflicts& found) {
+  if (c.optimizer.method == OptimizerMethod::descent) return;
+  const auto refuse = [&](const char* key, const char* other) {
+    found.push_back({{key, "optimizer.method"},
+                     "it goes with steepest descent alone",
+                     fmt::format("add method = \"descent\" to [optimizer], or take {}", other)});
+  };
+  if (c.optimizer.velocity == VelocityKind::harmonic) refuse("optimizer.velocity", "\"h1\"");
+  if (c.volume.control == VolumeControl::paper) refuse("volume.control", "\"exact\"");
+}
+
 /// Finds least widths that the bands or the ring contradict.
 void check_feature_size(const Case& c, Conflicts& found) {
   const double ring = c.wheel.outer_radius - c.wheel.inner_radius;
@@ -477,21 +570,16 @@ void check_feature_size(const Case& c, Conflicts& found) {
   check_band_of("optimizer.tread_band", c.optimizer.tread_band);
 }
 
-/// Finds expected quantities that the run does not compute, and shapes that it does not reach.
-void check_expectations(const Case& c, Conflicts& found) {
-  const Objective& o = c.objective;
-  const std::map<Quantity, bool> computed{
-      {Quantity::strain_energy, o.strain_energy > 0},
-      {Quantity::uniformity_annulus, o.uniformity_annulus > 0 || o.annulus_matches_dual},
-      {Quantity::uniformity_dual, o.uniformity_dual > 0},
-      {Quantity::uniformity_l2, o.uniformity_l2 > 0}};
-  struct Need {
-    std::vector<Quantity> quantities;
-    const char* key;
-    bool is_given;
-    const char* problem;
-  };
-  const std::vector<Need> needs{
+/// What a quantity needs of the case to mean something.
+struct Need {
+  std::vector<Quantity> quantities;
+  const char* key;
+  bool is_given;
+  const char* problem;
+};
+
+std::vector<Need> unmet_needs(const Case& c, Quantity quantity) {
+  std::vector<Need> needs{
       {{Quantity::mass}, "material.density", c.material.density.has_value(), "the mass needs a density"},
       {{Quantity::force_variation, Quantity::force_variation_harmonic},
        "load.travel",
@@ -509,6 +597,101 @@ void check_expectations(const Case& c, Conflicts& found) {
        "load.torque",
        c.load.torque != 0,
        "without a torque the rim does not turn"}};
+  std::erase_if(needs, [&](const Need& need) {
+    return need.is_given || std::ranges::find(need.quantities, quantity) == need.quantities.end();
+  });
+  return needs;
+}
+
+/// What the optimizer has no derivative of, with what to do; empty for the others.
+std::string_view without_derivative(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::objective:
+      return "bound one of its terms, or another quantity";
+    case Quantity::pressure_spread:
+      return "take uniformity_dual, run_out or peak_pressure";
+    case Quantity::minimum_wall:
+      return "give optimizer.minimum_wall, which every shape keeps";
+    case Quantity::minimum_gap:
+      return "give optimizer.minimum_gap, which every shape keeps";
+    default:
+      return "";
+  }
+}
+
+/// What is minimized in place of the weighted sum.
+void check_minimized(const Case& c, Conflicts& found) {
+  const Objective& o = c.objective;
+  if (o.minimize == Quantity::objective) {
+    if (o.over != OverPositions::mean)
+      found.push_back({{"objective.over", "objective.minimize"},
+                       "the weighted sum is over all load positions",
+                       "give objective.minimize too, or omit the key"});
+    return;
+  }
+  if (c.optimizer.method == OptimizerMethod::descent)
+    found.push_back({{"objective.minimize", "optimizer.method"},
+                     "steepest descent minimizes the weighted sum alone",
+                     "take method = \"sequential_quadratic\", or omit the key"});
+  if (const auto remedy = without_derivative(o.minimize); !remedy.empty())
+    found.push_back({{"objective.minimize"}, "the optimizer has no derivative of it", std::string(remedy)});
+  for (const Need& need : unmet_needs(c, o.minimize))
+    found.push_back({{"objective.minimize", need.key}, need.problem, "change that key, or minimize another"});
+  if ((o.minimize == Quantity::volume_fraction || o.minimize == Quantity::mass) && c.constraints.empty())
+    found.push_back({{"objective.minimize"},
+                     "nothing keeps the wheel from vanishing",
+                     "add a [[constraint]], for example on stiffness"});
+}
+
+/// Bounds that no wheel can keep, or that the run cannot see.
+void check_constraints(const Case& c, Conflicts& found) {
+  for (std::size_t i = 0; i < c.constraints.size(); ++i) {
+    const Constraint& constraint = c.constraints[i];
+    const auto key = [&](std::string_view name) { return fmt::format("constraint[{}].{}", i + 1, name); };
+    const auto refuse = [&](std::string_view name, std::string problem, std::string remedy) {
+      found.push_back({{key(name)}, std::move(problem), std::move(remedy)});
+    };
+    if (c.optimizer.method == OptimizerMethod::descent)
+      found.push_back({{key("quantity"), "optimizer.method"},
+                       "steepest descent knows no bounds",
+                       "take method = \"sequential_quadratic\""});
+    if (!constraint.at_least && !constraint.at_most && !constraint.equals)
+      refuse("quantity", "no bound is given", "add at_least, at_most or equals");
+    if (constraint.equals && (constraint.at_least || constraint.at_most))
+      refuse("equals", "a value and bounds are given", "keep one of them");
+    if (constraint.at_least && constraint.at_most && *constraint.at_least >= *constraint.at_most)
+      refuse("at_least", fmt::format("must be less than at_most = {:.6g}", *constraint.at_most),
+             "exchange them, or take equals");
+    if (constraint.over == OverPositions::worst &&
+        (constraint.equals || (constraint.at_least && constraint.at_most)))
+      refuse("over", "which position is the worst depends on the side of the bound",
+             "give one bound, or over = \"each\"");
+    if (const auto remedy = without_derivative(constraint.quantity); !remedy.empty())
+      refuse("quantity", "the optimizer has no derivative of it", std::string(remedy));
+    for (const Need& need : unmet_needs(c, constraint.quantity))
+      found.push_back(
+          {{key("quantity"), need.key}, need.problem, "change that key, or bound another quantity"});
+    for (const auto& [name, bound] : {std::pair{"at_least", constraint.at_least},
+                                      {"at_most", constraint.at_most},
+                                      {"equals", constraint.equals}})
+      if (constraint.quantity == Quantity::volume_fraction && bound && *bound >= 1 &&
+          std::string_view(name) != "at_most")
+        refuse(name, "more than the whole ring", "take a fraction below 1");
+  }
+  if (!holds_volume(c) && c.volume.target)
+    found.push_back({{"volume.target"},
+                     "the volume is free, for a bound or what is minimized is about it",
+                     "omit the key, or bound volume_fraction instead"});
+}
+
+/// Finds expected quantities that the run does not compute, and shapes that it does not reach.
+void check_expectations(const Case& c, Conflicts& found) {
+  const Objective& o = c.objective;
+  const std::map<Quantity, bool> computed{
+      {Quantity::strain_energy, o.strain_energy > 0},
+      {Quantity::uniformity_annulus, o.uniformity_annulus > 0 || o.annulus_matches_dual},
+      {Quantity::uniformity_dual, o.uniformity_dual > 0},
+      {Quantity::uniformity_l2, o.uniformity_l2 > 0}};
   for (std::size_t i = 0; i < c.expectations.size(); ++i) {
     const Expectation& expectation = c.expectations[i];
     const auto key = [&](std::string_view name) { return fmt::format("expect[{}].{}", i + 1, name); };
@@ -517,10 +700,9 @@ void check_expectations(const Case& c, Conflicts& found) {
       found.push_back({{key("quantity"), fmt::format("objective.{}", name(expectation.quantity))},
                        "it has no weight in the objective, so the run does not compute it",
                        "give it a weight, however small, or expect another quantity"});
-    for (const Need& need : needs)
-      if (!need.is_given && std::ranges::find(need.quantities, expectation.quantity) != need.quantities.end())
-        found.push_back(
-            {{key("quantity"), need.key}, need.problem, "change that key, or expect another quantity"});
+    for (const Need& need : unmet_needs(c, expectation.quantity))
+      found.push_back(
+          {{key("quantity"), need.key}, need.problem, "change that key, or expect another quantity"});
     if (expectation.iteration && *expectation.iteration > c.optimizer.iterations)
       found.push_back({{key("iteration"), "optimizer.iterations"},
                        fmt::format("the run ends at shape {} at the latest", c.optimizer.iterations),
@@ -540,6 +722,8 @@ std::vector<Conflict> conflicts(const Case& c) {
   check_counts(c, shapes, found);
   check_holes(c, found);
   check_nested_holes(c, found);
+  check_spheres(c, found);
+  check_tapered(c, found);
   check_saved_shape(c, found);
   check_coarse_levels(c, found);
   const Conflicts of_shapes = shape_conflicts(c, shapes);
@@ -553,7 +737,10 @@ std::vector<Conflict> conflicts(const Case& c) {
   check_annulus(c, found);
   check_objective(c, found);
   check_volume(c, found);
+  check_method(c, found);
   check_feature_size(c, found);
+  check_minimized(c, found);
+  check_constraints(c, found);
   check_expectations(c, found);
   return found;
 }

@@ -61,6 +61,7 @@ double smallest_hole_in_cells(const Case& c) {
   const double radial = (c.wheel.outer_radius - c.wheel.inner_radius) / c.grid.radial_cells,
                azimuthal = pi * (c.wheel.outer_radius + c.wheel.inner_radius) / c.grid.angular_cells;
   double smallest = smallest_hole_width(c);
+  for (const HoleSphere& sphere : c.holes.spheres) smallest = std::min(smallest, 2 * sphere.radius);
   const auto add = [&](Fill as, double diameter) {
     if (as == Fill::hole) smallest = std::min(smallest, diameter);
   };
@@ -83,12 +84,30 @@ double radial_cell(const Case& c) {
 }
 }  // namespace
 
+bool holds_volume(const Case& c) {
+  const auto is_free = [](Quantity q) { return q == Quantity::volume_fraction || q == Quantity::mass; };
+  return !is_free(c.objective.minimize) &&
+         std::ranges::none_of(c.constraints, is_free, &Constraint::quantity);
+}
+
+namespace {
+
+/// Whether a quantity is minimized or bounded, other than by its weight in the sum.
+bool is_optimized(const Case& c, Quantity quantity) {
+  return c.objective.minimize == quantity ||
+         std::ranges::find(c.constraints, quantity, &Constraint::quantity) != c.constraints.end();
+}
+
+}  // namespace
+
 bool wants_annulus(const Case& c) {
-  return c.objective.uniformity_annulus > 0 || c.objective.annulus_matches_dual.has_value();
+  return c.objective.uniformity_annulus > 0 || c.objective.annulus_matches_dual.has_value() ||
+         is_optimized(c, Quantity::uniformity_annulus);
 }
 
 bool wants_uniformity(const Case& c) {
-  return wants_annulus(c) || c.objective.uniformity_dual > 0 || c.objective.uniformity_l2 > 0;
+  return wants_annulus(c) || c.objective.uniformity_dual > 0 || c.objective.uniformity_l2 > 0 ||
+         is_optimized(c, Quantity::uniformity_dual) || is_optimized(c, Quantity::uniformity_l2);
 }
 
 double annulus_thickness(const Case& c) { return c.objective.annulus.value_or(radial_cell(c)); }
@@ -132,20 +151,50 @@ HoleRange room_for_holes(const Case& c) {
 }
 
 bool has_holes(const Case& c) {
-  return !c.holes.rings.empty() || !c.holes.circles.empty() || c.shapes != Shapes{} ||
-         !c.saved_shape.from.empty();
+  return c.holes != Holes{} || c.shapes != Shapes{} || !c.saved_shape.from.empty();
 }
+
+namespace {
+
+/// Calls add(azimuth) for the holes of one sector out of `count` evenly spaced ones.
+template <class Add>
+void for_each_in_sector(const Case& c, int count, const std::optional<double>& phase, Add add) {
+  const double spacing = 2 * pi / count, first = phase.value_or(spacing / 2);
+  for (int i = 0; i < count / c.wheel.sectors; ++i) add(first + i * spacing);
+}
+
+}  // namespace
 
 std::vector<Circle> sector_holes(const Case& c) {
   std::vector<Circle> holes;
-  for (const HoleRing& ring : c.holes.rings) {
-    const double spacing = 2 * pi / ring.count, first = ring.phase.value_or(spacing / 2);
-    for (int i = 0; i < ring.count / c.wheel.sectors; ++i)
-      holes.push_back({ring.center_radius, first + i * spacing, ring.radius});
-  }
+  for (const HoleRing& ring : c.holes.rings)
+    for_each_in_sector(c, ring.count, ring.phase, [&](double azimuth) {
+      holes.push_back({ring.center_radius, azimuth, ring.radius});
+    });
   for (const HoleCircle& circle : c.holes.circles) {
     const auto [x, y] = circle.center;
     holes.push_back({std::hypot(x, y), std::atan2(y, x), circle.radius});
+  }
+  return holes;
+}
+
+std::vector<Sphere> sector_spheres(const Case& c) {
+  std::vector<Sphere> holes;
+  for (const HoleSphere& sphere : c.holes.spheres)
+    for_each_in_sector(c, sphere.count, sphere.phase, [&](double azimuth) {
+      holes.push_back({sphere.center_radius, azimuth, sphere.z + 0.5 * c.wheel.width, sphere.radius});
+    });
+  return holes;
+}
+
+std::vector<TaperedHole> sector_tapered_holes(const Case& c) {
+  std::vector<TaperedHole> holes;
+  for (const HoleTapered& tapered : c.holes.tapered) {
+    std::vector<Vec<2>> profile;
+    for (const auto& [z, radius] : tapered.profile) profile.push_back({z + 0.5 * c.wheel.width, radius});
+    for_each_in_sector(c, tapered.count, tapered.phase, [&](double azimuth) {
+      holes.push_back({tapered.center_radius, azimuth, profile});
+    });
   }
   return holes;
 }
@@ -184,41 +233,87 @@ constexpr double square(double x) { return x * x; }
 
 }  // namespace
 
-double estimated_memory(const Case& c) {
-  constexpr double number = sizeof(double), complex = 2 * number;
-  const double sectors = c.wheel.sectors, positions = c.load.positions;
-  const double columns = c.grid.angular_cells, cells = columns * c.grid.radial_cells;
-  const double dofs = static_cast<double>(dof_bound(c)), sector_dofs = dofs / sectors;
+namespace {
+
+/// The sizes that decide what a run needs.
+struct ProblemSize {
+  double sectors, positions;
+  double columns, cells;          ///< of the full ring
+  double dofs, sector_dofs;       ///< if every cell held material
+  double radial_line, ring_line;  ///< dofs of a face between sectors, and of the core's outer line
+  double tractions;               ///< components at the contact points of a column
+  double zone_columns, loaded_columns;
+
+  double sector_line() const { return ring_line / sectors; }
+  double boundary() const { return radial_line + sector_line(); }
+};
+
+ProblemSize problem_size(const Case& c) {
   const bool in_3d = c.wheel.dimension == 3;
   const double per_line_node = c.wheel.dimension * static_cast<double>(axial_nodes(c));
-  const double radial_line = per_line_node * (c.grid.degree * c.grid.radial_cells + 1);
-  const double ring_line = per_line_node * c.grid.degree * columns, sector_line = ring_line / sectors;
   const double points = c.contact.quadrature_points * (1 << tread_levels_of_results(c)) *
                         (in_3d ? c.contact.quadrature_points * c.grid.axial_cells : 1);  // per column
-  const double tractions = c.wheel.dimension * points;
-  const double observations = 2 * tractions, zone_columns = contact_columns(c);
-  double holes = 0;
-  for (const HoleRing& ring : c.holes.rings) holes += ring.count / sectors;
+  ProblemSize size{};
+  size.sectors = c.wheel.sectors;
+  size.positions = c.load.positions;
+  size.columns = c.grid.angular_cells;
+  size.cells = size.columns * c.grid.radial_cells * (in_3d ? c.grid.axial_cells : 1);
+  size.dofs = static_cast<double>(dof_bound(c));
+  size.sector_dofs = size.dofs / size.sectors;
+  size.radial_line = per_line_node * (c.grid.degree * c.grid.radial_cells + 1);
+  size.ring_line = per_line_node * c.grid.degree * size.columns;
+  size.tractions = c.wheel.dimension * points;
+  size.zone_columns = contact_columns(c);
+  size.loaded_columns = std::min(size.columns / size.sectors, size.positions * size.zone_columns);
+  return size;
+}
 
-  // The size of each array is known; how many of them exist at the peak is fitted to measurements.
+/// How many of each array exist at the peak of memory, fitted to measurements.
+struct Copies {
+  double condensed, harmonics, compliance, surface;
+};
+constexpr Copies in_the_plane{3.5, 1.8, 7.6, 1.2}, in_space{3, 1.1, 3.3, 4};
+
+}  // namespace
+
+double estimated_memory(const Case& c) {
+  constexpr double number = sizeof(double), complex = 2 * number;
+  const ProblemSize n = problem_size(c);
+  const bool in_3d = c.wheel.dimension == 3;
+  const Copies& copies = in_3d ? in_space : in_the_plane;
+  const double observations = 2 * n.tractions;
+  double holes = 0;
+  for (const HoleRing& ring : c.holes.rings) holes += ring.count / n.sectors;
+
   const double libraries = 26e6;
-  const double fields = number * (56 * cells * (in_3d ? c.grid.axial_cells : 1) + 4.6 * dofs * positions);
+  const double fields = number * (56 * n.cells + 4.6 * n.dofs * n.positions);
   // Fill of nested dissection: n log n in the plane, n^(4/3) in space.
-  const double fill =
-      in_3d ? 6 * std::pow(sector_dofs, 4.0 / 3) : 0.6 * sector_dofs * std::log2(std::max(sector_dofs, 2.0));
+  const double fill = in_3d ? 6 * std::pow(n.sector_dofs, 4.0 / 3)
+                            : 0.6 * n.sector_dofs * std::log2(std::max(n.sector_dofs, 2.0));
   const double factor = number * fill;
-  const double condensed = number * 3.5 * square(2 * radial_line + sector_line);
-  const double harmonics = complex * 1.8 * (sectors / 2 + 1) * square(radial_line + sector_line);
-  const double compliance = number * 7.6 * square(ring_line) / sectors;
-  const double loaded_columns = std::min(columns / sectors, positions * zone_columns);
-  const double surface = number * 1.2 * (2 * zone_columns - 1) * loaded_columns * square(tractions);
-  const double tread = number * (24 * square(observations) + 1.8 * observations * columns * positions);
-  const double zones = number * 0.6 * positions * square(zone_columns * tractions);
+  const double condensed = number * copies.condensed * square(2 * n.radial_line + n.sector_line());
+  const double harmonics = complex * copies.harmonics * (n.sectors / 2 + 1) * square(n.boundary());
+  const double compliance = number * copies.compliance * square(n.ring_line) / n.sectors;
+  const double surface =
+      number * copies.surface * (2 * n.zone_columns - 1) * n.loaded_columns * square(n.tractions);
+  const double tread = number * (24 * square(observations) + 1.8 * observations * n.columns * n.positions);
+  const double zones = number * 0.6 * n.positions * square(n.zone_columns * n.tractions);
   const double shape = number * 10 * holes;
   // The dual norm has its own ring, and so has a finer tread of the results.
   const double rings = 1 + wants_dual(c) + (tread_levels_of_results(c) > tread_levels(c));
   return libraries + fields + rings * (factor + condensed + harmonics) + compliance + surface + tread +
          zones + shape;
+}
+
+double estimated_seconds_in_3d(const Case& c) {
+  const ProblemSize n = problem_size(c);
+  constexpr double flops_per_second = 55e9;  // dense matrices on one core
+  const double cube = n.boundary() * n.boundary() * n.boundary() / 3 +
+                      2 * n.sector_line() * n.sector_line() * n.sector_line() / 3;
+  const double harmonics = 4 * (n.sectors / 2 + 1) * cube / flops_per_second;
+  const double sector = 2e-9 * square(n.sector_dofs);
+  const double contact = 9e-7 * (2 * n.zone_columns - 1) * n.loaded_columns * square(n.tractions);
+  return harmonics + sector + contact;
 }
 
 double least_gamma_0(double theta, const Material& material) {

@@ -64,6 +64,10 @@ int tread_rows(const Case& c);
 /// Whether J_p1 is part of the objective.
 bool wants_annulus(const Case& c);
 
+/// Whether every shape has the same volume: not where a bound, or what is minimized, is about it.
+bool holds_volume(const Case& c);
+
+
 /// Whether any functional compares the contact stress of the load positions.
 bool wants_uniformity(const Case& c);
 
@@ -94,6 +98,10 @@ bool has_holes(const Case& c);
 /// hole may lie in any sector and cross the interfaces between sectors.
 std::vector<Circle> sector_holes(const Case& c);
 
+/// The holes of one sector that only 3D has.
+std::vector<Sphere> sector_spheres(const Case& c);
+std::vector<TaperedHole> sector_tapered_holes(const Case& c);
+
 /// Number of displacement unknowns of the full ring if every cell held material: an upper bound. Those of
 /// rim and side faces that are held count too.
 long long dof_bound(const Case& c);
@@ -103,6 +111,10 @@ long long dof_bound(const Case& c);
 /// interfaces, the compliances of the outer line and of the surface, the tread's observations and the contact
 /// zones.
 double estimated_memory(const Case& c);
+
+/// Estimated time of one shape of a case in 3D on one core [s], within a factor of two: the harmonics, the
+/// sector's factor and the contact operator, whose sizes are known and whose speeds were measured.
+double estimated_seconds_in_3d(const Case& c);
 
 /// The minimum gamma_0 for which Nitsche's method is safe with this theta and material. At nu = 0.48 in plane
 /// strain it is 0 for theta = -1, about 10 for theta = 0 and 100 for theta = 1. In between it is

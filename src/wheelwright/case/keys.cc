@@ -120,43 +120,54 @@ const Section<Load>& load_section() {
       .name = "load",
       .meaning = "the load on the wheel, the same in all load positions",
       .in = [](Case& c) -> Load& { return c.load; },
-      .keys = {{.name = "mass",
-                .unit = "kg",
-                .field = NumberField<Load>{&Load::force, between(1e-9, 1e9), standard_gravity},
-                .meaning = "mass carried by the whole width, under 9.81 m/s^2"},
-               {.name = "force",
-                .unit = "N",
-                .field = NumberField<Load>{&Load::force, between(1e-8, 1e10)},
-                .meaning = "force carried by the whole width",
-                .instead_of = "mass"},
-               {.name = "travel",
-                .unit = "m",
-                .field = OptionalNumberField<Load>{&Load::travel, above(0, 1000), "the rim carries the load"},
-                .meaning = "prescribed travel of the rim towards the ground; the force is a result",
-                .instead_of = "mass"},
-               {.name = "horizontal_force",
-                .unit = "N",
-                .field = NumberField<Load>{&Load::horizontal_force, between(-1e10, 1e10)},
-                .meaning = "force on the rim along the ground, towards larger azimuth, on the whole width; "
-                           "if it is 0 the rim does not move along the ground"},
-               {.name = "torque",
-                .unit = "N m",
-                .field = NumberField<Load>{&Load::torque, between(-1e10, 1e10)},
-                .meaning = "driving or braking torque on the rim, towards larger azimuth, on the whole "
-                           "width; if it is 0 the rim does not turn"},
-               {.name = "body_force",
-                .unit = "N/m^3",
-                .field = PointField<Load>{&Load::body_force, between(-1e12, 1e12)},
-                .meaning = "[along, down]: force per volume of the structure, along the ground towards "
-                           "larger azimuth, and downwards; [0, 9.81 * density] is its weight"},
-               {.name = "hole_pressure",
-                .unit = "Pa",
-                .field = NumberField<Load>{&Load::hole_pressure, between(-1e12, 1e12)},
-                .meaning = "pressure p on the boundary of the holes: g_N = -p n in (1)"},
-               {.name = "positions",
-                .unit = "",
-                .field = IntegerField<Load>{&Load::positions, between(1, 1000)},
-                .meaning = "N_d: number of load positions per sector, any on any grid"}}};
+      .keys = {
+          {.name = "mass",
+           .unit = "kg",
+           .field = NumberField<Load>{&Load::force, between(1e-9, 1e9), standard_gravity},
+           .meaning = "mass carried by the whole width, under 9.81 m/s^2"},
+          {.name = "force",
+           .unit = "N",
+           .field = NumberField<Load>{&Load::force, between(1e-8, 1e10)},
+           .meaning = "force carried by the whole width",
+           .instead_of = "mass"},
+          {.name = "travel",
+           .unit = "m",
+           .field = OptionalNumberField<Load>{&Load::travel, above(0, 1000), "the rim carries the load"},
+           .meaning = "prescribed travel of the rim towards the ground; the force is a result",
+           .instead_of = "mass"},
+          {.name = "horizontal_force",
+           .unit = "N",
+           .field = NumberField<Load>{&Load::horizontal_force, between(-1e10, 1e10)},
+           .meaning = "force on the rim along the ground, towards larger azimuth, on the whole width; "
+                      "if it is 0 the rim does not move along the ground"},
+          {.name = "lateral_force",
+           .unit = "N",
+           .field = NumberField<Load>{&Load::lateral_force, between(-1e10, 1e10)},
+           .meaning = "in 3D, force on the rim along the axle, towards larger z; if it is 0 the rim does "
+                      "not move along the axle"},
+          {.name = "camber",
+           .unit = "deg",
+           .field = NumberField<Load>{&Load::camber, between(-30, 30), degree_of_arc},
+           .meaning = "in 3D, the angle by which the wheel leans: its side at larger z is nearer to the "
+                      "ground"},
+          {.name = "torque",
+           .unit = "N m",
+           .field = NumberField<Load>{&Load::torque, between(-1e10, 1e10)},
+           .meaning = "driving or braking torque on the rim, towards larger azimuth, on the whole "
+                      "width; if it is 0 the rim does not turn"},
+          {.name = "body_force",
+           .unit = "N/m^3",
+           .field = PointField<Load>{&Load::body_force, between(-1e12, 1e12)},
+           .meaning = "[along, down]: force per volume of the structure, along the ground towards "
+                      "larger azimuth, and downwards; [0, 9.81 * density] is its weight"},
+          {.name = "hole_pressure",
+           .unit = "Pa",
+           .field = NumberField<Load>{&Load::hole_pressure, between(-1e12, 1e12)},
+           .meaning = "pressure p on the boundary of the holes: g_N = -p n in (1)"},
+          {.name = "positions",
+           .unit = "",
+           .field = IntegerField<Load>{&Load::positions, between(1, 1000)},
+           .meaning = "N_d: number of load positions per sector, any on any grid"}}};
   return section;
 }
 
@@ -312,6 +323,58 @@ constexpr std::string_view tilt =
     "from the direction away from the axle to the length, towards larger azimuth";
 
 }  // namespace
+
+const SectionArray<HoleSphere>& sphere_sections() {
+  static const SectionArray<HoleSphere> sections{
+      .parent = "holes",
+      .name = "sphere",
+      .meaning =
+          "in 3D, spherical holes of the initial shape, evenly spaced about the axle; give any number of "
+          "them",
+      .in = [](Case& c) -> std::vector<HoleSphere>& { return c.holes.spheres; },
+      .example = {.count = 16, .center_radius = 0.27, .radius = 0.03, .z = 0, .phase = {}},
+      .keys = {count_key<HoleSphere>(),
+               center_radius_key<HoleSphere>(),
+               length_key(&HoleSphere::radius, "radius", "radius of each hole"),
+               {.name = "z",
+                .unit = "m",
+                .field = NumberField<HoleSphere>{&HoleSphere::z, between(-1000, 1000)},
+                .meaning = "place of the centres along the axle, from the middle of the width"},
+               phase_key<HoleSphere>(phase_of_centre)}};
+  return sections;
+}
+
+namespace {
+
+HoleTapered conical_holes() {
+  HoleTapered holes{.count = 16, .center_radius = 0.27, .profile = {}, .phase = {}};
+  holes.profile = {{-0.06, 0.04}, {0, 0.03}, {0.06, 0.04}};
+  return holes;
+}
+
+}  // namespace
+
+const SectionArray<HoleTapered>& tapered_sections() {
+  static const SectionArray<HoleTapered> sections{
+      .parent = "holes",
+      .name = "tapered",
+      .meaning =
+          "in 3D, round holes of the initial shape whose radius changes along the axle, evenly spaced about "
+          "it; give any number of them",
+      .in = [](Case& c) -> std::vector<HoleTapered>& { return c.holes.tapered; },
+      .example = conical_holes(),
+      .keys = {count_key<HoleTapered>(),
+               center_radius_key<HoleTapered>(),
+               {.name = "profile",
+                .unit = "m",
+                .field = PointsField<HoleTapered>{&HoleTapered::profile, between(-1000, 1000)},
+                .meaning = "[[z, radius], ...]: the radius along the axle, straight from point to point and "
+                           "constant beyond the ends; z is from the middle of the width and grows from point "
+                           "to point; where the radius is negative there is no hole",
+                .presence = Presence::required},
+               phase_key<HoleTapered>(phase_of_centre)}};
+  return sections;
+}
 
 const SectionArray<CircleShape>& circle_shape_sections() {
   static const SectionArray<CircleShape> sections{
@@ -612,6 +675,16 @@ const Section<Objective>& objective_section() {
           "minimized",
       .in = [](Case& c) -> Objective& { return c.objective; },
       .keys = {
+          {.name = "minimize",
+           .unit = "",
+           .field = choice<&Objective::minimize>({quantity_names.begin(), quantity_names.end()}),
+           .meaning = "what is minimized; objective: the weighted sum; any other quantity takes its place, "
+                      "and the weights then only say which functionals history.csv has"},
+          {.name = "over",
+           .unit = "",
+           .field = choice<&Objective::over>({"mean", "worst"}),
+           .meaning = "which load positions `minimize` is about: their mean, or the one with the greatest "
+                      "value; not for the weighted sum"},
           {.name = "strain_energy",
            .unit = "",
            .field = NumberField<Objective>{&Objective::strain_energy, between(0, 1e9)},
@@ -660,6 +733,44 @@ const Section<Objective>& objective_section() {
   return section;
 }
 
+const SectionArray<Constraint>& constraint_sections() {
+  static const SectionArray<Constraint> sections{
+      .parent = "",
+      .name = "constraint",
+      .meaning =
+          "a bound that the optimized wheel must keep, with method = \"sequential_quadratic\"; a run that "
+          "does "
+          "not keep it ends with exit code 9; give any number of them, ten bounds in all; the volume is free "
+          "when a bound, or what is minimized, is about volume_fraction or mass",
+      .in = [](Case& c) -> std::vector<Constraint>& { return c.constraints; },
+      .example = {.quantity = Quantity::strain_energy, .at_least = {}, .at_most = 5, .equals = {}},
+      .keys = {
+          {.name = "quantity",
+           .unit = "",
+           .field = choice<&Constraint::quantity>({quantity_names.begin(), quantity_names.end()}),
+           .meaning = "what is bounded, by the names of history.csv and [[expect]]",
+           .presence = Presence::required},
+          {.name = "at_least",
+           .unit = "",
+           .field = OptionalNumberField<Constraint>{&Constraint::at_least, above(0, 1e15), "no such bound"},
+           .meaning = "lower bound, in SI units; of forces, energies, masses and stiffnesses in 2D per metre "
+                      "of width, as in history.csv"},
+          {.name = "at_most",
+           .unit = "",
+           .field = OptionalNumberField<Constraint>{&Constraint::at_most, above(0, 1e15), "no such bound"},
+           .meaning = "upper bound"},
+          {.name = "equals",
+           .unit = "",
+           .field = OptionalNumberField<Constraint>{&Constraint::equals, above(0, 1e15), "no such bound"},
+           .meaning = "the value to keep, in place of bounds"},
+          {.name = "over",
+           .unit = "",
+           .field = choice<&Constraint::over>({"mean", "worst", "each"}),
+           .meaning = "which load positions it is about: their mean, the worst one, or each one with a "
+                      "bound of its own"}}};
+  return sections;
+}
+
 const Section<Volume>& volume_section() {
   static const Section<Volume> section{
       .name = "volume",
@@ -688,9 +799,16 @@ const Section<Volume>& volume_section() {
 const Section<Optimizer>& optimizer_section() {
   static const Section<Optimizer> section{
       .name = "optimizer",
-      .meaning = "the descent; the unit \"cell\" is the shortest edge of a grid cell at mid-ring",
+      .meaning =
+          "the search for a better shape; the unit \"cell\" is the shortest edge of a grid cell at "
+          "mid-ring",
       .in = [](Case& c) -> Optimizer& { return c.optimizer; },
       .keys = {
+          {.name = "method",
+           .unit = "",
+           .field = choice<&Optimizer::method>({"sequential_quadratic", "descent"}),
+           .meaning = "sequential_quadratic: steps of a quadratic model that learns the curvature from the "
+                      "shapes before; descent: along the gradient"},
           {.name = "iterations",
            .unit = "",
            .field = IntegerField<Optimizer>{&Optimizer::iterations, between(0, 1000000)},
@@ -712,7 +830,8 @@ const Section<Optimizer>& optimizer_section() {
            .meaning = "length over which h1 smooths the velocity"},
           {.name = "step",
            .unit = "cells",
-           .field = NumberField<Optimizer>{&Optimizer::step, above(0, 10)},
+           .field = OptionalNumberField<Optimizer>{&Optimizer::step, above(0, 10),
+                                                   "1.5; with method = \"descent\" 0.5"},
            .meaning = "maximum move of the boundary from one shape to the next"},
           {.name = "max_halvings",
            .unit = "",

@@ -7,7 +7,7 @@ namespace wheelwright {
 
 namespace {
 
-constexpr std::array<Preset, 8> all{{
+constexpr std::array<Preset, 9> all{{
     {"paper16", "the wheel of the paper with 16 holes", R"(# The wheel of the paper: 16 round holes.
 
 title = "16 holes"
@@ -74,6 +74,35 @@ angular_cells = 576
 smoothing = 0.1  # keeps the edges of small holes smooth
 rim_band = 0.00333333333333
 tread_band = 0.00666666666667
+)"},
+    {"paper16-3d", "the wheel of the paper with 16 holes, in three dimensions",
+     R"(# The wheel of the paper: 16 round holes, in three dimensions.
+
+title = "16 holes, 3D"
+
+[wheel]
+dimension = 3
+
+[load]
+positions = 4
+
+[contact]
+quadrature_points = 3
+
+[[holes.ring]]
+count = 16
+center_radius = 0.27
+radius = 0.04
+
+[grid]
+radial_cells = 12
+angular_cells = 144
+axial_cells = 4
+
+[optimizer]
+smoothing = 0.1  # keeps the edges smooth on a coarse grid
+rim_band = 0.0117
+tread_band = 0.0234
 )"},
     {"caster", "a small wheel of polyurethane, for 80 kg",
      R"(# A caster of 125 mm: a tyre of polyurethane with slots on a rigid hub.

@@ -213,6 +213,8 @@ std::vector<std::string> with_ring_shape(std::vector<std::string> keys) {
 int common_count(const Case& c, const std::vector<DrawnShape>& shapes) {
   int common = 0;
   for (const HoleRing& ring : c.holes.rings) common = std::gcd(common, ring.count);
+  for (const HoleSphere& sphere : c.holes.spheres) common = std::gcd(common, sphere.count);
+  for (const HoleTapered& hole : c.holes.tapered) common = std::gcd(common, hole.count);
   for (const DrawnShape& shape : shapes)
     if (shape.repetition == Repetition::by_count) common = std::gcd(common, shape.count);
   return common;

@@ -10,17 +10,30 @@
 namespace wheelwright {
 namespace {
 
-/// The axes of the ground frame in a column's frame; `angle` rotates the column's frame into the ground
-/// frame.
+/// The axes of the ground frame in a column's frame.
 template <int dim>
-std::array<Vec<dim>, dim> ground_axes(double angle) {
+std::array<Vec<dim>, dim> ground_axes(const GroundFrame& frame) {
   std::array<Vec<dim>, dim> axes;
   for (int k = 0; k < dim; ++k) {
     Vec<dim> unit{};
     unit[k] = 1;
-    axes[k] = rotated<dim>(unit, -angle);
+    axes[k] = frame.to_body<dim>(unit);
   }
   return axes;
+}
+
+/// A position in a column relative to the middle of the axle.
+template <int dim>
+Vec<dim> from_axle(const PolarGrid<dim>& grid, Vec<dim> position) {
+  if constexpr (dim == 3) position[2] -= 0.5 * grid.width;
+  return position;
+}
+
+/// Height of the axle's middle above the ground that the undeformed tread touches.
+template <int dim>
+double undeformed_height(const PolarGrid<dim>& grid, double camber) {
+  if (dim == 2 || camber == 0) return grid.outer_radius;
+  return grid.outer_radius * std::cos(camber) + 0.5 * grid.width * std::abs(std::sin(camber));
 }
 
 }  // namespace
@@ -36,12 +49,13 @@ ReducedContact<dim>::ReducedContact(const SurfaceCompliance<dim>& surface, const
       tau_(tread.form().tau()),
       theta_(tread.form().theta()),
       preload_resultant_(preload.resultant) {
-  const double column_angle = grid.cell_size()[1];
+  const double column_angle = grid.cell_size()[1], height = undeformed_height(grid, ground.camber);
   for (int c = 0; c < zone.n_columns; ++c) {
-    const double angle = (zone.first_column + c - ground.column - ground.offset) * column_angle;
+    const GroundFrame frame{(zone.first_column + c - ground.column - ground.offset) * column_angle,
+                            ground.camber};
     for (const auto& point : tread.points()) {
-      const Vec<dim> x = rotated<dim>(point.position, angle);
-      points_.push_back({x, grid.outer_radius - x[0], point.weight, point.gamma, angle});
+      const Vec<dim> x = frame.to_ground<dim>(from_axle<dim>(grid, point.position));
+      points_.push_back({x, height - x[0], point.weight, point.gamma, frame});
     }
   }
 
@@ -54,7 +68,7 @@ ReducedContact<dim>::ReducedContact(const SurfaceCompliance<dim>& surface, const
                    *traction = observed + rows.traction(point_of_column(i));
       Vec<dim> z;
       for (int d = 0; d < dim; ++d) z[d] = tau_ * traction[d] - points_[i].gamma * displacement[d];
-      preload_.push_back(rotated<dim>(z, points_[i].angle));
+      preload_.push_back(points_[i].frame.template to_ground<dim>(z));
     }
 
   const int n = n_points() * components();
@@ -71,8 +85,8 @@ void ReducedContact<dim>::set_flexibility(int to_column, int from_column, const 
                                           Matrix& flexibility) const {
   const int n_components = components();
   const int first_to = per_column() * to_column, first_from = per_column() * from_column;
-  const auto to_axes = ground_axes<dim>(points_[first_to].angle);
-  const auto from_axes = ground_axes<dim>(points_[first_from].angle);
+  const auto to_axes = ground_axes<dim>(points_[first_to].frame);
+  const auto from_axes = ground_axes<dim>(points_[first_from].frame);
   for (int from = 0; from < per_column(); ++from)
     for (int to = 0; to < per_column(); ++to)
       for (int j = 0; j < n_components; ++j) {
@@ -330,7 +344,7 @@ Matrix ReducedContact<dim>::contact_loads(const ContactState<dim>& state) const 
   Matrix loads(rows.n_contact(), zone_.n_columns);
   for (int i = 0; i < n_points(); ++i) {
     const Point& point = points_[i];
-    const Vec<dim> traction = rotated<dim>(state.traction[i], -point.angle);
+    const Vec<dim> traction = point.frame.template to_body<dim>(state.traction[i]);
     double* load = loads.column(zone_column(i));
     const int q = point_of_column(i);
     for (int d = 0; d < dim; ++d) {
@@ -365,7 +379,7 @@ Expected<std::vector<ContactAdjoint>> ReducedContact<dim>::adjoints(
       for (int d = 0; d < dim; ++d)
         tested[d] =
             theta_ / point.gamma * observed[rows.traction(q) + d] - observed[rows.displacement(q) + d];
-      tested = rotated<dim>(tested, point.angle);
+      tested = point.frame.template to_ground<dim>(tested);
       const auto& tractions = functions[f].tractions;
       for (int d = 0; d < nc; ++d)
         m(k, f) += r.tangent[d][component] *
@@ -383,7 +397,7 @@ Expected<std::vector<ContactAdjoint>> ReducedContact<dim>::adjoints(
     ContactAdjoint adjoint{Matrix(rows.n_contact(), zone_.n_columns), {}};
     for (int i = 0; i < n_points(); ++i) {
       const Point& point = points_[i];
-      const Vec<dim> value = rotated<dim>(multiplier[i], -point.angle);
+      const Vec<dim> value = point.frame.template to_body<dim>(multiplier[i]);
       double* load = adjoint.loads.column(zone_column(i));
       const int q = point_of_column(i);
       for (int d = 0; d < dim; ++d) {
@@ -407,7 +421,7 @@ ContactPatch<dim> ReducedContact<dim>::patch(const ContactState<dim>& state) con
   for (int i = 0; i < n_points(); ++i)
     patch.points.push_back({.column = wrap(zone_.first_column + zone_column(i), ring_columns_),
                             .point = point_of_column(i),
-                            .angle = points_[i].angle,
+                            .frame = points_[i].frame,
                             .position = points_[i].position,
                             .gap = points_[i].gap,
                             .weight = points_[i].weight,

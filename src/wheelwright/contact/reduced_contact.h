@@ -88,7 +88,7 @@ class ReducedContact {
     double gap;         ///< g (9) [m]
     double weight;      ///< dS
     double gamma;       ///< [Pa/m]
-    double angle;       ///< rotates column-frame components into the ground frame
+    GroundFrame frame;  ///< turns column-frame components into the ground frame
   };
   const std::vector<Point>& points() const { return points_; }
 

@@ -7,6 +7,7 @@
 
 #include "wheelwright/cut/cell_quadrature.h"
 #include "wheelwright/geometry/finite.h"
+#include "wheelwright/geometry/mirror.h"
 #include "wheelwright/geometry/place.h"
 
 namespace wheelwright {
@@ -140,6 +141,43 @@ std::vector<GhostFace> find_ghost_faces(const LevelSet<dim>& psi, const CutDomai
   return faces;
 }
 
+/// Whether a shape has the same values at the nodes of a cell and of its mirror image in the middle of the
+/// width.
+template <int dim>
+bool equals_image(const LevelSet<dim>& psi, int cell, int image) {
+  const auto values = psi.cell_values(cell), there = psi.cell_values(image);
+  const int degree = psi.lattice.degree();
+  for (int a = 0; a < static_cast<int>(values.size()); ++a) {
+    auto p = local_node_position<dim>(degree, a);
+    p[dim - 1] = degree - p[dim - 1];
+    int b = 0;
+    for (int d = dim - 1; d >= 0; --d) b = b * (degree + 1) + p[d];
+    if (values[a] != there[b]) return false;
+  }
+  return true;
+}
+
+/// The quadrature of a cell's mirror image in the middle of the width.
+template <int dim>
+CutCell<dim> reflected(CutCell<dim> cut, int image) {
+  cut.cell = image;
+  for (auto& point : cut.material) point.xi[dim - 1] = 1 - point.xi[dim - 1];
+  for (auto& point : cut.boundary) {
+    point.xi[dim - 1] = 1 - point.xi[dim - 1];
+    point.normal[dim - 1] = -point.normal[dim - 1];
+  }
+  return cut;
+}
+
+/// In 3D, an earlier cell whose mirror image in the middle of the width a cell is, with the same shape; if
+/// there is one, that cell is not cut anew: both are then symmetric up to the last bit.
+template <int dim>
+std::optional<int> earlier_image(const LevelSet<dim>& psi, int cell) {
+  if constexpr (dim == 2) return {};
+  const int image = mirror_image(psi.lattice.grid(), cell, MirrorPlane::width);
+  return image < cell && equals_image(psi, cell, image) ? std::optional(image) : std::nullopt;
+}
+
 }  // namespace
 
 template <int dim>
@@ -151,6 +189,13 @@ Expected<CutDomain<dim>> cut_domain(const LevelSet<dim>& given, int points) {
       .grid = grid, .kinds = std::vector<CellKind>(grid.n_cells()), .cut = {}, .ghost_faces = {}};
   CellQuadrature<dim> quadrature(psi.lattice.degree(), points);
   for (int cell = 0; cell < grid.n_cells(); ++cell) {
+    if (const auto image = earlier_image(psi, cell)) {
+      domain.kinds[cell] = domain.kinds[*image];
+      if (domain.kinds[cell] == CellKind::cut)
+        domain.cut.push_back(
+            reflected(*std::ranges::lower_bound(domain.cut, *image, {}, &CutCell<dim>::cell), cell));
+      continue;
+    }
     const auto values = psi.cell_values(cell);
     domain.kinds[cell] = quadrature.classify(values);
     if (domain.kinds[cell] != CellKind::cut) continue;

@@ -19,6 +19,21 @@ double largest_magnitude(std::span<const double> values) {
   return largest;
 }
 
+constexpr MirrorPlane planes[] = {MirrorPlane::azimuth, MirrorPlane::width};
+
+/// The planes with respect to which a shape is symmetric.
+template <int dim>
+std::vector<MirrorPlane> symmetries(const LevelSet<dim>& psi) {
+  std::vector<MirrorPlane> result;
+  for (const MirrorPlane plane : planes)
+    if (is_mirror_symmetric(psi, plane)) result.push_back(plane);
+  return result;
+}
+
+/// How much a velocity may differ from its mirror image, in units of its maximum. Mirror images of load
+/// positions are not computed but reflected; halves of the width are computed both.
+constexpr double rounding_of(MirrorPlane plane) { return plane == MirrorPlane::azimuth ? 1e-9 : 1e-6; }
+
 }  // namespace
 
 template <int dim>
@@ -26,6 +41,7 @@ Evolver<dim>::Evolver(const Lattice<dim>& lattice, const EvolutionOptions& optio
     : lattice_(lattice),
       bands_(lattice, options.bands),
       extension_(make_velocity_extension<dim>(lattice, bands_, options.velocity)),
+      velocities_(lattice, bands_.nodes(), options.velocity.length * lattice.grid().resolution()),
       features_(options.features),
       cut_points_(options.cut_points) {
   if (options.smoothing > 0)
@@ -56,15 +72,44 @@ Expected<std::vector<double>> Evolver<dim>::measure_preserving_velocity(
   });
 }
 
-/// Post-processes the result of a stage: applies the sub-cell filter, restores mirror symmetry if the input
-/// of the stage had it, and clips holes at the protected bands. Clipping could hide an infinity, so that
+template <int dim>
+std::vector<bool> Evolver<dim>::held_by_bands(std::span<const SurfacePoint<dim>> boundary,
+                                              std::span<const double> velocity) const {
+  std::vector<bool> held;
+  for (const auto& point : boundary)
+    held.push_back(bands_.touches(point) &&
+                   interpolate(node_weights<dim>(lattice_, point.cell, point.xi), velocity) < 0);
+  return held;
+}
+
+/// Of the nodes around a point those decide its velocity that are on its side of the edge: it lies up to a
+/// tenth of a cell off.
+template <int dim>
+void Evolver<dim>::hold(std::span<const SurfacePoint<dim>> boundary, const std::vector<bool>& held,
+                        std::vector<double>& velocity) const {
+  constexpr double share = 0.3;
+  for (std::size_t q = 0; q < boundary.size(); ++q) {
+    if (!held[q]) continue;
+    const auto at = node_weights<dim>(lattice_, boundary[q].cell, boundary[q].xi);
+    double largest = 0;
+    for (std::size_t a = 0; a < at.node.size(); ++a)
+      if (!bands_.nodes()[at.node[a]]) largest = std::max(largest, at.weight[a]);
+    for (std::size_t a = 0; a < at.node.size(); ++a)
+      if (at.weight[a] > share * largest) velocity[at.node[a]] = std::min(velocity[at.node[a]], 0.0);
+  }
+}
+
+/// Post-processes the result of a stage: applies the sub-cell filter, restores the mirror symmetries that the
+/// input of the stage had, and clips holes at the protected bands. Clipping could hide an infinity, so that
 /// values are checked first.
 template <int dim>
-Expected<LevelSet<dim>> Evolver<dim>::finished(const LevelSet<dim>& psi, bool is_symmetric,
+Expected<LevelSet<dim>> Evolver<dim>::finished(const LevelSet<dim>& psi,
+                                               const std::vector<MirrorPlane>& symmetries,
                                                const char* what) const {
   if (auto failure = check_finite<dim>(lattice_, psi.values, what)) return *failure;
   LevelSet<dim> filtered = sub_cell_filter(psi);
-  return bands_.keep(is_symmetric ? mirror_symmetric_part(filtered) : std::move(filtered));
+  for (const MirrorPlane plane : symmetries) filtered = mirror_symmetric_part(filtered, plane);
+  return bands_.keep(std::move(filtered));
 }
 
 template <int dim>
@@ -73,10 +118,12 @@ Expected<LevelSet<dim>> Evolver<dim>::move(const LevelSet<dim>& psi, std::span<c
   if (auto failure = check_finite<dim>(psi.lattice, velocity, "the velocity")) return *failure;
   const double time = distance / largest_magnitude(velocity);
   if (!std::isfinite(time)) return Failure{FailureReason::not_finite, "the velocity vanishes"};
-  const bool is_symmetric =
-      is_mirror_symmetric(psi) &&
-      is_mirror_symmetric<dim>(psi.lattice, velocity, 1e-9 * largest_magnitude(velocity));
-  return finished(transport<dim>(psi, velocity, time), is_symmetric, "the level set after transport");
+  auto kept = symmetries(psi);
+  std::erase_if(kept, [&](MirrorPlane plane) {
+    return !is_mirror_symmetric<dim>(psi.lattice, velocity, rounding_of(plane) * largest_magnitude(velocity),
+                                     plane);
+  });
+  return finished(transport<dim>(psi, velocity, time), kept, "the level set after transport");
 }
 
 template <int dim>
@@ -90,14 +137,13 @@ double Evolver<dim>::first_order_change(std::span<const SurfaceSample<dim>> grad
 template <int dim>
 Expected<LevelSet<dim>> Evolver<dim>::redistance(const LevelSet<dim>& psi) const {
   if (auto failure = check_finite<dim>(psi.lattice, psi.values, "the level set")) return *failure;
-  return finished(wheelwright::redistance<dim>(psi), is_mirror_symmetric(psi),
-                  "the level set after redistancing");
+  return finished(wheelwright::redistance<dim>(psi), symmetries(psi), "the level set after redistancing");
 }
 
 template <int dim>
 Expected<LevelSet<dim>> Evolver<dim>::smooth(const LevelSet<dim>& psi) const {
   if (!smoother_) return psi;
-  return finished((*smoother_)(psi), is_mirror_symmetric(psi), "the level set after smoothing");
+  return finished((*smoother_)(psi), symmetries(psi), "the level set after smoothing");
 }
 
 template <int dim>

@@ -8,7 +8,9 @@
 #include "wheelwright/evolution/islands.h"
 #include "wheelwright/evolution/smoothing.h"
 #include "wheelwright/evolution/velocity.h"
+#include "wheelwright/evolution/velocity_space.h"
 #include "wheelwright/evolution/volume.h"
+#include "wheelwright/geometry/mirror.h"
 
 namespace wheelwright {
 
@@ -37,6 +39,18 @@ class Evolver {
   Expected<std::vector<double>> velocity(std::span<const SurfaceSample<dim>> gradient) const;
   Expected<std::vector<double>> measure_preserving_velocity(
       std::span<const SurfaceSample<dim>> gradient) const;
+
+  /// The velocities that vanish in the bands, with the inner product in which ExtensionKind::h1 is the Riesz
+  /// representative.
+  const VelocitySpace<dim>& velocities() const { return velocities_; }
+
+  /// Which points of the boundary lie on the edge of a band and would move into it with this velocity.
+  std::vector<bool> held_by_bands(std::span<const SurfacePoint<dim>> boundary,
+                                  std::span<const double> velocity) const;
+
+  /// Keeps these points on the edge: takes away what moves them off it.
+  void hold(std::span<const SurfacePoint<dim>> boundary, const std::vector<bool>& held,
+            std::vector<double>& velocity) const;
 
   /// Transports the shape for the time in which the fastest node travels `distance` [m]. Fails if `velocity`
   /// vanishes everywhere.
@@ -70,11 +84,13 @@ class Evolver {
                                                  Extend extend) const;
 
   /// Post-processes the result of a stage: filters, symmetrizes and clips it.
-  Expected<LevelSet<dim>> finished(const LevelSet<dim>& psi, bool is_symmetric, const char* what) const;
+  Expected<LevelSet<dim>> finished(const LevelSet<dim>& psi, const std::vector<MirrorPlane>& symmetries,
+                                   const char* what) const;
 
   Lattice<dim> lattice_;
   ProtectedBands<dim> bands_;
   std::unique_ptr<VelocityExtension<dim>> extension_;
+  VelocitySpace<dim> velocities_;
   std::optional<Smoother<dim>> smoother_;
   FeatureSize features_;
   int cut_points_;

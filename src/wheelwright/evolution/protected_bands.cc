@@ -31,9 +31,9 @@ double ProtectedBands<dim>::distance(double radius) const {
 }
 
 template <int dim>
-bool ProtectedBands<dim>::touches(const SurfaceSample<dim>& sample) const {
+bool ProtectedBands<dim>::touches(const SurfacePoint<dim>& point) const {
   const double radius =
-      grid_.inner_radius + (grid_.cell_position(sample.cell)[0] + sample.xi[0]) * grid_.cell_size()[0];
+      grid_.inner_radius + (grid_.cell_position(point.cell)[0] + point.xi[0]) * grid_.cell_size()[0];
   return distance(radius) < near_edge * grid_.resolution();
 }
 

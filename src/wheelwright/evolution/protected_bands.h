@@ -25,7 +25,7 @@ class ProtectedBands {
   std::vector<ShapeEvent<dim>> contacts(const Components<dim>& before, const Components<dim>& after) const;
 
   /// Whether a boundary point lies where keep() stops the boundary, up to a tenth of the resolution.
-  bool touches(const SurfaceSample<dim>& sample) const;
+  bool touches(const SurfacePoint<dim>& point) const;
 
  private:
   double distance(double radius) const;

@@ -20,7 +20,7 @@ struct Design {
 
 /// How far the run of a design went.
 enum class Progression {
-  preview,  ///< optimized on coarse grids, or by a few shapes, and evaluated on the case's grid
+  preview,  ///< optimized by a few shapes, or on coarse grids if the case has them, and evaluated on its own
   full,     ///< until the run ended by itself
 };
 

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Shapes of a preview whose run does not begin on a coarser grid.
-constexpr int shapes_of_preview = 12;
+constexpr int shapes_of_preview = 15;
 
 std::string content(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);

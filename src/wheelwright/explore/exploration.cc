@@ -8,8 +8,6 @@
 
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/load_saved_shape.h"
-#include "wheelwright/case/read.h"
-#include "wheelwright/case/write.h"
 #include "wheelwright/explore/pareto.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/files/level_set_file.h"
@@ -35,14 +33,8 @@ Expected<double> weight_of_evenness(Case c) {
   return value("strain_energy") / value("uniformity_dual");
 }
 
-/// The case as a design runs it: first on a grid of half as many cells if that shows the same holes, and
-/// without the many files of a run that nobody opens.
+/// The case as a design runs it: without the many files of a run that nobody opens.
 Case as_design(Case c) {
-  if (c.optimizer.coarse_levels == 0 && can_be_halved(c, 1)) {
-    c.optimizer.coarse_levels = 1;
-    const bool is_valid = parse_case(to_toml(c), "design.toml").value.has_value();
-    if (!is_valid || !lost_on_the_grid<2>(on_coarser_grid(c, 1)).empty()) c.optimizer.coarse_levels = 0;
-  }
   c.output.vtu_every = c.output.pictures_every = 0;
   c.output.checkpoint_every = 50;
   c.expectations = {};

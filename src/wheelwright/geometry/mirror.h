@@ -6,27 +6,33 @@
 
 namespace wheelwright {
 
-// Mirror images with respect to the plane of azimuth 0. A cyclic shape that is symmetric with respect to this
-// plane is symmetric with respect to the middle plane of each sector too. Therefore cells and nodes of a
-// sector are mapped to cells and nodes of the same sector.
+/// The plane of azimuth 0, or, when dim = 3, the middle plane of the width. A cyclic shape that is symmetric
+/// with respect to the plane of azimuth 0 is symmetric with respect to the middle plane of each sector too.
+/// Therefore both planes map cells and nodes of a sector to cells and nodes of the same sector. In 2D
+/// everything is symmetric with respect to the middle plane.
+enum class MirrorPlane { azimuth, width };
 
 /// Whether nodal values are mirror-symmetric up to an absolute tolerance. False if a value is NaN.
 template <int dim>
-bool is_mirror_symmetric(const Lattice<dim>& lattice, std::span<const double> values, double tolerance);
+bool is_mirror_symmetric(const Lattice<dim>& lattice, std::span<const double> values, double tolerance,
+                         MirrorPlane plane = MirrorPlane::azimuth);
 
 /// Whether a shape is mirror-symmetric, up to 1e-9 of the resolution of the grid.
 template <int dim>
-bool is_mirror_symmetric(const LevelSet<dim>& psi);
+bool is_mirror_symmetric(const LevelSet<dim>& psi, MirrorPlane plane = MirrorPlane::azimuth);
 
 /// Returns the mean of a level set and its mirror image.
 template <int dim>
-LevelSet<dim> mirror_symmetric_part(const LevelSet<dim>& psi);
+LevelSet<dim> mirror_symmetric_part(const LevelSet<dim>& psi, MirrorPlane plane = MirrorPlane::azimuth);
 
 /// Index of the cell that is the mirror image of a cell in the same sector.
 template <int dim>
-int mirror_image(const PolarGrid<dim>& grid, int cell) {
+int mirror_image(const PolarGrid<dim>& grid, int cell, MirrorPlane plane = MirrorPlane::azimuth) {
   auto position = grid.cell_position(cell);
-  position[1] = grid.columns() - 1 - position[1];
+  if (plane == MirrorPlane::azimuth)
+    position[1] = grid.columns() - 1 - position[1];
+  else if constexpr (dim == 3)
+    position[2] = grid.cells[2] - 1 - position[2];
   return grid.cell_index(position);
 }
 

@@ -10,13 +10,13 @@
 #include "wheelwright/evolution/volume.h"
 #include "wheelwright/geometry/finite.h"
 #include "wheelwright/geometry/place.h"
+#include "wheelwright/optimize/constraints.h"
 
 namespace wheelwright {
 
 namespace {
 
-constexpr double step_growth = 1.5;
-constexpr double step_reduction = 0.5;
+constexpr double step_reduction = 0.5;  // after a rejected trial
 constexpr std::size_t convergence_window = 10;
 constexpr int max_removals = 4;
 constexpr int halvings_before_rest = 2;  // they mend most failures; then the step 0 tells whether others can
@@ -50,12 +50,12 @@ double largest_magnitude(std::span<const double> values) {
   return largest;
 }
 
-bool is_converged(const OptimizerOptions& options, const std::vector<double>& history) {
+bool is_converged(const OptimizerOptions& options, const std::vector<double>& history, bool has_bounds) {
   if (options.tolerance <= 0 || history.size() <= convergence_window) return false;
   const double before = history[history.size() - 1 - convergence_window];
   double fall = before - history.back();
-  // The paper's rule lets the measure drift, and the objective rise with it.
-  if (options.measure_control == MeasureControl::proportional) fall = std::abs(fall);
+  // The paper's rule lets the measure drift, and the objective rise with it; so do bounds that are violated.
+  if (options.measure_control == MeasureControl::proportional || has_bounds) fall = std::abs(fall);
   return fall < options.tolerance * std::abs(before);
 }
 
@@ -136,10 +136,20 @@ bool is_approaching(const OptimizerOptions& options, const OptimizationState<dim
 }
 
 template <int dim>
+double next_measure(const OptimizerOptions& options, const OptimizationState<dim>& state, double step) {
+  const double most =
+      options.measure_rate * sector_measure<dim>(state.shape.lattice.grid()) * step / options.step;
+  return std::clamp(state.target_measure, state.measure - most, state.measure + most);
+}
+
+template <int dim>
 std::optional<StopReason> reason_to_stop(const OptimizerOptions& options,
                                          const OptimizationState<dim>& state) {
   if (state.iteration >= options.iterations) return StopReason::iterations;
-  if (is_converged(options, state.history)) return StopReason::converged;
+  const auto bounds = bound_constraints(state.evaluation);
+  if (largest_violation(bounds) <= feasible_violation &&
+      is_converged(options, state.history, !bounds.empty()))
+    return StopReason::converged;
   return {};
 }
 
@@ -171,6 +181,7 @@ Expected<OptimizationState<dim>> ShapeOptimizer<dim>::start(const LevelSet<dim>&
                                .step = options_.step,
                                .since_redistance = 0,
                                .since_smoothing = 0,
+                               .memory = {},
                                .history = {objective_of(*trial.evaluation)}};
   observer(trial, state);
   return state;
@@ -184,9 +195,12 @@ Expected<OptimizationState<dim>> ShapeOptimizer<dim>::restart(const Optimization
   if (trial.failure) return *trial.failure;
   trial.verdict = Verdict::accepted;
   OptimizationState<dim> anew = state;
+  anew.shape = trial.shape;
+  anew.measure = trial.measure;
   anew.evaluation = *trial.evaluation;
   anew.target_measure = options_.target_measure.value_or(state.target_measure);
   anew.step = options_.step;
+  anew.memory = {};
   anew.history = {objective_of(*trial.evaluation)};
   anew.history_begin = state.iteration;
   observer(trial, anew);
@@ -199,24 +213,34 @@ std::optional<StopReason> ShapeOptimizer<dim>::advance(OptimizationState<dim>& s
                                                        const std::function<bool()>& stop_requested) const {
   if (const auto reason = reason_to_stop(options_, state)) return reason;
   if (stop_requested()) return StopReason::stop_requested;
-  const auto velocity = descent_velocity(evolver_, options_, state);
-  if (!velocity) {
-    observer(failed_trial(state, 0, state.step, velocity.failure()), state);
+  const auto proposals = proposals_from(evolver_, options_, state);
+  if (!proposals) {
+    observer(failed_trial(state, 0, state.step, proposals.failure()), state);
     return StopReason::gave_up;
   }
-  if (largest_magnitude(*velocity) == 0) return StopReason::no_descent;
   bool all_failed = true, is_sound = false;
+  double step = state.step;
   for (int halvings = 0; halvings <= options_.max_halvings; ++halvings) {
-    const double step = state.step * std::pow(step_reduction, halvings);
-    const Trial<dim> trial = attempt(state, *velocity, step, halvings);
+    const auto move = (*proposals)->move(step);
+    if (!move) {
+      observer(failed_trial(state, halvings, step, move.failure()), state);
+      return StopReason::gave_up;
+    }
+    if (move->step == 0) return StopReason::no_descent;
+    const Trial<dim> trial = attempt(state, **proposals, *move, halvings);
     if (was_interrupted(trial)) return StopReason::stop_requested;
-    if (trial.verdict == Verdict::accepted) state = successor(state, trial);
+    if (trial.verdict == Verdict::accepted) state = successor(state, **proposals, *move, trial);
     observer(trial, state);
     if (trial.verdict == Verdict::accepted) return std::nullopt;
     all_failed = all_failed && trial.verdict == Verdict::failed;
     if (stop_requested()) return StopReason::stop_requested;
+    // What redistancing or smoothing spoilt is tried again without them.
+    const bool was_reshaped = halvings == 0 && options_.method == Method::sequential_quadratic &&
+                              (is_due(options_.redistance_every, state.since_redistance, 0) ||
+                               is_due(options_.smooth_every, state.since_smoothing, 0));
+    step = was_reshaped ? move->radius : step_reduction * move->step;
     if (trial.verdict == Verdict::failed && halvings >= halvings_before_rest && !is_sound) {
-      const Trial<dim> at_rest = attempt_at_rest(state, *velocity, halvings + 1);
+      const Trial<dim> at_rest = attempt_at_rest(state, **proposals, *move, halvings + 1);
       if (was_interrupted(at_rest)) return StopReason::stop_requested;
       is_sound = !at_rest.failure;
       if (is_sound) continue;
@@ -230,8 +254,14 @@ std::optional<StopReason> ShapeOptimizer<dim>::advance(OptimizationState<dim>& s
 /// A trial of the step 0: what fails there fails with every smaller step.
 template <int dim>
 Trial<dim> ShapeOptimizer<dim>::attempt_at_rest(const OptimizationState<dim>& state,
-                                                std::span<const double> velocity, int halvings) const {
-  Trial<dim> trial = attempt(state, velocity, 0, halvings);
+                                                const Proposals<dim>& proposals, Move<dim> move,
+                                                int halvings) const {
+  move.distance = 0;
+  move.step = 0;
+  move.measure = state.measure;
+  move.objective_change = 0;
+  move.model_decrease = 0;
+  Trial<dim> trial = attempt(state, proposals, move, halvings);
   if (trial.failure)
     trial.failure->detail +=
         "; it fails even where the boundary does not move, so that no smaller step helps";
@@ -251,34 +281,22 @@ double ShapeOptimizer<dim>::objective_of(const Evaluation<dim>& evaluation) cons
 }
 
 template <int dim>
-Expected<std::vector<double>> descent_velocity(const Evolver<dim>& evolver, const OptimizerOptions& options,
-                                               const OptimizationState<dim>& state) {
-  auto gradient = state.evaluation.gradient(options.objective);
-  if (options.measure_control == MeasureControl::exact) return evolver.measure_preserving_velocity(gradient);
-  const double whole = sector_measure<dim>(state.shape.lattice.grid());
-  const double multiplier =
-      proportional_multiplier<dim>(gradient, state.target_measure / whole, state.measure / whole);
-  for (auto& sample : gradient) sample.value -= multiplier;
-  return evolver.velocity(gradient);
-}
-
-template <int dim>
-Trial<dim> ShapeOptimizer<dim>::attempt(const OptimizationState<dim>& state, std::span<const double> velocity,
-                                        double step, int halvings) const {
+Trial<dim> ShapeOptimizer<dim>::attempt(const OptimizationState<dim>& state, const Proposals<dim>& proposals,
+                                        const Move<dim>& move, int halvings) const {
   const auto start = std::chrono::steady_clock::now();
-  Trial<dim> trial = failed_trial(state, halvings, step, {});
-  trial.max_velocity = largest_magnitude(velocity);
-  auto cells = evolve(state, velocity, trial);
+  Trial<dim> trial = failed_trial(state, halvings, move.step, {});
+  trial.max_velocity = largest_magnitude(move.velocity);
+  auto cells = evolve(state, move, trial);
   trial.evolution_seconds = seconds_since(start);
   if (!trial.failure) evaluate(trial, std::move(cells), &state.evaluation);
   if (!trial.failure)
-    trial.failure = check_jump(objective_of(state.evaluation), objective_of(*trial.evaluation),
-                               foretold_change(state, velocity, step));
+    trial.failure =
+        check_jump(objective_of(state.evaluation), objective_of(*trial.evaluation), move.objective_change);
   if (trial.failure) {
-    name_target(state.measure, next_measure(state, step), state.target_measure, *trial.failure);
+    name_target(state.measure, move.measure, state.target_measure, *trial.failure);
     return trial;
   }
-  trial.verdict = is_acceptable(state, trial) ? Verdict::accepted : Verdict::objective_rose;
+  trial.verdict = proposals.accepts(move, *trial.evaluation) ? Verdict::accepted : Verdict::objective_rose;
   if (trial.verdict == Verdict::accepted) add_changes(state.shape, trial);
   return trial;
 }
@@ -303,46 +321,17 @@ bool ShapeOptimizer<dim>::is_in_reach(double measure) const {
   return options_.target_measure && std::abs(*options_.target_measure - measure) <= most;
 }
 
-/// The measure of the next shape, when its boundary moves by `step` cells.
-template <int dim>
-double ShapeOptimizer<dim>::next_measure(const OptimizationState<dim>& state, double step) const {
-  const double most = options_.measure_rate * sector_measure<dim>(lattice_.grid()) * step / options_.step;
-  return std::clamp(state.target_measure, state.measure - most, state.measure + most);
-}
-
-/// First-order change of the objective under the motion by the velocity and the shift to the next measure,
-/// by which all of the boundary moves as far.
-template <int dim>
-double ShapeOptimizer<dim>::foretold_change(const OptimizationState<dim>& state,
-                                            std::span<const double> velocity, double step) const {
-  const auto gradient = state.evaluation.gradient(options_.objective);
-  const double by_motion =
-      evolver_.first_order_change(gradient, velocity, step * lattice_.grid().resolution());
-  if (!is_approaching(options_, state)) return by_motion;
-  double sum = 0;
-  for (const auto& sample : gradient) sum += sample.weight * sample.value;
-  return by_motion + (next_measure(state, step) - state.measure) * sum / boundary_measure(gradient);
-}
-
-template <int dim>
-bool ShapeOptimizer<dim>::is_acceptable(const OptimizationState<dim>& state, const Trial<dim>& trial) const {
-  if (options_.measure_control == MeasureControl::proportional || is_approaching(options_, state))
-    return true;
-  const double best = *std::min_element(state.history.begin(), state.history.end());
-  return objective_of(*trial.evaluation) <= best + options_.accepted_increase * std::abs(best);
-}
-
 /// Makes the trial's shape from the state's; where a stage fails, the shape stays what the stage before made.
 template <int dim>
 typename ShapeOptimizer<dim>::MadeCells ShapeOptimizer<dim>::evolve(const OptimizationState<dim>& state,
-                                                                    std::span<const double> velocity,
+                                                                    const Move<dim>& move,
                                                                     Trial<dim>& trial) const {
   const bool redistances = is_due(options_.redistance_every, state.since_redistance, trial.halvings),
              smooths = is_due(options_.smooth_every, state.since_smoothing, trial.halvings);
-  if (take(evolver_.move(state.shape, velocity, trial.step * lattice_.grid().resolution()), trial) &&
+  if (take(evolver_.move(state.shape, move.velocity, move.distance * lattice_.grid().resolution()), trial) &&
       (!redistances || take(evolver_.redistance(trial.shape), trial)) &&
       (!smooths || take(evolver_.smooth(trial.shape), trial)))
-    return finish(trial, next_measure(state, trial.step), boundary_measure(state.evaluation.boundary));
+    return finish(trial, move.measure, boundary_measure(state.evaluation.boundary));
   return {};
 }
 
@@ -402,30 +391,23 @@ bool ShapeOptimizer<dim>::is_due(int every, int since, int halvings) const {
   return every > 0 && since + 1 >= every && halvings == 0;
 }
 
-/// A step that raised the objective, if within bounds, went past the minimum along its direction.
-template <int dim>
-double ShapeOptimizer<dim>::next_step(const OptimizationState<dim>& state, const Trial<dim>& trial) const {
-  const bool overshot = options_.measure_control == MeasureControl::exact &&
-                        !is_approaching(options_, state) &&
-                        objective_of(*trial.evaluation) > objective_of(state.evaluation);
-  const double step = trial.step * (overshot ? step_reduction : step_growth);
-  return std::clamp(step, std::ldexp(options_.step, -options_.max_halvings), options_.step);
-}
-
 template <int dim>
 OptimizationState<dim> ShapeOptimizer<dim>::successor(const OptimizationState<dim>& state,
+                                                      const Proposals<dim>& proposals, const Move<dim>& move,
                                                       const Trial<dim>& trial) const {
   const auto count = [&](int every, int since) {
-    return is_due(every, since, trial.halvings) ? 0 : since + 1;
+    const bool waits = options_.method == Method::descent && trial.halvings > 0;
+    return is_due(every, since, waits ? trial.halvings : 0) ? 0 : since + 1;
   };
   OptimizationState<dim> next{.shape = trial.shape,
                               .evaluation = *trial.evaluation,
                               .measure = trial.measure,
                               .target_measure = state.target_measure,
                               .iteration = trial.iteration,
-                              .step = next_step(state, trial),
+                              .step = proposals.next_step(move, *trial.evaluation),
                               .since_redistance = count(options_.redistance_every, state.since_redistance),
                               .since_smoothing = count(options_.smooth_every, state.since_smoothing),
+                              .memory = proposals.remembered(move, *trial.evaluation),
                               .history = state.history,
                               .history_begin = state.history_begin};
   if (is_approaching(options_, state)) {
@@ -448,6 +430,8 @@ Outcome<dim> optimize(const ShapeOptimizer<dim>& optimizer, const LevelSet<dim>&
 
 template bool is_approaching(const OptimizerOptions&, const OptimizationState<2>&);
 template bool is_approaching(const OptimizerOptions&, const OptimizationState<3>&);
+template double next_measure(const OptimizerOptions&, const OptimizationState<2>&, double);
+template double next_measure(const OptimizerOptions&, const OptimizationState<3>&, double);
 template std::optional<StopReason> reason_to_stop(const OptimizerOptions&, const OptimizationState<2>&);
 template std::optional<StopReason> reason_to_stop(const OptimizerOptions&, const OptimizationState<3>&);
 template class ShapeOptimizer<2>;

@@ -2,11 +2,11 @@
 
 #include <string_view>
 
-/// Files of the page that are compiled into the library: those of page/assets, and libraries for charts and
+/// Files of the pages that are compiled into the library: those of page/assets, and libraries for charts and
 /// for lit surfaces that the system has.
 namespace wheelwright::assets {
 
-extern const std::string_view report_html, report_css, report_js, designs_html, designs_css, designs_js,
-    chart_js, three_js;
+extern const std::string_view report_html, report_css, report_js, parts_js, watch_html, watch_css, watch_js,
+    designs_html, designs_css, designs_js, chart_js, three_js;
 
 }  // namespace wheelwright::assets

@@ -104,12 +104,12 @@ std::vector<std::uint8_t> as_bytes_of_roots(const std::vector<double>& values, d
 }
 
 /// The deformed wheel in its load positions. Displacements are Cartesian, in the body frame.
-Json fields_json(const ReportRun<2>& run) {
-  const SectorMesh mesh = sector_mesh(*run.shape, run.positions.front().lattice.degree());
+Json fields_json(const LevelSet<2>& shape, std::span<const PositionFields<2>> all) {
+  const SectorMesh mesh = sector_mesh(shape, all.front().lattice.degree());
   std::vector<float> points;
   for (const Vec<2>& x : mesh.points) points.insert(points.end(), {float(x[0]), float(x[1])});
   std::vector<std::vector<double>> x, y, stress;
-  for (const PositionFields<2>& position : run.positions) {
+  for (const PositionFields<2>& position : all) {
     const NamedField von_mises = von_mises_field(position.stress);
     x.push_back(at_points(mesh, position.lattice, position.displacement, [](auto u) { return u[0]; }));
     y.push_back(at_points(mesh, position.lattice, position.displacement, [](auto u) { return u[1]; }));
@@ -117,8 +117,8 @@ Json fields_json(const ReportRun<2>& run) {
   }
   const double full_displacement = std::max(largest(x), largest(y)), full_stress = largest(stress);
   Json positions = Json::array();
-  for (std::size_t i = 0; i < run.positions.size(); ++i)
-    positions.push_back({{"azimuth_rad", run.positions[i].ground_azimuth},
+  for (std::size_t i = 0; i < all.size(); ++i)
+    positions.push_back({{"azimuth_rad", all[i].ground_azimuth},
                          {"x", encoded(as_shorts(x[i], full_displacement))},
                          {"y", encoded(as_shorts(y[i], full_displacement))},
                          {"root_of_stress", encoded(as_bytes_of_roots(stress[i], full_stress))}});
@@ -128,6 +128,8 @@ Json fields_json(const ReportRun<2>& run) {
           {"full_stress_Pa", full_stress},
           {"positions", std::move(positions)}};
 }
+
+Json fields_json(const ReportRun<2>& run) { return fields_json(*run.shape, run.positions); }
 
 template <int dim>
 Json rolling_json(const DescribedWheel<dim>& wheel) {
@@ -275,6 +277,10 @@ PageRun page_run(const ReportRun<dim>& run) {
 template PageRun page_run(const ReportRun<2>&);
 template PageRun page_run(const ReportRun<3>&);
 
+std::string loaded_wheel_json(const LevelSet<2>& shape, std::span<const PositionFields<2>> positions) {
+  return fields_json(shape, positions).dump();
+}
+
 std::string report_page(const std::vector<PageRun>& runs) {
   std::string data;
   for (const PageRun& run : runs) data += (data.empty() ? "" : ",\n") + run.json;
@@ -285,6 +291,7 @@ std::string report_page(const std::vector<PageRun>& runs) {
                           {"@DATA@", "{\"runs\":[" + data + "]}"},
                           {"@CHART_LIBRARY@", std::string(assets::chart_js)},
                           {"@SCENE_LIBRARY@", has_surface ? std::string(assets::three_js) : ""},
+                          {"@PARTS@", std::string(assets::parts_js)},
                           {"@SCRIPT@", std::string(assets::report_js)}});
 }
 

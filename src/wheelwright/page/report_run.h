@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -72,6 +73,9 @@ struct PageRun {
 
 template <int dim>
 PageRun page_run(const ReportRun<dim>& run);
+
+/// The loaded wheel in its load positions, as the page holds it.
+std::string loaded_wheel_json(const LevelSet<2>& shape, std::span<const PositionFields<2>> positions);
 
 /// One HTML file that needs no network: what came out, the wheel rolling, the shapes of the run, curves.
 std::string report_page(const std::vector<PageRun>& runs);

@@ -28,12 +28,6 @@ double first_harmonic(const std::vector<double>& values) {
   return harmonics.empty() ? 0 : harmonics.front();
 }
 
-/// What turns forces of the analysis into those on the whole width.
-template <int dim>
-double whole_width(const DescribedWheel<dim>& wheel) {
-  return wheelwright::whole_width(dim, wheel.grid.width);
-}
-
 template <int dim>
 std::optional<double> mass(const StateSolver<dim>& solver, double volume_fraction) {
   const RollingModel<dim>& model = solver.model();
@@ -87,22 +81,27 @@ const std::vector<WheelNumber<dim>>& wheel_numbers() {
       {"volume of the ring", "%", percent, "volume_fraction",
        [](const Wheel& w) -> Number { return w.volume_fraction; }},
       {"mass", "kg", 1, "mass_kg",
-       [](const Wheel& w) -> Number { return w.mass ? Number(*w.mass * whole_width(w)) : std::nullopt; }},
-      {"load", "N", 1, "load_N", [](const Wheel& w) -> Number { return w.rolling.load * whole_width(w); }},
+       [](const Wheel& w) -> Number {
+         return w.mass ? Number(*w.mass * whole_width(dim, w.grid.width)) : std::nullopt;
+       }},
+      {"load", "N", 1, "load_N",
+       [](const Wheel& w) -> Number { return w.rolling.load * whole_width(dim, w.grid.width); }},
       {"mean travel", "mm", mm, "mean_travel_m",
        [](const Wheel& w) -> Number { return mean(of_positions(w, &ContactSummary::travel)); }},
       {"stiffness", "N/mm", N_per_mm, "stiffness_N_per_m",
-       [](const Wheel& w) -> Number { return w.summary.stiffness * whole_width(w); }},
+       [](const Wheel& w) -> Number { return w.summary.stiffness * whole_width(dim, w.grid.width); }},
       {"run-out at fixed load", "mm", mm, "run_out_m",
        [](const Wheel& w) -> Number { return rolling_variation(w.rolling.travel_at_load).peak_to_peak(); }},
       {"  its first sector harmonic", "mm", mm, "run_out_first_harmonic_m",
        [](const Wheel& w) -> Number { return first_harmonic(w.rolling.travel_at_load); }},
       {"radial force variation at fixed travel", "N", 1, "force_variation_N",
        [](const Wheel& w) -> Number {
-         return rolling_variation(w.rolling.force_at_travel).peak_to_peak() * whole_width(w);
+         return rolling_variation(w.rolling.force_at_travel).peak_to_peak() * whole_width(dim, w.grid.width);
        }},
       {"  its first sector harmonic", "N", 1, "force_first_harmonic_N",
-       [](const Wheel& w) -> Number { return first_harmonic(w.rolling.force_at_travel) * whole_width(w); }},
+       [](const Wheel& w) -> Number {
+         return first_harmonic(w.rolling.force_at_travel) * whole_width(dim, w.grid.width);
+       }},
       {"peak contact pressure", "MPa", MPa, "peak_pressure_Pa",
        [](const Wheel& w) -> Number { return w.summary.rolling.peak_pressure; }},
       {"mean length of the contact patch", "mm", mm, "patch_length_m",

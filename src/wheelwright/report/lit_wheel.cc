@@ -16,7 +16,7 @@ namespace wheelwright {
 namespace {
 
 /// Size of the picture's parts, in pixels.
-constexpr double wheel_size = 640, margin = 40, top = 76, bar_space = 150, foot = 36;
+constexpr double wheel_size = 640, margin = 40, top = 76, bar_space = 150, foot = 64;
 constexpr double picture_width = wheel_size + 2 * margin + bar_space,
                  picture_height = wheel_size + top + foot;
 constexpr int image_pixels = 1040;  // on screens with more than one for each of the picture's
@@ -95,7 +95,7 @@ std::string peak_text(const DeformedPicture<3>& picture) {
   return fmt::format(
       "<text x=\"{}\" y=\"{}\">largest {}: {} at radius {:.1f} mm, azimuth {:.2f}\u00b0, z = {:.1f} "
       "mm</text>\n",
-      margin, picture_height - 34, escape_xml(picture.scalar.name),
+      margin, picture_height - 36, escape_xml(picture.scalar.name),
       value_text(picture.peak->value, escape_xml(picture.scalar.unit)), 1e3 * std::hypot(x[0], x[1]),
       std::atan2(x[1], x[0]) * 180 / std::numbers::pi, 1e3 * x[2]);
 }

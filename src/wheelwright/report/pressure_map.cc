@@ -15,7 +15,8 @@
 namespace wheelwright {
 namespace {
 
-constexpr double box = 520, left = 90, top = 90, bar_space = 170, foot = 70;  // [pixels]
+constexpr double box_width = 560, box_height = 300, left = 90, top = 90, bar_space = 170,
+                 foot = 70;  // [pixels]
 constexpr int most_ticks = 6;
 
 /// Contact points of one place along the axle, by their place along the ground.
@@ -40,22 +41,24 @@ std::vector<double> edges(const std::vector<double>& middles, double first, doub
   return result;
 }
 
-/// From metres to pixels, the same along both axes.
+/// From metres to pixels: the axle to the right, larger azimuths up. Each axis has its own scale, for the
+/// contact is often much shorter than it is wide.
 struct MapView {
-  double half_length, half_width, scale;
+  double half_width, half_length;
 
-  double x(double along_ground) const { return left + (along_ground + half_length) * scale; }
-  double y(double along_axle) const { return top + (half_width - along_axle) * scale; }
-  double right() const { return x(half_length); }
-  double bottom() const { return y(-half_width); }
+  double x(double along_axle) const {
+    return left + (along_axle + half_width) * box_width / (2 * half_width);
+  }
+  double y(double along_ground) const {
+    return top + (half_length - along_ground) * box_height / (2 * half_length);
+  }
 };
 
 MapView view_of(const PolarGrid<3>& grid, std::span<const ContactPoint> points) {
   double reach = 0;
   for (const ContactPoint& p : points)
     if (p.pressure > 0) reach = std::max(reach, std::abs(p.x));
-  const double half_width = 0.5 * grid.width, half_length = std::max(1.3 * reach, 0.2 * half_width);
-  return {half_length, half_width, 0.5 * box / std::max(half_length, half_width)};
+  return {0.5 * grid.width, reach > 0 ? 1.3 * reach : 0.5 * grid.width};
 }
 
 std::string rectangles(const std::vector<Line>& all, const MapView& view, const ColourScale& scale) {
@@ -72,34 +75,36 @@ std::string rectangles(const std::vector<Line>& all, const MapView& view, const 
       const double pressure = all[i][k].pressure;
       if (!(to > from) || !(pressure > 0)) continue;
       svg += fmt::format("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"/>\n",
-                         view.x(from), view.y(z[i + 1]), (to - from) * view.scale + 0.2,
-                         (z[i + 1] - z[i]) * view.scale + 0.2, viridis(scale.fraction(pressure)));
+                         view.x(z[i]), view.y(to), view.x(z[i + 1]) - view.x(z[i]) + 0.2,
+                         view.y(from) - view.y(to) + 0.2, viridis(scale.fraction(pressure)));
     }
   }
   return svg;
 }
 
 std::string axes(const MapView& view) {
-  constexpr double mm = 1e3;
-  std::string svg = fmt::format(
-      "<rect x=\"{:.2f}\" y=\"{}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"none\" stroke=\"#24292f\"/>\n",
-      view.x(-view.half_length), top, 2 * view.half_length * view.scale, 2 * view.half_width * view.scale);
-  for (const double tick : axis_ticks(-view.half_length * mm, view.half_length * mm, most_ticks))
-    svg += fmt::format(
-        "<path stroke=\"#24292f\" d=\"M{0:.2f} {1:.2f}v5\"/>"
-        "<text x=\"{0:.2f}\" y=\"{2:.2f}\" text-anchor=\"middle\">{3:.6g}</text>\n",
-        view.x(tick / mm), view.bottom(), view.bottom() + 20, tick + 0.0);
+  constexpr double mm = 1e3, bottom = top + box_height;
+  std::string svg =
+      fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#24292f\"/>\n",
+                  left, top, box_width, box_height);
   for (const double tick : axis_ticks(-view.half_width * mm, view.half_width * mm, most_ticks))
     svg += fmt::format(
-        "<path stroke=\"#24292f\" d=\"M{0:.2f} {1:.2f}h-5\"/>"
-        "<text x=\"{2:.2f}\" y=\"{3:.2f}\" text-anchor=\"end\">{4:.6g}</text>\n",
+        "<path stroke=\"#24292f\" d=\"M{0:.2f} {1}v5\"/>"
+        "<text x=\"{0:.2f}\" y=\"{2}\" text-anchor=\"middle\">{3:.6g}</text>\n",
+        view.x(tick / mm), bottom, bottom + 20, tick + 0.0);
+  for (const double tick : axis_ticks(-view.half_length * mm, view.half_length * mm, most_ticks))
+    svg += fmt::format(
+        "<path stroke=\"#24292f\" d=\"M{0} {1:.2f}h-5\"/>"
+        "<text x=\"{2}\" y=\"{3:.2f}\" text-anchor=\"end\">{4:.6g}</text>\n",
         left, view.y(tick / mm), left - 9, view.y(tick / mm) + 5, tick + 0.0);
   return svg +
          fmt::format(
-             "<text x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"middle\">along the ground [mm]</text>\n"
-             "<text transform=\"translate({:.2f} {:.2f}) rotate(-90)\" text-anchor=\"middle\">along the axle "
+             "<text x=\"{:.2f}\" y=\"{}\" text-anchor=\"middle\">along the axle, from the middle of the "
+             "width "
+             "[mm]</text>\n"
+             "<text transform=\"translate({} {:.2f}) rotate(-90)\" text-anchor=\"middle\">along the ground "
              "[mm]</text>\n",
-             view.x(0), view.bottom() + 44, left - 56, view.y(0));
+             view.x(0), bottom + 44, left - 56, view.y(0));
 }
 
 }  // namespace
@@ -116,7 +121,8 @@ std::string pressure_map_svg(const std::string& title, const PolarGrid<3>& grid,
   const MapView view = view_of(grid, points);
   const ColourScale scale = colour_scale_from_zero(pressures, 0);
   const double peak = pressures.empty() ? 0 : std::ranges::max(pressures);
-  const double bar_x = view.right() + 40, bottom = std::max(view.bottom(), top + 390.0);
+  const double bar_x = left + box_width + 40, width = bar_x + bar_space,
+               height = top + box_height + foot + 20;
   return fmt::format(
              "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
              "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
@@ -127,10 +133,9 @@ std::string pressure_map_svg(const std::string& title, const PolarGrid<3>& grid,
              "<text x=\"40\" y=\"36\" font-size=\"20\" font-weight=\"600\">{2}</text>\n"
              "<text x=\"40\" y=\"60\">contact pressure \u00b7 peak {3} \u00b7 contact on {4:.4g} mm\u00b2 "
              "\u00b7 force of the ground {5:.5g} N</text>\n",
-             std::max(bar_x + bar_space, 700.0), bottom + foot, escape_xml(title), value_text(peak, "Pa"),
-             area * 1e6, force) +
+             width, height, escape_xml(title), value_text(peak, "Pa"), area * 1e6, force) +
          rectangles(lines(points), view, scale) + axes(view) +
-         colour_bar(scale, "contact pressure", "Pa", bar_x, top + 380) + "</svg>\n";
+         colour_bar(scale, "contact pressure", "Pa", bar_x, top + box_height + 60) + "</svg>\n";
 }
 
 }  // namespace wheelwright

@@ -180,7 +180,7 @@ std::vector<ContactPoint> points_of_solved(const StateSolver<dim>& solver, const
     const auto in_ground_frame = [&](int row) {
       Vec<dim> v;
       std::copy_n(observed + row, dim, v.begin());
-      return rotated<dim>(v, point.angle);
+      return point.frame.template to_ground<dim>(v);
     };
     const double approach = in_ground_frame(rows.displacement(point.point))[0] +
                             wheelwright::displacement<dim>(contact.rim, point.position)[0];
@@ -193,7 +193,7 @@ std::vector<ContactPoint> points_of_solved(const StateSolver<dim>& solver, const
                       .normal_stress = in_ground_frame(rows.traction(point.point))[0],
                       .gap = point.gap - approach});
     if constexpr (dim == 3) {
-      result.back().z = point.position[2] - 0.5 * solver.model().grid.width;
+      result.back().z = point.position[2];
       result.back().axial_friction = point.traction[2];
     }
   }

@@ -98,13 +98,14 @@ SectorIntegrals<dim> sector_integrals(const CutDomain<dim>& domain, const Elemen
 template <int dim>
 RimForce turned(const RimForce& force, double angle) {
   const Vec<2> v = rotated<2>({force.towards_ground, force.along_ground}, angle);
-  return {v[0], v[1], force.torque};
+  return {v[0], v[1], force.torque, force.along_axle};
 }
 
 /// What a body force does on the rim's motions: `moment` is int x dx in the ground frame.
 template <int dim>
 RimForce body_resultant(const Vec<dim>& force, double volume, const Vec<dim>& moment) {
-  return {volume * force[0], volume * force[1], moment[0] * force[1] - moment[1] * force[0]};
+  return {volume * force[0], volume * force[1], moment[0] * force[1] - moment[1] * force[0],
+          dim == 3 ? volume * force[dim - 1] : 0};
 }
 
 }  // namespace

@@ -59,23 +59,27 @@ template <int dim>
 RingField RingDisplacement<dim>::at_nodes(int position) const {
   constexpr double no_material = std::numeric_limits<double>::quiet_NaN();
   const PolarGrid<dim>& grid = lattice_.grid();
-  const double ground = solution_.positions.grounds[position].azimuth(grid);
+  const GroundPosition& ground = solution_.positions.grounds[position];
   const RimMotion& rim = solution_.states[position].rim;
+  const GroundFrame lean{0, ground.camber};
+  const auto of_rim_at = [&](const Vec<dim>& x) {
+    if (ground.camber == 0) return wheelwright::displacement<dim>(rim, x);
+    return lean.to_body<dim>(wheelwright::displacement<dim>(rim, lean.to_ground<dim>(x)));
+  };
   const Matrix core = core_values(position);
   RingField field{dim, std::vector<double>(dim * size_t(lattice_.n_nodes()) * grid.n_sectors, no_material)};
   const int nodes_per_azimuth = lattice_.n_nodes() / lattice_.nodes()[1];
   for (int sector = 0; sector < grid.n_sectors; ++sector)
     for (int line = 0; line < lattice_.nodes()[1]; ++line) {
       const double azimuth = sector * grid.sector_angle() + line * lattice_.spacing()[1];
-      const AxleRotation from_polar(azimuth), from_ground(azimuth - ground);
+      const AxleRotation from_polar(azimuth), from_ground(azimuth - ground.azimuth(grid));
       for (int k = 0; k < nodes_per_azimuth; ++k) {
         const int node = line * nodes_per_azimuth + k;
         const auto place = lattice_.node_position(node);
         const auto v = at_node(core, position, sector, place);
         if (!v) continue;
         const double radius = lattice_.polar_point(place)[0];
-        const Vec<dim> of_rim =
-            from_ground.back(wheelwright::displacement<dim>(rim, from_ground.forward(Vec<dim>{radius})));
+        const Vec<dim> of_rim = from_ground.back(of_rim_at(from_ground.forward(Vec<dim>{radius})));
         Vec<dim> polar = *v;
         for (int d = 0; d < dim; ++d) polar[d] += of_rim[d];
         const Vec<dim> u = from_polar.forward(polar);

@@ -8,7 +8,7 @@ namespace wheelwright {
 namespace {
 
 constexpr std::string_view file_kind = "CKPT";
-constexpr std::uint32_t version = 3;
+constexpr std::uint32_t version = 4;
 
 constexpr int largest_int = std::numeric_limits<int>::max();
 
@@ -169,10 +169,34 @@ Evaluation<dim> read_evaluation(ByteReader& reader) {
   return evaluation;
 }
 
+void append(const StepMemory& memory, ByteWriter& writer) {
+  const auto& [pairs, penalties, multipliers] = memory;
+  append_all(pairs, writer, [&](const CurvaturePair& pair) {
+    const auto& [move, change] = pair;
+    writer.numbers(move);
+    writer.numbers(change);
+  });
+  writer.numbers(penalties);
+  writer.numbers(multipliers);
+}
+
+StepMemory read_memory(ByteReader& reader) {
+  StepMemory memory;
+  auto& [pairs, penalties, multipliers] = memory;
+  pairs = read_all<CurvaturePair>(reader, 2 * count_size, [&](CurvaturePair& pair) {
+    auto& [move, change] = pair;
+    move = reader.finite_numbers("a move of the boundary");
+    change = reader.finite_numbers("a change of the gradient");
+  });
+  penalties = reader.finite_numbers("the penalties of the constraints");
+  multipliers = reader.finite_numbers("the multipliers of the constraints");
+  return memory;
+}
+
 template <int dim>
 void append(const OptimizationState<dim>& state, ByteWriter& writer) {
   const auto& [shape, evaluation, measure, target_measure, iteration, step, since_redistance, since_smoothing,
-               history, history_begin] = state;
+               memory, history, history_begin] = state;
   append(shape, writer);
   append(evaluation, writer);
   writer.number(measure);
@@ -181,6 +205,7 @@ void append(const OptimizationState<dim>& state, ByteWriter& writer) {
   writer.number(step);
   writer.integer(since_redistance);
   writer.integer(since_smoothing);
+  append(memory, writer);
   writer.numbers(history);
   writer.integer(history_begin);
 }
@@ -194,6 +219,10 @@ std::string_view misfit(const OptimizationState<dim>& state) {
   for (const FunctionValue& function : state.evaluation.functions)
     if (function.gradient.size() != state.evaluation.boundary.size())
       return "there is not one value of a gradient for every point of the boundary";
+  const size_t n_nodes = state.shape.values.size();
+  for (const CurvaturePair& pair : state.memory.pairs)
+    if (pair.move.size() != n_nodes || pair.change.size() != n_nodes)
+      return "a move of the boundary does not have one value for every node";
   if (state.history_begin > state.iteration ||
       state.history.size() != std::size_t(state.iteration) - std::size_t(state.history_begin) + 1)
     return "there is not one objective for every shape";
@@ -214,6 +243,7 @@ std::optional<OptimizationState<dim>> read_state(ByteReader& reader) {
   const double step = reader.finite_number("the step");
   const int since_redistance = count("the number of shapes since the last redistancing");
   const int since_smoothing = count("the number of shapes since the last smoothing");
+  auto memory = read_memory(reader);
   auto history = reader.finite_numbers("the objectives so far");
   const int history_begin = count("the shape that the objectives begin with");
   if (!reader.ok()) return {};
@@ -225,6 +255,7 @@ std::optional<OptimizationState<dim>> read_state(ByteReader& reader) {
                                .step = step,
                                .since_redistance = since_redistance,
                                .since_smoothing = since_smoothing,
+                               .memory = std::move(memory),
                                .history = std::move(history),
                                .history_begin = history_begin};
   const std::string_view problem = misfit(state);

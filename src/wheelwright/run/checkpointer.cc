@@ -17,7 +17,8 @@ Checkpointer<dim>::Checkpointer(CheckpointFolder folder, const std::optional<Che
 
 template <int dim>
 void Checkpointer<dim>::operator()(const Event<dim>& event, const RunView<dim>& run) {
-  if (std::holds_alternative<CaseChanged>(event) || std::holds_alternative<GridChanged>(event))
+  if (std::holds_alternative<CaseChanged>(event) || std::holds_alternative<ShapeReplaced>(event) ||
+      std::holds_alternative<GridChanged>(event))
     saved_iteration_.reset();
   if (const auto* done = std::get_if<TrialDone<dim>>(&event)) {
     if (done->trial.verdict == Verdict::accepted) elapsed_ = run.elapsed_seconds;

@@ -72,4 +72,20 @@ Obeyed NewLoad::obey(RunControl& run) const {
   return changed(run, c, "new load: " + load_text(load));
 }
 
+Obeyed NewVolume::obey(RunControl& run) const {
+  Case c = run.current_case();
+  c.volume.target = target;
+  return changed(run, c, fmt::format("new target of the volume: {:.6g} of the ring", target));
+}
+
+Obeyed Reset::obey(RunControl& run) const {
+  if (auto refusal = run.reset()) return *std::move(refusal);
+  return std::string("back to the initial shape");
+}
+
+Obeyed Undo::obey(RunControl& run) const {
+  if (auto refusal = run.undo()) return *std::move(refusal);
+  return std::string("the last change is undone");
+}
+
 }  // namespace wheelwright

@@ -2,11 +2,14 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "wheelwright/base/expected.h"
 #include "wheelwright/case/case.h"
+#include "wheelwright/run/shape_edit.h"
 
 namespace wheelwright {
 
@@ -34,6 +37,17 @@ class RunControl {
   /// Proceeds with another case: it is checked as a case file is, the current shape is evaluated under it,
   /// and the run's folder follows. `what` says what changes, for people and for history.csv.
   virtual std::optional<Refusal> change_case(const Case& changed, const std::string& what) = 0;
+
+  /// The edge of the hole that this point of the ring is in, as a closed polyline round it (Cartesian, body
+  /// frame [m]); empty where the point is in no hole, or in one that is not enclosed by material.
+  virtual std::vector<Point> hole_at(const Point& point) const = 0;
+  /// Draws strokes over the current shape, each over those before it and in all sectors, and evaluates it.
+  /// The run proceeds from there.
+  virtual std::optional<Refusal> draw(std::span<const Stroke> strokes, const std::string& what) = 0;
+  /// Back to the initial shape, under the case as it is.
+  virtual std::optional<Refusal> reset() = 0;
+  /// Back to the case and the shape before the last change_case(), draw() or reset() that is not undone.
+  virtual std::optional<Refusal> undo() = 0;
 };
 
 /// What was done, one line; empty where there is nothing to say.
@@ -77,6 +91,49 @@ struct NewLoad {
   Obeyed obey(RunControl& run) const;
 };
 
+/// Another target of the volume, as a fraction of the ring: the run moves there by volume.rate per shape.
+struct NewVolume {
+  double target;
+
+  Obeyed obey(RunControl& run) const;
+};
+
+/// Draws a line with a round tip, as with a brush, in every sector: a hole or material. A single point is a
+/// disc.
+struct Paint {
+  Fill as = Fill::hole;
+  std::vector<std::array<double, 2>> path;  ///< Cartesian, body frame [m]
+  double radius = 0;                        ///< of the tip [m]
+
+  Obeyed obey(RunControl& run) const;
+};
+
+/// Moves a hole, and its images in the other sectors, and multiplies its size about its centre.
+struct MoveHole {
+  std::array<double, 2> at{};  ///< a point in the hole: Cartesian, body frame [m]
+  std::array<double, 2> by{};  ///< [m]
+  double scale = 1;
+
+  Obeyed obey(RunControl& run) const;
+};
+
+/// Fills a hole, and its images in the other sectors, with material.
+struct FillHole {
+  std::array<double, 2> at{};  ///< a point in the hole: Cartesian, body frame [m]
+
+  Obeyed obey(RunControl& run) const;
+};
+
+/// Back to the initial shape.
+struct Reset {
+  Obeyed obey(RunControl& run) const;
+};
+
+/// Back to what was before the last change of case or shape by a command.
+struct Undo {
+  Obeyed obey(RunControl& run) const;
+};
+
 /// A command from outside the program, such as a script or a test.
 struct Custom {
   std::function<Obeyed(RunControl& run)> obey;
@@ -84,6 +141,7 @@ struct Custom {
 
 /// The commands that a run obeys. To add one: a struct with obey() as above, in a file of its own, and its
 /// name in this list.
-using Command = std::variant<Save, Stop, Pause, Continue, Step, NewWeights, NewLoad, Custom>;
+using Command = std::variant<Save, Stop, Pause, Continue, Step, NewWeights, NewLoad, NewVolume, Paint,
+                             MoveHole, FillHole, Reset, Undo, Custom>;
 
 }  // namespace wheelwright

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "wheelwright/files/atomic_file.h"
+#include "wheelwright/optimize/descent.h"
 #include "wheelwright/report/sector_svg.h"
 #include "wheelwright/run/run_title.h"
 

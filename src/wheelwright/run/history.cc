@@ -113,6 +113,11 @@ History::History(std::filesystem::path path, HistoryColumns columns)
     for (const auto& q : *quantities) header.push_back(q.name + " [" + q.unit + "]");
   header.push_back(std::string(volume_fraction_column) + " [-]");
   for (const char* name : {"step [m]", "max velocity [Pa]", "max newton iterations"}) header.push_back(name);
+  for (const auto& b : columns_.bounds) {
+    header.push_back(fmt::format("bounded {} [{}]", b.name, b.unit));
+    header.push_back(fmt::format("bound of {} [{}]", b.name, b.unit));
+    header.push_back(fmt::format("multiplier of {} [{} per {}]", b.name, columns_.objective_unit, b.unit));
+  }
   for (const auto& phase : columns_.phases) header.push_back(phase + " [s]");
   for (const char* name : {"trial [s]", "elapsed [s]", "events"}) header.push_back(name);
   write_line(header);
@@ -159,6 +164,11 @@ void History::add(const HistoryRow& row) {
   for (const double value : {row.volume_fraction, row.step, row.max_velocity})
     cells.push_back(csv_number(value));
   cells.push_back(std::to_string(row.max_newton_iterations));
+  for (std::size_t k = 0; k < columns_.bounds.size(); ++k) {
+    const bool is_known = k < row.bounds.size();
+    for (const double BoundState::*member : {&BoundState::value, &BoundState::bound, &BoundState::multiplier})
+      cells.push_back(is_known ? csv_number(row.bounds[k].*member) : "");
+  }
   for (const auto& phase : columns_.phases) cells.push_back(phase_cell(row.phases, phase));
   for (const double value : {row.trial_seconds, row.elapsed_seconds}) cells.push_back(csv_number(value));
   cells.push_back(fmt::format("{}", fmt::join(row.events, "; ")));

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "wheelwright/analysis/rolling_measures.h"
 #include "wheelwright/analysis/shape_summary.h"
+#include "wheelwright/run/bounded_functions.h"
 
 namespace wheelwright {
 namespace {
@@ -20,19 +22,43 @@ constexpr std::array<std::pair<const char*, const char*>, 5> peak_columns{{{"pea
                                                                            {"peak_von_mises_position", "deg"},
                                                                            {"largest_strain", "-"}}};
 
+/// The unit of a functional; what is no quantity of its own is an energy, or the material's volume.
+template <int dim>
+const char* unit_of(const std::string& functional) {
+  if (functional == "volume") return dim == 2 ? "m^2" : "m^3";
+  return std::ranges::find(quantity_names, functional) == quantity_names.end()
+             ? unit<dim>(UnitKind::energy)
+             : unit<dim>(kind(quantity_of(functional)));
+}
+
 template <int dim>
 std::vector<HistoryColumns::Quantity> term_columns(const ShapeFunction<dim>& objective) {
   std::vector<HistoryColumns::Quantity> columns;
   for (const auto& term : objective.terms)
-    columns.push_back(column(term.functional->name(), unit<dim>(UnitKind::energy)));
+    columns.push_back(column(term.functional->name(), unit_of<dim>(term.functional->name())));
+  return columns;
+}
+
+/// One entry for every bound of the functions, in the order of bound_constraints().
+template <int dim>
+std::vector<HistoryColumns::Quantity> bound_columns(const std::vector<ShapeFunction<dim>>& functions) {
+  std::vector<HistoryColumns::Quantity> columns;
+  for (const auto& function : functions) {
+    const auto [lower, upper] = function.bounds;
+    const int n = (std::isfinite(lower) && lower != upper ? 1 : 0) + (std::isfinite(upper) ? 1 : 0);
+    for (int k = 0; k < n; ++k)
+      columns.push_back(column(function.name, unit<dim>(kind(quantity_of(function.name)))));
+  }
   return columns;
 }
 
 template <int dim>
-HistoryColumns history_columns(const ShapeFunction<dim>& objective) {
-  HistoryColumns columns{.objective_unit = unit<dim>(kind(Quantity::objective)),
+HistoryColumns history_columns(const Study<dim>& study) {
+  const ShapeFunction<dim>& objective = study.objective();
+  HistoryColumns columns{.objective_unit = unit<dim>(kind(study.source.objective.minimize)),
                          .terms = {},
                          .measures = {},
+                         .bounds = bound_columns(study.functions),
                          .phases = {phase_names.begin(), phase_names.end()}};
   columns.terms = term_columns(objective);
   for (const auto& [quantity, member] : rolling_quantities)
@@ -76,6 +102,7 @@ void HistoryWriter<dim>::operator()(const Event<dim>& event, const RunView<dim>&
     notes_.push_back(changed->text);
     add_missing_columns(run);
   }
+  if (const auto* replaced = std::get_if<ShapeReplaced>(&event)) notes_.push_back(replaced->text);
   if (const auto* changed = std::get_if<GridChanged>(&event)) notes_.push_back(changed->text);
   if (const auto* done = std::get_if<TrialDone<dim>>(&event)) record(*done, run);
 }
@@ -89,7 +116,7 @@ void HistoryWriter<dim>::add_to(Checkpoint<dim>& checkpoint) {
 template <int dim>
 void HistoryWriter<dim>::open(const RunView<dim>& run) {
   const auto path = run.folder / history_file;
-  auto columns = history_columns(run.study.objective());
+  auto columns = history_columns(run.study);
   if (resumed_at_)
     history_.emplace(path, std::move(columns), *resumed_at_);
   else
@@ -121,6 +148,7 @@ void HistoryWriter<dim>::record(const TrialDone<dim>& done, const RunView<dim>& 
                  .step = trial.step * grid.resolution(),
                  .max_velocity = trial.max_velocity,
                  .max_newton_iterations = 0,
+                 .bounds = {},
                  .phases = {},
                  .trial_seconds = done.seconds,
                  .elapsed_seconds = run.elapsed_seconds,
@@ -132,6 +160,8 @@ void HistoryWriter<dim>::record(const TrialDone<dim>& done, const RunView<dim>& 
     row.objective = trial.evaluation->function("objective").value;
     row.terms = trial.evaluation->terms;
     row.measures = trial.evaluation->measures;
+    row.bounds =
+        bound_states(*trial.evaluation, row.accepted ? done.state.memory.multipliers : std::vector<double>());
     row.max_newton_iterations = newton.empty() ? 0 : *std::max_element(newton.begin(), newton.end());
     row.phases = trial.evaluation->phases;
   }

@@ -9,6 +9,7 @@
 
 #include "wheelwright/report/run_summary.h"
 #include "wheelwright/run/checkpoint.h"
+#include "wheelwright/run/command.h"
 #include "wheelwright/run/study.h"
 
 namespace wheelwright {
@@ -37,6 +38,7 @@ struct SaveRequested {
 
 /// A command was obeyed, or refused.
 struct CommandDone {
+  const Command* command;  ///< null where the run gave it to itself
   std::string text;  ///< what was done, or why it was refused; may be empty
   bool was_obeyed;
 };
@@ -45,6 +47,19 @@ struct CommandDone {
 struct CaseChanged {
   std::string text;  ///< what changed
 };
+
+/// A command replaced the current shape; the new one is evaluated next.
+struct ShapeReplaced {
+  std::string text;  ///< by what
+};
+
+/// The run waits for commands, saved.
+struct RunWaits {
+  std::optional<StopReason> reason;  ///< why there is nothing to do; empty: it was told to pause
+};
+
+/// A run that waited proceeds.
+struct RunProceeds {};
 
 /// The descent proceeds on another grid (RunView::study); the current shape, moved there, is evaluated next.
 struct GridChanged {
@@ -64,7 +79,7 @@ struct RunEnded {
 
 template <int dim>
 using Event = std::variant<RunStarted, TrialDone<dim>, SaveRequested<dim>, CommandDone, CaseChanged,
-                           GridChanged, RunEnded<dim>>;
+                           ShapeReplaced, GridChanged, RunWaits, RunProceeds, RunEnded<dim>>;
 
 template <int dim>
 class Observer;
@@ -80,6 +95,7 @@ struct RunView {
   const Evolver<dim>& evolver;       ///< the loop's
   const InitialShape<dim>* initial;  ///< null before the first shape
   double elapsed_seconds;            ///< computed so far, before a resumption too
+  bool can_undo;                     ///< whether there is something for the command Undo
   const Observers<dim>& observers;   ///< all of them, for whom a checkpoint asks
 };
 

@@ -129,8 +129,8 @@ Expected<Run<dim>, NotBegun<dim>> Run<dim>::resume(const Case& c, const fs::path
 }
 
 template <int dim>
-RunResult<dim> Run<dim>::execute(CommandQueue& commands) {
-  RunLoop<dim> loop(folder_, study_, observers_, commands);
+RunResult<dim> Run<dim>::execute(CommandQueue& commands, AtEnd at_end) {
+  RunLoop<dim> loop(folder_, study_, observers_, commands, at_end);
   return checkpoint_ ? loop.resume(*checkpoint_) : loop.begin();
 }
 

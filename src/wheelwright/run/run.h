@@ -46,6 +46,12 @@ struct Resumption {
   std::optional<std::string> other_program;  ///< which saved the checkpoint, if it is another one
 };
 
+/// What a run does where it has a reason to stop by itself.
+enum class AtEnd {
+  finish,  ///< writes its results
+  wait,    ///< waits for commands; only Stop ends it. Continue and Step look for better shapes once more
+};
+
 /// How a run ended.
 template <int dim>
 struct RunResult {
@@ -81,7 +87,7 @@ class Run {
 
   /// Optimizes until there is a reason to stop, obeying commands between the trial shapes. To be called once.
   /// Throws OutputError.
-  RunResult<dim> execute(CommandQueue& commands);
+  RunResult<dim> execute(CommandQueue& commands, AtEnd at_end = AtEnd::finish);
 
  private:
   Run(FolderLock lock, std::filesystem::path folder, Study<dim> study, Resumption resumption,

@@ -9,6 +9,9 @@
 
 namespace wheelwright {
 
+/// The folder of the shapes that were saved as cases while a run was watched.
+inline constexpr const char* designs_folder = "designs";
+
 /// What a run may write to its folder: whoever adds a file or a subfolder adds its name here, so that a run
 /// is refused at once, not at its end, where the name is taken.
 inline constexpr std::string_view names_in_a_run_folder[] = {"case.toml",
@@ -37,6 +40,8 @@ inline constexpr std::string_view names_in_a_run_folder[] = {"case.toml",
                                                              "shapes",
                                                              "rolling",
                                                              "drawings",
+                                                             "commands.jsonl",
+                                                             "designs",
                                                              "checkpoints",
                                                              "failure"};
 

@@ -7,9 +7,11 @@
 #include "wheelwright/case/write.h"
 #include "wheelwright/cut/measure.h"
 #include "wheelwright/evolution/regrid.h"
+#include "wheelwright/evolution/volume.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/geometry/components.h"
 #include "wheelwright/geometry/values_on.h"
+#include "wheelwright/optimize/constraints.h"
 #include "wheelwright/run/own_drawings.h"
 #include "wheelwright/run/provenance.h"
 #include "wheelwright/run/run_title.h"
@@ -55,6 +57,20 @@ std::vector<ShapeEvent<dim>> changes_by_grid(const LevelSet<dim>& before, const 
   return topology_changes(components(values_on(before, Lattice<dim>(fine, 1)), 1), components(after));
 }
 
+template <int dim>
+std::string minimized_text(Quantity quantity) {
+  if (quantity == Quantity::objective) return {};
+  return fmt::format("{} [{}]", name(quantity), unit<dim>(kind(quantity)));
+}
+
+template <int dim>
+std::vector<SummarizedBound> summarized_bounds(const OptimizationState<dim>& state) {
+  std::vector<SummarizedBound> result;
+  for (const BoundState& b : bound_states(state.evaluation, state.memory.multipliers))
+    result.push_back({b.name, b.value, b.bound, b.relation, b.multiplier, b.is_kept()});
+  return result;
+}
+
 Refusal refusal(const Failure& failure) {
   return {fmt::format("{}: {}", to_string(failure.reason), failure.detail)};
 }
@@ -63,10 +79,11 @@ Refusal refusal(const Failure& failure) {
 
 template <int dim>
 RunLoop<dim>::RunLoop(const std::filesystem::path& folder, Study<dim> study, const Observers<dim>& observers,
-                      CommandQueue& commands)
+                      CommandQueue& commands, AtEnd at_end)
     : folder_(folder),
       observers_(observers),
       commands_(commands),
+      at_end_(at_end),
       stop_file_(std::make_shared<StopFile>(folder)),
       work_(make_work(std::move(study))) {
   commands_.add_source([file = stop_file_] { return (*file)(); });
@@ -101,6 +118,7 @@ RunResult<dim> RunLoop<dim>::resume(const Checkpoint<dim>& checkpoint) {
   initial_ = checkpoint.initial;
   elapsed_ = checkpoint.elapsed_seconds;
   notify(RunStarted{.resumed_after = state_->iteration});
+  if (at_end_ == AtEnd::wait) search_anew();  // a checkpoint has no solution to show
   return advance();
 }
 
@@ -118,7 +136,11 @@ RunResult<dim> RunLoop<dim>::advance() {
       must_yield();  // an evaluation was interrupted: by a command to stop
       continue;
     }
-    if (work_->study.level == 0) return end(*reason);
+    if (work_->study.level == 0 && at_end_ == AtEnd::finish) return end(*reason);
+    if (work_->study.level == 0) {
+      wait_for_more(*reason);
+      continue;
+    }
     // Where no shapes are left for finer grids, the results still are those of the case's own.
     const auto failure = move_to_grid(*reason == StopReason::iterations ? 0 : work_->study.level - 1);
     if (failure && failure->reason != FailureReason::interrupted) return end_between_grids(*failure);
@@ -145,7 +167,8 @@ void RunLoop<dim>::begin_on_coarser_grid() {
       must_yield();
       return;
     }
-    notify(CommandDone{fmt::format("{}: {}: {}", grid_text(on_coarser_grid(work_->study.source, level)),
+    notify(CommandDone{nullptr,
+                       fmt::format("{}: {}: {}", grid_text(on_coarser_grid(work_->study.source, level)),
                                    to_string(failure->reason), failure->detail),
                        false});
   }
@@ -311,7 +334,9 @@ std::optional<RunSummary<dim>> RunLoop<dim>::run_summary(const StateSolver<dim>&
   return RunSummary<dim>{
       .title = run_title(work_->study.source),
       .before = {0, initial_->objective, *first},
-      .after = {state_->iteration, work_->optimizer.objective_of(state_->evaluation), *now}};
+      .after = {state_->iteration, work_->optimizer.objective_of(state_->evaluation), *now},
+      .bounds = summarized_bounds(*state_),
+      .minimized = minimized_text<dim>(work_->study.source.objective.minimize)};
 }
 
 template <int dim>
@@ -344,6 +369,7 @@ void RunLoop<dim>::notify(const Event<dim>& event) {
                           .evolver = work_->optimizer.evolver(),
                           .initial = initial_ ? &*initial_ : nullptr,
                           .elapsed_seconds = elapsed_,
+                          .can_undo = !past_.empty(),
                           .observers = observers_};
   for (const auto& observer : observers_) (*observer)(event, view);
 }
@@ -355,17 +381,18 @@ void RunLoop<dim>::write_case_file() const {
                    fmt::format("# {}\n\n{}", program_text(), to_toml(work_->study.source)));
 }
 
-/// Obeys the commands that wait; whether the loop must return: to end, or to proceed with another case.
+/// Obeys the commands that wait; whether the loop must return: to end, or to proceed with another case or
+/// shape.
 template <int dim>
 bool RunLoop<dim>::must_yield() {
-  const auto work = work_;
+  const int changes = changes_;
   while (!is_stopped_) {
     const auto command = commands_.take();
     if (!command) break;
     obey(*command);
   }
   wait_while_paused();
-  return is_stopped_ || work_ != work;
+  return is_stopped_ || changes_ != changes;
 }
 
 template <int dim>
@@ -373,8 +400,24 @@ void RunLoop<dim>::wait_while_paused() {
   const auto is_paused = [this] { return !is_stopped_ && pause_at_ && state_->iteration >= *pause_at_; };
   if (!is_paused()) return;
   elapsed_ += watch_.lap();
+  save();
+  notify(RunWaits{});
   while (is_paused()) obey(commands_.wait());
+  notify(RunProceeds{});
   watch_.lap();  // the pause does not count
+}
+
+/// Where the loop has a reason to end but is to wait: until a command gives it something to do.
+template <int dim>
+void RunLoop<dim>::wait_for_more(StopReason reason) {
+  elapsed_ += watch_.lap();
+  save();
+  has_ended_by_itself_ = true;
+  notify(RunWaits{reason});
+  while (!is_stopped_ && has_ended_by_itself_) obey(commands_.wait());
+  has_ended_by_itself_ = false;
+  notify(RunProceeds{});
+  watch_.lap();
 }
 
 template <int dim>
@@ -382,19 +425,117 @@ void RunLoop<dim>::obey(const Command& command) {
   const Obeyed obeyed = std::visit(
       [this](const auto& c) -> Obeyed { return c.obey(static_cast<RunControl&>(*this)); }, command);
   if (obeyed)
-    notify(CommandDone{*obeyed, true});
+    notify(CommandDone{&command, *obeyed, true});
   else
-    notify(CommandDone{obeyed.failure().reason, false});
+    notify(CommandDone{&command, obeyed.failure().reason, false});
 }
 
 template <int dim>
 void RunLoop<dim>::pause(int after_shapes) {
   const int from = after_shapes > 0 ? std::max(state_->iteration, pause_at_.value_or(0)) : state_->iteration;
   pause_at_ = from + after_shapes;
+  if (after_shapes > 0 && has_ended_by_itself_) search_anew();
+}
+
+template <int dim>
+void RunLoop<dim>::go_on() {
+  pause_at_.reset();
+  if (has_ended_by_itself_) search_anew();
+}
+
+/// Forgets how the objective fell so far, and with it the reason why the run waits.
+template <int dim>
+void RunLoop<dim>::search_anew() {
+  replace_shape(state_->shape, "one more search for better shapes");
 }
 
 template <int dim>
 std::optional<Refusal> RunLoop<dim>::change_case(const Case& changed, const std::string& what) {
+  Past before = present();
+  if (auto refusal = work_on(changed, state_->shape, what)) return refusal;
+  remember(std::move(before));
+  return {};
+}
+
+template <int dim>
+std::vector<Point> RunLoop<dim>::hole_at(const Point& point) const {
+  if constexpr (dim == 2)
+    return hole_contour(state_->shape, point);
+  else
+    return {};
+}
+
+template <int dim>
+std::optional<Refusal> RunLoop<dim>::draw(std::span<const Stroke> strokes, const std::string& what) {
+  const Evolver<dim>& evolver = work_->optimizer.evolver();
+  LevelSet<dim> shape = state_->shape;
+  for (const Stroke& stroke : strokes) shape = with_stroke(shape, stroke);
+  auto smooth = evolver.redistance(evolver.keep_bands(shape));
+  if (!smooth) return refusal(smooth.failure());
+  auto attached = evolver.without_islands(
+      *smooth, work_->study.optimizer.largest_island * sector_measure<dim>(work_->study.grid()));
+  if (!attached) return refusal(attached.failure());
+  Past before = present();
+  if (auto refusal = replace_shape(attached->psi, what)) return refusal;
+  remember(std::move(before));
+  return {};
+}
+
+template <int dim>
+std::optional<Refusal> RunLoop<dim>::reset() {
+  Past before = present();
+  if (auto refusal = replace_shape(initial_->shape, "back to the initial shape")) return refusal;
+  remember(std::move(before));
+  return {};
+}
+
+template <int dim>
+std::optional<Refusal> RunLoop<dim>::undo() {
+  if (past_.empty()) return Refusal{"there is nothing to undo"};
+  const Past& last = past_.back();
+  const std::string what = "undo";
+  auto refusal = last.source == work_->study.source ? replace_shape(last.shape, what)
+                                                    : work_on(last.source, last.shape, what);
+  if (!refusal) past_.pop_back();
+  return refusal;
+}
+
+template <int dim>
+void RunLoop<dim>::remember(Past past) {
+  constexpr std::size_t most = 100;
+  past_.push_back(std::move(past));
+  if (past_.size() > most) past_.pop_front();
+}
+
+/// The present state at another shape, evaluated by that optimizer; its trial.
+template <int dim>
+Expected<OptimizationState<dim>> RunLoop<dim>::state_at(const ShapeOptimizer<dim>& optimizer,
+                                                        const LevelSet<dim>& shape,
+                                                        std::optional<Trial<dim>>& trial) const {
+  OptimizationState<dim> from = *state_;
+  from.shape = regrid(shape, state_->shape.lattice);  // a shape of the past may stand on another grid
+  return optimizer.restart(from,
+                           [&](const Trial<dim>& seen, const OptimizationState<dim>&) { trial = seen; });
+}
+
+/// Proceeds from another shape under the same case.
+template <int dim>
+std::optional<Refusal> RunLoop<dim>::replace_shape(const LevelSet<dim>& shape, const std::string& what) {
+  std::optional<Trial<dim>> trial;
+  auto anew = state_at(work_->optimizer, shape, trial);
+  if (!anew) return refusal(anew.failure());
+  state_ = *std::move(anew);
+  has_ended_by_itself_ = false;
+  ++changes_;
+  notify(ShapeReplaced{what});
+  observe(*trial, *state_);
+  return {};
+}
+
+/// Proceeds under another case, from a shape that may be another one too.
+template <int dim>
+std::optional<Refusal> RunLoop<dim>::work_on(const Case& changed, const LevelSet<dim>& shape,
+                                             const std::string& what) {
   const auto c = checked(changed, folder_);
   if (!c) return c.failure();
   const int level = work_->study.level;
@@ -408,14 +549,15 @@ std::optional<Refusal> RunLoop<dim>::change_case(const Case& changed, const std:
   const auto first = evaluate_of(*of_initial)(initial_->shape, nullptr);
   if (!first) return refusal(first.failure());
   std::optional<Trial<dim>> trial;
-  auto anew = optimizer_of(*study).restart(
-      *state_, [&](const Trial<dim>& seen, const OptimizationState<dim>&) { trial = seen; });
+  auto anew = state_at(optimizer_of(*study), shape, trial);
   if (!anew) return refusal(anew.failure());
 
   work_ = make_work(*std::move(study));
   initial_wheel_.reset();
   initial_->objective = first->evaluation.function("objective").value;
   state_ = *std::move(anew);
+  has_ended_by_itself_ = false;
+  ++changes_;
   notify(CaseChanged{what});
   observe(*trial, *state_);  // saved by the checkpointer, before case.toml says so
   write_case_file();

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <deque>
+
 #include "wheelwright/base/stopwatch.h"
 #include "wheelwright/run/run.h"
 #include "wheelwright/run/stop_file.h"
@@ -12,7 +14,7 @@ class RunLoop : private RunControl {
  public:
   /// All but the study, which a command may replace, must outlive this.
   RunLoop(const std::filesystem::path& folder, Study<dim> study, const Observers<dim>& observers,
-          CommandQueue& commands);
+          CommandQueue& commands, AtEnd at_end);
 
   /// From the initial shape, or from a checkpoint, to the end. Throws OutputError.
   RunResult<dim> begin();
@@ -36,8 +38,25 @@ class RunLoop : private RunControl {
   void save() override { notify(SaveRequested<dim>{*state_}); }
   void stop() override { is_stopped_ = true; }
   void pause(int after_shapes) override;
-  void go_on() override { pause_at_.reset(); }
+  void go_on() override;
   std::optional<Refusal> change_case(const Case& changed, const std::string& what) override;
+  std::vector<Point> hole_at(const Point& point) const override;
+  std::optional<Refusal> draw(std::span<const Stroke> strokes, const std::string& what) override;
+  std::optional<Refusal> reset() override;
+  std::optional<Refusal> undo() override;
+
+  /// What a command to undo brings back.
+  struct Past {
+    Case source;
+    LevelSet<dim> shape;
+  };
+  Past present() const { return {work_->study.source, state_->shape}; }
+  void remember(Past past);
+  void search_anew();
+  std::optional<Refusal> work_on(const Case& changed, const LevelSet<dim>& shape, const std::string& what);
+  std::optional<Refusal> replace_shape(const LevelSet<dim>& shape, const std::string& what);
+  Expected<OptimizationState<dim>> state_at(const ShapeOptimizer<dim>& optimizer, const LevelSet<dim>& shape,
+                                            std::optional<Trial<dim>>& trial) const;
 
   RunResult<dim> advance();
   bool begins_on_coarser_grid() const;
@@ -61,12 +80,14 @@ class RunLoop : private RunControl {
   bool must_yield();
   void obey(const Command& command);
   void wait_while_paused();
+  void wait_for_more(StopReason reason);
   void notify(const Event<dim>& event);
   void write_case_file() const;
 
   const std::filesystem::path& folder_;
   const Observers<dim>& observers_;
   CommandQueue& commands_;
+  AtEnd at_end_;
   std::shared_ptr<StopFile> stop_file_;
   int stops_before_ =
       0;  ///< commands to stop that were waiting when the run began: they let the first shape finish
@@ -76,10 +97,13 @@ class RunLoop : private RunControl {
   std::optional<InitialShape<dim>> initial_;
   std::optional<DescribedWheel<dim>> initial_wheel_;  ///< by the run's own solver, if it was seen
   std::vector<Trial<dim>> failed_trials_;
+  std::deque<Past> past_;         ///< newest last
   SharedSolution last_solution_;  ///< of the last accepted shape, kept when nothing follows it
 
   bool is_stopped_ = false;
-  std::optional<int> pause_at_;  ///< the number of the shape after which the run waits
+  std::optional<int> pause_at_;       ///< the number of the shape after which the run waits
+  int changes_ = 0;                   ///< of case or shape by commands, so far
+  bool has_ended_by_itself_ = false;  ///< and waits for commands
   Stopwatch watch_;
   double elapsed_ = 0;
 };

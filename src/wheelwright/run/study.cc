@@ -20,6 +20,7 @@
 #include "wheelwright/geometry/components.h"
 #include "wheelwright/geometry/values_on.h"
 #include "wheelwright/rolling/rolling_problem.h"
+#include "wheelwright/run/bounded_functions.h"
 
 namespace wheelwright {
 namespace {
@@ -48,6 +49,8 @@ RollingModel<dim> rolling_model(const Case& c) {
   model.tread = {tread_rows(c), tread_levels(c), wants_annulus(c) ? c.grid.degree + 1 : 0};
   model.load = on_model_width<dim>(c.load.force, c);
   model.horizontal_force = on_model_width<dim>(c.load.horizontal_force, c);
+  model.lateral_force = c.load.lateral_force;
+  model.camber = c.load.camber;
   model.torque = on_model_width<dim>(c.load.torque, c);
   model.travel = c.load.travel;
   const auto [along_ground, down] = c.load.body_force;
@@ -117,9 +120,19 @@ template <int dim>
 Expected<std::vector<ShapeFunction<dim>>> shape_functions(const Case& c, const StateSolver<dim>& solver) {
   auto terms = objective_terms<dim>(c, solver);
   if (!terms) return terms.failure();
-  return std::vector<ShapeFunction<dim>>{
-      objective(*std::move(terms)),
-      {.name = "volume", .terms = {{1, std::make_shared<MaterialVolume<dim>>()}}}};
+  std::vector<ShapeFunction<dim>> functions;
+  if (c.objective.minimize == Quantity::objective) {
+    functions.push_back(objective(*std::move(terms)));
+  } else {
+    auto minimized = minimized_terms(c, solver);
+    if (!minimized) return minimized.failure();
+    functions.push_back(objective(*std::move(minimized)));
+  }
+  functions.push_back({.name = "volume", .terms = {{1, std::make_shared<MaterialVolume<dim>>()}}});
+  auto bounded = bounded_functions(c, solver, initial_shape<dim>(c));
+  if (!bounded) return bounded.failure();
+  functions.insert(functions.end(), bounded->begin(), bounded->end());
+  return functions;
 }
 
 template <int dim>
@@ -139,8 +152,13 @@ const LevelSet<dim>* saved_shape(const Case& c) {
 /// The shape that a case draws, at the nodes of a lattice.
 template <int dim>
 LevelSet<dim> drawn_on(const Lattice<dim>& lattice, const Case& c) {
-  if (c.shapes == Shapes{}) return make_level_set(lattice, sector_holes(c));
-  return make_level_set(lattice, Composition(figures(c)));
+  LevelSet<dim> psi = c.shapes == Shapes{} ? make_level_set(lattice, sector_holes(c))
+                                           : make_level_set(lattice, Composition(figures(c)));
+  if constexpr (dim == 3) {
+    for (const Sphere& hole : sector_spheres(c)) psi = with_hole(std::move(psi), hole);
+    for (const TaperedHole& hole : sector_tapered_holes(c)) psi = with_hole(std::move(psi), hole);
+  }
+  return psi;
 }
 
 }  // namespace
@@ -195,14 +213,17 @@ template <int dim>
 OptimizerOptions optimizer_options(const Case& c) {
   OptimizerOptions options;
   options.iterations = c.optimizer.iterations;
-  options.step = c.optimizer.step;
+  const bool descends = c.optimizer.method == OptimizerMethod::descent;
+  options.method = descends ? Method::descent : Method::sequential_quadratic;
+  options.step = c.optimizer.step.value_or(descends ? 0.5 : 1.5);
   options.max_halvings = c.optimizer.max_halvings;
   options.accepted_increase = c.optimizer.accepted_increase;
   options.tolerance = c.optimizer.tolerance;
   options.redistance_every = c.optimizer.redistance_every;
   options.smooth_every = c.optimizer.smoothing > 0 ? c.optimizer.smooth_every : 0;
-  options.measure_control =
-      c.volume.control == VolumeControl::exact ? MeasureControl::exact : MeasureControl::proportional;
+  options.measure_control = c.volume.control == VolumeControl::paper ? MeasureControl::proportional
+                            : holds_volume(c)                        ? MeasureControl::exact
+                                                                     : MeasureControl::free;
   options.measure_rate = c.volume.rate;
   if (c.volume.target) options.target_measure = *c.volume.target * sector_measure<dim>(polar_grid<dim>(c));
   return options;

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "wheelwright/state/ground_frame.h"
 #include "wheelwright/state/rim.h"
 
 namespace wheelwright {
@@ -14,7 +15,7 @@ struct ContactPatch {
   struct Point {
     int column;          ///< of the ring
     int point;           ///< of the column (TreadSurface::points)
-    double angle;        ///< turns components in the column's frame into the ground frame [rad]
+    GroundFrame frame;   ///< turns components in the column's frame into the ground frame
     Vec<dim> position;   ///< relative to the axle [m]
     double gap;          ///< g (9) [m]
     double weight;       ///< dS [m, or m^2 when dim = 3]

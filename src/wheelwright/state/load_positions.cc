@@ -3,17 +3,17 @@
 namespace wheelwright {
 
 template <int dim>
-LoadPositions load_positions(const PolarGrid<dim>& grid, int n) {
+LoadPositions load_positions(const PolarGrid<dim>& grid, int n, double camber) {
   LoadPositions positions{{}, std::vector<double>(n, 1.0)};
   for (int i = 0; i < n; ++i)
-    positions.grounds.push_back({i * grid.columns() / n, double(i * grid.columns() % n) / n});
+    positions.grounds.push_back({i * grid.columns() / n, double(i * grid.columns() % n) / n, camber});
   return positions;
 }
 
 template <int dim>
-LoadPositions load_positions_without_images(const PolarGrid<dim>& grid, int n) {
+LoadPositions load_positions_without_images(const PolarGrid<dim>& grid, int n, double camber) {
   // Position i's image is n - i; the positions at 0 and in the middle of the sector are their own images.
-  LoadPositions positions = load_positions(grid, n);
+  LoadPositions positions = load_positions(grid, n, camber);
   positions.grounds.resize(n / 2 + 1);
   positions.multiplicities.assign(n / 2 + 1, 2.0);
   positions.multiplicities.front() = 1;
@@ -30,9 +30,9 @@ std::vector<double> of_all(const LoadPositions& positions, const std::vector<dou
   return all;
 }
 
-template LoadPositions load_positions(const PolarGrid<2>&, int);
-template LoadPositions load_positions(const PolarGrid<3>&, int);
-template LoadPositions load_positions_without_images(const PolarGrid<2>&, int);
-template LoadPositions load_positions_without_images(const PolarGrid<3>&, int);
+template LoadPositions load_positions(const PolarGrid<2>&, int, double);
+template LoadPositions load_positions(const PolarGrid<3>&, int, double);
+template LoadPositions load_positions_without_images(const PolarGrid<2>&, int, double);
+template LoadPositions load_positions_without_images(const PolarGrid<3>&, int, double);
 
 }  // namespace wheelwright

@@ -13,6 +13,7 @@ namespace wheelwright {
 struct GroundPosition {
   int column;
   double offset = 0;  ///< 0 <= offset < 1
+  double camber = 0;  ///< by which the wheel leans on it; when dim = 3 [rad]
 
   /// Azimuth of n_y [rad].
   template <int dim>
@@ -43,11 +44,11 @@ std::vector<double> of_all(const LoadPositions& positions, const std::vector<dou
 
 /// n positions that divide one sector evenly, the first at azimuth 0.
 template <int dim>
-LoadPositions load_positions(const PolarGrid<dim>& grid, int n);
+LoadPositions load_positions(const PolarGrid<dim>& grid, int n, double camber = 0);
 
 /// Representatives: only the first of each pair that are mirror images in the plane of azimuth 0. It
 /// represents both.
 template <int dim>
-LoadPositions load_positions_without_images(const PolarGrid<dim>& grid, int n);
+LoadPositions load_positions_without_images(const PolarGrid<dim>& grid, int n, double camber = 0);
 
 }  // namespace wheelwright

@@ -44,7 +44,11 @@ struct RollingModel {
   TreadGrid tread;              ///< rows that are condensed once per run, and their refinement
   double load;                  ///< P [N/m when dim = 2, N when dim = 3]
   double horizontal_force = 0;  ///< H on the rim, towards larger azimuth; if not 0, it moves along the ground
-  double torque = 0;            ///< M on the rim about the axle; if not 0, it turns
+  double lateral_force =
+      0;  ///< on the rim along the axle, towards larger z; if not 0, it moves; when dim = 3 [N]
+  double camber =
+      0;  ///< by which the wheel leans, its side at larger z nearer to the ground; when dim = 3 [rad]
+  double torque = 0;             ///< M on the rim about the axle; if not 0, it turns
   std::optional<double> travel;  ///< of the rim towards the ground [m], instead of the load
   DistributedLoads<dim> distributed;
   int n_positions = 8;  ///< N_d, load positions of one sector
@@ -59,5 +63,9 @@ RimControl rim_control(const RollingModel<dim>& model);
 /// Whether a model's loads are their own mirror image in the plane of a load position.
 template <int dim>
 bool is_mirror_symmetric(const RollingModel<dim>& model);
+
+/// Whether they are in the middle plane of the wheel's width; true when dim = 2.
+template <int dim>
+bool is_axially_symmetric(const RollingModel<dim>& model);
 
 }  // namespace wheelwright

@@ -108,7 +108,9 @@ class StateSolver {
   virtual Expected<TractionMap> neumann_to_dirichlet(DualNorm norm) const = 0;
 
   /// All load positions of a sector.
-  LoadPositions all_positions() const { return load_positions(model().grid, model().n_positions); }
+  LoadPositions all_positions() const {
+    return load_positions(model().grid, model().n_positions, model().camber);
+  }
 
   /// The positions that determine all others: one of each mirror-image pair, if the shape and its loads are
   /// their own mirror image.

@@ -10,6 +10,7 @@ namespace wheelwright {
   apply(sweep);                     \
   apply(analyze);                   \
   apply(compare);                   \
+  apply(watch);                     \
   apply(report);                    \
   apply(verify);                    \
   apply(export_);                   \

@@ -31,6 +31,7 @@ class ExploreCommand : public Subcommand {
     Signals signals;
     const auto c = read_or_tell(case_file_);
     if (!c) return exit_usage;
+    if (!is_plane_or_tell(name(), *c, case_file_)) return exit_refused;
     if (!may_compute(name(), *c, case_file_, options_.threads)) return exit_refused;
     plan_.seed = static_cast<std::uint64_t>(seed_);
     plan_.quantities = options_.chosen_quantities();

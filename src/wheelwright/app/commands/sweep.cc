@@ -50,6 +50,7 @@ class SweepCommand : public Subcommand {
     }
     const auto c = read_or_tell(case_file_);
     if (!c) return exit_usage;
+    if (!is_plane_or_tell(name(), *c, case_file_)) return exit_refused;
     const auto designs = sweep_designs(*c, case_file_, keys);
     if (!designs) {
       tell("wheelwright {}: {}\n", name(), designs.failure().text);

@@ -1,0 +1,111 @@
+/// How many trial shapes the optimizer needs, rejected ones included: runs a case from several starts whose
+/// holes differ in their radii by 1e-6 to 1e-5, and prints for every start the trials to 1 % and to 0.1 % of
+/// a given best objective, and what it ends with; then the medians. usage: optimizer_trials CASE BEST [TRIALS
+/// [STARTS]]
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "wheelwright/wheelwright.h"
+
+namespace wheelwright::bench {
+namespace {
+
+/// The same case with holes whose radii differ by a part of 1e-5.
+Case with_radii_changed(Case c, int start, int starts) {
+  const double factor = start == 0 ? 1 : 1 + 1e-6 + 9e-6 * (start - 1) / std::max(starts - 2, 1);
+  for (auto& ring : c.holes.rings) ring.radius *= factor;
+  return c;
+}
+
+/// The trials of a run.
+struct Course {
+  std::vector<double> objectives;  ///< of every trial; NaN where there is none
+  std::vector<bool> accepted;
+  StopReason reason;
+
+  int trials() const { return static_cast<int>(objectives.size()) - 1; }
+  double best() const {
+    double best = objectives.front();
+    for (size_t k = 0; k < objectives.size(); ++k)
+      if (accepted[k]) best = std::min(best, objectives[k]);
+    return best;
+  }
+  /// Trials after the initial shape until one is accepted with at most this objective; more than all: never.
+  int trials_to(double objective) const {
+    for (size_t k = 0; k < objectives.size(); ++k)
+      if (accepted[k] && objectives[k] <= objective) return static_cast<int>(k);
+    return 9999;
+  }
+};
+
+Expected<Course> course(const Case& c, int most_trials, bool tells) {
+  const auto study = make_study<2>(c);
+  if (!study) return study.failure();
+  Course result{};
+  const auto observe = [&](const Trial<2>& trial, const OptimizationState<2>& state) {
+    result.objectives.push_back(trial.evaluation ? trial.evaluation->function("objective").value
+                                                 : std::numeric_limits<double>::quiet_NaN());
+    result.accepted.push_back(trial.verdict == Verdict::accepted);
+    if (tells)
+      fmt::print("{:4} {:4} {:12.6f} step {:.4f} next {:.4f} pairs {} {}\n", result.trials(), trial.iteration,
+                 result.objectives.back(), trial.step, state.step, state.memory.pairs.size(),
+                 trial.failure ? to_string(trial.failure->reason) : to_string(trial.verdict));
+  };
+  const auto optimizer = optimizer_of(*study);
+  auto state = optimizer.start(study->initial, observe);
+  if (!state) return state.failure();
+  result.reason = optimizer.run(*state, observe, [&] { return result.trials() >= most_trials; });
+  return result;
+}
+
+template <class Value>
+Value median(std::vector<Value> values) {
+  std::ranges::sort(values);
+  return values[values.size() / 2];
+}
+
+std::string count_text(int trials) { return trials == 9999 ? "-" : std::to_string(trials); }
+
+int run(const std::string& path, double best, int most_trials, int starts) {
+  const auto read = read_case(path);
+  for (const auto& problem : read.problems) fmt::print(stderr, "{}\n", problem.text());
+  if (!read.value) return 2;
+  std::vector<int> to_percent, to_tenth;
+  std::vector<double> ends;
+  for (int start = 0; start < starts; ++start) {
+    const auto found = course(with_radii_changed(*read.value, start, starts), most_trials, starts == 1);
+    if (!found) {
+      fmt::print(stderr, "{}\n", found.failure().detail);
+      return 1;
+    }
+    to_percent.push_back(found->trials_to(1.01 * best));
+    to_tenth.push_back(found->trials_to(1.001 * best));
+    ends.push_back(found->best());
+    fmt::print("start {}: {:>4} trials to 1 %, {:>4} to 0.1 %; best {:.4f} of {} trials, {} rejected ({})\n",
+               start, count_text(to_percent.back()), count_text(to_tenth.back()), ends.back(),
+               found->trials(), std::ranges::count(found->accepted, false), to_string(found->reason));
+    std::fflush(stdout);
+  }
+  fmt::print("median:  {:>4}             {:>4}            {:.4f}\n", count_text(median(to_percent)),
+             count_text(median(to_tenth)), median(ends));
+  return 0;
+}
+
+}  // namespace
+}  // namespace wheelwright::bench
+
+int main(int count, char** arguments) {
+  wheelwright::restart_with_blas_settings(arguments);
+  if (count < 3) {
+    fmt::print(stderr, "usage: {} CASE BEST [TRIALS [STARTS]]\n", arguments[0]);
+    return 2;
+  }
+  return wheelwright::bench::run(arguments[1], std::atof(arguments[2]),
+                                 count > 3 ? std::atoi(arguments[3]) : 40,
+                                 count > 4 ? std::atoi(arguments[4]) : 7);
+}

@@ -1,0 +1,116 @@
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <iterator>
+#include <thread>
+
+#include "wheelwright/app/case_input.h"
+#include "wheelwright/app/commands/commands.h"
+#include "wheelwright/app/exit_code.h"
+#include "wheelwright/app/open_browser.h"
+#include "wheelwright/app/run_messages.h"
+#include "wheelwright/app/shared_options.h"
+#include "wheelwright/app/terminal.h"
+#include "wheelwright/app/terminal_observer.h"
+#include "wheelwright/run/command_log.h"
+#include "wheelwright/server/local_server.h"
+#include "wheelwright/watch/session.h"
+
+namespace wheelwright {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Whether standard output is a file of a disk, which keeps what is printed.
+bool is_kept(int descriptor) {
+  struct stat status {};
+  return ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
+}
+
+std::string content(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+class WatchCommand : public Subcommand {
+ public:
+  WatchCommand()
+      : Subcommand("watch",
+                   "Optimize a case while a page in the browser shows the wheel and steers the run") {}
+
+  void declare(Options& options) override {
+    options.argument("WHEEL", input_, not_empty,
+                     "A case file to begin with, or the folder of a run to go on with");
+    add_output(options, output_, "Folder for the results, instead of the case's output.folder");
+    options.number("--port", port_, {0, 65535}, "Port of the page on this machine; 0: any that is free");
+    options.flag("--no-browser", no_browser_, "Only print the address of the page");
+    options.text("--replay", "FILE", replay_, not_empty,
+                 "Give the run the commands of a commands.jsonl again, without a page");
+    add_threads(options, threads_);
+  }
+
+  int run() override {
+    Signals signals;
+    const bool is_run = fs::is_directory(input_);
+    const fs::path case_file = is_run ? fs::path(input_) / "case.toml" : fs::path(input_);
+    auto c = read_or_tell(case_file);
+    if (!c) return exit_usage;
+    if (!may_compute(name(), *c, case_file, threads_)) return exit_refused;
+    const fs::path folder = is_run ? fs::path(input_) : fs::path(output_.value_or(c->output.folder));
+    auto run = is_run ? Run<2>::resume(*c, folder) : Run<2>::begin(watched_case(*c), folder);
+    if (!run) return report_not_begun<2>(run.failure(), folder);
+    if (is_run) report_resumption(run->resumption(), folder);
+    run->add(std::make_unique<TerminalObserver<2>>());
+    commands_.add_source([&signals] { return signals.next_command(); });
+    return replay_ ? replay(*run, signals) : serve(*run, signals);
+  }
+
+ private:
+  int serve(Run<2>& run, const Signals& signals) {
+    WatchSession session(commands_);
+    session.watch(run);
+    const LocalServer server(session.routes(), port_);
+    const AddressFile address(server.address());
+    tell_address(server, address);
+    const auto result = run.execute(commands_, AtEnd::wait);
+    session.close();
+    return report_result(result, run.folder(), signals);
+  }
+
+  void tell_address(const LocalServer& server, const AddressFile& address) const {
+    if (is_kept(STDOUT_FILENO))
+      print("the page is at http://127.0.0.1:{}/; open {} to enter\n", server.port(),
+            address.path().string());
+    else
+      print("{}\n", server.address());
+    std::fflush(stdout);
+    if (!no_browser_) std::thread([file = address.path()] { open_browser(file); }).detach();
+  }
+
+  int replay(Run<2>& run, const Signals& signals) {
+    auto log = parse_command_log(content(*replay_));
+    if (!log) {
+      tell("{}: {}\n", *replay_, log.failure().reason);
+      return exit_usage;
+    }
+    auto replay = std::make_unique<CommandReplay<2>>(*std::move(log));
+    commands_.add_source(replay->source());
+    run.add(std::make_unique<CommandLog<2>>());
+    run.add(std::move(replay));
+    return report_result(run.execute(commands_, AtEnd::wait), run.folder(), signals);
+  }
+
+  std::string input_;
+  std::optional<std::string> output_, replay_;
+  int port_ = 0;
+  bool no_browser_ = false;
+  std::optional<int> threads_;
+  CommandQueue commands_;
+};
+
+}  // namespace
+
+std::unique_ptr<Subcommand> make_watch() { return std::make_unique<WatchCommand>(); }
+
+}  // namespace wheelwright

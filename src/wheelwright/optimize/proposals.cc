@@ -1,0 +1,26 @@
+#include "wheelwright/optimize/proposals.h"
+
+#include "wheelwright/optimize/descent.h"
+#include "wheelwright/optimize/sequential_quadratic.h"
+
+namespace wheelwright {
+
+template <int dim>
+Expected<std::unique_ptr<Proposals<dim>>> proposals_from(const Evolver<dim>& evolver,
+                                                         const OptimizerOptions& options,
+                                                         const OptimizationState<dim>& state) {
+  if (options.method == Method::sequential_quadratic)
+    return std::unique_ptr<Proposals<dim>>(
+        std::make_unique<SequentialQuadraticProposals<dim>>(evolver, options, state));
+  auto velocity = descent_velocity(evolver, options, state);
+  if (!velocity) return velocity.failure();
+  return std::unique_ptr<Proposals<dim>>(
+      std::make_unique<DescentProposals<dim>>(evolver, options, state, *std::move(velocity)));
+}
+
+template Expected<std::unique_ptr<Proposals<2>>> proposals_from(const Evolver<2>&, const OptimizerOptions&,
+                                                                const OptimizationState<2>&);
+template Expected<std::unique_ptr<Proposals<3>>> proposals_from(const Evolver<3>&, const OptimizerOptions&,
+                                                                const OptimizationState<3>&);
+
+}  // namespace wheelwright

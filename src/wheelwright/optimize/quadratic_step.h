@@ -1,0 +1,50 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "wheelwright/linalg/dense.h"
+
+namespace wheelwright {
+
+/// A linearized constraint on a step d: gap + sign (a, d) <= 0, or = 0 for an equality.
+struct LinearConstraint {
+  int vector;   ///< a in the span
+  double sign;  ///< 1 or -1
+  double gap;   ///< at d = 0: how far the constraint is violated; negative: how far it is from that
+  bool is_equality;
+  /// What a unit of violation costs in the merit function; infinite: the constraint is met at any cost. A
+  /// multiplier that reaches it says that the constraint is relaxed.
+  double penalty = std::numeric_limits<double>::infinity();
+};
+
+/// The model (g, d) + (d, B d) / 2 + sum penalty * violation of a merit function, and the constraints, in the
+/// span of some vectors of an inner product space, in this order: g, others that constraints name, then from
+/// first_move on the moves and the changes of the n_pairs pairs that make B (curvature_memory.h).
+struct QuadraticModel {
+  Matrix products;
+  std::vector<LinearConstraint> constraints;
+  int first_move;
+  int n_pairs;
+};
+
+/// The minimum of a model with shift |d|^2 / 2 added.
+struct QuadraticStep {
+  std::vector<double> coefficients;  ///< of d
+  std::vector<double> multipliers;   ///< of the constraints; those of inequalities are >= 0
+  double shift;
+  double slope;     ///< (g, d)
+  double decrease;  ///< of the model (without the shift) from d = 0; infinite penalties do not count
+  std::vector<double> violations;  ///< of the linearized constraints after the step
+  bool is_feasible;                ///< false: the constraints with infinite penalties contradict each other
+};
+
+QuadraticStep quadratic_step(const QuadraticModel& model, double shift);
+
+/// The step with the smallest shift for which length(d) <= radius; up to 3 % below it. Where constraints of
+/// infinite penalty do not allow one, the shortest.
+QuadraticStep trust_region_step(const QuadraticModel& model, double radius,
+                                const std::function<double(const std::vector<double>&)>& length);
+
+}  // namespace wheelwright

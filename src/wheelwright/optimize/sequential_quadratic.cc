@@ -1,0 +1,280 @@
+#include "wheelwright/optimize/sequential_quadratic.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "wheelwright/evolution/multilinear.h"
+
+namespace wheelwright {
+namespace {
+
+using Nodal = std::vector<double>;
+
+double largest_magnitude(const Nodal& values) {
+  double largest = 0;
+  for (double v : values) largest = std::max(largest, std::abs(v));
+  return largest;
+}
+
+void add(double factor, const Nodal& a, Nodal& to) {
+  for (size_t i = 0; i < to.size(); ++i) to[i] += factor * a[i];
+}
+
+Nodal combination(const std::vector<double>& coefficients, const std::vector<Nodal>& vectors) {
+  Nodal sum(vectors.front().size(), 0.0);
+  for (size_t i = 0; i < vectors.size(); ++i) add(coefficients[i], vectors[i], sum);
+  return sum;
+}
+
+/// Of a nodal field at the points of the boundary.
+template <int dim>
+std::vector<double> boundary_values(const Lattice<dim>& lattice,
+                                    const std::vector<SurfacePoint<dim>>& boundary, const Nodal& field) {
+  std::vector<double> values;
+  for (const auto& point : boundary)
+    values.push_back(interpolate(node_weights<dim>(lattice, point.cell, point.xi), field));
+  return values;
+}
+
+double product(const Nodal& load, const Nodal& velocity) {
+  return std::inner_product(load.begin(), load.end(), velocity.begin(), 0.0);
+}
+
+/// The derivative with this density, as a load.
+template <int dim>
+Nodal load_of(const Lattice<dim>& lattice, const Evaluation<dim>& evaluation,
+              const std::vector<double>& density, double factor, const std::vector<bool>& held) {
+  std::vector<SurfaceSample<dim>> samples;
+  for (size_t i = 0; i < density.size(); ++i)
+    if (!held[i]) samples.push_back({evaluation.boundary[i], factor * density[i]});
+  return boundary_load<dim>(lattice, samples);
+}
+
+/// The derivatives of the objective, of the measure, and of the constraints.
+template <int dim>
+std::vector<Nodal> loads(const Lattice<dim>& lattice, const Evaluation<dim>& evaluation,
+                         const std::string& objective, const std::vector<BoundConstraint>& constraints,
+                         const std::vector<bool>& held) {
+  std::vector<Nodal> result{
+      load_of(lattice, evaluation, evaluation.function(objective).gradient, 1, held),
+      load_of(lattice, evaluation, std::vector<double>(evaluation.boundary.size(), 1.0), 1, held)};
+  for (const auto& c : constraints)
+    result.push_back(
+        load_of(lattice, evaluation, evaluation.functions[c.function].gradient, 1 / c.scale, held));
+  return result;
+}
+
+}  // namespace
+
+/// What steps are combined from: the representatives of the derivatives, then moves and changes of the pairs;
+/// each as a velocity and as a load.
+template <int dim>
+struct SequentialQuadraticProposals<dim>::Span {
+  std::vector<Nodal> velocities, loads;
+  int first_move, n_pairs;
+
+  Matrix products() const {
+    const int n = static_cast<int>(loads.size());
+    Matrix result(n, n);
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i <= j; ++i) result(i, j) = result(j, i) = product(loads[i], velocities[j]);
+    return result;
+  }
+
+  Nodal velocity(const std::vector<double>& coefficients) const {
+    return combination(coefficients, velocities);
+  }
+};
+
+template <int dim>
+SequentialQuadraticProposals<dim>::SequentialQuadraticProposals(const Evolver<dim>& evolver,
+                                                                const OptimizerOptions& options,
+                                                                const OptimizationState<dim>& state)
+    : evolver_(evolver),
+      options_(options),
+      state_(state),
+      constraints_(bound_constraints(state.evaluation)) {}
+
+template <int dim>
+typename SequentialQuadraticProposals<dim>::Span SequentialQuadraticProposals<dim>::span_in(
+    const std::vector<bool>& held) const {
+  const auto& space = evolver_.velocities();
+  Span span{.velocities = {},
+            .loads = loads(state_.shape.lattice, state_.evaluation, options_.objective, constraints_, held),
+            .first_move = 0,
+            .n_pairs = static_cast<int>(state_.memory.pairs.size())};
+  span.first_move = static_cast<int>(span.loads.size());
+  for (auto& load : span.loads) {
+    load = space.restricted(load);
+    span.velocities.push_back(space.representative(load));
+  }
+  for (const auto& pair : state_.memory.pairs) {
+    span.velocities.push_back(space.restricted(pair.move));
+    span.loads.push_back(space.load(pair.move));
+  }
+  for (const auto& pair : state_.memory.pairs) {
+    span.loads.push_back(space.restricted(pair.change));
+    span.velocities.push_back(space.representative(pair.change));
+  }
+  return span;
+}
+
+/// Points of the boundary that would move into a band stand still: the move is sought without them.
+template <int dim>
+Expected<Move<dim>> SequentialQuadraticProposals<dim>::move(double step) const {
+  const auto& boundary = state_.evaluation.boundary;
+  auto move = move_with(std::vector<bool>(boundary.size(), false), step);
+  const auto held = evolver_.held_by_bands(boundary, move.velocity);
+  if (std::ranges::any_of(held, [](bool h) { return h; })) {
+    move = move_with(held, step);
+    evolver_.hold(boundary, held, move.velocity);
+  }
+  if (!std::isfinite(move.step)) return Failure{FailureReason::not_finite, "the velocity"};
+  return move;
+}
+
+template <int dim>
+Move<dim> SequentialQuadraticProposals<dim>::move_with(const std::vector<bool>& held, double step) const {
+  const double measure = next_measure(options_, state_, step);
+  const Span span = span_in(held);
+  auto penalties = this->penalties();
+  const auto found = step_in(span, state_.measure - measure, step, penalties);
+  Move<dim> move{.velocity = span.velocity(found.coefficients),
+                 .distance = 0,
+                 .step = 0,
+                 .radius = step,
+                 .measure = measure,
+                 .objective_change = found.slope,
+                 .model_decrease = found.decrease,
+                 .multipliers = found.multipliers,
+                 .penalties = penalties};
+  const double resolution = state_.shape.lattice.grid().resolution();
+  move.distance = largest_magnitude(move.velocity) / resolution;
+  move.step =
+      largest_magnitude(boundary_values(state_.shape.lattice, state_.evaluation.boundary, move.velocity)) /
+      resolution;
+  return move;
+}
+
+/// Raises penalties until the linearized violation falls by at least half of what it could fall by.
+template <int dim>
+QuadraticStep SequentialQuadraticProposals<dim>::step_in(const Span& span, double gap, double step,
+                                                         std::vector<double>& penalties) const {
+  constexpr double raise = 4, beyond = 1e6, enough = 0.5, small = 1e-9;
+  constexpr int most_raises = 10;
+  QuadraticModel model{
+      .products = span.products(), .constraints = {}, .first_move = span.first_move, .n_pairs = span.n_pairs};
+  if (options_.measure_control == MeasureControl::exact && model.products(1, 1) > 0)
+    model.constraints.push_back({.vector = 1, .sign = 1, .gap = gap, .is_equality = true});
+  const size_t first = model.constraints.size();
+  for (size_t i = 0; i < constraints_.size(); ++i)
+    model.constraints.push_back({.vector = static_cast<int>(2 + i),
+                                 .sign = constraints_[i].sign,
+                                 .gap = constraints_[i].gap,
+                                 .is_equality = constraints_[i].is_equality});
+  std::vector<std::vector<double>> at_boundary;
+  for (const auto& velocity : span.velocities)
+    at_boundary.push_back(boundary_values(state_.shape.lattice, state_.evaluation.boundary, velocity));
+  const auto with = [&](double factor) {
+    for (size_t i = 0; i < penalties.size(); ++i)
+      model.constraints[first + i].penalty = factor * penalties[i];
+    return trust_region_step(
+        model, step * state_.shape.lattice.grid().resolution(),
+        [&](const std::vector<double>& d) { return largest_magnitude(combination(d, at_boundary)); });
+  };
+  const auto total = [&](const QuadraticStep& s) {
+    return std::accumulate(s.violations.begin() + static_cast<std::ptrdiff_t>(first), s.violations.end(),
+                           0.0);
+  };
+  double now = 0;
+  for (const auto& c : constraints_) now += c.violation();
+  auto found = with(1);
+  if (constraints_.empty() || total(found) <= small) return found;
+  const double least = total(with(beyond));
+  for (int k = 0; k < most_raises && now - total(found) < enough * (now - least) - small; ++k) {
+    for (size_t i = 0; i < penalties.size(); ++i)
+      if (found.violations[first + i] > 0) penalties[i] *= raise;
+    found = with(1);
+  }
+  return found;
+}
+
+/// At first such that a violation of one percent costs as much as one percent of the objective.
+template <int dim>
+std::vector<double> SequentialQuadraticProposals<dim>::penalties() const {
+  if (state_.memory.penalties.size() == constraints_.size()) return state_.memory.penalties;
+  return std::vector<double>(constraints_.size(),
+                             std::abs(state_.evaluation.function(options_.objective).value));
+}
+
+/// What the objective changes by for no reason: details of the cut cells.
+template <int dim>
+double SequentialQuadraticProposals<dim>::noise() const {
+  return options_.accepted_increase * std::abs(state_.evaluation.function(options_.objective).value);
+}
+
+template <int dim>
+bool SequentialQuadraticProposals<dim>::accepts(const Move<dim>& move,
+                                                const Evaluation<dim>& evaluation) const {
+  if (is_approaching(options_, state_)) return true;
+  const double objective = evaluation.function(options_.objective).value;
+  if (constraints_.empty()) return objective <= *std::ranges::min_element(state_.history) + noise();
+  const double before =
+      merit(state_.evaluation.function(options_.objective).value, constraints_, move.penalties);
+  return merit(objective, bound_constraints(evaluation), move.penalties) <= before + noise();
+}
+
+template <int dim>
+double SequentialQuadraticProposals<dim>::next_step(const Move<dim>& move,
+                                                    const Evaluation<dim>& evaluation) const {
+  constexpr double poor = 0.25, good = 0.75, shrink = 0.5, grow = 2, near = 0.8;
+  const double least = std::ldexp(options_.step, -options_.max_halvings);
+  const auto merit_of = [&](const Evaluation<dim>& e) {
+    return merit(e.function(options_.objective).value, bound_constraints(e), move.penalties);
+  };
+  const double quality =
+      (merit_of(state_.evaluation) - merit_of(evaluation) + noise()) / (move.model_decrease + noise());
+  double next = move.radius;
+  if (!is_approaching(options_, state_) && quality < poor)
+    next = shrink * move.step;
+  else if (quality > good && move.step >= near * move.radius)
+    next = grow * move.radius;
+  return std::clamp(next, least, options_.step);
+}
+
+/// The pair of the move and the change of the Lagrangian's derivative.
+template <int dim>
+StepMemory SequentialQuadraticProposals<dim>::remembered(const Move<dim>& move,
+                                                         const Evaluation<dim>& evaluation) const {
+  StepMemory memory = state_.memory;
+  memory.penalties = move.penalties;
+  memory.multipliers.assign(move.multipliers.end() - static_cast<std::ptrdiff_t>(constraints_.size()),
+                            move.multipliers.end());
+  const double unit = 1 / largest_magnitude(move.velocity);
+  CurvaturePair pair{move.velocity, Nodal(move.velocity.size(), 0.0)};
+  for (double& v : pair.move) v *= unit;
+  std::vector<double> weights{1.0};
+  if (move.multipliers.size() == constraints_.size()) weights.push_back(0);  // the measure is free
+  for (const double m : move.multipliers) weights.push_back(m);
+  for (size_t i = 0; i < constraints_.size(); ++i) weights[2 + i] *= constraints_[i].sign;
+  const auto add_loads = [&](double factor, const Evaluation<dim>& e) {
+    const auto derivatives = loads(state_.shape.lattice, e, options_.objective, constraints_,
+                                   std::vector<bool>(e.boundary.size(), false));
+    for (size_t i = 0; i < derivatives.size(); ++i) add(factor * weights[i], derivatives[i], pair.change);
+  };
+  add_loads(unit, evaluation);
+  add_loads(-unit, state_.evaluation);
+  const auto& space = evolver_.velocities();
+  pair.change = space.restricted(std::move(pair.change));
+  const double move_square = product(space.load(pair.move), pair.move),
+               move_change = product(pair.change, pair.move),
+               change_square = product(pair.change, space.representative(pair.change));
+  remember(std::move(pair), move_square, move_change, change_square, memory.pairs);
+  return memory;
+}
+
+template class SequentialQuadraticProposals<2>;
+template class SequentialQuadraticProposals<3>;
+
+}  // namespace wheelwright

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "wheelwright/optimize/constraints.h"
+#include "wheelwright/optimize/proposals.h"
+#include "wheelwright/optimize/quadratic_step.h"
+
+namespace wheelwright {
+
+/// Sequential quadratic steps with a trust region. A move V minimizes the model DJ(V) + (V, B V) / 2 of the
+/// merit function under the linearized measure and bounds of functions, where B is the L-BFGS matrix of the
+/// Lagrangian in the H1 inner product of velocities, and no point of the boundary moves farther than
+/// the step. The step shrinks
+/// where the model foretells badly, and grows where it foretells well. Bounds that cannot be met within a
+/// step are relaxed; their penalties grow until the step does about as much for them as one can.
+template <int dim>
+class SequentialQuadraticProposals final : public Proposals<dim> {
+ public:
+  SequentialQuadraticProposals(const Evolver<dim>& evolver, const OptimizerOptions& options,
+                               const OptimizationState<dim>& state);
+
+  Expected<Move<dim>> move(double step) const override;
+  bool accepts(const Move<dim>& move, const Evaluation<dim>& evaluation) const override;
+  double next_step(const Move<dim>& move, const Evaluation<dim>& evaluation) const override;
+  StepMemory remembered(const Move<dim>& move, const Evaluation<dim>& evaluation) const override;
+
+ private:
+  struct Span;
+
+  Span span_in(const std::vector<bool>& held) const;
+  Move<dim> move_with(const std::vector<bool>& held, double step) const;
+  QuadraticStep step_in(const Span& span, double gap, double step, std::vector<double>& penalties) const;
+  std::vector<double> penalties() const;
+  double noise() const;
+
+  const Evolver<dim>& evolver_;
+  const OptimizerOptions& options_;
+  const OptimizationState<dim>& state_;
+  std::vector<BoundConstraint> constraints_;
+};
+
+}  // namespace wheelwright

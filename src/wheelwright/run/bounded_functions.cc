@@ -1,0 +1,149 @@
+#include "wheelwright/run/bounded_functions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "wheelwright/case/derived.h"
+#include "wheelwright/evolution/volume.h"
+#include "wheelwright/functionals/material_volume.h"
+#include "wheelwright/functionals/quantity_functional.h"
+#include "wheelwright/functionals/uniformity_annulus.h"
+#include "wheelwright/functionals/uniformity_dual.h"
+#include "wheelwright/functionals/uniformity_l2.h"
+
+namespace wheelwright {
+namespace {
+
+template <int dim>
+using Pointer = std::shared_ptr<const Functional<dim>>;
+
+/// The quantity as one term; the uniformities are those of the objective, summed over the positions.
+template <int dim>
+Expected<WeightedFunctional<dim>> term(const Case& c, const StateSolver<dim>& solver, Quantity quantity,
+                                       Over over) {
+  switch (quantity) {
+    case Quantity::volume_fraction:
+      return WeightedFunctional<dim>{1 / sector_measure<dim>(solver.model().grid),
+                                     std::make_shared<MaterialVolume<dim>>()};
+    case Quantity::uniformity_annulus:
+      return WeightedFunctional<dim>{1, std::make_shared<UniformityAnnulus<dim>>(characteristic_length(c))};
+    case Quantity::uniformity_l2:
+      return WeightedFunctional<dim>{1, std::make_shared<UniformityL2<dim>>(characteristic_length(c))};
+    case Quantity::uniformity_dual: {
+      auto map = solver.neumann_to_dirichlet(c.objective.dual_norm);
+      if (!map) return map.failure();
+      return WeightedFunctional<dim>{1, std::make_shared<UniformityDual<dim>>(*std::move(map))};
+    }
+    default:
+      return WeightedFunctional<dim>{
+          1, quantity_functional<dim>(quantity, over, {.density = c.material.density.value_or(0)})};
+  }
+}
+
+/// Whether the quantity has a value of its own in every load position.
+bool is_by_position(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::strain_energy:
+    case Quantity::mean_travel:
+    case Quantity::travel:
+    case Quantity::radial_force:
+    case Quantity::stiffness:
+    case Quantity::tangential_stiffness:
+    case Quantity::torsional_stiffness:
+    case Quantity::peak_pressure:
+    case Quantity::peak_von_mises:
+    case Quantity::peak_von_mises_inside:
+      return true;
+    default:
+      return false;
+  }
+}
+
+Bounds bounds(const Constraint& c) {
+  Bounds result;
+  if (c.at_least) result.lower = *c.at_least;
+  if (c.at_most) result.upper = *c.at_most;
+  if (c.equals) result.lower = result.upper = *c.equals;
+  return result;
+}
+
+/// For every bound of its own the weights of the positions: one position, or the mean of it and its image.
+std::vector<std::vector<double>> single_positions(int n, bool are_images_alike) {
+  std::vector<std::vector<double>> weights;
+  for (int i = 0; i < n; ++i) {
+    const int image = are_images_alike ? (n - i) % n : i;
+    if (image < i) continue;
+    weights.emplace_back(n, 0.0);
+    weights.back()[i] += 0.5;
+    weights.back()[image] += 0.5;
+  }
+  return weights;
+}
+
+template <int dim>
+void add_named(ShapeFunction<dim> function, std::vector<ShapeFunction<dim>>& functions) {
+  const std::string name = function.name;
+  const auto is_there = [&] {
+    return std::ranges::find(functions, function.name, &ShapeFunction<dim>::name) != functions.end();
+  };
+  for (int k = 2; is_there(); ++k) function.name = fmt::format("{} {}", name, k);
+  functions.push_back(std::move(function));
+}
+
+}  // namespace
+
+template <int dim>
+Expected<WeightedSum<dim>> minimized_terms(const Case& c, const StateSolver<dim>& solver) {
+  const Over over = c.objective.over == OverPositions::worst ? Over::greatest : Over::mean;
+  auto only = term(c, solver, c.objective.minimize, over);
+  if (!only) return only.failure();
+  return WeightedSum<dim>{*std::move(only)};
+}
+
+template <int dim>
+Expected<std::vector<ShapeFunction<dim>>> bounded_functions(const Case& c, const StateSolver<dim>& solver,
+                                                            const LevelSet<dim>& initial) {
+  std::vector<ShapeFunction<dim>> functions;
+  for (const Constraint& constraint : c.constraints) {
+    const std::string name(wheelwright::name(constraint.quantity));
+    const bool is_each = constraint.over == OverPositions::each && is_by_position(constraint.quantity);
+    const bool is_worst = constraint.over == OverPositions::worst && is_by_position(constraint.quantity);
+    const Over over = is_each    ? Over::positions
+                      : is_worst ? (constraint.at_most ? Over::greatest : Over::least)
+                                 : Over::mean;
+    auto only = term(c, solver, constraint.quantity, over);
+    if (!only) return only.failure();
+    const ShapeFunction<dim> function{
+        .name = is_worst ? name + " worst" : name, .terms = {*std::move(only)}, .bounds = bounds(constraint)};
+    if (!is_each) {
+      add_named(function, functions);
+      continue;
+    }
+    const int n = solver.model().n_positions;
+    const bool are_images_alike = solver.distinct_positions(initial).stand_for_images();
+    int position = 0;
+    for (const auto& weights : single_positions(n, are_images_alike)) {
+      ShapeFunction<dim> at = function;
+      at.name = fmt::format("{} at {}", name, position++);
+      at.position_weights = weights;
+      add_named(std::move(at), functions);
+    }
+  }
+  return functions;
+}
+
+Quantity quantity_of(std::string_view function_name) {
+  const auto word = function_name.substr(0, function_name.find(' '));
+  return static_cast<Quantity>(std::ranges::find(quantity_names, word) - quantity_names.begin());
+}
+
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                                         \
+  template Expected<WeightedSum<dim>> minimized_terms(const Case&, const StateSolver<dim>&);                 \
+  template Expected<std::vector<ShapeFunction<dim>>> bounded_functions(const Case&, const StateSolver<dim>&, \
+                                                                       const LevelSet<dim>&);
+WHEELWRIGHT_INSTANTIATE(2)
+WHEELWRIGHT_INSTANTIATE(3)
+#undef WHEELWRIGHT_INSTANTIATE
+
+}  // namespace wheelwright

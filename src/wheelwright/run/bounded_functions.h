@@ -1,0 +1,24 @@
+#pragma once
+
+#include "wheelwright/base/quantity.h"
+#include "wheelwright/case/case.h"
+#include "wheelwright/functionals/shape_function.h"
+
+namespace wheelwright {
+
+/// The terms of what a case minimizes in place of its weighted sum. Fails as the operators of the solver do.
+template <int dim>
+Expected<WeightedSum<dim>> minimized_terms(const Case& c, const StateSolver<dim>& solver);
+
+/// The functions that a case bounds: one for each constraint, or one per load position. Their names are that
+/// of the quantity, then which positions they are about where that is not the mean, and a number where a name
+/// is there already. `initial`: tells whether the wheel is its own mirror image, so that a position and its
+/// image share a bound. Fails as the operators of the solver do.
+template <int dim>
+Expected<std::vector<ShapeFunction<dim>>> bounded_functions(const Case& c, const StateSolver<dim>& solver,
+                                                            const LevelSet<dim>& initial);
+
+/// The quantity that a function with such a name is about.
+Quantity quantity_of(std::string_view function_name);
+
+}  // namespace wheelwright

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "wheelwright/run/command.h"
+
+namespace wheelwright {
+
+/// A command as one line of JSON, which reads back to the same command. A Custom command is only named.
+std::string command_json(const Command& command);
+
+/// A command from JSON, or what is wrong with the text. Numbers must be finite, a path has at most
+/// most_path_points points, and no other keys are taken. Whether a run obeys is another question.
+Expected<Command, Refusal> parse_command(std::string_view json);
+
+inline constexpr std::size_t most_path_points = 500;
+
+}  // namespace wheelwright

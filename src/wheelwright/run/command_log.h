@@ -1,0 +1,81 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "wheelwright/run/command_queue.h"
+#include "wheelwright/run/observer.h"
+
+namespace wheelwright {
+
+/// The file of a run's folder with the commands that it obeyed, one line each.
+inline constexpr const char* command_log_file = "commands.jsonl";
+
+/// When a run obeyed a command: after how many trials of its own, not of commands, and after how often it had
+/// waited for commands. A run of the same case that is given the same commands at the same moments makes the
+/// same shapes.
+struct Moment {
+  int trials = 0, waits = 0;
+  auto operator<=>(const Moment&) const = default;
+};
+
+struct LoggedCommand {
+  Moment moment;
+  Command command;
+};
+
+/// Counts the moments of a run by its events.
+class MomentCounter {
+ public:
+  template <int dim>
+  void count(const Event<dim>& event) {
+    if (std::holds_alternative<CaseChanged>(event) || std::holds_alternative<ShapeReplaced>(event))
+      is_of_command_ = true;
+    if (std::holds_alternative<TrialDone<dim>>(event) && !std::exchange(is_of_command_, false)) ++now_.trials;
+    if (std::holds_alternative<RunWaits>(event)) ++now_.waits;
+  }
+  const Moment& now() const { return now_; }
+
+ private:
+  Moment now_;
+  bool is_of_command_ = false;  ///< the next trial
+};
+
+std::string log_line(const LoggedCommand& logged);
+
+/// The commands of a log, or what is wrong with it. A last line that a kill cut off is left out.
+Expected<std::vector<LoggedCommand>, Refusal> parse_command_log(std::string_view text);
+
+/// Writes the log: each command that was obeyed, on the disk's way before the next one.
+template <int dim>
+class CommandLog : public Observer<dim> {
+ public:
+  void operator()(const Event<dim>& event, const RunView<dim>& run) override;
+
+ private:
+  MomentCounter moments_;
+};
+
+/// Gives a run the commands of a log at their moments, and Stop when all are obeyed and the run waits. As an
+/// observer it counts; its source of commands goes into the run's queue.
+template <int dim>
+class CommandReplay : public Observer<dim> {
+ public:
+  explicit CommandReplay(std::vector<LoggedCommand> log);
+
+  void operator()(const Event<dim>& event, const RunView<dim>& run) override;
+  CommandQueue::Source source() const;
+
+ private:
+  struct Progress {
+    std::vector<LoggedCommand> log;
+    std::size_t given = 0;
+    MomentCounter moments = {};
+    bool is_waiting = false, is_stopped = false;
+  };
+  std::shared_ptr<Progress> progress_;
+};
+
+}  // namespace wheelwright

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace wheelwright {
+
+/// What a page asks for.
+struct PageRequest {
+  std::map<std::string, std::string> parameters;  ///< of the address, decoded
+  std::string body;
+};
+
+/// What it gets.
+struct PageAnswer {
+  int status = 200;
+  std::string type = "application/json";
+  std::string body;
+};
+
+/// One address that a server answers. There are no others: no part of an address is ever a file's name.
+struct Route {
+  enum class Method { get, post };
+  enum class Access {
+    open,   ///< the page itself and its scripts, which are the same for everyone
+    token,  ///< the request must carry the server's token
+  };
+  Method method;
+  Access access;
+  std::string path;
+  /// Called by any thread, several at a time.
+  std::function<PageAnswer(const PageRequest&)> answer;
+};
+
+/// What one client can make the server hold or wait for. A connection that goes beyond is closed.
+struct ServerLimits {
+  int connections = 32;                          ///< at a time
+  std::size_t request_bytes = 1 << 18;           ///< first line, headers and body
+  std::chrono::milliseconds request_time{5000};  ///< from a request's first byte to its last
+  std::chrono::milliseconds idle_time{30000};    ///< between two requests
+  std::chrono::milliseconds answer_time{30000};  ///< for the client to take an answer
+};
+
+/// Answers HTTP on the loopback interface, for pages of its own alone: connections of other users of the
+/// machine are closed (where the system says whose they are), the Host must be the server's own address and
+/// so must an Origin, and what is not open needs the token.
+class LocalServer {
+ public:
+  /// Listens at a port of 127.0.0.1, 0 for any that is free. Throws std::system_error where it cannot.
+  LocalServer(std::vector<Route> routes, int port, const ServerLimits& limits = {});
+  LocalServer(const LocalServer&) = delete;
+  LocalServer& operator=(const LocalServer&) = delete;
+  /// Closes all connections; answers that are being made are finished if that takes less than a second.
+  ~LocalServer();
+
+  int port() const;
+  /// 256 random bits as text.
+  const std::string& token() const;
+  /// http://127.0.0.1:PORT/#TOKEN: a browser keeps to itself what stands behind the #.
+  std::string address() const;
+
+ private:
+  class Http;
+  std::unique_ptr<Http> http_;
+};
+
+}  // namespace wheelwright

@@ -1,0 +1,62 @@
+#include "wheelwright/watch/board.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "wheelwright/evolution/volume.h"
+
+namespace wheelwright {
+namespace {
+
+/// A page draws no more of a curve.
+constexpr std::size_t most_points = 4000;
+
+double measure_named(const WatchedShape& shape, std::string_view name) {
+  const auto found = std::ranges::find(shape.measures, name, &MeasureValue::name);
+  return found == shape.measures.end() ? std::nan("") : found->value;
+}
+
+}  // namespace
+
+void Board::show(std::shared_ptr<const WatchedShape> shape) {
+  CurvePoint point{.version = 0,
+                   .shape = shape->number,
+                   .objective = shape->objective,
+                   .mean_travel = measure_named(*shape, name(Quantity::mean_travel)),
+                   .run_out = measure_named(*shape, name(Quantity::run_out)),
+                   .volume_fraction = shape->measure / sector_measure<2>(shape->psi.lattice.grid())};
+  update([&](BoardView& view) {
+    if (!view.first) view.first = shape;
+    view.shape = std::move(shape);
+    point.version = view.version + 1;
+    curve_.push_back(point);
+    if (curve_.size() > most_points) curve_.pop_front();
+  });
+}
+
+BoardView Board::view() const {
+  const std::scoped_lock lock(mutex_);
+  return view_;
+}
+
+BoardView Board::view_after(long version, std::chrono::milliseconds patience) const {
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, patience, [&] { return is_closed_ || view_.version > version; });
+  return view_;
+}
+
+std::vector<CurvePoint> Board::curve_after(long version) const {
+  const std::scoped_lock lock(mutex_);
+  const auto first = std::ranges::upper_bound(curve_, version, {}, &CurvePoint::version);
+  return {first, curve_.end()};
+}
+
+void Board::close() {
+  {
+    const std::scoped_lock lock(mutex_);
+    is_closed_ = true;
+  }
+  changed_.notify_all();
+}
+
+}  // namespace wheelwright

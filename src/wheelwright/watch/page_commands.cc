@@ -1,0 +1,47 @@
+#include "wheelwright/watch/page_commands.h"
+
+#include <algorithm>
+
+namespace wheelwright {
+
+bool PageCommands::is_for_pages(const Command& command) {
+  return !std::holds_alternative<Save>(command) && !std::holds_alternative<Stop>(command) &&
+         !std::holds_alternative<Custom>(command);
+}
+
+std::optional<long> PageCommands::give(Command command) {
+  constexpr long most_waiting = 32;
+  const std::scoped_lock lock(mutex_);
+  if (given_ - done_ >= most_waiting) return {};
+  queue_.push(std::move(command));
+  return ++given_;
+}
+
+std::optional<PageCommands::Answer> PageCommands::answer(long ticket, std::chrono::milliseconds patience) {
+  std::unique_lock lock(mutex_);
+  answered_.wait_for(lock, patience, [&] { return is_closed_ || done_ >= ticket; });
+  const auto found = std::ranges::find(answers_, ticket, &Answer::ticket);
+  if (found == answers_.end()) return {};
+  return *found;
+}
+
+void PageCommands::note(const CommandDone& done) {
+  constexpr std::size_t most_answers = 256;
+  if (!done.command || !is_for_pages(*done.command)) return;
+  {
+    const std::scoped_lock lock(mutex_);
+    answers_.push_back({++done_, done.was_obeyed, done.text});
+    if (answers_.size() > most_answers) answers_.pop_front();
+  }
+  answered_.notify_all();
+}
+
+void PageCommands::close() {
+  {
+    const std::scoped_lock lock(mutex_);
+    is_closed_ = true;
+  }
+  answered_.notify_all();
+}
+
+}  // namespace wheelwright

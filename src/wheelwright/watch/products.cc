@@ -1,0 +1,115 @@
+#include "wheelwright/watch/products.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "wheelwright/cad/check_outline.h"
+#include "wheelwright/cad/fit_outline.h"
+#include "wheelwright/case/load_saved_shape.h"
+#include "wheelwright/case/write.h"
+#include "wheelwright/cut/measure.h"
+#include "wheelwright/evolution/volume.h"
+#include "wheelwright/export/formats.h"
+#include "wheelwright/files/atomic_file.h"
+#include "wheelwright/files/level_set_file.h"
+#include "wheelwright/page/report_run.h"
+#include "wheelwright/report/described_wheel.h"
+#include "wheelwright/report/solution_fields.h"
+#include "wheelwright/run/provenance.h"
+#include "wheelwright/run/run_files.h"
+#include "wheelwright/run/run_report.h"
+#include "wheelwright/run/run_title.h"
+
+namespace wheelwright {
+namespace {
+
+double volume_share(const LevelSet<2>& psi, double measure) {
+  return measure / sector_measure<2>(psi.lattice.grid());
+}
+
+NoProduct no_product(const Failure& failure) {
+  return {fmt::format("{}: {}", to_string(failure.reason), failure.detail)};
+}
+
+NoProduct no_product(const std::vector<cad::OutlineFault>& faults) {
+  return {fmt::format("the outline cannot be exported: {}", faults.front().what)};
+}
+
+}  // namespace
+
+std::string loaded_wheel(const WatchedShape& shape) {
+  return loaded_wheel_json(shape.psi, all_position_fields(*shape.solver, *shape.solution));
+}
+
+Expected<std::string, NoProduct> exported(const WatchedShape& shape, std::string_view name) {
+  constexpr double tolerance = 1e-5;
+  const ExportFormat* format = find_export_format(name);
+  if (!format || !format->of_plane) return NoProduct{"there is no such format for a plane wheel"};
+  auto outline = cad::fit_outline(shape.psi, tolerance);
+  if (!outline) return no_product({outline.failure()});
+  const auto report = cad::check_outline(*outline, shape.psi, tolerance);
+  if (!report) return no_product(report.failure());
+  const WheelModel wheel{.title = fmt::format("{}, shape {}", run_title(*shape.source), shape.number),
+                         .program = program_text(),
+                         .shape = shape.psi,
+                         .outline = *std::move(outline),
+                         .width = shape.source->wheel.width,
+                         .tolerance = tolerance};
+  try {
+    return format->of_plane(wheel);
+  } catch (const std::runtime_error& error) {
+    return NoProduct{error.what()};
+  }
+}
+
+Expected<std::string, NoProduct> design_report(const std::filesystem::path& folder,
+                                               const LevelSet<2>& initial, const WatchedShape& shape) {
+  const StateSolver<2>& solver = *shape.solver;
+  const auto first = solver.states(initial, solver.distinct_positions(initial), Interrupt());
+  if (!first) return no_product(first.failure());
+  const double measure = material_measure(initial);
+  const auto before = described_wheel(solver, initial, volume_share(initial, measure), **first),
+             after =
+                 described_wheel(solver, shape.psi, volume_share(shape.psi, shape.measure), *shape.solution);
+  if (!before) return no_product(before.failure());
+  if (!after) return no_product(after.failure());
+  double energy = 0;
+  for (const double value : of_all((*first)->positions(), (*first)->strain_energy())) energy += value;
+  const RunSummary<2> summary{.title = run_title(*shape.source),
+                              .before = {0, energy, *before},
+                              .after = {shape.number, shape.objective, *after}};
+  return report_page({page_run(report_of_results<2>(folder, *shape.source, summary,
+                                                    {&shape.psi, &solver, shape.solution.get()}, {}))});
+}
+
+bool is_design_name(std::string_view name) {
+  constexpr std::size_t most = 40;
+  return !name.empty() && name.size() <= most && std::ranges::all_of(name, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+  });
+}
+
+Expected<std::filesystem::path, NoProduct> save_design(const std::filesystem::path& folder,
+                                                       const std::string& name, const WatchedShape& shape) {
+  if (!is_design_name(name)) return NoProduct{"a name has 1 to 40 letters, digits, - and _"};
+  const std::filesystem::path designs = folder / designs_folder, file = designs / (name + ".toml"),
+                              level_set = designs / (name + ".levelset");
+  if (std::filesystem::exists(file) || std::filesystem::exists(level_set))
+    return NoProduct{fmt::format("{} is there already: choose another name", file.string())};
+  Case c = *shape.source;
+  c.holes = {};
+  c.shapes = {};
+  c.saved_shape = {.from = name + ".levelset", .checksum = {}, .shape = {}};
+  c.volume.target.reset();
+  c.optimizer.iterations = Optimizer{}.iterations;
+  c.output = Output{};
+  c.output.folder = "runs/" + name;
+  make_subfolder(designs);
+  write_atomically(level_set, level_set_file(shape.psi));
+  write_atomically(file, fmt::format("# {}\n\n{}", program_text(), to_toml(c)));
+  return file;
+}
+
+}  // namespace wheelwright

@@ -1,0 +1,143 @@
+#include "wheelwright/watch/session.h"
+
+#include <algorithm>
+#include <charconv>
+#include <nlohmann/json.hpp>
+
+#include "wheelwright/page/assets.h"
+#include "wheelwright/run/command_json.h"
+#include "wheelwright/run/command_log.h"
+#include "wheelwright/watch/board_observer.h"
+#include "wheelwright/watch/frame.h"
+#include "wheelwright/watch/products.h"
+
+namespace wheelwright {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// How long a page waits for news before it asks again.
+constexpr auto patience = 15s;
+
+/// A whole number of the address, at least 0; 0 where there is none.
+long parameter(const PageRequest& request, const std::string& name) {
+  const auto found = request.parameters.find(name);
+  if (found == request.parameters.end()) return 0;
+  long value = 0;
+  const std::string& text = found->second;
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return std::max(0L, value);
+}
+
+PageAnswer message(int status, bool was_obeyed, const std::string& text) {
+  const nlohmann::ordered_json json{{"obeyed", was_obeyed}, {"text", text}};
+  return {.status = status,
+          .body = json.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace)};
+}
+
+PageAnswer no_shape() { return message(409, false, "there is no shape yet"); }
+
+Route asset(std::string path, std::string type, std::string_view content) {
+  return {Route::Method::get, Route::Access::open, std::move(path),
+          [type = std::move(type), content](const PageRequest&) {
+            return PageAnswer{.type = type, .body = std::string(content)};
+          }};
+}
+
+}  // namespace
+
+Case watched_case(Case c) {
+  constexpr int no_end = 1'000'000;
+  constexpr double seconds_between_checkpoints = 5;
+  c.optimizer.iterations = no_end;
+  c.output.vtu_every = 0;
+  c.output.pictures_every = 0;
+  c.output.checkpoint_every = 0;
+  c.output.checkpoint_seconds = seconds_between_checkpoints;
+  c.expectations.clear();
+  return c;
+}
+
+WatchSession::WatchSession(CommandQueue& commands)
+    : board_(std::make_shared<Board>()), commands_(std::make_shared<PageCommands>(commands)) {}
+
+void WatchSession::watch(Run<2>& run) {
+  folder_ = run.folder();
+  run.add(std::make_unique<CommandLog<2>>());
+  run.add(std::make_unique<BoardObserver>(board_));
+  run.add(std::make_unique<PageCommandsObserver>(commands_));
+}
+
+std::vector<Route> WatchSession::routes() {
+  using enum Route::Method;
+  using enum Route::Access;
+  const std::string script = "text/javascript; charset=utf-8";
+  return {asset("/", "text/html; charset=utf-8", assets::watch_html),
+          asset("/page.css", "text/css; charset=utf-8", assets::report_css),
+          asset("/watch.css", "text/css; charset=utf-8", assets::watch_css),
+          asset("/chart.js", script, assets::chart_js),
+          asset("/parts.js", script, assets::parts_js),
+          asset("/watch.js", script, assets::watch_js),
+          {get, token, "/frame", [this](const PageRequest& request) { return frame(request); }},
+          {get, token, "/loaded", [this](const PageRequest&) { return loaded(); }},
+          {get, token, "/export", [this](const PageRequest& request) { return exported_file(request); }},
+          {get, token, "/report", [this](const PageRequest&) { return report(); }},
+          {post, token, "/save", [this](const PageRequest& request) { return save(request); }},
+          {post, token, "/command", [this](const PageRequest& request) { return command(request); }}};
+}
+
+void WatchSession::close() {
+  board_->close();
+  commands_->close();
+}
+
+PageAnswer WatchSession::frame(const PageRequest& request) const {
+  const FrameQuery query{.position = static_cast<int>(std::min(parameter(request, "position"), 1000L)),
+                         .wants_force_curve = parameter(request, "force_curve") > 0};
+  const BoardView view = board_->view_after(parameter(request, "after"), patience);
+  return {.body = frame_json(view, board_->curve_after(parameter(request, "curve")), query)};
+}
+
+PageAnswer WatchSession::command(const PageRequest& request) {
+  const auto parsed = parse_command(request.body);
+  if (!parsed) return message(400, false, parsed.failure().reason);
+  if (!PageCommands::is_for_pages(*parsed)) return message(400, false, "no command of a page");
+  const auto ticket = commands_->give(*parsed);
+  if (!ticket) return message(429, false, "too many commands are waiting");
+  const auto answer = commands_->answer(*ticket, patience);
+  if (!answer) return message(202, false, "not obeyed yet");
+  return message(200, answer->was_obeyed, answer->text);
+}
+
+PageAnswer WatchSession::loaded() const {
+  const BoardView view = board_->view();
+  if (!view.shape) return no_shape();
+  return {.body = loaded_wheel(*view.shape)};
+}
+
+PageAnswer WatchSession::exported_file(const PageRequest& request) const {
+  const BoardView view = board_->view();
+  const auto format = request.parameters.find("format");
+  if (!view.shape || format == request.parameters.end()) return no_shape();
+  const auto file = exported(*view.shape, format->second);
+  if (!file) return message(422, false, file.failure().reason);
+  return {.type = "application/octet-stream", .body = *file};
+}
+
+PageAnswer WatchSession::report() const {
+  const BoardView view = board_->view();
+  if (!view.shape) return no_shape();
+  const auto page = design_report(folder_, view.first->psi, *view.shape);
+  if (!page) return message(422, false, page.failure().reason);
+  return {.type = "application/octet-stream", .body = *page};
+}
+
+PageAnswer WatchSession::save(const PageRequest& request) const {
+  const BoardView view = board_->view();
+  if (!view.shape) return no_shape();
+  const auto file = save_design(folder_, request.body, *view.shape);
+  if (!file) return message(422, false, file.failure().reason);
+  return message(200, true, file->string());
+}
+
+}  // namespace wheelwright

@@ -1,0 +1,251 @@
+#include <cmath>
+#include <numbers>
+
+#include "tests/run_support.h"
+#include "wheelwright/case/read.h"
+#include "wheelwright/cut/measure.h"
+#include "wheelwright/drawing/parts.h"
+#include "wheelwright/geometry/contour.h"
+#include "wheelwright/run/command_json.h"
+#include "wheelwright/run/command_log.h"
+#include "wheelwright/run/command_queue.h"
+#include "wheelwright/run/run.h"
+
+// Commands that change the shape of a run, by exact areas and centres, and what is written of commands.
+
+namespace wheelwright::testing {
+namespace {
+
+using TheRun = Run<2>;
+using std::numbers::pi;
+
+// A wheel without mirror symmetry: the holes stand at a phase of their own.
+const std::string wheel = R"(
+[wheel]
+sectors = 5
+[load]
+positions = 2
+[[holes.ring]]
+count = 5
+center_radius = 0.262
+radius = 0.02
+phase = 0.35
+[grid]
+radial_cells = 14
+angular_cells = 130
+tread_levels = 0
+[optimizer]
+rim_band = 0.01
+tread_band = 0.02
+iterations = 3
+)";
+
+constexpr double centre_radius = 0.262, radius = 0.02, phase = 0.35;
+const Point hole_centre = polar(centre_radius, phase);
+
+Case the_case() { return *parse_case(wheel, "case.toml").value; }
+
+LevelSet<2> full_ring(const Lattice<2>& lattice) {
+  return {lattice, std::vector<double>(lattice.n_nodes(), -1)};
+}
+
+double area_of(const std::vector<Point>& corners) {
+  return std::abs(signed_area({ContourKind::free, {corners.begin(), corners.end()}}));
+}
+
+TEST(Strokes, AHoleTakesTheAreaOfItsDiscInEverySector) {
+  const LevelSet<2> ring = full_ring(initial_shape<2>(the_case()).lattice);
+  const double whole = material_measure(ring);
+  const Point at = polar(0.27, 0.9);
+  for (const double growth : {0.0, 0.005}) {
+    const Stroke stroke{{Fill::hole, {circle_outline(Affine::shift(at), radius)}}, growth};
+    const double r = radius + growth;
+    EXPECT_NEAR(whole - material_measure(with_stroke(ring, stroke)), pi * r * r, 2e-3 * pi * r * r);
+  }
+}
+
+TEST(Strokes, MaterialOverAHoleFillsItAndMoreChangesNothing) {
+  const LevelSet<2> psi = initial_shape<2>(the_case());
+  const Stroke disc{{Fill::material, {circle_outline(Affine::shift(hole_centre), 1.2 * radius)}}, 0};
+  const LevelSet<2> filled = with_stroke(psi, disc);
+  EXPECT_NEAR(material_measure(filled), material_measure(full_ring(psi.lattice)), 1e-12);
+  EXPECT_EQ(with_stroke(filled, disc).values, filled.values);
+  const Stroke elsewhere{{Fill::material, {circle_outline(Affine::shift(polar(0.23, 0.9)), 0.01)}}, 0};
+  EXPECT_NEAR(material_measure(with_stroke(psi, elsewhere)), material_measure(psi), 1e-12);
+}
+
+TEST(HoleContours, AreFoundByAnyPointOfTheHoleInAnySector) {
+  const LevelSet<2> psi = initial_shape<2>(the_case());
+  for (const double turn : {0.0, 2 * pi / 5, 6 * pi / 5}) {
+    const Point centre = Affine::rotation(turn).linear(hole_centre);
+    for (const Point& offset : {Point{0, 0}, Point{0.018, 0}, Point{-0.01, 0.015}}) {
+      const auto edge = hole_contour(psi, centre + offset);
+      ASSERT_FALSE(edge.empty());
+      EXPECT_NEAR(area_of(edge), pi * radius * radius, 3e-3 * pi * radius * radius);
+      EXPECT_LT(norm<2>(centroid(edge) - centre), 1e-5);
+    }
+    EXPECT_TRUE(hole_contour(psi, centre + Point{0.022, 0}).empty());
+  }
+  EXPECT_TRUE(hole_contour(psi, {0, 0}).empty());
+}
+
+class EditTest : public TemporaryFolder {
+ protected:
+  struct Seen {
+    std::vector<LevelSet<2>> shapes;
+    std::vector<double> measures, objectives;
+    std::vector<std::string> refused;
+  };
+
+  class Watcher : public Observer<2> {
+   public:
+    explicit Watcher(Seen& seen) : seen_(seen) {}
+    void operator()(const Event<2>& event, const RunView<2>&) override {
+      if (const auto* command = std::get_if<CommandDone>(&event); command && !command->was_obeyed)
+        seen_.refused.push_back(command->text);
+      const auto* done = std::get_if<TrialDone<2>>(&event);
+      if (!done || done->trial.verdict != Verdict::accepted) return;
+      seen_.shapes.push_back(done->state.shape);
+      seen_.measures.push_back(done->state.measure);
+      seen_.objectives.push_back(done->state.evaluation.function("objective").value);
+    }
+
+   private:
+    Seen& seen_;
+  };
+
+  /// What a paused run shows: its first shape, and then what each command made of it.
+  Seen after(const std::vector<Command>& commands) {
+    CommandQueue queue;
+    queue.push(Pause{});
+    for (const Command& command : commands) queue.push(command);
+    queue.push(Stop{});
+    auto run = TheRun::begin(the_case(), folder() / "run");
+    EXPECT_TRUE(run);
+    Seen seen;
+    run->add(std::make_unique<Watcher>(seen));
+    run->execute(queue);
+    return seen;
+  }
+};
+
+TEST_F(EditTest, AMovedHoleIsAsLargeAndWhereItWasMoved) {
+  const Point by{0.004, -0.006};
+  const Seen seen = after({MoveHole{.at = hole_centre, .by = by}});
+  ASSERT_EQ(seen.shapes.size(), 2U);
+  const auto edge = hole_contour(seen.shapes[1], hole_centre + by);
+  EXPECT_LT(norm<2>(centroid(edge) - (hole_centre + by)), 1e-4);
+  const double hole =
+      seen.shapes[0].lattice.grid().sector_angle() * (0.34 * 0.34 - 0.2 * 0.2) / 2 - seen.measures[0];
+  EXPECT_NEAR(seen.measures[1], seen.measures[0], 0.01 * hole);
+  EXPECT_NE(seen.objectives[1], seen.objectives[0]);
+}
+
+TEST_F(EditTest, AScaledHoleHasTheSquareOfTheAreaRoundItsCentre) {
+  const Seen seen = after({MoveHole{.at = hole_centre, .by = {}, .scale = 0.7}});
+  ASSERT_EQ(seen.shapes.size(), 2U);
+  const auto before = hole_contour(seen.shapes[0], hole_centre),
+             now = hole_contour(seen.shapes[1], hole_centre);
+  EXPECT_NEAR(area_of(now), 0.49 * area_of(before), 0.02 * area_of(before));
+  EXPECT_LT(norm<2>(centroid(now) - centroid(before)), 2e-4);
+}
+
+TEST_F(EditTest, PaintedHolesAndUndoAndReset) {
+  const Point at = polar(0.262, 0.95);
+  const Paint hole{.as = Fill::hole, .path = {at}, .radius = 0.015};
+  const Seen seen = after({hole, FillHole{at}, Undo{}, Undo{}, hole,
+                           MoveHole{.at = hole_centre, .by = {0.003, 0}}, Reset{}, Undo{}});
+  ASSERT_TRUE(seen.refused.empty()) << seen.refused.front();
+  ASSERT_EQ(seen.shapes.size(), 9U);
+  EXPECT_NEAR(seen.measures[0] - seen.measures[1], pi * 0.015 * 0.015, 0.02 * pi * 0.015 * 0.015);
+  EXPECT_NEAR(seen.measures[2], seen.measures[0], 1e-4 * seen.measures[0]);
+  EXPECT_EQ(seen.shapes[3].values, seen.shapes[1].values);
+  EXPECT_EQ(seen.objectives[3], seen.objectives[1]);
+  EXPECT_EQ(seen.shapes[4].values, seen.shapes[0].values);
+  EXPECT_EQ(seen.objectives[4], seen.objectives[0]);
+  EXPECT_EQ(seen.shapes[5].values, seen.shapes[1].values);
+  EXPECT_EQ(seen.shapes[7].values, seen.shapes[0].values);
+  EXPECT_EQ(seen.objectives[7], seen.objectives[0]);
+  EXPECT_EQ(seen.shapes[8].values, seen.shapes[6].values);
+}
+
+TEST_F(EditTest, WhatCannotBeIsRefusedAndChangesNothing) {
+  Paint cut{.as = Fill::hole, .path = {}, .radius = 0.012};  // all round the wheel
+  for (int k = 0; k <= 40; ++k) cut.path.push_back(polar(0.265, 2 * pi / 5 * k / 40));
+  const Seen seen = after({Undo{}, FillHole{polar(0.262, 0.95)}, MoveHole{.at = {}, .by = {}},
+                           MoveHole{.at = hole_centre, .by = {}, .scale = -1}, Paint{}, cut});
+  EXPECT_EQ(seen.refused.size(), 6U);
+  EXPECT_EQ(seen.shapes.size(), 1U);
+}
+
+TEST_F(EditTest, UndoBringsTheCaseBackToo) {
+  Load heavier = the_case().load;
+  heavier.force *= 1.5;
+  const Seen seen = after({NewLoad{heavier}, NewVolume{0.9}, Undo{}, Undo{}});
+  ASSERT_EQ(seen.objectives.size(), 5U);
+  EXPECT_GT(seen.objectives[1], 1.5 * seen.objectives[0]);
+  EXPECT_EQ(seen.objectives[3], seen.objectives[1]);
+  EXPECT_EQ(seen.objectives[4], seen.objectives[0]);
+}
+
+TEST(CommandJson, EveryCommandReadsBackTheSame) {
+  Load load = the_case().load;
+  load.travel = 0.1 + 0.2;
+  load.body_force = {1e-300, -1.0 / 3};
+  const std::vector<Command> commands{
+      Save{},
+      Stop{},
+      Pause{},
+      Continue{},
+      Step{},
+      Reset{},
+      Undo{},
+      NewWeights{.strain_energy = 0.1, .uniformity_dual = 1e5},
+      NewLoad{load},
+      NewVolume{2.0 / 3},
+      Paint{.as = Fill::material, .path = {{0.1, -0.2}, {1.0 / 7, 0.3}}, .radius = 0.01},
+      MoveHole{.at = {0.25, 1e-17}, .by = {-0.001, 0.002}, .scale = 0.9},
+      FillHole{.at = {0.25, -0.01}}};
+  EXPECT_EQ(commands.size() + 1, std::variant_size_v<Command>);  // all but Custom
+  for (const Command& command : commands) {
+    const std::string json = command_json(command);
+    const auto back = parse_command(json);
+    ASSERT_TRUE(back) << json;
+    EXPECT_EQ(back->index(), command.index());
+    EXPECT_EQ(command_json(*back), json);
+  }
+  EXPECT_EQ(std::get<NewLoad>(*parse_command(command_json(NewLoad{load}))).load, load);
+}
+
+TEST(CommandJson, WhatIsNoCommandIsRefused) {
+  for (const char* text :
+       {"", "[]", "{", "null", "{\"do\":1}", "{\"do\":\"bogus\"}", "{\"do\":\"custom\"}",
+        "{\"do\":\"pause\",\"x\":1}", "{\"do\":\"volume\"}", "{\"do\":\"volume\",\"target\":\"0.5\"}",
+        "{\"do\":\"volume\",\"target\":1e999}", "{\"do\":\"volume\",\"target\":null}",
+        "{\"do\":\"fill_hole\",\"at_m\":[1]}", "{\"do\":\"fill_hole\",\"at_m\":[1,2,3]}",
+        "{\"do\":\"paint\",\"as\":\"air\",\"path_m\":[],\"radius_m\":1}", "[[[[[[[[[[[[[[[["})
+    EXPECT_FALSE(parse_command(text)) << text;
+  Paint longest{
+      .as = Fill::hole, .path = std::vector<std::array<double, 2>>(most_path_points + 1), .radius = 1};
+  EXPECT_FALSE(parse_command(command_json(longest)));
+  longest.path.pop_back();
+  EXPECT_TRUE(parse_command(command_json(longest)));
+}
+
+TEST(CommandLogs, AreReadUpToALineThatAKillCutOff) {
+  const std::string lines =
+      log_line({{3, 0}, Pause{}}) + log_line({{3, 1}, Continue{}}) + log_line({{9, 1}, NewVolume{0.5}});
+  for (std::size_t size = 0; size <= lines.size(); ++size) {
+    const auto log = parse_command_log(lines.substr(0, size));
+    ASSERT_TRUE(log) << size;
+    EXPECT_EQ(static_cast<long>(log->size()),
+              std::count(lines.begin(), lines.begin() + static_cast<long>(size), '\n'));
+  }
+  EXPECT_EQ((*parse_command_log(lines)).back().moment, (Moment{9, 1}));
+  EXPECT_FALSE(parse_command_log(log_line({{3, 1}, Pause{}}) + log_line({{3, 0}, Pause{}})));
+  EXPECT_FALSE(parse_command_log("{\"trials\":-1,\"waits\":0,\"command\":{\"do\":\"pause\"}}\n"));
+  EXPECT_FALSE(parse_command_log("no line\n"));
+}
+
+}  // namespace
+}  // namespace wheelwright::testing

@@ -1,0 +1,506 @@
+"""Tests of the page of `wheelwright watch` in a browser. usage: watch_test.py PROGRAM, from the repository's top folder."""
+
+import http.client
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+try:
+    from selenium import webdriver
+    from selenium.webdriver.common.action_chains import ActionChains
+    from selenium.webdriver.common.by import By
+    from selenium.webdriver.common.keys import Keys
+except ImportError:
+    print("The tests of the page were skipped: they need chromium, chromium-driver and python3-selenium.")
+    sys.exit(77)
+
+program = sys.argv.pop(1)
+
+CASE = """
+title = '''</title><script>document.title = "broken out"</script>'''
+[wheel]
+sectors = 8
+[load]
+positions = 4
+[[holes.ring]]
+count = 8
+center_radius = 0.27
+radius = 0.03
+[grid]
+radial_cells = 8
+angular_cells = 96
+tread_levels = 0
+[optimizer]
+rim_band = 0.0175
+tread_band = 0.035
+"""
+
+
+class Watched:
+    """A run that is watched, without a browser."""
+
+    def __init__(self, *arguments):
+        environment = dict(os.environ, OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1")
+        self.process = subprocess.Popen([program, "watch", *map(str, arguments), "--no-browser", "--threads", "1"],
+                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment)
+        self.address = self.process.stdout.readline().strip()
+        self.base, self.token = self.address.split("/#")
+
+    def connect(self):
+        return http.client.HTTPConnection(self.base.removeprefix("http://"), timeout=60)
+
+    def get(self, path):
+        connection = self.connect()
+        connection.request("GET", path, headers={"Authorization": f"Bearer {self.token}"})
+        return connection.getresponse().read()
+
+    def frame(self, path="/frame?after=0"):
+        return json.loads(self.get(path))
+
+    def give(self, command):
+        connection = self.connect()
+        connection.request("POST", "/command", json.dumps(command), {"Authorization": f"Bearer {self.token}"})
+        return json.loads(connection.getresponse().read())
+
+    def wait(self, wanted):
+        version, until = 0, time.time() + 60
+        while time.time() < until:
+            frame = self.frame(f"/frame?after={version}")
+            if wanted(frame):
+                return frame
+            version = frame["version"]
+        raise TimeoutError
+
+    def end(self, number=signal.SIGINT):
+        if self.process.poll() is None:
+            self.process.send_signal(number)
+        output = self.process.communicate(timeout=60)
+        return self.process.returncode, *output
+
+
+class Page(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.temporary.cleanup)
+        cls.folder = Path(cls.temporary.name)
+        (cls.folder / "case.toml").write_text(CASE)
+        options = webdriver.ChromeOptions()
+        for argument in ("--headless=new", "--no-sandbox", "--enable-unsafe-swiftshader", "--window-size=1300,1600"):
+            options.add_argument(argument)
+        options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+        cls.browser = webdriver.Chrome(options=options)
+        cls.addClassCleanup(cls.browser.quit)
+
+    def setUp(self):
+        self.watched = Watched(self.folder / "case.toml", "--output", self.folder / self._testMethodName)
+        self.addCleanup(self.watched.end)
+        self.browser.get("about:blank")
+        self.browser.get_log("browser")
+        self.browser.get_log("performance")
+        self.browser.get(self.watched.address)
+        self.until(lambda: self.wheel("painted"))
+
+    def tearDown(self):
+        severe = [entry for entry in self.browser.get_log("browser") if entry["level"] == "SEVERE"]
+        self.assertEqual(severe, [])
+
+    def until(self, wanted, seconds=60):
+        end = time.time() + seconds
+        while True:
+            found = wanted()
+            if found or time.time() > end:
+                self.assertTrue(found)
+                return found
+            time.sleep(0.02)
+
+    def element(self, name):
+        return self.browser.find_element(By.ID, name)
+
+    def text(self, name):
+        return self.element(name).text
+
+    def type(self, name, text):
+        self.element(name).send_keys(Keys.CONTROL, "a", Keys.NULL, text, Keys.ENTER)
+
+    def wheel(self, name):
+        return self.element("wheel").get_attribute(f"data-{name}")
+
+    def picture(self):
+        return self.browser.execute_script("return document.getElementById('wheel').toDataURL()")
+
+    def settled(self):
+        self.until(lambda: "no better shape" in self.text("state"))
+
+    def paused(self):
+        """Pauses, also where the run waits because it settled."""
+        self.watched.give({"do": "pause"})
+        self.until(lambda: self.text("go") == "Go on")
+
+    def test_the_page_asks_nobody_else_and_shows_no_token(self):
+        self.settled()
+        self.assertEqual(self.browser.current_url, self.watched.base + "/")
+        self.assertNotIn(self.watched.token, self.browser.page_source)
+        messages = [json.loads(entry["message"])["message"] for entry in self.browser.get_log("performance")]
+        urls = {m["params"]["request"]["url"] for m in messages if m["method"] == "Network.requestWillBeSent"}
+        self.assertTrue(all(u.startswith((self.watched.base, "data:")) for u in urls), urls)
+        self.assertFalse([u for u in urls if self.watched.token in u])
+        self.assertNotEqual(self.browser.title, "broken out")
+
+    def test_the_token_is_in_no_process_list_and_no_log(self):
+        for folder in Path("/proc").glob("[0-9]*"):
+            try:
+                command = (folder / "cmdline").read_bytes().decode(errors="replace")
+            except OSError:
+                continue
+            self.assertNotIn(self.watched.token, command)
+        self.watched.give({"do": "pause"})
+        code, _, messages = self.watched.end()
+        self.assertEqual(code, 130)
+        self.assertNotIn(self.watched.token, messages)
+        for file in (self.folder / self._testMethodName).rglob("*"):
+            if file.is_file():
+                self.assertNotIn(self.watched.token.encode(), file.read_bytes(), file)
+
+    def test_the_wheel_improves_while_one_watches(self):
+        self.settled()
+        frame = self.watched.frame()
+        self.assertEqual(self.wheel("shape"), str(frame["shape"]))
+        self.assertEqual(self.text("number-shape"), str(frame["shape"]))
+        objective = [point[1] for point in frame["curve"]]
+        self.assertLess(objective[-1], 0.95 * objective[0])
+        self.assertAlmostEqual(float(self.text("number-objective").split()[0]), objective[-1], delta=1e-4 * objective[-1])
+        # The curves show the last shape too.
+        self.until(lambda: self.browser.execute_script(
+            "return Chart.getChart(document.querySelector('#charts canvas')).data.datasets[0].data.length") ==
+            len(objective))
+
+    def test_pause_step_and_go_on_by_mouse_and_keyboard(self):
+        self.settled()
+        self.paused()
+        self.element("reset").click()
+        self.until(lambda: self.element("undo").is_enabled())
+        at = int(self.watched.frame()["shape"])
+        for k, press in enumerate((lambda: self.element("step").click(),
+                                   lambda: self.element("step").send_keys(Keys.ENTER))):
+            press()
+            self.until(lambda k=k: self.wheel("shape") == str(at + k + 1))
+            self.until(lambda: "paused" in self.text("state"))
+        self.element("go").send_keys(Keys.SPACE)
+        self.settled()
+        self.assertGreater(int(self.wheel("shape")), at + 2)
+
+    def test_reset_and_undo(self):
+        self.settled()
+        first = self.watched.frame()["curve"][0]
+        last = self.watched.frame()
+        self.assertFalse(self.element("undo").is_enabled())
+        self.paused()
+        self.element("reset").click()
+        back = self.watched.wait(lambda f: f["can_undo"])
+        self.assertEqual(back["numbers"]["objective_J_per_m"], first[1])
+        self.until(lambda: self.element("undo").is_enabled())
+        initial = self.picture()
+        self.element("undo").click()
+        again = self.watched.wait(lambda f: not f["can_undo"])
+        self.assertEqual(again["outline"], last["outline"])
+        self.until(lambda: self.picture() != initial)
+        self.assertEqual(again["numbers"]["objective_J_per_m"], last["numbers"]["objective_J_per_m"])
+
+    def test_the_load_follows_its_slider_and_its_number(self):
+        self.settled()
+        before = self.watched.frame()
+        slider, number = self.element("force"), self.element("force-number")
+        slider.send_keys(Keys.ARROW_RIGHT)
+        wanted = float(number.get_attribute("value"))
+        self.assertGreater(wanted, before["settings"]["load"]["force_N"])
+        self.watched.wait(lambda f: f["settings"]["load"]["force_N"] == wanted)
+        self.type("force-number", "6000")
+        after = self.watched.wait(lambda f: f["settings"]["load"]["force_N"] == 6000)
+        self.assertGreater(after["numbers"]["mean_travel"], 1.5 * before["numbers"]["mean_travel"])
+        self.until(lambda: self.text("message").startswith("new load"))
+        self.type("force-number", "-5")
+        self.until(lambda: "refused" in self.element("message").get_attribute("class"))
+        self.assertIn("force", self.text("message"))
+        self.assertEqual(self.watched.frame()["settings"]["load"]["force_N"], 6000)
+
+    def test_volume_and_weights_follow_their_sliders(self):
+        self.settled()
+        self.type("volume-number", "88")
+        self.watched.wait(lambda f: abs(f["numbers"]["volume_fraction"] - 0.88) < 1e-6)
+        self.settled()
+        self.element("even").send_keys(Keys.END)
+        numbers = self.watched.wait(lambda f: f["settings"]["weights"]["uniformity_dual"] == 1e5)["numbers"]
+        weighted = numbers["strain_energy"] + 1e5 * numbers["uniformity_dual"]
+        self.assertAlmostEqual(numbers["objective_J_per_m"], weighted, delta=1e-9 * weighted)
+
+    def test_a_slider_that_is_dragged_does_not_lag(self):
+        self.settled()
+        slider = self.element("force")
+        ActionChains(self.browser).drag_and_drop_by_offset(slider, 60, 0).perform()
+        wanted = float(self.element("force-number").get_attribute("value"))
+        self.watched.wait(lambda f: f["settings"]["load"]["force_N"] == wanted)
+
+    def test_the_load_position_is_chosen(self):
+        self.settled()
+        pressure = "return JSON.stringify(Chart.getChart(document.querySelectorAll('#charts canvas')[2]).data.datasets[0].data)"
+        pressures = []
+        for position in range(3):
+            self.until(lambda p=position: self.browser.execute_script(
+                "return document.getElementById('position').value") == str(p))
+            pressures.append(self.until(lambda: next((drawn for drawn in [self.browser.execute_script(pressure)]
+                                                      if drawn not in pressures), None)))
+            self.element("position").send_keys(Keys.ARROW_RIGHT)
+
+    def test_two_pages_and_a_reload_see_the_same(self):
+        self.settled()
+        self.browser.refresh()
+        self.until(lambda: self.wheel("painted"))
+        shape = self.wheel("shape")
+        one = self.browser.current_window_handle
+        self.browser.switch_to.new_window("tab")
+        self.browser.get(self.watched.address)
+        self.until(lambda: self.wheel("painted"))
+        self.assertEqual(self.wheel("shape"), shape)
+        self.element("reset").click()
+        self.until(lambda: int(self.wheel("version")) > 0 and self.element("undo").is_enabled())
+        self.browser.close()
+        self.browser.switch_to.window(one)
+        self.until(lambda: self.element("undo").is_enabled())
+
+    def test_a_page_without_the_token_says_what_to_do(self):
+        self.browser.switch_to.new_window("tab")
+        self.browser.get(self.watched.base + "/")
+        self.until(lambda: "open the address" in self.text("state"))
+        self.assertEqual([e for e in self.browser.get_log("browser") if "401" not in e["message"]], [])
+        self.browser.close()
+        self.browser.switch_to.window(self.browser.window_handles[0])
+
+    def drag(self, start, end=None):
+        """The mouse on the wheel, from one place to another, in metres."""
+        unit, wheel = self.browser.execute_script(
+            "const w = document.getElementById('wheel'); return w.getBoundingClientRect().width * 0.47"), self.element("wheel")
+        unit /= self.watched.frame()["wheel"]["outer_radius_m"]
+        actions = ActionChains(self.browser, duration=20)
+        actions.move_to_element_with_offset(wheel, round(start[0] * unit), round(-start[1] * unit)).click_and_hold()
+        if end:
+            actions.move_by_offset(round((end[0] - start[0]) * unit), round(-(end[1] - start[1]) * unit))
+        actions.release().perform()
+
+    def changed(self, act):
+        """The volume before and after something that the user does to a paused wheel."""
+        before = self.watched.frame()
+        act()
+        after = self.watched.wait(lambda f: f["message"] != before["message"] or f["outline"] != before["outline"])
+        self.assertFalse(after["is_refusal"], after["message"])
+        self.until(lambda: int(self.wheel("version")) >= after["version"])
+        return before, self.watched.frame()
+
+    def test_holes_are_edited_by_mouse(self):
+        self.settled()
+        self.paused()
+        self.element("reset").click()
+        self.until(lambda: self.element("undo").is_enabled())
+        hole = (0.27 * 0.92387953, 0.27 * 0.38268343)
+        volume = lambda frames: [f["numbers"]["volume_fraction"] for f in frames]
+        picture = self.picture()
+        self.element("tool-move").click()
+        before, after = self.changed(lambda: self.drag(hole, (hole[0] + 0.012, hole[1] - 0.004)))
+        self.assertTrue(after["message"].startswith("the hole at"))
+        self.assertAlmostEqual(*volume((before, after)), delta=2e-3)
+        self.assertNotEqual(after["travel_m"], before["travel_m"])
+        self.assertNotEqual(self.picture(), picture)
+        self.element("undo").click()
+        self.watched.wait(lambda f: f["outline"] == before["outline"])
+        self.element("tool-resize").click()
+        first, second = volume(self.changed(lambda: self.drag((hole[0] + 0.02, hole[1]), (hole[0] + 0.01, hole[1]))))
+        self.assertGreater(second, first + 0.01)
+        self.element("tool-fill").click()
+        first, second = volume(self.changed(lambda: self.drag(hole)))
+        self.assertGreater(second, first)
+        between = (0.27, 0.0)
+        for tool, sign in (("add", -1), ("paint", 1), ("erase", -1)):
+            self.element(f"tool-{tool}").click()
+            first, second = volume(self.changed(lambda: self.drag(between, (between[0], between[1] + 0.015))))
+            self.assertGreater(sign * (second - first), 1e-3, tool)
+
+    def test_holes_are_edited_by_keyboard(self):
+        self.settled()
+        self.paused()
+        self.element("reset").click()
+        self.until(lambda: self.element("undo").is_enabled())
+        self.element("tool-look").send_keys(Keys.ARROW_RIGHT)
+        self.assertTrue(self.element("tool-move").is_selected())
+        wheel = self.element("wheel")
+        wheel.send_keys(Keys.ARROW_LEFT)  # the cross appears in the first hole
+        before, after = self.changed(
+            lambda: wheel.send_keys(Keys.ENTER, Keys.ARROW_DOWN, Keys.ARROW_DOWN, Keys.ENTER))
+        self.assertTrue(after["message"].startswith("the hole at"))
+        self.assertNotEqual(before["outline"], after["outline"])
+        version = self.watched.frame()["version"]
+        wheel.send_keys(Keys.ENTER, Keys.ARROW_UP, Keys.ESCAPE)
+        self.assertEqual(self.watched.frame()["version"], version)
+
+    def test_the_loaded_wheel_rolls(self):
+        self.settled()
+        self.element("load").click()
+        self.until(lambda: self.element("roll").is_enabled())
+        seen = set()
+        self.element("roll").send_keys(Keys.ENTER)
+        self.until(lambda: seen.add(self.browser.execute_script(
+            "return document.querySelector('#loaded-wheel canvas').toDataURL()")) or len(seen) >= 4)
+        self.assertEqual(self.element("roll").get_attribute("aria-pressed"), "true")
+        self.element("roll").click()
+        self.assertEqual(self.element("roll").get_attribute("aria-pressed"), "false")
+
+    def test_designs_are_taken_away(self):
+        self.settled()
+        self.element("name").send_keys(Keys.CONTROL, "a", Keys.NULL, "even-wheel")
+        self.element("save").click()
+        self.until(lambda: self.text("message").startswith("saved"))
+        self.element("save").click()
+        self.until(lambda: "already" in self.text("message"))
+        self.browser.get_log("browser")  # a refusal is an answer of its own status
+        self.element("export").send_keys(Keys.ENTER)
+        self.until(lambda: "even-wheel.step is downloaded" in self.text("message"))
+        self.element("report").click()
+        self.until(lambda: "even-wheel.html is downloaded" in self.text("message"))
+
+    def test_controls_have_names(self):
+        for control in self.browser.find_elements(By.CSS_SELECTOR, "input, select, button, canvas:not([aria-hidden])"):
+            self.assertTrue(control.accessible_name, control.get_attribute("outerHTML"))
+        self.assertEqual(self.browser.find_element(By.TAG_NAME, "html").get_attribute("lang"), "en")
+
+    def test_the_focus_reaches_every_control(self):
+        self.settled()
+        wanted = {e.get_attribute("id") for e in self.browser.find_elements(
+            By.CSS_SELECTOR, "input, select, button, [tabindex]") if e.is_enabled() and e.is_displayed()}
+        self.browser.execute_script("document.activeElement.blur()")
+        seen = set()
+        for _ in range(3 * len(wanted)):
+            ActionChains(self.browser).send_keys(Keys.TAB).perform()
+            seen.add(self.browser.switch_to.active_element.get_attribute("id"))
+        # Of a group of radio buttons the chosen one takes the focus.
+        radios = {e.get_attribute("id") for e in self.browser.find_elements(By.CSS_SELECTOR, "input[type=radio]")}
+        self.assertLessEqual(wanted - radios, seen)
+
+
+class Folder(unittest.TestCase):
+    """What a watched run leaves, without a browser."""
+
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(self.temporary.cleanup)
+        self.folder = Path(self.temporary.name)
+        (self.folder / "case.toml").write_text(CASE)
+
+    def watch(self, *arguments):
+        watched = Watched(*arguments)
+        self.addCleanup(watched.end)
+        return watched
+
+    def results(self, run):
+        """All files but locks, without times."""
+        found = {}
+        for file in sorted((self.folder / run).rglob("*")):
+            name = str(file.relative_to(self.folder / run))
+            if not file.is_file() or name == "run.lock" or name.startswith("checkpoints/"):
+                continue
+            content = file.read_text(errors="replace")
+            if name == "history.csv":
+                rows = [line.split(",") for line in content.splitlines()]
+                keep = [k for k, column in enumerate(rows[0]) if not column.endswith("[s]")]
+                content = "\n".join(",".join(row[k] for k in keep if k < len(row)) for row in rows)
+            if name == "report.html":
+                content = re.sub(r'"(name|seconds)":("[^"]*"|[-+.0-9e]+)', "", content)
+            found[name] = content
+        return found
+
+    def test_recorded_commands_give_the_same_bytes_without_a_page(self):
+        watched = self.watch(self.folder / "case.toml", "--output", self.folder / "first")
+        watched.wait(lambda f: f.get("shape", 0) >= 3)
+        load = {k: v for k, v in watched.frame()["settings"]["load"].items() if v is not None}
+        hole = [0.27 * 0.92387953, 0.27 * 0.38268343]
+        for command in ({"do": "load", **load, "force_N": 4000},
+                        {"do": "paint", "as": "material", "path_m": [hole], "radius_m": 0.01},
+                        {"do": "undo"}, {"do": "step"}, {"do": "volume", "target": 0.88},
+                        {"do": "move_hole", "at_m": hole, "by_m": [0.002, 0.001], "scale": 0.9},
+                        {"do": "continue"}):
+            answer = watched.give(command)
+            self.assertTrue(answer["obeyed"], (command, answer))
+            if command["do"] == "step":
+                watched.wait(lambda f: f["activity"] == "paused")
+        watched.wait(lambda f: f["activity"] == "settled")
+        self.assertTrue(watched.give({"do": "reset"})["obeyed"])
+        watched.wait(lambda f: f["activity"] == "settled")
+        self.assertEqual(watched.end()[0], 130)
+        log = self.folder / "first/commands.jsonl"
+        subprocess.run([program, "watch", self.folder / "case.toml", "--output", self.folder / "again", "--replay", log,
+                        "--threads", "1"], check=False, capture_output=True, timeout=300)
+        first, again = self.results("first"), self.results("again")
+        self.assertEqual(first.keys(), again.keys())
+        for name, content in first.items():
+            self.assertEqual(content, again[name], name)
+        self.assertEqual(len(first["commands.jsonl"].splitlines()), 9)
+
+    def test_a_saved_design_begins_with_the_same_numbers(self):
+        watched = self.watch(self.folder / "case.toml", "--output", self.folder / "run")
+        watched.wait(lambda f: f.get("shape", 0) >= 4)
+        watched.give({"do": "pause"})
+        hole = [0.27 * 0.92387953, 0.27 * 0.38268343]
+        self.assertTrue(watched.give({"do": "move_hole", "at_m": hole, "by_m": [0.001, 0.002], "scale": 1.1})["obeyed"])
+        shown = watched.frame()["numbers"]["objective_J_per_m"]
+        connection = watched.connect()
+        for name, status in (("a-design", 200), ("a-design", 422), ("../up", 422), ("", 422), ("x" * 41, 422)):
+            connection.request("POST", "/save", name, {"Authorization": f"Bearer {watched.token}"})
+            response = connection.getresponse()
+            response.read()
+            self.assertEqual(response.status, status, name)
+        case = self.folder / "run/designs/a-design.toml"
+        self.assertEqual({f.name for f in case.parent.iterdir()}, {"a-design.toml", "a-design.levelset"})
+        watched.end()
+        subprocess.run([program, "run", case, "--iterations", "0", "--output", self.folder / "from"], check=True,
+                       capture_output=True, timeout=300)
+        head, first = (line.split(",") for line in (self.folder / "from/history.csv").read_text().splitlines()[:2])
+        self.assertEqual(float(first[[k for k, c in enumerate(head) if c.startswith("objective")][0]]), shown)
+
+    def test_exports_are_what_the_command_writes(self):
+        watched = self.watch(self.folder / "case.toml", "--output", self.folder / "run")
+        watched.wait(lambda f: f["activity"] == "settled")
+        dxf, report = watched.get("/export?format=dxf"), watched.get("/report")
+        self.assertEqual(json.loads(watched.get("/export?format=/etc/passwd"))["obeyed"], False)
+        watched.end()
+        subprocess.run([program, "export", self.folder / "run", "--format", "dxf", "--output", self.folder / "files"],
+                       check=True, capture_output=True, timeout=300)
+        lines = [line for line in dxf.decode().splitlines()]
+        written = (self.folder / "files/run.dxf").read_text().splitlines()
+        self.assertEqual(len(lines), len(written))
+        self.assertLess(sum(a != b for a, b in zip(lines, written)), 3)  # the title
+        self.assertIn(b"<!DOCTYPE html>", report)
+
+    def test_a_killed_run_goes_on(self):
+        watched = self.watch(self.folder / "case.toml", "--output", self.folder / "run")
+        watched.wait(lambda f: f["activity"] == "settled")
+        load = {k: v for k, v in watched.frame()["settings"]["load"].items() if v is not None}
+        self.assertTrue(watched.give({"do": "pause"})["obeyed"])
+        self.assertTrue(watched.give({"do": "load", **load, "force_N": 4000})["obeyed"])
+        hole = [0.27 * 0.92387953, 0.27 * 0.38268343]
+        self.assertTrue(watched.give({"do": "paint", "as": "hole", "path_m": [hole], "radius_m": 0.032})["obeyed"])
+        before = watched.frame()
+        watched.end(signal.SIGKILL)
+        again = self.watch(self.folder / "run")
+        again.wait(lambda f: f["activity"] in ("computing", "settled"))
+        first = again.frame()
+        self.assertEqual(first["settings"]["load"]["force_N"], 4000)
+        self.assertGreaterEqual(first["shape"], before["shape"])
+
+
+if __name__ == "__main__":
+    unittest.main()
