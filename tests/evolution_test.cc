@@ -465,7 +465,7 @@ TEST(ProtectedBands, ChangeNoShapeThatRespectsThem) {
 
 TEST(ProtectedBands, StopTheBoundaryThatWouldGoIntoThem) {
   const auto lattice = lattice_of(2);
-  const Evolver<2> evolver(lattice, {{ExtensionKind::h1, 2}, 0, {{0.04, 1}, {0.01, 1}}});
+  const Evolver<2> evolver(lattice, {{ExtensionKind::h1, 2}, 0, {{0.04, 1}, {0.01, 1}}, {}});
   const auto psi = evolver.keep_bands(make_level_set<2>(lattice, one_hole));
   auto gradient = boundary_samples<2>(psi);
   const ProtectedBands<2> bands(lattice, {{0.04, 1}, {0.01, 1}});
@@ -482,7 +482,7 @@ TEST(ProtectedBands, StopTheBoundaryThatWouldGoIntoThem) {
 
 TEST(Evolver3D, MovesAShapeAndRestoresItsMeasure) {
   const Lattice<3> lattice({0.20, 0.34, 0.12, 16, {10, 8, 3}}, 1);
-  const Evolver<3> evolver(lattice, {{ExtensionKind::h1, 2}, 0.1, {{0.014, 1}, {0.014, 1}}});
+  const Evolver<3> evolver(lattice, {{ExtensionKind::h1, 2}, 0.1, {{0.014, 1}, {0.014, 1}}, {}});
   const auto psi = make_level_set<3>(lattice, one_hole);
   auto gradient = boundary_samples<3>(psi);
   double area = 0;

@@ -40,7 +40,7 @@ class BadValue : public ::testing::TestWithParam<double> {};
 
 TEST_P(BadValue, InTheGradientFailsTheVelocity) {
   for (ExtensionKind kind : {ExtensionKind::h1, ExtensionKind::harmonic}) {
-    const Evolver<2> evolver(lattice, {{kind, 2}, 0, {{0.01, 1}, {0.02, 1}}});
+    const Evolver<2> evolver(lattice, {{kind, 2}, 0, {{0.01, 1}, {0.02, 1}}, {}});
     auto gradient = some_gradient(one_hole());
     gradient[3].value = GetParam();
     expect_not_finite(evolver.velocity(gradient));

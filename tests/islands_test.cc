@@ -130,7 +130,7 @@ TEST(Changes, NameWhatTheGridOfACaseCannotHold) {
 }
 
 TEST(Changes, NameTheHoleThatComesToABand) {
-  const Evolver<2> evolver(Lattice<2>(grid, 2), {{}, 0, {{0.01, 1}, {0.02, 1}}});
+  const Evolver<2> evolver(Lattice<2>(grid, 2), {{}, 0, {{0.01, 1}, {0.02, 1}}, {}});
   const auto shape = [&](double centre_radius, double radius) {
     return evolver.keep_bands(
         make_level_set<2>(Lattice<2>(grid, 2), std::vector<Circle>{{centre_radius, 0.3 * sector, radius}}));

@@ -64,7 +64,7 @@ Evaluation<2> evaluate_bowl(const LevelSet<2>& psi) {
 
 Expected<Evaluation<2>> bowl_objective(const LevelSet<2>& psi) { return evaluate_bowl(psi); }
 
-const EvolutionOptions evolution{{ExtensionKind::h1, 2}, 0.04, {{0.005, 1}, {0.005, 1}}};
+const EvolutionOptions evolution{{ExtensionKind::h1, 2}, 0.04, {{0.005, 1}, {0.005, 1}}, {}};
 
 LevelSet<2> displaced_hole() {
   return make_level_set<2>(lattice, std::vector<Circle>{{0.262, std::numbers::pi / 16 + 0.04, 0.02}});

@@ -49,7 +49,9 @@ Case uneven_case() {
                  .smoothing = 0.067,
                  .smooth_every = 9,
                  .rim_band = 0.0123,
-                 .tread_band = 0.0345};
+                 .tread_band = 0.0345,
+                 .minimum_wall = 0.0111,
+                 .minimum_gap = 0.0222};
   return c;
 }
 
@@ -144,6 +146,8 @@ TEST(LoopOfACase, HasItsOptions) {
   EXPECT_EQ(evolution.smoothing, 0.067);
   EXPECT_EQ(evolution.bands.rim.thickness, 0.0123);
   EXPECT_EQ(evolution.bands.tread.thickness, 0.0345);
+  EXPECT_EQ(evolution.features.wall, 0.0111);
+  EXPECT_EQ(evolution.features.gap, 0.0222);
 
   c.optimizer.velocity = VelocityKind::h1;
   c.volume = {.control = VolumeControl::paper, .target = {}};
