@@ -217,8 +217,7 @@ TEST(SequentialQuadratic, KeepsABoundWithItsMultiplier) {
       Bounds bounds{.lower = bound};
       if (is_equality) bounds.upper = bound;
       const ShapeOptimizer<2> optimizer(
-          lattice, evolution, options,
-          wheelwright::testing::objective_of_shape<2>(bowl_with_bounds(bounds)));
+          lattice, evolution, options, wheelwright::testing::objective_of_shape<2>(bowl_with_bounds(bounds)));
       const auto outcome = optimize<2>(optimizer, displaced_hole(), Record().observer(), never);
       const auto states = bound_states(outcome.state->evaluation, outcome.state->memory.multipliers);
       ASSERT_EQ(states.size(), 1u);
@@ -238,9 +237,8 @@ TEST(SequentialQuadratic, SaysWhenABoundIsNotActiveAndWhenNoneCanBeKept) {
   options.method = Method::sequential_quadratic;
   options.iterations = 15;
   const auto end = [&](Bounds bounds) {
-    const ShapeOptimizer<2> optimizer(
-        lattice, evolution, options,
-        wheelwright::testing::objective_of_shape<2>(bowl_with_bounds(bounds)));
+    const ShapeOptimizer<2> optimizer(lattice, evolution, options,
+                                      wheelwright::testing::objective_of_shape<2>(bowl_with_bounds(bounds)));
     const auto outcome = optimize<2>(optimizer, displaced_hole(), Record().observer(), never);
     return bound_states(outcome.state->evaluation, outcome.state->memory.multipliers).front();
   };

@@ -294,28 +294,29 @@ TEST(Csv, NumbersReadBackExactly) {
 }
 
 HistoryRow history_row() {
-  return {3,
-          1,
-          true,
-          "",
-          0.1,
-          {{"strain_energy", 1.0 / 3, {}}},
-          {{"run_out", 2e-4}},
-          0.75,
-          0.002,
-          4e5,
-          6,
-          {{"factor", 0.25}},
-          0.5,
-          9};
+  return {.iteration = 3,
+          .trial = 1,
+          .accepted = true,
+          .reason = "",
+          .objective = 0.1,
+          .terms = {{"strain_energy", 1.0 / 3, {}}},
+          .measures = {{"run_out", 2e-4}},
+          .volume_fraction = 0.75,
+          .step = 0.002,
+          .max_velocity = 4e5,
+          .max_newton_iterations = 6,
+          .phases = {{"factor", 0.25}},
+          .trial_seconds = 0.5,
+          .elapsed_seconds = 9};
 }
 
 class HistoryFile : public OutputFolder {};
 
 TEST_F(HistoryFile, EveryRowIsOnDiskAndHasTheColumnsOfTheHeader) {
-  History history(
-      folder / "history.csv",
-      {"J/m", {{"strain_energy", "J/m"}, {"uniformity", "Pa2.m"}}, {{"run_out", "m"}}, {"factor"}});
+  History history(folder / "history.csv", {.objective_unit = "J/m",
+                                           .terms = {{"strain_energy", "J/m"}, {"uniformity", "Pa2.m"}},
+                                           .measures = {{"run_out", "m"}},
+                                           .phases = {"factor"}});
   HistoryRow eventful = history_row();
   eventful.events = {"split, twice", "gone"};
   history.add(eventful);

@@ -67,8 +67,7 @@ void TerminalObserver<dim>::note_bounds(const OptimizationState<dim>& state) {
   if (state.iteration == 0)
     for (const BoundState& bound : bounds)
       if (!bound.is_kept()) progress_.note("the initial shape does not keep a bound: " + bound.text());
-  if (are_kept && !were_kept_)
-    progress_.note(fmt::format("shape {}: all bounds are kept", state.iteration));
+  if (are_kept && !were_kept_) progress_.note(fmt::format("shape {}: all bounds are kept", state.iteration));
   were_kept_ = are_kept;
 }
 

@@ -168,11 +168,12 @@ class Search {
     for (const EdgePoint& point : points_) reach_ = std::max(reach_, 2 * norm<2>(point.position));
   }
 
-  std::optional<Clearance> thinnest_wall() const { return thinnest_neck(circles(1)); }
+  std::optional<Clearance> thinnest_wall() const {
+    return thinnest_neck(circles(1, [](LoopKind) { return true; }));
+  }
 
   std::optional<Clearance> narrowest_gap() const {
-    auto in_holes = circles(-1);
-    std::erase_if(in_holes, [&](const Circle& c) { return kind(c) != LoopKind::hole; });
+    const auto in_holes = circles(-1, [](LoopKind kind) { return kind == LoopKind::hole; });
     auto gap = thinnest_neck(in_holes);
     for (const Circle& circle : widest_of_each_hole(in_holes)) {
       const Circle widest = widened(circle);
@@ -189,25 +190,30 @@ class Search {
     Vec<2> at, centre;
   };
 
-  LoopKind kind(const Circle& circle) const { return outline_.loops[points_[circle.point].place.loop].kind; }
-
   /// The circle at a point, `point` being the nearest of those that were walked along; nothing if it touches
-  /// no other point. `side`: 1 in the material, -1 in the voids.
-  std::optional<Circle> circle_at(const EdgePoint& p, int point, double side) const {
+  /// no other point. `side`: 1 in the material, -1 in the voids. `likely`: a radius like that of a neighbour;
+  /// it saves the search among far points.
+  std::optional<Circle> circle_at(const EdgePoint& p, int point, double side, double likely) const {
+    constexpr double growth = 1.25;
     const Vec<2> n{side * p.normal[0], side * p.normal[1]};
-    const auto [radius, touched] = touching_circle(edges_, p.position, n, reach_);
+    auto circle = touching_circle(edges_, p.position, n, std::min(growth * likely, reach_));
+    if (circle.touched < 0) circle = touching_circle(edges_, p.position, n, reach_);
+    const auto [radius, touched] = circle;
     if (touched < 0) return {};
     return Circle{point,      touched,
                   radius,     distance(p.position, points_[touched].position),
                   p.position, {p.position[0] + radius * n[0], p.position[1] + radius * n[1]}};
   }
 
-  /// The circles at the points of one image of every loop.
-  std::vector<Circle> circles(double side) const {
+  /// The circles at the points of one image of every loop of the kinds that are wanted.
+  template <class IsWanted>
+  std::vector<Circle> circles(double side, IsWanted is_wanted) const {
     std::vector<Circle> circles;
-    for (int i = 0; i < static_cast<int>(points_.size()); ++i)
-      if (is_first_image(points_[i]))
-        if (const auto circle = circle_at(points_[i], i, side)) circles.push_back(*circle);
+    for (int i = 0; i < static_cast<int>(points_.size()); ++i) {
+      if (!is_wanted(outline_.loops[points_[i].place.loop].kind) || !is_first_image(points_[i])) continue;
+      const double likely = circles.empty() ? reach_ : circles.back().radius;
+      if (const auto circle = circle_at(points_[i], i, side, likely)) circles.push_back(*circle);
+    }
     return circles;
   }
 
@@ -221,7 +227,7 @@ class Search {
       for (const double parameter : {place.parameter - step, place.parameter + step}) {
         if (parameter < 0 || parameter > 1) continue;
         const EdgePoint moved = edge_point(outline_, {place.loop, place.curve, parameter});
-        const auto other = circle_at(moved, circle.point, -1);
+        const auto other = circle_at(moved, circle.point, -1, circle.radius);
         if (!other || other->radius <= circle.radius) continue;
         circle = *other;
         place.parameter = parameter;

@@ -738,34 +738,36 @@ const SectionArray<Constraint>& constraint_sections() {
       .parent = "",
       .name = "constraint",
       .meaning =
-          "a bound that the optimized wheel must keep, with method = \"sequential_quadratic\"; a run that does "
+          "a bound that the optimized wheel must keep, with method = \"sequential_quadratic\"; a run that "
+          "does "
           "not keep it ends with exit code 9; give any number of them, ten bounds in all; the volume is free "
           "when a bound, or what is minimized, is about volume_fraction or mass",
       .in = [](Case& c) -> std::vector<Constraint>& { return c.constraints; },
       .example = {.quantity = Quantity::strain_energy, .at_least = {}, .at_most = 5, .equals = {}},
-      .keys = {{.name = "quantity",
-                .unit = "",
-                .field = choice<&Constraint::quantity>({quantity_names.begin(), quantity_names.end()}),
-                .meaning = "what is bounded, by the names of history.csv and [[expect]]",
-                .presence = Presence::required},
-               {.name = "at_least",
-                .unit = "",
-                .field = OptionalNumberField<Constraint>{&Constraint::at_least, above(0, 1e15), "no such bound"},
-                .meaning = "lower bound, in SI units; of forces, energies, masses and stiffnesses in 2D per metre "
-                           "of width, as in history.csv"},
-               {.name = "at_most",
-                .unit = "",
-                .field = OptionalNumberField<Constraint>{&Constraint::at_most, above(0, 1e15), "no such bound"},
-                .meaning = "upper bound"},
-               {.name = "equals",
-                .unit = "",
-                .field = OptionalNumberField<Constraint>{&Constraint::equals, above(0, 1e15), "no such bound"},
-                .meaning = "the value to keep, in place of bounds"},
-               {.name = "over",
-                .unit = "",
-                .field = choice<&Constraint::over>({"mean", "worst", "each"}),
-                .meaning = "which load positions it is about: their mean, the worst one, or each one with a "
-                           "bound of its own"}}};
+      .keys = {
+          {.name = "quantity",
+           .unit = "",
+           .field = choice<&Constraint::quantity>({quantity_names.begin(), quantity_names.end()}),
+           .meaning = "what is bounded, by the names of history.csv and [[expect]]",
+           .presence = Presence::required},
+          {.name = "at_least",
+           .unit = "",
+           .field = OptionalNumberField<Constraint>{&Constraint::at_least, above(0, 1e15), "no such bound"},
+           .meaning = "lower bound, in SI units; of forces, energies, masses and stiffnesses in 2D per metre "
+                      "of width, as in history.csv"},
+          {.name = "at_most",
+           .unit = "",
+           .field = OptionalNumberField<Constraint>{&Constraint::at_most, above(0, 1e15), "no such bound"},
+           .meaning = "upper bound"},
+          {.name = "equals",
+           .unit = "",
+           .field = OptionalNumberField<Constraint>{&Constraint::equals, above(0, 1e15), "no such bound"},
+           .meaning = "the value to keep, in place of bounds"},
+          {.name = "over",
+           .unit = "",
+           .field = choice<&Constraint::over>({"mean", "worst", "each"}),
+           .meaning = "which load positions it is about: their mean, the worst one, or each one with a "
+                      "bound of its own"}}};
   return sections;
 }
 
@@ -797,8 +799,9 @@ const Section<Volume>& volume_section() {
 const Section<Optimizer>& optimizer_section() {
   static const Section<Optimizer> section{
       .name = "optimizer",
-      .meaning = "the search for a better shape; the unit \"cell\" is the shortest edge of a grid cell at "
-                 "mid-ring",
+      .meaning =
+          "the search for a better shape; the unit \"cell\" is the shortest edge of a grid cell at "
+          "mid-ring",
       .in = [](Case& c) -> Optimizer& { return c.optimizer; },
       .keys = {
           {.name = "method",

@@ -51,13 +51,15 @@ std::vector<BoundState> bound_states(const Evaluation<dim>& evaluation,
   for (size_t i = 0; i < constraints.size(); ++i) {
     const BoundConstraint& c = constraints[i];
     const FunctionValue& f = evaluation.functions[c.function];
-    states.push_back({.name = f.name,
-                      .value = f.value,
-                      .bound = c.sign > 0 ? f.bounds.upper : f.bounds.lower,
-                      .relation = c.is_equality ? '=' : c.sign > 0 ? '<' : '>',
-                      .multiplier = is_known ? multipliers[i] / c.scale
-                                             : std::numeric_limits<double>::quiet_NaN(),
-                      .violation = c.violation()});
+    states.push_back(
+        {.name = f.name,
+         .value = f.value,
+         .bound = c.sign > 0 ? f.bounds.upper : f.bounds.lower,
+         .relation = c.is_equality ? '='
+                     : c.sign > 0  ? '<'
+                                   : '>',
+         .multiplier = is_known ? multipliers[i] / c.scale : std::numeric_limits<double>::quiet_NaN(),
+         .violation = c.violation()});
   }
   return states;
 }

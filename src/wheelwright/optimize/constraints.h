@@ -34,8 +34,8 @@ inline constexpr double feasible_violation = 1e-3;
 
 /// A bound of a function, for people and files.
 struct BoundState {
-  std::string name;   ///< of the function
-  double value;       ///< of the function
+  std::string name;  ///< of the function
+  double value;      ///< of the function
   double bound;
   char relation;      ///< '<', '>' or '=': what the value must be to the bound
   double multiplier;  ///< by how much the objective would fall per unit by which the bound is relaxed; NaN

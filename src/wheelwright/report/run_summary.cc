@@ -14,9 +14,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 template <int dim>
-Json shape_json(const SummarizedShape<dim>& shape) {
+Json shape_json(const SummarizedShape<dim>& shape, const std::string& minimized) {
   Json json{{"shape", shape.iteration}};
-  json[dim == 2 ? "objective_J_per_m" : "objective_J"] = shape.objective;
+  json[!minimized.empty() ? "objective" : dim == 2 ? "objective_J_per_m" : "objective_J"] = shape.objective;
   for (const WheelNumber<dim>& number : wheel_numbers<dim>())
     if (const auto value = number.value(shape.wheel)) json[number.key] = *value;
   const ShapeSummary<dim>& summary = shape.wheel.summary;
@@ -36,7 +36,9 @@ Json shape_json(const SummarizedShape<dim>& shape) {
 template <int dim>
 std::string summary_table(const RunSummary<dim>& summary) {
   constexpr double mm = 1e3, degree = 180 / std::numbers::pi;
-  std::vector<ComparedRow> rows{{fmt::format("objective [{}]", unit<dim>(UnitKind::energy)),
+  std::vector<ComparedRow> rows{{summary.minimized.empty()
+                                     ? fmt::format("objective [{}]", unit<dim>(UnitKind::energy))
+                                     : "objective: " + summary.minimized,
                                  {summary.before.objective, summary.after.objective}}};
   for (ComparedRow& row : compared_rows<dim>({&summary.before.wheel, &summary.after.wheel}))
     rows.push_back(std::move(row));
@@ -51,8 +53,8 @@ template <int dim>
 std::string summary_json(const RunSummary<dim>& summary) {
   Json json{{"title", summary.title},
             {"width_m", summary.after.wheel.grid.width},
-            {"before", shape_json(summary.before)},
-            {"after", shape_json(summary.after)}};
+            {"before", shape_json(summary.before, summary.minimized)},
+            {"after", shape_json(summary.after, summary.minimized)}};
   for (const SummarizedBound& bound : summary.bounds)
     json["bounds"].push_back({{"name", bound.name},
                               {"value", bound.value},

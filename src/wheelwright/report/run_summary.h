@@ -31,6 +31,8 @@ struct RunSummary {
   std::string title;
   SummarizedShape<dim> before, after;
   std::vector<SummarizedBound> bounds = {};
+  /// What is minimized in place of the weighted sum, with its unit; empty for the sum.
+  std::string minimized = {};
 };
 
 /// For people: one line per quantity with both values and the change, and the place of the peak stress.

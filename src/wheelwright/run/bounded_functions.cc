@@ -114,9 +114,8 @@ Expected<std::vector<ShapeFunction<dim>>> bounded_functions(const Case& c, const
                                  : Over::mean;
     auto only = term(c, solver, constraint.quantity, over);
     if (!only) return only.failure();
-    const ShapeFunction<dim> function{.name = is_worst ? name + " worst" : name,
-                                      .terms = {*std::move(only)},
-                                      .bounds = bounds(constraint)};
+    const ShapeFunction<dim> function{
+        .name = is_worst ? name + " worst" : name, .terms = {*std::move(only)}, .bounds = bounds(constraint)};
     if (!is_each) {
       add_named(function, functions);
       continue;
@@ -139,8 +138,8 @@ Quantity quantity_of(std::string_view function_name) {
   return static_cast<Quantity>(std::ranges::find(quantity_names, word) - quantity_names.begin());
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                     \
-  template Expected<WeightedSum<dim>> minimized_terms(const Case&, const StateSolver<dim>&);             \
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                                         \
+  template Expected<WeightedSum<dim>> minimized_terms(const Case&, const StateSolver<dim>&);                 \
   template Expected<std::vector<ShapeFunction<dim>>> bounded_functions(const Case&, const StateSolver<dim>&, \
                                                                        const LevelSet<dim>&);
 WHEELWRIGHT_INSTANTIATE(2)

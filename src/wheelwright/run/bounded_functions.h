@@ -10,10 +10,10 @@ namespace wheelwright {
 template <int dim>
 Expected<WeightedSum<dim>> minimized_terms(const Case& c, const StateSolver<dim>& solver);
 
-/// The functions that a case bounds: one for each constraint, or one per load position. Their names are that of
-/// the quantity, then which positions they are about where that is not the mean, and a number where a name is
-/// there already. `initial`: tells whether the wheel is its own mirror image, so that a position and its image
-/// share a bound. Fails as the operators of the solver do.
+/// The functions that a case bounds: one for each constraint, or one per load position. Their names are that
+/// of the quantity, then which positions they are about where that is not the mean, and a number where a name
+/// is there already. `initial`: tells whether the wheel is its own mirror image, so that a position and its
+/// image share a bound. Fails as the operators of the solver do.
 template <int dim>
 Expected<std::vector<ShapeFunction<dim>>> bounded_functions(const Case& c, const StateSolver<dim>& solver,
                                                             const LevelSet<dim>& initial);

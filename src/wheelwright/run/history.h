@@ -18,9 +18,9 @@ struct HistoryColumns {
     std::string name;
     std::string unit;
   };
-  std::string objective_unit;       ///< e.g. "J/m"
-  std::vector<Quantity> terms;      ///< one column each, by the names of Evaluation::terms
-  std::vector<Quantity> measures;   ///< one column each, by the names of Evaluation::measures
+  std::string objective_unit;      ///< e.g. "J/m"
+  std::vector<Quantity> terms;     ///< one column each, by the names of Evaluation::terms
+  std::vector<Quantity> measures;  ///< one column each, by the names of Evaluation::measures
   /// Three columns each, by the names of BoundState: value, bound and multiplier.
   std::vector<Quantity> bounds = {};
   std::vector<std::string> phases;  ///< one column each, in seconds, by the names of Evaluation::phases
@@ -36,10 +36,10 @@ struct HistoryRow {
   double objective;
   std::vector<TermValue> terms;
   std::vector<MeasureValue> measures;
-  double volume_fraction;     ///< material area over the area of the full ring
-  double step;                ///< farthest that the boundary travelled [m]
-  double max_velocity;        ///< largest normal velocity, in units of the gradient density [Pa]
-  int max_newton_iterations;  ///< over the load positions
+  double volume_fraction;               ///< material area over the area of the full ring
+  double step;                          ///< farthest that the boundary travelled [m]
+  double max_velocity;                  ///< largest normal velocity, in units of the gradient density [Pa]
+  int max_newton_iterations;            ///< over the load positions
   std::vector<BoundState> bounds = {};  ///< in the order of the columns; empty: none was evaluated
   std::vector<PhaseTime> phases;
   double trial_seconds;                  ///< wall time of this trial

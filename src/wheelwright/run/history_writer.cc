@@ -160,8 +160,8 @@ void HistoryWriter<dim>::record(const TrialDone<dim>& done, const RunView<dim>& 
     row.objective = trial.evaluation->function("objective").value;
     row.terms = trial.evaluation->terms;
     row.measures = trial.evaluation->measures;
-    row.bounds = bound_states(*trial.evaluation, row.accepted ? done.state.memory.multipliers
-                                                              : std::vector<double>());
+    row.bounds =
+        bound_states(*trial.evaluation, row.accepted ? done.state.memory.multipliers : std::vector<double>());
     row.max_newton_iterations = newton.empty() ? 0 : *std::max_element(newton.begin(), newton.end());
     row.phases = trial.evaluation->phases;
   }

@@ -58,6 +58,12 @@ std::vector<ShapeEvent<dim>> changes_by_grid(const LevelSet<dim>& before, const 
 }
 
 template <int dim>
+std::string minimized_text(Quantity quantity) {
+  if (quantity == Quantity::objective) return {};
+  return fmt::format("{} [{}]", name(quantity), unit<dim>(kind(quantity)));
+}
+
+template <int dim>
 std::vector<SummarizedBound> summarized_bounds(const OptimizationState<dim>& state) {
   std::vector<SummarizedBound> result;
   for (const BoundState& b : bound_states(state.evaluation, state.memory.multipliers))
@@ -329,7 +335,8 @@ std::optional<RunSummary<dim>> RunLoop<dim>::run_summary(const StateSolver<dim>&
       .title = run_title(work_->study.source),
       .before = {0, initial_->objective, *first},
       .after = {state_->iteration, work_->optimizer.objective_of(state_->evaluation), *now},
-      .bounds = summarized_bounds(*state_)};
+      .bounds = summarized_bounds(*state_),
+      .minimized = minimized_text<dim>(work_->study.source.objective.minimize)};
 }
 
 template <int dim>

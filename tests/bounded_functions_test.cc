@@ -1,0 +1,83 @@
+#include "wheelwright/run/bounded_functions.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "wheelwright/optimize/constraints.h"
+#include "wheelwright/run/study.h"
+
+using namespace wheelwright;
+
+namespace {
+
+Case small_case() {
+  Case c;
+  c.grid.radial_cells = 14;
+  c.grid.angular_cells = 128;
+  c.grid.tread_levels = 1;
+  c.holes.rings = {{.count = 16, .center_radius = 0.27, .radius = 0.04}};
+  c.load.positions = 4;
+  return c;
+}
+
+Evaluation<2> evaluated(const Case& c) {
+  const auto study = make_study<2>(c);
+  EXPECT_TRUE(study);
+  const auto shape = evaluate<2>(*study->solver, study->functions, study->initial);
+  EXPECT_TRUE(shape);
+  return shape->evaluation;
+}
+
+// The same quantity in its three forms: the mean and the greatest of the single positions. Positions 1 and 3
+// are mirror images and share a bound.
+TEST(BoundedFunctions, AreTheMeanTheWorstOrEachOfTheLoadPositions) {
+  Case c = small_case();
+  for (const auto over : {OverPositions::mean, OverPositions::worst, OverPositions::each})
+    c.constraints.push_back({.quantity = Quantity::stiffness, .at_most = 1e9, .over = over});
+  const auto evaluation = evaluated(c);
+  std::vector<std::string> names;
+  for (const auto& function : evaluation.functions) names.push_back(function.name);
+  ASSERT_EQ(names, (std::vector<std::string>{"objective", "volume", "stiffness", "stiffness worst",
+                                             "stiffness at 0", "stiffness at 1", "stiffness at 2"}));
+  const auto value = [&](const char* name) { return evaluation.function(name).value; };
+  const double a = value("stiffness at 0"), b = value("stiffness at 1"), d = value("stiffness at 2");
+  EXPECT_NE(a, d);
+  EXPECT_NEAR(value("stiffness worst"), std::max({a, b, d}), 1e-9 * a);
+  // The mean force, which is the same in all positions, by the mean travel.
+  EXPECT_NEAR(value("stiffness"), 4 / (1 / a + 2 / b + 1 / d), 1e-9 * a);
+  EXPECT_EQ(bound_states(evaluation, {}).size(), 5u);
+  EXPECT_EQ(quantity_of("stiffness at 1"), Quantity::stiffness);
+}
+
+TEST(BoundedFunctions, AreEveryPositionOfAWheelThatIsNotItsMirrorImage) {
+  Case c = small_case();
+  c.contact.friction = 0.3;
+  c.load.torque = 50;
+  c.constraints = {{.quantity = Quantity::strain_energy, .at_most = 10, .over = OverPositions::each}};
+  EXPECT_EQ(evaluated(c).functions.size(), 2u + 4u);
+}
+
+// A lighter wheel of the same stiffness, to begin with one that is too soft by two percent.
+TEST(BoundedFunctions, LetALighterWheelBeFound) {
+  Case c = small_case();
+  c.constraints = {{.quantity = Quantity::stiffness, .at_least = 1}};
+  c.constraints[0].at_least = 1.02 * evaluated(c).function("stiffness").value;
+  c.objective.minimize = Quantity::volume_fraction;
+  c.optimizer.iterations = 15;
+  const auto study = make_study<2>(c);
+  ASSERT_TRUE(study);
+  const auto outcome = optimize<2>(
+      optimizer_of(*study), study->initial, [](const auto&, const auto&) {}, [] { return false; });
+  ASSERT_TRUE(outcome.state);
+  const auto bounds = bound_states(outcome.state->evaluation, outcome.state->memory.multipliers);
+  ASSERT_EQ(bounds.size(), 1u);
+  EXPECT_TRUE(bounds[0].is_kept()) << bounds[0].text();
+  EXPECT_GT(bounds[0].multiplier, 0);
+  EXPECT_LT(outcome.state->evaluation.function("objective").value,
+            0.99 * evaluated(c).function("objective").value);
+  EXPECT_NEAR(outcome.state->evaluation.function("objective").value,
+              volume_fraction(study->grid(), outcome.state->measure), 1e-9);
+}
+
+}  // namespace
