@@ -89,8 +89,9 @@ std::map<std::string, double> numbers_of(const fs::path& folder, int& shapes) {
   if (!fs::exists(folder / "summary.json")) return numbers;
   const auto after = nlohmann::json::parse(content(folder / "summary.json")).at("after");
   shapes = after.at("shape");
-  for (const WheelNumber<2>& number : wheel_numbers<2>())
-    numbers[number.key] = after.at(number.key).is_null() ? std::nan("") : after.at(number.key).get<double>();
+  for (const WheelNumber<2>& number : wheel_numbers<2>())  // some are told of some wheels only
+    if (after.contains(number.key) && after[number.key].is_number())
+      numbers[number.key] = after[number.key].get<double>();
   return numbers;
 }
 
