@@ -29,7 +29,7 @@ positions = 2
 count = 5
 center_radius = 0.262
 radius = 0.02
-phase = 0.35
+phase = 20
 [grid]
 radial_cells = 14
 angular_cells = 130
@@ -40,7 +40,7 @@ tread_band = 0.02
 iterations = 3
 )";
 
-constexpr double centre_radius = 0.262, radius = 0.02, phase = 0.35;
+constexpr double centre_radius = 0.262, radius = 0.02, phase = 20 * pi / 180;
 const Point hole_centre = polar(centre_radius, phase);
 
 Case the_case() { return *parse_case(wheel, "case.toml").value; }
