@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/write.h"
@@ -522,7 +524,9 @@ Expected<OptimizationState<dim>> RunLoop<dim>::state_at(const ShapeOptimizer<dim
 template <int dim>
 std::optional<Refusal> RunLoop<dim>::replace_shape(const LevelSet<dim>& shape, const std::string& what) {
   std::optional<Trial<dim>> trial;
+  stops_before_ = std::numeric_limits<int>::max();  // a command to stop that comes later is obeyed later
   auto anew = state_at(work_->optimizer, shape, trial);
+  stops_before_ = 0;
   if (!anew) return refusal(anew.failure());
   state_ = *std::move(anew);
   has_ended_by_itself_ = false;
