@@ -304,10 +304,14 @@ struct Volume {
 
 enum class VelocityKind { h1, harmonic };
 
-enum class OptimizerMethod { sequential_quadratic, descent };
+enum class OptimizerMethod {
+  automatic,  ///< descent where the volume or the velocity needs it, else sequential quadratic
+  sequential_quadratic,
+  descent,
+};
 
 struct Optimizer {
-  OptimizerMethod method = OptimizerMethod::sequential_quadratic;
+  OptimizerMethod method = OptimizerMethod::automatic;
   int iterations = 100;
   int coarse_levels = 0;  ///< on how many coarser grids the descent begins, one after the other
   VelocityKind velocity = VelocityKind::h1;

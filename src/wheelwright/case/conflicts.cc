@@ -540,11 +540,11 @@ void check_volume(const Case& c, Conflicts& found) {
 
 /// The paper's own rules need the descent.
 void check_method(const Case& c, Conflicts& found) {
-  if (c.optimizer.method == OptimizerMethod::descent) return;
+  if (c.optimizer.method != OptimizerMethod::sequential_quadratic) return;
   const auto refuse = [&](const char* key, const char* other) {
     found.push_back({{key, "optimizer.method"},
                      "it goes with steepest descent alone",
-                     fmt::format("add method = \"descent\" to [optimizer], or take {}", other)});
+                     fmt::format("take method = \"descent\" or omit the key, or take {}", other)});
   };
   if (c.optimizer.velocity == VelocityKind::harmonic) refuse("optimizer.velocity", "\"h1\"");
   if (c.volume.control == VolumeControl::paper) refuse("volume.control", "\"exact\"");
@@ -629,7 +629,7 @@ void check_minimized(const Case& c, Conflicts& found) {
                        "give objective.minimize too, or omit the key"});
     return;
   }
-  if (c.optimizer.method == OptimizerMethod::descent)
+  if (optimizer_method(c) == OptimizerMethod::descent)
     found.push_back({{"objective.minimize", "optimizer.method"},
                      "steepest descent minimizes the weighted sum alone",
                      "take method = \"sequential_quadratic\", or omit the key"});
@@ -651,7 +651,7 @@ void check_constraints(const Case& c, Conflicts& found) {
     const auto refuse = [&](std::string_view name, std::string problem, std::string remedy) {
       found.push_back({{key(name)}, std::move(problem), std::move(remedy)});
     };
-    if (c.optimizer.method == OptimizerMethod::descent)
+    if (optimizer_method(c) == OptimizerMethod::descent)
       found.push_back({{key("quantity"), "optimizer.method"},
                        "steepest descent knows no bounds",
                        "take method = \"sequential_quadratic\""});

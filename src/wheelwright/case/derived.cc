@@ -40,6 +40,13 @@ int levels_for(const Case& c, double cells_per_patch, int most_points) {
 
 }  // namespace
 
+OptimizerMethod optimizer_method(const Case& c) {
+  if (c.optimizer.method != OptimizerMethod::automatic) return c.optimizer.method;
+  const bool needs_descent =
+      c.volume.control == VolumeControl::paper || c.optimizer.velocity == VelocityKind::harmonic;
+  return needs_descent ? OptimizerMethod::descent : OptimizerMethod::sequential_quadratic;
+}
+
 int level_set_degree(const Case& c) {
   return c.grid.level_set_degree.value_or(c.wheel.dimension == 3 ? 1 : 2);
 }

@@ -24,6 +24,9 @@ double hertz_peak_pressure(const Case& c);
 /// given.
 double likely_half_width(const Case& c);
 
+/// The method of the case, or the one that its volume and velocity need; never automatic.
+OptimizerMethod optimizer_method(const Case& c);
+
 /// Degree of the level set: the case's own, or 2, in 3D 1.
 int level_set_degree(const Case& c);
 

@@ -806,9 +806,10 @@ const Section<Optimizer>& optimizer_section() {
       .keys = {
           {.name = "method",
            .unit = "",
-           .field = choice<&Optimizer::method>({"sequential_quadratic", "descent"}),
+           .field = choice<&Optimizer::method>({"auto", "sequential_quadratic", "descent"}),
            .meaning = "sequential_quadratic: steps of a quadratic model that learns the curvature from the "
-                      "shapes before; descent: along the gradient"},
+                      "shapes before; descent: along the gradient; auto: descent with volume.control = \"paper\" and "
+                      "with velocity = \"harmonic\", which need it, else sequential_quadratic"},
           {.name = "iterations",
            .unit = "",
            .field = IntegerField<Optimizer>{&Optimizer::iterations, between(0, 1000000)},

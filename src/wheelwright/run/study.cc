@@ -213,7 +213,7 @@ template <int dim>
 OptimizerOptions optimizer_options(const Case& c) {
   OptimizerOptions options;
   options.iterations = c.optimizer.iterations;
-  const bool descends = c.optimizer.method == OptimizerMethod::descent;
+  const bool descends = optimizer_method(c) == OptimizerMethod::descent;
   options.method = descends ? Method::descent : Method::sequential_quadratic;
   options.step = c.optimizer.step.value_or(descends ? 0.5 : 1.5);
   options.max_halvings = c.optimizer.max_halvings;

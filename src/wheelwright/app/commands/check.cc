@@ -25,13 +25,16 @@ class CheckCommand : public Subcommand {
     if (!c) return exit_usage;
     print("{}\n", styled(stdout, Style::green, case_file_ + ": no problems"));
     print_lines(stdout, derived_report(*c));
+    if (const auto lack = lack_of_memory(*c, available_memory())) {
+      print_warnings(stdout, *c);
+      print_warning(stdout, "this case cannot run here: " + *lack);
+      return exit_done;
+    }
     if (const auto change = volume_change_of_saved_shape<2>(*c)) print("{}\n", text(*change));
     const cad::Clearances clearances = outline_clearances(initial_shape<2>(*c));
     print_lines(stdout, clearance_report(clearances));
     print_warnings(stdout, *c);
     for (const std::string& warning : feature_warnings(*c, clearances)) print_warning(stdout, warning);
-    if (const auto lack = lack_of_memory(*c, available_memory()))
-      print_warning(stdout, "this case cannot run here: " + *lack);
     return exit_done;
   }
 
