@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <toml++/toml.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <bit>
@@ -27,6 +28,8 @@
 #include "wheelwright/case/toml_guard.h"
 #include "wheelwright/case/write.h"
 #include "wheelwright/files/checksum.h"
+#include "wheelwright/files/level_set_file.h"
+#include "wheelwright/run/study.h"
 
 namespace wheelwright {
 namespace {
@@ -165,6 +168,7 @@ TEST(CaseFile, HolesOfThePapersWheel) {
   Case expected;
   expected.title = result.value->title;
   expected.output.folder = "runs/holes16";
+  expected.optimizer.method = OptimizerMethod::descent;
   expected.optimizer.tolerance = 0;
   expected.optimizer.rim_band = 0.005;
   expected.optimizer.tread_band = 0.01;
@@ -197,8 +201,11 @@ TEST(CaseFile, TheTemplateIsTheDefaultCaseWithOneRing) {
 std::string with_all_keys(std::string text) {
   std::istringstream lines(text);
   std::string line, result;
+  bool is_solid = false;  // of a section of holes that need the width of the wheel
   while (std::getline(lines, line)) {
-    const bool has_value = !line.ends_with("=");
+    if (line.find('[') < 2)
+      is_solid = line.find("[[holes.sphere]]") < 2 || line.find("[[holes.tapered]]") < 2;
+    const bool has_value = !line.ends_with("=") && !is_solid;
     if (line.size() > 1 && line[0] == '#' && line[1] != ' ' && has_value) line.erase(0, 1);
     if (!line.starts_with("force")) result += line + "\n";
   }
@@ -373,8 +380,44 @@ struct Edited {
   int line;
 };
 
+/// A wheel in 3D with all kinds of holes.
+Case with_solid_holes() {
+  Case c;
+  c.output.folder = "runs/test";
+  c.wheel.dimension = 3;
+  c.holes.spheres = {sphere_sections().example};
+  c.holes.tapered = {tapered_sections().example};
+  return c;
+}
+
+/// A wheel that begins with a saved shape.
+Case with_saved_shape() {
+  static const auto file =
+      std::filesystem::temp_directory_path() / fmt::format("wheelwright_{}.levelset", getpid());
+  Case c = with_solid_holes();
+  c.wheel.dimension = 2;
+  c.holes = {};
+  c.holes.rings = {ring_sections().example};
+  const std::string bytes = level_set_file(initial_shape<2>(c));
+  std::ofstream(file, std::ios::binary) << bytes;
+  c.holes = {};
+  c.saved_shape.from = file;
+  c.saved_shape.checksum = fmt::format("crc32:{:08x}", checksum(bytes));
+  return c;
+}
+
+/// A case without problems that has the section.
+Case case_with(const std::string& header) {
+  if (header == "[[holes.sphere]]" || header == "[[holes.tapered]]") return with_solid_holes();
+  if (header == "[shape]") return with_saved_shape();
+  Case c = with_holes();
+  c.constraints = {constraint_sections().example};
+  c.constraints[0].at_least = 1;
+  return c;
+}
+
 Edited replace_key(const std::string& header, std::string_view key, std::string_view replaced_by) {
-  std::istringstream lines(to_toml(with_holes()));
+  std::istringstream lines(to_toml(case_with(header)));
   std::string line, text;
   bool inside = header.empty();
   int place = 0;

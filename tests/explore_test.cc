@@ -269,7 +269,8 @@ TEST_F(Exploration, EveryDesignHasTheVolumeOfTheCaseAndARunThatOpens) {
   for (const RatedDesign& one : explore(folder() / "all", *designs, quantities, {.threads = 1})) {
     EXPECT_NEAR(one.result.numbers.at("volume_fraction"), volume, 1e-5);
     const fs::path run = folder() / "all" / "designs" / one.design.name;
-    EXPECT_TRUE(read_case(run / "case.toml").value);
+    const CaseResult read = read_case(run / "case.toml");
+    EXPECT_TRUE(read.value) << read.problems.front().text();
     EXPECT_TRUE(fs::exists(run / "report.html") && fs::exists(run / "shape.levelset"));
   }
 }

@@ -453,7 +453,7 @@ TEST_F(Killed, WithoutMemoryItIsFourAndGoesOnLater) {
   const std::string text = small_case(7);
   const fs::path expected = straight(text);
   int reached = -1;
-  for (const int request : {300, 1000, 1500}) {
+  for (const int request : {300, 1000, 1500, 2500, 3500}) {
     const fs::path place = workplace(fmt::format("without-memory-{}", request), text);
     Program program(place, {"run", "case.toml", "--threads", "1"},
                     {.fault = fmt::format("new:{}:throw", request)});

@@ -68,9 +68,10 @@ std::vector<ShapeFunction<2>> state_functions() {
   const Pointer pressure = std::make_shared<PeakPressure<2>>(norm);
   const Pointer stress = std::make_shared<PeakVonMises<2>>(0.025, norm);
   const Pointer stiffness = std::make_shared<Quotient<2>>("stiffness", force(), travel());
-  const auto over = [](const char* name, const Pointer& functional, OverPositions<2>::Function function) {
-    return ShapeFunction<2>{name,
-                            {{1, std::make_shared<OverPositions<2>>(name, functional, std::move(function))}}};
+  const auto over = [](const char* name, const Pointer& functional,
+                       FunctionOfPositions<2>::Function function) {
+    return ShapeFunction<2>{
+        name, {{1, std::make_shared<FunctionOfPositions<2>>(name, functional, std::move(function))}}};
   };
   const auto harmonic = [](std::span<const double> x) { return harmonic_amplitude(x, 1); };
   const auto maximum = [](double sharpness) {
@@ -157,7 +158,7 @@ TEST(Quantities, PassTheTaylorTestWithFrictionAndADrivenRim) {
 /// Functions of all positions whose smoothness is not adapted to the values.
 TEST(Quantities, FunctionsOfAllPositionsHaveTheSlopesOfTheirDifferences) {
   const std::vector<double> values{1.3, 0.7, 2.1, 1.9, 0.4, 1.1, 1.75};
-  const std::vector<OverPositions<2>::Function> functions{
+  const std::vector<FunctionOfPositions<2>::Function> functions{
       mean_of, [](auto x) { return smooth_maximum(x, 3); }, [](auto x) { return smooth_maximum(x, -5); },
       [](auto x) { return harmonic_amplitude(x, 1); }, [](auto x) { return harmonic_amplitude(x, 3); }};
   for (const auto& function : functions) {

@@ -162,6 +162,8 @@ class Page(Browser, unittest.TestCase):
         self.open(self.folder / "run/report.html")
         data = json.loads(self.browser.execute_script("return document.getElementById('data').textContent"))
         for number in data["runs"][0]["numbers"]:
+            if number["key"] not in self.summary["after"]:
+                continue
             before, after = self.browser.find_elements(By.CSS_SELECTOR, f"td[data-key={number['key']}]")
             for cell, wheel in ((before, "before"), (after, "after")):
                 value = self.summary[wheel][number["key"]] * number["factor"]

@@ -656,7 +656,9 @@ void check_constraints(const Case& c, Conflicts& found) {
                        "steepest descent knows no bounds",
                        "take method = \"sequential_quadratic\""});
     if (!constraint.at_least && !constraint.at_most && !constraint.equals)
-      refuse("quantity", "no bound is given", "add at_least, at_most or equals");
+      found.push_back({{key("quantity"), key("at_least"), key("at_most"), key("equals")},
+                       "no bound is given",
+                       "add at_least, at_most or equals"});
     if (constraint.equals && (constraint.at_least || constraint.at_most))
       refuse("equals", "a value and bounds are given", "keep one of them");
     if (constraint.at_least && constraint.at_most && *constraint.at_least >= *constraint.at_most)

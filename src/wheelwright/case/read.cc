@@ -464,7 +464,7 @@ std::vector<Diagnostic> load_drawings(Reading& reading, Case& c) {
   std::vector<Diagnostic> in_drawings;
   const auto folder = std::filesystem::path(reading.file).parent_path();
   std::vector<FileProblem> problems = load_drawings(c, folder, may_be_read);
-  if (may_be_read(std::string(saved_shape_section().name)))
+  if (may_be_read(std::string(saved_shape_section().name) + ".from"))
     std::ranges::move(load_saved_shape(c, folder), std::back_inserter(problems));
   for (FileProblem& problem : problems) {
     const auto given = reading.entries.find(problem.key);

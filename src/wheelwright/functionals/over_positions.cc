@@ -19,8 +19,9 @@ void add_over_positions(const LoadPositions& positions, const FunctionalDerivati
 }
 
 template <int dim>
-FunctionalValue<dim> OverPositions<dim>::evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
-                                                  const State<dim>& state, const Matrix& mean) const {
+FunctionalValue<dim> FunctionOfPositions<dim>::evaluate(const StateSolver<dim>& solver,
+                                                        const LevelSet<dim>& psi, const State<dim>& state,
+                                                        const Matrix& mean) const {
   const FunctionalValue<dim> inner = functional_->evaluate(solver, psi, state, mean);
   const OfPositions function = function_(of_all(state.positions(), inner.by_position));
   FunctionalValue<dim> value{.over_positions = function.value,
@@ -49,7 +50,7 @@ FunctionalValue<dim> RatioOfMeans<dim>::evaluate(const StateSolver<dim>& solver,
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                       \
   template void add_over_positions(const LoadPositions&, const FunctionalDerivative<dim>&, \
                                    std::span<const double>, FunctionalDerivative<dim>&);   \
-  template class OverPositions<dim>;                                                       \
+  template class FunctionOfPositions<dim>;                                                 \
   template class RatioOfMeans<dim>;
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)

@@ -16,12 +16,12 @@ void add_over_positions(const LoadPositions& positions, const FunctionalDerivati
 
 /// A function of a functional's values at all load positions: their mean, the worst of them, a harmonic.
 template <int dim>
-class OverPositions : public Functional<dim> {
+class FunctionOfPositions : public Functional<dim> {
  public:
   using Function = std::function<OfPositions(std::span<const double>)>;
 
   /// The function must have the same value for the positions in reverse order.
-  OverPositions(std::string name, std::shared_ptr<const Functional<dim>> functional, Function function)
+  FunctionOfPositions(std::string name, std::shared_ptr<const Functional<dim>> functional, Function function)
       : name_(std::move(name)), functional_(std::move(functional)), function_(std::move(function)) {}
 
   std::string name() const override { return name_; }

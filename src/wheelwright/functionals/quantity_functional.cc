@@ -19,7 +19,7 @@ template <int dim>
 Pointer<dim> over_positions(std::string name, Pointer<dim> functional, Over over) {
   if (over == Over::positions) return functional;
   const auto function = over == Over::mean ? mean_of : over == Over::greatest ? greatest_of : least_of;
-  return std::make_shared<OverPositions<dim>>(std::move(name), std::move(functional), function);
+  return std::make_shared<FunctionOfPositions<dim>>(std::move(name), std::move(functional), function);
 }
 
 template <int dim>
@@ -32,7 +32,7 @@ Pointer<dim> stiffness(std::string name, RimWay way, Over over) {
 
 template <int dim>
 Pointer<dim> harmonic(std::string name, Pointer<dim> functional, int k) {
-  return std::make_shared<OverPositions<dim>>(
+  return std::make_shared<FunctionOfPositions<dim>>(
       std::move(name), std::move(functional),
       [k](std::span<const double> values) { return harmonic_amplitude(values, k); });
 }
@@ -70,11 +70,11 @@ std::shared_ptr<const Functional<dim>> quantity_functional(Quantity quantity, Ov
     case Quantity::peak_von_mises_inside:
       return over_positions<dim>(name, std::make_shared<PeakVonMises<dim>>(parameters.from_tread), over);
     case Quantity::run_out:
-      return std::make_shared<OverPositions<dim>>(name, travel, peak_to_peak_of);
+      return std::make_shared<FunctionOfPositions<dim>>(name, travel, peak_to_peak_of);
     case Quantity::run_out_harmonic:
       return harmonic<dim>(name, travel, parameters.harmonic);
     case Quantity::force_variation:
-      return std::make_shared<OverPositions<dim>>(name, force, peak_to_peak_of);
+      return std::make_shared<FunctionOfPositions<dim>>(name, force, peak_to_peak_of);
     case Quantity::force_variation_harmonic:
       return harmonic<dim>(name, force, parameters.harmonic);
     case Quantity::objective:
