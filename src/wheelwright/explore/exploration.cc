@@ -20,7 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// J_e / J_p2 of a case's initial shape, both summed over its load positions.
+/// J_e / J_p2 of a case's initial shape, both summed over its load positions; 0 where all positions see the
+/// same contact but for rounding, so that there is nothing to even out.
 Expected<double> weight_of_evenness(Case c) {
   c.objective.strain_energy = c.objective.uniformity_dual = 1;
   const auto study = make_study<2>(c);
@@ -30,7 +31,9 @@ Expected<double> weight_of_evenness(Case c) {
   const auto value = [&](std::string_view name) {
     return std::ranges::find(evaluated->evaluation.terms, name, &TermValue::name)->value;
   };
-  return value("strain_energy") / value("uniformity_dual");
+  constexpr double least_share = 1e-8;
+  const double energy = value("strain_energy"), unevenness = value("uniformity_dual");
+  return unevenness > least_share * energy ? energy / unevenness : 0;
 }
 
 /// The case as a design runs it: without the many files of a run that nobody opens.
