@@ -402,7 +402,7 @@ Case with_saved_shape() {
   std::ofstream(file, std::ios::binary) << bytes;
   c.holes = {};
   c.saved_shape.from = file;
-  c.saved_shape.checksum = fmt::format("crc32:{:08x}", checksum(bytes));
+  c.saved_shape.checksum = fmt::format("crc32:{:08x}", checksum(std::string(bytes.rbegin(), bytes.rend())));
   return c;
 }
 
