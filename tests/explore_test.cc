@@ -65,7 +65,9 @@ void expect_valid_starts(const Case& c, const StartRange& range, std::uint64_t s
     EXPECT_TRUE(lost_on_the_grid<2>(start->source).empty());
     EXPECT_NEAR(initial_volume(start->source), range.volume, 0.01);
     EXPECT_EQ(start->source.volume.target, range.volume);
-    if (range.keeps_sectors) EXPECT_EQ(start->source.wheel.sectors % c.wheel.sectors, 0);
+    if (range.keeps_sectors) {
+      EXPECT_EQ(start->source.wheel.sectors % c.wheel.sectors, 0);
+    }
     kinds.insert(start->text.substr(start->text.find(' ') + 1));
     const auto same = draw_start(c, range, seed, number);
     EXPECT_EQ(same->source, start->source);

@@ -8,9 +8,9 @@ usage: no_symmetry_test.py PROGRAM
 
 import bisect
 import csv
+import functools
 import json
 import math
-import os
 import re
 import struct
 import subprocess
@@ -21,7 +21,10 @@ import unittest
 from pathlib import Path
 from xml.etree import ElementTree
 
+import support
+
 program = sys.argv.pop(1)
+run_program = functools.partial(support.run_program, program)
 
 INNER, OUTER, WIDTH, SECTORS, POSITIONS = 0.2, 0.34, 0.11, 7, 3
 SECTOR = 2 * math.pi / SECTORS
@@ -233,14 +236,6 @@ def mean_gradient(points, displacements):
 
 
 # --- Tests ----------------------------------------------------------------------------------------------
-
-
-def run_program(*arguments):
-    environment = dict(os.environ, OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1")
-    result = subprocess.run([program, *map(str, arguments)], capture_output=True, text=True, env=environment,
-                            check=False, timeout=300)
-    assert result.returncode == 0, result.stderr
-    return result.stdout
 
 
 class NoSymmetry(unittest.TestCase):

@@ -1,7 +1,7 @@
 """Tests of report.html in a browser. usage: report_test.py PROGRAM, from the repository's top folder."""
 
+import functools
 import json
-import os
 import re
 import subprocess
 import sys
@@ -10,7 +10,6 @@ import unittest
 from pathlib import Path
 
 try:
-    from selenium import webdriver
     from selenium.webdriver.common.action_chains import ActionChains
     from selenium.webdriver.common.by import By
     from selenium.webdriver.common.keys import Keys
@@ -19,7 +18,10 @@ except ImportError:
     print("The tests of report.html were skipped: they need chromium, chromium-driver and python3-selenium.")
     sys.exit(77)
 
+import support
+
 program = sys.argv.pop(1)
+run_program = functools.partial(support.run_program, program)
 
 # A wheel without any symmetry, with friction and a torque, and a title that tries to leave its place.
 CASE = """
@@ -50,14 +52,6 @@ iterations = 4
 rim_band = 0.01
 tread_band = 0.02
 """
-
-
-def run_program(*arguments):
-    environment = dict(os.environ, OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1")
-    result = subprocess.run([program, *map(str, arguments)], capture_output=True, text=True, env=environment,
-                            check=False, timeout=300)
-    assert result.returncode == 0, result.stderr
-    return result.stdout
 
 
 def shown(value):
@@ -115,11 +109,7 @@ class Browser:
         (cls.folder / "case.toml").write_text(cls.case)
         run_program("run", cls.folder / "case.toml", "--output", cls.folder / "run")
         cls.summary = json.loads((cls.folder / "run/summary.json").read_text())
-        options = webdriver.ChromeOptions()
-        for argument in ("--headless=new", "--no-sandbox", "--enable-unsafe-swiftshader", "--window-size=1200,2400"):
-            options.add_argument(argument)
-        options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-        cls.browser = webdriver.Chrome(options=options)
+        cls.browser = support.open_browser(1200, 2400)
         cls.addClassCleanup(cls.browser.quit)
 
     def open(self, file):
@@ -240,6 +230,25 @@ class Page(Browser, unittest.TestCase):
         run_program("run", self.folder / "case.toml", "--output", stopped, "--iterations", 2)
         run_program("resume", stopped, "--iterations", 4)
         self.assertEqual((stopped / "outlines.jsonl").read_bytes(), (straight / "outlines.jsonl").read_bytes())
+
+    def test_a_bound_that_is_not_kept_is_told_by_the_run_and_by_the_report_after_it(self):
+        case, run, page = (self.folder / name for name in ("bound.toml", "bound", "bound.html"))
+        case.write_text(CASE + "[objective]\nminimize = 'volume_fraction'\n"
+                        "[[constraint]]\nquantity = 'stiffness'\nat_least = 1e9\n")
+        ended = subprocess.run([program, "run", case, "--iterations", "1", "--output", run], check=False,
+                               capture_output=True)
+        self.assertEqual(ended.returncode, 9)
+        run_program("report", run, "--output", page)
+        told = json.loads((run / "summary.json").read_text())["bounds"]
+        self.assertEqual([bound["is_kept"] for bound in told], [False])
+        for file in (run / "report.html", page):
+            self.open(file)
+            data = json.loads(self.browser.execute_script("return document.getElementById('data').textContent"))
+            (shown_bound,) = data["runs"][0]["summary"]["bounds"]
+            self.assertEqual({key: shown_bound[key] for key in ("name", "bound", "is_kept")},
+                             {key: told[0][key] for key in ("name", "bound", "is_kept")})
+            self.assertAlmostEqual(shown_bound["value"] / told[0]["value"], 1, delta=1e-9)
+            self.assertIn("stiffness", self.browser.find_element(By.CSS_SELECTOR, ".flags").text)
 
     def test_runs_stand_side_by_side(self):
         page = self.folder / "both.html"

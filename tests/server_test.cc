@@ -31,11 +31,8 @@ constexpr const char* secret = "the shape";
 
 class ServerTest : public ::testing::Test {
  protected:
-  ServerLimits limits{.connections = 8,
-                      .request_bytes = 4096,
-                      .request_time = 300ms,
-                      .idle_time = 2s,
-                      .answer_time = 500ms};
+  ServerLimits limits{
+      .connections = 8, .request_bytes = 4096, .request_time = 300ms, .idle_time = 2s, .answer_time = 500ms};
   std::atomic<int> answered = 0;
   LocalServer server{
       {{Route::Method::get, Route::Access::open, "/", [](const auto&) { return PageAnswer{}; }},

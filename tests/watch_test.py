@@ -2,7 +2,6 @@
 
 import http.client
 import json
-import os
 import re
 import signal
 import subprocess
@@ -13,13 +12,14 @@ import unittest
 from pathlib import Path
 
 try:
-    from selenium import webdriver
     from selenium.webdriver.common.action_chains import ActionChains
     from selenium.webdriver.common.by import By
     from selenium.webdriver.common.keys import Keys
 except ImportError:
     print("The tests of the page were skipped: they need chromium, chromium-driver and python3-selenium.")
     sys.exit(77)
+
+import support
 
 program = sys.argv.pop(1)
 
@@ -47,9 +47,9 @@ class Watched:
     """A run that is watched, without a browser."""
 
     def __init__(self, *arguments):
-        environment = dict(os.environ, OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1")
         self.process = subprocess.Popen([program, "watch", *map(str, arguments), "--no-browser", "--threads", "1"],
-                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment)
+                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                        env=support.one_thread_each())
         self.address = self.process.stdout.readline().strip()
         self.base, self.token = self.address.split("/#")
 
@@ -92,11 +92,7 @@ class Page(unittest.TestCase):
         cls.addClassCleanup(cls.temporary.cleanup)
         cls.folder = Path(cls.temporary.name)
         (cls.folder / "case.toml").write_text(CASE)
-        options = webdriver.ChromeOptions()
-        for argument in ("--headless=new", "--no-sandbox", "--enable-unsafe-swiftshader", "--window-size=1300,1600"):
-            options.add_argument(argument)
-        options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-        cls.browser = webdriver.Chrome(options=options)
+        cls.browser = support.open_browser(1300, 1600)
         cls.addClassCleanup(cls.browser.quit)
 
     def setUp(self):
@@ -312,7 +308,7 @@ class Page(unittest.TestCase):
         volume = lambda frames: [f["numbers"]["volume_fraction"] for f in frames]
         picture = self.picture()
         self.element("tool-move").click()
-        before, after = self.changed(lambda: self.drag(hole, (hole[0] + 0.012, hole[1] - 0.004)))
+        before, after = self.changed(lambda: self.drag(hole, (hole[0] - 0.012, hole[1] + 0.004)))
         self.assertTrue(after["message"].startswith("the hole at"))
         self.assertAlmostEqual(*volume((before, after)), delta=2e-3)
         self.assertNotEqual(after["travel_m"], before["travel_m"])
@@ -362,6 +358,9 @@ class Page(unittest.TestCase):
 
     def test_designs_are_taken_away(self):
         self.settled()
+        self.paused()
+        self.element("reset").click()
+        self.until(lambda: self.element("undo").is_enabled())
         self.element("name").send_keys(Keys.CONTROL, "a", Keys.NULL, "even-wheel")
         self.element("save").click()
         self.until(lambda: self.text("message").startswith("saved"))

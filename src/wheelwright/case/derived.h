@@ -70,7 +70,6 @@ bool wants_annulus(const Case& c);
 /// Whether every shape has the same volume: not where a bound, or what is minimized, is about it.
 bool holds_volume(const Case& c);
 
-
 /// Whether any functional compares the contact stress of the load positions.
 bool wants_uniformity(const Case& c);
 

@@ -584,7 +584,7 @@ const SectionArray<PictureShape>& picture_shape_sections() {
   static const SectionArray<PictureShape> sections{
       .parent = "shape",
       .name = "picture",
-      .meaning = "what is dark in a PNG; transparent pixels are not drawn",
+      .meaning = "the dark pixels of a PNG are drawn; transparent ones are not",
       .in = [](Case& c) -> std::vector<PictureShape>& { return c.shapes.pictures; },
       .example = {.path = "picture.png", .width = 0.7, .checksum = {}, .picture = {}},
       .keys = {
@@ -808,7 +808,8 @@ const Section<Optimizer>& optimizer_section() {
            .unit = "",
            .field = choice<&Optimizer::method>({"auto", "sequential_quadratic", "descent"}),
            .meaning = "sequential_quadratic: steps of a quadratic model that learns the curvature from the "
-                      "shapes before; descent: along the gradient; auto: descent with volume.control = \"paper\" and "
+                      "shapes before; descent: along the gradient; auto: descent with volume.control = "
+                      "\"paper\" and "
                       "with velocity = \"harmonic\", which need it, else sequential_quadratic"},
           {.name = "iterations",
            .unit = "",

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <concepts>
 #include <nlohmann/json.hpp>
 
 namespace wheelwright {
@@ -14,14 +15,14 @@ using Pair = std::array<double, 2>;
 // A command is an object: "do" is its name, and each of its members a key. fields() calls visit(key, member)
 // for all of them, to write and to read.
 
+template <class Member, class Struct>
+concept Is = std::same_as<std::remove_const_t<Member>, Struct>;
+
 template <class Struct, class Visit>
 void fields(Struct&, Visit&&) requires std::is_empty_v<Struct> {}
 
 template <class Visit>
-void fields(auto& c, Visit&& visit) requires requires {
-  c.uniformity_l2;
-}
-{
+void fields(Is<NewWeights> auto& c, Visit&& visit) {
   visit("strain_energy", c.strain_energy);
   visit("uniformity_annulus", c.uniformity_annulus);
   visit("uniformity_dual", c.uniformity_dual);
@@ -29,10 +30,7 @@ void fields(auto& c, Visit&& visit) requires requires {
 }
 
 template <class Visit>
-void fields(auto& c, Visit&& visit) requires requires {
-  c.load.force;
-}
-{
+void fields(Is<NewLoad> auto& c, Visit&& visit) {
   visit("force_N", c.load.force);
   visit("travel_m", c.load.travel);
   visit("horizontal_force_N", c.load.horizontal_force);
@@ -43,34 +41,26 @@ void fields(auto& c, Visit&& visit) requires requires {
 }
 
 template <class Visit>
-void fields(auto& c, Visit&& visit) requires requires {
-  c.target;
+void fields(Is<NewVolume> auto& c, Visit&& visit) {
+  visit("target", c.target);
 }
-{ visit("target", c.target); }
 
 template <class Visit>
-void fields(auto& c, Visit&& visit) requires requires {
-  c.path;
-}
-{
+void fields(Is<Paint> auto& c, Visit&& visit) {
   visit("as", c.as);
   visit("path_m", c.path);
   visit("radius_m", c.radius);
 }
 
 template <class Visit>
-void fields(auto& c, Visit&& visit) requires requires {
-  c.scale;
-}
-{
+void fields(Is<MoveHole> auto& c, Visit&& visit) {
   visit("at_m", c.at);
   visit("by_m", c.by);
   visit("scale", c.scale);
 }
 
 template <class Visit>
-void fields(auto& c, Visit&& visit) requires(
-    std::is_same_v<std::remove_const_t<std::remove_reference_t<decltype(c)>>, FillHole>) {
+void fields(Is<FillHole> auto& c, Visit&& visit) {
   visit("at_m", c.at);
 }
 

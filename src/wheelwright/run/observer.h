@@ -39,7 +39,7 @@ struct SaveRequested {
 /// A command was obeyed, or refused.
 struct CommandDone {
   const Command* command;  ///< null where the run gave it to itself
-  std::string text;  ///< what was done, or why it was refused; may be empty
+  std::string text;        ///< what was done, or why it was refused; may be empty
   bool was_obeyed;
 };
 

@@ -13,10 +13,9 @@
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/geometry/components.h"
 #include "wheelwright/geometry/values_on.h"
-#include "wheelwright/optimize/constraints.h"
 #include "wheelwright/run/own_drawings.h"
 #include "wheelwright/run/provenance.h"
-#include "wheelwright/run/run_title.h"
+#include "wheelwright/run/summarized_run.h"
 
 namespace wheelwright {
 namespace {
@@ -57,20 +56,6 @@ std::vector<ShapeEvent<dim>> changes_by_grid(const LevelSet<dim>& before, const 
   PolarGrid<dim> fine = after.lattice.grid();
   for (int& cells : fine.cells) cells *= component_samples;
   return topology_changes(components(values_on(before, Lattice<dim>(fine, 1)), 1), components(after));
-}
-
-template <int dim>
-std::string minimized_text(Quantity quantity) {
-  if (quantity == Quantity::objective) return {};
-  return fmt::format("{} [{}]", name(quantity), unit<dim>(kind(quantity)));
-}
-
-template <int dim>
-std::vector<SummarizedBound> summarized_bounds(const OptimizationState<dim>& state) {
-  std::vector<SummarizedBound> result;
-  for (const BoundState& b : bound_states(state.evaluation, state.memory.multipliers))
-    result.push_back({b.name, b.value, b.bound, b.relation, b.multiplier, b.is_kept()});
-  return result;
 }
 
 Refusal refusal(const Failure& failure) {
@@ -333,12 +318,7 @@ std::optional<RunSummary<dim>> RunLoop<dim>::run_summary(const StateSolver<dim>&
   const auto now = described(solver, state_->shape, state_->measure, *last);
   const auto first = state_->iteration > 0 ? initial_wheel(solver) : now;
   if (!first || !now) return {};
-  return RunSummary<dim>{
-      .title = run_title(work_->study.source),
-      .before = {0, initial_->objective, *first},
-      .after = {state_->iteration, work_->optimizer.objective_of(state_->evaluation), *now},
-      .bounds = summarized_bounds(*state_),
-      .minimized = minimized_text<dim>(work_->study.source.objective.minimize)};
+  return summarized_run(work_->study.source, *initial_, *first, *state_, *now);
 }
 
 template <int dim>

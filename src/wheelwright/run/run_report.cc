@@ -84,9 +84,14 @@ std::string status_text(std::optional<StopReason> reason) {
 }
 
 template <int dim>
-std::vector<std::string> flags(const Case& c, const DescribedWheel<dim>& wheel,
+std::vector<std::string> flags(const Case& c, const RunSummary<dim>& summary,
                                std::optional<StopReason> reason) {
+  const DescribedWheel<dim>& wheel = summary.after.wheel;
   std::vector<std::string> result;
+  for (const SummarizedBound& bound : summary.bounds)
+    if (!bound.is_kept)
+      result.push_back(fmt::format("The bound {} {} {:.6g} is not kept: the value is {:.6g}.", bound.name,
+                                   bound.relation, bound.bound, bound.value));
   if (const auto warning = deformation_warning(wheel.summary.deformation); !warning.empty())
     result.push_back(warning);
   for (const std::string& warning : feature_warnings(c, wheel.clearances)) result.push_back(warning);
@@ -175,7 +180,7 @@ ReportRun<dim> report_of_results(const fs::path& folder, const Case& c, const Ru
   ReportRun<dim> run = report_of_folder<dim>(folder, c);
   run.is_running = false;
   run.status = status_text(reason);
-  run.flags = flags(c, summary.after.wheel, reason);
+  run.flags = flags(c, summary, reason);
   run.summary = summary;
   run.shape = last.shape;
   add_fields(last, run);

@@ -134,49 +134,39 @@ std::optional<LongHoles> draft_long_holes(const DraftSpace& space, Random& rando
   return holes;
 }
 
-std::string long_holes_text(const char* what, const LongHoles& holes) {
-  return fmt::format("{} {}{}", holes.count, what,
-                     holes.angle == 0 ? "" : fmt::format(", tilted by {:.0f} deg", holes.angle / degree));
+/// Long holes of one kind of shape.
+template <class Shape>
+std::optional<Draft> draft_as(std::vector<Shape> Shapes::*shapes, const char* name, const DraftSpace& space,
+                              Random& random) {
+  double largest = 0;
+  const auto holes = draft_long_holes(space, random, largest);
+  if (!holes) return {};
+  const std::string tilt =
+      holes->angle == 0 ? "" : fmt::format(", tilted by {:.0f} deg", holes->angle / degree);
+  return Draft{.text = fmt::format("{} {}{}", holes->count, name, tilt),
+               .sectors = holes->count,
+               .least = space.wall,
+               .most = largest,
+               .draw = [h = *holes, shapes](Case& c, double length) {
+                 (c.shapes.*shapes)
+                     .push_back({.order = 1,
+                                 .count = h.count,
+                                 .center_radius = h.center_radius,
+                                 .length = length,
+                                 .width = h.width(length),
+                                 .angle = h.angle,
+                                 .phase = {}});
+               }};
 }
 
 }  // namespace
 
 std::optional<Draft> draft_slots(const DraftSpace& space, Random& random) {
-  double largest = 0;
-  const auto holes = draft_long_holes(space, random, largest);
-  if (!holes) return {};
-  return Draft{.text = long_holes_text("slots", *holes),
-               .sectors = holes->count,
-               .least = space.wall,
-               .most = largest,
-               .draw = [h = *holes](Case& c, double length) {
-                 c.shapes.slots.push_back({.order = 1,
-                                           .count = h.count,
-                                           .center_radius = h.center_radius,
-                                           .length = length,
-                                           .width = h.width(length),
-                                           .angle = h.angle,
-                                           .phase = {}});
-               }};
+  return draft_as(&Shapes::slots, "slots", space, random);
 }
 
 std::optional<Draft> draft_ellipses(const DraftSpace& space, Random& random) {
-  double largest = 0;
-  const auto holes = draft_long_holes(space, random, largest);
-  if (!holes) return {};
-  return Draft{.text = long_holes_text("ellipses", *holes),
-               .sectors = holes->count,
-               .least = space.wall,
-               .most = largest,
-               .draw = [h = *holes](Case& c, double length) {
-                 c.shapes.ellipses.push_back({.order = 1,
-                                              .count = h.count,
-                                              .center_radius = h.center_radius,
-                                              .length = length,
-                                              .width = h.width(length),
-                                              .angle = h.angle,
-                                              .phase = {}});
-               }};
+  return draft_as(&Shapes::ellipses, "ellipses", space, random);
 }
 
 std::optional<Draft> draft_spokes(const DraftSpace& space, Random& random, SpokeKind kind) {

@@ -8,7 +8,7 @@
 #include "wheelwright/case/derived.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/run/run_report.h"
-#include "wheelwright/run/run_title.h"
+#include "wheelwright/run/summarized_run.h"
 
 namespace wheelwright {
 namespace {
@@ -36,10 +36,7 @@ Expected<PageRun> report_of_run(const RunInput<dim>& run) {
              after = described(solver, last.shape, last.measure, **last_states);
   if (!before) return before.failure();
   if (!after) return after.failure();
-  const RunSummary<dim> summary{
-      .title = run_title(run.source),
-      .before = {0, initial.objective, *before},
-      .after = {last.iteration, last.evaluation.function("objective").value, *after}};
+  const auto summary = summarized_run(run.source, initial, *before, last, *after);
   return page_run(report_of_results<dim>(
       run.folder, run.source, summary, {&last.shape, &solver, last_states->get()}, run.checkpoint.finished));
 }

@@ -21,8 +21,8 @@ constexpr double least_order = 1.9;
 constexpr double balance_tolerance = 1e-9;
 constexpr int halvings = 3;
 
-/// The largest step of the Taylor test, by the resolution of the grid. In 3D the cut quadrature is less exact,
-/// so that the last remainders of smaller steps would be its own.
+/// The largest step of the Taylor test, by the resolution of the grid. In 3D the cut quadrature is less
+/// exact, so that the last remainders of smaller steps would be its own.
 template <int dim>
 constexpr double largest_step = dim == 2 ? 1e-3 : 4e-3;
 
