@@ -6,8 +6,8 @@
 
 namespace wheelwright {
 
-/// "P1,P2,..." or "a:b:n", n >= 2 loads evenly spaced from a to b; in ascending order, without doubles.
-/// Nothing when the text is neither, a load is not positive or there are over 1000.
+/// The loads of a list of numbers (number_list.h), in ascending order, without doubles. Nothing when the text
+/// is none, or a load is not positive.
 std::optional<std::vector<double>> parse_loads(const std::string& text);
 
 }  // namespace wheelwright

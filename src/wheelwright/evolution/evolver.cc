@@ -8,16 +8,11 @@
 #include "wheelwright/evolution/transport.h"
 #include "wheelwright/geometry/finite.h"
 #include "wheelwright/geometry/mirror.h"
+#include "wheelwright/linalg/dense.h"
 
 namespace wheelwright {
 
 namespace {
-
-double largest_magnitude(std::span<const double> values) {
-  double largest = 0;
-  for (double v : values) largest = std::max(largest, std::abs(v));
-  return largest;
-}
 
 constexpr MirrorPlane planes[] = {MirrorPlane::azimuth, MirrorPlane::width};
 

@@ -84,14 +84,16 @@ Matrix scaled_rows(std::span<const double> factors, Matrix a) {
   return a;
 }
 
-double largest_entry(const Matrix& a) {
+double largest_magnitude(std::span<const double> values) {
   double largest = 0;
-  for (const double x : a.entries()) {
+  for (const double x : values) {
     if (std::isnan(x)) return x;
     largest = std::max(largest, std::abs(x));
   }
   return largest;
 }
+
+double largest_entry(const Matrix& a) { return largest_magnitude(a.entries()); }
 
 Matrix sum(Matrix a, const Matrix& b) {
   assert(a.rows() == b.rows() && a.columns() == b.columns());

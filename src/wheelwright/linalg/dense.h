@@ -83,7 +83,8 @@ std::vector<int> nonzero_columns(const Matrix& a);
 /// Returns diag(factors) * a.
 Matrix scaled_rows(std::span<const double> factors, Matrix a);
 
-/// The maximum absolute value of the entries; NaN if an entry is NaN.
+/// The maximum absolute value; NaN if a value is NaN.
+double largest_magnitude(std::span<const double> values);
 double largest_entry(const Matrix& a);
 
 enum class Op { none, transpose, adjoint };

@@ -10,6 +10,7 @@
 #include "wheelwright/evolution/volume.h"
 #include "wheelwright/geometry/finite.h"
 #include "wheelwright/geometry/place.h"
+#include "wheelwright/linalg/dense.h"
 #include "wheelwright/optimize/constraints.h"
 
 namespace wheelwright {
@@ -42,12 +43,6 @@ bool is_finite(const Evaluation<dim>& evaluation) {
       sum += evaluation.boundary[q].weight * function.gradient[q];
   }
   return std::isfinite(sum);
-}
-
-double largest_magnitude(std::span<const double> values) {
-  double largest = 0;
-  for (double v : values) largest = std::max(largest, std::abs(v));
-  return largest;
 }
 
 bool is_converged(const OptimizerOptions& options, const std::vector<double>& history, bool has_bounds) {

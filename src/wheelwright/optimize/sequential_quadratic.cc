@@ -11,12 +11,6 @@ namespace {
 
 using Nodal = std::vector<double>;
 
-double largest_magnitude(const Nodal& values) {
-  double largest = 0;
-  for (double v : values) largest = std::max(largest, std::abs(v));
-  return largest;
-}
-
 void add(double factor, const Nodal& a, Nodal& to) {
   for (size_t i = 0; i < to.size(); ++i) to[i] += factor * a[i];
 }
