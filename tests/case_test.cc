@@ -700,17 +700,17 @@ TEST(Derived, ThePapersWheel) {
   EXPECT_DOUBLE_EQ(bands(c).rim.thickness, 0.01);
 }
 
-// The fewest levels that give 8 cells per patch in a run and 18 in results; a given number is taken as it is.
+// The fewest levels that give 8 cells per patch in a run and 36 in results; a given number is taken as it is.
 TEST(Derived, TheTreadIsAsFineAsTheContactNeeds) {
   Case c;
   EXPECT_EQ(tread_levels(c), 2);
-  EXPECT_EQ(tread_levels_of_results(c), 3);
+  EXPECT_EQ(tread_levels_of_results(c), 4);
   for (const double load : {1.0, 300.0, 2943.0, 1e5}) {
     c.load.force = load;
     for (const int levels : {tread_levels(c), tread_levels_of_results(c)}) {
       Case given = c;
       given.grid.tread_levels = levels;
-      const double wanted = levels == tread_levels(c) ? 8 : 18, cells = cells_per_contact_patch(given);
+      const double wanted = levels == tread_levels(c) ? 8 : 36, cells = cells_per_contact_patch(given);
       const bool is_limited = c.contact.quadrature_points * (1 << levels) * 2 > (wanted == 8 ? 80 : 160);
       EXPECT_TRUE(cells >= wanted || is_limited) << load;
       EXPECT_TRUE(levels == 0 || cells < 2 * wanted) << load;

@@ -36,7 +36,7 @@ std::string material_report(const Case& c) {
 std::string contact_report(const Case& c) {
   const std::string levels = line(
       "tread levels", fmt::format("{} in a run, {} in results", tread_levels(c), tread_levels_of_results(c)));
-  if (c.load.travel) return levels;
+  if (c.load.travel || c.contact.with == Counterpart::ring) return levels;
   return levels + line("Hertz half-width", fmt::format("{:.4g} mm", hertz_half_width(c) * 1e3)) +
          line("Hertz peak pressure", fmt::format("{:.4g} MPa", hertz_peak_pressure(c) / 1e6)) +
          line("cells in the contact",

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "wheelwright/analysis/deformation_size.h"
+#include "wheelwright/app/contact_progress.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/run/feature_warnings.h"
 
@@ -29,6 +30,7 @@ template <int dim>
 void TerminalObserver<dim>::operator()(const Event<dim>& event, const RunView<dim>& run) {
   if (const auto* started = std::get_if<RunStarted>(&event)) begin(*started, run);
   if (const auto* done = std::get_if<TrialDone<dim>>(&event)) show(*done, run);
+  if (const auto* advanced = std::get_if<ContactAdvanced>(&event)) progress_.note(text(advanced->progress));
   if (const auto* changed = std::get_if<GridChanged>(&event))
     progress_.note("going on with the " + changed->text);
   if (const auto* command = std::get_if<CommandDone>(&event); command && !command->text.empty())

@@ -5,18 +5,42 @@
 
 namespace wheelwright {
 
+/// Where the contact problems of a shape stand.
+struct ContactProgress {
+  int position, n_positions;  ///< the load position that is being solved, from 0
+  int newton_steps;           ///< taken at this position so far
+};
+
 /// What a long computation asks from time to time: whether it should end early, with the failure
-/// `interrupted`. The question is cheap; once the answer was yes it stays yes.
+/// `interrupted`. The question is cheap; once the answer was yes it stays yes. Whoever asks also says how far
+/// the contact is.
 class Interrupt {
  public:
+  using Progress = std::function<void(const ContactProgress&)>;
+
   /// Never requested.
   Interrupt() = default;
-  explicit Interrupt(std::function<bool()> requested) : requested_(std::move(requested)) {}
+  explicit Interrupt(std::function<bool()> requested, Progress progress = {})
+      : requested_(std::move(requested)), progress_(std::move(progress)) {}
 
   bool requested() const { return requested_ && requested_(); }
 
+  /// Called before every step of a contact problem.
+  void tell(const ContactProgress& progress) const {
+    if (progress_) progress_(progress);
+  }
+
+  /// The same for one of several load positions: what it is told counts for that position.
+  Interrupt at_position(int position, int n_positions) const {
+    if (!progress_) return *this;
+    return Interrupt(requested_, [tell = progress_, position, n_positions](const ContactProgress& progress) {
+      tell({position, n_positions, progress.newton_steps});
+    });
+  }
+
  private:
   std::function<bool()> requested_;
+  Progress progress_;
 };
 
 }  // namespace wheelwright

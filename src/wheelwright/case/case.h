@@ -49,6 +49,7 @@ struct Load {
 };
 
 struct Contact {
+  Counterpart with = Counterpart::ground;
   ContactMethod method = ContactMethod::nitsche;
   double theta = -1;
   double gamma_0 = 1;   ///< gamma = gamma_0 E / h_T [Pa/m]

@@ -23,7 +23,7 @@ Case on_coarser_grid(Case c, int level) {
   if (wants_annulus(c)) c.objective.annulus = annulus_thickness(c);
   c.objective.length = characteristic_length(c);
   c.grid.radial_cells >>= level;
-  c.grid.angular_cells >>= level;
+  c.grid.angular_cells = c.wheel.sectors * std::max(1, (c.grid.angular_cells / c.wheel.sectors) >> level);
   c.grid.axial_cells = std::max(1, c.grid.axial_cells >> level);
   if (c.grid.tread_levels)
     c.grid.tread_levels =

@@ -9,9 +9,10 @@ namespace wheelwright {
 // A run may begin on coarser grids than the case's (optimizer.coarse_levels): level 0 is the case's grid, and
 // each further level has half as many cells along each axis.
 
-/// The case on the grid of that level. What is given in cells of the case's grid by default, such as the
-/// annulus of J_p1, keeps its size in metres. Bands grow to the full rows that the coarse cells need, and the
-/// descent ends at a tolerance of 5e-3 or more: it only has to come near. Level 0 is the case itself.
+/// The case on the grid of that level, with whole cells in each sector. What is given in cells of the case's
+/// grid by default, such as the annulus of J_p1, keeps its size in metres. Bands grow to the full rows that
+/// the coarse cells need, and the descent ends at a tolerance of 5e-3 or more: it only has to come near.
+/// Level 0 is the case itself.
 Case on_coarser_grid(Case c, int level);
 
 /// Whether the case's grid can be halved so many times in whole cells of each sector.

@@ -352,7 +352,8 @@ void check_nitsche(const Case& c, Conflicts& found) {
 
 /// Under such a load a solid disc would be strained by a quarter and more.
 void check_load(const Case& c, Conflicts& found) {
-  if (c.load.travel || c.wheel.inner_radius >= c.wheel.outer_radius) return;
+  if (c.load.travel || c.contact.with == Counterpart::ring || c.wheel.inner_radius >= c.wheel.outer_radius)
+    return;
   const double largest = 0.5 * c.wheel.outer_radius, half_width = hertz_half_width(c);
   if (half_width <= largest) return;
   const double advised = 0.1 * c.wheel.outer_radius, factor = advised / half_width;  // strains of 5 %
@@ -370,7 +371,7 @@ void check_contact_points(const Case& c, Conflicts& found) {
   constexpr double most = 2500;
   const auto unknowns = [](const Case& shown) {
     return cells_per_contact_patch(shown) * shown.contact.quadrature_points *
-           (shown.contact.friction > 0 ? 2 : 1);
+           (shown.contact.friction > 0 || shown.contact.with == Counterpart::ring ? 2 : 1);
   };
   const Case shown = with_levels_of_results(c);
   const double n = unknowns(shown);
@@ -383,8 +384,8 @@ void check_contact_points(const Case& c, Conflicts& found) {
                         std::max(1, static_cast<int>(c.contact.quadrature_points * most / n)));
   found.push_back(
       {{"grid.tread_levels", "contact.quadrature_points", "grid.angular_cells", "load.force", "load.mass",
-        "load.travel", "material.youngs_modulus", "contact.friction", "wheel.outer_radius", "wheel.width",
-        "material.poissons_ratio", "material.plane"},
+        "load.travel", "material.youngs_modulus", "contact.friction", "contact.with", "wheel.outer_radius",
+        "wheel.width", "material.poissons_ratio", "material.plane"},
        fmt::format("about {:.0f} unknowns in the contact of one position; at most {:.0f} are solved "
                    "in reasonable time",
                    n, most),
@@ -453,6 +454,7 @@ void check_dimension(const Case& c, Conflicts& found) {
 
 /// Friction must resist the force or torque that moves or turns the rim.
 void check_friction(const Case& c, Conflicts& found) {
+  if (c.contact.with == Counterpart::ring) return;
   const Load& load = c.load;
   if (load.horizontal_force != 0 && load.torque != 0)
     found.push_back(
@@ -483,6 +485,24 @@ void check_friction(const Case& c, Conflicts& found) {
                                  "resists less than {:.6g} N",
                                  along_ground, held),
                      "take smaller values, or more contact.friction"});
+}
+
+/// A tread that is bonded all round neither slides nor has a patch that could be even.
+void check_bonded(const Case& c, Conflicts& found) {
+  if (c.contact.with != Counterpart::ring) return;
+  if (c.wheel.dimension == 3)
+    found.push_back({{"contact.with", "wheel.dimension"},
+                     "a tread that is bonded to a ring is computed in the plane only",
+                     "take wheel.dimension = 2"});
+  if (c.contact.friction > 0)
+    found.push_back({{"contact.friction", "contact.with"},
+                     "a tread that is bonded to a ring cannot slide",
+                     "remove friction, or take contact.with = \"ground\""});
+  if (wants_uniformity(c))
+    found.push_back({{"objective.uniformity_dual", "objective.uniformity_annulus", "objective.uniformity_l2",
+                      "objective.annulus_matches_dual", "objective.minimize", "contact.with"},
+                     "the uniformity of the contact stress is that of a patch on the ground",
+                     "take another objective, or contact.with = \"ground\""});
 }
 
 void check_annulus(const Case& c, Conflicts& found) {
@@ -733,6 +753,7 @@ std::vector<Conflict> conflicts(const Case& c) {
   check_nitsche(c, found);
   check_load(c, found);
   check_contact_points(c, found);
+  check_bonded(c, found);
   check_incompressible(c, found);
   check_dimension(c, found);
   check_friction(c, found);

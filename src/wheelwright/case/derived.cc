@@ -20,6 +20,7 @@ double hertz_half_width(const Case& c) {
 double hertz_peak_pressure(const Case& c) { return 2 * load_per_metre(c) / (pi * hertz_half_width(c)); }
 
 double likely_half_width(const Case& c) {
+  if (c.contact.with == Counterpart::ring) return pi * c.wheel.outer_radius;
   // A travel d makes a patch of about sqrt(0.4 R_e d): the logarithm in the compliance of a roller is near 5.
   return c.load.travel ? std::sqrt(0.4 * c.wheel.outer_radius * *c.load.travel) : hertz_half_width(c);
 }
@@ -53,7 +54,7 @@ int level_set_degree(const Case& c) {
 
 int tread_levels(const Case& c) { return c.grid.tread_levels.value_or(levels_for(c, 8, 80)); }
 
-int tread_levels_of_results(const Case& c) { return c.grid.tread_levels.value_or(levels_for(c, 18, 160)); }
+int tread_levels_of_results(const Case& c) { return c.grid.tread_levels.value_or(levels_for(c, 36, 160)); }
 
 Case with_levels_of_results(Case c) {
   c.grid.tread_levels = tread_levels_of_results(c);
@@ -230,8 +231,9 @@ bool wants_dual(const Case& c) {
 /// Number of tread columns that contact may reach [cells of the tread, before they are halved].
 double contact_columns(const Case& c) {
   const double cell = 2 * pi * c.wheel.outer_radius / c.grid.angular_cells;
-  const double half_width =
-      c.load.travel ? std::sqrt(2 * c.wheel.outer_radius * *c.load.travel) : hertz_half_width(c);
+  const double half_width = c.contact.with == Counterpart::ring ? likely_half_width(c)
+                            : c.load.travel ? std::sqrt(2 * c.wheel.outer_radius * *c.load.travel)
+                                            : hertz_half_width(c);
   constexpr double margin = 4;
   return std::min(2 * half_width / cell + margin, static_cast<double>(c.grid.angular_cells));
 }

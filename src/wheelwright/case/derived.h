@@ -21,7 +21,7 @@ double hertz_half_width(const Case& c);
 double hertz_peak_pressure(const Case& c);
 
 /// Half of the likely contact patch [m]: Hertz's under a load, and an estimate from the travel if that is
-/// given.
+/// given; half the circumference if the tread is bonded.
 double likely_half_width(const Case& c);
 
 /// The method of the case, or the one that its volume and velocity need; never automatic.
@@ -30,7 +30,7 @@ OptimizerMethod optimizer_method(const Case& c);
 /// Degree of the level set: the case's own, or 2, in 3D 1.
 int level_set_degree(const Case& c);
 
-/// Halvings of the cells at the tread in a run and in results: the case's own, or as many as give 8 and 18
+/// Halvings of the cells at the tread in a run and in results: the case's own, or as many as give 8 and 36
 /// cells across the likely contact patch, as far as the number of contact points stays reasonable; in 3D,
 /// where they are far more, none.
 int tread_levels(const Case& c);

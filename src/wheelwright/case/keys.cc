@@ -176,27 +176,34 @@ const Section<Contact>& contact_section() {
       .name = "contact",
       .meaning = "contact of the tread with the ground",
       .in = [](Case& c) -> Contact& { return c.contact; },
-      .keys = {{.name = "method",
-                .unit = "",
-                .field = choice<&Contact::method>({"nitsche", "penalty"}),
-                .meaning = "Nitsche's method (28) or penalty (22)"},
-               {.name = "theta",
-                .unit = "",
-                .field = NumberField<Contact>{&Contact::theta, any_number},
-                .meaning = "Nitsche's parameter; -1 works with any gamma_0, 0 and 1 need a large one"},
-               {.name = "gamma_0",
-                .unit = "",
-                .field = NumberField<Contact>{&Contact::gamma_0, above(0, 1e9)},
-                .meaning = "gamma = gamma_0 E / h_T, where h_T is the diameter of the contact cell; in plane "
-                           "stress with E (1 + 2 nu) / (1 + nu)^2 for E"},
-               {.name = "friction",
-                .unit = "",
-                .field = NumberField<Contact>{&Contact::friction, between(0, 10)},
-                .meaning = "coefficient F of Coulomb's static friction (16)"},
-               {.name = "quadrature_points",
-                .unit = "",
-                .field = IntegerField<Contact>{&Contact::quadrature_points, between(1, 20)},
-                .meaning = "number of Gauss points on each contact face"}}};
+      .keys = {
+          {.name = "with",
+           .unit = "",
+           .field = choice<&Contact::with>({"ground", "ring"}),
+           .meaning = "what the tread meets: flat ground on which it rolls, or a rigid ring to which all of "
+                      "it is bonded, as in a bushing; the load then presses the rim towards each load "
+                      "position"},
+          {.name = "method",
+           .unit = "",
+           .field = choice<&Contact::method>({"nitsche", "penalty"}),
+           .meaning = "Nitsche's method (28) or penalty (22)"},
+          {.name = "theta",
+           .unit = "",
+           .field = NumberField<Contact>{&Contact::theta, any_number},
+           .meaning = "Nitsche's parameter; -1 works with any gamma_0, 0 and 1 need a large one"},
+          {.name = "gamma_0",
+           .unit = "",
+           .field = NumberField<Contact>{&Contact::gamma_0, above(0, 1e9)},
+           .meaning = "gamma = gamma_0 E / h_T, where h_T is the diameter of the contact cell; in plane "
+                      "stress with E (1 + 2 nu) / (1 + nu)^2 for E"},
+          {.name = "friction",
+           .unit = "",
+           .field = NumberField<Contact>{&Contact::friction, between(0, 10)},
+           .meaning = "coefficient F of Coulomb's static friction (16)"},
+          {.name = "quadrature_points",
+           .unit = "",
+           .field = IntegerField<Contact>{&Contact::quadrature_points, between(1, 20)},
+           .meaning = "number of Gauss points on each contact face"}}};
   return section;
 }
 
@@ -640,7 +647,7 @@ const Section<Grid>& grid_section() {
           {.name = "tread_levels",
            .unit = "",
            .field = OptionalIntegerField<Grid>{&Grid::tread_levels, between(0, 6),
-                                               "8 cells across the contact patch in a run, 18 in an analysis "
+                                               "8 cells across the contact patch in a run, 36 in an analysis "
                                                "and in the results of a run; in 3D 0",
                                                "auto"},
            .meaning =

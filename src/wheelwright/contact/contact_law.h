@@ -77,6 +77,14 @@ ContactResponse<dim> given_friction_response(const Vec<dim>& z, double threshold
   return r;
 }
 
+/// A bonded tread: Phi(z) = z.
+template <int dim>
+ContactResponse<dim> bonded_response(const Vec<dim>& z) {
+  ContactResponse<dim> r{z, {}};
+  for (int d = 0; d < dim; ++d) r.tangent[d][d] = 1;
+  return r;
+}
+
 /// The status of a point by its augmented traction: whether it touches, and whether its tangential traction
 /// has reached the threshold.
 struct ContactStatus {

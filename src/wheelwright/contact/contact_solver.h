@@ -12,7 +12,8 @@ namespace wheelwright {
 /// their number falls; then of the last one alone, which ends cycles (block principal pivoting: Judice and
 /// Pires, Computers & Operations Research 21, 1994). A wheel
 /// whose rim is held may stay off the ground. Fails with newton_stalled, with no_contact if other loads lift
-/// the wheel, or with interrupted once `interrupt`, which is polled before every step, asks for it.
+/// the wheel, or with interrupted once `interrupt`, which is polled and told of before every step, asks for
+/// it. A bonded tread is a linear problem, which needs no start.
 template <int dim>
 Expected<ContactState<dim>> solve_contact(const ReducedContact<dim>& contact,
                                           std::span<const ContactUnknowns<dim>> starts,

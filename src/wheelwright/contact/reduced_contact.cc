@@ -22,6 +22,11 @@ std::array<Vec<dim>, dim> ground_axes(const GroundFrame& frame) {
   return axes;
 }
 
+/// The signed distance of two columns of the ring.
+int difference(int to, int from, int ring_columns) {
+  return wrap(to - from + ring_columns / 2, ring_columns) - ring_columns / 2;
+}
+
 /// A position in a column relative to the middle of the axle.
 template <int dim>
 Vec<dim> from_axle(const PolarGrid<dim>& grid, Vec<dim> position) {
@@ -45,6 +50,7 @@ ReducedContact<dim>::ReducedContact(const SurfaceCompliance<dim>& surface, const
     : zone_(zone),
       ring_columns_(tread.n_columns()),
       rim_(std::move(rim)),
+      counterpart_(tread.form().counterpart),
       friction_(tread.form().friction),
       tau_(tread.form().tau()),
       theta_(tread.form().theta()),
@@ -55,7 +61,7 @@ ReducedContact<dim>::ReducedContact(const SurfaceCompliance<dim>& surface, const
                             ground.camber};
     for (const auto& point : tread.points()) {
       const Vec<dim> x = frame.to_ground<dim>(from_axle<dim>(grid, point.position));
-      points_.push_back({x, height - x[0], point.weight, point.gamma, frame});
+      points_.push_back({x, is_bonded() ? 0 : height - x[0], point.weight, point.gamma, frame});
     }
   }
 
@@ -75,7 +81,9 @@ ReducedContact<dim>::ReducedContact(const SurfaceCompliance<dim>& surface, const
   Matrix flexibility(n, n);
   for (int from = 0; from < zone.n_columns; ++from)
     for (int to = 0; to < zone.n_columns; ++to)
-      set_flexibility(to, from, surface.block(wrap(zone.first_column + from, tread.n_columns()), to - from),
+      set_flexibility(to, from,
+                      surface.block(wrap(zone.first_column + from, tread.n_columns()),
+                                    difference(to, from, tread.n_columns())),
                       flexibility);
   flexibility_ = std::make_shared<const Matrix>(std::move(flexibility));
 }
@@ -115,12 +123,14 @@ ReducedContact<dim> ReducedContact<dim>::with_given_friction(std::vector<double>
 
 template <int dim>
 ContactResponse<dim> ReducedContact<dim>::response(int point, const Vec<dim>& z) const {
+  if (is_bonded()) return bonded_response<dim>(z);
   return thresholds_.empty() ? contact_response<dim>(z, friction_)
                              : given_friction_response<dim>(z, thresholds_[point]);
 }
 
 template <int dim>
 ContactStatus ReducedContact<dim>::status(int point, const Vec<dim>& z) const {
+  if (is_bonded()) return {.touches = true, .slides = false};
   if (thresholds_.empty()) return contact_status<dim>(z, friction_);
   return {z[0]<0, thresholds_[point]> 0 && tangential_norm<dim>(z) > thresholds_[point]};
 }
@@ -136,6 +146,11 @@ ContactUnknowns<dim> ReducedContact<dim>::hertz_start(double load, double radius
     x.augmented[i][0] = std::abs(s) < 1 ? -peak * std::sqrt(1 - s * s) : points_[i].gamma * points_[i].gap;
   }
   return x;
+}
+
+template <int dim>
+ContactUnknowns<dim> ReducedContact<dim>::zero_start() const {
+  return {std::vector<Vec<dim>>(points_.size(), Vec<dim>{}), std::vector<double>(n_free())};
 }
 
 template <int dim>
@@ -226,7 +241,7 @@ ContactUnknowns<dim> ReducedContact<dim>::residual(const ContactUnknowns<dim>& x
 
 template <int dim>
 bool ReducedContact<dim>::is_active(int point, const Vec<dim>& z) const {
-  return z[0] < 0 || (!thresholds_.empty() && thresholds_[point] > 0);
+  return z[0] < 0 || is_bonded() || (!thresholds_.empty() && thresholds_[point] > 0);
 }
 
 /// The points that carry traction: the columns of all others are unit vectors in the Newton matrix.

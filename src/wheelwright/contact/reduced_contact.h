@@ -63,7 +63,7 @@ struct ContactAdjoint {
 template <int dim>
 class ReducedContact {
  public:
-  /// `surface` must be as wide as the zone: columns up to zone.n_columns - 1 apart.
+  /// `surface` must be as wide as the zone: columns up to zone.n_columns - 1 apart, or half of the ring.
   ReducedContact(const SurfaceCompliance<dim>& surface, const Tread<dim>& tread, const PolarGrid<dim>& grid,
                  GroundPosition ground, ContactZone zone, RimControl rim, const Preload& preload = {});
 
@@ -72,6 +72,10 @@ class ReducedContact {
 
   /// The same problem with given friction (Tresca's law): one threshold per point [Pa].
   ReducedContact with_given_friction(std::vector<double> thresholds) const;
+
+  /// Whether the tread is bonded to a rigid ring: then the problem is linear, and the zone is the whole
+  /// tread.
+  bool is_bonded() const { return counterpart_ == Counterpart::ring; }
 
   /// The contact law at a point, and the point's status.
   ContactResponse<dim> response(int point, const Vec<dim>& z) const;
@@ -93,10 +97,11 @@ class ReducedContact {
   const std::vector<Point>& points() const { return points_; }
 
   /// Initial guesses for Newton's method: the pressure of the Hertz contact of a solid disc; the undeformed
-  /// tread under the rim's prescribed motion; the solution of another zone, where both zones are centred on
-  /// their ground position.
+  /// tread under the rim's prescribed motion; neither tractions nor motions; the solution of another zone,
+  /// where both zones are centred on their ground position.
   ContactUnknowns<dim> hertz_start(double load, double radius, double reduced_modulus) const;
   ContactUnknowns<dim> undeformed_start() const;
+  ContactUnknowns<dim> zero_start() const;
   ContactUnknowns<dim> start_from(const ContactState<dim>& other) const;
 
   /// The guess itself if it touches the ground, or if the travel of the rim is prescribed; else the guess in
@@ -135,7 +140,7 @@ class ReducedContact {
   ContactPatch<dim> patch(const ContactState<dim>& state) const;
 
  private:
-  int components() const { return friction_ > 0 ? dim : 1; }
+  int components() const { return friction_ > 0 || is_bonded() ? dim : 1; }
   /// The contact points of a column, and the column and the point in it of one of the zone's points.
   int per_column() const { return n_points() / zone_.n_columns; }
   int zone_column(int point) const { return point / per_column(); }
@@ -155,6 +160,7 @@ class ReducedContact {
   ContactZone zone_;
   int ring_columns_;
   RimControl rim_;
+  Counterpart counterpart_;
   double friction_, tau_, theta_;
   std::vector<double> thresholds_;  ///< of given friction; empty: Coulomb's law
   std::vector<Point> points_;

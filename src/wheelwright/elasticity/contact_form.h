@@ -8,6 +8,12 @@ enum class ContactMethod {
   penalty,  ///< (22): I_P
 };
 
+/// What the tread meets.
+enum class Counterpart {
+  ground,  ///< flat and rigid, in unilateral contact
+  ring,    ///< a rigid ring round the tread, to which all of it is bonded: Phi(z) = z and g = 0
+};
+
 /// The contact terms, in one form for both methods. With the augmented traction
 ///   z(u) = tau sigma(u)n - gamma (u - g n_y)
 /// and the contact traction Phi(z) of (18), (23), they are
@@ -18,6 +24,7 @@ struct ContactForm {
   double theta_nitsche = -1;  ///< theta; ignored by the penalty method
   double gamma_0 = 1;         ///< gamma = gamma_0 E / h_T [Pa/m], with E = Material::scaling_modulus()
   double friction = 0;        ///< coefficient F of Coulomb's friction
+  Counterpart counterpart = Counterpart::ground;
 
   double tau() const { return method == ContactMethod::nitsche ? 1 : 0; }
   double theta() const { return method == ContactMethod::nitsche ? theta_nitsche : 0; }

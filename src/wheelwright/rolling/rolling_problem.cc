@@ -76,16 +76,18 @@ double line_load(const RollingModel<dim>& model) {
   return dim == 2 ? model.load : model.load / model.grid.width;
 }
 
-/// Columns from the ground position to beyond the likely end of contact: from Hertz's theory for a load, for
-/// a prescribed travel from where the circle meets the ground.
+/// Columns from the ground position to one beyond the likely end of contact: from Hertz's theory for a load,
+/// for a prescribed travel from where the circle meets the ground.
 template <int dim>
-int columns_in_contact(const RollingModel<dim>& model) {
+int columns_in_contact(const RollingModel<dim>& model, bool between_columns) {
+  constexpr double margin = 1.2;  // holes widen a patch
   const PolarGrid<dim>& grid = model.grid;
   const double half_width =
       model.travel ? 0.5 * std::sqrt(2 * grid.outer_radius * std::max(*model.travel, 0.0))
                    : 2 * std::sqrt(line_load(model) * grid.outer_radius /
                                    (std::numbers::pi * model.materials.at_tread().contact_modulus()));
-  return static_cast<int>(std::ceil(half_width / (grid.outer_radius * grid.cell_size()[1]))) + 2;
+  return static_cast<int>(std::ceil(margin * half_width / (grid.outer_radius * grid.cell_size()[1]))) + 1 +
+         between_columns;
 }
 
 template <int dim>
@@ -105,6 +107,11 @@ std::vector<bool> columns_in_zones(const PolarGrid<dim>& grid, const LoadPositio
   for (const GroundPosition& ground : positions.grounds)
     for (int c = ground.column - half; c < ground.column + half; ++c) result[wrap(c, grid.columns())] = true;
   return result;
+}
+
+template <int dim>
+bool is_bonded(const Tread<dim>& tread) {
+  return tread.form().counterpart == Counterpart::ring;
 }
 
 /// The surface's compliance for contact zones at some positions, `half` columns to either side.
@@ -184,7 +191,16 @@ Expected<RolledContact<dim>> roll_to(const RollingModel<dim>& model, const Tread
                                      const std::optional<ContactState<dim>>& neighbour,
                                      const Interrupt& interrupt) {
   const PolarGrid<dim>& grid = model.grid;
-  int half = std::max(columns_in_contact(model), neighbour ? neighbour->zone.n_columns / 2 : 0);
+  if (is_bonded(tread)) {
+    const int n = grid.ring_columns();
+    ReducedContact<dim> contact(surface, tread, grid, ground, {ground.column - n / 2, n}, rim_control(model),
+                                preload);
+    auto state = solve_in_zone<dim>(model, contact, {}, interrupt);
+    if (!state) return state.failure();
+    return RolledContact<dim>{std::move(contact), *std::move(state)};
+  }
+  int half =
+      std::max(columns_in_contact(model, ground.offset > 0), neighbour ? neighbour->zone.n_columns / 2 : 0);
   const int largest_half = (grid.ring_columns() / 2 - 1) / 2;
   std::optional<ContactState<dim>> known = neighbour;
   std::optional<SurfaceCompliance<dim>> wider;
@@ -212,7 +228,8 @@ Expected<RolledContact<dim>> reload(const RollingModel<dim>& model, const Tread<
   ReducedContact<dim> contact = before.contact.under(rim_control(model));
   auto state = solve_in_zone<dim>(model, contact, before.state, Interrupt());
   if (!state) return state.failure();
-  if (touches_edge(*state)) return roll_to<dim>(model, tread, ring, surface, ground, preload, *state);
+  if (touches_edge(*state) && !is_bonded(tread))
+    return roll_to<dim>(model, tread, ring, surface, ground, preload, *state);
   return RolledContact<dim>{std::move(contact), *std::move(state)};
 }
 
@@ -281,8 +298,12 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const CutShape<dim>& s
   if (!factored) return factored.failure();
   phases.push_back({phase::factorization, watch.lap()});
 
-  const int likely_half = std::min(columns_in_contact(model_), (n_columns - 1) / 2);
-  auto surface = surface_compliance(*factored, tread_, model_.grid, positions, likely_half);
+  const bool between_columns =
+      std::ranges::any_of(positions.grounds, [](const GroundPosition& ground) { return ground.offset > 0; });
+  const int likely_half = std::min(columns_in_contact(model_, between_columns), (n_columns - 1) / 2);
+  auto surface = is_bonded(tread_)
+                     ? SurfaceCompliance<dim>(*factored, tread_, n_columns / 2)
+                     : surface_compliance(*factored, tread_, model_.grid, positions, likely_half);
   RollingSolution<dim> s{.domain = *std::move(domain),
                          .ring = *std::move(factored),
                          .surface = std::move(surface),
@@ -304,13 +325,13 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const CutShape<dim>& s
   std::optional<ContactState<dim>> neighbour;
   for (int i = 0; i < n_positions; ++i) {
     auto rolled = roll_to(model_, tread_, s.ring, s.surface, s.positions.grounds[i], s.preloads[i], neighbour,
-                          interrupt);
+                          interrupt.at_position(i, n_positions));
     if (!rolled) return rolled.failure();
     if (auto failure = rim_under_ground(model_.grid, rolled->state.rim)) return *failure;
     if (auto failure = no_contact(*rolled)) return *failure;
     neighbour = rolled->state;
     const ContactZone& zone = rolled->contact.zone();
-    if (zone.n_columns > s.surface.width() + 1)
+    if (zone.n_columns > s.surface.width() + 1 && !is_bonded(tread_))
       s.surface = surface_compliance(s.ring, tread_, model_.grid, s.positions, zone.n_columns / 2);
     const Matrix loads = rolled->contact.contact_loads(rolled->state);
     for (int c = 0; c < zone.n_columns; ++c)

@@ -101,8 +101,8 @@ struct RolledContact {
 };
 
 /// The contact of one load position alone, on a ring that solve() has factored. The zone is widened until it
-/// holds the contact. `neighbour`: a solution to start from; `preload`: the effect of all
-/// loads but the ground's.
+/// holds the contact; of a bonded tread it is all of it. `neighbour`: a solution to start from; `preload`:
+/// the effect of all loads but the ground's.
 template <int dim>
 Expected<RolledContact<dim>> roll_to(const RollingModel<dim>& model, const Tread<dim>& tread,
                                      const CyclicStiffness<dim>& ring, const SurfaceCompliance<dim>& surface,

@@ -30,6 +30,11 @@ struct TrialDone {
   double seconds;  ///< of this trial
 };
 
+/// The contact of a shape is being solved; told every few seconds, so that long solves show that they go on.
+struct ContactAdvanced {
+  ContactProgress progress;
+};
+
 /// The last accepted shape should be saved now, unless it is saved already.
 template <int dim>
 struct SaveRequested {
@@ -78,8 +83,8 @@ struct RunEnded {
 };
 
 template <int dim>
-using Event = std::variant<RunStarted, TrialDone<dim>, SaveRequested<dim>, CommandDone, CaseChanged,
-                           ShapeReplaced, GridChanged, RunWaits, RunProceeds, RunEnded<dim>>;
+using Event = std::variant<RunStarted, TrialDone<dim>, ContactAdvanced, SaveRequested<dim>, CommandDone,
+                           CaseChanged, ShapeReplaced, GridChanged, RunWaits, RunProceeds, RunEnded<dim>>;
 
 template <int dim>
 class Observer;

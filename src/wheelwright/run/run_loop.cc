@@ -20,6 +20,9 @@
 namespace wheelwright {
 namespace {
 
+/// Between two notices of a contact problem that takes long.
+constexpr double seconds_between_signs = 2;
+
 constexpr const char* case_file = "case.toml";
 
 std::string problem_text(const Diagnostic& d) {
@@ -78,10 +81,19 @@ RunLoop<dim>::RunLoop(const std::filesystem::path& folder, Study<dim> study, con
 
 template <int dim>
 std::shared_ptr<const typename RunLoop<dim>::Work> RunLoop<dim>::make_work(Study<dim> study) {
-  const Interrupt interrupt([this] { return commands_.waiting_stops() > stops_before_; });
+  const Interrupt interrupt([this] { return commands_.waiting_stops() > stops_before_; }, contact_progress());
   auto evaluate = evaluate_of(study, interrupt);
   ShapeOptimizer<dim> optimizer(study.initial.lattice, study.evolution, study.optimizer, evaluate);
   return std::make_shared<const Work>(Work{std::move(study), std::move(evaluate), std::move(optimizer)});
+}
+
+template <int dim>
+Interrupt::Progress RunLoop<dim>::contact_progress() {
+  return [this](const ContactProgress& progress) {
+    if (sign_of_life_.seconds() < seconds_between_signs) return;
+    sign_of_life_.lap();
+    notify(ContactAdvanced{progress});
+  };
 }
 
 template <int dim>
@@ -204,8 +216,8 @@ RunResult<dim> RunLoop<dim>::end(StopReason reason) {
   save();
   stop_file_->remove();
   const bool is_stopped = reason == StopReason::stop_requested;
-  const Interrupt interrupt =
-      is_stopped ? Interrupt([this] { return commands_.waiting_stops() > 0; }) : Interrupt();
+  const auto is_stopped_again = [this, is_stopped] { return is_stopped && commands_.waiting_stops() > 0; };
+  const Interrupt interrupt(is_stopped_again, contact_progress());
   const SharedSolution solution = final_solution(interrupt);
   const auto [solver, shown] = solution_of_results(solution, interrupt);
   const auto summary = run_summary(*solver, shown.get());
@@ -323,6 +335,7 @@ std::optional<RunSummary<dim>> RunLoop<dim>::run_summary(const StateSolver<dim>&
 
 template <int dim>
 void RunLoop<dim>::observe(const Trial<dim>& trial, const OptimizationState<dim>& state) {
+  sign_of_life_.lap();
   const double seconds = watch_.lap();
   elapsed_ += seconds;
   if (trial.verdict == Verdict::accepted) {

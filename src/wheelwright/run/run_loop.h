@@ -31,6 +31,7 @@ class RunLoop : private RunControl {
     ShapeOptimizer<dim> optimizer;
   };
   std::shared_ptr<const Work> make_work(Study<dim> study);
+  Interrupt::Progress contact_progress();
 
   // RunControl
   const Case& current_case() const override { return work_->study.source; }
@@ -105,6 +106,7 @@ class RunLoop : private RunControl {
   int changes_ = 0;                   ///< of case or shape by commands, so far
   bool has_ended_by_itself_ = false;  ///< and waits for commands
   Stopwatch watch_;
+  Stopwatch sign_of_life_;  ///< since the last shape or notice of a long contact problem
   double elapsed_ = 0;
 };
 

@@ -44,7 +44,8 @@ RollingModel<dim> rolling_model(const Case& c) {
   model.contact = {.method = c.contact.method,
                    .theta_nitsche = c.contact.theta,
                    .gamma_0 = c.contact.gamma_0,
-                   .friction = c.contact.friction};
+                   .friction = c.contact.friction,
+                   .counterpart = c.contact.with};
   model.contact_points = c.contact.quadrature_points;
   model.tread = {tread_rows(c), tread_levels(c), wants_annulus(c) ? c.grid.degree + 1 : 0};
   model.load = on_model_width<dim>(c.load.force, c);

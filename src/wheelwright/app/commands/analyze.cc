@@ -3,6 +3,7 @@
 #include "wheelwright/analysis/deformation_size.h"
 #include "wheelwright/app/case_input.h"
 #include "wheelwright/app/commands/commands.h"
+#include "wheelwright/app/contact_progress.h"
 #include "wheelwright/app/exit_code.h"
 #include "wheelwright/app/load_list.h"
 #include "wheelwright/app/output_folder.h"
@@ -111,7 +112,7 @@ class AnalyzeCommand : public Subcommand {
     if (!made) return tell_failure(name(), made.failure());
     const StateSolver<dim>& solver = **made;
     const LevelSet<dim>& shape = wheel.shape;
-    const auto solved = solver.states(shape, solver.all_positions(), Interrupt());
+    const auto solved = solver.states(shape, solver.all_positions(), tell_contact_progress());
     if (!solved) return tell_failure(name(), solved.failure());
     if (const auto failure = material_overlaps(solver, shape, **solved))
       return tell_failure(name(), *failure);

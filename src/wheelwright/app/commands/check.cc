@@ -9,6 +9,7 @@
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/report/described_wheel.h"
 #include "wheelwright/run/feature_warnings.h"
+#include "wheelwright/run/predicted_deformation.h"
 #include "wheelwright/run/study.h"
 
 namespace wheelwright {
@@ -34,6 +35,7 @@ class CheckCommand : public Subcommand {
     const cad::Clearances clearances = outline_clearances(initial_shape<2>(*c));
     print_lines(stdout, clearance_report(clearances));
     print_warnings(stdout, *c);
+    if (const auto warning = predicted_deformation(*c)) print_warning(stdout, *warning);
     for (const std::string& warning : feature_warnings(*c, clearances)) print_warning(stdout, warning);
     return exit_done;
   }

@@ -1,5 +1,6 @@
 #include "wheelwright/app/case_input.h"
 #include "wheelwright/app/commands/commands.h"
+#include "wheelwright/app/contact_progress.h"
 #include "wheelwright/app/output_folder.h"
 #include "wheelwright/app/shared_options.h"
 #include "wheelwright/app/terminal.h"
@@ -21,7 +22,7 @@ Expected<ComparedWheel> compared(const WheelInput<2>& wheel) {
   const auto solver = make_solver(rolling_model<2>(with_levels_of_results(wheel.source)));
   if (!solver) return solver.failure();
   const LevelSet<2>& shape = wheel.shape;
-  const auto states = (*solver)->states(shape, (*solver)->all_positions(), Interrupt());
+  const auto states = (*solver)->states(shape, (*solver)->all_positions(), tell_contact_progress());
   if (!states) return states.failure();
   const PolarGrid<2>& grid = shape.lattice.grid();
   auto numbers = described_wheel(**solver, shape, volume_fraction(grid, material_measure(shape)), **states);

@@ -2,6 +2,7 @@
 
 #include "wheelwright/app/case_input.h"
 #include "wheelwright/app/commands/commands.h"
+#include "wheelwright/app/contact_progress.h"
 #include "wheelwright/app/shared_options.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/app/wheel_input.h"
@@ -28,9 +29,10 @@ Expected<PageRun> report_of_run(const RunInput<dim>& run) {
   const InitialShape<dim>& initial = run.checkpoint.initial;
   const OptimizationState<dim>& last = run.checkpoint.state;
   const auto first_states =
-      solver.states(initial.shape, solver.distinct_positions(initial.shape), Interrupt());
+      solver.states(initial.shape, solver.distinct_positions(initial.shape), tell_contact_progress());
   if (!first_states) return first_states.failure();
-  const auto last_states = solver.states(last.shape, solver.distinct_positions(last.shape), Interrupt());
+  const auto last_states =
+      solver.states(last.shape, solver.distinct_positions(last.shape), tell_contact_progress());
   if (!last_states) return last_states.failure();
   const auto before = described(solver, initial.shape, initial.measure, **first_states),
              after = described(solver, last.shape, last.measure, **last_states);

@@ -6,6 +6,7 @@
 
 #include "wheelwright/app/case_input.h"
 #include "wheelwright/app/commands/commands.h"
+#include "wheelwright/app/contact_progress.h"
 #include "wheelwright/app/exit_code.h"
 #include "wheelwright/app/shared_options.h"
 #include "wheelwright/app/terminal.h"
@@ -165,7 +166,7 @@ class VerifyCommand : public Subcommand {
 
     const auto taylor = report_taylor(c, solver, *shape, direction, step);
     if (!taylor) return taylor.failure();
-    const auto states = solver.states(*shape, solver.all_positions(), Interrupt());
+    const auto states = solver.states(*shape, solver.all_positions(), tell_contact_progress());
     if (!states) return states.failure();
     const bool balance = report_balance(**states, rim_control(solver.model()));
     return *taylor && balance;

@@ -1,0 +1,26 @@
+#include "wheelwright/app/contact_progress.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "wheelwright/app/terminal.h"
+#include "wheelwright/base/stopwatch.h"
+
+namespace wheelwright {
+
+std::string text(const ContactProgress& progress) {
+  return fmt::format("contact: load position {} of {}, {} steps so far", progress.position + 1,
+                     progress.n_positions, progress.newton_steps);
+}
+
+Interrupt tell_contact_progress() {
+  constexpr double seconds_between = 2;
+  return Interrupt({}, [watch = std::make_shared<Stopwatch>()](const ContactProgress& progress) {
+    if (watch->seconds() < seconds_between) return;
+    watch->lap();
+    tell("{}\n", text(progress));
+  });
+}
+
+}  // namespace wheelwright

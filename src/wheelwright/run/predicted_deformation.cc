@@ -1,0 +1,63 @@
+#include "wheelwright/run/predicted_deformation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "wheelwright/analysis/deformation_size.h"
+#include "wheelwright/case/coarse_grid.h"
+#include "wheelwright/case/derived.h"
+#include "wheelwright/run/study.h"
+
+namespace wheelwright {
+namespace {
+
+/// Cells of a grid that is solved in about a tenth of a second.
+constexpr int most_cells = 6'000;
+constexpr int least_rows = 6;
+
+/// With an even number, positions over the middle of a hole and of a spoke are among them.
+constexpr int most_positions = 4;
+
+bool is_prismatic(const Case& c) { return c.holes.spheres.empty() && c.holes.tapered.empty(); }
+
+/// The wheel in the plane, which the middle of its width shows.
+Case in_the_plane(Case c) {
+  c.wheel.dimension = 2;
+  c.load.lateral_force = c.load.camber = 0;
+  return c;
+}
+
+bool is_physical(FailureReason reason) {
+  return reason == FailureReason::rim_under_ground || reason == FailureReason::material_overlaps;
+}
+
+Expected<DeformationSize> deformation_of(const Case& c) {
+  const auto solver = make_solver(rolling_model<2>(c));
+  if (!solver) return solver.failure();
+  const LevelSet<2> shape = initial_shape<2>(c);
+  const auto state = (*solver)->states(shape, (*solver)->distinct_positions(shape), Interrupt());
+  if (!state) return state.failure();
+  return deformation_size(**solver, shape, **state);
+}
+
+}  // namespace
+
+std::optional<std::string> predicted_deformation(const Case& source) {
+  if (!is_prismatic(source)) return {};
+  Case c = in_the_plane(source);
+  c.load.positions = std::min(c.load.positions, most_positions);
+  c.grid.tread_levels.reset();
+  int level = 0;
+  while ((c.grid.radial_cells >> level) * (c.grid.angular_cells >> level) > most_cells &&
+         c.grid.radial_cells >> (level + 1) >= least_rows)
+    ++level;
+  const Case coarse = on_coarser_grid(c, level);
+  const auto size = deformation_of(coarse);
+  if (!size && !is_physical(size.failure().reason)) return {};
+  const std::string text = size ? deformation_warning(*size) : size.failure().detail;
+  if (text.empty()) return {};
+  return fmt::format("the initial shape on {}: {}", grid_text(coarse), text);
+}
+
+}  // namespace wheelwright

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "wheelwright/case/case.h"
+
+namespace wheelwright {
+
+/// Warns of deformations beyond linear elasticity before a run: solves the initial shape of a case in a few
+/// load positions, on a coarser grid where the case's own is large. In 3D the wheel's middle plane is solved
+/// in plane strain, and only if the shape is the same over the width. Empty if nothing exceeds what
+/// deformation_warning() allows, or if no grid of that size can be solved.
+std::optional<std::string> predicted_deformation(const Case& c);
+
+}  // namespace wheelwright
