@@ -258,8 +258,9 @@ struct ProblemSize {
 ProblemSize problem_size(const Case& c) {
   const bool in_3d = c.wheel.dimension == 3;
   const double per_line_node = c.wheel.dimension * static_cast<double>(axial_nodes(c));
+  const int axial_points = std::min(c.contact.quadrature_points, c.grid.degree + 1);
   const double points = c.contact.quadrature_points * (1 << tread_levels_of_results(c)) *
-                        (in_3d ? c.contact.quadrature_points * c.grid.axial_cells : 1);  // per column
+                        (in_3d ? axial_points * c.grid.axial_cells : 1);  // per column
   ProblemSize size{};
   size.sectors = c.wheel.sectors;
   size.positions = c.load.positions;
