@@ -14,9 +14,9 @@ namespace {
 /// Right-hand sides that are solved together: enough for fast products, and few enough to take little memory.
 constexpr int rhs_together = 192;
 
-/// Calls f(part, first, n) for the parts of columns of the ring's outer line from `first_column` on: n rows
-/// of a field by sectors (CyclicStiffness) from row `first` of sector `part.sector` are rows `part.row` and
-/// following of the piece of the line.
+/// Calls visit(row, sector, first, n) for `n_columns` columns of the ring's outer line from `first_column`
+/// on: the n rows from `row` on of that piece of the line are those from `first` on of the sector in a field
+/// by sectors (CyclicStiffness).
 template <int dim, class Visit>
 void for_each_part(const Tread<dim>& tread, int first_column, int n_columns, Visit visit) {
   const int per_column = tread.base_per_column(), per_sector = tread.columns_per_sector();
