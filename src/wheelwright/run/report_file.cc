@@ -31,6 +31,13 @@ void add_outline(const std::filesystem::path& folder, const ShapeOutline& outlin
   if (!(stream << outline_line(outline)).flush()) throw OutputError(path, errno);
 }
 
+template <int dim>
+ReportRun<dim> report_of_end(const RunEnded<dim>& ended, const RunView<dim>& run) {
+  if (!ended.summary) return report_without_results<dim>(run.folder, run.study.source, ended.reason);
+  return report_of_results<dim>(run.folder, run.study.source, *ended.summary,
+                                {&ended.state->shape, ended.solver, ended.solution}, ended.reason);
+}
+
 }  // namespace
 
 template <int dim>
@@ -48,11 +55,9 @@ void ReportFile<dim>::operator()(const Event<dim>& event, const RunView<dim>& ru
       wait_ = clock_.lap() / most_share_of_time;
     }
   }
-  if (const auto* ended = std::get_if<RunEnded<dim>>(&event); ended && ended->summary)
-    write_atomically(run.folder / page_file,
-                     report_page({page_run(report_of_results<dim>(
-                         run.folder, run.study.source, *ended->summary,
-                         {&ended->state->shape, ended->solver, ended->solution}, ended->reason))}));
+  const auto* ended = std::get_if<RunEnded<dim>>(&event);
+  if (ended && (ended->state || ended->reason == StopReason::failed_start))
+    write_atomically(run.folder / page_file, report_page({page_run(report_of_end(*ended, run))}));
 }
 
 template class ReportFile<2>;

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "wheelwright/app/case_input.h"
-#include "wheelwright/app/case_report.h"
+#include "wheelwright/run/case_report.h"
 #include "wheelwright/app/commands/commands.h"
 #include "wheelwright/app/exit_code.h"
 #include "wheelwright/app/memory.h"
