@@ -288,10 +288,6 @@ void check_saved_shape(const Case& c, Conflicts& found) {
   for_each_shape_section([&](const auto& section) {
     if (!section.of(c).empty()) refuse_besides(section.path() + "[1]");
   });
-  if (c.wheel.dimension == 3)
-    found.push_back({{"shape.from", "wheel.dimension"},
-                     "a wheel in 3D cannot begin with the shape of another run yet",
-                     "draw its holes"});
   const LevelSet<2>* shape = c.saved_shape.shape.contents.get();
   if (!shape || c.wheel.inner_radius >= c.wheel.outer_radius) return;
   const PolarGrid<2>& grid = shape->lattice.grid();
