@@ -1,5 +1,6 @@
 """Tests of the page of `wheelwright watch` in a browser. usage: watch_test.py PROGRAM, from the repository's top folder."""
 
+import contextlib
 import http.client
 import json
 import re
@@ -56,18 +57,19 @@ class Watched:
     def connect(self):
         return http.client.HTTPConnection(self.base.removeprefix("http://"), timeout=60)
 
+    def ask(self, method, path, body=None):
+        with contextlib.closing(self.connect()) as connection:
+            connection.request(method, path, body, {"Authorization": f"Bearer {self.token}"})
+            return connection.getresponse().read()
+
     def get(self, path):
-        connection = self.connect()
-        connection.request("GET", path, headers={"Authorization": f"Bearer {self.token}"})
-        return connection.getresponse().read()
+        return self.ask("GET", path)
 
     def frame(self, path="/frame?after=0"):
         return json.loads(self.get(path))
 
     def give(self, command):
-        connection = self.connect()
-        connection.request("POST", "/command", json.dumps(command), {"Authorization": f"Bearer {self.token}"})
-        return json.loads(connection.getresponse().read())
+        return json.loads(self.ask("POST", "/command", json.dumps(command)))
 
     def wait(self, wanted):
         version, until = 0, time.time() + 60
@@ -85,13 +87,17 @@ class Watched:
         return self.process.returncode, *output
 
 
-class Page(unittest.TestCase):
+class PageTest(unittest.TestCase):
+    """A page of a run in a browser."""
+
+    case = CASE
+
     @classmethod
     def setUpClass(cls):
         cls.temporary = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.temporary.cleanup)
         cls.folder = Path(cls.temporary.name)
-        (cls.folder / "case.toml").write_text(CASE)
+        (cls.folder / "case.toml").write_text(cls.case)
         cls.browser = support.open_browser(1300, 1600)
         cls.addClassCleanup(cls.browser.quit)
 
@@ -139,6 +145,10 @@ class Page(unittest.TestCase):
         """Pauses, also where the run waits because it settled."""
         self.watched.give({"do": "pause"})
         self.until(lambda: self.text("go") == "Go on")
+
+
+class Page(PageTest):
+    """The page of a plane wheel."""
 
     def test_the_page_asks_nobody_else_and_shows_no_token(self):
         self.settled()
@@ -294,7 +304,8 @@ class Page(unittest.TestCase):
         """The volume before and after something that the user does to a paused wheel."""
         before = self.watched.frame()
         act()
-        after = self.watched.wait(lambda f: f["message"] != before["message"] or f["outline"] != before["outline"])
+        after = self.watched.wait(lambda f: not f["is_proposed"] and
+                                  (f["message"] != before["message"] or f["outline"] != before["outline"]))
         self.assertFalse(after["is_refusal"], after["message"])
         self.until(lambda: int(self.wheel("version")) >= after["version"])
         return before, self.watched.frame()
@@ -389,6 +400,72 @@ class Page(unittest.TestCase):
         # Of a group of radio buttons the chosen one takes the focus.
         radios = {e.get_attribute("id") for e in self.browser.find_elements(By.CSS_SELECTOR, "input[type=radio]")}
         self.assertLessEqual(wanted - radios, seen)
+
+
+SOLID_CASE = """
+[wheel]
+dimension = 3
+sectors = 8
+[load]
+positions = 2
+[[holes.ring]]
+count = 8
+center_radius = 0.26
+radius = 0.025
+[grid]
+radial_cells = 7
+angular_cells = 64
+axial_cells = 2
+tread_levels = 0
+[optimizer]
+rim_band = 0.02
+tread_band = 0.04
+"""
+
+
+class SolidPage(PageTest):
+    """The page of a wheel in three dimensions."""
+
+    case = SOLID_CASE
+
+    def surface(self):
+        return self.browser.execute_script("return document.getElementById('solid').toDataURL()")
+
+    def test_the_surface_follows_each_shape(self):
+        self.paused()
+        seen = {}
+        for _ in range(3):
+            shape = self.watched.frame()["shape"]
+            self.until(lambda shape=shape: self.element("stage").get_attribute("data-solid") == str(shape))
+            seen[shape] = self.surface()
+            self.element("step").click()
+            self.watched.wait(lambda f, shape=shape: f["shape"] > shape and f["activity"] == "paused")
+        self.assertEqual(len(set(seen.values())), 3)
+        self.assertFalse(self.element("wheel").is_displayed() or self.element("tools").is_displayed())
+
+    def test_it_is_loaded_rolled_and_turned(self):
+        self.paused()
+        shape = self.watched.frame()["shape"]
+        self.until(lambda: self.element("stage").get_attribute("data-solid") == str(shape))
+        seen = [self.surface()]
+        for control, key in (("load", Keys.ENTER), ("solid", Keys.ARROW_LEFT), ("position", Keys.ARROW_RIGHT)):
+            self.element(control).send_keys(key)
+            self.until(lambda: self.surface() not in seen)
+            seen.append(self.surface())
+        self.assertEqual(self.element("load").get_attribute("aria-pressed"), "true")
+
+    def test_it_is_steered_and_taken_away(self):
+        self.paused()
+        travel = self.watched.frame()["numbers"]["mean_travel"]
+        self.type("force-number", "6000")
+        self.watched.wait(lambda f: f["numbers"]["mean_travel"] > 1.5 * travel)
+        self.element("reset").click()
+        self.until(lambda: self.element("undo").is_enabled())
+        self.element("save").click()
+        self.until(lambda: self.text("message").startswith("saved"))
+        self.element("export").click()
+        self.until(lambda: "design-1.stl is downloaded" in self.text("message"))
+        self.assertFalse(self.watched.give({"do": "move_hole", "at_m": [0.26, 0], "by_m": [0, 0.01], "scale": 1})["obeyed"])
 
 
 class Folder(unittest.TestCase):

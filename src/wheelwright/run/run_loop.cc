@@ -503,6 +503,7 @@ Expected<OptimizationState<dim>> RunLoop<dim>::state_at(const ShapeOptimizer<dim
 /// Proceeds from another shape under the same case.
 template <int dim>
 std::optional<Refusal> RunLoop<dim>::replace_shape(const LevelSet<dim>& shape, const std::string& what) {
+  if (shape.values != state_->shape.values) notify(ShapeProposed<dim>{shape});
   std::optional<Trial<dim>> trial;
   stops_before_ = std::numeric_limits<int>::max();  // a command to stop that comes later is obeyed later
   auto anew = state_at(work_->optimizer, shape, trial);

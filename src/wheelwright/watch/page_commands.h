@@ -48,11 +48,12 @@ class PageCommands {
 };
 
 /// Tells them what became of the commands.
-class PageCommandsObserver : public Observer<2> {
+template <int dim>
+class PageCommandsObserver : public Observer<dim> {
  public:
   explicit PageCommandsObserver(std::shared_ptr<PageCommands> commands) : commands_(std::move(commands)) {}
 
-  void operator()(const Event<2>& event, const RunView<2>&) override {
+  void operator()(const Event<dim>& event, const RunView<dim>&) override {
     if (const auto* done = std::get_if<CommandDone>(&event)) commands_->note(*done);
   }
 

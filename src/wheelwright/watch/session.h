@@ -17,13 +17,14 @@ Case watched_case(Case c);
 
 /// What connects pages with one run: the addresses that they use, the commands that they give and what they
 /// are shown. It knows the run by its events and its queue of commands alone. Any thread may call the routes.
+template <int dim>
 class WatchSession {
  public:
   /// The queue must outlive the session.
   explicit WatchSession(CommandQueue& commands);
 
   /// Makes a run that takes its commands from the queue known to pages, before it is executed.
-  void watch(Run<2>& run);
+  void watch(Run<dim>& run);
 
   /// For a server, which the session must outlive.
   std::vector<Route> routes();
@@ -40,7 +41,7 @@ class WatchSession {
   PageAnswer save(const PageRequest& request) const;
 
   std::filesystem::path folder_;  ///< of the run
-  std::shared_ptr<Board> board_;
+  std::shared_ptr<Board<dim>> board_;
   std::shared_ptr<PageCommands> commands_;
 };
 
