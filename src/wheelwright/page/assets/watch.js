@@ -540,7 +540,7 @@
     look();
   });
 
-  let version = 0, curveVersion = 0, painted = 0, framed = 0;
+  let version = 0, curveVersion = 0, painted = 0, shapesPainted = 0, framed = 0;
   let waiting = new AbortController();
 
   // Asks at once for what is there, e.g. when another load position is to be shown.
@@ -587,6 +587,7 @@
     if (frame.is_proposed) return;
     showNumbers();
     if (frame.force_curve) showCurves();
+    if (news.curve.length > 0) wheel.dataset.shapes = String(++shapesPainted);
     wheel.dataset.shape = String(frame.shape);
     wheel.dataset.version = String(frame.version);
   }
