@@ -20,6 +20,7 @@ except ImportError:
     print("The tests of the page were skipped: they need chromium, chromium-driver and python3-selenium.")
     sys.exit(77)
 
+import design_on_page
 import support
 
 program = sys.argv.pop(1)
@@ -91,6 +92,7 @@ class PageTest(unittest.TestCase):
     """A page of a run in a browser."""
 
     case = CASE
+    arguments = []
 
     @classmethod
     def setUpClass(cls):
@@ -102,7 +104,8 @@ class PageTest(unittest.TestCase):
         cls.addClassCleanup(cls.browser.quit)
 
     def setUp(self):
-        self.watched = Watched(self.folder / "case.toml", "--output", self.folder / self._testMethodName)
+        self.watched = Watched(self.folder / "case.toml", "--output", self.folder / self._testMethodName,
+                               *self.arguments)
         self.addCleanup(self.watched.end)
         self.browser.get("about:blank")
         self.browser.get_log("browser")
@@ -254,6 +257,16 @@ class Page(PageTest):
         wanted = float(self.element("force-number").get_attribute("value"))
         self.watched.wait(lambda f: f["settings"]["load"]["force_N"] == wanted)
 
+    def test_walls_and_bounds_follow_their_sliders(self):
+        self.settled()
+        self.type("wall-number", "12")
+        self.watched.wait(lambda f: f["settings"]["minimum_wall_m"] == 0.012)
+        self.element("wall").send_keys(Keys.HOME)
+        self.watched.wait(lambda f: f["settings"]["minimum_wall_m"] == 0)
+        self.type("gap-number", "1000")
+        self.until(lambda: "refused" in self.element("message").get_attribute("class"))
+        self.assertIn("the ring is only", self.text("message"))
+
     def test_the_load_position_is_chosen(self):
         self.settled()
         pressure = "return JSON.stringify(Chart.getChart(document.querySelectorAll('#charts canvas')[2]).data.datasets[0].data)"
@@ -402,6 +415,63 @@ class Page(PageTest):
         self.assertLessEqual(wanted - radios, seen)
 
 
+class BoundedPage(PageTest):
+    """The page of a wheel with a bound, and of designs to choose from."""
+
+    case = CASE + """
+[[constraint]]
+quantity = "mean_travel"
+at_most = 1e-3
+"""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        case = cls.folder / "sweep.toml"
+        case.write_text(CASE + "iterations = 2\n")
+        support.run_program(program, "sweep", case, "optimizer.tread_band=0.035,0.0525", "--output", cls.folder / "designs")
+        cls.arguments = ["--designs", cls.folder / "designs"]
+
+    def test_a_bound_follows_its_slider(self):
+        self.type("bound-0-at_most-number", "0.0009")
+        self.watched.wait(lambda f: f["settings"]["bounds"] == [{"quantity": "mean_travel", "at_most": 9e-4}])
+        self.until(lambda: "new bound" in self.text("message"))
+        self.element("bound-0-at_most").send_keys(Keys.ARROW_RIGHT)
+        self.watched.wait(lambda f: f["settings"]["bounds"][0]["at_most"] > 9e-4)
+
+    def test_a_design_is_chosen_by_mouse_and_keyboard(self):
+        self.until(lambda: self.element("designs").is_displayed())
+        self.paused()
+        own = self.watched.frame()["outline"]
+        places = self.browser.execute_script(
+            "return Chart.getChart('front').getDatasetMeta(0).data.map((p) => [p.x, p.y])")
+        self.assertEqual(len(places), 2)
+        front, outlines = self.element("front"), []
+        for x, y in places:
+            size = front.size
+            ActionChains(self.browser).move_to_element_with_offset(
+                front, round(x - size["width"] / 2), round(y - size["height"] / 2)).click().perform()
+            name = self.element("design").get_attribute("value")
+            self.until(lambda name=name: f"designs/{name}/" in self.text("message"))
+            outlines.append(self.watched.frame()["outline"])
+        self.assertNotEqual(outlines[0], outlines[1])
+        self.assertNotIn(own, outlines)
+        self.element("design").send_keys(Keys.ARROW_UP)
+        self.element("take").send_keys(Keys.ENTER)
+        self.watched.wait(lambda f: f["outline"] == outlines[0] and not f["is_proposed"])
+        for _ in range(3):
+            self.element("undo").click()
+            version = self.watched.frame()["version"]
+            self.watched.wait(lambda f, version=version: f["version"] > version or not f["can_undo"])
+        self.watched.wait(lambda f: f["outline"] == own)
+
+    def test_a_page_names_designs_and_no_files(self):
+        file = str(self.folder / "designs/designs/001/shape.levelset")
+        self.assertFalse(self.watched.give({"do": "take_shape", "file": file})["obeyed"])
+        for name in (file, "../designs/001", "", "/etc/passwd"):
+            self.assertFalse(json.loads(self.watched.ask("POST", "/take", name))["obeyed"], name)
+
+
 SOLID_CASE = """
 [wheel]
 dimension = 3
@@ -461,11 +531,47 @@ class SolidPage(PageTest):
         self.watched.wait(lambda f: f["numbers"]["mean_travel"] > 1.5 * travel)
         self.element("reset").click()
         self.until(lambda: self.element("undo").is_enabled())
-        self.element("save").click()
-        self.until(lambda: self.text("message").startswith("saved"))
+        self.assertFalse(self.element("save").is_displayed())
         self.element("export").click()
         self.until(lambda: "design-1.stl is downloaded" in self.text("message"))
         self.assertFalse(self.watched.give({"do": "move_hole", "at_m": [0.26, 0], "by_m": [0, 0.01], "scale": 1})["obeyed"])
+
+
+class Design(unittest.TestCase):
+    """A wheel is designed on the page alone, from a preset to a STEP file."""
+
+    def test_from_a_preset_to_a_step_file(self):
+        with tempfile.TemporaryDirectory() as temporary, contextlib.ExitStack() as at_end:
+            folder = Path(temporary)
+            support.run_program(program, "init", "--preset", design_on_page.PRESET, folder / "case.toml")
+            watched = Watched(folder / "case.toml", "--output", folder / "run")
+            at_end.callback(watched.end)
+            browser = support.open_browser(1300, 1600)
+            at_end.callback(browser.quit)
+            design_on_page.downloads_to(browser, folder)
+            browser.get(watched.address)
+            page = design_on_page.Page(browser)
+            seen = {}
+            for name, step in design_on_page.steps(page):
+                step()
+                seen[name] = {"outline": watched.frame()["outline"], "numbers": watched.frame()["numbers"]}
+            objective = lambda name: seen[name]["numbers"]["objective_J_per_m"]
+            volume = lambda name: seen[name]["numbers"]["volume_fraction"]
+            self.assertGreater(seen["load"]["numbers"]["mean_travel"], seen["begin"]["numbers"]["mean_travel"])
+            self.assertGreater(volume("paint"), volume("undo") + 1e-3)
+            self.assertEqual(seen["undo"]["numbers"]["volume_fraction"], volume("undo"))
+            self.assertNotEqual(seen["even"]["outline"], seen["undo"]["outline"])
+            self.assertLess(seen["even"]["numbers"]["run_out"], seen["undo"]["numbers"]["run_out"])
+            self.assertEqual(page.number("objective"), float(f"{objective('take_away'):.5g}"))
+            step = folder / "my-spokes.step"
+            page.until(step.exists)
+            self.assertTrue((folder / "run/designs/my-spokes.toml").exists())
+            self.assertEqual([e for e in browser.get_log("browser") if e["level"] == "SEVERE"], [])
+            watched.end()
+            support.run_program(program, "export", folder / "run/designs/my-spokes.toml", "--format", "step", "--output", folder / "written")
+            lines, written = step.read_text().splitlines(), (folder / "written/my-spokes.step").read_text().splitlines()
+            self.assertEqual(len(lines), len(written))
+            self.assertLess(sum(a != b for a, b in zip(lines, written)), 6)  # the title and the time
 
 
 class Folder(unittest.TestCase):

@@ -251,8 +251,7 @@ Json run_json(const ReportRun<dim>& run) {
                        {"after", rolling_json(run.summary->after.wheel)}};
   }
   if (run.shape) json["fields"] = fields_json(run);
-  if (!run.contact_points.empty())
-    json["pressures"] = pressures_json(curve_points<dim>(run.contact_points));
+  if (!run.contact_points.empty()) json["pressures"] = pressures_json(curve_points<dim>(run.contact_points));
   return json;
 }
 

@@ -84,8 +84,9 @@ struct RunEnded {
 };
 
 template <int dim>
-using Event = std::variant<RunStarted, TrialDone<dim>, SaveRequested<dim>, CommandDone, CaseChanged,
-                           ShapeProposed<dim>, ShapeReplaced, GridChanged, RunWaits, RunProceeds, RunEnded<dim>>;
+using Event =
+    std::variant<RunStarted, TrialDone<dim>, SaveRequested<dim>, CommandDone, CaseChanged, ShapeProposed<dim>,
+                 ShapeReplaced, GridChanged, RunWaits, RunProceeds, RunEnded<dim>>;
 
 template <int dim>
 class Observer;

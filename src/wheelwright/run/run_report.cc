@@ -138,7 +138,8 @@ LitWheel lit_wheel(const SolvedShape<3>& last) {
   const auto points = field_points(wheel.surface, displacement_lattice(last.solver->model()));
   for_each_position<3>(*last.solver, *last.solution, [&](int position, const PositionFields<3>& fields) {
     if (!all && position != worst) return;
-    wheel.positions.push_back({fields.ground_azimuth, points.values({"displacement", "m", fields.displacement}),
+    wheel.positions.push_back({fields.ground_azimuth,
+                               points.values({"displacement", "m", fields.displacement}),
                                points.values(von_mises_field(fields.stress))[0]});
   });
   return wheel;

@@ -39,17 +39,17 @@ template <int dim>
 void BoardObserver<dim>::show(const TrialDone<dim>& done, const RunView<dim>& run) {
   if (!source_) source_ = std::make_shared<const Case>(run.study.source);
   const OptimizationState<dim>& state = done.state;
-  auto shape =
-      std::make_shared<WatchedShape<dim>>(WatchedShape<dim>{.source = source_,
-                                                  .solver = run.study.solver,
-                                                  .solution = done.trial.solution,
-                                                  .psi = state.shape,
-                                                  .number = state.iteration,
-                                                  .objective = state.evaluation.function("objective").value,
-                                                  .terms = state.evaluation.terms,
-                                                  .measures = state.evaluation.measures,
-                                                  .measure = state.measure,
-                                                  .target_measure = state.target_measure});
+  auto shape = std::make_shared<WatchedShape<dim>>(
+      WatchedShape<dim>{.source = source_,
+                        .solver = run.study.solver,
+                        .solution = done.trial.solution,
+                        .psi = state.shape,
+                        .number = state.iteration,
+                        .objective = state.evaluation.function("objective").value,
+                        .terms = state.evaluation.terms,
+                        .measures = state.evaluation.measures,
+                        .measure = state.measure,
+                        .target_measure = state.target_measure});
   if (board_->view().activity == Activity::starting)
     board_->update([](BoardView<dim>& view) { view.activity = Activity::computing; });
   board_->show(std::move(shape));

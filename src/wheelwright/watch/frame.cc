@@ -17,6 +17,19 @@ using Json = nlohmann::ordered_json;
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
+/// The bounds of the case, in the units of its sections.
+Json bounds_json(const Case& c) {
+  Json bounds = Json::array();
+  for (const Constraint& bound : c.constraints) {
+    Json json{{"quantity", name(bound.quantity)}};
+    if (bound.at_least) json["at_least"] = *bound.at_least;
+    if (bound.at_most) json["at_most"] = *bound.at_most;
+    if (bound.equals) json["equals"] = *bound.equals;
+    bounds.push_back(std::move(json));
+  }
+  return bounds;
+}
+
 template <int dim>
 Json settings_json(const WatchedShape<dim>& shape) {
   const Case& c = *shape.source;
@@ -34,7 +47,10 @@ Json settings_json(const WatchedShape<dim>& shape) {
             {"uniformity_annulus", c.objective.uniformity_annulus},
             {"uniformity_dual", c.objective.uniformity_dual},
             {"uniformity_l2", c.objective.uniformity_l2}}},
-          {"volume_target", shape.target_measure / ring}};
+          {"volume_target", shape.target_measure / ring},
+          {"minimum_wall_m", c.optimizer.minimum_wall.value_or(0)},
+          {"minimum_gap_m", c.optimizer.minimum_gap.value_or(0)},
+          {"bounds", bounds_json(c)}};
 }
 
 template <int dim>
@@ -110,7 +126,8 @@ Json force_curve_json(const WatchedShape<dim>& shape) {
 }  // namespace
 
 template <int dim>
-std::string frame_json(const BoardView<dim>& view, const std::vector<CurvePoint>& curve, const FrameQuery& query) {
+std::string frame_json(const BoardView<dim>& view, const std::vector<CurvePoint>& curve,
+                       const FrameQuery& query) {
   Json json{{"version", view.version},
             {"activity", to_string(view.activity)},
             {"reason", view.reason ? Json(to_string(*view.reason)) : Json()},

@@ -17,6 +17,7 @@ struct FrameQuery {
 /// proposed shape, if there is one), the points of the curves that come with it. In SI units, which the keys
 /// end in.
 template <int dim>
-std::string frame_json(const BoardView<dim>& view, const std::vector<CurvePoint>& curve, const FrameQuery& query);
+std::string frame_json(const BoardView<dim>& view, const std::vector<CurvePoint>& curve,
+                       const FrameQuery& query);
 
 }  // namespace wheelwright

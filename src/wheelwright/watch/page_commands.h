@@ -24,7 +24,8 @@ class PageCommands {
 
   explicit PageCommands(CommandQueue& queue) : queue_(queue) {}
 
-  /// Whether pages may give this command. To save, to stop, and what a program gives, come from elsewhere.
+  /// Whether commands like this come from pages. To save, to stop, and what a program gives, come from
+  /// elsewhere.
   static bool is_for_pages(const Command& command);
 
   /// Empty while too many are waiting.

@@ -103,8 +103,8 @@ Expected<std::string, NoProduct> design_report(const std::filesystem::path& fold
   double energy = 0;
   for (const double value : of_all((*first)->positions(), (*first)->strain_energy())) energy += value;
   const RunSummary<dim> summary{.title = run_title(*shape.source),
-                              .before = {0, energy, *before},
-                              .after = {shape.number, shape.objective, *after}};
+                                .before = {0, energy, *before},
+                                .after = {shape.number, shape.objective, *after}};
   return report_page({page_run(report_of_results<dim>(folder, *shape.source, summary, solved(shape), {}))});
 }
 
@@ -117,7 +117,10 @@ bool is_design_name(std::string_view name) {
 
 template <int dim>
 Expected<std::filesystem::path, NoProduct> save_design(const std::filesystem::path& folder,
-                                                       const std::string& name, const WatchedShape<dim>& shape) {
+                                                       const std::string& name,
+                                                       const WatchedShape<dim>& shape) {
+  if (dim == 3)
+    return NoProduct{"a case cannot begin with a saved shape in 3D: go on from the run's folder, or export"};
   if (!is_design_name(name)) return NoProduct{"a name has 1 to 40 letters, digits, - and _"};
   const std::filesystem::path designs = folder / designs_folder, file = designs / (name + ".toml"),
                               level_set = designs / (name + ".levelset");

@@ -37,9 +37,10 @@ bool is_design_name(std::string_view name);
 
 /// Saves the shape as a case of its own, designs/NAME.toml with its level set beside it: a run of it begins
 /// with the same bits. The material that the shape has is its target. Returns the case's file; refuses a name
-/// that is taken. Throws OutputError.
+/// that is taken, and shapes in 3D, with which no case begins. Throws OutputError.
 template <int dim>
 Expected<std::filesystem::path, NoProduct> save_design(const std::filesystem::path& folder,
-                                                       const std::string& name, const WatchedShape<dim>& shape);
+                                                       const std::string& name,
+                                                       const WatchedShape<dim>& shape);
 
 }  // namespace wheelwright

@@ -59,8 +59,10 @@ Case watched_case(Case c) {
 }
 
 template <int dim>
-WatchSession<dim>::WatchSession(CommandQueue& commands)
-    : board_(std::make_shared<Board<dim>>()), commands_(std::make_shared<PageCommands>(commands)) {}
+WatchSession<dim>::WatchSession(CommandQueue& commands, OfferedDesigns designs)
+    : designs_(std::move(designs)),
+      board_(std::make_shared<Board<dim>>()),
+      commands_(std::make_shared<PageCommands>(commands)) {}
 
 template <int dim>
 void WatchSession<dim>::watch(Run<dim>& run) {
@@ -87,6 +89,8 @@ std::vector<Route> WatchSession<dim>::routes() {
           {get, token, "/export", [this](const PageRequest& request) { return exported_file(request); }},
           {get, token, "/report", [this](const PageRequest&) { return report(); }},
           {post, token, "/save", [this](const PageRequest& request) { return save(request); }},
+          {get, token, "/designs", [this](const PageRequest&) { return PageAnswer{.body = designs_.json}; }},
+          {post, token, "/take", [this](const PageRequest& request) { return take(request); }},
           {post, token, "/command", [this](const PageRequest& request) { return command(request); }}};
 }
 
@@ -108,8 +112,22 @@ template <int dim>
 PageAnswer WatchSession<dim>::command(const PageRequest& request) {
   const auto parsed = parse_command(request.body);
   if (!parsed) return message(400, false, parsed.failure().reason);
-  if (!PageCommands::is_for_pages(*parsed)) return message(400, false, "no command of a page");
-  const auto ticket = commands_->give(*parsed);
+  if (!PageCommands::is_for_pages(*parsed) || std::holds_alternative<TakeShape>(*parsed))
+    return message(400, false, "no command of a page");
+  return obeyed(*parsed);
+}
+
+/// The shape of a design that is offered: a page gives its name, never a file.
+template <int dim>
+PageAnswer WatchSession<dim>::take(const PageRequest& request) {
+  const auto found = designs_.shapes.find(request.body);
+  if (found == designs_.shapes.end()) return message(422, false, "there is no such design");
+  return obeyed(TakeShape{found->second.string()});
+}
+
+template <int dim>
+PageAnswer WatchSession<dim>::obeyed(Command command) {
+  const auto ticket = commands_->give(std::move(command));
   if (!ticket) return message(429, false, "too many commands are waiting");
   const auto answer = commands_->answer(*ticket, patience);
   if (!answer) return message(202, false, "not obeyed yet");

@@ -7,6 +7,7 @@
 #include "wheelwright/run/run.h"
 #include "wheelwright/server/local_server.h"
 #include "wheelwright/watch/board.h"
+#include "wheelwright/watch/designs.h"
 #include "wheelwright/watch/page_commands.h"
 
 namespace wheelwright {
@@ -21,7 +22,7 @@ template <int dim>
 class WatchSession {
  public:
   /// The queue must outlive the session.
-  explicit WatchSession(CommandQueue& commands);
+  explicit WatchSession(CommandQueue& commands, OfferedDesigns designs = {});
 
   /// Makes a run that takes its commands from the queue known to pages, before it is executed.
   void watch(Run<dim>& run);
@@ -39,8 +40,11 @@ class WatchSession {
   PageAnswer exported_file(const PageRequest& request) const;
   PageAnswer report() const;
   PageAnswer save(const PageRequest& request) const;
+  PageAnswer take(const PageRequest& request);
+  PageAnswer obeyed(Command command);
 
   std::filesystem::path folder_;  ///< of the run
+  OfferedDesigns designs_;
   std::shared_ptr<Board<dim>> board_;
   std::shared_ptr<PageCommands> commands_;
 };

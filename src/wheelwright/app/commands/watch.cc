@@ -47,6 +47,8 @@ class WatchCommand : public Subcommand {
     options.flag("--no-browser", no_browser_, "Only print the address of the page");
     options.text("--replay", "FILE", replay_, not_empty,
                  "Give the run the commands of a commands.jsonl again, without a page");
+    options.text("--designs", "DIR", designs_, not_empty,
+                 "Offer the designs in the folder of an exploration or a sweep");
     add_threads(options, threads_);
   }
 
@@ -55,7 +57,7 @@ class WatchCommand : public Subcommand {
     const bool is_run = fs::is_directory(input_);
     const fs::path case_file = is_run ? fs::path(input_) / "case.toml" : fs::path(input_);
     auto c = read_or_tell(case_file);
-    if (!c) return exit_usage;
+    if (!c || !find_designs()) return exit_usage;
     if (!may_compute(name(), *c, case_file, threads_)) return exit_refused;
     const fs::path folder = is_run ? fs::path(input_) : fs::path(output_.value_or(c->output.folder));
     return in_dimension_of(*c, [&](auto dim) {
@@ -69,9 +71,19 @@ class WatchCommand : public Subcommand {
   }
 
  private:
+  bool find_designs() {
+    if (!designs_) return true;
+    auto found = offered_designs(*designs_);
+    if (found)
+      offered_ = *std::move(found);
+    else
+      tell("wheelwright watch: --designs: {}\n", found.failure().reason);
+    return bool(found);
+  }
+
   template <int dim>
   int serve(Run<dim>& run, const Signals& signals) {
-    WatchSession<dim> session(commands_);
+    WatchSession<dim> session(commands_, offered_);
     session.watch(run);
     const LocalServer server(session.routes(), port_);
     const AddressFile address(server.address());
@@ -106,7 +118,8 @@ class WatchCommand : public Subcommand {
   }
 
   std::string input_;
-  std::optional<std::string> output_, replay_;
+  std::optional<std::string> output_, replay_, designs_;
+  OfferedDesigns offered_;
   int port_ = 0;
   bool no_browser_ = false;
   std::optional<int> threads_;

@@ -320,7 +320,7 @@
       await drawnWith("/three.js");
       const canvas = element("canvas", { id: "solid", role: "img", "aria-label":
         "The wheel as a lit surface, coloured by von Mises stress; arrow keys turn it, plus and minus change its size" });
-      wheel.hidden = at("tools").hidden = true;
+      wheel.hidden = at("tools").hidden = at("save").hidden = true;
       at("stage").append(canvas);
       at("wheel-help").textContent = "Drag the wheel to turn it. With the keys: arrows, plus and minus.";
       const { outer_radius_m, width_m, sectors } = frame.wheel;
@@ -402,6 +402,40 @@
       tell("the program does not answer", true);
     }
   });
+
+  // --- Designs of an exploration or a sweep -----------------------------------------------------------
+
+  async function offerDesigns() {
+    const { quantities, designs } = await (await ask("/designs")).json();
+    const [across, up] = [quantities[0], quantities[1] ?? quantities[0]];
+    const solved = designs.filter(({ numbers: n }) => quantities.length > 0 && n[across.key] !== null && n[up.key] !== null);
+    if (solved.length === 0) return;
+    for (const { name, start, front } of solved)
+      at("design").append(element("option", { value: name }, `${name}${front === 1 ? "*" : ""} ${start}`));
+    at("designs").hidden = false;
+    const points = solved.map(({ numbers: n }) => ({ x: n[across.key], y: n[up.key] }));
+    const isChosen = (k) => solved[k]?.name === at("design").value;
+    const axis = (text) => ({ title: { display: true, text, color: colour("--quiet") }, ticks: { color: colour("--quiet") },
+      grid: { color: colour("--line") } });
+    const front = new Chart(at("front"), { type: "scatter", data: { datasets: [{ data: points,
+      pointRadius: ({ dataIndex: k }) => isChosen(k) ? 9 : solved[k]?.front === 1 ? 6 : 4,
+      backgroundColor: ({ dataIndex: k }) => colour(isChosen(k) ? "--bad" : solved[k]?.front === 1 ? "--accent" : "--quiet") }] },
+    options: { animation: false, responsive: true, maintainAspectRatio: false, scales: { x: axis(across.key), y: axis(up.key) },
+      plugins: { legend: { display: false }, tooltip: { callbacks: { label: ({ dataIndex: k }) => solved[k].name } } },
+      onClick: (event, [hit]) => {
+        if (!hit) return;
+        at("design").value = solved[hit.index].name;
+        takeDesign();
+      } } });
+    const takeDesign = async () => {
+      front.update("none");
+      const answer = await (await ask("/take", { method: "POST", body: at("design").value })).json();
+      tell(answer.text, !answer.obeyed);
+    };
+    at("design").addEventListener("change", () => front.update("none"));
+    at("take").addEventListener("click", takeDesign);
+  }
+  offerDesigns().catch(() => {});
 
   // --- Numbers ----------------------------------------------------------------------------------------
 
@@ -516,6 +550,17 @@
     const force = frame.settings.load.force_N;
     const weight = (id, label, key, low, high) => setting(id, label, { ...powers(low, high), digits: 3,
       value: () => frame.settings.weights[key], command: (v) => ({ do: "weights", [key]: v }) });
+    // Widths of which 0 allows any.
+    const ring = frame.wheel.outer_radius_m - frame.wheel.inner_radius_m;
+    const width = (id, label, key) => setting(id, label, { ...linear(0, 250 * ring), digits: 3,
+      value: () => 1e3 * frame.settings[key], command: (v) => ({ do: "widths", [key]: v * 1e-3 }) });
+    const relations = { at_least: "at least", at_most: "at most", equals: "equal to" };
+    const limit = (k, bound, relation) => {
+      const first = bound[relation], range = first > 0 ? powers(0.2 * first, 5 * first) : linear(-1, 1);
+      return setting(`bound-${k}-${relation}`, `${bound.quantity.replaceAll("_", " ")} ${relations[relation]} [SI]`, {
+        ...range, digits: 4, value: () => frame.settings.bounds[k][relation],
+        command: (v) => ({ do: "bound", constraint: k, [relation]: v }) });
+    };
     settings = [
       setting("force", "load [N]", { ...linear(0.1 * force, 3 * force), digits: 4,
         value: () => frame.settings.load.force_N,
@@ -524,6 +569,9 @@
         value: () => 100 * frame.settings.volume_target, command: (v) => ({ do: "volume", target: v / 100 }) }),
       weight("stiff", "weight of stiffness", "strain_energy", 0.01, 100),
       weight("even", "weight of even rolling", "uniformity_dual", 1, 1e5),
+      width("wall", "thinnest wall [mm]", "minimum_wall_m"), width("gap", "narrowest gap [mm]", "minimum_gap_m"),
+      ...frame.settings.bounds.flatMap((bound, k) => Object.keys(relations).filter((relation) => relation in bound)
+        .map((relation) => limit(k, bound, relation))),
     ];
   }
   const present = (members) => Object.fromEntries(Object.entries(members).filter(([, v]) => v !== null));
