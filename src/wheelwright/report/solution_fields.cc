@@ -320,6 +320,17 @@ std::vector<ContactPoint> contact_points(const StateSolver<dim>& solver, const S
   return result;
 }
 
+template <int dim>
+std::vector<ContactPoint> curve_points(std::vector<ContactPoint> points) {
+  if constexpr (dim == 3) {
+    double nearest = INFINITY;
+    for (const ContactPoint& p : points) nearest = std::abs(p.z) < std::abs(nearest) ? p.z : nearest;
+    std::erase_if(points, [&](const ContactPoint& p) { return std::abs(p.z - nearest) > 1e-9; });
+    std::ranges::stable_sort(points, {}, &ContactPoint::x);
+  }
+  return points;
+}
+
 template PositionFields<2> position_fields(const StateSolver<2>&, const State<2>&, int);
 template void for_each_position(const StateSolver<2>&, const State<2>&,
                                 const std::function<void(int, PositionFields<2>)>&);
@@ -330,6 +341,7 @@ template RingField vertical_field<2>(const RingField&, double);
 template RingField stress_field(const RollingModel<2>&, const CutDomain<2>&, const RingField&);
 template RingField repeated_field(const RollingModel<2>&, const LevelSet<2>&);
 template std::vector<ContactPoint> contact_points(const StateSolver<2>&, const State<2>&);
+template std::vector<ContactPoint> curve_points<2>(std::vector<ContactPoint>);
 template PositionFields<3> position_fields(const StateSolver<3>&, const State<3>&, int);
 template void for_each_position(const StateSolver<3>&, const State<3>&,
                                 const std::function<void(int, PositionFields<3>)>&);
@@ -340,5 +352,6 @@ template RingField vertical_field<3>(const RingField&, double);
 template RingField stress_field(const RollingModel<3>&, const CutDomain<3>&, const RingField&);
 template RingField repeated_field(const RollingModel<3>&, const LevelSet<3>&);
 template std::vector<ContactPoint> contact_points(const StateSolver<3>&, const State<3>&);
+template std::vector<ContactPoint> curve_points<3>(std::vector<ContactPoint>);
 
 }  // namespace wheelwright
