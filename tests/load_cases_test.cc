@@ -6,7 +6,7 @@
 #include "wheelwright/case/conflicts.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/write.h"
-#include "wheelwright/functionals/quantity_functional.h"
+#include "wheelwright/functionals/peak_von_mises.h"
 #include "wheelwright/functionals/uniformity_l2.h"
 #include "wheelwright/optimize/constraints.h"
 #include "wheelwright/run/bounded_functions.h"
@@ -31,23 +31,24 @@ LoadCases<2> two_loads() {
   drive.n_positions = 3;
   drive.torque = 200;
   drive.tread.observes_spin = true;
+  drive.cut_points = 6;  // the derivative of an integral over cut cells is exact up to their quadrature
   Material material = drive.materials.at_tread();
   material.density = 1200;
   drive.materials = material;
   RollingModel<2> kerb = drive;
   kerb.load *= 2;
   kerb.torque = 0;
-  kerb.horizontal_force = -900;
+  kerb.horizontal_force = -500;
   kerb.distributed = {{2e4, 1e4}, 1e4, 80};
   return {{"drive", drive}, {"kerb", kerb}};
 }
 
 /// The strain energy of both loads, and of the second one alone a uniformity, which compares with that load's
-/// own mean, and the worst stress.
+/// own mean, and the p-norm of the stress.
 std::vector<ShapeFunction<2>> functions_of_both() {
   const auto energy = std::make_shared<StrainEnergy<2>>();
   const auto uniformity = std::make_shared<UniformityL2<2>>(0.01);
-  const auto stress = quantity_functional<2>(Quantity::peak_von_mises_inside, Over::greatest, {});
+  const auto stress = std::make_shared<PeakVonMises<2>>(0.025, PeakNorm{.correction = 1});
   return {objective<2>({{1, energy, 0}, {0.3, energy, 1}, {50, uniformity, 1}}),
           {.name = "stress", .terms = {{1e-6, stress, 1}}},
           {.name = "second position", .terms = {{1, energy, 1}}, .position_weights = {0, 1, 0}}};
@@ -64,7 +65,7 @@ TEST(LoadCases, EveryFunctionPassesTheTaylorTest) {
   const LoadCases<2> loads = two_loads();
   const auto problem = RollingProblem<2>::create(loads.front().model);
   ASSERT_TRUE(problem);
-  const auto psi = lopsided_holes(problem->model().grid);
+  const auto psi = testing::generic_hole(problem->model().grid);
   const auto functions = functions_of_both();
   for (const auto& function : functions) {
     const auto test = taylor_test<2>(
@@ -73,9 +74,10 @@ TEST(LoadCases, EveryFunctionPassesTheTaylorTest) {
           if (!evaluated) return evaluated.failure();
           return std::move(evaluated->evaluation);
         },
-        psi, smooth_direction(psi.lattice), 2, 2e-5, 3, function.name);
+        psi, smooth_direction(psi.lattice), 2, 4e-5, 3, function.name);
     ASSERT_TRUE(test) << test.failure().detail;
-    for (const double order : test->orders) EXPECT_GT(order, 1.9) << function.name;
+    for (const double order : test->orders)
+      EXPECT_GT(order, 1.9) << function.name << " " << test->remainders.back() << " of " << test->value;
   }
 }
 
@@ -145,6 +147,9 @@ radius = 0.04
 radial_cells = 14
 angular_cells = 128
 tread_levels = 0
+[optimizer]
+rim_band = 0.02
+tread_band = 0.02
 )";
 
 const std::string two_cases = small_wheel + R"(

@@ -504,16 +504,13 @@ bool changes(const CaseLoad& load, std::string_view name) {
   return name == "speed" && load.speed.has_value();
 }
 
-/// The keys of a conflict under one load case: first those of the load case itself.
-std::vector<std::string> keys_in_load_case(const Case& c, int load_case,
-                                           const std::vector<std::string>& keys) {
+/// The keys of a conflict under one load case: its own in place of those of [load] that it changes.
+std::vector<std::string> keys_in_load_case(const Case& c, int load_case, std::vector<std::string> keys) {
   constexpr std::string_view section = "load.";
-  std::vector<std::string> result;
-  for (const std::string& key : keys)
+  for (std::string& key : keys)
     if (key.starts_with(section) && changes(c.load.cases[load_case], key.substr(section.size())))
-      result.push_back(fmt::format("load.case[{}].{}", load_case + 1, key.substr(section.size())));
-  result.insert(result.end(), keys.begin(), keys.end());
-  return result;
+      key = fmt::format("load.case[{}].{}", load_case + 1, key.substr(section.size()));
+  return keys;
 }
 
 /// Calls check(case, conflicts) for some load cases, each as the only load. What several of them have in
