@@ -30,7 +30,7 @@ std::vector<ContactSummary> summaries(const std::vector<ContactPatch<dim>>& cont
 template <int dim>
 Expected<std::vector<std::vector<ContactSummary>>> under(const State<dim>& state,
                                                          std::span<const RollingModel<dim>> models) {
-  const auto contacts = state.under(models);
+  const auto contacts = state.contacts_under(models);
   if (!contacts) return contacts.failure();
   std::vector<std::vector<ContactSummary>> result;
   for (const auto& of_model : *contacts) result.push_back(summaries(of_model));
@@ -71,7 +71,7 @@ double mean(const LoadPositions& solved, const std::vector<double>& values) {
 
 template <int dim>
 Expected<RollingAnalysis> rolling_analysis(const StateSolver<dim>& solver, const State<dim>& state) {
-  const RollingModel<dim>& model = solver.model();
+  const RollingModel<dim>& model = state.model();
   RollingAnalysis analysis{};
   analysis.held = model.travel ? Held::travel : Held::load;
   for (const GroundPosition& ground : state.positions().grounds)
@@ -107,18 +107,17 @@ Expected<RollingAnalysis> rolling_analysis(const StateSolver<dim>& solver, const
 }
 
 template <int dim>
-Expected<std::vector<std::vector<ContactSummary>>> under_loads(const StateSolver<dim>& solver,
-                                                               const State<dim>& state,
+Expected<std::vector<std::vector<ContactSummary>>> under_loads(const State<dim>& state,
                                                                std::span<const double> loads) {
   std::vector<RollingModel<dim>> models;
-  for (const double load : loads) models.push_back(at_load(solver.model(), load));
+  for (const double load : loads) models.push_back(at_load(state.model(), load));
   return under<dim>(state, models);
 }
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                               \
   template Expected<RollingAnalysis> rolling_analysis(const StateSolver<dim>&, const State<dim>&); \
-  template Expected<std::vector<std::vector<ContactSummary>>> under_loads(                         \
-      const StateSolver<dim>&, const State<dim>&, std::span<const double>);
+  template Expected<std::vector<std::vector<ContactSummary>>> under_loads(const State<dim>&,       \
+                                                                          std::span<const double>);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)
 #undef WHEELWRIGHT_INSTANTIATE

@@ -20,6 +20,7 @@ class RingState : public State<dim> {
       contacts_.push_back(solution_.contacts[i].patch(solution_.states[i]));
   }
 
+  const RollingModel<dim>& model() const override { return solution_.model; }
   const CutDomain<dim>& domain() const override { return solution_.domain; }
   const LoadPositions& positions() const override { return solution_.positions; }
   const std::vector<ContactPatch<dim>>& contacts() const override { return contacts_; }
@@ -49,7 +50,7 @@ class RingState : public State<dim> {
                           {{phase::adjoint, adjoint_seconds}, {phase::gradient, watch.lap()}}};
   }
 
-  Expected<std::vector<std::vector<ContactPatch<dim>>>> under(
+  Expected<std::vector<std::vector<ContactPatch<dim>>>> contacts_under(
       std::span<const RollingModel<dim>> models) const override {
     std::vector<RolledContact<dim>> rolled;
     for (size_t i = 0; i < solution_.contacts.size(); ++i)
@@ -58,7 +59,7 @@ class RingState : public State<dim> {
     for (const RollingModel<dim>& model : models) {
       result.emplace_back();
       for (size_t i = 0; i < rolled.size(); ++i) {
-        auto next = reload(model, problem_.tread(), solution_.ring, solution_.surface,
+        auto next = reload(model, problem_.tread(), solution_.ring, *solution_.surface,
                            solution_.positions.grounds[i], solution_.preloads[i], rolled[i]);
         if (!next) return next.failure();
         rolled[i] = *std::move(next);
@@ -66,6 +67,13 @@ class RingState : public State<dim> {
       }
     }
     return result;
+  }
+
+  Expected<std::shared_ptr<const State<dim>>> under(const RollingModel<dim>& model,
+                                                    const Interrupt& interrupt) const override {
+    auto solution = problem_.solve_under(model, solution_, interrupt);
+    if (!solution) return solution.failure();
+    return ring_state(problem_, *std::move(solution));
   }
 
  private:

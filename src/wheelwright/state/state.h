@@ -56,6 +56,9 @@ class State {
  public:
   virtual ~State() = default;
 
+  /// What was solved: the load, and everything that the solver's own model has in common with it.
+  virtual const RollingModel<dim>& model() const = 0;
+
   virtual const CutDomain<dim>& domain() const = 0;
 
   /// The load positions that were solved for, and how many positions each represents.
@@ -93,8 +96,14 @@ class State {
   /// The contacts of the same shape and positions under other models, which may differ from the solver's in
   /// the loads or the travel of the rim alone: [model][position]. Each starts from the one before. Fails as
   /// the contact problem does.
-  virtual Expected<std::vector<std::vector<ContactPatch<dim>>>> under(
+  virtual Expected<std::vector<std::vector<ContactPatch<dim>>>> contacts_under(
       std::span<const RollingModel<dim>> models) const = 0;
+
+  /// The states of the same shape and positions under another model, which may differ from this one's in its
+  /// loads alone. They share what does not depend on the load: the factorization. If the model rotates, the
+  /// solver's must rotate or observe the spin (TreadGrid). Fails as StateSolver::states() does.
+  virtual Expected<std::shared_ptr<const State<dim>>> under(const RollingModel<dim>& model,
+                                                            const Interrupt& interrupt) const = 0;
 };
 
 /// Solves the states of shapes: all that a run knows of the mechanics. What does not
