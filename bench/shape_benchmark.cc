@@ -143,7 +143,7 @@ void sector_cholesky(benchmark::State& state, const RollingSolution<2>& solution
 void contact_operators(benchmark::State& state, const Wheel& wheel, const RollingSolution<2>& solution,
                        Samples& samples) {
   measure(state, samples, [&] {
-    const SurfaceCompliance<2> surface(solution.ring, wheel.problem().tread(), solution.surface.width());
+    const SurfaceCompliance<2> surface(solution.ring, wheel.problem().tread(), solution.surface->width());
     std::vector<ReducedContact<2>> contacts;
     for (size_t i = 0; i < solution.contacts.size(); ++i)
       contacts.emplace_back(surface, wheel.problem().tread(), wheel.problem().model().grid,
