@@ -85,6 +85,7 @@ PageRun page_run(const ReportRun<dim>& run);
 
 /// The loaded wheel in its load positions, as the page holds it.
 std::string loaded_wheel_json(const LevelSet<2>& shape, std::span<const PositionFields<2>> positions);
+std::string loaded_wheel_json(const SurfaceMesh& surface, std::span<const SurfacePosition> positions);
 
 /// One HTML file that needs no network: what came out, the wheel rolling, the shapes of the run, curves.
 std::string report_page(const std::vector<PageRun>& runs);

@@ -162,22 +162,35 @@ double page_bytes(const SurfaceMesh& surface, int positions) {
   return bytes_per_vertex * static_cast<double>(surface.points.size()) * positions;
 }
 
+struct LitWheel {
+  SurfaceMesh surface;
+  std::vector<SurfacePosition> positions;
+};
+
 /// The surface, as fine as the page holds it with all positions; where it is too large even with one cube per
 /// cell, only the worst position is shown.
-void add_fields(const SolvedShape<3>& last, ReportRun<3>& run) {
+LitWheel lit_wheel(const SolvedShape<3>& last) {
   constexpr double most_bytes = 8e6;
   const int degree = last.solver->model().degree, n_positions = last.solver->model().n_positions;
-  run.surface = shape_boundary(*last.shape, degree);
-  if (page_bytes(run.surface, n_positions) > most_bytes)
-    run.surface = material_surface(*last.shape, 1, degree);
-  const bool all = page_bytes(run.surface, n_positions) <= most_bytes;
+  LitWheel wheel{shape_boundary(*last.shape, degree), {}};
+  if (page_bytes(wheel.surface, n_positions) > most_bytes)
+    wheel.surface = material_surface(*last.shape, 1, degree);
+  const bool all = page_bytes(wheel.surface, n_positions) <= most_bytes;
   const int worst = worst_position(last.solution->strain_energy());
-  const auto points = field_points(run.surface, displacement_lattice(last.solver->model()));
+  const auto points = field_points(wheel.surface, displacement_lattice(last.solver->model()));
   for_each_position<3>(*last.solver, *last.solution, [&](int position, const PositionFields<3>& fields) {
     if (!all && position != worst) return;
-    run.positions.push_back({fields.ground_azimuth, points.values({"displacement", "m", fields.displacement}),
-                             points.values(von_mises_field(fields.stress))[0]});
+    wheel.positions.push_back({fields.ground_azimuth,
+                               points.values({"displacement", "m", fields.displacement}),
+                               points.values(von_mises_field(fields.stress))[0]});
   });
+  return wheel;
+}
+
+void add_fields(const SolvedShape<3>& last, ReportRun<3>& run) {
+  LitWheel wheel = lit_wheel(last);
+  run.surface = std::move(wheel.surface);
+  run.positions = std::move(wheel.positions);
 }
 
 }  // namespace
@@ -245,8 +258,20 @@ ReportRun<dim> report_without_results(const fs::path& folder, const Case& c, Sto
   return run;
 }
 
+template <int dim>
+std::string loaded_wheel(const SolvedShape<dim>& solved) {
+  if constexpr (dim == 2) {
+    return loaded_wheel_json(*solved.shape, all_position_fields(*solved.solver, *solved.solution));
+  } else {
+    const LitWheel wheel = lit_wheel(solved);
+    return loaded_wheel_json(wheel.surface, wheel.positions);
+  }
+}
+
 template ReportRun<2> report_without_results(const fs::path&, const Case&, StopReason);
 template ReportRun<3> report_without_results(const fs::path&, const Case&, StopReason);
+template std::string loaded_wheel(const SolvedShape<2>&);
+template std::string loaded_wheel(const SolvedShape<3>&);
 template ReportRun<2> report_of_folder(const fs::path&, const Case&);
 template ReportRun<3> report_of_folder(const fs::path&, const Case&);
 template ReportRun<2> report_of_results(const fs::path&, const Case&, const RunSummary<2>&,
