@@ -75,6 +75,9 @@ def steps(page):
 
     def begin():
         page.until(lambda: page.shape() >= 3)
+        page.element("reset").click()  # it changed before the page was there
+        page.obeyed("back to the initial shape")
+        page.more_shapes(10)
 
     def load():
         page.type("force-number", "4000")
@@ -91,7 +94,7 @@ def steps(page):
         page.obeyed("the last change is undone")
 
     def even():
-        page.type("even-number", "20000")
+        page.type("even-number", "5")
         page.obeyed("new weights")
         page.element("go").click()  # the edit was made in a pause
         page.more_shapes(8)
