@@ -32,7 +32,7 @@ class Page:
     def number(self, name):
         return float(self.text(f"number-{name}").split()[0])
 
-    def until(self, wanted, seconds=120):
+    def until(self, wanted, seconds=180):
         end = time.time() + seconds
         while not wanted():
             if time.time() > end:
@@ -75,9 +75,14 @@ def steps(page):
 
     def begin():
         page.until(lambda: page.shape() >= 3)
+        page.pause()
         page.element("reset").click()  # it changed before the page was there
         page.obeyed("back to the initial shape")
-        page.more_shapes(10)
+        for _ in range(10):
+            page.look()
+            page.element("step").click()
+            page.more_shapes(1)
+        page.element("go").click()
 
     def load():
         page.type("force-number", "4000")
@@ -107,6 +112,8 @@ def steps(page):
         page.element("roll").send_keys(Keys.ENTER)
         first = page.element("loaded-wheel").get_attribute("data-position")
         page.until(lambda: page.element("loaded-wheel").get_attribute("data-position") != first)
+        for _ in range(12):
+            page.look()
         page.element("roll").click()
 
     def take_away():

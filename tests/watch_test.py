@@ -56,7 +56,7 @@ class Watched:
         self.base, self.token = self.address.split("/#")
 
     def connect(self):
-        return http.client.HTTPConnection(self.base.removeprefix("http://"), timeout=60)
+        return http.client.HTTPConnection(self.base.removeprefix("http://"), timeout=180)
 
     def ask(self, method, path, body=None):
         with contextlib.closing(self.connect()) as connection:
@@ -73,7 +73,7 @@ class Watched:
         return json.loads(self.ask("POST", "/command", json.dumps(command)))
 
     def wait(self, wanted):
-        version, until = 0, time.time() + 60
+        version, until = 0, time.time() + 180
         while time.time() < until:
             frame = self.frame(f"/frame?after={version}")
             if wanted(frame):
@@ -84,7 +84,7 @@ class Watched:
     def end(self, number=signal.SIGINT):
         if self.process.poll() is None:
             self.process.send_signal(number)
-        output = self.process.communicate(timeout=60)
+        output = self.process.communicate(timeout=180)
         return self.process.returncode, *output
 
 
@@ -117,7 +117,7 @@ class PageTest(unittest.TestCase):
         severe = [entry for entry in self.browser.get_log("browser") if entry["level"] == "SEVERE"]
         self.assertEqual(severe, [])
 
-    def until(self, wanted, seconds=60):
+    def until(self, wanted, seconds=180):
         end = time.time() + seconds
         while True:
             found = wanted()
