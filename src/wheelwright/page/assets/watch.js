@@ -640,7 +640,7 @@
     if (isNew) wheel.dataset.painted = String(++painted);
     if (frame.is_proposed) return;
     showNumbers();
-    if (frame.force_curve) showCurves();
+    if ("force_curve" in frame) showCurves();
     if (news.curve.length > 0) wheel.dataset.shapes = String(++shapesPainted);
     wheel.dataset.shape = String(frame.shape);
     wheel.dataset.version = String(frame.version);
