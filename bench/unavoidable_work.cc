@@ -44,13 +44,19 @@ std::vector<KernelWork> unavoidable_work(const RollingProblem<2>& problem,
           {"strains on the boundary", boundary_points * 2 * n_strains<2> * cell_dofs * 2 * modes}};
 }
 
-int ring_unknowns(const RollingProblem<2>& problem, const RollingSolution<2>& solution) {
-  const auto& space = solution.ring.sector().space;
-  const int lines = space.degree() * problem.model().grid.columns();
-  int core_nodes = 0;
+template <int dim>
+int ring_unknowns(const RollingProblem<dim>& problem, const CyclicStiffness<dim>& ring) {
+  const auto& space = ring.sector().space;
+  const PolarGrid<dim>& grid = problem.model().grid;
+  const int lines = space.degree() * grid.columns();
+  int core_nodes = 0, axial_nodes = 1;
   for (int node = 0; node < space.n_nodes(); ++node) core_nodes += space.position(node)[1] < lines;
-  const int tread_nodes = lines * space.degree() * problem.tread().rows();
-  return 2 * problem.model().grid.n_sectors * (core_nodes + tread_nodes);
+  if constexpr (dim == 3) axial_nodes = space.degree() * grid.cells[2] + 1;
+  const int tread_nodes = lines * space.degree() * problem.tread().rows() * axial_nodes;
+  return dim * grid.n_sectors * (core_nodes + tread_nodes);
 }
+
+template int ring_unknowns(const RollingProblem<2>&, const CyclicStiffness<2>&);
+template int ring_unknowns(const RollingProblem<3>&, const CyclicStiffness<3>&);
 
 }  // namespace wheelwright::bench

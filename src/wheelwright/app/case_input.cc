@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <thread>
 
-#include "wheelwright/app/case_report.h"
+#include "wheelwright/run/case_report.h"
 #include "wheelwright/app/exit_code.h"
 #include "wheelwright/app/memory.h"
 #include "wheelwright/app/terminal.h"

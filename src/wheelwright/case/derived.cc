@@ -11,6 +11,40 @@ namespace wheelwright {
 
 using std::numbers::pi;
 
+Case with_load_case(Case c, int load_case) {
+  const CaseLoad changes = c.load.cases[load_case];
+  Load& load = c.load;
+  load.cases.clear();
+  if (changes.force) {
+    load.force = *changes.force;
+    load.travel.reset();
+  }
+  if (changes.travel) load.travel = changes.travel;
+  load.horizontal_force = changes.horizontal_force.value_or(load.horizontal_force);
+  load.torque = changes.torque.value_or(load.torque);
+  load.body_force = changes.body_force.value_or(load.body_force);
+  load.hole_pressure = changes.hole_pressure.value_or(load.hole_pressure);
+  load.speed = changes.speed.value_or(load.speed);
+  return c;
+}
+
+std::vector<Case> single_load_cases(const Case& c) {
+  if (c.load.cases.empty()) return {c};
+  std::vector<Case> cases;
+  for (std::size_t k = 0; k < c.load.cases.size(); ++k)
+    cases.push_back(with_load_case(c, static_cast<int>(k)));
+  return cases;
+}
+
+std::vector<int> load_cases_of(const Case& c, const Constraint& constraint) {
+  if (c.load.cases.empty()) return {0};
+  std::vector<int> result;
+  for (std::size_t k = 0; k < c.load.cases.size(); ++k)
+    if (constraint.load_case.empty() || constraint.load_case == c.load.cases[k].name)
+      result.push_back(static_cast<int>(k));
+  return result;
+}
+
 double load_per_metre(const Case& c) { return c.load.force / c.wheel.width; }
 
 double hertz_half_width(const Case& c) {
@@ -38,6 +72,14 @@ int levels_for(const Case& c, double cells_per_patch, int most_points) {
   return levels;
 }
 
+/// As many as the load case with the narrowest contact needs.
+int most_levels_for(const Case& c, double cells_per_patch, int most_points) {
+  int levels = 0;
+  for (const Case& single : single_load_cases(c))
+    levels = std::max(levels, levels_for(single, cells_per_patch, most_points));
+  return levels;
+}
+
 }  // namespace
 
 OptimizerMethod optimizer_method(const Case& c) {
@@ -51,9 +93,11 @@ int level_set_degree(const Case& c) {
   return c.grid.level_set_degree.value_or(c.wheel.dimension == 3 ? 1 : 2);
 }
 
-int tread_levels(const Case& c) { return c.grid.tread_levels.value_or(levels_for(c, 8, 80)); }
+int tread_levels(const Case& c) { return c.grid.tread_levels.value_or(most_levels_for(c, 8, 80)); }
 
-int tread_levels_of_results(const Case& c) { return c.grid.tread_levels.value_or(levels_for(c, 18, 160)); }
+int tread_levels_of_results(const Case& c) {
+  return c.grid.tread_levels.value_or(most_levels_for(c, 18, 160));
+}
 
 Case with_levels_of_results(Case c) {
   c.grid.tread_levels = tread_levels_of_results(c);
@@ -262,7 +306,7 @@ ProblemSize problem_size(const Case& c) {
                         (in_3d ? c.contact.quadrature_points * c.grid.axial_cells : 1);  // per column
   ProblemSize size{};
   size.sectors = c.wheel.sectors;
-  size.positions = c.load.positions;
+  size.positions = c.load.positions * static_cast<double>(std::max<std::size_t>(c.load.cases.size(), 1));
   size.columns = c.grid.angular_cells;
   size.cells = size.columns * c.grid.radial_cells * (in_3d ? c.grid.axial_cells : 1);
   size.dofs = static_cast<double>(dof_bound(c));
@@ -270,7 +314,8 @@ ProblemSize problem_size(const Case& c) {
   size.radial_line = per_line_node * (c.grid.degree * c.grid.radial_cells + 1);
   size.ring_line = per_line_node * c.grid.degree * size.columns;
   size.tractions = c.wheel.dimension * points;
-  size.zone_columns = contact_columns(c);
+  for (const Case& single : single_load_cases(c))
+    size.zone_columns = std::max(size.zone_columns, contact_columns(single));
   size.loaded_columns = std::min(size.columns / size.sectors, size.positions * size.zone_columns);
   return size;
 }

@@ -225,6 +225,8 @@ Json run_json(const ReportRun<dim>& run) {
   Json outlines = Json::array();
   for (const ShapeOutline& outline : run.outlines)
     outlines.push_back({{"shape", outline.shape}, {"contours", outline.contours}});
+  Json events = Json::array();
+  for (const HoleEvents& event : run.events) events.push_back({{"shape", event.shape}, {"text", event.text}});
   Json json{{"dimension", dim},
             {"numbers", numbers_json<dim>()},
             {"name", run.name},
@@ -241,7 +243,9 @@ Json run_json(const ReportRun<dim>& run) {
             {"sectors", run.grid.n_sectors},
             {"trials", run.trials},
             {"rejected", run.rejected},
+            {"events", std::move(events)},
             {"flags", run.flags},
+            {"limits", run.limits},
             {"history", std::move(history)},
             {"outline_units", outline_units},
             {"outlines", std::move(outlines)}};

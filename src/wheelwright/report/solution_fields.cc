@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "wheelwright/analysis/strain_peaks.h"
 #include "wheelwright/base/units.h"
 
 namespace wheelwright {
@@ -238,11 +237,10 @@ DrawnPeak<dim> peak_at(const PolarGrid<dim>& grid, const StrainPeaks<dim>& peaks
 /// The fields of one load position, from the displacements and peaks of those that were solved for.
 template <int dim>
 PositionFields<dim> fields_at(const StateSolver<dim>& solver, const State<dim>& state,
-                              const Displacement<dim>& displacement, const StrainPeaks<dim>& peaks,
                               const PositionSource& source, int position) {
   const ContactPatch<dim>& contact = state.contacts()[source.solved];
   const Lattice<dim> lattice = displacement_lattice(solver.model());
-  const RingField solved = displacement.at_nodes(source.solved);
+  const RingField solved = state.displacement().at_nodes(source.solved);
   const RingField u = source.is_image ? wheelwright::mirror_image<dim>(lattice, solved) : solved;
   return {.lattice = lattice,
           .displacement = u,
@@ -251,7 +249,7 @@ PositionFields<dim> fields_at(const StateSolver<dim>& solver, const State<dim>& 
           .rim = source.is_image ? mirror_image(contact.rim) : contact.rim,
           .rim_force = source.is_image ? mirror_image(contact.rim_force) : contact.rim_force,
           .contact = points_at(solver, state, source, position),
-          .von_mises = peak_at(lattice.grid(), peaks, source)};
+          .von_mises = peak_at(lattice.grid(), state.strain_peaks(), source)};
 }
 
 }  // namespace
@@ -259,19 +257,15 @@ PositionFields<dim> fields_at(const StateSolver<dim>& solver, const State<dim>& 
 template <int dim>
 PositionFields<dim> position_fields(const StateSolver<dim>& solver, const State<dim>& state, int position) {
   const auto sources = position_sources(state.positions(), solver.model().n_positions);
-  const auto displacement = state.displacement();
-  return fields_at(solver, state, *displacement, strain_peaks(solver, state, *displacement),
-                   sources[position], position);
+  return fields_at(solver, state, sources[position], position);
 }
 
 template <int dim>
 void for_each_position(const StateSolver<dim>& solver, const State<dim>& state,
                        const std::function<void(int, PositionFields<dim>)>& visit) {
-  const auto displacement = state.displacement();
-  const auto peaks = strain_peaks(solver, state, *displacement);
   int position = 0;
   for (const PositionSource& source : position_sources(state.positions(), solver.model().n_positions)) {
-    visit(position, fields_at(solver, state, *displacement, peaks, source, position));
+    visit(position, fields_at(solver, state, source, position));
     ++position;
   }
 }

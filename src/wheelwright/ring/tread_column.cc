@@ -148,6 +148,15 @@ void add_rows(const Map& map, std::span<const NodeMap<dim>> nodes, int first_row
       }
 }
 
+/// Adds a linear function of a cell's dofs, on its free dofs.
+template <int dim, class Row>
+void add_number(const Row& function, std::span<const NodeMap<dim>> nodes, int row, Matrix& result) {
+  for (size_t a = 0; a < nodes.size(); ++a)
+    for (const auto& [node, weight] : nodes[a])
+      for (int c = 0; c < dim; ++c)
+        for (int k = 0; k < dim; ++k) result(row, dim * node + c) += function[dim * a + k] * weight[k][c];
+}
+
 /// Adds a cell's stiffness on its free dofs.
 template <int dim>
 void add_stiffness(const Matrix& k, std::span<const NodeMap<dim>> nodes, Matrix& result) {
@@ -241,11 +250,12 @@ class ColumnAssembly {
     int n_cells = 0;
     for (const Layer& layer : nodes.all_layers()) n_cells += layer.rows * (1 << layer.level) * axial_cells_;
     rows_ = {(1 << nodes.all_layers().back().level) * axial_cells_ * static_cast<int>(face_rule_.size()),
-             n_cells * static_cast<int>(annulus_rule_.size())};
+             n_cells * static_cast<int>(annulus_rule_.size()), tread.observes_spin};
     column_.stiffness = Matrix(nodes.n_dofs(), nodes.n_dofs());
     column_.observation = Matrix(rows_.size(), nodes.n_dofs());
     column_.surface.annulus_thickness = tread.rows * grid_.cell_size()[0];
     column_.surface.n_columns = grid_.ring_columns();
+    column_.surface.has_spin = tread.observes_spin;
     column_.nodal = grid_nodes<dim>(nodes, degree_, tread.rows, axial_cells_);
   }
 
@@ -403,6 +413,7 @@ class ColumnAssembly {
     for (const auto& q : volume_rule_) {
       auto at = cell.element.at(q.xi);
       const double weight = q.weight * at.determinant;
+      if (rows_.has_spin) add_spin(cell, at, weight * cell.material.density.value_or(0));
       for (auto& component : at.displacement)
         for (double& value : component) value *= weight;
       add_rows<dim>(at.displacement, cell.nodes, rows_.integral(), cell.angle, column_.observation);
@@ -410,6 +421,15 @@ class ColumnAssembly {
       const Vec<dim> position = rotated<dim>(at.position, cell.angle);
       for (int d = 0; d < dim; ++d) column_.moment[d] += weight * position[d];
     }
+  }
+
+  void add_spin(const ColumnCell<dim>& cell, const typename ElasticElement<dim>::Point& at, double mass) {
+    using Row = std::array<double, ElasticElement<dim>::max_dofs>;
+    Row work{};
+    for (int d = 0; d < 2; ++d)
+      for (int i = 0; i < cell.element.n_dofs(); ++i)
+        work[i] += mass * at.position[d] * at.displacement[d][i];
+    add_number<dim>(work, cell.nodes, rows_.spin(), column_.observation);
   }
 
   const ElementTable<dim>& table_;

@@ -68,7 +68,11 @@ Obeyed NewWeights::obey(RunControl& run) const {
 
 Obeyed NewLoad::obey(RunControl& run) const {
   Case c = run.current_case();
+  if (!c.load.cases.empty())
+    return Refusal{"the case has several load cases: change them in its file, and begin another run"};
+  const double speed = c.load.speed;
   c.load = load;
+  c.load.speed = speed;
   return changed(run, c, "new load: " + load_text(load));
 }
 

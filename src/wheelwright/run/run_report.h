@@ -37,4 +37,8 @@ ReportRun<dim> report_of_results(const std::filesystem::path& folder, const Case
                                  const RunSummary<dim>& summary, const SolvedShape<dim>& last,
                                  std::optional<StopReason> reason);
 
+/// The same of a run that ended without results: its first shape could not be solved, or there was no time.
+template <int dim>
+ReportRun<dim> report_without_results(const std::filesystem::path& folder, const Case& c, StopReason reason);
+
 }  // namespace wheelwright

@@ -111,7 +111,7 @@ Json force_curve_json(const WatchedShape<dim>& shape) {
   force /= static_cast<double>(shape.solution->contacts().size());
   std::vector<double> loads;
   for (const double factor : {0.25, 0.5, 0.75, 1.0, 1.25, 1.5}) loads.push_back(factor * force);
-  const auto under = under_loads<dim>(*shape.solver, *shape.solution, loads);
+  const auto under = under_loads<dim>(*shape.solution, loads);
   if (!under) return Json();
   Json forces{0.0}, travels{0.0};
   for (std::size_t k = 0; k < loads.size(); ++k) {

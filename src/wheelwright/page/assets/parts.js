@@ -2,7 +2,7 @@
 // What all pages draw with.
 const parts = (() => {
   const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-  const curveColours = ["#1f77b4", "#d1495b", "#2e8b57", "#b8860b", "#7b4fa3", "#008b8b", "#c2549d", "#6b7280"];
+  const curveColours = ["#1f77b4", "#d1495b", "#2e8b57", "#b8860b", "#9565c4", "#008b8b", "#c2549d", "#737a88"];
   const degree = 180 / Math.PI;
 
   // --- Elements ---------------------------------------------------------------------------------------
@@ -373,7 +373,7 @@ const parts = (() => {
         data: { labels: options.labels, datasets: data(curves) },
         options: { animation: false, responsive: true, maintainAspectRatio: false, interaction: { mode: "nearest",
           intersect: false }, scales: { x: { ...(options.bars ? {} : { type: "linear" }), ...axis(xTitle) },
-          y: axis(yTitle) }, plugins: { legend: { display: curves.length > 1, labels: { color: colour("--ink") } } } },
+          y: { ...axis(yTitle), ...options.y } }, plugins: { legend: { display: curves.length > 1, labels: { color: colour("--ink") } } } },
       });
     };
     // Other curves, of the same kinds.
@@ -385,7 +385,12 @@ const parts = (() => {
       drawn.data.datasets.length = of.length;
       drawn.update("none");
     };
-    return { figure, start, update };
+    // In the colours that hold now.
+    const recolour = () => {
+      drawn?.destroy();
+      start();
+    };
+    return { figure, start, update, recolour };
   }
 
   return { colour, curveColours, degree, element, shown, change, minutes, viridis, gradient, wheelPainter,

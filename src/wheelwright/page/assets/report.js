@@ -26,7 +26,11 @@
     return element("div", { class: "wide" }, element("table", {}, element("thead", {}, head), body));
   }
 
-  const rejectedText = (run) => `${run.trials} trial shapes, ${run.rejected} rejected`;
+  function rejectedText(run) {
+    const reasons = Object.entries(run.rejected), n = reasons.reduce((sum, [, count]) => sum + count, 0);
+    const why = n ? ` (${reasons.map(([reason, count]) => `${reason.replaceAll("_", " ")}: ${count}`).join(", ")})` : "";
+    return `${run.trials} trial shapes, ${n} rejected${why}`;
+  }
 
   // What a buyer asks, and the answers.
   function answers(run) {
@@ -39,30 +43,43 @@
     answer("stiffness", "How stiff?", `${shown(after.stiffness_N_per_m * 1e-3)} N/mm`);
     answer("evenness", "How even does it roll?", `run-out ${shown(after.run_out_m * 1e3)} mm, force varies by ` +
       `${shown(after.force_variation_N)} N`);
-    answer("volume", "How much material?", `${shown(volume * 1e6)} cm\u00b3, ${shown(100 * after.volume_fraction)} % of ` +
-      "the ring");
+    answer("volume", "How heavy?", `${"mass_kg" in after ? `${shown(after.mass_kg)} kg, ` : ""}` +
+      `${shown(volume * 1e6)} cm\u00b3, ${shown(100 * after.volume_fraction)} % of the ring`);
+    if ("minimum_wall_m" in after)
+      answer("wall", "How thick is the thinnest wall?", `${shown(after.minimum_wall_m * 1e3)} mm`);
     answer("stress", "What peak stress, and where?", `${shown(after.peak_von_mises_Pa * 1e-6)} MPa at radius ` +
-      `${(place.radius_m * 1e3).toFixed(1)} mm`);
+      `${shown(place.radius_m * 1e3)} mm, azimuth ${shown(place.azimuth_rad * degree)}\u00b0`);
     answer("pressure", "What pressure on the ground?", `${shown(after.peak_pressure_Pa * 1e-6)} MPa`);
     answer("travel", "How far does it sink?", `${shown(after.mean_travel_m * 1e3)} mm`);
     answer("load", "For which load?", `${shown(after.load_N)} N`);
     answer("strain", "Is it made for this load?", `largest strain ${shown(100 * after.largest_strain)} %, travel ` +
       `${shown(100 * after.travel_by_ring_thickness)} % of the ring`);
     answer("change", "What changed?", `travel ${change(before.mean_travel_m, after.mean_travel_m)}, run-out ` +
-      `${change(before.run_out_m, after.run_out_m)}`);
-    answer("trust", "Can I trust it?", run.flags.length === 0 ? "nothing to report" :
-      `${run.flags.length} remark${run.flags.length > 1 ? "s" : ""} below`);
-    answer("making", "How was it made?", `${run.status}, ${rejectedText(run)}, ${minutes(run.seconds)}`);
+      `${change(before.run_out_m, after.run_out_m)}, peak stress ` +
+      `${change(before.peak_von_mises_Pa, after.peak_von_mises_Pa)}`);
+    answer("trust", "Can I trust it?", run.flags.length === 0 ? "no remarks; its limits stand below" :
+      `${run.flags.length} remark${run.flags.length > 1 ? "s" : ""} and the limits below`);
+    answer("making", "How was it made?", `${run.status}; ${run.trials} trial shapes, ${minutes(run.seconds)}`);
     return list;
   }
 
   function flags(run) {
-    const list = element("ul", { class: "flags" });
-    for (const text of run.flags) list.append(element("li", {}, text));
-    if (run.flags.length === 0) list.append(element("li", { class: "fine" }, "No remarks: strains are small, the " +
-      "contact is resolved, the run ended by itself."));
+    const list = element("ul", { class: "flags", id: `${run.id}-flags` });
+    for (const text of run.flags) list.append(element("li", {}, text[0].toUpperCase() + text.slice(1)));
+    if (run.flags.length === 0 && !run.is_running) list.append(element("li", { class: "fine" }, "No remarks: strains are small and the " +
+      "contact is resolved."));
     return list;
   }
+
+  // What the numbers do not tell.
+  const limits = (run) => element("ul", { class: "quiet", id: `${run.id}-limits` },
+    ...run.limits.map((text) => element("li", {}, text)));
+
+  // Holes that merged, vanished or reached a band on the way.
+  const events = (run) => element("details", { id: `${run.id}-events` },
+    element("summary", {}, `What happened to the holes: ${run.events.length} shape${run.events.length > 1 ? "s" : ""}`),
+    element("ul", {}, ...run.events.map(({ shape, text }) => element("li", {}, `Shape ${shape}: ` +
+      text.replaceAll("_", " ")))));
 
   // --- The wheel rolling ------------------------------------------------------------------------------
 
@@ -117,7 +134,15 @@
     slider.addEventListener("input", () => { roll(false); draw(); });
     for (const control of [choice, kind]) control.addEventListener("change", draw);
     const start = () => { paint = (is_surface ? surfacePainter : wheelPainter)(picture, run); draw(); };
-    return { figure, start, draw };
+    // Browsers print what was drawn in a plane, but not what WebGL drew.
+    const print = () => {
+      const copy = element("canvas", { class: "print-copy", "aria-hidden": "true", style: "position:absolute;inset:0" });
+      [copy.width, copy.height] = [picture.width, picture.height];
+      copy.getContext("2d").drawImage(picture, 0, 0);
+      picture.after(copy);
+      return () => copy.remove();
+    };
+    return { figure, start, draw, print };
   }
 
   // --- The shapes of the run --------------------------------------------------------------------------
@@ -156,17 +181,18 @@
   function curves(run) {
     const charts = [], column = (word) => Object.keys(run.history).find((name) => name.startsWith(word));
     const iterations = run.history.iteration ?? [];
-    const course = (title, words, factor, yTitle) => {
-      const found = words.map(column).filter((name) => name && run.history[name].some((v) => v !== null));
+    const course = (title, words, factor, yTitle, y) => {
+      const found = words.map(column).filter((name) => name && run.history[name].some((v) => v !== null))
+        .filter((name, k, all) => k === 0 || String(run.history[name]) !== String(run.history[all[0]]));
       if (found.length)
-        charts.push(chart(title, "shape", yTitle, found.map((name) => ({ name: name.split(" [")[0], x: iterations,
-          y: run.history[name].map((v) => v === null ? null : v * factor) }))));
+        charts.push(chart(title, "shape", yTitle, found.map((name) => ({ name: name.split(" [")[0].replaceAll("_", " "),
+          x: iterations, y: run.history[name].map((v) => v === null ? null : v * factor) })), { y }));
     };
     course("Objective and its terms", ["objective", "strain_energy", "uniformity_annulus", "uniformity_dual",
       "uniformity_l2"], 1, (column("objective") ?? "").replace("objective ", ""));
     course("Mean travel and run-out", ["mean_travel", "run_out"], 1e3, "[mm]");
     course("Peaks of pressure and stress", ["peak_pressure", "peak_von_mises ["], 1e-6, "[MPa]");
-    course("Volume", ["volume fraction"], 100, "[% of the ring]");
+    course("Volume", ["volume fraction"], 100, "[% of the ring]", { grace: 0.05 });
     if (run.rolling) {
       const turn = ({ azimuths_rad }, values, factor) => {  // one sector, closed
         const x = azimuths_rad.map((a) => a * degree), sector = 360 / run.sectors;
@@ -218,6 +244,7 @@
       element("p", { class: "quiet", id: `${run.id}-status` }, `${run.status}; load ${run.load}`));
     if (run.summary) made.append(answers(run));
     made.append(flags(run));
+    if (run.limits.length) made.append(section("What was not checked", limits(run)));
     if (run.summary) made.append(section("Before and after",
       table([["before", run.summary.before], ["after", run.summary.after]].map(([name, numbers]) =>
         ({ name, numbers, units: run.numbers })))));
@@ -228,10 +255,12 @@
       later.push(shapes(run));
       pictures.append(later.at(-1).figure);
     }
-    made.append(section("The wheel", pictures));
+    if (pictures.childElementCount) made.append(section("The wheel", pictures));
+    if (run.events.length) made.append(events(run));
     const charts = curves(run);
     later.push(...charts);
-    made.append(section("Curves", element("div", { class: "pictures" }, ...charts.map(({ figure }) => figure))));
+    if (charts.length)
+      made.append(section("Curves", element("div", { class: "pictures" }, ...charts.map(({ figure }) => figure))));
     made.append(provenance(run));
     return made;
   }
@@ -245,6 +274,24 @@
     ({ name: run.name, numbers: run.summary.after, units: run.numbers })))));
   page.append(element("div", { class: "runs" }, ...data.runs.map((run) => article(run, later))));
   for (const part of later) part.start();
-  addEventListener("resize", () => later.forEach((part) => part.draw?.()));
+  const redraw = () => later.forEach((part) => part.draw?.());
+  const recolour = () => {
+    later.forEach((part) => part.recolour?.());
+    redraw();
+  };
+  addEventListener("resize", redraw);
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", recolour);
+  // Paper is white: what is drawn in the colours of a dark page is drawn anew.
+  let printed = [];
+  addEventListener("beforeprint", () => {
+    document.documentElement.classList.add("printed");
+    recolour();
+    printed = later.flatMap((part) => part.print ? [part.print()] : []);
+  });
+  addEventListener("afterprint", () => {
+    document.documentElement.classList.remove("printed");
+    printed.forEach((remove) => remove());
+    recolour();
+  });
   if (data.runs.some((run) => run.is_running)) setTimeout(() => location.reload(), 5000);
 })();
