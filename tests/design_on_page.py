@@ -32,7 +32,7 @@ class Page:
     def number(self, name):
         return float(self.text(f"number-{name}").split()[0])
 
-    def until(self, wanted, seconds=120):
+    def until(self, wanted, seconds=180):
         end = time.time() + seconds
         while not wanted():
             if time.time() > end:
@@ -41,9 +41,9 @@ class Page:
             time.sleep(0.02)
 
     def more_shapes(self, n):
+        """Waits for so many, or until there are no better ones."""
         first = self.shape()
-        self.until(lambda: self.shape() >= first + n or
-                   (self.shape() > first and "no better shape" in self.text("state")))
+        self.until(lambda: self.shape() >= first + n or "no better shape" in self.text("state"))
 
     def type(self, name, text):
         self.element(name).send_keys(Keys.CONTROL, "a", Keys.NULL, text, Keys.ENTER)
@@ -52,6 +52,11 @@ class Page:
         if self.text("go") == "Pause":
             self.element("go").click()
         self.until(lambda: self.text("go") == "Go on")
+
+    def go_on(self):
+        """From a pause, or from the end of a step."""
+        self.until(lambda: self.text("go") == "Go on")
+        self.element("go").click()
 
     def stroke(self, tool, radii, azimuth, steps=6):
         """Draws with the mouse along a ray, at these shares of the outer radius."""
@@ -75,6 +80,15 @@ def steps(page):
 
     def begin():
         page.until(lambda: page.shape() >= 3)
+        page.pause()
+        page.element("reset").click()  # it changed before the page was there
+        page.obeyed("back to the initial shape")
+        for _ in range(10):
+            page.look()
+            before = page.shape()
+            page.element("step").click()
+            page.until(lambda before=before: page.shape() > before or "no better shape" in page.text("state"))
+        page.go_on()
 
     def load():
         page.type("force-number", "4000")
@@ -91,9 +105,9 @@ def steps(page):
         page.obeyed("the last change is undone")
 
     def even():
-        page.type("even-number", "20000")
+        page.type("even-number", "5")
         page.obeyed("new weights")
-        page.element("go").click()  # the edit was made in a pause
+        page.go_on()
         page.more_shapes(8)
         page.pause()
 
@@ -104,6 +118,8 @@ def steps(page):
         page.element("roll").send_keys(Keys.ENTER)
         first = page.element("loaded-wheel").get_attribute("data-position")
         page.until(lambda: page.element("loaded-wheel").get_attribute("data-position") != first)
+        for _ in range(12):
+            page.look()
         page.element("roll").click()
 
     def take_away():

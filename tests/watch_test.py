@@ -56,7 +56,7 @@ class Watched:
         self.base, self.token = self.address.split("/#")
 
     def connect(self):
-        return http.client.HTTPConnection(self.base.removeprefix("http://"), timeout=60)
+        return http.client.HTTPConnection(self.base.removeprefix("http://"), timeout=180)
 
     def ask(self, method, path, body=None):
         with contextlib.closing(self.connect()) as connection:
@@ -73,7 +73,7 @@ class Watched:
         return json.loads(self.ask("POST", "/command", json.dumps(command)))
 
     def wait(self, wanted):
-        version, until = 0, time.time() + 60
+        version, until = 0, time.time() + 180
         while time.time() < until:
             frame = self.frame(f"/frame?after={version}")
             if wanted(frame):
@@ -84,7 +84,7 @@ class Watched:
     def end(self, number=signal.SIGINT):
         if self.process.poll() is None:
             self.process.send_signal(number)
-        output = self.process.communicate(timeout=60)
+        output = self.process.communicate(timeout=180)
         return self.process.returncode, *output
 
 
@@ -117,7 +117,7 @@ class PageTest(unittest.TestCase):
         severe = [entry for entry in self.browser.get_log("browser") if entry["level"] == "SEVERE"]
         self.assertEqual(severe, [])
 
-    def until(self, wanted, seconds=60):
+    def until(self, wanted, seconds=180):
         end = time.time() + seconds
         while True:
             found = wanted()
@@ -428,8 +428,8 @@ at_most = 1e-3
     def setUpClass(cls):
         super().setUpClass()
         case = cls.folder / "sweep.toml"
-        case.write_text(CASE + "iterations = 2\n")
-        support.run_program(program, "sweep", case, "optimizer.tread_band=0.035,0.0525", "--output", cls.folder / "designs")
+        case.write_text(CASE + "iterations = 3\n")
+        support.run_program(program, "sweep", case, "objective.uniformity_dual=0,1e5", "--output", cls.folder / "designs")
         cls.arguments = ["--designs", cls.folder / "designs"]
 
     def test_a_bound_follows_its_slider(self):
@@ -460,9 +460,7 @@ at_most = 1e-3
         self.element("take").send_keys(Keys.ENTER)
         self.watched.wait(lambda f: f["outline"] == outlines[0] and not f["is_proposed"])
         for _ in range(3):
-            self.element("undo").click()
-            version = self.watched.frame()["version"]
-            self.watched.wait(lambda f, version=version: f["version"] > version or not f["can_undo"])
+            self.assertTrue(self.watched.give({"do": "undo"})["obeyed"])
         self.watched.wait(lambda f: f["outline"] == own)
 
     def test_a_page_names_designs_and_no_files(self):
@@ -569,9 +567,9 @@ class Design(unittest.TestCase):
             self.assertEqual([e for e in browser.get_log("browser") if e["level"] == "SEVERE"], [])
             watched.end()
             support.run_program(program, "export", folder / "run/designs/my-spokes.toml", "--format", "step", "--output", folder / "written")
-            lines, written = step.read_text().splitlines(), (folder / "written/my-spokes.step").read_text().splitlines()
-            self.assertEqual(len(lines), len(written))
-            self.assertLess(sum(a != b for a, b in zip(lines, written)), 6)  # the title and the time
+            points = lambda file: [line for line in file.read_text().splitlines() if "CARTESIAN_POINT" in line]
+            self.assertEqual(points(step), points(folder / "written/my-spokes.step"))
+            self.assertGreater(len(points(step)), 1000)
 
 
 class Folder(unittest.TestCase):

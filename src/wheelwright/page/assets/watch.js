@@ -353,13 +353,19 @@
 
   const showPosition = () => solid ? drawSolid() : loaded && showLoaded();
 
+  // One position after the other. Where painting takes long, it leaves as much time for everything else.
   function roll(on) {
-    clearInterval(rolling);
-    rolling = on ? setInterval(() => {
-      at("position").value = (Number(at("position").value) + 1) % (solid ? solid.fields.positions.length : loaded.n);
+    const betweenPositions = 150;
+    clearTimeout(rolling);
+    const advance = () => {
+      const start = performance.now(), n = solid ? solid.fields.positions.length : loaded.n;
+      at("position").value = (Number(at("position").value) + 1) % n;
       showPosition();
-      look();
-    }, 150) : null;
+      if (start - curvesDrawn > 4 * betweenCurves) look();
+      const painting = performance.now() - start;
+      rolling = setTimeout(advance, Math.max(betweenPositions - painting, painting));
+    };
+    rolling = on ? setTimeout(advance, betweenPositions) : null;
     at("roll").textContent = on ? "Stop" : "Roll";
     at("roll").setAttribute("aria-pressed", String(on));
   }
@@ -634,7 +640,7 @@
     if (isNew) wheel.dataset.painted = String(++painted);
     if (frame.is_proposed) return;
     showNumbers();
-    if (frame.force_curve) showCurves();
+    if ("force_curve" in frame) showCurves();
     if (news.curve.length > 0) wheel.dataset.shapes = String(++shapesPainted);
     wheel.dataset.shape = String(frame.shape);
     wheel.dataset.version = String(frame.version);
