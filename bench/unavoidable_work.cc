@@ -28,7 +28,7 @@ std::vector<KernelWork> unavoidable_work(const RollingProblem<2>& problem,
                swept_entries = ring.sector_factor().sweep_entries(solution.sweep);
 
   const double line = tread.samples().of_line.columns(), samples = tread.samples().of_line.rows(),
-               tests = tread.tests().of_line.rows(), apart = 2.0 * solution.surface.width() + 1,
+               tests = tread.tests().of_line.rows(), apart = 2.0 * solution.surface->width() + 1,
                solved_columns = tread.columns_per_sector() * (symmetric ? 0.5 : 1);
   const double contact_operator =
       solved_columns * tests * (vectors * 2 * outer * outer + 2 * samples * line * apart);
