@@ -143,7 +143,7 @@ void sector_cholesky(benchmark::State& state, const RollingSolution<2>& solution
 void contact_operators(benchmark::State& state, const Wheel& wheel, const RollingSolution<2>& solution,
                        Samples& samples) {
   measure(state, samples, [&] {
-    const SurfaceCompliance<2> surface(solution.ring, wheel.problem().tread(), solution.surface.width());
+    const SurfaceCompliance<2> surface(solution.ring, wheel.problem().tread(), solution.surface->width());
     std::vector<ReducedContact<2>> contacts;
     for (size_t i = 0; i < solution.contacts.size(); ++i)
       contacts.emplace_back(surface, wheel.problem().tread(), wheel.problem().model().grid,
@@ -240,7 +240,7 @@ void add_benchmarks(Workshop& shop, Measurements& m) {
     GridTimes& times = m.grids[g];
     add("sector Cholesky/" + size.grid(), [&, size](auto& state) {
       const auto& solution = shop.solution(size);
-      times.unknowns = ring_unknowns(shop.wheel(size).problem(), solution);
+      times.unknowns = ring_unknowns(shop.wheel(size).problem(), solution.ring);
       times.work = unavoidable_work(shop.wheel(size).problem(), solution);
       sector_cholesky(state, solution, times.phase("of factorization: sector Cholesky"));
     });

@@ -8,9 +8,9 @@
 #include "tests/support.h"
 #include "wheelwright/analysis/deformation_size.h"
 #include "wheelwright/analysis/rolling_analysis.h"
-#include "wheelwright/analysis/strain_peaks.h"
 #include "wheelwright/report/rolling_report.h"
 #include "wheelwright/report/solution_fields.h"
+#include "wheelwright/state/strain_peaks.h"
 
 namespace wheelwright {
 namespace {
@@ -165,7 +165,7 @@ TEST(Analysis, DeformationOfThePapersWheelIsSmall) {
   const DeformationSize size = deformation_size<2>(*problem, psi, **state);
   EXPECT_FALSE(size.edges_overlap);
   EXPECT_EQ(deformation_warning(size), "");
-  EXPECT_EQ(size.strain, std::ranges::max(strain_peaks<2>(*problem, **state).principal));
+  EXPECT_EQ(size.strain, std::ranges::max((*state)->strain_peaks().principal));
   // Twice the load deforms nearly twice as much: the contact alone is not linear.
   auto doubled = model;
   doubled.load *= 2;
@@ -226,7 +226,7 @@ TEST(Analysis, TravelThatCameFromALoadTakesThatForce) {
     EXPECT_NEAR(a.positions[i].radial_force / model.load, 1, 1e-9);
     RollingModel<2> held = model;
     held.travel = a.positions[i].travel;
-    const auto rolled = state->under(std::span(&held, 1));
+    const auto rolled = state->contacts_under(std::span(&held, 1));
     ASSERT_TRUE(rolled);
     EXPECT_NEAR(contact_summary((*rolled)[0][i]).radial_force / model.load, 1, 1e-9);
   }
@@ -242,7 +242,7 @@ TEST(Analysis, HeldTravelAndLoadGiveTheSameCurves) {
   EXPECT_LT(testing::relative_difference(held.analysis.force_at_travel, loaded.analysis.force_at_travel),
             1e-9);
   const std::vector<double> load{held.analysis.load};
-  const auto again = under_loads<2>(*loaded.problem, *loaded.state, load);
+  const auto again = under_loads<2>(*loaded.state, load);
   ASSERT_TRUE(again);
   EXPECT_LT(testing::relative_difference(held.analysis.travel_at_load,
                                          member((*again)[0], &ContactSummary::travel)),
@@ -254,7 +254,7 @@ TEST(Analysis, LoadsAgreeWithSolvingAfresh) {
   const auto base = analyzed(model, one_hole);
   // Up to a load whose contact leaves the zone of the first one.
   const std::vector<double> loads{0.1 * model.load, model.load, 20 * model.load};
-  const auto curve = under_loads<2>(*base.problem, *base.state, loads);
+  const auto curve = under_loads<2>(*base.state, loads);
   ASSERT_TRUE(curve);
   for (size_t k = 0; k < loads.size(); ++k) {
     RollingModel<2> other = model;
@@ -277,7 +277,7 @@ TEST(Analysis, WorkOfTheLoadIsTheStrainEnergy) {
   const int n = 200;
   std::vector<double> loads;
   for (int k = 1; k <= n; ++k) loads.push_back(k * model.load / n);
-  const auto curve = under_loads<2>(*problem, *state, loads);
+  const auto curve = under_loads<2>(*state, loads);
   ASSERT_TRUE(curve);
   for (size_t i = 0; i < a.positions.size(); ++i) {
     double work = 0, travel = 0;
@@ -296,7 +296,7 @@ TEST(Analysis, PatchAndPressureOfAThickRingGrowAsHertzSays) {
   model.tread.levels = 4;
   const auto [problem, state, a] = analyzed(model, no_holes);
   const std::vector<double> loads{0.25 * model.load, model.load};
-  const auto curve = under_loads<2>(*problem, *state, loads);
+  const auto curve = under_loads<2>(*state, loads);
   ASSERT_TRUE(curve);
   const ContactSummary &quarter = (*curve)[0][0], &whole = (*curve)[1][0];
   EXPECT_NEAR(whole.patch_length / quarter.patch_length, 2, 0.02);
@@ -314,7 +314,7 @@ TEST(Analysis, PeakStressIsThatOfTheDisplacementField) {
   const Lattice<2> lattice(model.grid, model.degree);
   const auto points = unit_cell_rule<2>(model.degree + 1);
   for (int position = 0; position < 3; ++position) {
-    const RingField field = state->displacement()->at_nodes(position);
+    const RingField field = state->displacement().at_nodes(position);
     double peak = 0;
     for (int sector = 0; sector < model.grid.n_sectors; ++sector)
       for (int cell = 0; cell < model.grid.n_cells(); ++cell) {
@@ -393,7 +393,7 @@ TEST(Report, JsonReadsBackToTheSameNumbers) {
   const RollingModel<2> model = coarse_model(5);
   auto [problem, state, a] = analyzed(model, one_hole);
   const std::vector<double> loads{0.5 * model.load, 2 * model.load};
-  const auto curve = under_loads<2>(*problem, *state, loads);
+  const auto curve = under_loads<2>(*state, loads);
   const RollingReport report{"a \"wheel\"", 1, 16, a, loads, *curve};
   const auto json = nlohmann::json::parse(rolling_json(report));
   EXPECT_EQ(json["title"], report.title);

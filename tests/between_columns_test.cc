@@ -214,7 +214,7 @@ TEST(BetweenColumns, AUniformRingTendsToBeUniform) {
     EXPECT_TRUE(s);
     const Matrix mean = mean_observations(problem->tread_surface(), **s);
     std::vector<double> result;
-    for (const auto& [weight, functional] : uniformity_functionals(*problem))
+    for (const auto& [weight, functional, load_case] : uniformity_functionals(*problem))
       result.push_back(value_of<2>(*functional, *problem, solid, **s, mean) / model.n_positions);
     return result;
   };

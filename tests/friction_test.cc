@@ -141,7 +141,7 @@ TEST(Friction, ForceAndTorqueActAlongLargerAzimuth) {
 /// Loads of the ground after a change of what the tread would show without it.
 Matrix loads_under(const RollingProblem<2>& problem, const RollingSolution<2>& s, int position,
                    const Preload& preload) {
-  const auto rolled = roll_to<2>(problem.model(), problem.tread(), s.ring, s.surface,
+  const auto rolled = roll_to<2>(problem.model(), problem.tread(), s.ring, *s.surface,
                                  s.positions.grounds[position], preload, s.states[position]);
   EXPECT_TRUE(rolled) << rolled.failure().detail;
   EXPECT_EQ(rolled->contact.n_points(), s.contacts[position].n_points());

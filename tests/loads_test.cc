@@ -20,6 +20,11 @@ using testing::strain_energy_alone;
 /// Loads of the size of the wheel's own.
 DistributedLoads<2> strong_loads() { return {{1e5, 3e4}, 3e4}; }
 
+Material with_density(Material material) {
+  material.density = 1200;
+  return material;
+}
+
 LevelSet<2> solid(const PolarGrid<2>& grid) {
   LevelSet<2> psi{Lattice<2>(grid, 2), {}};
   psi.values.assign(psi.lattice.n_nodes(), -1.0);
@@ -101,9 +106,98 @@ TEST(Loads, TheGroundCarriesTheWheelToo) {
   }
 }
 
+/// A wheel of one material that rotates.
+RollingModel<2> rotating_model(double angular_speed) {
+  auto model = paper_model();
+  model.n_positions = 1;
+  model.materials = with_density(model.materials.at_tread());
+  model.distributed.angular_speed = angular_speed;
+  return model;
+}
+
+// In a solid ring that is bonded to the rim (lambda + 2 mu) (u'' + u'/r - u/r^2) = -density omega^2 r, and
+// the tread, which hardly touches the ground, is free.
+TEST(Loads, ARotatingRingGrowsAsThickWalledTheorySays) {
+  for (const int levels : {0, 2}) {
+    auto model = rotating_model(150);
+    model.load = 1e-3;
+    model.tread.levels = levels;
+    const auto problem = RollingProblem<2>::create(model);
+    ASSERT_TRUE(problem);
+    const auto state = testing::all_states<2>(*problem, solid(model.grid));
+    ASSERT_TRUE(state) << state.failure().detail;
+    const double a = model.grid.inner_radius, b = model.grid.outer_radius;
+    const Material& material = model.materials.at_tread();
+    const double lambda = material.lambda(), mu = material.mu();
+    const double k = *material.density * 150 * 150 / (8 * (lambda + 2 * mu));
+    // u = A r + B / r - k r^3 with u(a) = 0 and (lambda + 2 mu) u'(b) + lambda u(b) / b = 0.
+    const double from_b = 2 * (lambda + mu) + 2 * mu * a * a / (b * b);
+    const double A = k * (b * b * (4 * lambda + 6 * mu) + 2 * mu * std::pow(a, 4) / (b * b)) / from_b;
+    const double B = k * std::pow(a, 4) - A * a * a;
+    const RingField u = (*state)->displacement().at_nodes(0);
+    const Lattice<2> lattice(model.grid, model.degree);
+    // In the sector opposite to the ground.
+    for (int node = 0; node < lattice.n_nodes(); ++node) {
+      const double r = lattice.polar_point(node)[0];
+      const double* at = &u.values[2 * (node + size_t(lattice.n_nodes()) * 8)];
+      const double azimuth = lattice.polar_point(node)[1] + 8 * model.grid.sector_angle();
+      const double radial = at[0] * std::cos(azimuth) + at[1] * std::sin(azimuth);
+      const double rim = (*state)->contacts()[0].rim.towards_ground * std::cos(azimuth);
+      EXPECT_NEAR(radial - rim, A * r + B / r - k * r * r * r, 1e-5 * k * b * b * b) << r;
+    }
+  }
+}
+
+// The sum of all pulls is zero unless the wheel has a single sector, whose hole is an unbalance.
+TEST(Loads, AHoleIsAnUnbalance) {
+  auto model = rotating_model(60);
+  model.grid.cells[1] *= model.grid.n_sectors;
+  model.grid.n_sectors = 1;
+  const auto problem = RollingProblem<2>::create(model);
+  ASSERT_TRUE(problem);
+  const double center = 0.27, radius = 0.03, azimuth = 2.1;
+  const auto psi = testing::holes(model.grid, 2, {{center, azimuth, radius}});
+  const auto s = problem->solve(psi);
+  ASSERT_TRUE(s) << s.failure().detail;
+  const double pull =
+      -*model.materials.at_tread().density * 60 * 60 * std::numbers::pi * radius * radius * center;
+  const double expected = pull * std::cos(azimuth);
+  EXPECT_NEAR(s->preloads[0].resultant.towards_ground, expected, 1e-4 * std::abs(pull));
+}
+
+// Under a model that differs in its loads, with the factor of another one.
+TEST(Loads, StatesUnderOtherLoadsAreThoseOfASolverOfTheirOwn) {
+  auto model = paper_model(14, 192);
+  model.contact.friction = 0.4;
+  model.n_positions = 3;
+  model.tread.observes_spin = true;
+  model.materials = with_density(model.materials.at_tread());
+  auto other = model;
+  other.load = 2 * model.load;
+  other.torque = 300;
+  other.distributed = {{2e4, 1e4}, 1e4, 70};
+  const auto problem = RollingProblem<2>::create(model), own = RollingProblem<2>::create(other);
+  ASSERT_TRUE(problem && own);
+  const auto psi = testing::generic_hole(model.grid);
+  const auto first = testing::all_states<2>(*problem, psi), expected = testing::all_states<2>(*own, psi);
+  ASSERT_TRUE(first && expected);
+  const auto states = (*first)->under(other, Interrupt());
+  ASSERT_TRUE(states) << states.failure().detail;
+  EXPECT_EQ((*states)->model().load, other.load);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR((*states)->strain_energy()[i] / (*expected)->strain_energy()[i], 1, 1e-9);
+    EXPECT_NEAR((*states)->contacts()[i].rim.rotation / (*expected)->contacts()[i].rim.rotation, 1, 1e-8);
+  }
+  // And back again.
+  const auto back = (*states)->under(model, Interrupt());
+  ASSERT_TRUE(back);
+  for (int i = 0; i < 3; ++i)
+    EXPECT_NEAR((*back)->strain_energy()[i] / (*first)->strain_energy()[i], 1, 1e-9);
+}
+
 TEST(Loads, ShapeGradientPassesTheTaylorTest) {
   for (const double friction : {0.0, 0.3})
-    for (const int which : {0, 1, 2}) {
+    for (const int which : {0, 1, 2, 3}) {
       auto model = paper_model(14, 192);
       model.contact.friction = friction;
       if (friction > 0) model.horizontal_force = 0.1 * model.load;
@@ -111,6 +205,10 @@ TEST(Loads, ShapeGradientPassesTheTaylorTest) {
       if (which == 0) model.distributed.hole_pressure = 0;
       if (which == 1) model.distributed.body_force = {};
       if (which == 2) model.travel = 5e-4;
+      if (which == 3) {
+        model.distributed = {.angular_speed = 90};
+        model.materials = with_density(model.materials.at_tread());
+      }
       const auto problem = RollingProblem<2>::create(model);
       ASSERT_TRUE(problem);
       const auto test = generic_taylor_test(*problem, strain_energy_alone());

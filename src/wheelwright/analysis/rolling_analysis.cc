@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "wheelwright/analysis/all_positions.h"
-#include "wheelwright/analysis/strain_peaks.h"
 
 namespace wheelwright {
 namespace {
@@ -31,7 +30,7 @@ std::vector<ContactSummary> summaries(const std::vector<ContactPatch<dim>>& cont
 template <int dim>
 Expected<std::vector<std::vector<ContactSummary>>> under(const State<dim>& state,
                                                          std::span<const RollingModel<dim>> models) {
-  const auto contacts = state.under(models);
+  const auto contacts = state.contacts_under(models);
   if (!contacts) return contacts.failure();
   std::vector<std::vector<ContactSummary>> result;
   for (const auto& of_model : *contacts) result.push_back(summaries(of_model));
@@ -72,16 +71,16 @@ double mean(const LoadPositions& solved, const std::vector<double>& values) {
 
 template <int dim>
 Expected<RollingAnalysis> rolling_analysis(const StateSolver<dim>& solver, const State<dim>& state) {
-  const RollingModel<dim>& model = solver.model();
+  const RollingModel<dim>& model = state.model();
   RollingAnalysis analysis{};
   analysis.held = model.travel ? Held::travel : Held::load;
   for (const GroundPosition& ground : state.positions().grounds)
     analysis.azimuths.push_back(ground.azimuth(model.grid));
   analysis.positions = summaries(state.contacts());
   analysis.strain_energy = state.strain_energy();
-  auto peaks = strain_peaks(solver, state);
-  analysis.peak_von_mises = std::move(peaks.von_mises);
-  analysis.peak_strain = std::move(peaks.principal);
+  const StrainPeaks<dim>& peaks = state.strain_peaks();
+  analysis.peak_von_mises = peaks.von_mises;
+  analysis.peak_strain = peaks.principal;
   analysis.most_stressed =
       std::ranges::max_element(analysis.peak_von_mises) - analysis.peak_von_mises.begin();
   analysis.peak_radius = peaks.von_mises_places[analysis.most_stressed][0];
@@ -108,18 +107,17 @@ Expected<RollingAnalysis> rolling_analysis(const StateSolver<dim>& solver, const
 }
 
 template <int dim>
-Expected<std::vector<std::vector<ContactSummary>>> under_loads(const StateSolver<dim>& solver,
-                                                               const State<dim>& state,
+Expected<std::vector<std::vector<ContactSummary>>> under_loads(const State<dim>& state,
                                                                std::span<const double> loads) {
   std::vector<RollingModel<dim>> models;
-  for (const double load : loads) models.push_back(at_load(solver.model(), load));
+  for (const double load : loads) models.push_back(at_load(state.model(), load));
   return under<dim>(state, models);
 }
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                               \
   template Expected<RollingAnalysis> rolling_analysis(const StateSolver<dim>&, const State<dim>&); \
-  template Expected<std::vector<std::vector<ContactSummary>>> under_loads(                         \
-      const StateSolver<dim>&, const State<dim>&, std::span<const double>);
+  template Expected<std::vector<std::vector<ContactSummary>>> under_loads(const State<dim>&,       \
+                                                                          std::span<const double>);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)
 #undef WHEELWRIGHT_INSTANTIATE

@@ -33,8 +33,7 @@ Expected<RollingAnalysis> rolling_analysis(const StateSolver<dim>& solver, const
 
 /// All positions under other loads, each started from the load before: [load][position].
 template <int dim>
-Expected<std::vector<std::vector<ContactSummary>>> under_loads(const StateSolver<dim>& solver,
-                                                               const State<dim>& state,
+Expected<std::vector<std::vector<ContactSummary>>> under_loads(const State<dim>& state,
                                                                std::span<const double> loads);
 
 }  // namespace wheelwright

@@ -19,9 +19,11 @@ std::string reason(const Trial<dim>& trial) {
 }
 
 template <int dim>
-void print_weights(const WeightedSum<dim>& terms) {
-  for (const auto& [weight, functional] : terms)
-    if (terms.size() > 1) tell("objective: {:.6g} * {}\n", weight, functional->name());
+void print_weights(const Study<dim>& study) {
+  const WeightedSum<dim>& terms = study.objective().terms;
+  for (const auto& [weight, functional, load_case] : terms)
+    if (terms.size() > 1)
+      tell("objective: {:.6g} * {}\n", weight, name_in_case(functional->name(), study.load_cases, load_case));
 }
 
 }  // namespace
@@ -48,7 +50,7 @@ void TerminalObserver<dim>::operator()(const Event<dim>& event, const RunView<di
 
 template <int dim>
 void TerminalObserver<dim>::begin(const RunStarted& started, const RunView<dim>& run) {
-  print_weights(run.study.objective().terms);
+  print_weights(run.study);
   if (started.resumed_after) return;
   if (const auto change = volume_change_of_saved_shape<dim>(run.study.source)) progress_.note(text(*change));
   for (const auto& event : lost_on_the_grid<dim>(run.study.source))

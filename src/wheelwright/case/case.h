@@ -35,6 +35,17 @@ struct Wheel {
   bool operator==(const Wheel&) const = default;
 };
 
+/// One of several loads: what it changes of the section [load].
+struct CaseLoad {
+  std::string name;
+  double weight = 1;                    ///< of its terms in the objective
+  std::optional<double> force, travel;  ///< at most one of them
+  std::optional<double> horizontal_force, torque;
+  std::optional<std::array<double, 2>> body_force;
+  std::optional<double> hole_pressure, speed;
+  bool operator==(const CaseLoad&) const = default;
+};
+
 struct Load {
   double force = 300 * 9.81;           ///< on the whole width [N]
   std::optional<double> travel;        ///< of the rim towards the ground [m]; if given, the force is a result
@@ -44,7 +55,9 @@ struct Load {
   double torque = 0;                   ///< on the rim, towards larger azimuth, on the whole width [N m]
   std::array<double, 2> body_force{};  ///< along the ground towards larger azimuth, and down [N/m^3]
   double hole_pressure = 0;            ///< in the holes [Pa]
+  double speed = 0;                    ///< of the axle along the ground, for the pull of rotation [m/s]
   int positions = 8;                   ///< N_d, load positions per sector
+  std::vector<CaseLoad> cases;         ///< empty: this load alone
   bool operator==(const Load&) const = default;
 };
 
@@ -288,6 +301,7 @@ struct Constraint {
   Quantity quantity = Quantity::objective;
   std::optional<double> at_least, at_most, equals;
   OverPositions over = OverPositions::mean;
+  std::string load_case;  ///< empty: every one
   bool operator==(const Constraint&) const = default;
 };
 

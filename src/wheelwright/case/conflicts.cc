@@ -82,10 +82,11 @@ void check_radii(const Case& c, Conflicts& found) {
   check_band(c, tread, "tread", "optimizer.tread_band", c.optimizer.tread_band.has_value(), found);
   if (rim.thickness + tread.thickness >= w.outer_radius - w.inner_radius) {
     found.push_back(
-        {with_ring_shape({"optimizer.rim_band", "optimizer.tread_band"}),
+        {with_ring_shape({"optimizer.rim_band", "optimizer.tread_band", "optimizer.minimum_wall"}),
          fmt::format("the bands at rim and tread, {:.6g} m and {:.6g} m, fill the whole ring of {:.6g} m",
                      rim.thickness, tread.thickness, w.outer_radius - w.inner_radius),
-         "take thinner bands or a finer grid" +
+         "take thinner bands (by default they are as thick as optimizer.minimum_wall at least) or a finer "
+         "grid" +
              if_in_millimetres(std::max(rim.thickness, tread.thickness), w.outer_radius)});
   }
 }
@@ -287,10 +288,6 @@ void check_saved_shape(const Case& c, Conflicts& found) {
   for_each_shape_section([&](const auto& section) {
     if (!section.of(c).empty()) refuse_besides(section.path() + "[1]");
   });
-  if (c.wheel.dimension == 3)
-    found.push_back({{"shape.from", "wheel.dimension"},
-                     "a wheel in 3D cannot begin with the shape of another run yet",
-                     "draw its holes"});
   const LevelSet<2>* shape = c.saved_shape.shape.contents.get();
   if (!shape || c.wheel.inner_radius >= c.wheel.outer_radius) return;
   const PolarGrid<2>& grid = shape->lattice.grid();
@@ -438,11 +435,11 @@ void check_dimension(const Case& c, Conflicts& found) {
                      "symmetric side faces hold the wheel along the axle, so that it can neither lean nor be "
                      "pushed",
                      "take side_faces = \"free\""});
-  if (leans &&
-      (c.load.torque != 0 || c.load.hole_pressure != 0 || c.load.body_force != std::array<double, 2>{}))
-    found.push_back({{"load.camber", "load.torque", "load.body_force", "load.hole_pressure"},
+  if (leans && (c.load.torque != 0 || c.load.hole_pressure != 0 || c.load.speed != 0 ||
+                c.load.body_force != std::array<double, 2>{}))
+    found.push_back({{"load.camber", "load.torque", "load.body_force", "load.hole_pressure", "load.speed"},
                      "a wheel that leans can carry forces on its rim alone",
-                     "leave out torque, body_force and hole_pressure, or take camber = 0"});
+                     "leave out torque, body_force, hole_pressure and speed, or take camber = 0"});
   constexpr double largest = 0.4;
   if (c.grid.degree == 1 && c.material.poissons_ratio > largest && !c.material.nearly_incompressible())
     found.push_back({{"grid.degree", "material.poissons_ratio", "wheel.dimension"},
@@ -503,6 +500,106 @@ void check_bonded(const Case& c, Conflicts& found) {
                       "objective.annulus_matches_dual", "objective.minimize", "contact.with"},
                      "the uniformity of the contact stress is that of a patch on the ground",
                      "take another objective, or contact.with = \"ground\""});
+}
+
+/// The pull of rotation is that of a mass.
+void check_speed(const Case& c, Conflicts& found) {
+  if (c.load.speed == 0 || c.material.density) return;
+  found.push_back({{"load.speed", "material.density"},
+                   "a wheel without mass is not pulled away from the axle",
+                   "give material.density"});
+}
+
+/// What a load case changes of the key of that name in [load].
+bool changes(const CaseLoad& load, std::string_view name) {
+  if (name == "mass" || name == "force") return load.force.has_value();
+  if (name == "travel") return load.travel.has_value();
+  if (name == "horizontal_force") return load.horizontal_force.has_value();
+  if (name == "torque") return load.torque.has_value();
+  if (name == "body_force") return load.body_force.has_value();
+  if (name == "hole_pressure") return load.hole_pressure.has_value();
+  return name == "speed" && load.speed.has_value();
+}
+
+/// The keys of a conflict under one load case: its own in place of those of [load] that it changes.
+std::vector<std::string> keys_in_load_case(const Case& c, int load_case, std::vector<std::string> keys) {
+  constexpr std::string_view section = "load.";
+  for (std::string& key : keys)
+    if (key.starts_with(section) && changes(c.load.cases[load_case], key.substr(section.size())))
+      key = fmt::format("load.case[{}].{}", load_case + 1, key.substr(section.size()));
+  return keys;
+}
+
+/// Calls check(case, conflicts) for some load cases, each as the only load. What several of them have in
+/// common is found once.
+template <class Check>
+void check_load_cases(const Case& c, const std::vector<int>& load_cases, Conflicts& found, Check check) {
+  if (c.load.cases.empty()) {
+    check(c, found);
+    return;
+  }
+  for (const int k : load_cases) {
+    Conflicts of_case;
+    check(with_load_case(c, k), of_case);
+    for (Conflict& conflict : of_case) {
+      conflict.keys = keys_in_load_case(c, k, conflict.keys);
+      const auto is_same = [&](const Conflict& other) {
+        return other.keys == conflict.keys && other.problem == conflict.problem;
+      };
+      if (std::ranges::none_of(found, is_same)) found.push_back(std::move(conflict));
+    }
+  }
+}
+
+std::vector<int> all_load_cases(const Case& c) {
+  std::vector<int> all(c.load.cases.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+/// Those that are minimized.
+std::vector<int> weighted_load_cases(const Case& c) {
+  std::vector<int> result = all_load_cases(c);
+  std::erase_if(result, [&](int k) { return c.load.cases[k].weight == 0; });
+  return result;
+}
+
+/// The list of load cases itself, and who names them.
+void check_names_of_load_cases(const Case& c, Conflicts& found) {
+  const auto& cases = c.load.cases;
+  const auto is_in_word = [](char x) {
+    return (x >= 'a' && x <= 'z') || (x >= 'A' && x <= 'Z') || (x >= '0' && x <= '9') || x == '-' || x == '_';
+  };
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    const std::string key = fmt::format("load.case[{}].name", k + 1);
+    if (cases[k].name.empty() || !std::ranges::all_of(cases[k].name, is_in_word))
+      found.push_back({{key}, "the name must be one word of letters, digits, - and _", "take another name"});
+    if (std::ranges::find(names, cases[k].name) != names.end())
+      found.push_back({{key}, "another load case has this name", "take a name of its own"});
+    names.push_back(cases[k].name);
+  }
+  for (std::size_t i = 0; i < c.constraints.size(); ++i) {
+    const std::string& name = c.constraints[i].load_case;
+    if (name.empty() || std::ranges::find(names, name) != names.end()) continue;
+    found.push_back({{fmt::format("constraint[{}].load_case", i + 1)},
+                     "there is no load case of this name",
+                     names.empty() ? "add a [[load.case]], or leave the key out"
+                                   : fmt::format("known: {}", fmt::join(names, ", "))});
+  }
+  if (cases.empty()) return;
+  if (weighted_load_cases(c).empty())
+    found.push_back({{"load.case[1].weight"},
+                     "the weights of all load cases are 0: there is nothing to minimize",
+                     "give at least one weight > 0"});
+  if (c.objective.mean == MeanStress::held)
+    found.push_back({{"objective.mean", "load.case[1].name"},
+                     "the held mean of the contact stress is that of one load",
+                     "take mean = \"exact\", or one load"});
+  if (c.objective.annulus_matches_dual)
+    found.push_back({{"objective.annulus_matches_dual", "load.case[1].name"},
+                     "(83) gives the weight of J_p1 under one load",
+                     "give uniformity_annulus, or take one load"});
 }
 
 void check_annulus(const Case& c, Conflicts& found) {
@@ -655,8 +752,11 @@ void check_minimized(const Case& c, Conflicts& found) {
                      "take method = \"sequential_quadratic\", or omit the key"});
   if (const auto remedy = without_derivative(o.minimize); !remedy.empty())
     found.push_back({{"objective.minimize"}, "the optimizer has no derivative of it", std::string(remedy)});
-  for (const Need& need : unmet_needs(c, o.minimize))
-    found.push_back({{"objective.minimize", need.key}, need.problem, "change that key, or minimize another"});
+  check_load_cases(c, weighted_load_cases(c), found, [&](const Case& single, Conflicts& of_case) {
+    for (const Need& need : unmet_needs(single, o.minimize))
+      of_case.push_back(
+          {{"objective.minimize", need.key}, need.problem, "change that key, or minimize another"});
+  });
   if ((o.minimize == Quantity::volume_fraction || o.minimize == Quantity::mass) && c.constraints.empty())
     found.push_back({{"objective.minimize"},
                      "nothing keeps the wheel from vanishing",
@@ -690,9 +790,11 @@ void check_constraints(const Case& c, Conflicts& found) {
              "give one bound, or over = \"each\"");
     if (const auto remedy = without_derivative(constraint.quantity); !remedy.empty())
       refuse("quantity", "the optimizer has no derivative of it", std::string(remedy));
-    for (const Need& need : unmet_needs(c, constraint.quantity))
-      found.push_back(
-          {{key("quantity"), need.key}, need.problem, "change that key, or bound another quantity"});
+    check_load_cases(c, load_cases_of(c, constraint), found, [&](const Case& single, Conflicts& of_case) {
+      for (const Need& need : unmet_needs(single, constraint.quantity))
+        of_case.push_back(
+            {{key("quantity"), need.key}, need.problem, "change that key, or bound another quantity"});
+    });
     for (const auto& [name, bound] : {std::pair{"at_least", constraint.at_least},
                                       {"at_most", constraint.at_most},
                                       {"equals", constraint.equals}})
@@ -722,7 +824,7 @@ void check_expectations(const Case& c, Conflicts& found) {
       found.push_back({{key("quantity"), fmt::format("objective.{}", name(expectation.quantity))},
                        "it has no weight in the objective, so the run does not compute it",
                        "give it a weight, however small, or expect another quantity"});
-    for (const Need& need : unmet_needs(c, expectation.quantity))
+    for (const Need& need : unmet_needs(single_load_cases(c).front(), expectation.quantity))
       found.push_back(
           {{key("quantity"), need.key}, need.problem, "change that key, or expect another quantity"});
     if (expectation.iteration && *expectation.iteration > c.optimizer.iterations)
@@ -738,7 +840,7 @@ std::vector<Conflict> conflicts(const Case& c) {
   Conflicts found;
   check_radii(c, found);
   check_size(c, found);
-  check_travel(c, found);
+  check_load_cases(c, all_load_cases(c), found, check_travel);
   check_angular_cells(c, found);
   const std::vector<DrawnShape> shapes = drawn_shapes(c);
   check_counts(c, shapes, found);
@@ -751,12 +853,14 @@ std::vector<Conflict> conflicts(const Case& c) {
   const Conflicts of_shapes = shape_conflicts(c, shapes);
   found.insert(found.end(), of_shapes.begin(), of_shapes.end());
   check_nitsche(c, found);
-  check_load(c, found);
-  check_contact_points(c, found);
+  check_load_cases(c, all_load_cases(c), found, check_load);
+  check_load_cases(c, all_load_cases(c), found, check_contact_points);
   check_bonded(c, found);
   check_incompressible(c, found);
-  check_dimension(c, found);
-  check_friction(c, found);
+  check_load_cases(c, all_load_cases(c), found, check_dimension);
+  check_load_cases(c, all_load_cases(c), found, check_friction);
+  check_load_cases(c, all_load_cases(c), found, check_speed);
+  check_names_of_load_cases(c, found);
   check_annulus(c, found);
   check_objective(c, found);
   check_volume(c, found);

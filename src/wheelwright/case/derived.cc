@@ -11,6 +11,40 @@ namespace wheelwright {
 
 using std::numbers::pi;
 
+Case with_load_case(Case c, int load_case) {
+  const CaseLoad changes = c.load.cases[load_case];
+  Load& load = c.load;
+  load.cases.clear();
+  if (changes.force) {
+    load.force = *changes.force;
+    load.travel.reset();
+  }
+  if (changes.travel) load.travel = changes.travel;
+  load.horizontal_force = changes.horizontal_force.value_or(load.horizontal_force);
+  load.torque = changes.torque.value_or(load.torque);
+  load.body_force = changes.body_force.value_or(load.body_force);
+  load.hole_pressure = changes.hole_pressure.value_or(load.hole_pressure);
+  load.speed = changes.speed.value_or(load.speed);
+  return c;
+}
+
+std::vector<Case> single_load_cases(const Case& c) {
+  if (c.load.cases.empty()) return {c};
+  std::vector<Case> cases;
+  for (std::size_t k = 0; k < c.load.cases.size(); ++k)
+    cases.push_back(with_load_case(c, static_cast<int>(k)));
+  return cases;
+}
+
+std::vector<int> load_cases_of(const Case& c, const Constraint& constraint) {
+  if (c.load.cases.empty()) return {0};
+  std::vector<int> result;
+  for (std::size_t k = 0; k < c.load.cases.size(); ++k)
+    if (constraint.load_case.empty() || constraint.load_case == c.load.cases[k].name)
+      result.push_back(static_cast<int>(k));
+  return result;
+}
+
 double load_per_metre(const Case& c) { return c.load.force / c.wheel.width; }
 
 double hertz_half_width(const Case& c) {
@@ -39,6 +73,14 @@ int levels_for(const Case& c, double cells_per_patch, int most_points) {
   return levels;
 }
 
+/// As many as the load case with the narrowest contact needs.
+int most_levels_for(const Case& c, double cells_per_patch, int most_points) {
+  int levels = 0;
+  for (const Case& single : single_load_cases(c))
+    levels = std::max(levels, levels_for(single, cells_per_patch, most_points));
+  return levels;
+}
+
 }  // namespace
 
 OptimizerMethod optimizer_method(const Case& c) {
@@ -52,9 +94,11 @@ int level_set_degree(const Case& c) {
   return c.grid.level_set_degree.value_or(c.wheel.dimension == 3 ? 1 : 2);
 }
 
-int tread_levels(const Case& c) { return c.grid.tread_levels.value_or(levels_for(c, 8, 80)); }
+int tread_levels(const Case& c) { return c.grid.tread_levels.value_or(most_levels_for(c, 8, 80)); }
 
-int tread_levels_of_results(const Case& c) { return c.grid.tread_levels.value_or(levels_for(c, 36, 160)); }
+int tread_levels_of_results(const Case& c) {
+  return c.grid.tread_levels.value_or(most_levels_for(c, 36, 160));
+}
 
 Case with_levels_of_results(Case c) {
   c.grid.tread_levels = tread_levels_of_results(c);
@@ -260,11 +304,12 @@ struct ProblemSize {
 ProblemSize problem_size(const Case& c) {
   const bool in_3d = c.wheel.dimension == 3;
   const double per_line_node = c.wheel.dimension * static_cast<double>(axial_nodes(c));
+  const int axial_points = std::min(c.contact.quadrature_points, c.grid.degree + 1);
   const double points = c.contact.quadrature_points * (1 << tread_levels_of_results(c)) *
-                        (in_3d ? c.contact.quadrature_points * c.grid.axial_cells : 1);  // per column
+                        (in_3d ? axial_points * c.grid.axial_cells : 1);  // per column
   ProblemSize size{};
   size.sectors = c.wheel.sectors;
-  size.positions = c.load.positions;
+  size.positions = c.load.positions * static_cast<double>(std::max<std::size_t>(c.load.cases.size(), 1));
   size.columns = c.grid.angular_cells;
   size.cells = size.columns * c.grid.radial_cells * (in_3d ? c.grid.axial_cells : 1);
   size.dofs = static_cast<double>(dof_bound(c));
@@ -272,16 +317,17 @@ ProblemSize problem_size(const Case& c) {
   size.radial_line = per_line_node * (c.grid.degree * c.grid.radial_cells + 1);
   size.ring_line = per_line_node * c.grid.degree * size.columns;
   size.tractions = c.wheel.dimension * points;
-  size.zone_columns = contact_columns(c);
+  for (const Case& single : single_load_cases(c))
+    size.zone_columns = std::max(size.zone_columns, contact_columns(single));
   size.loaded_columns = std::min(size.columns / size.sectors, size.positions * size.zone_columns);
   return size;
 }
 
 /// How many of each array exist at the peak of memory, fitted to measurements.
 struct Copies {
-  double condensed, harmonics, compliance, surface;
+  double condensed, harmonics, surface;
 };
-constexpr Copies in_the_plane{3.5, 1.8, 7.6, 1.2}, in_space{3, 1.1, 3.3, 4};
+constexpr Copies in_the_plane{3.5, 0.55, 1.2}, in_space{3, 0.55, 4};
 
 }  // namespace
 
@@ -302,7 +348,8 @@ double estimated_memory(const Case& c) {
   const double factor = number * fill;
   const double condensed = number * copies.condensed * square(2 * n.radial_line + n.sector_line());
   const double harmonics = complex * copies.harmonics * (n.sectors / 2 + 1) * square(n.boundary());
-  const double compliance = number * copies.compliance * square(n.ring_line) / n.sectors;
+  // Right-hand sides on the outer line that are solved together.
+  const double responses = number * 5 * 192 * n.ring_line;
   const double surface =
       number * copies.surface * (2 * n.zone_columns - 1) * n.loaded_columns * square(n.tractions);
   const double tread = number * (24 * square(observations) + 1.8 * observations * n.columns * n.positions);
@@ -310,7 +357,7 @@ double estimated_memory(const Case& c) {
   const double shape = number * 10 * holes;
   // The dual norm has its own ring, and so has a finer tread of the results.
   const double rings = 1 + wants_dual(c) + (tread_levels_of_results(c) > tread_levels(c));
-  return libraries + fields + rings * (factor + condensed + harmonics) + compliance + surface + tread +
+  return libraries + fields + rings * (factor + condensed + harmonics) + responses + surface + tread +
          zones + shape;
 }
 

@@ -10,6 +10,17 @@ namespace wheelwright {
 
 // Numbers that follow from a case without a solve. Per metre of width.
 
+/// The case with one of its load cases, counted from 0, as its only load.
+Case with_load_case(Case c, int load_case);
+
+/// The case with each of its load cases as the only load, in their order; itself if it has one load alone.
+std::vector<Case> single_load_cases(const Case& c);
+
+/// The load cases of a constraint, by their numbers: that of its name, or all.
+std::vector<int> load_cases_of(const Case& c, const Constraint& constraint);
+
+// Those that depend on a load are about the section [load], unless they say something else.
+
 /// P [N/m].
 double load_per_metre(const Case& c);
 
@@ -31,8 +42,8 @@ OptimizerMethod optimizer_method(const Case& c);
 int level_set_degree(const Case& c);
 
 /// Halvings of the cells at the tread in a run and in results: the case's own, or as many as give 8 and 36
-/// cells across the likely contact patch, as far as the number of contact points stays reasonable; in 3D,
-/// where they are far more, none.
+/// cells across the likely contact patch under every load case, as far as the number of contact points stays
+/// reasonable; in 3D, where they are far more, none.
 int tread_levels(const Case& c);
 int tread_levels_of_results(const Case& c);
 

@@ -164,11 +164,85 @@ const Section<Load>& load_section() {
            .unit = "Pa",
            .field = NumberField<Load>{&Load::hole_pressure, between(-1e12, 1e12)},
            .meaning = "pressure p on the boundary of the holes: g_N = -p n in (1)"},
+          {.name = "speed",
+           .unit = "m/s",
+           .field = NumberField<Load>{&Load::speed, between(0, 1000)},
+           .meaning = "speed v of the axle along the ground: the material is pulled away from the axle by "
+                      "density (v / R_e)^2 r per volume; needs material.density"},
           {.name = "positions",
            .unit = "",
            .field = IntegerField<Load>{&Load::positions, between(1, 1000)},
            .meaning = "N_d: number of load positions per sector, any on any grid"}}};
   return section;
+}
+
+const SectionArray<CaseLoad>& load_case_sections() {
+  static const SectionArray<CaseLoad> sections{
+      .parent = "load",
+      .name = "case",
+      .meaning =
+          "one of several loads under which the wheel is optimized, all of them with one "
+          "factorization; what it does not give is that of [load]; the first one is the load of "
+          "pictures, pressures and numbers without a load case ([several loads](optimization.md))",
+      .in = [](Case& c) -> std::vector<CaseLoad>& { return c.load.cases; },
+      .example = {.name = "kerb",
+                  .force = 600 * standard_gravity,
+                  .travel = {},
+                  .horizontal_force = {},
+                  .torque = {},
+                  .body_force = {},
+                  .hole_pressure = {},
+                  .speed = {}},
+      .keys = {
+          {.name = "name",
+           .unit = "",
+           .field = TextField<CaseLoad>{&CaseLoad::name, ""},
+           .meaning =
+               "a word of letters, digits, - and _, for constraints and for the columns of history.csv",
+           .presence = Presence::required},
+          {.name = "weight",
+           .unit = "",
+           .field = NumberField<CaseLoad>{&CaseLoad::weight, between(0, 1e9)},
+           .meaning = "of what is minimized, under this load; 0: it counts in constraints alone"},
+          {.name = "mass",
+           .unit = "kg",
+           .field = OptionalNumberField<CaseLoad>{&CaseLoad::force, between(1e-9, 1e9), "that of [load]",
+                                                  standard_gravity},
+           .meaning = "mass carried by the whole width, under 9.81 m/s^2"},
+          {.name = "force",
+           .unit = "N",
+           .field = OptionalNumberField<CaseLoad>{&CaseLoad::force, between(1e-8, 1e10), "that of [load]"},
+           .meaning = "force carried by the whole width",
+           .instead_of = "mass"},
+          {.name = "travel",
+           .unit = "m",
+           .field = OptionalNumberField<CaseLoad>{&CaseLoad::travel, above(0, 1000), "that of [load]"},
+           .meaning = "prescribed travel of the rim towards the ground",
+           .instead_of = "mass"},
+          {.name = "horizontal_force",
+           .unit = "N",
+           .field = OptionalNumberField<CaseLoad>{&CaseLoad::horizontal_force, between(-1e10, 1e10),
+                                                  "that of [load]"},
+           .meaning = "force on the rim along the ground"},
+          {.name = "torque",
+           .unit = "N m",
+           .field = OptionalNumberField<CaseLoad>{&CaseLoad::torque, between(-1e10, 1e10), "that of [load]"},
+           .meaning = "driving or braking torque on the rim"},
+          {.name = "body_force",
+           .unit = "N/m^3",
+           .field =
+               OptionalPointField<CaseLoad>{&CaseLoad::body_force, between(-1e12, 1e12), "that of [load]"},
+           .meaning = "[along, down]: force per volume of the structure"},
+          {.name = "hole_pressure",
+           .unit = "Pa",
+           .field = OptionalNumberField<CaseLoad>{&CaseLoad::hole_pressure, between(-1e12, 1e12),
+                                                  "that of [load]"},
+           .meaning = "pressure on the boundary of the holes"},
+          {.name = "speed",
+           .unit = "m/s",
+           .field = OptionalNumberField<CaseLoad>{&CaseLoad::speed, between(0, 1000), "that of [load]"},
+           .meaning = "speed of the axle along the ground"}}};
+  return sections;
 }
 
 const Section<Contact>& contact_section() {
@@ -203,7 +277,9 @@ const Section<Contact>& contact_section() {
           {.name = "quadrature_points",
            .unit = "",
            .field = IntegerField<Contact>{&Contact::quadrature_points, between(1, 20)},
-           .meaning = "number of Gauss points on each contact face"}}};
+           .meaning =
+               "number of Gauss points on each contact face; in 3D along the ground, and along the axle "
+               "at most degree + 1"}}};
   return section;
 }
 
@@ -774,7 +850,11 @@ const SectionArray<Constraint>& constraint_sections() {
            .unit = "",
            .field = choice<&Constraint::over>({"mean", "worst", "each"}),
            .meaning = "which load positions it is about: their mean, the worst one, or each one with a "
-                      "bound of its own"}}};
+                      "bound of its own"},
+          {.name = "load_case",
+           .unit = "",
+           .field = TextField<Constraint>{&Constraint::load_case, "every load case"},
+           .meaning = "the name of the [[load.case]] that it is about"}}};
   return sections;
 }
 

@@ -176,6 +176,7 @@ const Section<Case>& general_section();
 const Section<Wheel>& wheel_section();
 const Section<Material>& material_section();
 const Section<Load>& load_section();
+const SectionArray<CaseLoad>& load_case_sections();
 const Section<Contact>& contact_section();
 const SectionArray<HoleRing>& ring_sections();
 const SectionArray<HoleCircle>& circle_sections();
@@ -219,6 +220,7 @@ void for_each_section(Visitor&& visit) {
   visit(wheel_section());
   visit(material_section());
   visit(load_section());
+  visit(load_case_sections());
   visit(contact_section());
   visit(ring_sections());
   visit(circle_sections());

@@ -16,7 +16,7 @@ struct Material {
   double youngs_modulus = 200e6;       ///< E [Pa]
   double poissons_ratio = 0.48;        ///< nu, 0 <= nu < 1/2
   Plane plane = Plane::strain;         ///< must be strain when dim = 3
-  std::optional<double> density = {};  ///< [kg/m^3]; no equation needs it
+  std::optional<double> density = {};  ///< [kg/m^3]; where the mass or the wheel's rotation counts
 
   /// The material that answers strains in the plane with the same stresses in plane strain: itself, or for
   /// plane stress E' = E (1 + 2 nu) / (1 + nu)^2 and nu' = nu / (1 + nu).

@@ -38,11 +38,12 @@ std::array<double, 2> turn(double angle) { return {std::cos(angle), std::sin(ang
 }  // namespace
 
 template <int dim>
-ColumnShift<dim>::ColumnShift(const TreadSurface<dim>& tread, double fraction) {
+ColumnShift<dim>::ColumnShift(const TreadSurface<dim>& tread, double fraction) : fraction_(fraction) {
+  if (tread.has_spin) number_ = tread.rows().spin();
   const double width = 2 * std::numbers::pi / tread.n_columns;
   to_shifted_frame_ = {turn(-fraction * width), turn((1 - fraction) * width)};
   if (fraction == 0) {
-    for (int k = 0; k < tread.rows().size() / dim; ++k) shares_.push_back({k, k, false, 1});
+    for (int k = 0; k < tread.rows().n_vectors(); ++k) shares_.push_back({k, k, false, 1});
     return;
   }
   for (const FaceRow& row : tread.face_rows) interpolate(row, fraction);
@@ -73,6 +74,8 @@ void ColumnShift<dim>::add(double factor, const double* column, const double* ne
     y[1] += share * (sine * x[0] + cosine * x[1]);
     for (int d = 2; d < dim; ++d) y[d] += share * x[d];
   }
+  if (number_)
+    shifted[*number_] += factor * ((1 - fraction_) * column[*number_] + fraction_ * next[*number_]);
 }
 
 template <int dim>
@@ -87,6 +90,9 @@ void ColumnShift<dim>::add_transposed(double factor, const double* shifted, doub
     x[1] += share * (cosine * y[1] - sine * y[0]);
     for (int d = 2; d < dim; ++d) x[d] += share * y[d];
   }
+  if (!number_) return;
+  column[*number_] += factor * (1 - fraction_) * shifted[*number_];
+  next[*number_] += factor * fraction_ * shifted[*number_];
 }
 
 template class ColumnShift<2>;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "wheelwright/state/tread_surface.h"
@@ -10,7 +11,7 @@ namespace wheelwright {
 /// What columns of the tread observe, as it would be observed at the same points of columns that lie a
 /// fraction of a column farther round the ring, in those columns' own frames. On each face of the tread, and
 /// on each line of points in the annulus, what is observed is the polynomial through the face's Gauss points;
-/// at a point between two faces, it is the mean of theirs. The integral of u is interpolated linearly. With
+/// at a point between two faces, it is the mean of theirs. The integrals are interpolated linearly. With
 /// the fraction 0 nothing changes.
 template <int dim>
 class ColumnShift {
@@ -34,6 +35,9 @@ class ColumnShift {
   };
 
   void interpolate(const FaceRow& row, double fraction);
+
+  double fraction_;
+  std::optional<int> number_;  ///< row of the observation that is no vector
 
   std::vector<Share> shares_;
   /// Cosine and sine of the turn from the column's frame, and from the next one's, to the shifted column's.

@@ -28,6 +28,8 @@ Matrix mirrored(const TreadSurface<dim>& tread, const Matrix& observations) {
       reflected[1] = sine * v[0] - cosine * v[1];
       std::copy(v + 2, v + dim, reflected + 2);
     }
+    const int n_vectors = dim * tread.rows().n_vectors();
+    std::copy(from + n_vectors, from + image.rows(), to + n_vectors);
   }
   return image;
 }

@@ -5,17 +5,19 @@
 
 namespace wheelwright {
 
-/// A term of a function.
+/// A term of a function: a functional of the states under one of the load cases.
 template <int dim>
 struct WeightedFunctional {
   double weight;
   std::shared_ptr<const Functional<dim>> functional;
+  int load_case = 0;  ///< 0 is the load of the solver's own model
 };
 
 template <int dim>
 using WeightedSum = std::vector<WeightedFunctional<dim>>;
 
-/// A function of the shape: a weighted sum of functionals, summed over the load positions of one sector.
+/// A function of the shape: a weighted sum of functionals, summed over the load positions of one sector, and
+/// over load cases, as far as its terms name several.
 /// Whether it is the objective, a constraint or only watched is the optimizer's business.
 template <int dim>
 struct ShapeFunction {

@@ -148,6 +148,15 @@ void add_rows(const Map& map, std::span<const NodeMap<dim>> nodes, int first_row
       }
 }
 
+/// Adds a linear function of a cell's dofs, on its free dofs.
+template <int dim, class Row>
+void add_number(const Row& function, std::span<const NodeMap<dim>> nodes, int row, Matrix& result) {
+  for (size_t a = 0; a < nodes.size(); ++a)
+    for (const auto& [node, weight] : nodes[a])
+      for (int c = 0; c < dim; ++c)
+        for (int k = 0; k < dim; ++k) result(row, dim * node + c) += function[dim * a + k] * weight[k][c];
+}
+
 /// Adds a cell's stiffness on its free dofs.
 template <int dim>
 void add_stiffness(const Matrix& k, std::span<const NodeMap<dim>> nodes, Matrix& result) {
@@ -208,6 +217,23 @@ std::vector<int> mirror_images(const std::vector<ReferencePoint<dim>>& rule, int
   return images;
 }
 
+/// The Gauss points of a contact face. Along the axle the pressure is as smooth as the displacement, and
+/// degree + 1 points resolve it; along the ground it begins and ends inside of faces.
+template <int dim>
+std::vector<ReferencePoint<dim - 1>> contact_rule(int points, int degree) {
+  if constexpr (dim == 2) return unit_cell_rule<1>(points);
+  const GaussRule along_ground = gauss_rule(points), along_axle = gauss_rule(std::min(points, degree + 1));
+  std::vector<ReferencePoint<dim - 1>> rule;
+  for (size_t k = 0; k < along_axle.points.size(); ++k)
+    for (int i = 0; i < points; ++i) {
+      ReferencePoint<dim - 1> point{{along_ground.points[i]},
+                                    along_ground.weights[i] * along_axle.weights[k]};
+      point.xi[dim - 2] = along_axle.points[k];
+      rule.push_back(point);
+    }
+  return rule;
+}
+
 /// A cell of a column.
 template <int dim>
 struct ColumnCell {
@@ -235,17 +261,18 @@ class ColumnAssembly {
         contact_points_(points_per_direction),
         annulus_points_(tread.annulus_points),
         volume_rule_(unit_cell_rule<dim>(degree_ + 2)),
-        face_rule_(unit_cell_rule<dim - 1>(points_per_direction)),
+        face_rule_(contact_rule<dim>(points_per_direction, degree_)),
         annulus_rule_(unit_cell_rule<dim>(tread.annulus_points)) {
     if constexpr (dim == 3) axial_cells_ = grid_.cells[2];
     int n_cells = 0;
     for (const Layer& layer : nodes.all_layers()) n_cells += layer.rows * (1 << layer.level) * axial_cells_;
     rows_ = {(1 << nodes.all_layers().back().level) * axial_cells_ * static_cast<int>(face_rule_.size()),
-             n_cells * static_cast<int>(annulus_rule_.size())};
+             n_cells * static_cast<int>(annulus_rule_.size()), tread.observes_spin};
     column_.stiffness = Matrix(nodes.n_dofs(), nodes.n_dofs());
     column_.observation = Matrix(rows_.size(), nodes.n_dofs());
     column_.surface.annulus_thickness = tread.rows * grid_.cell_size()[0];
     column_.surface.n_columns = grid_.ring_columns();
+    column_.surface.has_spin = tread.observes_spin;
     column_.nodal = grid_nodes<dim>(nodes, degree_, tread.rows, axial_cells_);
   }
 
@@ -403,6 +430,7 @@ class ColumnAssembly {
     for (const auto& q : volume_rule_) {
       auto at = cell.element.at(q.xi);
       const double weight = q.weight * at.determinant;
+      if (rows_.has_spin) add_spin(cell, at, weight * cell.material.density.value_or(0));
       for (auto& component : at.displacement)
         for (double& value : component) value *= weight;
       add_rows<dim>(at.displacement, cell.nodes, rows_.integral(), cell.angle, column_.observation);
@@ -410,6 +438,15 @@ class ColumnAssembly {
       const Vec<dim> position = rotated<dim>(at.position, cell.angle);
       for (int d = 0; d < dim; ++d) column_.moment[d] += weight * position[d];
     }
+  }
+
+  void add_spin(const ColumnCell<dim>& cell, const typename ElasticElement<dim>::Point& at, double mass) {
+    using Row = std::array<double, ElasticElement<dim>::max_dofs>;
+    Row work{};
+    for (int d = 0; d < 2; ++d)
+      for (int i = 0; i < cell.element.n_dofs(); ++i)
+        work[i] += mass * at.position[d] * at.displacement[d][i];
+    add_number<dim>(work, cell.nodes, rows_.spin(), column_.observation);
   }
 
   const ElementTable<dim>& table_;

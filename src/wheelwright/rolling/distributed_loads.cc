@@ -7,16 +7,21 @@ namespace {
 /// at azimuth 0.
 template <int dim>
 struct SectorIntegrals {
-  Matrix loads;  ///< int phi.e_k dx, one row an axis k; last int_Gamma_m -phi.n dS; in elimination order
+  /// int phi.e_k dx, one row an axis k; int_Gamma_m -phi.n dS; of wheels that rotate last int density phi.x
+  /// dx, x in the wheel's plane; in elimination order
+  Matrix loads;
   double volume = 0;
   Vec<dim> moment{};          ///< int x dx
+  Vec<dim> mass_moment{};     ///< int density x dx
   RimForce pressure_force{};  ///< int_Gamma_m -n dS and its moment about the axle
 };
 
 /// Integrals of the displacement, 1 and x over one cell, in its frame.
 template <int dim>
 struct CellIntegrals {
-  std::array<std::array<double, ElasticElement<dim>::max_dofs>, dim> displacement{};
+  using Row = std::array<double, ElasticElement<dim>::max_dofs>;
+  std::array<Row, dim> displacement{};
+  Row spin{};  ///< of phi.x, x in the wheel's plane
   double volume = 0;
   Vec<dim> moment{};
 };
@@ -32,6 +37,9 @@ CellIntegrals<dim> integrate(const ElasticElement<dim>& element,
     for (int d = 0; d < dim; ++d) {
       result.moment[d] += weight * at.position[d];
       for (int i = 0; i < element.n_dofs(); ++i) result.displacement[d][i] += weight * at.displacement[d][i];
+      if (d < 2)
+        for (int i = 0; i < element.n_dofs(); ++i)
+          result.spin[i] += weight * at.position[d] * at.displacement[d][i];
     }
   }
   return result;
@@ -49,12 +57,21 @@ void add_load(const CyclicStiffness<dim>& ring, std::span<const int> nodes, cons
   }
 }
 
+/// Adds row[dof] of a cell's dofs.
+template <int dim, class Row>
+void add_number(const CyclicStiffness<dim>& ring, std::span<const int> nodes, const Row& row, double factor,
+                int load, Matrix& loads) {
+  for (size_t a = 0; a < nodes.size(); ++a)
+    for (int c = 0; c < dim && nodes[a] >= 0; ++c)
+      loads(load, ring.row(dim * nodes[a] + c)) += factor * row[dim * a + c];
+}
+
 template <int dim>
 SectorIntegrals<dim> sector_integrals(const CutDomain<dim>& domain, const ElementTable<dim>& elements,
-                                      const CyclicStiffness<dim>& ring) {
+                                      const CyclicStiffness<dim>& ring, bool rotates) {
   const PolarGrid<dim>& grid = domain.grid;
   const SectorSpace<dim>& space = ring.sector().space;
-  SectorIntegrals<dim> sector{Matrix(dim + 1, ring.sector_factor().size())};
+  SectorIntegrals<dim> sector{Matrix(dim + (rotates ? 2 : 1), ring.sector_factor().size())};
   const auto add_cell = [&](int cell, const CellIntegrals<dim>& integrals) {
     const double angle = grid.cell_position(cell)[1] * grid.cell_size()[1];
     const auto nodes = space.cell_nodes(cell);
@@ -66,6 +83,10 @@ SectorIntegrals<dim> sector_integrals(const CutDomain<dim>& domain, const Elemen
     sector.volume += integrals.volume;
     const Vec<dim> moment = rotated<dim>(integrals.moment, angle);
     for (int d = 0; d < dim; ++d) sector.moment[d] += moment[d];
+    if (!rotates) return;
+    const double density = elements.materials().in_row(grid.cell_position(cell)[0]).density.value_or(0);
+    add_number<dim>(ring, nodes, integrals.spin, density, dim + 1, sector.loads);
+    for (int d = 0; d < 2; ++d) sector.mass_moment[d] += density * moment[d];
   };
 
   const auto rule = unit_cell_rule<dim>(elements.degree() + 2);
@@ -117,9 +138,12 @@ AppliedLoads applied_loads(const DistributedLoads<dim>& loads, const CutDomain<d
   AppliedLoads applied{{}, {}, std::vector<RimForce>(grounds.size())};
   if (!loads.any()) return applied;
   const PolarGrid<dim>& grid = domain.grid;
-  SectorIntegrals<dim> sector = sector_integrals(domain, elements, ring);
+  const bool rotates = loads.angular_speed != 0;
+  const double pull = loads.angular_speed * loads.angular_speed;
+  SectorIntegrals<dim> sector = sector_integrals(domain, elements, ring, rotates);
   const int n_positions = static_cast<int>(grounds.size()), n_columns = tread.n_columns();
-  applied.core = {std::move(sector.loads), Matrix(n_positions * grid.n_sectors, dim + 1)};
+  const int n_loads = sector.loads.rows();
+  applied.core = {std::move(sector.loads), Matrix(n_positions * grid.n_sectors, n_loads)};
   applied.tread = Matrix(tread.n_observations(), n_positions * n_columns);
   for (int i = 0; i < n_positions; ++i) {
     const double ground = grounds[i].azimuth(grid);
@@ -129,6 +153,11 @@ AppliedLoads applied_loads(const DistributedLoads<dim>& loads, const CutDomain<d
       const Vec<dim> force = rotated<dim>(loads.body_force, to_sector);
       for (int k = 0; k < dim; ++k) applied.core.weights(i * grid.n_sectors + s, k) = force[k];
       applied.core.weights(i * grid.n_sectors + s, dim) = loads.hole_pressure;
+      if (rotates) {
+        applied.core.weights(i * grid.n_sectors + s, dim + 1) = pull;
+        const Vec<dim> moment = rotated<dim>(sector.mass_moment, -to_sector);
+        on_the_rim = sum(on_the_rim, {pull * moment[0], pull * moment[1], 0, 0});
+      }
       on_the_rim = sum(on_the_rim, body_resultant<dim>(loads.body_force, sector.volume,
                                                        rotated<dim>(sector.moment, -to_sector)));
       on_the_rim =
@@ -139,6 +168,7 @@ AppliedLoads applied_loads(const DistributedLoads<dim>& loads, const CutDomain<d
       const Vec<dim> force = rotated<dim>(loads.body_force, to_column);
       for (int d = 0; d < dim; ++d)
         applied.tread(tread.observation_rows().integral() + d, i * n_columns + c) = force[d];
+      if (rotates) applied.tread(tread.observation_rows().spin(), i * n_columns + c) = pull;
       on_the_rim = sum(on_the_rim, body_resultant<dim>(loads.body_force, tread.column().volume,
                                                        rotated<dim>(tread.column().moment, -to_column)));
     }

@@ -8,8 +8,8 @@ namespace wheelwright {
 /// Body force and pressure at all load positions. Load cases and columns as in RollingSolution; empty when
 /// there are none.
 struct AppliedLoads {
-  SectorFields core;                 ///< modes: unit forces along a sector's axes, unit pressure
-  Matrix tread;                      ///< on the tread's observations
+  SectorFields core;  ///< modes: unit forces along a sector's axes, unit pressure, unit rotation
+  Matrix tread;       ///< on the tread's observations
   std::vector<RimForce> on_the_rim;  ///< their work on the rim's motions, one per position
 };
 

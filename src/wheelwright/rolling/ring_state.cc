@@ -1,9 +1,12 @@
 #include "wheelwright/rolling/ring_state.h"
 
+#include <mutex>
+
 #include "wheelwright/base/stopwatch.h"
 #include "wheelwright/rolling/neumann_to_dirichlet.h"
 #include "wheelwright/rolling/ring_displacement.h"
 #include "wheelwright/rolling/shape_gradient.h"
+#include "wheelwright/state/strain_peaks.h"
 
 namespace wheelwright {
 namespace {
@@ -17,6 +20,7 @@ class RingState : public State<dim> {
       contacts_.push_back(solution_.contacts[i].patch(solution_.states[i]));
   }
 
+  const RollingModel<dim>& model() const override { return solution_.model; }
   const CutDomain<dim>& domain() const override { return solution_.domain; }
   const LoadPositions& positions() const override { return solution_.positions; }
   const std::vector<ContactPatch<dim>>& contacts() const override { return contacts_; }
@@ -25,8 +29,14 @@ class RingState : public State<dim> {
   const std::vector<PhaseTime>& phases() const override { return solution_.phases; }
   const std::vector<SurfacePoint<dim>>& boundary() const override { return boundary_; }
 
-  std::unique_ptr<const Displacement<dim>> displacement() const override {
-    return std::make_unique<RingDisplacement<dim>>(problem_, solution_);
+  const Displacement<dim>& displacement() const override {
+    std::call_once(is_recovered_, [this] { displacement_.emplace(problem_, solution_); });
+    return *displacement_;
+  }
+
+  const StrainPeaks<dim>& strain_peaks() const override {
+    std::call_once(has_peaks_, [this] { peaks_ = wheelwright::strain_peaks(problem_, *this); });
+    return peaks_;
   }
 
   Expected<ShapeGradients> shape_gradients(
@@ -40,7 +50,7 @@ class RingState : public State<dim> {
                           {{phase::adjoint, adjoint_seconds}, {phase::gradient, watch.lap()}}};
   }
 
-  Expected<std::vector<std::vector<ContactPatch<dim>>>> under(
+  Expected<std::vector<std::vector<ContactPatch<dim>>>> contacts_under(
       std::span<const RollingModel<dim>> models) const override {
     std::vector<RolledContact<dim>> rolled;
     for (size_t i = 0; i < solution_.contacts.size(); ++i)
@@ -49,7 +59,7 @@ class RingState : public State<dim> {
     for (const RollingModel<dim>& model : models) {
       result.emplace_back();
       for (size_t i = 0; i < rolled.size(); ++i) {
-        auto next = reload(model, problem_.tread(), solution_.ring, solution_.surface,
+        auto next = reload(model, problem_.tread(), solution_.ring, *solution_.surface,
                            solution_.positions.grounds[i], solution_.preloads[i], rolled[i]);
         if (!next) return next.failure();
         rolled[i] = *std::move(next);
@@ -59,11 +69,21 @@ class RingState : public State<dim> {
     return result;
   }
 
+  Expected<std::shared_ptr<const State<dim>>> under(const RollingModel<dim>& model,
+                                                    const Interrupt& interrupt) const override {
+    auto solution = problem_.solve_under(model, solution_, interrupt);
+    if (!solution) return solution.failure();
+    return ring_state(problem_, *std::move(solution));
+  }
+
  private:
   const RollingProblem<dim>& problem_;
   RollingSolution<dim> solution_;
   std::vector<SurfacePoint<dim>> boundary_;
   std::vector<ContactPatch<dim>> contacts_;
+  mutable std::once_flag is_recovered_, has_peaks_;
+  mutable std::optional<RingDisplacement<dim>> displacement_;
+  mutable StrainPeaks<dim> peaks_;
 };
 
 }  // namespace

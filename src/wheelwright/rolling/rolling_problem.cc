@@ -148,14 +148,24 @@ bool all_finite(const Matrix& a) {
 
 }  // namespace
 
+namespace {
+
+/// The components of the column frame that contact meets: without friction and lean the ground pushes in the
+/// plane of the wheel.
+template <int dim>
+int components_in_contact(const RollingModel<dim>& model) {
+  return model.contact.friction == 0 && model.camber == 0 ? 2 : dim;
+}
+
+}  // namespace
+
 template <int dim>
 RollingProblem<dim>::RollingProblem(const RollingModel<dim>& model,
                                     std::unique_ptr<ElementTable<dim>> elements, Tread<dim> tread)
     : model_(model),
       elements_(std::move(elements)),
       harmonics_(model.grid.n_sectors),
-      tread_(std::move(tread)),
-      outer_stiffness_(tread_.outer_stiffness(harmonics_)) {}
+      tread_(std::move(tread)) {}
 
 template <int dim>
 Expected<RollingProblem<dim>> RollingProblem<dim>::create(const RollingModel<dim>& model) {
@@ -163,7 +173,10 @@ Expected<RollingProblem<dim>> RollingProblem<dim>::create(const RollingModel<dim
     return Failure{FailureReason::unsupported_model, "plane stress is for two dimensions only"};
   auto elements = std::make_unique<ElementTable<dim>>(model.grid, model.degree, model.materials, model.ghost,
                                                       cell_stiffness<dim>, model.side_faces);
-  auto tread = Tread<dim>::condense(*elements, model.tread, model.contact, model.contact_points);
+  TreadGrid grid = model.tread;
+  grid.observes_spin = grid.observes_spin || model.distributed.angular_speed != 0;
+  auto tread = Tread<dim>::condense(*elements, grid, model.contact, model.contact_points,
+                                    components_in_contact(model));
   if (!tread) return tread.failure();
   return RollingProblem(model, std::move(elements), *std::move(tread));
 }
@@ -260,10 +273,10 @@ template <int dim>
 typename RollingProblem<dim>::CondensedLoads RollingProblem<dim>::preload(RollingSolution<dim>& s) const {
   const int n_positions = s.positions.size(), n_columns = tread_.n_columns();
   s.preloads.resize(n_positions);
-  if (!model_.distributed.any())
+  if (!s.model.distributed.any())
     return {{}, {{}, Matrix(s.ring.n_outer(), n_positions * s.ring.n_sectors())}};
   auto applied =
-      applied_loads<dim>(model_.distributed, s.domain, *elements_, s.ring, tread_, s.positions.grounds);
+      applied_loads<dim>(s.model.distributed, s.domain, *elements_, s.ring, tread_, s.positions.grounds);
   s.core_loads = std::move(applied.core);
   s.tread_loads = std::move(applied.tread);
   CondensedLoads condensed{s.core_loads, {}};
@@ -281,12 +294,10 @@ typename RollingProblem<dim>::CondensedLoads RollingProblem<dim>::preload(Rollin
 }
 
 template <int dim>
-Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const CutShape<dim>& shape, LoadPositions positions,
-                                                          const Interrupt& interrupt) const {
-  const int n_positions = positions.size(), n_columns = model_.grid.ring_columns();
+Expected<std::shared_ptr<const FactoredShape<dim>>> RollingProblem<dim>::factor(
+    const CutShape<dim>& shape) const {
   std::vector<PhaseTime> phases;
   Stopwatch watch;
-
   auto domain = shape.domain ? Expected<CutDomain<dim>>(*shape.domain)
                              : cut_domain(shape.psi, model_.points_in_cut_cells());
   if (!domain) return domain.failure();
@@ -294,18 +305,57 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const CutShape<dim>& s
   phases.push_back({phase::cut, watch.lap()});
   auto sector = sector_stiffness(*domain, *elements_, core_rows());
   phases.push_back({phase::assembly, watch.lap()});
-  auto factored = CyclicStiffness<dim>::factor(std::move(sector), outer_stiffness_, harmonics_);
+  auto factored = CyclicStiffness<dim>::factor(
+      std::move(sector), [&](int harmonic) { return tread_.outer_stiffness(harmonics_, harmonic); },
+      harmonics_);
   if (!factored) return factored.failure();
   phases.push_back({phase::factorization, watch.lap()});
+  return std::make_shared<const FactoredShape<dim>>(
+      FactoredShape<dim>{*std::move(domain), *std::move(factored), std::move(phases)});
+}
 
+template <int dim>
+Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const CutShape<dim>& shape, LoadPositions positions,
+                                                          const Interrupt& interrupt) const {
+  auto factored = factor(shape);
+  if (!factored) return factored.failure();
+  auto solution = roll(model_, *factored, nullptr, std::move(positions), interrupt);
+  if (!solution) return solution.failure();
+  const auto& phases = (*factored)->phases;
+  solution->phases.insert(solution->phases.begin(), phases.begin(), phases.end());
+  return solution;
+}
+
+template <int dim>
+Expected<RollingSolution<dim>> RollingProblem<dim>::solve_under(const RollingModel<dim>& model,
+                                                                const RollingSolution<dim>& solution,
+                                                                const Interrupt& interrupt) const {
+  return roll(model, solution.shape, solution.surface, solution.positions, interrupt);
+}
+
+/// `surface`: of the ring for these positions, or null.
+template <int dim>
+Expected<RollingSolution<dim>> RollingProblem<dim>::roll(
+    const RollingModel<dim>& model, std::shared_ptr<const FactoredShape<dim>> shape,
+    std::shared_ptr<const SurfaceCompliance<dim>> surface, LoadPositions positions,
+    const Interrupt& interrupt) const {
+  const int n_positions = positions.size(), n_columns = model.grid.ring_columns();
+  std::vector<PhaseTime> phases;
+  Stopwatch watch;
   const bool between_columns =
       std::ranges::any_of(positions.grounds, [](const GroundPosition& ground) { return ground.offset > 0; });
-  const int likely_half = std::min(columns_in_contact(model_, between_columns), (n_columns - 1) / 2);
-  auto surface = is_bonded(tread_)
-                     ? SurfaceCompliance<dim>(*factored, tread_, n_columns / 2)
-                     : surface_compliance(*factored, tread_, model_.grid, positions, likely_half);
-  RollingSolution<dim> s{.domain = *std::move(domain),
-                         .ring = *std::move(factored),
+  const int likely_half = std::min(columns_in_contact(model, between_columns), (n_columns - 1) / 2);
+  const auto surface_of_width = [&](const LoadPositions& at, int half) {
+    return std::make_shared<const SurfaceCompliance<dim>>(
+        surface_compliance(shape->ring, tread_, model.grid, at, half));
+  };
+  if (!surface && is_bonded(tread_))
+    surface = std::make_shared<const SurfaceCompliance<dim>>(shape->ring, tread_, n_columns / 2);
+  if (!surface || surface->width() < 2 * likely_half - 1) surface = surface_of_width(positions, likely_half);
+  RollingSolution<dim> s{.shape = shape,
+                         .domain = shape->domain,
+                         .ring = shape->ring,
+                         .model = model,
                          .surface = std::move(surface),
                          .positions = std::move(positions),
                          .contacts = {},
@@ -324,15 +374,15 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const CutShape<dim>& s
   const CondensedLoads preloaded = preload(s);
   std::optional<ContactState<dim>> neighbour;
   for (int i = 0; i < n_positions; ++i) {
-    auto rolled = roll_to(model_, tread_, s.ring, s.surface, s.positions.grounds[i], s.preloads[i], neighbour,
+    auto rolled = roll_to(model, tread_, s.ring, *s.surface, s.positions.grounds[i], s.preloads[i], neighbour,
                           interrupt.at_position(i, n_positions));
     if (!rolled) return rolled.failure();
-    if (auto failure = rim_under_ground(model_.grid, rolled->state.rim)) return *failure;
+    if (auto failure = rim_under_ground(model.grid, rolled->state.rim)) return *failure;
     if (auto failure = no_contact(*rolled)) return *failure;
     neighbour = rolled->state;
     const ContactZone& zone = rolled->contact.zone();
-    if (zone.n_columns > s.surface.width() + 1 && !is_bonded(tread_))
-      s.surface = surface_compliance(s.ring, tread_, model_.grid, s.positions, zone.n_columns / 2);
+    if (zone.n_columns > s.surface->width() + 1 && !is_bonded(tread_))
+      s.surface = surface_of_width(s.positions, zone.n_columns / 2);
     const Matrix loads = rolled->contact.contact_loads(rolled->state);
     for (int c = 0; c < zone.n_columns; ++c)
       std::copy_n(loads.column(c), loads.rows(),

@@ -6,6 +6,14 @@
 
 namespace wheelwright {
 
+/// What the direct problems of one shape have in common, under whatever load.
+template <int dim>
+struct FactoredShape {
+  CutDomain<dim> domain;
+  CyclicStiffness<dim> ring;
+  std::vector<PhaseTime> phases;  ///< of cutting, assembly and factorization
+};
+
 /// The direct problems of some load positions for one shape. Load cases of the core are numbered position *
 /// n_sectors + sector; matrices of the tread have one column per (position, ring column). Position i
 /// is solved with the ground turned to it, in the body frame; the field in sector s is also the field in
@@ -13,9 +21,12 @@ namespace wheelwright {
 /// motion.
 template <int dim>
 struct RollingSolution {
-  CutDomain<dim> domain;
-  CyclicStiffness<dim> ring;
-  SurfaceCompliance<dim> surface;  ///< of the ring; as wide as the widest contact zone
+  std::shared_ptr<const FactoredShape<dim>> shape;
+  const CutDomain<dim>& domain;      ///< that of the shape
+  const CyclicStiffness<dim>& ring;  ///< that of the shape
+  RollingModel<dim> model;           ///< the load
+  /// Of the ring; as wide as the widest contact zone.
+  std::shared_ptr<const SurfaceCompliance<dim>> surface;
   LoadPositions positions;
   std::vector<ReducedContact<dim>> contacts;
   std::vector<ContactState<dim>> states;
@@ -69,6 +80,12 @@ class RollingProblem : public StateSolver<dim> {
   Expected<RollingSolution<dim>> solve(const CutShape<dim>& shape, LoadPositions positions,
                                        const Interrupt& interrupt = {}) const;
 
+  /// The direct problems of the same shape and positions under another model, which differs from the
+  /// solution's in loads alone: with the same factor. It fails as solve() does.
+  Expected<RollingSolution<dim>> solve_under(const RollingModel<dim>& model,
+                                             const RollingSolution<dim>& solution,
+                                             const Interrupt& interrupt = {}) const;
+
   /// Nitsche's symmetric term of the tread applied to what is observed: loads on the tractions.
   Matrix nitsche_loads(const Matrix& observations) const;
 
@@ -85,12 +102,16 @@ class RollingProblem : public StateSolver<dim> {
     typename CyclicStiffness<dim>::EliminatedInterface boundary;
   };
   CondensedLoads preload(RollingSolution<dim>& s) const;
+  Expected<std::shared_ptr<const FactoredShape<dim>>> factor(const CutShape<dim>& shape) const;
+  Expected<RollingSolution<dim>> roll(const RollingModel<dim>& model,
+                                      std::shared_ptr<const FactoredShape<dim>> shape,
+                                      std::shared_ptr<const SurfaceCompliance<dim>> surface,
+                                      LoadPositions positions, const Interrupt& interrupt) const;
 
   RollingModel<dim> model_;
   std::unique_ptr<ElementTable<dim>> elements_;
   SectorHarmonics harmonics_;
   Tread<dim> tread_;
-  std::vector<ComplexMatrix> outer_stiffness_;
 };
 
 /// One load position's contact problem and its solution.

@@ -55,7 +55,8 @@ class WorkOfLoads {
   }
 
   /// p_0 div p - f.p; `p`: modes on the cell's dofs, `angle`: the cell's azimuth in the sector.
-  double density(const typename ElasticElement<dim>::Point& at, double angle, const Matrix& p) const {
+  double density(const typename ElasticElement<dim>::Point& at, const Material& material, double angle,
+                 const Matrix& p) const {
     if (s_.core_loads.empty()) return 0;
     double density = 0;
     for (int k = 0; k < p.rows(); ++k) {
@@ -66,20 +67,24 @@ class WorkOfLoads {
       }
       for (int i = 0; i < p.columns(); ++i) density += on_modes_(k, dim) * at.dilatation[i] * p(k, i);
       density -= dot<dim>(force, rotated<dim>(value, angle));
+      if (on_modes_.columns() > dim + 1)
+        density -= on_modes_(k, dim + 1) * material.density.value_or(0) *
+                   (at.position[0] * value[0] + at.position[1] * value[1]);
     }
-    return density - work_on_rim(at.position, angle);
+    return density - work_on_rim(at.position, material, angle);
   }
 
  private:
-  double work_on_rim(const Vec<dim>& position, double angle) const {
+  double work_on_rim(const Vec<dim>& position, const Material& material, double angle) const {
     const PolarGrid<dim>& grid = model_.grid;
     double work = 0;
     for (int i = 0; i < s_.positions.size(); ++i)
       for (int sector = 0; sector < grid.n_sectors; ++sector) {
         const double to_ground = angle + sector * grid.sector_angle() - s_.positions.grounds[i].azimuth(grid);
+        const Vec<dim> x = rotated<dim>(position, to_ground);
         work += s_.positions.multiplicities[i] *
-                dot<dim>(model_.distributed.body_force,
-                         displacement<dim>(adjoint_.rim[i], rotated<dim>(position, to_ground)));
+                dot<dim>(model_.distributed.force_at(x, material.density.value_or(0)),
+                         displacement<dim>(adjoint_.rim[i], x));
       }
     return work;
   }
@@ -155,7 +160,7 @@ class Densities {
   Densities(const RollingProblem<dim>& problem, const RollingSolution<dim>& s,
             std::span<const FunctionalDerivative<dim>> functions, std::span<const Adjoint> adjoints)
       : problem_(problem), s_(s), functions_(functions), adjoints_(adjoints) {
-    for (const Adjoint& adjoint : adjoints) loads_.emplace_back(problem.model(), s, adjoint);
+    for (const Adjoint& adjoint : adjoints) loads_.emplace_back(s.model, s, adjoint);
   }
 
   /// [function][point] on a cell's moving boundary.
@@ -181,7 +186,8 @@ class Densities {
       gather(s_.ring, nodes, adjoints_[f].modes, p);
       const Matrix strain_p = product(p, Op::none, strains, Op::none);
       densities.push_back(energy_and_work(functions_[f].energy, material, strain_u, strain_p));
-      for (size_t q = 0; q < points.size(); ++q) densities[f][q] += loads_[f].density(points[q], angle, p);
+      for (size_t q = 0; q < points.size(); ++q)
+        densities[f][q] += loads_[f].density(points[q], material, angle, p);
       if (projected) add_projection(functions_[f].energy, material, u, p, dilatations, densities[f]);
       const auto integrals = integrals_in_row<dim>(functions_[f].integrals, grid, place[0]);
       if (!integrals.empty()) add_integrands(integrals, material, strain_u, densities[f]);

@@ -11,6 +11,7 @@
 #include "wheelwright/functionals/uniformity_annulus.h"
 #include "wheelwright/functionals/uniformity_dual.h"
 #include "wheelwright/functionals/uniformity_l2.h"
+#include "wheelwright/run/study.h"
 
 namespace wheelwright {
 namespace {
@@ -81,6 +82,18 @@ std::vector<std::vector<double>> single_positions(int n, bool are_images_alike) 
   return weights;
 }
 
+/// Whether a quantity is another one under another load.
+bool depends_on_the_load(Quantity quantity) {
+  return quantity != Quantity::volume_fraction && quantity != Quantity::mass &&
+         quantity != Quantity::perimeter;
+}
+
+Over positions_of(const Constraint& constraint) {
+  if (!is_by_position(constraint.quantity) || constraint.over == OverPositions::mean) return Over::mean;
+  if (constraint.over == OverPositions::each) return Over::positions;
+  return constraint.at_most ? Over::greatest : Over::least;
+}
+
 template <int dim>
 void add_named(ShapeFunction<dim> function, std::vector<ShapeFunction<dim>>& functions) {
   const std::string name = function.name;
@@ -91,43 +104,66 @@ void add_named(ShapeFunction<dim> function, std::vector<ShapeFunction<dim>>& fun
   functions.push_back(std::move(function));
 }
 
+/// Adds the functions of a constraint in one load case, which `in_case` names.
+template <int dim>
+void add_bounded(const Constraint& constraint, const WeightedFunctional<dim>& term,
+                 const std::string& in_case, const StateSolver<dim>& solver, bool are_images_alike,
+                 std::vector<ShapeFunction<dim>>& functions) {
+  const std::string quantity(name(constraint.quantity));
+  const Over over = positions_of(constraint);
+  const bool is_worst = over == Over::greatest || over == Over::least;
+  const ShapeFunction<dim> function{.name = (is_worst ? quantity + " worst" : quantity) + in_case,
+                                    .terms = {term},
+                                    .bounds = bounds(constraint)};
+  if (over != Over::positions) {
+    add_named(function, functions);
+    return;
+  }
+  int position = 0;
+  for (const auto& weights : single_positions(solver.model().n_positions, are_images_alike)) {
+    ShapeFunction<dim> at = function;
+    at.name = fmt::format("{} at {}{}", quantity, position++, in_case);
+    at.position_weights = weights;
+    add_named(std::move(at), functions);
+  }
+}
+
 }  // namespace
+
+template <int dim>
+WeightedSum<dim> in_load_cases(const Case& c, WeightedSum<dim> terms) {
+  if (c.load.cases.empty()) return terms;
+  WeightedSum<dim> result;
+  for (std::size_t k = 0; k < c.load.cases.size(); ++k)
+    for (const WeightedFunctional<dim>& term : terms)
+      if (const double weight = c.load.cases[k].weight; weight > 0)
+        result.push_back({weight * term.weight, term.functional, static_cast<int>(k)});
+  return result;
+}
 
 template <int dim>
 Expected<WeightedSum<dim>> minimized_terms(const Case& c, const StateSolver<dim>& solver) {
   const Over over = c.objective.over == OverPositions::worst ? Over::greatest : Over::mean;
   auto only = term(c, solver, c.objective.minimize, over);
   if (!only) return only.failure();
-  return WeightedSum<dim>{*std::move(only)};
+  WeightedSum<dim> terms{*std::move(only)};
+  return depends_on_the_load(c.objective.minimize) ? in_load_cases(c, std::move(terms)) : std::move(terms);
 }
 
 template <int dim>
 Expected<std::vector<ShapeFunction<dim>>> bounded_functions(const Case& c, const StateSolver<dim>& solver,
                                                             const LevelSet<dim>& initial) {
+  const bool are_images_alike = distinct_positions(solver, load_cases<dim>(c), initial).stand_for_images();
   std::vector<ShapeFunction<dim>> functions;
   for (const Constraint& constraint : c.constraints) {
-    const std::string name(wheelwright::name(constraint.quantity));
-    const bool is_each = constraint.over == OverPositions::each && is_by_position(constraint.quantity);
-    const bool is_worst = constraint.over == OverPositions::worst && is_by_position(constraint.quantity);
-    const Over over = is_each    ? Over::positions
-                      : is_worst ? (constraint.at_most ? Over::greatest : Over::least)
-                                 : Over::mean;
-    auto only = term(c, solver, constraint.quantity, over);
+    auto only = term(c, solver, constraint.quantity, positions_of(constraint));
     if (!only) return only.failure();
-    const ShapeFunction<dim> function{
-        .name = is_worst ? name + " worst" : name, .terms = {*std::move(only)}, .bounds = bounds(constraint)};
-    if (!is_each) {
-      add_named(function, functions);
-      continue;
-    }
-    const int n = solver.model().n_positions;
-    const bool are_images_alike = solver.distinct_positions(initial).stand_for_images();
-    int position = 0;
-    for (const auto& weights : single_positions(n, are_images_alike)) {
-      ShapeFunction<dim> at = function;
-      at.name = fmt::format("{} at {}", name, position++);
-      at.position_weights = weights;
-      add_named(std::move(at), functions);
+    std::vector<int> cases{0};
+    if (depends_on_the_load(constraint.quantity)) cases = load_cases_of(c, constraint);
+    for (const int load_case : cases) {
+      only->load_case = load_case;
+      const std::string in_case = load_case > 0 ? " in " + c.load.cases[load_case].name : "";
+      add_bounded(constraint, *only, in_case, solver, are_images_alike, functions);
     }
   }
   return functions;
@@ -139,6 +175,7 @@ Quantity quantity_of(std::string_view function_name) {
 }
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                         \
+  template WeightedSum<dim> in_load_cases(const Case&, WeightedSum<dim>);                                    \
   template Expected<WeightedSum<dim>> minimized_terms(const Case&, const StateSolver<dim>&);                 \
   template Expected<std::vector<ShapeFunction<dim>>> bounded_functions(const Case&, const StateSolver<dim>&, \
                                                                        const LevelSet<dim>&);

@@ -32,10 +32,12 @@ const char* unit_of(const std::string& functional) {
 }
 
 template <int dim>
-std::vector<HistoryColumns::Quantity> term_columns(const ShapeFunction<dim>& objective) {
+std::vector<HistoryColumns::Quantity> term_columns(const Study<dim>& study) {
   std::vector<HistoryColumns::Quantity> columns;
-  for (const auto& term : objective.terms)
-    columns.push_back(column(term.functional->name(), unit_of<dim>(term.functional->name())));
+  for (const auto& term : study.objective().terms) {
+    const std::string name = term.functional->name();
+    columns.push_back(column(name_in_case(name, study.load_cases, term.load_case), unit_of<dim>(name)));
+  }
   return columns;
 }
 
@@ -54,15 +56,17 @@ std::vector<HistoryColumns::Quantity> bound_columns(const std::vector<ShapeFunct
 
 template <int dim>
 HistoryColumns history_columns(const Study<dim>& study) {
-  const ShapeFunction<dim>& objective = study.objective();
   HistoryColumns columns{.objective_unit = unit<dim>(kind(study.source.objective.minimize)),
                          .terms = {},
                          .measures = {},
                          .bounds = bound_columns(study.functions),
                          .phases = {phase_names.begin(), phase_names.end()}};
-  columns.terms = term_columns(objective);
-  for (const auto& [quantity, member] : rolling_quantities)
-    columns.measures.push_back(column(std::string(name(quantity)), unit<dim>(kind(quantity))));
+  columns.terms = term_columns(study);
+  const int n_cases = std::max(1, static_cast<int>(study.load_cases.size()));
+  for (int k = 0; k < n_cases; ++k)
+    for (const auto& [quantity, member] : rolling_quantities)
+      columns.measures.push_back(
+          column(name_in_case(std::string(name(quantity)), study.load_cases, k), unit<dim>(kind(quantity))));
   for (const auto& [measure, measure_unit] : peak_columns)
     columns.measures.push_back(column(measure, measure_unit));
   return columns;
@@ -72,11 +76,10 @@ HistoryColumns history_columns(const Study<dim>& study) {
 template <int dim>
 std::vector<MeasureValue> peaks(const StateSolver<dim>& solver, const State<dim>& state) {
   constexpr double degree = 180 / std::numbers::pi;
-  const StrainPeaks<dim> all = strain_peaks(solver, state);
-  const StressPeak<dim> stress = stress_peak(solver, state, all);
+  const StressPeak<dim> stress = stress_peak(solver, state);
   const std::array<double, peak_columns.size()> values{
       stress.value, stress.place[0], stress.place[1] * degree, stress.ground_azimuth * degree,
-      std::ranges::max(all.principal)};
+      std::ranges::max(state.strain_peaks().principal)};
   std::vector<MeasureValue> result;
   for (size_t k = 0; k < values.size(); ++k) result.push_back({peak_columns[k].first, values[k]});
   return result;
@@ -125,7 +128,7 @@ void HistoryWriter<dim>::open(const RunView<dim>& run) {
 
 template <int dim>
 void HistoryWriter<dim>::add_missing_columns(const RunView<dim>& run) {
-  auto missing = term_columns(run.study.objective());
+  auto missing = term_columns(run.study);
   std::erase_if(missing, [&](const auto& wanted) {
     const auto& there = history_->columns().terms;
     return std::ranges::find(there, wanted.name, &HistoryColumns::Quantity::name) != there.end();

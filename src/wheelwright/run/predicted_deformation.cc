@@ -41,9 +41,8 @@ Expected<DeformationSize> deformation_of(const Case& c) {
   return deformation_size(**solver, shape, **state);
 }
 
-}  // namespace
-
-std::optional<std::string> predicted_deformation(const Case& source) {
+/// Under the one load of a case.
+std::optional<std::string> predicted_under_load(const Case& source) {
   if (!is_prismatic(source)) return {};
   Case c = in_the_plane(source);
   c.load.positions = std::min(c.load.positions, most_positions);
@@ -58,6 +57,16 @@ std::optional<std::string> predicted_deformation(const Case& source) {
   const std::string text = size ? deformation_warning(*size) : size.failure().detail;
   if (text.empty()) return {};
   return fmt::format("the initial shape on {}: {}", grid_text(coarse), text);
+}
+
+}  // namespace
+
+std::optional<std::string> predicted_deformation(const Case& c) {
+  if (c.load.cases.empty()) return predicted_under_load(c);
+  for (std::size_t k = 0; k < c.load.cases.size(); ++k)
+    if (const auto warning = predicted_under_load(with_load_case(c, static_cast<int>(k))))
+      return fmt::format("load case {}: {}", c.load.cases[k].name, *warning);
+  return {};
 }
 
 }  // namespace wheelwright

@@ -33,6 +33,25 @@ double on_model_width(double on_whole_width, const Case& c) {
 
 }  // namespace
 
+namespace {
+
+/// The loads of a case with one load alone.
+template <int dim>
+void set_loads(const Case& c, RollingModel<dim>& model) {
+  model.load = on_model_width<dim>(c.load.force, c);
+  model.horizontal_force = on_model_width<dim>(c.load.horizontal_force, c);
+  model.lateral_force = c.load.lateral_force;
+  model.torque = on_model_width<dim>(c.load.torque, c);
+  model.travel = c.load.travel;
+  const auto [along_ground, down] = c.load.body_force;
+  model.distributed.body_force[0] = down;
+  model.distributed.body_force[1] = along_ground;
+  model.distributed.hole_pressure = c.load.hole_pressure;
+  model.distributed.angular_speed = c.load.speed / c.wheel.outer_radius;
+}
+
+}  // namespace
+
 template <int dim>
 RollingModel<dim> rolling_model(const Case& c) {
   RollingModel<dim> model;
@@ -48,18 +67,26 @@ RollingModel<dim> rolling_model(const Case& c) {
                    .counterpart = c.contact.with};
   model.contact_points = c.contact.quadrature_points;
   model.tread = {tread_rows(c), tread_levels(c), wants_annulus(c) ? c.grid.degree + 1 : 0};
-  model.load = on_model_width<dim>(c.load.force, c);
-  model.horizontal_force = on_model_width<dim>(c.load.horizontal_force, c);
-  model.lateral_force = c.load.lateral_force;
   model.camber = c.load.camber;
-  model.torque = on_model_width<dim>(c.load.torque, c);
-  model.travel = c.load.travel;
-  const auto [along_ground, down] = c.load.body_force;
-  model.distributed.body_force[0] = down;
-  model.distributed.body_force[1] = along_ground;
-  model.distributed.hole_pressure = c.load.hole_pressure;
+  const std::vector<Case> single = single_load_cases(c);
+  set_loads<dim>(single.front(), model);
+  model.tread.observes_spin =
+      std::ranges::any_of(single, [](const Case& each) { return each.load.speed != 0; });
   model.n_positions = c.load.positions;
   return model;
+}
+
+template <int dim>
+LoadCases<dim> load_cases(const Case& c) {
+  LoadCases<dim> result;
+  if (c.load.cases.empty()) return result;
+  RollingModel<dim> model = rolling_model<dim>(c);
+  const std::vector<Case> single = single_load_cases(c);
+  for (std::size_t k = 0; k < single.size(); ++k) {
+    set_loads<dim>(single[k], model);
+    result.push_back({c.load.cases[k].name, model});
+  }
+  return result;
 }
 
 namespace {
@@ -104,7 +131,7 @@ Expected<WeightedSum<dim>> objective_terms(const Case& c, const StateSolver<dim>
   add(annulus_weight, annulus);
   add(o.uniformity_dual, dual);
   add(o.uniformity_l2, std::make_shared<UniformityL2<dim>>(characteristic_length(c)));
-  return terms;
+  return in_load_cases(c, std::move(terms));
 }
 
 }  // namespace
@@ -257,6 +284,7 @@ Expected<Study<dim>> make_study(const Case& source, int level) {
   const Case c = on_coarser_grid(source, level);
   auto solver = make_solver(rolling_model<dim>(c));
   if (!solver) return solver.failure();
+  auto cases = load_cases<dim>(c);
   auto functions = shape_functions<dim>(c, **solver);
   if (!functions) return functions.failure();
   EvolutionOptions evolution = evolution_options(c);
@@ -264,6 +292,7 @@ Expected<Study<dim>> make_study(const Case& source, int level) {
   return Study<dim>{.source = source,
                     .level = level,
                     .solver = *std::move(solver),
+                    .load_cases = std::move(cases),
                     .functions = *std::move(functions),
                     .initial = initial_shape<dim>(c),
                     .evolution = evolution,
@@ -273,12 +302,15 @@ Expected<Study<dim>> make_study(const Case& source, int level) {
 template <int dim>
 typename ShapeOptimizer<dim>::Evaluate evaluate_of(const Study<dim>& study, Interrupt interrupt) {
   const bool holds_mean = study.source.objective.mean == MeanStress::held;
-  return [solver = study.solver, functions = study.functions, holds_mean, interrupt = std::move(interrupt)](
-             const CutShape<dim>& shape, const Evaluation<dim>* previous) -> Expected<Evaluated<dim>> {
+  return [solver = study.solver, cases = study.load_cases, functions = study.functions, holds_mean,
+          interrupt = std::move(interrupt)](const CutShape<dim>& shape,
+                                            const Evaluation<dim>* previous) -> Expected<Evaluated<dim>> {
     const Matrix* held_mean = holds_mean && previous ? &previous->mean_observations : nullptr;
-    auto evaluated = evaluate<dim>(*solver, functions, shape, held_mean, interrupt);
+    auto evaluated = evaluate<dim>(*solver, functions, shape, held_mean, interrupt, cases);
     if (!evaluated) return evaluated;
     if (auto failure = material_overlaps(*solver, shape.psi, *evaluated->state)) return *failure;
+    for (const auto& other : evaluated->others)
+      if (auto failure = material_overlaps(*solver, shape.psi, *other)) return *failure;
     return evaluated;
   };
 }
@@ -290,6 +322,7 @@ ShapeOptimizer<dim> optimizer_of(const Study<dim>& study, Interrupt interrupt) {
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                        \
   template RollingModel<dim> rolling_model(const Case&);                                                    \
+  template LoadCases<dim> load_cases<dim>(const Case&);                                                     \
   template LevelSet<dim> initial_shape(const Case&);                                                        \
   template std::optional<VolumeChange> volume_change_of_saved_shape<dim>(const Case&);                      \
   template OptimizerOptions optimizer_options<dim>(const Case&);                                            \

@@ -15,8 +15,13 @@ namespace wheelwright {
 // From a case to what the solver, the evolution and the optimizer work on. In 2D, forces, torques and
 // energies are those of one metre of width.
 
+/// With several load cases, under the first of them.
 template <int dim>
 RollingModel<dim> rolling_model(const Case& c);
+
+/// The models of all load cases of a case; empty if it has one load alone.
+template <int dim>
+LoadCases<dim> load_cases(const Case& c);
 
 /// The shape of a case before its optimization, cut off at the bands that stay material.
 template <int dim>
@@ -67,7 +72,8 @@ template <int dim>
 struct Study {
   Case source;
   int level;  ///< of the grid on which it is computed: 0 is the case's own (case/coarse_grid.h)
-  std::shared_ptr<const StateSolver<dim>> solver;
+  std::shared_ptr<const StateSolver<dim>> solver;  ///< with the load of the first load case
+  LoadCases<dim> load_cases;                       ///< empty: one load alone
   std::vector<ShapeFunction<dim>> functions;
   LevelSet<dim> initial;
   EvolutionOptions evolution;

@@ -10,46 +10,67 @@
 namespace wheelwright {
 namespace {
 
-/// Every functional of the functions at one shape, each evaluated once.
+/// What the functionals of one load case are evaluated on.
+template <int dim>
+struct CaseStates {
+  const State<dim>& state;
+  Matrix mean_observations;
+};
+
+/// Every functional of the functions at one shape, each evaluated once per load case.
 template <int dim>
 class FunctionalValues {
  public:
+  /// `held_mean` counts in the first load case; null: the states' own.
   FunctionalValues(std::span<const ShapeFunction<dim>> functions, const StateSolver<dim>& solver,
-                   const LevelSet<dim>& psi, const State<dim>& state, const Matrix& mean) {
+                   const LevelSet<dim>& psi, std::span<const CaseStates<dim>> cases,
+                   const Matrix* held_mean) {
     for (const ShapeFunction<dim>& function : functions)
-      for (const auto& [weight, functional] : function.terms)
-        if (std::ranges::find(functionals_, functional.get()) == functionals_.end()) {
-          functionals_.push_back(functional.get());
-          values_.push_back(functional->evaluate(solver, psi, state, mean));
-        }
+      for (const auto& [weight, functional, load_case] : function.terms) {
+        if (find(*functional, load_case) != values_.end()) continue;
+        const auto& [state, own_mean] = cases[load_case];
+        const Matrix& mean = held_mean && load_case == 0 ? *held_mean : own_mean;
+        values_.push_back({functional.get(), load_case, functional->evaluate(solver, psi, state, mean)});
+      }
   }
 
-  const FunctionalValue<dim>& of(const Functional<dim>& functional) const {
-    return values_[std::ranges::find(functionals_, &functional) - functionals_.begin()];
+  const FunctionalValue<dim>& of(const Functional<dim>& functional, int load_case) const {
+    return find(functional, load_case)->value;
   }
 
-  std::vector<TermValue> terms(const LoadPositions& positions) const {
+  std::vector<TermValue> terms(const LoadCases<dim>& cases, const LoadPositions& positions) const {
     std::vector<TermValue> terms;
-    for (size_t k = 0; k < values_.size(); ++k) {
-      const auto by_position = of_all(positions, values_[k].by_position);
-      double value = values_[k].of_shape + values_[k].over_positions.value_or(0);
-      for (int i = 0; i < positions.size() && !values_[k].by_position.empty(); ++i)
-        value += positions.multiplicities[i] * values_[k].by_position[i];
-      terms.push_back({functionals_[k]->name(), value, by_position});
+    for (const auto& [functional, load_case, of_functional] : values_) {
+      const auto by_position = of_all(positions, of_functional.by_position);
+      double value = of_functional.of_shape + of_functional.over_positions.value_or(0);
+      for (int i = 0; i < positions.size() && !of_functional.by_position.empty(); ++i)
+        value += positions.multiplicities[i] * of_functional.by_position[i];
+      terms.push_back({name_in_case(functional->name(), cases, load_case), value, by_position});
     }
     return terms;
   }
 
  private:
-  std::vector<const Functional<dim>*> functionals_;
-  std::vector<FunctionalValue<dim>> values_;
+  struct Evaluated {
+    const Functional<dim>* functional;
+    int load_case;
+    FunctionalValue<dim> value;
+  };
+
+  auto find(const Functional<dim>& functional, int load_case) const {
+    return std::ranges::find_if(values_, [&](const Evaluated& evaluated) {
+      return evaluated.functional == &functional && evaluated.load_case == load_case;
+    });
+  }
+
+  std::vector<Evaluated> values_;
 };
 
 /// A function's weighted sum of functionals.
 template <int dim>
 struct WeightedValues {
   FunctionValue value;
-  FunctionalDerivative<dim> derivative;
+  std::vector<FunctionalDerivative<dim>> derivatives;  ///< one per load case
 };
 
 /// Whether the deviations from the positions' own mean, and with them a term's loads, sum to zero: then the
@@ -62,15 +83,18 @@ bool deviations_sum_to_zero(const ShapeFunction<dim>& function, const Functional
 
 template <int dim>
 WeightedValues<dim> weighted(const ShapeFunction<dim>& function, const FunctionalValues<dim>& functionals,
-                             const StateSolver<dim>& solver, const State<dim>& state, bool mean_is_held) {
+                             const StateSolver<dim>& solver, std::span<const CaseStates<dim>> cases,
+                             bool mean_is_held) {
+  const State<dim>& state = cases.front().state;
   const LoadPositions& positions = state.positions();
   WeightedValues<dim> result{
       .value = {function.name, 0, {}, std::vector<double>(state.boundary().size(), 0.0), function.bounds},
-      .derivative = {}};
+      .derivatives = std::vector<FunctionalDerivative<dim>>(cases.size())};
   std::vector<double> by_position(positions.size(), 0.0);
   bool has_shares = false;
-  for (const auto& [weight, functional] : function.terms) {
-    const FunctionalValue<dim>& term = functionals.of(*functional);
+  for (const auto& [weight, functional, load_case] : function.terms) {
+    const FunctionalValue<dim>& term = functionals.of(*functional, load_case);
+    FunctionalDerivative<dim>& sum = result.derivatives[load_case];
     result.value.value += weight * term.of_shape;
     for (size_t q = 0; q < term.gradient_of_shape.size(); ++q)
       result.value.gradient[q] += weight * term.gradient_of_shape[q];
@@ -85,13 +109,14 @@ WeightedValues<dim> weighted(const ShapeFunction<dim>& function, const Functiona
         by_position[i] += factors[i] * term.by_position[i];
       }
     }
-    if (term.compares_with_mean && !mean_is_held && !deviations_sum_to_zero(function, term, positions)) {
+    if (term.compares_with_mean && !(mean_is_held && load_case == 0) &&
+        !deviations_sum_to_zero(function, term, positions)) {
       FunctionalDerivative<dim> derivative;
       add(term.derivative, factors, derivative);
       add_derivative_of_mean(solver.tread_surface(), positions, derivative.tread_loads);
-      add(derivative, std::vector<double>(positions.size(), 1.0), result.derivative);
+      add(derivative, std::vector<double>(positions.size(), 1.0), sum);
     } else {
-      add(term.derivative, factors, result.derivative);
+      add(term.derivative, factors, sum);
     }
   }
   if (!has_shares) return result;
@@ -102,11 +127,13 @@ WeightedValues<dim> weighted(const ShapeFunction<dim>& function, const Functiona
 }
 
 template <int dim>
-std::vector<MeasureValue> measures(const State<dim>& state) {
-  const RollingMeasures m = rolling_measures(contact_summaries(state));
+std::vector<MeasureValue> measures(const LoadCases<dim>& cases, std::span<const CaseStates<dim>> states) {
   std::vector<MeasureValue> values;
-  for (const auto& [quantity, member] : rolling_quantities)
-    values.push_back({std::string(name(quantity)), m.*member});
+  for (int k = 0; k < static_cast<int>(states.size()); ++k) {
+    const RollingMeasures m = rolling_measures(contact_summaries(states[k].state));
+    for (const auto& [quantity, member] : rolling_quantities)
+      values.push_back({name_in_case(std::string(name(quantity)), cases, k), m.*member});
+  }
   return values;
 }
 
@@ -121,67 +148,96 @@ bool is_finite(const Evaluation<dim>& evaluation) {
 }  // namespace
 
 template <int dim>
-Expected<Evaluation<dim>> differentiate(const StateSolver<dim>& solver,
+Expected<Evaluation<dim>> differentiate(const StateSolver<dim>& solver, const LoadCases<dim>& cases,
                                         std::span<const ShapeFunction<dim>> functions,
-                                        const LevelSet<dim>& psi, const State<dim>& state,
+                                        const LevelSet<dim>& psi, std::span<const State<dim>* const> states,
                                         const Matrix* held_mean) {
   Stopwatch watch;
+  std::vector<CaseStates<dim>> of_cases;
+  for (const State<dim>* state : states)
+    of_cases.push_back({*state, mean_observations(solver.tread_surface(), *state)});
+  const State<dim>& first = *states.front();
   Evaluation<dim> evaluation{.functions = {},
                              .terms = {},
-                             .boundary = state.boundary(),
+                             .boundary = first.boundary(),
                              .newton_iterations = {},
-                             .mean_observations = mean_observations(solver.tread_surface(), state),
-                             .phases = state.phases(),
-                             .measures = measures(state)};
-  for (const auto& contact : state.contacts())
-    evaluation.newton_iterations.push_back(contact.newton_iterations);
-  const FunctionalValues<dim> functionals(functions, solver, psi, state,
-                                          held_mean ? *held_mean : evaluation.mean_observations);
-  evaluation.terms = functionals.terms(state.positions());
-  std::vector<FunctionalDerivative<dim>> derivatives;
-  std::vector<size_t> of_states;
+                             .mean_observations = of_cases.front().mean_observations,
+                             .phases = {},
+                             .measures = measures<dim>(cases, of_cases)};
+  for (const State<dim>* state : states) {
+    evaluation.phases.insert(evaluation.phases.end(), state->phases().begin(), state->phases().end());
+    for (const auto& contact : state->contacts())
+      evaluation.newton_iterations.push_back(contact.newton_iterations);
+  }
+  const FunctionalValues<dim> functionals(functions, solver, psi, std::span<const CaseStates<dim>>(of_cases),
+                                          held_mean);
+  evaluation.terms = functionals.terms(cases, first.positions());
+  std::vector<std::vector<FunctionalDerivative<dim>>> derivatives(states.size());
+  std::vector<std::vector<size_t>> of_states(states.size());
   for (const ShapeFunction<dim>& function : functions) {
-    auto [value, derivative] = weighted(function, functionals, solver, state, held_mean != nullptr);
-    if (!derivative.empty()) {  // the others depend on the shape alone and need no adjoint
-      of_states.push_back(evaluation.functions.size());
-      derivatives.push_back(std::move(derivative));
+    auto [value, of_function] = weighted<dim>(function, functionals, solver, of_cases, held_mean != nullptr);
+    for (size_t k = 0; k < states.size(); ++k) {
+      if (of_function[k].empty()) continue;  // it does not depend on these states and needs no adjoint
+      of_states[k].push_back(evaluation.functions.size());
+      derivatives[k].push_back(std::move(of_function[k]));
     }
     evaluation.functions.push_back(std::move(value));
   }
   evaluation.phases.push_back({phase::functionals, watch.lap()});
 
-  const auto gradients = state.shape_gradients(derivatives);
-  if (!gradients) return gradients.failure();
-  for (size_t k = 0; k < of_states.size(); ++k)
-    for (size_t q = 0; q < evaluation.boundary.size(); ++q)
-      evaluation.functions[of_states[k]].gradient[q] += gradients->densities[k][q];
-  evaluation.phases.insert(evaluation.phases.end(), gradients->phases.begin(), gradients->phases.end());
+  for (size_t k = 0; k < states.size(); ++k) {
+    const auto gradients = states[k]->shape_gradients(derivatives[k]);
+    if (!gradients) return gradients.failure();
+    for (size_t f = 0; f < of_states[k].size(); ++f)
+      for (size_t q = 0; q < evaluation.boundary.size(); ++q)
+        evaluation.functions[of_states[k][f]].gradient[q] += gradients->densities[f][q];
+    evaluation.phases.insert(evaluation.phases.end(), gradients->phases.begin(), gradients->phases.end());
+  }
   if (!is_finite(evaluation))
     return Failure{FailureReason::not_finite, "the objective or its shape gradient is not finite"};
   return evaluation;
 }
 
 template <int dim>
+Expected<Evaluation<dim>> differentiate(const StateSolver<dim>& solver,
+                                        std::span<const ShapeFunction<dim>> functions,
+                                        const LevelSet<dim>& psi, const State<dim>& state,
+                                        const Matrix* held_mean) {
+  const State<dim>* const only = &state;
+  return differentiate<dim>(solver, {}, functions, psi, std::span(&only, 1), held_mean);
+}
+
+template <int dim>
 Expected<Evaluated<dim>> evaluate(const StateSolver<dim>& solver,
                                   std::span<const ShapeFunction<dim>> functions, const CutShape<dim>& shape,
-                                  const Matrix* held_mean, const Interrupt& interrupt) {
+                                  const Matrix* held_mean, const Interrupt& interrupt,
+                                  const LoadCases<dim>& cases) {
   const bool compares_images_alike = weights_are_mirror_symmetric(functions) &&
                                      (!held_mean || is_mirror_symmetric(solver.tread_surface(), *held_mean));
-  auto state = solver.states(
-      shape, compares_images_alike ? solver.distinct_positions(shape.psi) : solver.all_positions(),
+  auto states = states_of_cases(
+      solver, cases, shape,
+      compares_images_alike ? distinct_positions(solver, cases, shape.psi) : solver.all_positions(),
       interrupt);
-  if (!state) return state.failure();
-  auto evaluation = differentiate(solver, functions, shape.psi, **state, held_mean);
+  if (!states) return states.failure();
+  std::vector<const State<dim>*> of_cases;
+  for (const auto& state : *states) of_cases.push_back(state.get());
+  auto evaluation = differentiate<dim>(solver, cases, functions, shape.psi, of_cases, held_mean);
   if (!evaluation) return evaluation.failure();
-  return Evaluated<dim>{*std::move(evaluation), *std::move(state)};
+  auto first = std::move(states->front());
+  states->erase(states->begin());
+  return Evaluated<dim>{*std::move(evaluation), std::move(first), *std::move(states)};
 }
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                        \
   template Expected<Evaluation<dim>> differentiate(const StateSolver<dim>&,                                 \
                                                    std::span<const ShapeFunction<dim>>,                     \
                                                    const LevelSet<dim>&, const State<dim>&, const Matrix*); \
+  template Expected<Evaluation<dim>> differentiate(                                                         \
+      const StateSolver<dim>&, const LoadCases<dim>&, std::span<const ShapeFunction<dim>>,                  \
+      const LevelSet<dim>&, std::span<const State<dim>* const>, const Matrix*);                             \
   template Expected<Evaluated<dim>> evaluate(const StateSolver<dim>&, std::span<const ShapeFunction<dim>>,  \
-                                             const CutShape<dim>&, const Matrix*, const Interrupt&);
+                                             const CutShape<dim>&, const Matrix*, const Interrupt&,         \
+                                             const LoadCases<dim>&);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)
 #undef WHEELWRIGHT_INSTANTIATE

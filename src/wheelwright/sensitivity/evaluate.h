@@ -2,6 +2,7 @@
 
 #include "wheelwright/functionals/shape_function.h"
 #include "wheelwright/sensitivity/evaluation.h"
+#include "wheelwright/state/load_case.h"
 
 namespace wheelwright {
 
@@ -9,17 +10,26 @@ namespace wheelwright {
 template <int dim>
 struct Evaluated {
   Evaluation<dim> evaluation;
-  std::shared_ptr<const State<dim>> state;
+  std::shared_ptr<const State<dim>> state;  ///< under the first load case
+  StatesOfCases<dim> others = {};           ///< under the others
 };
 
 /// Values and shape gradients (42) of the functions from the states of one shape. The adjoints of all
-/// functions are one block of right-hand sides. `held_mean`: the mean of the contact stress that uniformity
-/// functionals compare with (Evaluation::mean_observations of an earlier shape, as the paper does); null for
-/// the shape's own, whose derivative is exact. Fails as the adjoint problems do, or with not_finite.
+/// functions in one load case are one block of right-hand sides. `held_mean`: the mean of the contact stress
+/// that uniformity functionals compare with (Evaluation::mean_observations of an earlier shape, as the paper
+/// does); null for the shape's own, whose derivative is exact. Fails as the adjoint problems do, or with
+/// not_finite.
 template <int dim>
 Expected<Evaluation<dim>> differentiate(const StateSolver<dim>& solver,
                                         std::span<const ShapeFunction<dim>> functions,
                                         const LevelSet<dim>& psi, const State<dim>& state,
+                                        const Matrix* held_mean = nullptr);
+
+/// The same under several load cases, one state for each. A held mean is that of the first.
+template <int dim>
+Expected<Evaluation<dim>> differentiate(const StateSolver<dim>& solver, const LoadCases<dim>& cases,
+                                        std::span<const ShapeFunction<dim>> functions,
+                                        const LevelSet<dim>& psi, std::span<const State<dim>* const> states,
                                         const Matrix* held_mean = nullptr);
 
 /// The same for a shape: the states of its distinct positions, then differentiate(). All positions are solved
@@ -27,6 +37,7 @@ Expected<Evaluation<dim>> differentiate(const StateSolver<dim>& solver,
 template <int dim>
 Expected<Evaluated<dim>> evaluate(const StateSolver<dim>& solver,
                                   std::span<const ShapeFunction<dim>> functions, const CutShape<dim>& shape,
-                                  const Matrix* held_mean = nullptr, const Interrupt& interrupt = {});
+                                  const Matrix* held_mean = nullptr, const Interrupt& interrupt = {},
+                                  const LoadCases<dim>& cases = {});
 
 }  // namespace wheelwright

@@ -4,13 +4,16 @@ namespace wheelwright {
 
 /// What one column of the tread (one angular cell) observes of a displacement u, as rows of a vector: for
 /// every contact quadrature point u and the traction sigma(u)n on Gamma_C; then, for every quadrature point
-/// of the annulus Gamma_C^epsilon (60), sigma(u)n with n radial; last the integral of u over the column. Each
+/// of the annulus Gamma_C^epsilon (60), sigma(u)n with n radial; then the integral of u over the column. Each
 /// of these is a vector of dim rows, Cartesian in the column's frame, whose first axis is radial at the
-/// column's first azimuth. A load on the tread is a combination of observations, in the same rows.
+/// column's first azimuth. The last row, if there is one, is a number: the integral of density u . x, with x
+/// the place relative to the axle, in the wheel's plane. A load on the tread is a combination of
+/// observations, in the same rows.
 template <int dim>
 struct ObservationRows {
   int n_points = 0;          ///< contact quadrature points of a column
   int n_annulus_points = 0;  ///< quadrature points of the annulus in a column
+  bool has_spin = false;     ///< whether there is the last row
 
   /// The first row of the displacement and of the traction at contact point q.
   constexpr int displacement(int q) const { return 2 * dim * q; }
@@ -24,7 +27,13 @@ struct ObservationRows {
 
   /// The rows of the contact points, which come first, and all rows.
   constexpr int n_contact() const { return 2 * dim * n_points; }
-  constexpr int size() const { return integral() + dim; }
+  constexpr int size() const { return n_vectors() * dim + (has_spin ? 1 : 0); }
+
+  /// The vectors, which come before the number.
+  constexpr int n_vectors() const { return integral() / dim + 1; }
+
+  /// The row of the number: the work on u of the load that pulls every point away from the axle by density x.
+  constexpr int spin() const { return integral() + dim; }
 };
 
 }  // namespace wheelwright

@@ -19,6 +19,7 @@ struct TreadGrid {
   int levels = 0;  ///< L
   int annulus_points =
       0;  ///< Gauss points per direction in every cell at which sigma(u)n is observed; 0: none
+  bool observes_spin = false;  ///< whether ObservationRows::spin() is observed: for rotating wheels
 };
 
 /// The loads of (1) on the structure itself.
@@ -26,8 +27,18 @@ template <int dim>
 struct DistributedLoads {
   Vec<dim> body_force{};     ///< f in the ground frame: component 0 towards the ground, 1 along it [N/m^3]
   double hole_pressure = 0;  ///< p, g_N = -p n on the moving boundary [Pa]
+  /// omega of the wheel about its axle [rad/s]: every material point is pulled away from the axle by density
+  /// omega^2 x per volume, x its place in the undeformed wheel, without the component along the axle.
+  double angular_speed = 0;
 
-  bool any() const { return norm<dim>(body_force) > 0 || hole_pressure != 0; }
+  bool any() const { return norm<dim>(body_force) > 0 || hole_pressure != 0 || angular_speed != 0; }
+
+  /// f at a place relative to the axle, in the ground frame, in a material of that density.
+  Vec<dim> force_at(const Vec<dim>& position, double density) const {
+    Vec<dim> force = body_force;
+    for (int d = 0; d < 2; ++d) force[d] += density * angular_speed * angular_speed * position[d];
+    return force;
+  }
 };
 
 /// A rolling structure and its load: all but its shape. Forces are per metre of width when dim = 2.
@@ -40,7 +51,7 @@ struct RollingModel {
   GhostPenalty ghost;
   SideFaces side_faces = SideFaces::free;  ///< when dim = 3
   ContactForm contact;
-  int contact_points = 5;       ///< Gauss points per direction on each contact face
+  int contact_points = 5;       ///< Gauss points on each contact face, along the axle at most degree + 1
   TreadGrid tread;              ///< rows that are condensed once per run, and their refinement
   double load;                  ///< P [N/m when dim = 2, N when dim = 3]
   double horizontal_force = 0;  ///< H on the rim, towards larger azimuth; if not 0, it moves along the ground

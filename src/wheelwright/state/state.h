@@ -33,6 +33,15 @@ class Displacement {
   virtual Matrix strains(int cell, std::span<const Vec<dim>> points) const = 0;
 };
 
+/// The largest values of every load position, over the quadrature points of the material. The tread is seen
+/// through the nodes of the level set's grid, without its refinement.
+template <int dim>
+struct StrainPeaks {
+  std::vector<double> von_mises;           ///< stress [Pa]
+  std::vector<Vec<dim>> von_mises_places;  ///< where they are: polar coordinates of the body (m, rad, m)
+  std::vector<double> principal;           ///< absolute value of a principal strain
+};
+
 /// Shape gradients of several functions.
 struct ShapeGradients {
   std::vector<std::vector<double>> densities;  ///< [function][point of State::boundary()]
@@ -46,6 +55,9 @@ template <int dim>
 class State {
  public:
   virtual ~State() = default;
+
+  /// What was solved: the load, and everything that the solver's own model has in common with it.
+  virtual const RollingModel<dim>& model() const = 0;
 
   virtual const CutDomain<dim>& domain() const = 0;
 
@@ -65,8 +77,12 @@ class State {
   /// Wall times of the solution's phases.
   virtual const std::vector<PhaseTime>& phases() const = 0;
 
-  /// The displacement everywhere: it costs one sweep over the interior unknowns.
-  virtual std::unique_ptr<const Displacement<dim>> displacement() const = 0;
+  /// The displacement everywhere. The first call costs one sweep over the interior unknowns; the state
+  /// remembers it.
+  virtual const Displacement<dim>& displacement() const = 0;
+
+  /// The first call costs one evaluation of the strains; the state remembers them.
+  virtual const StrainPeaks<dim>& strain_peaks() const = 0;
 
   /// The points of the moving boundary at which shape gradients are given.
   virtual const std::vector<SurfacePoint<dim>>& boundary() const = 0;
@@ -80,8 +96,14 @@ class State {
   /// The contacts of the same shape and positions under other models, which may differ from the solver's in
   /// the loads or the travel of the rim alone: [model][position]. Each starts from the one before. Fails as
   /// the contact problem does.
-  virtual Expected<std::vector<std::vector<ContactPatch<dim>>>> under(
+  virtual Expected<std::vector<std::vector<ContactPatch<dim>>>> contacts_under(
       std::span<const RollingModel<dim>> models) const = 0;
+
+  /// The states of the same shape and positions under another model, which may differ from this one's in its
+  /// loads alone. They share what does not depend on the load: the factorization. If the model rotates, the
+  /// solver's must rotate or observe the spin (TreadGrid). Fails as StateSolver::states() does.
+  virtual Expected<std::shared_ptr<const State<dim>>> under(const RollingModel<dim>& model,
+                                                            const Interrupt& interrupt) const = 0;
 };
 
 /// Solves the states of shapes: all that a run knows of the mechanics. What does not

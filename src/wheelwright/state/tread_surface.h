@@ -42,12 +42,13 @@ struct TreadSurface {
   /// counted as vectors of dim rows.
   std::vector<int> mirror_images;
 
-  /// All observations but the integral of u, by their lines of points.
+  /// All observations but the integrals, by their lines of points.
   std::vector<FaceRow> face_rows;
-  int n_columns = 0;  ///< round the whole ring
+  int n_columns = 0;      ///< round the whole ring
+  bool has_spin = false;  ///< whether ObservationRows::spin() is observed
 
   ObservationRows<dim> rows() const {
-    return {static_cast<int>(points.size()), static_cast<int>(annulus_weights.size())};
+    return {static_cast<int>(points.size()), static_cast<int>(annulus_weights.size()), has_spin};
   }
 };
 

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "wheelwright/analysis/deformation_size.h"
 #include "wheelwright/app/case_input.h"
 #include "wheelwright/app/commands/commands.h"
@@ -45,7 +47,7 @@ Expected<RollingReport> rolling_report(const WheelInput<dim>& wheel, const std::
                        .under_loads = {},
                        .dimension = dim};
   for (const double load : loads) report.loads.push_back(load / whole_width(dim, c.wheel.width));
-  auto under = under_loads<dim>(solver, solution, report.loads);
+  auto under = under_loads<dim>(solution, report.loads);
   if (!under) return under.failure();
   report.under_loads = *std::move(under);
   return report;
@@ -89,6 +91,9 @@ class AnalyzeCommand : public Subcommand {
     options.number("--positions", positions_, {1, most_positions}, "Load positions per sector");
     options.text("--loads", "P1,P2,... | FROM:TO:NUMBER", loads_, check_loads,
                  "Report the deflection under these loads on the whole width [N]");
+    options.text(
+        "--load-case", "NAME", load_case_, [](const std::string&) { return ""; },
+        "Compute the wheel under this [[load.case]], not under the first one");
     add_output(options, output_, "Folder for JSON and plots; without it only the table is printed");
     options.flag("--json", json_, "Print JSON instead of the table");
     add_threads(options, threads_);
@@ -98,11 +103,32 @@ class AnalyzeCommand : public Subcommand {
     auto wheel = read_wheel_or_tell(input_, {name(), threads_, positions_});
     if (!wheel) return wheel.failure();
     if (output_ && !may_write_to(*output_, names_in_folder)) return exit_refused;
+    if (!take_load_case(*wheel)) return exit_refused;
     return std::visit([this](const auto& input) { return analyze(input); }, *wheel);
   }
 
  private:
   std::filesystem::path folder() const { return *output_; }
+
+  /// Leaves one load case as the only load; false, after a message, if there is none of the asked name.
+  bool take_load_case(AnyWheel& wheel) const {
+    return std::visit(
+        [&](auto& input) {
+          const auto& cases = input.source.load.cases;
+          const auto found =
+              load_case_ ? std::ranges::find(cases, *load_case_, &CaseLoad::name) : cases.begin();
+          if (found == cases.end()) {
+            if (load_case_)
+              tell("{}: the case has no [[load.case]] with the name {}\n", name(),
+                   without_control_characters(*load_case_));
+            return !load_case_;
+          }
+          input.which += ", load case " + found->name;
+          input.source = with_load_case(input.source, static_cast<int>(found - cases.begin()));
+          return true;
+        },
+        wheel);
+  }
 
   /// Computes the shape at its load positions and tells what an engineer asks of a wheel.
   template <int dim>
@@ -144,7 +170,7 @@ class AnalyzeCommand : public Subcommand {
 
   std::string input_;
   int positions_ = 64;
-  std::optional<std::string> loads_, output_;
+  std::optional<std::string> loads_, load_case_, output_;
   std::optional<int> threads_;
   bool json_ = false;
 };

@@ -114,8 +114,9 @@ Expected<TaylorTest> test_gradient(const Case& c, const StateSolver<dim>& solver
                                    const std::vector<double>& direction, double step) {
   const auto functions = shape_functions<dim>(c, solver);
   if (!functions) return functions.failure();
+  const auto cases = load_cases<dim>(c);
   const auto evaluation = [&](const LevelSet<dim>& psi) -> Expected<Evaluation<dim>> {
-    auto evaluated = evaluate<dim>(solver, *functions, psi);
+    auto evaluated = evaluate<dim>(solver, *functions, psi, nullptr, {}, cases);
     if (!evaluated) return evaluated.failure();
     return std::move(evaluated->evaluation);
   };
@@ -166,9 +167,14 @@ class VerifyCommand : public Subcommand {
 
     const auto taylor = report_taylor(c, solver, *shape, direction, step);
     if (!taylor) return taylor.failure();
-    const auto states = solver.states(*shape, solver.all_positions(), tell_contact_progress());
+    const auto cases = load_cases<dim>(c);
+    const auto states = states_of_cases<dim>(solver, cases, *shape, solver.all_positions(), tell_contact_progress());
     if (!states) return states.failure();
-    const bool balance = report_balance(**states, rim_control(solver.model()));
+    bool balance = true;
+    for (size_t k = 0; k < states->size(); ++k) {
+      if (!cases.empty()) print("Load case {}. ", cases[k].name);
+      balance = report_balance(*(*states)[k], rim_control((*states)[k]->model())) && balance;
+    }
     return *taylor && balance;
   }
 

@@ -1,4 +1,4 @@
-#include "wheelwright/app/case_report.h"
+#include "wheelwright/run/case_report.h"
 
 #include <fmt/format.h>
 
@@ -22,8 +22,10 @@ std::string load_report(const Case& c) {
                                ? line("rim travel", fmt::format("{:.6g} mm", *c.load.travel * 1e3))
                                : line("load", fmt::format("{:.6g} N on {:.6g} m = {:.6g} N/m", c.load.force,
                                                           c.wheel.width, load_per_metre(c)));
-  return load + line("load positions", fmt::format("{} per sector, {} round the wheel", c.load.positions,
-                                                   total_load_positions(c)));
+  const std::string speed = c.load.speed > 0 ? line("speed", fmt::format("{:.6g} m/s", c.load.speed)) : "";
+  return load + speed +
+         line("load positions",
+              fmt::format("{} per sector, {} round the wheel", c.load.positions, total_load_positions(c)));
 }
 
 std::string material_report(const Case& c) {
@@ -97,7 +99,17 @@ std::string coarse_contact_warning(const Case& c, double cells) {
 }  // namespace
 
 std::string derived_report(const Case& c) {
-  return load_report(c) + material_report(c) + contact_report(c) + size_report(c);
+  if (c.load.cases.empty()) return load_report(c) + material_report(c) + contact_report(c) + size_report(c);
+  std::string report;
+  Case finest = c;
+  finest.grid.tread_levels = tread_levels(c);
+  for (std::size_t k = 0; k < c.load.cases.size(); ++k) {
+    const Case single = with_load_case(finest, static_cast<int>(k));
+    report +=
+        line("load case", fmt::format("{}, weight {:.6g}", c.load.cases[k].name, c.load.cases[k].weight)) +
+        load_report(single) + contact_report(single);
+  }
+  return report + material_report(c) + size_report(c);
 }
 
 std::string clearance_report(const cad::Clearances& clearances) {
@@ -109,8 +121,11 @@ std::string clearance_report(const cad::Clearances& clearances) {
 
 std::vector<std::string> warnings(const Case& c) {
   std::vector<std::string> result = doubtful_lengths(c);
-  if (const double cells = cells_per_contact_patch(c); cells < least_cells_per_contact_patch)
-    result.push_back(coarse_contact_warning(c, cells));
+  Case run = c;
+  run.grid.tread_levels = tread_levels(c);
+  const Case narrowest = std::ranges::min(single_load_cases(run), {}, cells_per_contact_patch);
+  if (const double cells = cells_per_contact_patch(narrowest); cells < least_cells_per_contact_patch)
+    result.push_back(coarse_contact_warning(narrowest, cells));
   if (wants_uniformity(c) && c.grid.angular_cells % total_load_positions(c) != 0)
     result.push_back(fmt::format(
         "load positions between columns of cells see other points of the tread: the uniformity functionals "
