@@ -19,6 +19,7 @@ std::vector<KernelWork> unavoidable_work(const RollingProblem<2>& problem,
                                          const RollingSolution<2>& solution);
 
 /// Displacement unknowns of the full ring, the tread included.
-int ring_unknowns(const RollingProblem<2>& problem, const RollingSolution<2>& solution);
+template <int dim>
+int ring_unknowns(const RollingProblem<dim>& problem, const CyclicStiffness<dim>& ring);
 
 }  // namespace wheelwright::bench

@@ -8,9 +8,9 @@
 #include "tests/support.h"
 #include "wheelwright/analysis/deformation_size.h"
 #include "wheelwright/analysis/rolling_analysis.h"
-#include "wheelwright/analysis/strain_peaks.h"
 #include "wheelwright/report/rolling_report.h"
 #include "wheelwright/report/solution_fields.h"
+#include "wheelwright/state/strain_peaks.h"
 
 namespace wheelwright {
 namespace {
@@ -165,7 +165,7 @@ TEST(Analysis, DeformationOfThePapersWheelIsSmall) {
   const DeformationSize size = deformation_size<2>(*problem, psi, **state);
   EXPECT_FALSE(size.edges_overlap);
   EXPECT_EQ(deformation_warning(size), "");
-  EXPECT_EQ(size.strain, std::ranges::max(strain_peaks<2>(*problem, **state).principal));
+  EXPECT_EQ(size.strain, std::ranges::max((*state)->strain_peaks().principal));
   // Twice the load deforms nearly twice as much: the contact alone is not linear.
   auto doubled = model;
   doubled.load *= 2;
@@ -314,7 +314,7 @@ TEST(Analysis, PeakStressIsThatOfTheDisplacementField) {
   const Lattice<2> lattice(model.grid, model.degree);
   const auto points = unit_cell_rule<2>(model.degree + 1);
   for (int position = 0; position < 3; ++position) {
-    const RingField field = state->displacement()->at_nodes(position);
+    const RingField field = state->displacement().at_nodes(position);
     double peak = 0;
     for (int sector = 0; sector < model.grid.n_sectors; ++sector)
       for (int cell = 0; cell < model.grid.n_cells(); ++cell) {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "wheelwright/app/case_report.h"
+#include "wheelwright/run/case_report.h"
 #include "wheelwright/case/hole_rings.h"
 #include "wheelwright/case/read.h"
 

@@ -413,6 +413,7 @@ Case case_with(const std::string& header) {
   Case c = with_holes();
   c.constraints = {constraint_sections().example};
   c.constraints[0].at_least = 1;
+  if (header == "[[load.case]]") c.load.cases = {load_case_sections().example};
   return c;
 }
 

@@ -41,6 +41,12 @@ LevelSet<2> unsymmetric_holes(const PolarGrid<2>& grid) {
   return holes(grid, 2, {{0.265, 0.02, 0.034}, {0.27, 0.55, 0.031}, {0.262, 1.05, 0.027}});
 }
 
+/// Holes that are their own mirror image, across the sector's face and inside.
+LevelSet<2> symmetric_holes(const PolarGrid<2>& grid) {
+  const double angle = grid.sector_angle();
+  return holes(grid, 2, {{0.265, 0, 0.034}, {0.262, 0.31 * angle, 0.029}, {0.262, 0.69 * angle, 0.029}});
+}
+
 LevelSet<2> repeated(const LevelSet<2>& sector, const PolarGrid<2>& ring) {
   LevelSet<2> psi{Lattice<2>(ring, sector.lattice.degree()), {}};
   for (int s = 0; s < n_sectors; ++s)
@@ -149,47 +155,186 @@ class PlainRing {
   std::vector<SparseSpd::Entry> entries_;
 };
 
+/// Random loads on the outer line, by the ring of sectors and by the whole ring at once.
+void expect_plain_solution(int degree, const LevelSet<2>& psi, bool symmetric) {
+  const auto model = four_sectors(), whole = one_sector();
+  const int core_rows = model.grid.cells[0] - 1;
+  const auto domain = cut_domain(psi, 4);
+  const auto whole_domain = cut_domain(repeated(psi, whole.grid), 4);
+  ASSERT_TRUE(domain && whole_domain);
+  const ElementTable<2> table(model.grid, degree, model.materials, model.ghost);
+  const ElementTable<2> whole_table(whole.grid, degree, whole.materials, whole.ghost);
+  auto sector = sector_stiffness(*domain, table, core_rows);
+  ASSERT_TRUE(std::any_of(domain->ghost_faces.begin(), domain->ghost_faces.end(),
+                          [&](const GhostFace& face) { return sector.space.wraps(face); }));
+
+  const SectorHarmonics harmonics(n_sectors);
+  const int n_outer = 2 * degree * model.grid.columns();
+  const auto no_tread = [&](int) { return ComplexMatrix(n_outer, n_outer); };
+  const auto ring = CyclicStiffness<2>::factor(std::move(sector), no_tread, harmonics);
+  ASSERT_TRUE(ring) << ring.failure().detail;
+  EXPECT_EQ(ring->is_mirror_symmetric(), symmetric);
+
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  std::vector<double> loads(n_outer * n_sectors);
+  for (double& x : loads) x = uniform(random);
+  Matrix outer_loads(n_outer, n_sectors);
+  std::copy(loads.begin(), loads.end(), outer_loads.data());
+  const auto outer_line = ring->outer_displacements(outer_loads);
+  const std::vector<double> displacement(outer_line.entries().begin(), outer_line.entries().end());
+  const auto expected = PlainRing(*whole_domain, whole_table, core_rows).solve(loads);
+  EXPECT_LT(relative_difference(displacement, expected), 1e-9);
+}
+
+// With holes across the sectors' faces, where ghost faces couple nodes of both sectors.
 TEST(Cyclic, AgreesWithAPlainSolveOfTheWholeRing) {
-  for (int degree : {1, 2}) {
-    const auto model = four_sectors(), whole = one_sector();
-    const int core_rows = model.grid.cells[0] - 1;
-    const auto psi = unsymmetric_holes(model.grid);
-    const auto domain = cut_domain(psi, 4);
-    const auto whole_domain = cut_domain(repeated(psi, whole.grid), 4);
-    ASSERT_TRUE(domain && whole_domain);
-    const ElementTable<2> table(model.grid, degree, model.materials, model.ghost);
-    const ElementTable<2> whole_table(whole.grid, degree, whole.materials, whole.ghost);
-    auto sector = sector_stiffness(*domain, table, core_rows);
-    ASSERT_TRUE(std::any_of(domain->ghost_faces.begin(), domain->ghost_faces.end(),
-                            [&](const GhostFace& face) { return sector.space.wraps(face); }));
-
-    const SectorHarmonics harmonics(n_sectors);
-    const int n_outer = 2 * degree * model.grid.columns();
-    const std::vector<ComplexMatrix> no_tread(harmonics.n_harmonics(), ComplexMatrix(n_outer, n_outer));
-    const auto ring = CyclicStiffness<2>::factor(std::move(sector), no_tread, harmonics);
-    ASSERT_TRUE(ring) << ring.failure().detail;
-
-    std::mt19937 random(7);
-    std::uniform_real_distribution<double> uniform(-1, 1);
-    std::vector<double> loads(n_outer * n_sectors);
-    for (double& x : loads) x = uniform(random);
-    Matrix outer_loads(n_outer, n_sectors);
-    std::copy(loads.begin(), loads.end(), outer_loads.data());
-    const auto outer_line = ring->outer_displacements(outer_loads);
-    const std::vector<double> displacement(outer_line.entries().begin(), outer_line.entries().end());
-    std::vector<double> through_compliance(loads.size());
-    for (int s = 0; s < n_sectors; ++s) {
-      for (int source = 0; source < n_sectors; ++source) {
-        const Matrix& compliance = ring->outer_compliance(s - source);
-        for (int j = 0; j < n_outer; ++j)
-          for (int i = 0; i < n_outer; ++i)
-            through_compliance[n_outer * s + i] += compliance(i, j) * loads[n_outer * source + j];
-      }
-    }
-    const auto expected = PlainRing(*whole_domain, whole_table, core_rows).solve(loads);
-    EXPECT_LT(relative_difference(displacement, expected), 1e-9);
-    EXPECT_LT(relative_difference(through_compliance, expected), 1e-9);
+  for (const int degree : {1, 2}) {
+    const PolarGrid<2> grid = four_sectors().grid;
+    expect_plain_solution(degree, unsymmetric_holes(grid), false);
+    expect_plain_solution(degree, symmetric_holes(grid), true);
   }
+}
+
+/// The same shape, `columns` farther round.
+LevelSet<2> turned(const LevelSet<2>& psi, int columns) {
+  LevelSet<2> result = psi;
+  const Lattice<2>& lattice = psi.lattice;
+  for (int i = 0; i < lattice.n_nodes(); ++i) {
+    auto place = lattice.node_position(i);
+    place[1] += lattice.degree() * columns;
+    result.values[lattice.node_index(place)] = psi.values[i];
+  }
+  return result;
+}
+
+// A mirror-symmetric wheel has real harmonics; turned by a column it has complex ones. The loads need no
+// symmetry.
+TEST(Cyclic, RealHarmonicsGiveWhatComplexOnesGive) {
+  auto model = four_sectors();
+  model.n_positions = model.grid.columns();
+  model.contact.friction = 0.3;
+  model.torque = 800;
+  const auto problem = RollingProblem<2>::create(model);
+  ASSERT_TRUE(problem);
+  const auto psi = symmetric_holes(model.grid);
+  const auto real = problem->solve(psi), complex = problem->solve(turned(psi, 1));
+  ASSERT_TRUE(real && complex);
+  EXPECT_TRUE(real->ring.is_mirror_symmetric());
+  EXPECT_FALSE(complex->ring.is_mirror_symmetric());
+  const int n = model.n_positions;
+  for (int i = 0; i < n; ++i) {
+    const auto &a = real->states[i], &b = complex->states[(i + 1) % n];
+    EXPECT_NEAR(real->strain_energy[i], complex->strain_energy[(i + 1) % n], 1e-10 * real->strain_energy[i]);
+    EXPECT_NEAR(a.rim.rotation, b.rim.rotation, 1e-9 * std::abs(a.rim.rotation));
+    ASSERT_EQ(a.traction.size(), b.traction.size());
+    for (int d = 0; d < 2; ++d) {
+      std::vector<double> traction_a, traction_b;
+      for (size_t q = 0; q < a.traction.size(); ++q) {
+        traction_a.push_back(a.traction[q][d]);
+        traction_b.push_back(b.traction[q][d]);
+      }
+      EXPECT_LT(relative_difference(traction_a, traction_b), 1e-9);
+    }
+  }
+  const WeightedSum<2> energy = testing::strain_energy_alone();
+  const auto evaluation = testing::evaluate_objective<2>(*problem, energy, psi),
+             turned_evaluation = testing::evaluate_objective<2>(*problem, energy, turned(psi, 1));
+  ASSERT_TRUE(evaluation && turned_evaluation);
+  EXPECT_NEAR(evaluation->function("objective").value, turned_evaluation->function("objective").value,
+              1e-10 * evaluation->function("objective").value);
+  std::vector<double> by_row(model.grid.cells[0]), turned_by_row = by_row;
+  for (const auto& s : evaluation->gradient("objective"))
+    by_row[model.grid.cell_position(s.cell)[0]] += s.weight * s.value;
+  for (const auto& s : turned_evaluation->gradient("objective"))
+    turned_by_row[model.grid.cell_position(s.cell)[0]] += s.weight * s.value;
+  EXPECT_LT(relative_difference(by_row, turned_by_row), 1e-9);
+}
+
+/// A boundary in 3D: an interface of two azimuths and an outer line of four, three nodes along the axle each.
+struct SpatialBoundary {
+  SpatialBoundary() {
+    for (const int period : {2, 4}) {
+      const int first = static_cast<int>(azimuth.unknowns.size());
+      const auto unknown = [&](int line, int axial, int c) { return first + 3 * (3 * line + axial) + c; };
+      for (int line = 0; line < period; ++line)
+        for (int axial = 0; axial < 3; ++axial)
+          for (int c = 0; c < 3; ++c) {
+            azimuth.unknowns.push_back(
+                {unknown((period - line) % period, axial, c), line == 0 ? 0 : 1, c == 1 ? -1.0 : 1.0});
+            width.unknowns.push_back({unknown(line, 2 - axial, c), 0, c == 2 ? -1.0 : 1.0});
+          }
+    }
+  }
+  int n_interface = 18, n = 54;
+  BoundaryMirror azimuth, width;
+};
+
+/// A Hermitian, positive definite matrix that commutes with both reflections.
+ComplexMatrix symmetric_stiffness(const SpatialBoundary& boundary, std::complex<double> forward) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  ComplexMatrix k(boundary.n, boundary.n);
+  for (int j = 0; j < boundary.n; ++j)
+    for (int i = j; i < boundary.n; ++i) {
+      k(i, j) =
+          i == j ? std::complex<double>(boundary.n) : std::complex<double>(uniform(random), uniform(random));
+      k(j, i) = std::conj(k(i, j));
+    }
+  const auto average = [&](auto image) {
+    const ComplexMatrix before = k;
+    for (int j = 0; j < boundary.n; ++j)
+      for (int i = 0; i < boundary.n; ++i) k(i, j) = 0.5 * (before(i, j) + image(before, i, j));
+  };
+  average([&](const ComplexMatrix& a, int i, int j) {
+    const auto &from = boundary.width.unknowns[i], &to = boundary.width.unknowns[j];
+    return from.sign * to.sign * a(from.image, to.image);
+  });
+  average([&](const ComplexMatrix& a, int i, int j) {
+    const auto &from = boundary.azimuth.unknowns[i], &to = boundary.azimuth.unknowns[j];
+    const auto phase = [&](const auto& u) { return u.sign * (u.ahead == 1 ? forward : 1.0); };
+    return phase(from) * std::conj(a(from.image, to.image)) * std::conj(phase(to));
+  });
+  return k;
+}
+
+// Symmetries of the stiffness change neither the solution nor the condensed loads; the loads have none.
+TEST(HarmonicFactor, FindsTheSameSolutionWithAndWithoutSymmetries) {
+  const SpatialBoundary boundary;
+  const std::complex<double> forward = std::polar(1.0, 0.7);
+  const ComplexMatrix k = symmetric_stiffness(boundary, forward);
+  std::mt19937 random(13);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  ComplexMatrix loads(boundary.n, 3);
+  for (auto& x : loads.entries()) x = {uniform(random), uniform(random)};
+  const int n_outer = boundary.n - boundary.n_interface;
+  for (const bool azimuth : {false, true})
+    for (const bool width : {false, true}) {
+      BoundarySymmetry symmetry{
+          .n_interface = boundary.n_interface, .classes = {}, .width = {}, .azimuth = {}};
+      if (azimuth) symmetry.azimuth = boundary.azimuth;
+      if (width) {
+        symmetry.width = boundary.width;
+        for (const double sign : {1.0, -1.0})
+          symmetry.classes.emplace_back(boundary.width, boundary.n_interface, sign);
+      } else {
+        symmetry.classes.emplace_back(boundary.n, boundary.n_interface);
+      }
+      const auto factor = HarmonicFactor::factor(std::make_shared<const BoundarySymmetry>(symmetry), forward,
+                                                 false, [&](int i, int j) { return k(i, j); });
+      ASSERT_TRUE(factor);
+      ComplexMatrix x = loads;
+      factor->eliminate(x);
+      ComplexMatrix outer = block(x, boundary.n_interface, 0, n_outer, 3);
+      factor->solve_last(outer);
+      for (int j = 0; j < 3; ++j) std::copy_n(outer.column(j), n_outer, x.column(j) + boundary.n_interface);
+      factor->substitute(x);
+      ComplexMatrix residual = loads;
+      multiply(1, k, Op::none, x, Op::none, -1, residual);
+      double largest = 0;
+      for (const auto& r : residual.entries()) largest = std::max(largest, std::abs(r));
+      EXPECT_LT(largest, 1e-12) << azimuth << width;
+    }
 }
 
 /// The stiffness of a sector with a hole, on square cells.

@@ -278,6 +278,111 @@ TEST(Dxf, ADrawingOfFreeCadIsReadAsItIsSeen) {
   EXPECT_NEAR(shape.distance(1e-3 * top, 1), 0, 1e-12);
 }
 
+// What drawing programs themselves wrote; tests/drawings/programs/README.md tells what was drawn.
+
+/// A file read in millimetres, with questions in them.
+class WrittenByAProgram {
+ public:
+  /// Coordinates in the file are rounded to `rounding` [mm].
+  WrittenByAProgram(const std::string& name, double rounding, const DrawingOptions& options = {})
+      : drawing_(drawing_of(*drawing_format(name), content(drawings / "programs" / name), options)),
+        shape_(region(drawing_)),
+        rounding_(rounding) {}
+
+  std::size_t n_loops() const { return drawing_.outline.loops.size(); }
+  bool is_drawn(const Point& x) const { return shape_.is_hole(1e-3 * x); }
+  void expect_edge(const Point& x) const {
+    EXPECT_LE(shape_.distance(1e-3 * x, 1), 1e-3 * rounding_) << x[0] << ' ' << x[1];
+  }
+  /// An ellipse: all of its edge.
+  void expect_ellipse(const Point& centre, double half_length, double half_width, double degrees) const {
+    EXPECT_TRUE(is_drawn(centre));
+    for (int i = 0; i < 24; ++i) {
+      const double t = 2 * pi * (i + 0.3) / 24;
+      expect_edge(
+          centre +
+          Affine::rotation(degrees * pi / 180).linear({half_length * std::cos(t), half_width * std::sin(t)}));
+    }
+  }
+
+ private:
+  Drawing drawing_;
+  Composition shape_;
+  double rounding_;
+};
+
+Point at_degrees(double radius, double degrees) { return polar(radius, degrees * pi / 180); }
+
+TEST(WrittenBy, Inkscape) {
+  for (const char* name : {"inkscape.svg", "inkscape_plain.svg"}) {
+    SCOPED_TRACE(name);
+    const WrittenByAProgram drawing(name, 1e-3);
+    EXPECT_EQ(drawing.n_loops(), 6u);
+    const auto seen = [](double x, double y) { return Point{x - 340, 340 - y}; };
+    drawing.expect_ellipse(seen(605.9, 293.1), 30, 30, 0);
+    drawing.expect_ellipse(seen(475, 106), 35, 20, -25);  // clockwise on the screen
+    for (const double side : {-1, 1})
+      drawing.expect_edge(seen(245, 85) + Affine::rotation(15 * pi / 180).linear({side * 30, 3}));
+    for (const auto& [x, y] : {std::pair{160.0, 520.0}, {190.0, 560.0}, {150.0, 590.0}, {130.0, 550.0}})
+      drawing.expect_edge(seen(160, 555) + Affine::rotation(-pi / 3).linear({x - 160, 555 - y}));
+    drawing.expect_edge(seen(106, 293));
+    // The square without the circle about the middle of its right side.
+    EXPECT_TRUE(drawing.is_drawn(seen(380, 600)));
+    EXPECT_FALSE(drawing.is_drawn(seen(405, 600)));
+    drawing.expect_edge(seen(395, 600));
+  }
+}
+
+TEST(WrittenBy, LibreCad) {
+  const WrittenByAProgram drawing("librecad.dxf", 1e-9);
+  EXPECT_EQ(drawing.n_loops(), 4u);
+  drawing.expect_ellipse({265.898, 46.885}, 30, 30, 0);
+  drawing.expect_edge({-112, 258});
+  EXPECT_TRUE(drawing.is_drawn({-90, 250}));
+  const Point inner_knot = 0.25 * Point{-245, 80} + 0.5 * Point{-292, 65} + 0.25 * Point{-280, 22};
+  drawing.expect_edge(inner_knot);
+  EXPECT_TRUE(drawing.is_drawn({-260, 50}));
+  drawing.expect_edge({262, -130});  // on the arc
+  drawing.expect_edge({227, -150.5});
+  EXPECT_TRUE(drawing.is_drawn({240, -135}));
+}
+
+TEST(WrittenBy, FreeCad) {
+  const WrittenByAProgram dxf("freecad.dxf", 2e-3);  // six digits
+  // The rounded ends of half circles move their centres by the root of the rounding.
+  const WrittenByAProgram svg("freecad.svg", 0.1, {{}, Point{301.79402, 266.936288}});
+  for (const WrittenByAProgram* drawing : {&dxf, &svg}) {
+    EXPECT_EQ(drawing->n_loops(), 7u);
+    drawing->expect_ellipse(at_degrees(270, 10), 30, 30, 0);
+    drawing->expect_ellipse(at_degrees(270, 60), 35, 20, 0);
+    const Point slot = at_degrees(265, 110), spline = at_degrees(268, 170), corner = at_degrees(265, 330);
+    for (const Point& x : {Point{32, 0}, Point{-32, 0}, Point{0, 12}, Point{5, -12}})
+      drawing->expect_edge(slot + x);
+    for (const Point& x : {Point{30, 0}, Point{5, 22}, Point{-28, 6}, Point{-10, -24}})
+      drawing->expect_edge(spline + x);
+    for (const Point& x : {Point{-30, -15}, Point{25, -20}, Point{20, 22}}) drawing->expect_edge(corner + x);
+    for (const Point& x : {slot, spline, corner}) EXPECT_TRUE(drawing->is_drawn(x));
+  }
+  // FreeCAD approximates rational splines before it writes them, by 2 micrometres at best.
+  const WrittenByAProgram approximated("freecad.dxf", 0.02);
+  approximated.expect_ellipse(at_degrees(270, 230), 28, 28, 0);
+  approximated.expect_ellipse(at_degrees(270, 280), 33, 18, 0);
+}
+
+TEST(WrittenBy, Ezdxf) {
+  const WrittenByAProgram drawing("ezdxf.dxf", 1e-6);
+  EXPECT_EQ(drawing.n_loops(), 4u);  // without the hatch
+  drawing.expect_ellipse(at_degrees(270, 15), 30, 30, 0);
+  drawing.expect_ellipse(at_degrees(270, 75), 25, 25, 0);
+  drawing.expect_ellipse(at_degrees(265, 250), 30, 30, 0);
+  const Point centre = at_degrees(265, 140);
+  for (const double t : {0.2, 0.5, 0.7}) {
+    const double w0 = (1 - t) * (1 - t), w1 = 3 * 2 * t * (1 - t), w2 = t * t;
+    drawing.expect_edge(centre +
+                        1 / (w0 + w1 + w2) * (w0 * Point{30, 0} + w1 * Point{0, 40} + w2 * Point{-30, 0}));
+  }
+}
+
 TEST(Spline, PiecesAreTheCurveOfItsBasisFunctions) {
   // The basis functions by their recursion (Cox and de Boor).
   const std::function<double(const std::vector<double>&, int, int, double)> basis =
@@ -309,6 +414,43 @@ TEST(Spline, PiecesAreTheCurveOfItsBasisFunctions) {
         EXPECT_NEAR(distance(pieces[k].at(s), expected), 0, 1e-12);
       }
   }
+}
+
+TEST(Spline, RationalPiecesAreTheCurveOfTheirWeights) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> number(-1, 1);
+  for (const int degree : {1, 2, 3})
+    for (int k = 0; k < 20; ++k) {
+      std::vector<Point> points;
+      std::vector<double> weights, knots(degree + 1, 0.0);
+      for (int i = 0; i < degree + 3; ++i) {
+        points.push_back({number(random), number(random)});
+        weights.push_back(std::exp(2 * number(random)));
+      }
+      for (int i = 1; i < 3; ++i) knots.push_back(i);
+      knots.insert(knots.end(), degree + 1, 3.0);
+      // The polynomial spline of each homogeneous coordinate, as the first coordinate of a curve.
+      const auto coordinate = [&](const auto& value) {
+        std::vector<Point> graph;
+        for (std::size_t i = 0; i < points.size(); ++i) graph.push_back({value(i), 0});
+        return spline_pieces(degree, knots, graph);
+      };
+      const auto x = coordinate([&](std::size_t i) { return weights[i] * points[i][0]; }),
+                 y = coordinate([&](std::size_t i) { return weights[i] * points[i][1]; }),
+                 w = coordinate([&](std::size_t i) { return weights[i]; });
+      std::vector<Curve> pieces;
+      for (const Curve& curve : rational_spline_pieces(degree, knots, points, weights))
+        std::ranges::copy(simple_pieces(curve), std::back_inserter(pieces));
+      for (std::size_t i = 0; i + 1 < pieces.size(); ++i) EXPECT_EQ(pieces[i].end(), pieces[i + 1].start());
+      for (std::size_t piece = 0; piece < x.size(); ++piece)
+        for (const double s : {0.0, 0.13, 0.5, 0.81, 1.0}) {
+          const double weight = w[piece].at(s)[0];
+          const Point exact{x[piece].at(s)[0] / weight, y[piece].at(s)[0] / weight};
+          double nearest = 1;
+          for (const Curve& curve : pieces) nearest = std::min(nearest, curve.nearest(exact).distance2);
+          EXPECT_LE(std::sqrt(nearest), 3e-8) << degree << ' ' << k;
+        }
+    }
 }
 
 // --- Pictures
@@ -589,7 +731,7 @@ std::vector<BadFile> bad_files() {
       {"radius.dxf", dxf("0\nCIRCLE\n10\n270\n20\n0\n40\nr20\n"), 15, path, ""},
       {"spline.dxf", dxf("0\nSPLINE\n71\n3\n40\n0\n40\n1\n10\n250\n20\n0\n"), 15, path, ""},
       {"rational.dxf",
-       dxf("0\nSPLINE\n71\n1\n40\n0\n40\n0\n40\n1\n40\n1\n10\n250\n20\n0\n10\n290\n20\n0\n41\n1\n41\n2\n"),
+       dxf("0\nSPLINE\n71\n1\n40\n0\n40\n0\n40\n1\n40\n1\n10\n250\n20\n0\n10\n290\n20\n0\n41\n1\n41\n-2\n"),
        15, path, ""},
       {"tilted.dxf", dxf("0\nCIRCLE\n10\n270\n20\n0\n40\n20\n210\n1\n220\n0\n230\n0\n"), 15, path, ""},
       {"in_metres.dxf", dxf("0\nCIRCLE\n10\n270\n20\n0\n40\n20\n", 6), 5, "shape.file[1]", ""},
@@ -605,39 +747,56 @@ std::vector<BadFile> bad_files() {
   };
 }
 
+std::string array_of(const BadFile& bad) {
+  return bad.name.ends_with(".png") ? "shape.picture" : "shape.file";
+}
+
+/// A case with the file as its only shape.
+std::string case_of(const BadFile& bad) {
+  const bool counts = array_of(bad) == "shape.file" && bad.more.find("count") == std::string::npos;
+  return fmt::format("[wheel]\nsectors = 16\n[grid]\nangular_cells = 384\n[[{}]]\npath = \"{}\"\n{}{}",
+                     array_of(bad), bad.name, counts ? "count = 16\n" : "", bad.more);
+}
+
 TEST_F(DrawingInACase, BadFilesAreRefusedWithTheirPlace) {
   const auto files = bad_files();
   EXPECT_GE(files.size(), 30u);
   for (const BadFile& bad : files) {
     SCOPED_TRACE(bad.name);
     write(bad.name, bad.bytes);
-    const bool is_picture = bad.name.ends_with(".png");
-    const std::string array = is_picture ? "shape.picture" : "shape.file";
-    const bool own_count = bad.more.find("count") != std::string::npos;
-    const CaseResult result =
-        read(fmt::format("[wheel]\nsectors = 16\n[grid]\nangular_cells = 384\n[[{}]]\npath = \"{}\"\n{}{}",
-                         array, bad.name, own_count || is_picture ? "" : "count = 16\n", bad.more));
+    const CaseResult result = read(case_of(bad));
     EXPECT_FALSE(result.value);
     ASSERT_FALSE(result.problems.empty());
     const Diagnostic& first = result.problems[0];
     const bool in_drawing = bad.key == "path";
     EXPECT_EQ(first.file, (folder() / (in_drawing ? bad.name : "case.toml")).string()) << first.text();
     EXPECT_EQ(first.line, bad.line) << first.text();
-    EXPECT_EQ(first.key, in_drawing ? array + "[1].path" : bad.key) << first.text();
+    EXPECT_EQ(first.key, in_drawing ? array_of(bad) + "[1].path" : bad.key) << first.text();
     EXPECT_FALSE(first.problem.empty());
   }
 }
 
-TEST_F(DrawingInACase, ABadFileEndsTheProgramWithCode2AndNothingIsWritten) {
+TEST_F(DrawingInACase, BadFilesEndTheProgramWithCode2TheirPlaceAndNothingWritten) {
+  const auto program = fs::read_symlink("/proc/self/exe").parent_path() / "wheelwright";
+  const auto code = [&](const std::string& command) {
+    return WEXITSTATUS(std::system(fmt::format("cd '{}' && '{}' {} case.toml >out.txt 2>&1",
+                                               folder().string(), program.string(), command)
+                                       .c_str()));
+  };
+  for (const BadFile& bad : bad_files()) {
+    SCOPED_TRACE(bad.name);
+    write(bad.name, bad.bytes);
+    write("case.toml", case_of(bad));
+    EXPECT_EQ(code("check"), 2);
+    const bool in_drawing = bad.key == "path";
+    const std::string place =
+        (in_drawing ? bad.name : "case.toml") + (bad.line ? fmt::format(":{}:", bad.line) : ":");
+    EXPECT_NE(content(folder() / "out.txt").find(place), std::string::npos) << content(folder() / "out.txt");
+  }
   write("open.svg", svg("<path d='M 250,0 L 290,0 L 290,20'/>"));
   write("case.toml", "[[shape.file]]\npath = \"open.svg\"\ncount = 16\n");
-  const auto program = fs::read_symlink("/proc/self/exe").parent_path() / "wheelwright";
-  for (const char* command : {"check", "run", "analyze", "verify"}) {
-    const int status = std::system(fmt::format("cd '{}' && '{}' {} case.toml >out.txt 2>&1",
-                                               folder().string(), program.string(), command)
-                                       .c_str());
-    EXPECT_EQ(WEXITSTATUS(status), 2) << command;
-  }
+  for (const char* command : {"run", "analyze", "verify", "compare", "export"})
+    EXPECT_EQ(code(command), 2) << command;
   EXPECT_FALSE(fs::exists(folder() / "runs"));
 }
 

@@ -5,6 +5,8 @@
 #include "wheelwright/case/read.h"
 #include "wheelwright/cut/measure.h"
 #include "wheelwright/drawing/parts.h"
+#include "wheelwright/files/atomic_file.h"
+#include "wheelwright/files/level_set_file.h"
 #include "wheelwright/geometry/contour.h"
 #include "wheelwright/run/command_json.h"
 #include "wheelwright/run/command_log.h"
@@ -92,7 +94,7 @@ TEST(HoleContours, AreFoundByAnyPointOfTheHoleInAnySector) {
 class EditTest : public TemporaryFolder {
  protected:
   struct Seen {
-    std::vector<LevelSet<2>> shapes;
+    std::vector<LevelSet<2>> shapes, proposed;
     std::vector<double> measures, objectives;
     std::vector<std::string> refused;
   };
@@ -103,6 +105,8 @@ class EditTest : public TemporaryFolder {
     void operator()(const Event<2>& event, const RunView<2>&) override {
       if (const auto* command = std::get_if<CommandDone>(&event); command && !command->was_obeyed)
         seen_.refused.push_back(command->text);
+      if (const auto* proposed = std::get_if<ShapeProposed<2>>(&event))
+        seen_.proposed.push_back(proposed->shape);
       const auto* done = std::get_if<TrialDone<2>>(&event);
       if (!done || done->trial.verdict != Verdict::accepted) return;
       seen_.shapes.push_back(done->state.shape);
@@ -171,6 +175,49 @@ TEST_F(EditTest, PaintedHolesAndUndoAndReset) {
   EXPECT_EQ(seen.shapes[8].values, seen.shapes[6].values);
 }
 
+// Observers see a shape before it is solved, and the same one afterwards; a case that changes proposes none.
+TEST_F(EditTest, ShapesAreProposedBeforeTheyAreSolved) {
+  const Paint hole{.as = Fill::hole, .path = {polar(0.262, 0.95)}, .radius = 0.015};
+  const Seen seen = after({hole, Reset{}, NewVolume{0.9}});
+  ASSERT_EQ(seen.shapes.size(), 4U);
+  ASSERT_EQ(seen.proposed.size(), 2U);
+  EXPECT_EQ(seen.proposed[0].values, seen.shapes[1].values);
+  EXPECT_EQ(seen.proposed[1].values, seen.shapes[2].values);
+}
+
+TEST_F(EditTest, TheShapeOfAnotherRunIsTakenToTheLastBit) {
+  const Paint hole{.as = Fill::hole, .path = {polar(0.262, 0.95)}, .radius = 0.015};
+  const Seen other = after({hole});
+  ASSERT_EQ(other.shapes.size(), 2U);
+  LevelSet<2> of_other_wheel = other.shapes[1];
+  PolarGrid<2> grid = of_other_wheel.lattice.grid();
+  grid.outer_radius *= 1.01;
+  of_other_wheel.lattice = Lattice<2>(grid, of_other_wheel.lattice.degree());
+  const fs::path file = folder() / "shape", larger = folder() / "larger", damaged = folder() / "damaged";
+  write_atomically(file, level_set_file(other.shapes[1]));
+  write_atomically(larger, level_set_file(of_other_wheel));
+  write_atomically(damaged, level_set_file(other.shapes[1]).substr(9));
+  fs::remove_all(folder() / "run");
+  const Seen seen =
+      after({TakeShape{file.string()}, Undo{}, TakeShape{larger.string()}, TakeShape{damaged.string()},
+             TakeShape{(folder() / "none").string()}, TakeShape{folder().string()}});
+  EXPECT_EQ(seen.refused.size(), 4U);
+  ASSERT_EQ(seen.shapes.size(), 3U);
+  EXPECT_EQ(seen.shapes[1].values, other.shapes[1].values);
+  EXPECT_EQ(seen.objectives[1], other.objectives[1]);
+  EXPECT_EQ(seen.shapes[2].values, seen.shapes[0].values);
+}
+
+TEST_F(EditTest, WidthsAndBoundsThatACaseCouldNotHaveAreRefused) {
+  const Seen seen =
+      after({NewWidths{.minimum_wall = 0.004, .minimum_gap = 0.003}, NewWidths{.minimum_wall = 10},
+             NewWidths{.minimum_gap = -1}, NewBound{.constraint = 0, .at_most = 1},
+             NewBound{.constraint = -1, .at_most = 1}, NewWidths{.minimum_wall = 0}});
+  EXPECT_EQ(seen.refused.size(), 4U);
+  ASSERT_EQ(seen.objectives.size(), 3U);
+  EXPECT_EQ(seen.objectives[1], seen.objectives[0]);
+}
+
 TEST_F(EditTest, WhatCannotBeIsRefusedAndChangesNothing) {
   Paint cut{.as = Fill::hole, .path = {}, .radius = 0.012};  // all round the wheel
   for (int k = 0; k <= 40; ++k) cut.path.push_back(polar(0.265, 2 * pi / 5 * k / 40));
@@ -205,6 +252,9 @@ TEST(CommandJson, EveryCommandReadsBackTheSame) {
       NewWeights{.strain_energy = 0.1, .uniformity_dual = 1e5},
       NewLoad{load},
       NewVolume{2.0 / 3},
+      NewWidths{.minimum_wall = 0.1 + 0.2, .minimum_gap = 0},
+      NewBound{.constraint = 2, .at_least = -1.0 / 3, .at_most = 1e-300},
+      TakeShape{"designs/\"003\"/shape.levelset"},
       Paint{.as = Fill::material, .path = {{0.1, -0.2}, {1.0 / 7, 0.3}}, .radius = 0.01},
       MoveHole{.at = {0.25, 1e-17}, .by = {-0.001, 0.002}, .scale = 0.9},
       FillHole{.at = {0.25, -0.01}}};

@@ -25,9 +25,9 @@ HertzContact squeeze_disc(double load, const Material& material, int radial_cell
   EXPECT_TRUE(tread);
   const SectorHarmonics half_turn(1);
   const CutDomain<2> full{grid, std::vector<CellKind>(grid.n_cells(), CellKind::inside), {}, {}};
-  const auto ring =
-      CyclicStiffness<2>::factor(sector_stiffness<2>(full, table, radial_cells - refinement.rows),
-                                 tread->outer_stiffness(half_turn), half_turn);
+  const auto ring = CyclicStiffness<2>::factor(
+      sector_stiffness<2>(full, table, radial_cells - refinement.rows),
+      [&](int harmonic) { return tread->outer_stiffness(half_turn, harmonic); }, half_turn);
   EXPECT_TRUE(ring);
   const ReducedContact<2> contact({*ring, *tread, 3}, *tread, grid, {0}, {-2, 4},
                                   {{}, {{{.towards_ground = 1}, load}}});

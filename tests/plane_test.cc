@@ -3,7 +3,6 @@
 #include <numeric>
 
 #include "tests/support.h"
-#include "wheelwright/analysis/strain_peaks.h"
 #include "wheelwright/case/case.h"
 #include "wheelwright/functionals/uniformity_annulus.h"
 #include "wheelwright/functionals/uniformity_dual.h"
@@ -59,15 +58,14 @@ TEST(PlaneStress, IsPlaneStrainOfTheEquivalentMaterial) {
   const auto s = testing::all_states<2>(*in_stress, psi), t = testing::all_states<2>(*in_strain, psi);
   ASSERT_TRUE(s && t);
   for (int i = 0; i < (*s)->positions().size(); ++i) {
-    const auto u = (*s)->displacement()->at_nodes(i), v = (*t)->displacement()->at_nodes(i);
+    const auto u = (*s)->displacement().at_nodes(i), v = (*t)->displacement().at_nodes(i);
     for (size_t k = 0; k < u.values.size(); ++k) {
       if (!std::isnan(v.values[k])) {
         EXPECT_NEAR(u.values[k], v.values[k], 1e-13);
       }
     }
   }
-  const auto stresses = strain_peaks<2>(*in_stress, **s).von_mises,
-             others = strain_peaks<2>(*in_strain, **t).von_mises;
+  const auto stresses = (*s)->strain_peaks().von_mises, others = (*t)->strain_peaks().von_mises;
   for (size_t i = 0; i < stresses.size(); ++i) EXPECT_GT(stresses[i], 1.01 * others[i]);
 }
 
@@ -91,7 +89,7 @@ TEST(PlaneStress, PeakOfVonMisesIsThatOfThreeDimensions) {
     const LevelSet<2> psi = generic_hole(problem->model().grid);
     const auto state = testing::all_states<2>(*problem, psi);
     ASSERT_TRUE(state);
-    const auto displacement = (*state)->displacement();
+    const Displacement<2>& displacement = (*state)->displacement();
     const PolarGrid<2>& grid = problem->model().grid;
     const int n_positions = (*state)->positions().size();
     const auto full = unit_cell_rule<2>(problem->model().degree + 1);
@@ -99,7 +97,7 @@ TEST(PlaneStress, PeakOfVonMisesIsThatOfThreeDimensions) {
     const auto visit = [&](int cell, const std::vector<ReferencePoint<2>>& points) {
       std::vector<Vec<2>> xi;
       for (const auto& point : points) xi.push_back(point.xi);
-      const Matrix strains = displacement->strains(cell, xi);
+      const Matrix strains = displacement.strains(cell, xi);
       for (int j = 0; j < strains.columns(); ++j)
         for (int row = 0; row < strains.rows(); row += 3) {
           const double* e = strains.column(j) + row;
@@ -111,7 +109,7 @@ TEST(PlaneStress, PeakOfVonMisesIsThatOfThreeDimensions) {
     for (int cell = 0; cell < grid.n_cells(); ++cell)
       if ((*state)->domain().kinds[cell] == CellKind::inside) visit(cell, full);
     for (const auto& cut : (*state)->domain().cut) visit(cut.cell, cut.material);
-    const auto peaks = strain_peaks<2>(*problem, **state).von_mises;
+    const auto peaks = (*state)->strain_peaks().von_mises;
     for (int i = 0; i < n_positions; ++i) EXPECT_NEAR(peaks[i], expected[i], 1e-10 * expected[i]);
   }
 }

@@ -232,7 +232,7 @@ TEST(Quantities, AreTheNumbersOfTheAnalysis) {
     ASSERT_TRUE(state) << state.failure().detail;
     const auto summary = shape_summary<2>(*problem, psi, **state);
     const auto contacts = contact_summaries<2>(**state);
-    const auto peaks = strain_peaks<2>(*problem, **state);
+    const auto& peaks = (*state)->strain_peaks();
     const auto value = [&](Quantity quantity, Over over) {
       const auto result = quantity_functional<2>(quantity, over, {})->evaluate(*problem, psi, **state, {});
       return result.over_positions ? *result.over_positions : result.by_position.at(2);
@@ -332,8 +332,8 @@ TEST(Quantities, TheTravelsDerivativeFollowsFromTheEnergys) {
   for (size_t q = 0; q < evaluation->boundary.size(); ++q) {
     double density = 0;
     const auto& point = evaluation->boundary[q];
-    const auto displacement = (*state)->displacement();
-    for_each_strain<2>(displacement->strains(point.cell, std::span(&point.xi, 1)),
+    const Displacement<2>& displacement = (*state)->displacement();
+    for_each_strain<2>(displacement.strains(point.cell, std::span(&point.xi, 1)),
                        [&](int, int, const Voigt<2>& e) {
                          const Voigt<2> sigma = stress<2>(model.materials.at_tread(), e);
                          density += 0.5 * (sigma[0] * e[0] + sigma[1] * e[1] + sigma[2] * e[2]);

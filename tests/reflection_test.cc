@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include "tests/support.h"
-#include "wheelwright/analysis/strain_peaks.h"
 #include "wheelwright/geometry/mirror.h"
 #include "wheelwright/report/solution_fields.h"
 #include "wheelwright/report/tread_contact.h"
+#include "wheelwright/state/strain_peaks.h"
 
 namespace wheelwright {
 namespace {
@@ -177,7 +177,7 @@ TEST(WheelWithoutSymmetry, HasNoReflectedPositions) {
   const auto fields = all_position_fields(*problem, **states);
   ASSERT_EQ(fields.size(), 4u);
   for (int i = 0; i < 4; ++i)
-    EXPECT_EQ(fields[i].displacement.values[5], (*states)->displacement()->at_nodes(i).values[5]);
+    EXPECT_EQ(fields[i].displacement.values[5], (*states)->displacement().at_nodes(i).values[5]);
   // The images would be others.
   const RingField image = mirror_image<2>(fields[1].lattice, fields[1].displacement);
   double difference = 0;

@@ -202,9 +202,11 @@ class PressedRing {
   Expected<CyclicStiffness<2>> factor() const {
     const RollingModel<2>& model = problem_.model();
     const SectorHarmonics harmonics(model.grid.n_sectors);
-    auto outer_stiffness = problem_.tread().outer_stiffness(harmonics);
-    for (ComplexMatrix& k : outer_stiffness)
+    const auto outer_stiffness = [&](int harmonic) {
+      ComplexMatrix k = problem_.tread().outer_stiffness(harmonics, harmonic);
       for (int azimuthal = 1; azimuthal < k.rows(); azimuthal += 2) k(azimuthal, azimuthal) += 1e8;
+      return k;
+    };
     return CyclicStiffness<2>::factor(sector_stiffness(domain_, problem_.elements(), problem_.core_rows()),
                                       outer_stiffness, harmonics);
   }

@@ -1,3 +1,7 @@
+#include <sys/wait.h>
+
+#include <numbers>
+
 #include "tests/run_support.h"
 #include "wheelwright/app/commands/commands.h"
 #include "wheelwright/case/load_saved_shape.h"
@@ -10,6 +14,8 @@
 
 namespace wheelwright::testing {
 namespace {
+
+using std::numbers::pi;
 
 /// A wheel without mirror symmetry, in 4 sectors.
 const std::string uneven_wheel = R"(
@@ -81,6 +87,25 @@ TEST_F(SavedShape, IsTheSameOnTheSameGrid) {
   EXPECT_EQ(second.state->evaluation.function("objective").value, before);
 }
 
+TEST_F(SavedShape, ARunBeginsWithTheLastShapeOfAnother) {
+  const fs::path first = folder() / "first", second = folder() / "second";
+  run(read(uneven_wheel + uneven_holes + small_grid + optimizer(3)), "first");
+  const auto program = fs::read_symlink("/proc/self/exe").parent_path() / "wheelwright";
+  const auto code = [&](const std::string& arguments) {
+    return WEXITSTATUS(std::system(
+        fmt::format("cd '{}' && '{}' run {} >out.txt 2>&1", folder().string(), program.string(), arguments)
+            .c_str()));
+  };
+  ASSERT_EQ(code("first --output second --iterations 0"), 0) << content(folder() / "out.txt");
+  EXPECT_EQ(content(first / saved_shape_file), content(second / saved_shape_file));
+  EXPECT_EQ(code("first"), 2);  // where to?
+  EXPECT_EQ(code("first/shape.levelset --output third"), 2);
+  EXPECT_NE(content(folder() / "out.txt").find("no load"), std::string::npos);
+  fs::remove(first / saved_shape_file);
+  EXPECT_EQ(code("first --output third"), 2);
+  EXPECT_FALSE(fs::exists(folder() / "third"));
+}
+
 TEST_F(SavedShape, StaysInTheFolderOfTheRunThatBeginsWithIt) {
   run(read(uneven_wheel + uneven_holes + small_grid + optimizer(1)), "first");
   const Case c = read(uneven_wheel + "[shape]\nfrom = \"first\"\n" + small_grid + optimizer(1));
@@ -120,18 +145,36 @@ TEST_F(SavedShape, OnAnotherGridDiffersByWhatTheGridsDoAndNotMore) {
   EXPECT_NEAR(change->there, change->here, 1e-3);
 }
 
+/// The area that two circles share, whose centres are `apart`.
+double shared_area(double apart, double r, double s) {
+  if (apart + std::min(r, s) <= std::max(r, s)) return pi * std::min(r * r, s * s);
+  const double a = std::acos((apart * apart + r * r - s * s) / (2 * apart * r)),
+               b = std::acos((apart * apart + s * s - r * r) / (2 * apart * s));
+  return r * r * (a - 0.5 * std::sin(2 * a)) + s * s * (b - 0.5 * std::sin(2 * b));
+}
+
 TEST_F(SavedShape, IsCutOffAtTheBands) {
   run(read(uneven_wheel + uneven_holes + small_grid + optimizer(0)), "first");
-  const Case c = read(uneven_wheel + "[shape]\nfrom = \"first\"\n" + small_grid +
-                      "[optimizer]\nrim_band = 0.035\ntread_band = 0.04\n");
-  const LevelSet<2> shape = initial_shape<2>(c);
-  for (int i = 0; i < shape.lattice.n_nodes(); ++i) {
-    const double r = shape.lattice.polar_point(i)[0];
-    if (r < 0.2349 || r > 0.3001) {
-      EXPECT_LE(shape.values[i], 0);
+  // Bands on lines of the grid, whose cells are 10 mm, in the middle of cells, and anywhere.
+  for (const auto& [rim, tread] : {std::pair{0.035, 0.04}, {0.04, 0.0425}, {0.0371, 0.0483}}) {
+    SCOPED_TRACE(rim);
+    const Case c = read(uneven_wheel + "[shape]\nfrom = \"first\"\n" + small_grid +
+                        fmt::format("[optimizer]\nrim_band = {}\ntread_band = {}\n", rim, tread));
+    const LevelSet<2> shape = initial_shape<2>(c);
+    for (int i = 0; i < shape.lattice.n_nodes(); ++i) {
+      const double r = shape.lattice.polar_point(i)[0];
+      if (r < 0.2 + rim - 1e-4 || r > 0.34 - tread + 1e-4) {
+        EXPECT_LE(shape.values[i], 0);
+      }
     }
+    // The segments of the two holes beyond the bands become material again.
+    const double inner_hole = shared_area(std::hypot(0.245, 0.06), 0.022, 0.2 + rim),
+                 outer_hole = pi * 0.03 * 0.03 - shared_area(std::hypot(0.17, 0.22), 0.03, 0.34 - tread);
+    const double more = (inner_hole + outer_hole) / (pi / 4 * (0.34 * 0.34 - 0.2 * 0.2));
+    const auto change = volume_change_of_saved_shape<2>(c);
+    EXPECT_GT(more, 4e-3);
+    EXPECT_NEAR(change->here - change->there, more, 0.05 * more);
   }
-  EXPECT_NEAR(volume_change_of_saved_shape<2>(c)->here, volume_change_of_saved_shape<2>(c)->there, 0.01);
 }
 
 TEST_F(SavedShape, WhatDoesNotFitIsRefusedWithItsPlace) {
@@ -148,6 +191,7 @@ TEST_F(SavedShape, WhatDoesNotFitIsRefusedWithItsPlace) {
   expect(problem("first", uneven_wheel + uneven_holes), "cannot be drawn over");
   expect(problem("first", uneven_wheel, "[[shape.circle]]\ncount = 4\ncenter_radius = 0.27\nradius = 0.02\n"),
          "cannot be drawn over");
+  expect(problem("first", "[wheel]\nsectors = 4\ndimension = 3\n"), "only wheels in the plane");
   const LevelSet<3> solid{Lattice<3>({0.2, 0.34, 0.12, 4, {2, 4, 1}}, 1),
                           std::vector<double>(3 * 4 * 2, -1.0)};
   std::ofstream(folder() / "solid", std::ios::binary) << level_set_file(solid);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <numbers>
 
 #include "wheelwright/case/derived.h"
@@ -10,6 +11,7 @@
 #include "wheelwright/case/write.h"
 #include "wheelwright/cut/measure.h"
 #include "wheelwright/drawing/parts.h"
+#include "wheelwright/run/loose_material.h"
 #include "wheelwright/run/study.h"
 
 using namespace wheelwright;
@@ -160,6 +162,32 @@ TEST(Shapes, SpokesMeetRimAndTreadOnTheirWholeThickness) {
       EXPECT_LE(norm<2>(curve.at(0.5)), high + 1e-12);
     }
   }
+}
+
+TEST(Shapes, MaterialThatNothingHoldsIsFoundWithItsPlaceAndSize) {
+  const std::string hole =
+      "[wheel]\nsectors = 9\n[grid]\nangular_cells = 378\n[[shape.circle]]\ncount = 9\n"
+      "center_radius = 0.265\nradius = 0.04\nphase = 7\n";
+  const auto loose = [](const std::string& text) {
+    return loose_material(*parse_case(text, "case.toml").value);
+  };
+  EXPECT_TRUE(loose(hole).empty());
+  const auto found = loose(hole +
+                           "[[shape.circle]]\nas = \"material\"\ncount = 9\ncenter_radius = 0.27\n"
+                           "radius = 0.02\nphase = 9\n");
+  ASSERT_EQ(found.size(), 1u);
+  const auto expected = [&](const char* before, double value, double tolerance) {
+    const auto at = found[0].find(before);
+    ASSERT_NE(at, std::string::npos) << found[0];
+    EXPECT_NEAR(std::strtod(found[0].c_str() + at + std::strlen(before), nullptr), value, tolerance);
+  };
+  expected("material of ", std::numbers::pi * 20 * 20, 12);  // [mm^2]
+  expected("azimuth ", 9, 0.1);
+  expected("radius ", 270, 0.5);
+  // Held by a bridge to the edge of the hole it is not loose.
+  EXPECT_TRUE(loose(hole + "[[shape.circle]]\nas = \"material\"\ncount = 9\ncenter_radius = 0.287\n"
+                           "radius = 0.02\nphase = 9\n")
+                  .empty());
 }
 
 TEST(Shapes, AWholeWheelIsItsSectorsOnTheSameGrid) {

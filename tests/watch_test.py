@@ -1,5 +1,6 @@
 """Tests of the page of `wheelwright watch` in a browser. usage: watch_test.py PROGRAM, from the repository's top folder."""
 
+import contextlib
 import http.client
 import json
 import re
@@ -19,6 +20,7 @@ except ImportError:
     print("The tests of the page were skipped: they need chromium, chromium-driver and python3-selenium.")
     sys.exit(77)
 
+import design_on_page
 import support
 
 program = sys.argv.pop(1)
@@ -54,23 +56,24 @@ class Watched:
         self.base, self.token = self.address.split("/#")
 
     def connect(self):
-        return http.client.HTTPConnection(self.base.removeprefix("http://"), timeout=60)
+        return http.client.HTTPConnection(self.base.removeprefix("http://"), timeout=180)
+
+    def ask(self, method, path, body=None):
+        with contextlib.closing(self.connect()) as connection:
+            connection.request(method, path, body, {"Authorization": f"Bearer {self.token}"})
+            return connection.getresponse().read()
 
     def get(self, path):
-        connection = self.connect()
-        connection.request("GET", path, headers={"Authorization": f"Bearer {self.token}"})
-        return connection.getresponse().read()
+        return self.ask("GET", path)
 
     def frame(self, path="/frame?after=0"):
         return json.loads(self.get(path))
 
     def give(self, command):
-        connection = self.connect()
-        connection.request("POST", "/command", json.dumps(command), {"Authorization": f"Bearer {self.token}"})
-        return json.loads(connection.getresponse().read())
+        return json.loads(self.ask("POST", "/command", json.dumps(command)))
 
     def wait(self, wanted):
-        version, until = 0, time.time() + 60
+        version, until = 0, time.time() + 180
         while time.time() < until:
             frame = self.frame(f"/frame?after={version}")
             if wanted(frame):
@@ -81,22 +84,28 @@ class Watched:
     def end(self, number=signal.SIGINT):
         if self.process.poll() is None:
             self.process.send_signal(number)
-        output = self.process.communicate(timeout=60)
+        output = self.process.communicate(timeout=180)
         return self.process.returncode, *output
 
 
-class Page(unittest.TestCase):
+class PageTest(unittest.TestCase):
+    """A page of a run in a browser."""
+
+    case = CASE
+    arguments = []
+
     @classmethod
     def setUpClass(cls):
         cls.temporary = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.temporary.cleanup)
         cls.folder = Path(cls.temporary.name)
-        (cls.folder / "case.toml").write_text(CASE)
+        (cls.folder / "case.toml").write_text(cls.case)
         cls.browser = support.open_browser(1300, 1600)
         cls.addClassCleanup(cls.browser.quit)
 
     def setUp(self):
-        self.watched = Watched(self.folder / "case.toml", "--output", self.folder / self._testMethodName)
+        self.watched = Watched(self.folder / "case.toml", "--output", self.folder / self._testMethodName,
+                               *self.arguments)
         self.addCleanup(self.watched.end)
         self.browser.get("about:blank")
         self.browser.get_log("browser")
@@ -108,7 +117,7 @@ class Page(unittest.TestCase):
         severe = [entry for entry in self.browser.get_log("browser") if entry["level"] == "SEVERE"]
         self.assertEqual(severe, [])
 
-    def until(self, wanted, seconds=60):
+    def until(self, wanted, seconds=180):
         end = time.time() + seconds
         while True:
             found = wanted()
@@ -139,6 +148,10 @@ class Page(unittest.TestCase):
         """Pauses, also where the run waits because it settled."""
         self.watched.give({"do": "pause"})
         self.until(lambda: self.text("go") == "Go on")
+
+
+class Page(PageTest):
+    """The page of a plane wheel."""
 
     def test_the_page_asks_nobody_else_and_shows_no_token(self):
         self.settled()
@@ -244,6 +257,16 @@ class Page(unittest.TestCase):
         wanted = float(self.element("force-number").get_attribute("value"))
         self.watched.wait(lambda f: f["settings"]["load"]["force_N"] == wanted)
 
+    def test_walls_and_bounds_follow_their_sliders(self):
+        self.settled()
+        self.type("wall-number", "12")
+        self.watched.wait(lambda f: f["settings"]["minimum_wall_m"] == 0.012)
+        self.element("wall").send_keys(Keys.HOME)
+        self.watched.wait(lambda f: f["settings"]["minimum_wall_m"] == 0)
+        self.type("gap-number", "1000")
+        self.until(lambda: "refused" in self.element("message").get_attribute("class"))
+        self.assertIn("the ring is only", self.text("message"))
+
     def test_the_load_position_is_chosen(self):
         self.settled()
         pressure = "return JSON.stringify(Chart.getChart(document.querySelectorAll('#charts canvas')[2]).data.datasets[0].data)"
@@ -294,7 +317,8 @@ class Page(unittest.TestCase):
         """The volume before and after something that the user does to a paused wheel."""
         before = self.watched.frame()
         act()
-        after = self.watched.wait(lambda f: f["message"] != before["message"] or f["outline"] != before["outline"])
+        after = self.watched.wait(lambda f: not f["is_proposed"] and
+                                  (f["message"] != before["message"] or f["outline"] != before["outline"]))
         self.assertFalse(after["is_refusal"], after["message"])
         self.until(lambda: int(self.wheel("version")) >= after["version"])
         return before, self.watched.frame()
@@ -389,6 +413,163 @@ class Page(unittest.TestCase):
         # Of a group of radio buttons the chosen one takes the focus.
         radios = {e.get_attribute("id") for e in self.browser.find_elements(By.CSS_SELECTOR, "input[type=radio]")}
         self.assertLessEqual(wanted - radios, seen)
+
+
+class BoundedPage(PageTest):
+    """The page of a wheel with a bound, and of designs to choose from."""
+
+    case = CASE + """
+[[constraint]]
+quantity = "mean_travel"
+at_most = 1e-3
+"""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        case = cls.folder / "sweep.toml"
+        case.write_text(CASE + "iterations = 3\n")
+        support.run_program(program, "sweep", case, "objective.uniformity_dual=0,1e5", "--output", cls.folder / "designs")
+        cls.arguments = ["--designs", cls.folder / "designs"]
+
+    def test_a_bound_follows_its_slider(self):
+        self.type("bound-0-at_most-number", "0.0009")
+        self.watched.wait(lambda f: f["settings"]["bounds"] == [{"quantity": "mean_travel", "at_most": 9e-4}])
+        self.until(lambda: "new bound" in self.text("message"))
+        self.element("bound-0-at_most").send_keys(Keys.ARROW_RIGHT)
+        self.watched.wait(lambda f: f["settings"]["bounds"][0]["at_most"] > 9e-4)
+
+    def test_a_design_is_chosen_by_mouse_and_keyboard(self):
+        self.until(lambda: self.element("designs").is_displayed())
+        self.paused()
+        own = self.watched.frame()["outline"]
+        places = self.browser.execute_script(
+            "return Chart.getChart('front').getDatasetMeta(0).data.map((p) => [p.x, p.y])")
+        self.assertEqual(len(places), 2)
+        front, outlines = self.element("front"), []
+        for x, y in places:
+            size = front.size
+            ActionChains(self.browser).move_to_element_with_offset(
+                front, round(x - size["width"] / 2), round(y - size["height"] / 2)).click().perform()
+            name = self.element("design").get_attribute("value")
+            self.until(lambda name=name: f"designs/{name}/" in self.text("message"))
+            outlines.append(self.watched.frame()["outline"])
+        self.assertNotEqual(outlines[0], outlines[1])
+        self.assertNotIn(own, outlines)
+        self.element("design").send_keys(Keys.ARROW_UP)
+        self.element("take").send_keys(Keys.ENTER)
+        self.watched.wait(lambda f: f["outline"] == outlines[0] and not f["is_proposed"])
+        for _ in range(3):
+            self.assertTrue(self.watched.give({"do": "undo"})["obeyed"])
+        self.watched.wait(lambda f: f["outline"] == own)
+
+    def test_a_page_names_designs_and_no_files(self):
+        file = str(self.folder / "designs/designs/001/shape.levelset")
+        self.assertFalse(self.watched.give({"do": "take_shape", "file": file})["obeyed"])
+        for name in (file, "../designs/001", "", "/etc/passwd"):
+            self.assertFalse(json.loads(self.watched.ask("POST", "/take", name))["obeyed"], name)
+
+
+SOLID_CASE = """
+[wheel]
+dimension = 3
+sectors = 8
+[load]
+positions = 2
+[[holes.ring]]
+count = 8
+center_radius = 0.26
+radius = 0.025
+[grid]
+radial_cells = 7
+angular_cells = 64
+axial_cells = 2
+tread_levels = 0
+[optimizer]
+rim_band = 0.02
+tread_band = 0.04
+"""
+
+
+class SolidPage(PageTest):
+    """The page of a wheel in three dimensions."""
+
+    case = SOLID_CASE
+
+    def surface(self):
+        return self.browser.execute_script("return document.getElementById('solid').toDataURL()")
+
+    def test_the_surface_follows_each_shape(self):
+        self.paused()
+        seen = {}
+        for _ in range(3):
+            shape = self.watched.frame()["shape"]
+            self.until(lambda shape=shape: self.element("stage").get_attribute("data-solid") == str(shape))
+            seen[shape] = self.surface()
+            self.element("step").click()
+            self.watched.wait(lambda f, shape=shape: f["shape"] > shape and f["activity"] == "paused")
+        self.assertEqual(len(set(seen.values())), 3)
+        self.assertFalse(self.element("wheel").is_displayed() or self.element("tools").is_displayed())
+
+    def test_it_is_loaded_rolled_and_turned(self):
+        self.paused()
+        shape = self.watched.frame()["shape"]
+        self.until(lambda: self.element("stage").get_attribute("data-solid") == str(shape))
+        seen = [self.surface()]
+        for control, key in (("load", Keys.ENTER), ("solid", Keys.ARROW_LEFT), ("position", Keys.ARROW_RIGHT)):
+            self.element(control).send_keys(key)
+            self.until(lambda: self.surface() not in seen)
+            seen.append(self.surface())
+        self.assertEqual(self.element("load").get_attribute("aria-pressed"), "true")
+
+    def test_it_is_steered_and_taken_away(self):
+        self.paused()
+        travel = self.watched.frame()["numbers"]["mean_travel"]
+        self.type("force-number", "6000")
+        self.watched.wait(lambda f: f["numbers"]["mean_travel"] > 1.5 * travel)
+        self.element("reset").click()
+        self.until(lambda: self.element("undo").is_enabled())
+        self.assertFalse(self.element("save").is_displayed())
+        self.element("export").click()
+        self.until(lambda: "design-1.stl is downloaded" in self.text("message"))
+        self.assertFalse(self.watched.give({"do": "move_hole", "at_m": [0.26, 0], "by_m": [0, 0.01], "scale": 1})["obeyed"])
+
+
+class Design(unittest.TestCase):
+    """A wheel is designed on the page alone, from a preset to a STEP file."""
+
+    def test_from_a_preset_to_a_step_file(self):
+        with tempfile.TemporaryDirectory() as temporary, contextlib.ExitStack() as at_end:
+            folder = Path(temporary)
+            support.run_program(program, "init", "--preset", design_on_page.PRESET, folder / "case.toml")
+            watched = Watched(folder / "case.toml", "--output", folder / "run")
+            at_end.callback(watched.end)
+            browser = support.open_browser(1300, 1600)
+            at_end.callback(browser.quit)
+            design_on_page.downloads_to(browser, folder)
+            browser.get(watched.address)
+            page = design_on_page.Page(browser)
+            seen = {}
+            for name, step in design_on_page.steps(page):
+                step()
+                seen[name] = {"outline": watched.frame()["outline"], "numbers": watched.frame()["numbers"]}
+            objective = lambda name: seen[name]["numbers"]["objective_J_per_m"]
+            volume = lambda name: seen[name]["numbers"]["volume_fraction"]
+            self.assertGreater(seen["load"]["numbers"]["mean_travel"], seen["begin"]["numbers"]["mean_travel"])
+            self.assertGreater(volume("paint"), volume("undo") + 1e-3)
+            self.assertEqual(seen["undo"]["numbers"]["volume_fraction"], volume("undo"))
+            self.assertNotEqual(seen["even"]["outline"], seen["undo"]["outline"])
+            self.assertLess(seen["even"]["numbers"]["run_out"], seen["undo"]["numbers"]["run_out"])
+            self.assertEqual(page.number("objective"), float(f"{objective('take_away'):.5g}"))
+            step = folder / "my-spokes.step"
+            page.until(step.exists)
+            self.assertTrue((folder / "run/designs/my-spokes.toml").exists())
+            self.assertEqual([e for e in browser.get_log("browser") if e["level"] == "SEVERE"], [])
+            watched.end()
+            support.run_program(program, "export", folder / "run/designs/my-spokes.toml", "--format", "step", "--output", folder / "written")
+            points = lambda file: [line for line in file.read_text().splitlines() if "CARTESIAN_POINT" in line]
+            self.assertEqual(points(step), points(folder / "written/my-spokes.step"))
+            self.assertGreater(len(points(step)), 1000)
 
 
 class Folder(unittest.TestCase):

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "tests/fuzz/target.h"
-#include "wheelwright/app/case_report.h"
+#include "wheelwright/run/case_report.h"
 #include "wheelwright/base/text.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/drawn_shapes.h"

@@ -8,7 +8,6 @@
 #include <numbers>
 #include <unordered_map>
 
-#include "wheelwright/analysis/strain_peaks.h"
 #include "wheelwright/geometry/cell_map.h"
 #include "wheelwright/geometry/contour.h"
 
@@ -156,10 +155,9 @@ bool cross_deformed(const std::vector<Contour>&, const RingField&, const Lattice
 template <int dim>
 bool edges_overlap(const StateSolver<dim>& solver, const LevelSet<dim>& psi, const State<dim>& state) {
   const auto contours = edges(psi);
-  const auto displacement = state.displacement();
   const Lattice<dim> lattice = displacement_lattice(solver);
   for (int position = 0; position < state.positions().size(); ++position)
-    if (cross_deformed(contours, displacement->at_nodes(position), lattice)) return true;
+    if (cross_deformed(contours, state.displacement().at_nodes(position), lattice)) return true;
   return false;
 }
 
@@ -174,30 +172,21 @@ double travel_by_thickness(const StateSolver<dim>& solver, const State<dim>& sta
 
 template <int dim>
 DeformationSize deformation_size(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
-                                 const State<dim>& state, const Displacement<dim>& displacement,
-                                 double largest_strain) {
+                                 const State<dim>& state) {
   const Lattice<dim> lattice = displacement_lattice(solver);
   const MiddleGradients<dim> gradients(lattice);
   const auto contours = edges(psi);
-  DeformationSize size{.strain = largest_strain,
+  DeformationSize size{.strain = std::ranges::max(state.strain_peaks().principal),
                        .rotation = 0,
                        .travel = travel_by_thickness(solver, state),
                        .edges_overlap = false};
   for (int position = 0; position < state.positions().size(); ++position) {
-    const RingField u = displacement.at_nodes(position);
+    const RingField u = state.displacement().at_nodes(position);
     const double rim = state.contacts()[position].rim.rotation;
     size.rotation = std::max(size.rotation, largest_rotation(gradients, state, u, rim));
     size.edges_overlap = size.edges_overlap || cross_deformed(contours, u, lattice);
   }
   return size;
-}
-
-template <int dim>
-DeformationSize deformation_size(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
-                                 const State<dim>& state) {
-  const auto displacement = state.displacement();
-  const double strain = std::ranges::max(strain_peaks(solver, state, *displacement).principal);
-  return deformation_size(solver, psi, state, *displacement, strain);
 }
 
 template <int dim>
@@ -231,8 +220,6 @@ std::string deformation_warning(const DeformationSize& size) {
   template bool edges_overlap(const StateSolver<dim>&, const LevelSet<dim>&, const State<dim>&);   \
   template std::optional<Failure> material_overlaps(const StateSolver<dim>&, const LevelSet<dim>&, \
                                                     const State<dim>&);                            \
-  template DeformationSize deformation_size(const StateSolver<dim>&, const LevelSet<dim>&,         \
-                                            const State<dim>&, const Displacement<dim>&, double);  \
   template DeformationSize deformation_size(const StateSolver<dim>&, const LevelSet<dim>&, const State<dim>&);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)

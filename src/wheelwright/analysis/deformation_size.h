@@ -13,13 +13,6 @@ struct DeformationSize {
   bool edges_overlap;  ///< deformed edges of holes or tread cross each other or themselves; 2D alone
 };
 
-/// `largest_strain` is that of strain_peaks().
-template <int dim>
-DeformationSize deformation_size(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
-                                 const State<dim>& state, const Displacement<dim>& displacement,
-                                 double largest_strain);
-
-/// The same where nothing else asks for the displacement.
 template <int dim>
 DeformationSize deformation_size(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                  const State<dim>& state);

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "wheelwright/analysis/all_positions.h"
-#include "wheelwright/analysis/strain_peaks.h"
 
 namespace wheelwright {
 namespace {
@@ -79,9 +78,9 @@ Expected<RollingAnalysis> rolling_analysis(const StateSolver<dim>& solver, const
     analysis.azimuths.push_back(ground.azimuth(model.grid));
   analysis.positions = summaries(state.contacts());
   analysis.strain_energy = state.strain_energy();
-  auto peaks = strain_peaks(solver, state);
-  analysis.peak_von_mises = std::move(peaks.von_mises);
-  analysis.peak_strain = std::move(peaks.principal);
+  const StrainPeaks<dim>& peaks = state.strain_peaks();
+  analysis.peak_von_mises = peaks.von_mises;
+  analysis.peak_strain = peaks.principal;
   analysis.most_stressed =
       std::ranges::max_element(analysis.peak_von_mises) - analysis.peak_von_mises.begin();
   analysis.peak_radius = peaks.von_mises_places[analysis.most_stressed][0];

@@ -15,8 +15,8 @@ std::vector<ContactSummary> contact_summaries(const State<dim>& state) {
 }
 
 template <int dim>
-StressPeak<dim> stress_peak(const StateSolver<dim>& solver, const State<dim>& state,
-                            const StrainPeaks<dim>& peaks) {
+StressPeak<dim> stress_peak(const StateSolver<dim>& solver, const State<dim>& state) {
+  const StrainPeaks<dim>& peaks = state.strain_peaks();
   const auto worst = std::ranges::max_element(peaks.von_mises) - peaks.von_mises.begin();
   return {peaks.von_mises[worst], peaks.von_mises_places[worst],
           state.positions().grounds[worst].azimuth(solver.model().grid)};
@@ -25,8 +25,6 @@ StressPeak<dim> stress_peak(const StateSolver<dim>& solver, const State<dim>& st
 template <int dim>
 ShapeSummary<dim> shape_summary(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                 const State<dim>& state) {
-  const auto displacement = state.displacement();
-  const auto peaks = strain_peaks(solver, state, *displacement);
   const auto contacts = contact_summaries(state);
   double force = 0, travel = 0, energy = 0;
   for (const ContactSummary& contact : contacts) {
@@ -35,17 +33,16 @@ ShapeSummary<dim> shape_summary(const StateSolver<dim>& solver, const LevelSet<d
   }
   for (int i = 0; i < state.positions().size(); ++i)
     energy += state.positions().multiplicities[i] * state.strain_energy()[i];
-  return {
-      .rolling = rolling_measures(contacts),
-      .strain_energy = energy / contacts.size(),
-      .stiffness = force / travel,
-      .von_mises = stress_peak(solver, state, peaks),
-      .deformation = deformation_size(solver, psi, state, *displacement, std::ranges::max(peaks.principal))};
+  return {.rolling = rolling_measures(contacts),
+          .strain_energy = energy / contacts.size(),
+          .stiffness = force / travel,
+          .von_mises = stress_peak(solver, state),
+          .deformation = deformation_size(solver, psi, state)};
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                         \
-  template std::vector<ContactSummary> contact_summaries(const State<dim>&);                                 \
-  template StressPeak<dim> stress_peak(const StateSolver<dim>&, const State<dim>&, const StrainPeaks<dim>&); \
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                \
+  template std::vector<ContactSummary> contact_summaries(const State<dim>&);        \
+  template StressPeak<dim> stress_peak(const StateSolver<dim>&, const State<dim>&); \
   template ShapeSummary<dim> shape_summary(const StateSolver<dim>&, const LevelSet<dim>&, const State<dim>&);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)

@@ -2,7 +2,6 @@
 
 #include "wheelwright/analysis/deformation_size.h"
 #include "wheelwright/analysis/rolling_measures.h"
-#include "wheelwright/analysis/strain_peaks.h"
 #include "wheelwright/state/state.h"
 
 namespace wheelwright {
@@ -35,7 +34,6 @@ template <int dim>
 std::vector<ContactSummary> contact_summaries(const State<dim>& state);
 
 template <int dim>
-StressPeak<dim> stress_peak(const StateSolver<dim>& solver, const State<dim>& state,
-                            const StrainPeaks<dim>& peaks);
+StressPeak<dim> stress_peak(const StateSolver<dim>& solver, const State<dim>& state);
 
 }  // namespace wheelwright

@@ -82,10 +82,11 @@ void check_radii(const Case& c, Conflicts& found) {
   check_band(c, tread, "tread", "optimizer.tread_band", c.optimizer.tread_band.has_value(), found);
   if (rim.thickness + tread.thickness >= w.outer_radius - w.inner_radius) {
     found.push_back(
-        {with_ring_shape({"optimizer.rim_band", "optimizer.tread_band"}),
+        {with_ring_shape({"optimizer.rim_band", "optimizer.tread_band", "optimizer.minimum_wall"}),
          fmt::format("the bands at rim and tread, {:.6g} m and {:.6g} m, fill the whole ring of {:.6g} m",
                      rim.thickness, tread.thickness, w.outer_radius - w.inner_radius),
-         "take thinner bands or a finer grid" +
+         "take thinner bands (by default they are as thick as optimizer.minimum_wall at least) or a finer "
+         "grid" +
              if_in_millimetres(std::max(rim.thickness, tread.thickness), w.outer_radius)});
   }
 }
@@ -287,10 +288,6 @@ void check_saved_shape(const Case& c, Conflicts& found) {
   for_each_shape_section([&](const auto& section) {
     if (!section.of(c).empty()) refuse_besides(section.path() + "[1]");
   });
-  if (c.wheel.dimension == 3)
-    found.push_back({{"shape.from", "wheel.dimension"},
-                     "a wheel in 3D cannot begin with the shape of another run yet",
-                     "draw its holes"});
   const LevelSet<2>* shape = c.saved_shape.shape.contents.get();
   if (!shape || c.wheel.inner_radius >= c.wheel.outer_radius) return;
   const PolarGrid<2>& grid = shape->lattice.grid();

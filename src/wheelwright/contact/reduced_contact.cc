@@ -76,12 +76,12 @@ ReducedContact<dim>::ReducedContact(const SurfaceCompliance<dim>& surface, const
   for (int from = 0; from < zone.n_columns; ++from)
     for (int to = 0; to < zone.n_columns; ++to)
       set_flexibility(to, from, surface.block(wrap(zone.first_column + from, tread.n_columns()), to - from),
-                      flexibility);
+                      surface.components(), flexibility);
   flexibility_ = std::make_shared<const Matrix>(std::move(flexibility));
 }
 
 template <int dim>
-void ReducedContact<dim>::set_flexibility(int to_column, int from_column, const Matrix& block,
+void ReducedContact<dim>::set_flexibility(int to_column, int from_column, const Matrix& block, int traced,
                                           Matrix& flexibility) const {
   const int n_components = components();
   const int first_to = per_column() * to_column, first_from = per_column() * from_column;
@@ -91,8 +91,9 @@ void ReducedContact<dim>::set_flexibility(int to_column, int from_column, const 
     for (int to = 0; to < per_column(); ++to)
       for (int j = 0; j < n_components; ++j) {
         Vec<dim> sample{};
-        for (int k = 0; k < dim; ++k)
-          for (int i = 0; i < dim; ++i) sample[i] += block(dim * to + i, dim * from + k) * from_axes[j][k];
+        for (int k = 0; k < traced; ++k)
+          for (int i = 0; i < traced; ++i)
+            sample[i] += block(traced * to + i, traced * from + k) * from_axes[j][k];
         for (int i = 0; i < n_components; ++i)
           flexibility(n_components * (first_to + to) + i, n_components * (first_from + from) + j) =
               dot<dim>(to_axes[i], sample);

@@ -63,7 +63,8 @@ struct ContactAdjoint {
 template <int dim>
 class ReducedContact {
  public:
-  /// `surface` must be as wide as the zone: columns up to zone.n_columns - 1 apart.
+  /// `surface` must be as wide as the zone: columns up to zone.n_columns - 1 apart; with friction or a lean
+  /// it must have all components.
   ReducedContact(const SurfaceCompliance<dim>& surface, const Tread<dim>& tread, const PolarGrid<dim>& grid,
                  GroundPosition ground, ContactZone zone, RimControl rim, const Preload& preload = {});
 
@@ -142,8 +143,10 @@ class ReducedContact {
   int point_of_column(int point) const { return point % per_column(); }
   ObservationRows<dim> observation_rows() const { return {per_column(), 0}; }
   int n_free() const { return static_cast<int>(rim_.free.size()); }
-  /// Adds the block between two columns of the zone to the flexibility; `block` is in the columns' frames.
-  void set_flexibility(int to_column, int from_column, const Matrix& block, Matrix& flexibility) const;
+  /// Adds the block between two columns of the zone to the flexibility; `block` has the first `traced`
+  /// components in the columns' frames.
+  void set_flexibility(int to_column, int from_column, const Matrix& block, int traced,
+                       Matrix& flexibility) const;
   RimMotion rim_motion(const std::vector<double>& free) const;
   /// Whether a point may carry traction.
   bool is_active(int point, const Vec<dim>& z) const;

@@ -265,9 +265,6 @@ class DxfReader {
     if (degree < 1 || degree > highest)
       return complain(record, fmt::format("its degree is {}; up to {} can be read", degree, highest),
                       "convert it to degree 3, or to arcs");
-    if (std::ranges::any_of(weights,
-                            [&](double w) { return !(std::abs(w - weights[0]) <= 1e-9 * weights[0]); }))
-      return complain(record, "its weights differ: rational splines cannot be read", "convert it to arcs");
     const bool fits = x.size() == y.size() && x.size() > static_cast<std::size_t>(degree) &&
                       knots.size() == x.size() + degree + 1;
     const bool is_finite = std::ranges::all_of(knots, [](double k) { return std::isfinite(k); });
@@ -276,9 +273,20 @@ class DxfReader {
                       fmt::format("{} control points and {} knots that do not fit or do not increase",
                                   x.size(), knots.size()),
                       "save it again");
+    if (!weights.empty() && (weights.size() != x.size() || !std::ranges::all_of(weights, [](double w) {
+                               return w > 0 && std::isfinite(w);
+                             })))
+      return complain(record,
+                      fmt::format("{} weights for {} control points, or weights that are not above 0",
+                                  weights.size(), x.size()),
+                      "save it again");
     std::vector<Point> points;
     for (std::size_t i = 0; i < x.size(); ++i) points.push_back({x[i], y[i]});
-    add_loose(spline_pieces(degree, knots, points), record, map);
+    const bool is_rational =
+        std::ranges::any_of(weights, [&](double w) { return std::abs(w - weights[0]) > 1e-9 * weights[0]; });
+    add_loose(is_rational ? rational_spline_pieces(degree, knots, points, weights)
+                          : spline_pieces(degree, knots, points),
+              record, map);
   }
 
   void read_insert(const DxfRecord& record, const Affine& map, int depth) {

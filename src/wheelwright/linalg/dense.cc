@@ -124,21 +124,9 @@ bool cholesky(Matrix& a) {
   return n == 0 || LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', n, a.data(), n) == 0;
 }
 
-bool cholesky(ComplexMatrix& a) {
-  const int n = a.rows();
-  return n == 0 || LAPACKE_zpotrf_work(LAPACK_COL_MAJOR, 'L', n, a.data(), n) == 0;
-}
-
 void cholesky_solve(const Matrix& factor, Matrix& b) {
   const int n = factor.rows(), m = b.columns();
   if (n > 0 && m > 0) LAPACKE_dpotrs_work(LAPACK_COL_MAJOR, 'L', n, m, factor.data(), n, b.data(), n);
-}
-
-void cholesky_invert(ComplexMatrix& factor) {
-  const int n = factor.rows();
-  if (n > 0) LAPACKE_zpotri_work(LAPACK_COL_MAJOR, 'L', n, factor.data(), n);
-  for (int j = 0; j < n; ++j)
-    for (int i = j + 1; i < n; ++i) factor(j, i) = std::conj(factor(i, j));
 }
 
 bool lu_solve(Matrix& a, Matrix& b) {

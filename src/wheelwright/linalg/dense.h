@@ -106,16 +106,12 @@ Matrix transposed(const Matrix& a);
 /// Returns op_a(a) * op_b(b).
 Matrix product(const Matrix& a, Op op_a, const Matrix& b, Op op_b);
 
-/// Replaces the lower triangle of a Hermitian positive definite matrix by its Cholesky factor; the strict
+/// Replaces the lower triangle of a symmetric positive definite matrix by its Cholesky factor; the strict
 /// upper triangle is neither read nor written. Returns false when the matrix is not positive definite.
 [[nodiscard]] bool cholesky(Matrix& a);
-[[nodiscard]] bool cholesky(ComplexMatrix& a);
 
 /// Solves a * x = b with the factor that cholesky() left in a; b becomes x.
 void cholesky_solve(const Matrix& factor, Matrix& b);
-
-/// Replaces the factor that cholesky() left by both triangles of the inverse matrix.
-void cholesky_invert(ComplexMatrix& factor);
 
 /// Solves a * x = b by LU factorization with partial pivoting; a is destroyed and b becomes x. Returns false
 /// when a is singular.

@@ -95,6 +95,7 @@ Expected<PartialCholesky> PartialCholesky::analyze(const SparseSymmetric& matrix
   const int n_interior = static_cast<int>(order.size()) - n_trailing;
   PartialCholesky result;
   result.supernode_of_.assign(matrix.size, -1);
+  result.n_trailing_ = block * n_trailing;
   result.schur_ = Matrix(block * n_trailing, block * n_trailing);
   size_t n_values = 0;
   for (int s = 0; s < symbolic.n_supernodes() && symbolic.first(s) < n_interior; ++s) {

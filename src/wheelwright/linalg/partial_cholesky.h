@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "wheelwright/base/expected.h"
@@ -26,10 +27,11 @@ class PartialCholesky {
                                           std::span<const int> order, int n_trailing);
 
   int size() const { return static_cast<int>(supernode_of_.size()); }
-  int n_trailing() const { return schur_.rows(); }
+  int n_trailing() const { return n_trailing_; }
   int n_interior() const { return size() - n_trailing(); }
-  const Matrix& schur() const { return schur_; }  ///< both triangles
-  double factor_flops() const;                    ///< flops of the numerical factorization
+  const Matrix& schur() const { return schur_; }  ///< both triangles; empty once it is released
+  Matrix release_schur() { return std::exchange(schur_, {}); }
+  double factor_flops() const;  ///< flops of the numerical factorization
 
   /// The part of the factor that a sweep visits: ascending supernodes, each with all supernodes that it
   /// depends on.
@@ -77,6 +79,7 @@ class PartialCholesky {
   std::vector<int> supernode_of_;      ///< one entry per unknown; -1 for trailing unknowns
   std::vector<int> below_;
   std::vector<double> values_;
+  int n_trailing_ = 0;
   Matrix schur_;
 };
 

@@ -154,8 +154,7 @@ std::vector<double> widened(const std::vector<float>& values) { return {values.b
 
 /// The surface of sector 0, whose corners beyond its own vertices are those of the next sector, and the
 /// deformed wheel in its load positions.
-Json fields_json(const ReportRun<3>& run) {
-  const SurfaceMesh& mesh = run.surface;
+Json fields_json(const SurfaceMesh& mesh, std::span<const SurfacePosition> all) {
   const std::size_t n_triangles = mesh.triangles.size() / mesh.n_sectors;
   std::vector<float> points;
   for (int v = 0; v < mesh.sector_points(); ++v)
@@ -167,14 +166,14 @@ Json fields_json(const ReportRun<3>& run) {
     parts.push_back(static_cast<std::uint8_t>(mesh.parts[t]));
   }
   std::vector<std::vector<double>> displacement, stress;
-  for (const SurfacePosition& position : run.positions) {
+  for (const SurfacePosition& position : all) {
     for (const auto& component : position.displacement) displacement.push_back(widened(component));
     stress.push_back(widened(position.von_mises));
   }
   const double full_displacement = largest(displacement), full_stress = largest(stress);
   Json positions = Json::array();
-  for (std::size_t i = 0; i < run.positions.size(); ++i)
-    positions.push_back({{"azimuth_rad", run.positions[i].ground_azimuth},
+  for (std::size_t i = 0; i < all.size(); ++i)
+    positions.push_back({{"azimuth_rad", all[i].ground_azimuth},
                          {"x", encoded(as_shorts(displacement[3 * i], full_displacement))},
                          {"y", encoded(as_shorts(displacement[3 * i + 1], full_displacement))},
                          {"z", encoded(as_shorts(displacement[3 * i + 2], full_displacement))},
@@ -188,17 +187,7 @@ Json fields_json(const ReportRun<3>& run) {
           {"positions", std::move(positions)}};
 }
 
-/// In 2D all points, in 3D those of the line nearest to the middle of the width.
-template <int dim>
-std::vector<ContactPoint> points_of_curves(std::vector<ContactPoint> points) {
-  if constexpr (dim == 3) {
-    double nearest = INFINITY;
-    for (const ContactPoint& p : points) nearest = std::abs(p.z) < std::abs(nearest) ? p.z : nearest;
-    std::erase_if(points, [&](const ContactPoint& p) { return std::abs(p.z - nearest) > 1e-9; });
-    std::ranges::stable_sort(points, {}, &ContactPoint::x);
-  }
-  return points;
-}
+Json fields_json(const ReportRun<3>& run) { return fields_json(run.surface, run.positions); }
 
 /// The contact pressures of every position along the ground.
 Json pressures_json(const std::vector<ContactPoint>& points) {
@@ -236,6 +225,8 @@ Json run_json(const ReportRun<dim>& run) {
   Json outlines = Json::array();
   for (const ShapeOutline& outline : run.outlines)
     outlines.push_back({{"shape", outline.shape}, {"contours", outline.contours}});
+  Json events = Json::array();
+  for (const HoleEvents& event : run.events) events.push_back({{"shape", event.shape}, {"text", event.text}});
   Json json{{"dimension", dim},
             {"numbers", numbers_json<dim>()},
             {"name", run.name},
@@ -252,7 +243,9 @@ Json run_json(const ReportRun<dim>& run) {
             {"sectors", run.grid.n_sectors},
             {"trials", run.trials},
             {"rejected", run.rejected},
+            {"events", std::move(events)},
             {"flags", run.flags},
+            {"limits", run.limits},
             {"history", std::move(history)},
             {"outline_units", outline_units},
             {"outlines", std::move(outlines)}};
@@ -262,8 +255,7 @@ Json run_json(const ReportRun<dim>& run) {
                        {"after", rolling_json(run.summary->after.wheel)}};
   }
   if (run.shape) json["fields"] = fields_json(run);
-  if (!run.contact_points.empty())
-    json["pressures"] = pressures_json(points_of_curves<dim>(run.contact_points));
+  if (!run.contact_points.empty()) json["pressures"] = pressures_json(curve_points<dim>(run.contact_points));
   return json;
 }
 
@@ -279,6 +271,10 @@ template PageRun page_run(const ReportRun<3>&);
 
 std::string loaded_wheel_json(const LevelSet<2>& shape, std::span<const PositionFields<2>> positions) {
   return fields_json(shape, positions).dump();
+}
+
+std::string loaded_wheel_json(const SurfaceMesh& surface, std::span<const SurfacePosition> positions) {
+  return fields_json(surface, positions).dump();
 }
 
 std::string report_page(const std::vector<PageRun>& runs) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,6 +17,11 @@ namespace wheelwright {
 struct HistoryCurve {
   std::string name;  ///< with its unit, as in the file
   std::vector<double> values;
+};
+
+/// What happened to the holes at one accepted shape, as history.csv tells it.
+struct HoleEvents {
+  std::string shape, text;
 };
 
 /// The edges of one accepted shape, in whole outline units.
@@ -53,10 +59,13 @@ struct ReportRun {
   double seconds;         ///< computed
   std::string load;       ///< for people
   PolarGrid<dim> grid;
-  int trials, rejected;
+  int trials;
+  std::map<std::string, int> rejected;  ///< trials, by the reason
+  std::vector<HoleEvents> events;
   std::vector<HistoryCurve> history;
   std::vector<ShapeOutline> outlines;
   std::vector<std::string> flags;          ///< what deserves attention, in sentences
+  std::vector<std::string> limits;         ///< what was not checked or computed, in sentences
   std::optional<RunSummary<dim>> summary;  ///< absent while the run goes on
   const LevelSet<dim>* shape = nullptr;    ///< the last one, with the fields of all positions
   SurfaceMesh surface;                     ///< of it; in 3D
@@ -76,6 +85,7 @@ PageRun page_run(const ReportRun<dim>& run);
 
 /// The loaded wheel in its load positions, as the page holds it.
 std::string loaded_wheel_json(const LevelSet<2>& shape, std::span<const PositionFields<2>> positions);
+std::string loaded_wheel_json(const SurfaceMesh& surface, std::span<const SurfacePosition> positions);
 
 /// One HTML file that needs no network: what came out, the wheel rolling, the shapes of the run, curves.
 std::string report_page(const std::vector<PageRun>& runs);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "wheelwright/analysis/strain_peaks.h"
 #include "wheelwright/base/units.h"
 
 namespace wheelwright {
@@ -238,11 +237,10 @@ DrawnPeak<dim> peak_at(const PolarGrid<dim>& grid, const StrainPeaks<dim>& peaks
 /// The fields of one load position, from the displacements and peaks of those that were solved for.
 template <int dim>
 PositionFields<dim> fields_at(const StateSolver<dim>& solver, const State<dim>& state,
-                              const Displacement<dim>& displacement, const StrainPeaks<dim>& peaks,
                               const PositionSource& source, int position) {
   const ContactPatch<dim>& contact = state.contacts()[source.solved];
   const Lattice<dim> lattice = displacement_lattice(solver.model());
-  const RingField solved = displacement.at_nodes(source.solved);
+  const RingField solved = state.displacement().at_nodes(source.solved);
   const RingField u = source.is_image ? wheelwright::mirror_image<dim>(lattice, solved) : solved;
   return {.lattice = lattice,
           .displacement = u,
@@ -251,7 +249,7 @@ PositionFields<dim> fields_at(const StateSolver<dim>& solver, const State<dim>& 
           .rim = source.is_image ? mirror_image(contact.rim) : contact.rim,
           .rim_force = source.is_image ? mirror_image(contact.rim_force) : contact.rim_force,
           .contact = points_at(solver, state, source, position),
-          .von_mises = peak_at(lattice.grid(), peaks, source)};
+          .von_mises = peak_at(lattice.grid(), state.strain_peaks(), source)};
 }
 
 }  // namespace
@@ -259,19 +257,15 @@ PositionFields<dim> fields_at(const StateSolver<dim>& solver, const State<dim>& 
 template <int dim>
 PositionFields<dim> position_fields(const StateSolver<dim>& solver, const State<dim>& state, int position) {
   const auto sources = position_sources(state.positions(), solver.model().n_positions);
-  const auto displacement = state.displacement();
-  return fields_at(solver, state, *displacement, strain_peaks(solver, state, *displacement),
-                   sources[position], position);
+  return fields_at(solver, state, sources[position], position);
 }
 
 template <int dim>
 void for_each_position(const StateSolver<dim>& solver, const State<dim>& state,
                        const std::function<void(int, PositionFields<dim>)>& visit) {
-  const auto displacement = state.displacement();
-  const auto peaks = strain_peaks(solver, state, *displacement);
   int position = 0;
   for (const PositionSource& source : position_sources(state.positions(), solver.model().n_positions)) {
-    visit(position, fields_at(solver, state, *displacement, peaks, source, position));
+    visit(position, fields_at(solver, state, source, position));
     ++position;
   }
 }
@@ -326,6 +320,17 @@ std::vector<ContactPoint> contact_points(const StateSolver<dim>& solver, const S
   return result;
 }
 
+template <int dim>
+std::vector<ContactPoint> curve_points(std::vector<ContactPoint> points) {
+  if constexpr (dim == 3) {
+    double nearest = INFINITY;
+    for (const ContactPoint& p : points) nearest = std::abs(p.z) < std::abs(nearest) ? p.z : nearest;
+    std::erase_if(points, [&](const ContactPoint& p) { return std::abs(p.z - nearest) > 1e-9; });
+    std::ranges::stable_sort(points, {}, &ContactPoint::x);
+  }
+  return points;
+}
+
 template PositionFields<2> position_fields(const StateSolver<2>&, const State<2>&, int);
 template void for_each_position(const StateSolver<2>&, const State<2>&,
                                 const std::function<void(int, PositionFields<2>)>&);
@@ -336,6 +341,7 @@ template RingField vertical_field<2>(const RingField&, double);
 template RingField stress_field(const RollingModel<2>&, const CutDomain<2>&, const RingField&);
 template RingField repeated_field(const RollingModel<2>&, const LevelSet<2>&);
 template std::vector<ContactPoint> contact_points(const StateSolver<2>&, const State<2>&);
+template std::vector<ContactPoint> curve_points<2>(std::vector<ContactPoint>);
 template PositionFields<3> position_fields(const StateSolver<3>&, const State<3>&, int);
 template void for_each_position(const StateSolver<3>&, const State<3>&,
                                 const std::function<void(int, PositionFields<3>)>&);
@@ -346,5 +352,6 @@ template RingField vertical_field<3>(const RingField&, double);
 template RingField stress_field(const RollingModel<3>&, const CutDomain<3>&, const RingField&);
 template RingField repeated_field(const RollingModel<3>&, const LevelSet<3>&);
 template std::vector<ContactPoint> contact_points(const StateSolver<3>&, const State<3>&);
+template std::vector<ContactPoint> curve_points<3>(std::vector<ContactPoint>);
 
 }  // namespace wheelwright

@@ -80,4 +80,9 @@ RingField repeated_field(const RollingModel<dim>& model, const LevelSet<dim>& se
 template <int dim>
 std::vector<ContactPoint> contact_points(const StateSolver<dim>& solver, const State<dim>& solution);
 
+/// Those of them that a curve along the ground shows: in 2D all, in 3D the line nearest to the middle of the
+/// width, sorted along the ground.
+template <int dim>
+std::vector<ContactPoint> curve_points(std::vector<ContactPoint> points);
+
 }  // namespace wheelwright

@@ -2,20 +2,35 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <map>
 #include <optional>
 
 #include "wheelwright/base/parallel.h"
-#include "wheelwright/base/periodic.h"
 #include "wheelwright/ring/nested_dissection.h"
 
 namespace wheelwright {
 namespace {
 
-/// The boundary nodes of a sector, at their positions in the sector's own period, and its interior nodes.
+/// Whether the nodes of a sector are their own mirror image.
+template <int dim>
+bool has_mirror_image(const SectorSpace<dim>& space) {
+  const int period = space.degree() * space.grid().cells[1];
+  for (int node = 0; node < space.n_nodes(); ++node) {
+    auto p = space.position(node);
+    if (p[1] > period) continue;
+    p[1] = period - p[1];
+    if (space.number(p) < 0) return false;
+  }
+  return true;
+}
+
+/// The boundary nodes of a sector, at their positions in the sector's own period, and its interior nodes. The
+/// boundary of a sector that may be mirror-symmetric contains its own mirror image: ghost faces couple nodes
+/// of the next sector's first cells alone.
 template <int dim>
 struct BoundaryLayout {
-  std::vector<std::array<int, dim>> interface_nodes;  ///< not on the outer line
+  std::vector<std::array<int, dim>> interface_nodes;  ///< not on the outer line; none twice
   std::vector<int> interior_nodes, trailing_nodes;    ///< node numbers
 };
 
@@ -33,6 +48,16 @@ BoundaryLayout<dim> boundary_layout(const SectorSpace<dim>& space) {
     if (p[0] == outer) continue;
     layout.interface_nodes.push_back(p);
     if (const int own = space.number(p); own >= 0) trailing[own] = 1;
+  }
+  if (has_mirror_image(space)) {
+    const std::vector<std::array<int, dim>> found = layout.interface_nodes;
+    for (auto p : found) {
+      p[1] = (period - p[1]) % period;
+      const int own = space.number(p);
+      if (own < 0 || trailing[own]) continue;
+      trailing[own] = 1;
+      layout.interface_nodes.push_back(p);
+    }
   }
   for (int node = 0; node < space.n_nodes(); ++node)
     (trailing[node] ? layout.trailing_nodes : layout.interior_nodes).push_back(node);
@@ -58,7 +83,7 @@ CyclicStiffness<dim>::CyclicStiffness(SectorStiffness<dim> sector, PartialCholes
 
 template <int dim>
 Expected<CyclicStiffness<dim>> CyclicStiffness<dim>::factor(SectorStiffness<dim> sector,
-                                                            std::span<const ComplexMatrix> outer_stiffness,
+                                                            const OuterStiffness& outer_stiffness,
                                                             const SectorHarmonics& harmonics) {
   const BoundaryLayout<dim> layout = boundary_layout(sector.space);
   std::vector<int> nodes = nested_dissection(sector, layout.interior_nodes);
@@ -82,32 +107,61 @@ Expected<CyclicStiffness<dim>> CyclicStiffness<dim>::factor(SectorStiffness<dim>
   const int n_interface = dim * static_cast<int>(interface_index.size());
   ring.n_outer_ = dim * period * axial_nodes;
   ring.n_boundary_ = n_interface + ring.n_outer_;
+  /// The first unknown of a node at a position in the sector's own period; -1 if it is none of the boundary.
+  const auto first_unknown = [&](const std::array<int, dim>& p) {
+    if (p[0] == outer) {
+      int line = p[1];
+      if constexpr (dim == 3) line = line * axial_nodes + p[2];
+      return n_interface + dim * line;
+    }
+    const auto found = interface_index.find(p);
+    return found == interface_index.end() ? -1 : dim * found->second;
+  };
+  BoundaryMirror azimuth, width;
+  azimuth.unknowns.resize(ring.n_boundary_);
+  width.unknowns.resize(ring.n_boundary_);
+  bool has_images = true, has_images_across = dim == 3;
   for (int node : layout.trailing_nodes) {
     auto p = own_space.position(node);
     const int shift = p[1] / period;
     p[1] %= period;
-    int first;
-    if (p[0] == outer) {
-      int line = p[1];
-      if constexpr (dim == 3) line = line * axial_nodes + p[2];
-      first = n_interface + dim * line;
-    } else {
-      first = dim * interface_index.at(p);
+    auto behind = p, across = p;
+    behind[1] = (period - p[1]) % period;
+    if constexpr (dim == 3) across[2] = axial_nodes - 1 - p[2];
+    const int first = first_unknown(p), image = first_unknown(behind), image_across = first_unknown(across);
+    has_images &= image >= 0;
+    has_images_across &= image_across >= 0;
+    for (int c = 0; c < dim; ++c) {
+      ring.trailing_.push_back({first + c, shift});
+      azimuth.unknowns[first + c] = {image + c, p[1] == 0 ? 0 : 1, c == 1 ? -1.0 : 1.0};
+      width.unknowns[first + c] = {image_across + c, 0, c == 2 ? -1.0 : 1.0};
     }
-    for (int c = 0; c < dim; ++c) ring.trailing_.push_back({first + c, shift});
   }
 
-  const CoupledSectors coupled = ring.couple_sectors();
-  ComplexMatrix outer_inverse(ring.n_outer_ * ring.n_outer_, harmonics.n_harmonics());
-  std::vector<std::optional<TwoBlockCholesky>> factors(harmonics.n_harmonics());
+  const CoupledSectors coupled(ring.trailing_, ring.sector_factor_.release_schur(), ring.n_boundary_);
+  auto symmetry = std::make_shared<BoundarySymmetry>();
+  symmetry->n_interface = n_interface;
+  if (has_images && coupled.commute_with_azimuth(azimuth)) symmetry->azimuth = std::move(azimuth);
+  if (has_images_across && coupled.commute_with_width(width)) {
+    for (const double sign : {1.0, -1.0}) symmetry->classes.emplace_back(width, n_interface, sign);
+    symmetry->width = std::move(width);
+  } else {
+    symmetry->classes.emplace_back(ring.n_boundary_, n_interface);
+  }
+  ring.symmetry_ = symmetry;
+  std::vector<std::optional<HarmonicFactor>> factors(harmonics.n_harmonics());
   parallel_for(harmonics.n_harmonics(), [&](int h) {
-    ComplexMatrix k = coupled.of_harmonic(harmonics, h);
-    for (int j = 0; j < ring.n_outer_; ++j)
-      for (int i = j; i < ring.n_outer_; ++i) k(n_interface + i, n_interface + j) += outer_stiffness[h](i, j);
-    factors[h] = TwoBlockCholesky::factor(std::move(k), n_interface);
-    if (!factors[h]) return;
-    const ComplexMatrix inverse = factors[h]->last_block_of_inverse();
-    std::copy(inverse.entries().begin(), inverse.entries().end(), outer_inverse.column(h));
+    const ComplexMatrix on_outer_line = outer_stiffness(h);
+    std::vector<std::complex<double>> phases;
+    for (int d = -coupled.farthest; d <= coupled.farthest; ++d) phases.push_back(harmonics.phase(h, d));
+    const auto entry = [&](int i, int j) {
+      std::complex<double> sum = 0;
+      for (size_t d = 0; d < phases.size(); ++d) sum += phases[d] * coupled.by_difference[d](i, j);
+      if (i >= n_interface && j >= n_interface) sum += on_outer_line(i - n_interface, j - n_interface);
+      return sum;
+    };
+    factors[h] = HarmonicFactor::factor(symmetry, harmonics.phase(h, 1),
+                                        h == 0 || 2 * h == harmonics.n_sectors(), entry);
   });
   for (int h = 0; h < harmonics.n_harmonics(); ++h) {
     if (!factors[h])
@@ -115,50 +169,57 @@ Expected<CyclicStiffness<dim>> CyclicStiffness<dim>::factor(SectorStiffness<dim>
                      fmt::format("the ring's stiffness is not positive definite for harmonic {}", h)};
     ring.harmonic_factors_.push_back(*std::move(factors[h]));
   }
-  for (auto& x : outer_inverse.entries()) x /= harmonics.n_sectors();
-  const Matrix by_difference = harmonics.backward(outer_inverse);
-  for (int d = 0; d < harmonics.n_sectors(); ++d) {
-    Matrix block(ring.n_outer_, ring.n_outer_);
-    std::copy_n(by_difference.column(d), block.entries().size(), block.data());
-    ring.outer_compliance_.push_back(std::move(block));
-  }
   return ring;
 }
 
 /// The condensed stiffness of a sector, split by the number of sectors that the second unknown is ahead of
 /// the first.
 template <int dim>
-typename CyclicStiffness<dim>::CoupledSectors CyclicStiffness<dim>::couple_sectors() const {
-  int farthest = 0;
-  for (const Trailing& t : trailing_) farthest = std::max(farthest, t.shift);
-  CoupledSectors coupled{farthest, std::vector<Matrix>(2 * farthest + 1, Matrix(n_boundary_, n_boundary_))};
-  const Matrix& schur = sector_factor_.schur();
+CyclicStiffness<dim>::CoupledSectors::CoupledSectors(const std::vector<Trailing>& trailing,
+                                                     const Matrix& schur, int n_boundary) {
+  for (const Trailing& t : trailing) farthest = std::max(farthest, t.shift);
+  by_difference.assign(2 * farthest + 1, Matrix(n_boundary, n_boundary));
   for (int j = 0; j < schur.columns(); ++j)
     for (int i = 0; i < schur.rows(); ++i)
-      coupled.by_difference[trailing_[j].shift - trailing_[i].shift + farthest](
-          trailing_[i].boundary, trailing_[j].boundary) += schur(i, j);
-  return coupled;
+      by_difference[trailing[j].shift - trailing[i].shift + farthest](trailing[i].boundary,
+                                                                      trailing[j].boundary) += schur(i, j);
 }
 
-/// The lower triangle of the ring's stiffness for one harmonic.
 template <int dim>
-ComplexMatrix CyclicStiffness<dim>::CoupledSectors::of_harmonic(const SectorHarmonics& harmonics,
-                                                                int harmonic) const {
+double CyclicStiffness<dim>::CoupledSectors::entry(int difference, int i, int j) const {
+  return std::abs(difference) > farthest ? 0 : by_difference[difference + farthest](i, j);
+}
+
+/// Whether image(difference, i, j) is entry(difference, i, j), up to what rounding leaves of their
+/// difference, relative to the diagonal.
+template <int dim>
+template <class Image>
+bool CyclicStiffness<dim>::CoupledSectors::equals(Image image) const {
+  constexpr double rounding = 1e-10;
   const int n = by_difference.front().rows();
-  ComplexMatrix k(n, n);
-  for (int d = -farthest; d <= farthest; ++d) {
-    const std::complex<double> phase = harmonics.phase(harmonic, d);
-    const Matrix& real = by_difference[d + farthest];
+  std::vector<double> scale;
+  for (int i = 0; i < n; ++i) scale.push_back(std::sqrt(std::abs(entry(0, i, i))));
+  for (int d = 0; d <= farthest; ++d)
     for (int j = 0; j < n; ++j)
-      for (int i = j; i < n; ++i) k(i, j) += phase * real(i, j);
-  }
-  return k;
+      for (int i = 0; i < n; ++i)
+        if (!(std::abs(entry(d, i, j) - image(d, i, j)) <= rounding * scale[i] * scale[j])) return false;
+  return true;
 }
 
 template <int dim>
-const Matrix& CyclicStiffness<dim>::outer_compliance(int difference) const {
-  const int n = n_sectors();
-  return outer_compliance_[wrap(difference, n)];
+bool CyclicStiffness<dim>::CoupledSectors::commute_with_azimuth(const BoundaryMirror& mirror) const {
+  return equals([&](int difference, int i, int j) {
+    const auto &from = mirror.unknowns[i], &to = mirror.unknowns[j];
+    return from.sign * to.sign * entry(from.ahead - to.ahead - difference, from.image, to.image);
+  });
+}
+
+template <int dim>
+bool CyclicStiffness<dim>::CoupledSectors::commute_with_width(const BoundaryMirror& mirror) const {
+  return equals([&](int difference, int i, int j) {
+    const auto &from = mirror.unknowns[i], &to = mirror.unknowns[j];
+    return from.sign * to.sign * entry(difference, from.image, to.image);
+  });
 }
 
 template <int dim>

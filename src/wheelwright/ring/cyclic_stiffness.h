@@ -1,11 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <memory>
-#include <optional>
 
 #include "wheelwright/elasticity/sector_stiffness.h"
 #include "wheelwright/linalg/partial_cholesky.h"
-#include "wheelwright/linalg/two_block_cholesky.h"
+#include "wheelwright/ring/harmonic_factor.h"
 #include "wheelwright/ring/harmonics.h"
 
 namespace wheelwright {
@@ -21,10 +21,12 @@ namespace wheelwright {
 template <int dim>
 class CyclicStiffness {
  public:
-  /// `outer_stiffness[h]` is the tread's contribution on the outer line for harmonic h. Fails with
-  /// not_positive_definite or not_finite.
-  static Expected<CyclicStiffness> factor(SectorStiffness<dim> sector,
-                                          std::span<const ComplexMatrix> outer_stiffness,
+  /// The tread's contribution on the outer line for a harmonic, both triangles. It must be mirror-symmetric,
+  /// as a tread of equal columns is.
+  using OuterStiffness = std::function<ComplexMatrix(int harmonic)>;
+
+  /// Fails with not_positive_definite or not_finite.
+  static Expected<CyclicStiffness> factor(SectorStiffness<dim> sector, const OuterStiffness& outer_stiffness,
                                           const SectorHarmonics& harmonics);
 
   const SectorStiffness<dim>& sector() const { return sector_; }
@@ -36,9 +38,11 @@ class CyclicStiffness {
   /// Elimination index of a sector dof.
   int row(int dof) const { return row_[dof]; }
 
-  /// The compliance between outer-line unknowns of two sectors: entry (i, j) of the ring's inverse between i
-  /// in sector s and j in sector s - difference.
-  const Matrix& outer_compliance(int difference) const;
+  /// Whether the stiffness is its own mirror image in the plane of azimuth 0 up to rounding, whatever the
+  /// loads are. Then the equations of all harmonics are real (MirrorBasis).
+  bool is_mirror_symmetric() const { return symmetry_->azimuth.has_value(); }
+  /// The same in the middle plane of the width. Then the equations of even and odd fields are separate.
+  bool is_symmetric_across_width() const { return symmetry_->width.has_value(); }
 
   /// Maps loads on a sector's trailing unknowns (one row per load case) to boundary loads of the ring. A node
   /// shared by sectors may carry its load in any of them.
@@ -65,25 +69,30 @@ class CyclicStiffness {
   CyclicStiffness(SectorStiffness<dim> sector, PartialCholesky sector_factor,
                   const SectorHarmonics& harmonics);
 
-  struct CoupledSectors {
-    int farthest;                       ///< sectors ahead
-    std::vector<Matrix> by_difference;  ///< from -farthest to farthest
-    ComplexMatrix of_harmonic(const SectorHarmonics& harmonics, int harmonic) const;
+  struct Trailing {
+    int boundary;  ///< index among the boundary unknowns
+    int shift;     ///< sectors ahead
   };
-  CoupledSectors couple_sectors() const;
+  struct CoupledSectors {
+    CoupledSectors(const std::vector<Trailing>& trailing, const Matrix& schur, int n_boundary);
+    double entry(int difference, int i, int j) const;
+    template <class Image>
+    bool equals(Image image) const;
+    bool commute_with_azimuth(const BoundaryMirror& mirror) const;
+    bool commute_with_width(const BoundaryMirror& mirror) const;
+
+    int farthest = 0;                   ///< sectors ahead
+    std::vector<Matrix> by_difference;  ///< from -farthest to farthest
+  };
 
   SectorStiffness<dim> sector_;
   PartialCholesky sector_factor_;
   SectorHarmonics harmonics_;
   std::vector<int> row_;
-  struct Trailing {
-    int boundary;  ///< index among the boundary unknowns
-    int shift;     ///< sectors ahead
-  };
   std::vector<Trailing> trailing_;
   int n_boundary_ = 0, n_outer_ = 0;
-  std::vector<TwoBlockCholesky> harmonic_factors_;  ///< interface first, outer line last
-  std::vector<Matrix> outer_compliance_;
+  std::shared_ptr<const BoundarySymmetry> symmetry_;
+  std::vector<HarmonicFactor> harmonic_factors_;
 };
 
 }  // namespace wheelwright

@@ -1,8 +1,9 @@
 #include "wheelwright/ring/surface_compliance.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
-#include <functional>
+#include <numbers>
 
 #include "wheelwright/base/parallel.h"
 #include "wheelwright/base/periodic.h"
@@ -10,42 +11,78 @@
 namespace wheelwright {
 namespace {
 
-/// Number of loaded columns that are solved together.
-constexpr int group_size = 6;
+/// Right-hand sides that are solved together: enough for fast products, and few enough to take little memory.
+constexpr int rhs_together = 192;
 
-/// The core's compliance between the outer line's unknowns of some columns of the ring.
-template <int dim>
-Matrix outer_compliance(const CyclicStiffness<dim>& ring, const Tread<dim>& tread, int first_to, int n_to,
-                        int first_from, int n_from) {
+/// Calls visit(row, sector, first, n) for `n_columns` columns of the ring's outer line from `first_column`
+/// on: the n rows from `row` on of that piece of the line are those from `first` on of the sector in a field
+/// by sectors (CyclicStiffness).
+template <int dim, class Visit>
+void for_each_part(const Tread<dim>& tread, int first_column, int n_columns, Visit visit) {
   const int per_column = tread.base_per_column(), per_sector = tread.columns_per_sector();
-  Matrix g(per_column * n_to, per_column * n_from);
-  for (int b = 0; b < n_from; ++b) {
-    const int from = wrap(first_from + b, tread.n_columns());
-    for (int a = 0; a < n_to; ++a) {
-      const int to = wrap(first_to + a, tread.n_columns());
-      const Matrix& kernel = ring.outer_compliance(to / per_sector - from / per_sector);
-      const int i0 = per_column * (to % per_sector), j0 = per_column * (from % per_sector);
-      for (int j = 0; j < per_column; ++j)
-        std::copy_n(kernel.column(j0 + j) + i0, per_column, g.column(per_column * b + j) + per_column * a);
-    }
+  for (int c = 0; c < n_columns; ++c) {
+    const int column = wrap(first_column + c, tread.n_columns());
+    visit(per_column * c, column / per_sector, per_column * (column % per_sector), per_column);
   }
-  return g;
 }
 
-/// The coordinates of traces in `n_columns` neighbouring columns on all base columns that reach them: a band
-/// of blocks, the first base column `reach` columns before the first column.
+/// The samples' coordinates in the columns around the loaded ones, for unit tests on loaded columns of the
+/// sector: [loaded column][-width ... width], one column per coordinate of the tests.
 template <int dim>
-Matrix on_base_columns(const Tread<dim>& tread, int n_columns, const TraceKernel& kernel) {
-  const int reach = tread.reach(), per_column = tread.base_per_column();
-  const int block = kernel.basis.columns();
-  Matrix band(block * n_columns, per_column * (n_columns + 2 * reach + 1));
-  for (int c = 0; c < n_columns; ++c)
-    for (int d = -reach; d <= reach; ++d) {
-      const Matrix& k = kernel.coordinates[d + reach];
-      for (int j = 0; j < k.columns(); ++j)
-        for (int i = 0; i < block; ++i) band(block * c + i, per_column * (c - d + reach) + j) += k(i, j);
+std::vector<std::vector<Matrix>> responses(const CyclicStiffness<dim>& ring, const Tread<dim>& tread,
+                                           int width, std::span<const int> loaded) {
+  const Matrix &tests = tread.tests().of_line, &samples = tread.samples().of_line;
+  const int n_sectors = ring.n_sectors(), reach = tread.reach(), n_tests = tests.rows();
+  const int n_loaded = static_cast<int>(loaded.size()), n_line = 2 * reach + 2;
+  Matrix loads(ring.n_outer(), n_loaded * n_tests * n_sectors);
+  for (int k = 0; k < n_loaded; ++k)
+    for_each_part(tread, loaded[k] - reach, n_line, [&](int row, int sector, int first, int n) {
+      for (int test = 0; test < n_tests; ++test)
+        for (int i = 0; i < n; ++i)
+          loads(first + i, (k * n_tests + test) * n_sectors + sector) += tests(test, row + i);
+    });
+  const Matrix outer = ring.outer_displacements(loads);
+  std::vector<std::vector<Matrix>> result(n_loaded);
+  parallel_for(n_loaded, [&](int k) {
+    const int n_seen = n_line + 2 * width;
+    auto seen = Matrix::unfilled(n_seen * tread.base_per_column(), n_tests);
+    for_each_part(tread, loaded[k] - width - reach, n_seen, [&](int row, int sector, int first, int n) {
+      for (int test = 0; test < n_tests; ++test)
+        std::copy_n(outer.column((k * n_tests + test) * n_sectors + sector) + first, n,
+                    seen.column(test) + row);
+    });
+    for (int d = -width; d <= width; ++d)
+      result[k].push_back(product(
+          samples, Op::none,
+          block(seen, (d + width) * tread.base_per_column(), 0, samples.columns(), n_tests), Op::none));
+  });
+  return result;
+}
+
+/// The mirror image, in the plane of azimuth 0, of the response of one column to tractions on another.
+template <int dim>
+Matrix mirror_image(const Tread<dim>& tread, const Matrix& block) {
+  // The image of a column's frame is the frame at the end of the column's image.
+  const double angle = 2 * std::numbers::pi / tread.n_columns();
+  const double c = std::cos(angle), s = std::sin(angle);
+  const int n_components = tread.traced_components();
+  const auto images = [&](int point) { return tread.surface().mirror_images[2 * point] / 2; };
+  const auto reflect = [&](double& radial, double& circumferential) {
+    const double r = radial, t = circumferential;
+    radial = c * r + s * t;
+    circumferential = s * r - c * t;
+  };
+  auto result = Matrix::unfilled(block.rows(), block.columns());
+  for (int from = 0; from < block.columns() / n_components; ++from)
+    for (int to = 0; to < block.rows() / n_components; ++to) {
+      const int i0 = n_components * images(to), j0 = n_components * images(from);
+      for (int j = 0; j < n_components; ++j)
+        for (int i = 0; i < n_components; ++i)
+          result(i0 + i, j0 + j) = block(n_components * to + i, n_components * from + j);
+      for (int j = 0; j < n_components; ++j) reflect(result(i0, j0 + j), result(i0 + 1, j0 + j));
+      for (int i = 0; i < n_components; ++i) reflect(result(i0 + i, j0), result(i0 + i, j0 + 1));
     }
-  return band;
+  return result;
 }
 
 }  // namespace
@@ -53,36 +90,38 @@ Matrix on_base_columns(const Tread<dim>& tread, int n_columns, const TraceKernel
 template <int dim>
 SurfaceCompliance<dim>::SurfaceCompliance(const CyclicStiffness<dim>& ring, const Tread<dim>& tread,
                                           int width, const std::vector<bool>& loaded)
-    : columns_per_sector_(tread.columns_per_sector()), width_(width) {
+    : columns_per_sector_(tread.columns_per_sector()),
+      components_(tread.traced_components()),
+      width_(width),
+      blocks_(size_t(2 * width + 1) * columns_per_sector_) {
   // -S (C + T G T^T) Te^T with the tread's compliance C and transfer T and the core's compliance G.
-  const int reach = tread.reach(), n_together = std::min(group_size, columns_per_sector_);
-  const int n_sampled = n_together + 2 * width;
   const TraceKernel &samples = tread.samples(), &tests = tread.tests();
-  const int n_samples = samples.basis.columns(), n_tests = tests.basis.columns();
-  const Matrix test = on_base_columns(tread, n_together, tests);
-  const Matrix sample = on_base_columns(tread, n_sampled, samples);
-  blocks_.resize(size_t(2 * width + 1) * columns_per_sector_);
-  const int n_groups = (columns_per_sector_ + n_together - 1) / n_together;
-  parallel_for(n_groups, [&](int group) {
-    const int first = group * n_together, last = std::min(first + n_together, columns_per_sector_);
-    if (std::none_of(loaded.begin() + first, loaded.begin() + last, std::identity())) return;
-    const Matrix g = outer_compliance(ring, tread, first - width - reach, n_sampled + 2 * reach + 1,
-                                      first - reach, n_together + 2 * reach + 1);
-    const Matrix sampled = product(sample, Op::none, product(g, Op::none, test, Op::transpose), Op::none);
-    for (int from = first; from < last; ++from) {
-      if (!loaded[from]) continue;
-      const Matrix of_column =
-          product(wheelwright::block(sampled, 0, n_tests * (from - first), sampled.rows(), n_tests), Op::none,
-                  tests.basis, Op::transpose);
+  const auto image_of = [&](int column) { return columns_per_sector_ - 1 - column; };
+  const auto is_image = [&](int column) {
+    return ring.is_mirror_symmetric() && column > image_of(column) && loaded[image_of(column)];
+  };
+  std::vector<int> columns;
+  for (int c = 0; c < columns_per_sector_; ++c)
+    if (loaded[c] && !is_image(c)) columns.push_back(c);
+  const int n_columns = static_cast<int>(columns.size()),
+            together = std::max(1, rhs_together / std::max(1, tests.of_line.rows()));
+  for (int first = 0; first < n_columns; first += together) {
+    const std::span group = std::span(columns).subspan(first, std::min(together, n_columns - first));
+    const auto coordinates = responses(ring, tread, width, group);
+    parallel_for(static_cast<int>(group.size()), [&](int k) {
       for (int d = -width; d <= width; ++d) {
-        const Matrix coordinates = wheelwright::block(of_column, n_samples * (from - first + d + width), 0,
-                                                      n_samples, of_column.columns());
-        Matrix& result = blocks_[(2 * width + 1) * from + d + width];
-        result =
-            std::abs(d) <= reach ? tread.compliance(d) : Matrix(samples.basis.rows(), tests.basis.rows());
-        multiply(-1, samples.basis, Op::none, coordinates, Op::none, -1, result);
+        Matrix& result = blocks_[(2 * width + 1) * group[k] + d + width];
+        result = std::abs(d) <= tread.reach() ? tread.compliance(d)
+                                              : Matrix(samples.basis.rows(), tests.basis.rows());
+        const Matrix of_tests = product(coordinates[k][d + width], Op::none, tests.basis, Op::transpose);
+        multiply(-1, samples.basis, Op::none, of_tests, Op::none, -1, result);
       }
-    }
+    });
+  }
+  parallel_for(columns_per_sector_, [&](int from) {
+    if (!loaded[from] || !is_image(from)) return;
+    for (int d = -width; d <= width; ++d)
+      blocks_[(2 * width + 1) * from + d + width] = mirror_image(tread, block(image_of(from), -d));
   });
 }
 

@@ -10,7 +10,8 @@ namespace wheelwright {
 template <int dim>
 class SurfaceCompliance {
  public:
-  /// For columns up to `width` apart, and tractions on some columns of a sector (and of all others).
+  /// For columns up to `width` apart, and tractions on some columns of a sector (and of all others): the ring
+  /// is solved for each of their tractions.
   SurfaceCompliance(const CyclicStiffness<dim>& ring, const Tread<dim>& tread, int width,
                     const std::vector<bool>& loaded);
 
@@ -20,15 +21,18 @@ class SurfaceCompliance {
 
   int width() const { return width_; }
 
+  /// The first components of the column frame, those that the tread traces.
+  int components() const { return components_; }
+
   /// The sample z = tau sigma(u)n - gamma u on ring column from + difference for a unit traction (times dS)
   /// on the loaded column `from`, applied as the weak form (28) does, with theta; |difference| <= width().
-  /// dim rows and columns per point, column frames.
+  /// components() rows and columns per point, column frames.
   const Matrix& block(int from, int difference) const {
     return blocks_[(2 * width_ + 1) * (from % columns_per_sector_) + difference + width_];
   }
 
  private:
-  int columns_per_sector_, width_;
+  int columns_per_sector_, components_, width_;
   std::vector<Matrix> blocks_;
 };
 

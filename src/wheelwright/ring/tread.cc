@@ -47,44 +47,61 @@ std::vector<Matrix> line_responses(const CyclicChain& lines, int n_line) {
 }
 
 /// Traces of what is observed on Gamma_C (rows as in ObservationRows): samples z = tau sigma(u)n - gamma u,
-/// or tests theta/gamma sigma(u)n - u.
+/// or tests theta/gamma sigma(u)n - u; the first `traced` components.
 template <int dim, class OfTraction, class OfDisplacement>
-Matrix traces(const std::vector<TreadPoint<dim>>& points, OfTraction of_traction,
+Matrix traces(const std::vector<TreadPoint<dim>>& points, int traced, OfTraction of_traction,
               OfDisplacement of_displacement, const Matrix& observed) {
   const int n_points = static_cast<int>(points.size());
   const ObservationRows<dim> rows{n_points, 0};
-  Matrix result(dim * n_points, observed.columns());
+  Matrix result(traced * n_points, observed.columns());
   for (int j = 0; j < observed.columns(); ++j) {
     const double* o = observed.column(j);
     double* trace = result.column(j);
     for (int q = 0; q < n_points; ++q) {
       const double traction = of_traction(points[q]), displacement = of_displacement(points[q]);
-      for (int d = 0; d < dim; ++d)
-        trace[dim * q + d] = traction * o[rows.traction(q) + d] - displacement * o[rows.displacement(q) + d];
+      for (int d = 0; d < traced; ++d)
+        trace[traced * q + d] =
+            traction * o[rows.traction(q) + d] - displacement * o[rows.displacement(q) + d];
     }
   }
   return result;
 }
 
-/// The coordinates of the traces of all differences in one basis, up to rounding.
-TraceKernel trace_kernel(const std::vector<Matrix>& traces) {
-  const int rows = traces.front().rows(), columns = traces.front().columns();
-  Matrix all(rows, columns * static_cast<int>(traces.size()));
-  for (size_t k = 0; k < traces.size(); ++k)
-    std::copy_n(traces[k].data(), traces[k].entries().size(), all.column(columns * static_cast<int>(k)));
-  ColumnBasis found = column_basis(all, negligible);
-  TraceKernel kernel{std::move(found.basis), {}};
-  for (size_t k = 0; k < traces.size(); ++k)
-    kernel.coordinates.push_back(
-        block(found.coordinates, 0, columns * static_cast<int>(k), found.coordinates.rows(), columns));
-  return kernel;
+/// Maps on the base of column c that are seen in column c + difference, for -reach <= difference <= reach, as
+/// one map on the base line from `reach` columns before the seen column on.
+Matrix on_base_line(const std::vector<Matrix>& by_difference, int per_column) {
+  const int n = static_cast<int>(by_difference.size());
+  Matrix result(by_difference.front().rows(), per_column * (n + 1));
+  for (int k = 0; k < n; ++k) {
+    const Matrix& map = by_difference[n - 1 - k];  // of the column k - reach ahead
+    double* to = result.column(per_column * k);
+    for (size_t e = 0; e < map.entries().size(); ++e) to[e] += map.entries()[e];
+  }
+  return result;
+}
+
+TraceKernel trace_kernel(const std::vector<Matrix>& by_difference, int per_column) {
+  ColumnBasis found = column_basis(on_base_line(by_difference, per_column), negligible);
+  return {std::move(found.basis), std::move(found.coordinates)};
+}
+
+/// The base's stiffness by its line's own parts: `by_difference[k]` acts on all nodes of a column's base.
+std::vector<Matrix> by_own_parts(const std::vector<Matrix>& by_difference, int per_column) {
+  const int n_base = by_difference.front().rows(), n = static_cast<int>(by_difference.size());
+  std::vector<Matrix> result(n + 2, Matrix(per_column, per_column));
+  for (int k = 0; k < n; ++k)
+    for (int j = 0; j < n_base; ++j)
+      for (int i = 0; i < n_base; ++i)
+        result[k + 1 + i / per_column - j / per_column](i % per_column, j % per_column) +=
+            by_difference[k](i, j);
+  return result;
 }
 
 }  // namespace
 
 template <int dim>
 Expected<Tread<dim>> Tread<dim>::condense(const ElementTable<dim>& table, const TreadGrid& grid,
-                                          const ContactForm& form, int points_per_direction) {
+                                          const ContactForm& form, int points_per_direction, int traced) {
   auto column = tread_column<dim>(table, grid, form, points_per_direction);
   if (!column) return column.failure();
   Tread tread;
@@ -92,6 +109,7 @@ Expected<Tread<dim>> Tread<dim>::condense(const ElementTable<dim>& table, const 
   tread.form_ = form;
   tread.column_ = *std::move(column);
   tread.degree_ = table.degree();
+  tread.traced_ = traced;
   tread.n_columns_ = table.grid().ring_columns();
   tread.columns_per_sector_ = table.grid().columns();
   const int n = tread.n_columns_;
@@ -115,12 +133,12 @@ Expected<Tread<dim>> Tread<dim>::condense(const ElementTable<dim>& table, const 
   const Matrix observed = block(own.observation, 0, 0, n_contact, own.observation.columns());
   const auto samples = [&](const Matrix& seen) {
     return traces<dim>(
-        own.surface.points, [&](const auto&) { return form.tau(); },
+        own.surface.points, traced, [&](const auto&) { return form.tau(); },
         [](const auto& point) { return point.gamma; }, seen);
   };
   const auto tests = [&](const Matrix& seen) {
     return traces<dim>(
-        own.surface.points, [&](const auto& point) { return form.theta() / point.gamma; },
+        own.surface.points, traced, [&](const auto& point) { return form.theta() / point.gamma; },
         [](const auto&) { return 1.0; }, seen);
   };
   Matrix line_load_of_base[2], base_rows[2], sample_rows[2], test_rows[2];
@@ -136,7 +154,7 @@ Expected<Tread<dim>> Tread<dim>::condense(const ElementTable<dim>& table, const 
     test_rows[side] = tests(on_line(own, observed, side));
   }
   const int n_traces = sample_rows[0].rows();
-  std::vector<Matrix> all_sampled, all_tested;
+  std::vector<Matrix> all_sampled, all_tested, all_base;
   for (int d = -reach; d <= reach; ++d) {
     Matrix base(n_base, n_base), sampled(n_traces, n_base), tested(n_traces, n_base),
         compliance(n_traces, n_traces);
@@ -159,38 +177,41 @@ Expected<Tread<dim>> Tread<dim>::condense(const ElementTable<dim>& table, const 
       multiply(1, test_rows[seen], Op::none, of_base, Op::none, 1, tested);
       multiply(1, sample_rows[seen], Op::none, of_tests, Op::none, 1, compliance);
     }
-    tread.base_stiffness_.push_back(std::move(base));
+    all_base.push_back(std::move(base));
     all_sampled.push_back(std::move(sampled));
     all_tested.push_back(std::move(tested));
     tread.compliance_.push_back(std::move(compliance));
   }
-  tread.samples_ = trace_kernel(all_sampled);
-  tread.tests_ = trace_kernel(all_tested);
+  const int per_column = tread.base_per_column();
+  tread.samples_ = trace_kernel(all_sampled, per_column);
+  tread.tests_ = trace_kernel(all_tested, per_column);
+  tread.line_stiffness_ = by_own_parts(all_base, per_column);
   return tread;
 }
 
 template <int dim>
-std::vector<ComplexMatrix> Tread<dim>::outer_stiffness(const SectorHarmonics& harmonics) const {
-  const int period = columns_per_sector_, per_column = base_per_column(), n_base = column_.n_base;
-  const int n_outer = period * per_column;
-  std::vector<ComplexMatrix> result(harmonics.n_harmonics(), ComplexMatrix(n_outer, n_outer));
-  for (int h = 0; h < harmonics.n_harmonics(); ++h) {
-    for (int from = 0; from < period; ++from) {
-      for (int d = -reach_; d <= reach_; ++d) {
-        const Matrix& k = base_stiffness_[d + reach_];
-        for (int j = 0; j < n_base; ++j) {
-          const int source = from * per_column + j;
-          for (int i = 0; i < n_base; ++i) {
-            // Floor division: columns before the sector belong to the previous one.
-            const int target = (from + d) * per_column + i;
-            const int target_sector = (target >= 0 ? target : target - n_outer + 1) / n_outer;
-            result[h](target - target_sector * n_outer, source % n_outer) +=
-                k(i, j) * harmonics.phase(h, source / n_outer - target_sector);
-          }
-        }
-      }
+ComplexMatrix Tread<dim>::outer_stiffness(const SectorHarmonics& harmonics, int harmonic) const {
+  const int period = columns_per_sector_, per_column = base_per_column(), farthest = reach_ + 1;
+  // All pairs of columns in the sector that are equally far apart have the same block.
+  std::vector<ComplexMatrix> blocks(2 * period - 1, ComplexMatrix(per_column, per_column));
+  for (int apart = 1 - period; apart < period; ++apart) {
+    ComplexMatrix& block = blocks[apart + period - 1];
+    const int first = -(farthest + apart) / period - 1, last = (farthest - apart) / period + 1;
+    for (int ahead = first; ahead <= last; ++ahead) {
+      const int difference = apart + ahead * period;
+      if (std::abs(difference) > farthest) continue;
+      const std::complex<double> phase = harmonics.phase(harmonic, -ahead);
+      const Matrix& k = line_stiffness_[difference + farthest];
+      for (size_t e = 0; e < k.entries().size(); ++e) block.entries()[e] += phase * k.entries()[e];
     }
   }
+  ComplexMatrix result(period * per_column, period * per_column);
+  for (int from = 0; from < period; ++from)
+    for (int to = 0; to < period; ++to) {
+      const ComplexMatrix& block = blocks[to - from + period - 1];
+      for (int j = 0; j < per_column; ++j)
+        std::copy_n(block.column(j), per_column, result.column(from * per_column + j) + to * per_column);
+    }
   return result;
 }
 

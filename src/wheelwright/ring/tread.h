@@ -6,10 +6,12 @@
 
 namespace wheelwright {
 
-/// Traces in columns that differ by -reach to reach, as coordinates in a basis that all of them share.
+/// What traces in a column depend on: the base of all columns that reach it, as coordinates in a basis that
+/// all of them share.
 struct TraceKernel {
-  Matrix basis;                     ///< traces x coordinates, orthonormal columns
-  std::vector<Matrix> coordinates;  ///< of every difference, ascending from -reach: coordinates x n_base()
+  Matrix basis;    ///< traces x coordinates, orthonormal columns
+  Matrix of_line;  ///< coordinates x (2 reach + 2) base_per_column: of the base line from `reach` columns
+                   ///< before the traces' column on
 };
 
 /// The tread: the outermost rows of cells, eliminated by static condensation once per run. It is attached to
@@ -20,9 +22,10 @@ struct TraceKernel {
 template <int dim>
 class Tread {
  public:
-  /// Fails with not_positive_definite if theta > 0 needs a larger gamma_0.
+  /// `traced`: components of the traces, the first ones of the column frame. Fails with not_positive_definite
+  /// if theta > 0 needs a larger gamma_0.
   static Expected<Tread> condense(const ElementTable<dim>& table, const TreadGrid& grid,
-                                  const ContactForm& form, int points_per_direction);
+                                  const ContactForm& form, int points_per_direction, int traced = dim);
 
   const TreadColumn<dim>& column() const { return column_; }
   const TreadSurface<dim>& surface() const { return column_.surface; }
@@ -46,29 +49,32 @@ class Tread {
   const CyclicChain& lines() const { return *lines_; }
 
   /// Trial traces z = tau sigma(u)n - gamma u ("samples") and test traces theta/gamma sigma(v)n - v
-  /// ("tests"), with dim rows per point, in the column frame: values in column c + difference for a unit
-  /// displacement of the base of column c; |difference| <= reach(). Transposed tests: the load on the base of
-  /// column c from a unit traction (times dS) on column c + difference.
+  /// ("tests") of a unit displacement of the base, with traced_components() rows per point, in the column
+  /// frame. Transposed tests: the load on the base from a unit traction (times dS) on the column.
   ///
   /// Fine points see little of a coarse base: traces = basis * coordinates, with few coordinates.
+  int traced_components() const { return traced_; }
   const TraceKernel& samples() const { return samples_; }
   const TraceKernel& tests() const { return tests_; }
 
   /// Samples of column c + difference for a unit test load on column c, base fixed; |difference| <= reach().
   const Matrix& compliance(int difference) const { return compliance_[difference + reach_]; }
 
-  /// The tread's stiffness on the core's outer line for every harmonic of the sectors, in the order of
-  /// CyclicStiffness.
-  std::vector<ComplexMatrix> outer_stiffness(const SectorHarmonics& harmonics) const;
+  /// The tread's stiffness on the core's outer line for one harmonic of the sectors, as
+  /// CyclicStiffness::OuterStiffness.
+  ComplexMatrix outer_stiffness(const SectorHarmonics& harmonics, int harmonic) const;
 
  private:
   TreadGrid grid_;
   ContactForm form_;
   TreadColumn<dim> column_;
-  int degree_ = 0, n_columns_ = 0, columns_per_sector_ = 0, reach_ = 0;
+  int degree_ = 0, n_columns_ = 0, columns_per_sector_ = 0, reach_ = 0, traced_ = dim;
   std::optional<CyclicChain> lines_;
   TraceKernel samples_, tests_;
-  std::vector<Matrix> compliance_, base_stiffness_;
+  std::vector<Matrix> compliance_;
+  /// Between the base lines' own parts (base_per_column() unknowns) of columns that differ by -reach - 1 to
+  /// reach + 1: rows for the later column.
+  std::vector<Matrix> line_stiffness_;
 };
 
 }  // namespace wheelwright

@@ -28,8 +28,9 @@ Expected<NeumannToDirichlet<dim>> NeumannToDirichlet<dim>::create(const RollingM
   CutDomain<dim> full{model.grid, std::vector<CellKind>(model.grid.n_cells(), CellKind::inside), {}, {}};
   const int core_rows = model.grid.cells[0] - model.tread.rows;
   const SectorHarmonics harmonics(model.grid.n_sectors);
-  auto ring = CyclicStiffness<dim>::factor(sector_stiffness<dim>(full, *elements, core_rows),
-                                           tread->outer_stiffness(harmonics), harmonics);
+  auto ring = CyclicStiffness<dim>::factor(
+      sector_stiffness<dim>(full, *elements, core_rows),
+      [&](int harmonic) { return tread->outer_stiffness(harmonics, harmonic); }, harmonics);
   if (!ring) return ring.failure();
   return NeumannToDirichlet(std::move(elements), *std::move(tread), *std::move(ring));
 }

@@ -1,9 +1,12 @@
 #include "wheelwright/rolling/ring_state.h"
 
+#include <mutex>
+
 #include "wheelwright/base/stopwatch.h"
 #include "wheelwright/rolling/neumann_to_dirichlet.h"
 #include "wheelwright/rolling/ring_displacement.h"
 #include "wheelwright/rolling/shape_gradient.h"
+#include "wheelwright/state/strain_peaks.h"
 
 namespace wheelwright {
 namespace {
@@ -26,8 +29,14 @@ class RingState : public State<dim> {
   const std::vector<PhaseTime>& phases() const override { return solution_.phases; }
   const std::vector<SurfacePoint<dim>>& boundary() const override { return boundary_; }
 
-  std::unique_ptr<const Displacement<dim>> displacement() const override {
-    return std::make_unique<RingDisplacement<dim>>(problem_, solution_);
+  const Displacement<dim>& displacement() const override {
+    std::call_once(is_recovered_, [this] { displacement_.emplace(problem_, solution_); });
+    return *displacement_;
+  }
+
+  const StrainPeaks<dim>& strain_peaks() const override {
+    std::call_once(has_peaks_, [this] { peaks_ = wheelwright::strain_peaks(problem_, *this); });
+    return peaks_;
   }
 
   Expected<ShapeGradients> shape_gradients(
@@ -72,6 +81,9 @@ class RingState : public State<dim> {
   RollingSolution<dim> solution_;
   std::vector<SurfacePoint<dim>> boundary_;
   std::vector<ContactPatch<dim>> contacts_;
+  mutable std::once_flag is_recovered_, has_peaks_;
+  mutable std::optional<RingDisplacement<dim>> displacement_;
+  mutable StrainPeaks<dim> peaks_;
 };
 
 }  // namespace

@@ -141,14 +141,24 @@ bool all_finite(const Matrix& a) {
 
 }  // namespace
 
+namespace {
+
+/// The components of the column frame that contact meets: without friction and lean the ground pushes in the
+/// plane of the wheel.
+template <int dim>
+int components_in_contact(const RollingModel<dim>& model) {
+  return model.contact.friction == 0 && model.camber == 0 ? 2 : dim;
+}
+
+}  // namespace
+
 template <int dim>
 RollingProblem<dim>::RollingProblem(const RollingModel<dim>& model,
                                     std::unique_ptr<ElementTable<dim>> elements, Tread<dim> tread)
     : model_(model),
       elements_(std::move(elements)),
       harmonics_(model.grid.n_sectors),
-      tread_(std::move(tread)),
-      outer_stiffness_(tread_.outer_stiffness(harmonics_)) {}
+      tread_(std::move(tread)) {}
 
 template <int dim>
 Expected<RollingProblem<dim>> RollingProblem<dim>::create(const RollingModel<dim>& model) {
@@ -158,7 +168,8 @@ Expected<RollingProblem<dim>> RollingProblem<dim>::create(const RollingModel<dim
                                                       cell_stiffness<dim>, model.side_faces);
   TreadGrid grid = model.tread;
   grid.observes_spin = grid.observes_spin || model.distributed.angular_speed != 0;
-  auto tread = Tread<dim>::condense(*elements, grid, model.contact, model.contact_points);
+  auto tread =
+      Tread<dim>::condense(*elements, grid, model.contact, model.contact_points, components_in_contact(model));
   if (!tread) return tread.failure();
   return RollingProblem(model, std::move(elements), *std::move(tread));
 }
@@ -277,7 +288,9 @@ Expected<std::shared_ptr<const FactoredShape<dim>>> RollingProblem<dim>::factor(
   phases.push_back({phase::cut, watch.lap()});
   auto sector = sector_stiffness(*domain, *elements_, core_rows());
   phases.push_back({phase::assembly, watch.lap()});
-  auto factored = CyclicStiffness<dim>::factor(std::move(sector), outer_stiffness_, harmonics_);
+  auto factored = CyclicStiffness<dim>::factor(
+      std::move(sector), [&](int harmonic) { return tread_.outer_stiffness(harmonics_, harmonic); },
+      harmonics_);
   if (!factored) return factored.failure();
   phases.push_back({phase::factorization, watch.lap()});
   return std::make_shared<const FactoredShape<dim>>(

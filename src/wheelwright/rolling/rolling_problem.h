@@ -112,7 +112,6 @@ class RollingProblem : public StateSolver<dim> {
   std::unique_ptr<ElementTable<dim>> elements_;
   SectorHarmonics harmonics_;
   Tread<dim> tread_;
-  std::vector<ComplexMatrix> outer_stiffness_;
 };
 
 /// One load position's contact problem and its solution.

@@ -76,6 +76,43 @@ Obeyed NewLoad::obey(RunControl& run) const {
   return changed(run, c, "new load: " + load_text(load));
 }
 
+Obeyed NewWidths::obey(RunControl& run) const {
+  Case c = run.current_case();
+  std::vector<std::string> words;
+  const auto set = [&](const char* what, const std::optional<double>& width, std::optional<double>& place) {
+    if (!width) return;
+    place = *width != 0 ? width : std::nullopt;
+    words.push_back(*width != 0 ? fmt::format("{} {:.6g} m", what, *width)
+                                : fmt::format("{} of any width", what));
+  };
+  set("wall", minimum_wall, c.optimizer.minimum_wall);
+  set("gap", minimum_gap, c.optimizer.minimum_gap);
+  return changed(run, c, fmt::format("new least widths: {}", fmt::join(words, ", ")));
+}
+
+Obeyed NewBound::obey(RunControl& run) const {
+  Case c = run.current_case();
+  if (constraint < 0 || constraint >= static_cast<int>(c.constraints.size()))
+    return Refusal{"the case has no such bound"};
+  Constraint& bound = c.constraints[constraint];
+  std::vector<std::string> words;
+  const auto set = [&](const char* what, const std::optional<double>& value, std::optional<double>& place) {
+    if (!value) return;
+    place = value;
+    words.push_back(fmt::format("{} {:.6g}", what, *value));
+  };
+  set("at least", at_least, bound.at_least);
+  set("at most", at_most, bound.at_most);
+  set("equal to", equals, bound.equals);
+  return changed(run, c, fmt::format("new bound: {} {}", name(bound.quantity), fmt::join(words, ", ")));
+}
+
+Obeyed TakeShape::obey(RunControl& run) const {
+  const std::string what = fmt::format("the shape of {}", file);
+  if (auto refusal = run.take_shape(file, what)) return *std::move(refusal);
+  return what;
+}
+
 Obeyed NewVolume::obey(RunControl& run) const {
   Case c = run.current_case();
   c.volume.target = target;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <span>
@@ -44,6 +45,9 @@ class RunControl {
   /// Draws strokes over the current shape, each over those before it and in all sectors, and evaluates it.
   /// The run proceeds from there.
   virtual std::optional<Refusal> draw(std::span<const Stroke> strokes, const std::string& what) = 0;
+  /// Takes the shape in a file (files/level_set_file.h) of a wheel of the same radii, width and number of
+  /// sectors, on the run's own grid. The run proceeds from there.
+  virtual std::optional<Refusal> take_shape(const std::filesystem::path& file, const std::string& what) = 0;
   /// Back to the initial shape, under the case as it is.
   virtual std::optional<Refusal> reset() = 0;
   /// Back to the case and the shape before the last change_case(), draw() or reset() that is not undone.
@@ -98,6 +102,21 @@ struct NewVolume {
   Obeyed obey(RunControl& run) const;
 };
 
+/// Another thinnest wall and narrowest gap [m]; 0 allows any. What is absent does not change.
+struct NewWidths {
+  std::optional<double> minimum_wall = {}, minimum_gap = {};
+
+  Obeyed obey(RunControl& run) const;
+};
+
+/// Another value of a bound that the case has, in the units of its `[[constraint]]`.
+struct NewBound {
+  int constraint;  ///< its place in the case, from 0
+  std::optional<double> at_least = {}, at_most = {}, equals = {};
+
+  Obeyed obey(RunControl& run) const;
+};
+
 /// Draws a line with a round tip, as with a brush, in every sector: a hole or material. A single point is a
 /// disc.
 struct Paint {
@@ -124,6 +143,13 @@ struct FillHole {
   Obeyed obey(RunControl& run) const;
 };
 
+/// Takes the shape of another run, e.g. of a design of a sweep.
+struct TakeShape {
+  std::string file;  ///< its level set
+
+  Obeyed obey(RunControl& run) const;
+};
+
 /// Back to the initial shape.
 struct Reset {
   Obeyed obey(RunControl& run) const;
@@ -141,7 +167,7 @@ struct Custom {
 
 /// The commands that a run obeys. To add one: a struct with obey() as above, in a file of its own, and its
 /// name in this list.
-using Command = std::variant<Save, Stop, Pause, Continue, Step, NewWeights, NewLoad, NewVolume, Paint,
-                             MoveHole, FillHole, Reset, Undo, Custom>;
+using Command = std::variant<Save, Stop, Pause, Continue, Step, NewWeights, NewLoad, NewVolume, NewWidths,
+                             NewBound, Paint, MoveHole, FillHole, TakeShape, Reset, Undo, Custom>;
 
 }  // namespace wheelwright

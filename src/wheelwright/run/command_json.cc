@@ -46,6 +46,20 @@ void fields(Is<NewVolume> auto& c, Visit&& visit) {
 }
 
 template <class Visit>
+void fields(Is<NewWidths> auto& c, Visit&& visit) {
+  visit("minimum_wall_m", c.minimum_wall);
+  visit("minimum_gap_m", c.minimum_gap);
+}
+
+template <class Visit>
+void fields(Is<NewBound> auto& c, Visit&& visit) {
+  visit("constraint", c.constraint);
+  visit("at_least", c.at_least);
+  visit("at_most", c.at_most);
+  visit("equals", c.equals);
+}
+
+template <class Visit>
 void fields(Is<Paint> auto& c, Visit&& visit) {
   visit("as", c.as);
   visit("path_m", c.path);
@@ -62,6 +76,11 @@ void fields(Is<MoveHole> auto& c, Visit&& visit) {
 template <class Visit>
 void fields(Is<FillHole> auto& c, Visit&& visit) {
   visit("at_m", c.at);
+}
+
+template <class Visit>
+void fields(Is<TakeShape> auto& c, Visit&& visit) {
+  visit("file", c.file);
 }
 
 template <class C>
@@ -83,11 +102,17 @@ constexpr const char* word<NewLoad> = "load";
 template <>
 constexpr const char* word<NewVolume> = "volume";
 template <>
+constexpr const char* word<NewWidths> = "widths";
+template <>
+constexpr const char* word<NewBound> = "bound";
+template <>
 constexpr const char* word<Paint> = "paint";
 template <>
 constexpr const char* word<MoveHole> = "move_hole";
 template <>
 constexpr const char* word<FillHole> = "fill_hole";
+template <>
+constexpr const char* word<TakeShape> = "take_shape";
 template <>
 constexpr const char* word<Reset> = "reset";
 template <>
@@ -143,6 +168,11 @@ struct Reader {
       if (!read(j[k], value[k])) return false;
     return true;
   }
+  static bool read(const Json& j, std::string& value) {
+    if (!j.is_string()) return false;
+    value = j;
+    return true;
+  }
   static bool read(const Json& j, Fill& value) {
     if (j != "hole" && j != "material") return false;
     value = j == "hole" ? Fill::hole : Fill::material;
@@ -187,15 +217,19 @@ std::string command_json(const Command& command) {
   return json.dump();
 }
 
-Expected<Command, Refusal> parse_command(std::string_view text) {
-  // Deeper nesting than any command has would only cost memory.
+bool is_nested_deeper(std::string_view json, int levels) {
   int depth = 0;
-  for (const char c : text) {
+  for (const char c : json) {
     if (c == '[' || c == '{') ++depth;
     if (c == ']' || c == '}') --depth;
-    constexpr int most = 4;
-    if (depth > most) return Refusal{"no command"};
+    if (depth > levels) return true;
   }
+  return false;
+}
+
+Expected<Command, Refusal> parse_command(std::string_view text) {
+  constexpr int levels = 4;
+  if (is_nested_deeper(text, levels)) return Refusal{"no command"};
   Json json = Json::parse(text, nullptr, false);
   if (!json.is_object() || !json.contains("do") || !json["do"].is_string()) return Refusal{"no command"};
   const std::string name = json["do"];

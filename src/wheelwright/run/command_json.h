@@ -16,4 +16,8 @@ Expected<Command, Refusal> parse_command(std::string_view json);
 
 inline constexpr std::size_t most_path_points = 500;
 
+/// Whether brackets are nested more deeply in a text than this: no command has more than 4 levels, and to
+/// read more would only cost memory and stack.
+bool is_nested_deeper(std::string_view json, int levels);
+
 }  // namespace wheelwright

@@ -22,6 +22,8 @@ std::optional<int> count_in(const Json& json, const char* key) {
 }
 
 Expected<LoggedCommand, Refusal> parse_line(const std::string& line) {
+  constexpr int levels = 5;
+  if (is_nested_deeper(line, levels)) return Refusal{"no logged command"};
   const Json json = Json::parse(line, nullptr, false);
   if (!json.is_object() || !json.contains("command")) return Refusal{"no logged command"};
   const auto trials = count_in(json, "trials"), waits = count_in(json, "waits");

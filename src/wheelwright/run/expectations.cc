@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include "wheelwright/analysis/strain_peaks.h"
 #include "wheelwright/functionals/quantity_functional.h"
 #include "wheelwright/report/described_wheel.h"
 
@@ -44,8 +43,7 @@ std::optional<double> value_of(Quantity quantity, const StateSolver<dim>& solver
   if (quantity == Quantity::objective) return evaluation.function("objective").value;
   if (quantity == Quantity::volume_fraction) return volume_fraction(solver.model().grid, state.measure);
   if (quantity == Quantity::peak_von_mises)
-    return solution ? std::optional(std::ranges::max(strain_peaks(solver, *solution).von_mises))
-                    : std::nullopt;
+    return solution ? std::optional(std::ranges::max(solution->strain_peaks().von_mises)) : std::nullopt;
   if (const auto functional = named_value(evaluation.terms, name(quantity))) return functional;
   if (const auto measure = named_value(evaluation.measures, name(quantity))) return measure;
   if (quantity == Quantity::minimum_wall || quantity == Quantity::minimum_gap)

@@ -76,11 +76,10 @@ HistoryColumns history_columns(const Study<dim>& study) {
 template <int dim>
 std::vector<MeasureValue> peaks(const StateSolver<dim>& solver, const State<dim>& state) {
   constexpr double degree = 180 / std::numbers::pi;
-  const StrainPeaks<dim> all = strain_peaks(solver, state);
-  const StressPeak<dim> stress = stress_peak(solver, state, all);
+  const StressPeak<dim> stress = stress_peak(solver, state);
   const std::array<double, peak_columns.size()> values{
       stress.value, stress.place[0], stress.place[1] * degree, stress.ground_azimuth * degree,
-      std::ranges::max(all.principal)};
+      std::ranges::max(state.strain_peaks().principal)};
   std::vector<MeasureValue> result;
   for (size_t k = 0; k < values.size(); ++k) result.push_back({peak_columns[k].first, values[k]});
   return result;

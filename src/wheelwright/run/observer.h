@@ -53,6 +53,12 @@ struct ShapeReplaced {
   std::string text;  ///< by what
 };
 
+/// A command drew another shape, which is evaluated next: ShapeReplaced follows, or a refusal of the command.
+template <int dim>
+struct ShapeProposed {
+  const LevelSet<dim>& shape;
+};
+
 /// The run waits for commands, saved.
 struct RunWaits {
   std::optional<StopReason> reason;  ///< why there is nothing to do; empty: it was told to pause
@@ -78,8 +84,9 @@ struct RunEnded {
 };
 
 template <int dim>
-using Event = std::variant<RunStarted, TrialDone<dim>, SaveRequested<dim>, CommandDone, CaseChanged,
-                           ShapeReplaced, GridChanged, RunWaits, RunProceeds, RunEnded<dim>>;
+using Event =
+    std::variant<RunStarted, TrialDone<dim>, SaveRequested<dim>, CommandDone, CaseChanged, ShapeProposed<dim>,
+                 ShapeReplaced, GridChanged, RunWaits, RunProceeds, RunEnded<dim>>;
 
 template <int dim>
 class Observer;

@@ -1,5 +1,6 @@
 #include "wheelwright/run/report_file.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <fstream>
 
@@ -12,7 +13,8 @@ namespace wheelwright {
 namespace {
 
 constexpr const char* page_file = "report.html";
-constexpr double seconds_between_pages = 5;
+constexpr double least_seconds_between_pages = 5;
+constexpr double most_share_of_time = 0.01;
 
 /// Keeps the lines of the shapes up to the one that the run goes on from.
 void keep_outlines(const std::filesystem::path& folder, std::optional<int> resumed_after) {
@@ -29,6 +31,13 @@ void add_outline(const std::filesystem::path& folder, const ShapeOutline& outlin
   if (!(stream << outline_line(outline)).flush()) throw OutputError(path, errno);
 }
 
+template <int dim>
+ReportRun<dim> report_of_end(const RunEnded<dim>& ended, const RunView<dim>& run) {
+  if (!ended.summary) return report_without_results<dim>(run.folder, run.study.source, ended.reason);
+  return report_of_results<dim>(run.folder, run.study.source, *ended.summary,
+                                {&ended.state->shape, ended.solver, ended.solution}, ended.reason);
+}
+
 }  // namespace
 
 template <int dim>
@@ -38,18 +47,17 @@ void ReportFile<dim>::operator()(const Event<dim>& event, const RunView<dim>& ru
   if (const auto* done = std::get_if<TrialDone<dim>>(&event);
       done && done->trial.verdict == Verdict::accepted) {
     add_outline(run.folder, shape_outline(done->state.iteration, mid_plane_section(done->state.shape)));
-    waited_ += since_written_.lap();
-    if (waited_ >= seconds_between_pages) {
+    waited_ += clock_.lap();
+    if (waited_ >= std::max(wait_, least_seconds_between_pages)) {
       write_atomically(run.folder / page_file,
                        report_page({page_run(report_of_folder<dim>(run.folder, run.study.source))}));
       waited_ = 0;
+      wait_ = clock_.lap() / most_share_of_time;
     }
   }
-  if (const auto* ended = std::get_if<RunEnded<dim>>(&event); ended && ended->summary)
-    write_atomically(run.folder / page_file,
-                     report_page({page_run(report_of_results<dim>(
-                         run.folder, run.study.source, *ended->summary,
-                         {&ended->state->shape, ended->solver, ended->solution}, ended->reason))}));
+  const auto* ended = std::get_if<RunEnded<dim>>(&event);
+  if (ended && (ended->state || ended->reason == StopReason::failed_start))
+    write_atomically(run.folder / page_file, report_page({page_run(report_of_end(*ended, run))}));
 }
 
 template class ReportFile<2>;

@@ -5,16 +5,18 @@
 
 namespace wheelwright {
 
-/// Writes report.html at the end, and every few seconds while the run goes on, for a browser that follows it;
-/// keeps the outlines of all accepted shapes for it.
+/// Writes report.html at the end, and while the run goes on, for a browser that follows it: every few
+/// seconds, and less often where that would take more than a hundredth of the time. Keeps the outlines of all
+/// accepted shapes for it.
 template <int dim>
 class ReportFile : public Observer<dim> {
  public:
   void operator()(const Event<dim>& event, const RunView<dim>& run) override;
 
  private:
-  Stopwatch since_written_;
+  Stopwatch clock_;
   double waited_ = 0;  ///< since the page was written [s]
+  double wait_ = 0;    ///< from one page to the next, by what the last one took [s]
 };
 
 }  // namespace wheelwright

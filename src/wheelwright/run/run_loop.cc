@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <fstream>
+#include <iterator>
 #include <limits>
 
 #include "wheelwright/case/derived.h"
@@ -11,6 +14,7 @@
 #include "wheelwright/evolution/regrid.h"
 #include "wheelwright/evolution/volume.h"
 #include "wheelwright/files/atomic_file.h"
+#include "wheelwright/files/level_set_file.h"
 #include "wheelwright/geometry/components.h"
 #include "wheelwright/geometry/values_on.h"
 #include "wheelwright/run/own_drawings.h"
@@ -56,6 +60,29 @@ std::vector<ShapeEvent<dim>> changes_by_grid(const LevelSet<dim>& before, const 
   PolarGrid<dim> fine = after.lattice.grid();
   for (int& cells : fine.cells) cells *= component_samples;
   return topology_changes(components(values_on(before, Lattice<dim>(fine, 1)), 1), components(after));
+}
+
+/// The level set in a file.
+template <int dim>
+Expected<LevelSet<dim>, Refusal> read_shape(const std::filesystem::path& file) {
+  constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 28;
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error) || std::filesystem::file_size(file, error) > most_bytes)
+    return Refusal{fmt::format("{}: there is no shape", file.string())};
+  std::ifstream stream(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  auto shape = parse_level_set_file<dim>(bytes);
+  if (!shape) return Refusal{fmt::format("{}: {}", file.string(), shape.failure().detail)};
+  return *std::move(shape);
+}
+
+/// Whether shapes of one grid are shapes of the other: their sectors are equal rings.
+template <int dim>
+bool is_same_wheel(const PolarGrid<dim>& a, const PolarGrid<dim>& b) {
+  constexpr double near = 1e-9;
+  const bool is_as_wide = dim == 2 || std::abs(a.width - b.width) <= near * b.width;
+  return a.n_sectors == b.n_sectors && is_as_wide && std::abs(a.inner_radius - b.inner_radius) <= near &&
+         std::abs(a.outer_radius - b.outer_radius) <= near;
 }
 
 Refusal refusal(const Failure& failure) {
@@ -464,6 +491,20 @@ std::optional<Refusal> RunLoop<dim>::draw(std::span<const Stroke> strokes, const
 }
 
 template <int dim>
+std::optional<Refusal> RunLoop<dim>::take_shape(const std::filesystem::path& file, const std::string& what) {
+  const auto shape = read_shape<dim>(file);
+  if (!shape) return shape.failure();
+  if (!is_same_wheel(shape->lattice.grid(), state_->shape.lattice.grid()))
+    return Refusal{fmt::format("{}: its wheel has other radii or another number of sectors", file.string())};
+  Past before = present();
+  if (auto refusal =
+          replace_shape(work_->optimizer.evolver().keep_bands(regrid(*shape, state_->shape.lattice)), what))
+    return refusal;
+  remember(std::move(before));
+  return {};
+}
+
+template <int dim>
 std::optional<Refusal> RunLoop<dim>::reset() {
   Past before = present();
   if (auto refusal = replace_shape(initial_->shape, "back to the initial shape")) return refusal;
@@ -503,6 +544,7 @@ Expected<OptimizationState<dim>> RunLoop<dim>::state_at(const ShapeOptimizer<dim
 /// Proceeds from another shape under the same case.
 template <int dim>
 std::optional<Refusal> RunLoop<dim>::replace_shape(const LevelSet<dim>& shape, const std::string& what) {
+  if (shape.values != state_->shape.values) notify(ShapeProposed<dim>{shape});
   std::optional<Trial<dim>> trial;
   stops_before_ = std::numeric_limits<int>::max();  // a command to stop that comes later is obeyed later
   auto anew = state_at(work_->optimizer, shape, trial);

@@ -42,6 +42,7 @@ class RunLoop : private RunControl {
   std::optional<Refusal> change_case(const Case& changed, const std::string& what) override;
   std::vector<Point> hole_at(const Point& point) const override;
   std::optional<Refusal> draw(std::span<const Stroke> strokes, const std::string& what) override;
+  std::optional<Refusal> take_shape(const std::filesystem::path& file, const std::string& what) override;
   std::optional<Refusal> reset() override;
   std::optional<Refusal> undo() override;
 

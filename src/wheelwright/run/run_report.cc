@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <sstream>
 
@@ -11,6 +13,8 @@
 #include "wheelwright/report/shape_boundary.h"
 #include "wheelwright/report/surface_vtp.h"
 #include "wheelwright/report/wheel_pictures.h"
+#include "wheelwright/run/case_report.h"
+#include "wheelwright/run/failure_report.h"
 #include "wheelwright/run/feature_warnings.h"
 #include "wheelwright/run/history.h"
 #include "wheelwright/run/provenance.h"
@@ -28,7 +32,8 @@ double number(const std::string& cell) {
   return !cell.empty() && *end == '\0' ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// The columns of the accepted shapes that hold numbers, and how many trials there were.
+/// The columns of the accepted shapes that hold numbers, how many trials there were, why some were rejected,
+/// and what happened to the holes.
 template <int dim>
 void read_history(const fs::path& file, ReportRun<dim>& run) {
   std::ifstream stream(file);
@@ -37,15 +42,19 @@ void read_history(const fs::path& file, ReportRun<dim>& run) {
   for (const std::string& name : csv_cells(line))
     if (name != "reason" && name != "events") run.history.push_back({name, {}});
   const auto columns = csv_cells(line);
+  const auto index = [&](const char* name) { return std::ranges::find(columns, name) - columns.begin(); };
+  const auto accepted = index("accepted"), reason = index("reason"), events = index("events"),
+             iteration = index("iteration");
   while (std::getline(stream, line)) {
     const auto cells = csv_cells(line);
     if (cells.size() != columns.size()) continue;
+    const auto cell = [&](std::ptrdiff_t k) { return k < std::ssize(cells) ? cells[k] : std::string(); };
     ++run.trials;
-    const auto accepted = std::ranges::find(columns, "accepted") - columns.begin();
-    if (accepted == std::ssize(columns) || cells[accepted] != "1") {
-      ++run.rejected;
+    if (cell(accepted) != "1") {
+      ++run.rejected[cell(reason)];
       continue;
     }
+    if (!cell(events).empty()) run.events.push_back({cell(iteration), cell(events)});
     auto curve = run.history.begin();
     for (std::size_t k = 0; k < columns.size(); ++k)
       if (columns[k] != "reason" && columns[k] != "events") (curve++)->values.push_back(number(cells[k]));
@@ -55,6 +64,13 @@ void read_history(const fs::path& file, ReportRun<dim>& run) {
 std::string content(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::string first_line(const fs::path& file) {
+  std::ifstream stream(file);
+  std::string line;
+  std::getline(stream, line);
+  return line;
 }
 
 template <int dim>
@@ -95,18 +111,44 @@ std::vector<std::string> flags(const Case& c, const RunSummary<dim>& summary,
   if (const auto warning = deformation_warning(wheel.summary.deformation); !warning.empty())
     result.push_back(warning);
   for (const std::string& warning : feature_warnings(c, wheel.clearances)) result.push_back(warning);
-  const Case shown = with_levels_of_results(c);
-  if (const double cells = cells_per_contact_patch(shown); cells < least_cells_per_contact_patch)
-    result.push_back(
-        fmt::format("The contact patch is only {:.2g} cells wide: pressures are not resolved.", cells));
+  for (const std::string& warning : warnings(with_levels_of_results(c))) result.push_back(warning);
   if (reason == StopReason::iterations && c.optimizer.tolerance > 0)
     result.push_back(
         "The run ended by its number of shapes before it converged: more shapes may improve the wheel.");
   if (reason == StopReason::gave_up)
     result.push_back(
-        "The run gave up; the folder failure says why. The shape is the last one that was accepted.");
+        "The run gave up: the file failure/report.txt says why. The shape is the last one that was "
+        "accepted.");
   if (!reason || reason == StopReason::stop_requested)
     result.push_back("The run has not ended by itself: more shapes may improve the wheel.");
+  return result;
+}
+
+/// What the numbers do not tell.
+template <int dim>
+std::vector<std::string> limits(const Case& c, const DescribedWheel<dim>& wheel) {
+  const Case shown = with_levels_of_results(c);
+  std::vector<std::string> result{
+      "The material is linear elastic: no creep, no heat, no fatigue. Whether it bears the peak stress is "
+      "not "
+      "judged."};
+  result.push_back(
+      fmt::format("Rolling is a row of {} load positions per sector, each at rest: no inertia, no "
+                  "rolling resistance.",
+                  c.load.positions));
+  if (dim == 2)
+    result.push_back(
+        fmt::format("The wheel and its load are the same over the whole width ({}): forces along the "
+                    "axle and the ends of the width are left out.",
+                    c.material.plane == Plane::stress ? "plane stress" : "plane strain"));
+  std::string cells =
+      fmt::format("It was computed on {} x {} cells", c.grid.radial_cells, c.grid.angular_cells);
+  if (!c.load.travel)
+    cells += fmt::format("; the contact patch is {:.1f} cells wide", cells_per_contact_patch(shown));
+  if (wheel.clearances.wall)
+    cells += fmt::format("; the thinnest wall is {:.1f} cells thick",
+                         wheel.clearances.wall->width / polar_grid<2>(c).resolution());
+  result.push_back(cells + ". A finer grid shows how much that matters.");
   return result;
 }
 
@@ -120,22 +162,35 @@ double page_bytes(const SurfaceMesh& surface, int positions) {
   return bytes_per_vertex * static_cast<double>(surface.points.size()) * positions;
 }
 
+struct LitWheel {
+  SurfaceMesh surface;
+  std::vector<SurfacePosition> positions;
+};
+
 /// The surface, as fine as the page holds it with all positions; where it is too large even with one cube per
 /// cell, only the worst position is shown.
-void add_fields(const SolvedShape<3>& last, ReportRun<3>& run) {
+LitWheel lit_wheel(const SolvedShape<3>& last) {
   constexpr double most_bytes = 8e6;
   const int degree = last.solver->model().degree, n_positions = last.solver->model().n_positions;
-  run.surface = shape_boundary(*last.shape, degree);
-  if (page_bytes(run.surface, n_positions) > most_bytes)
-    run.surface = material_surface(*last.shape, 1, degree);
-  const bool all = page_bytes(run.surface, n_positions) <= most_bytes;
+  LitWheel wheel{shape_boundary(*last.shape, degree), {}};
+  if (page_bytes(wheel.surface, n_positions) > most_bytes)
+    wheel.surface = material_surface(*last.shape, 1, degree);
+  const bool all = page_bytes(wheel.surface, n_positions) <= most_bytes;
   const int worst = worst_position(last.solution->strain_energy());
-  const auto points = field_points(run.surface, displacement_lattice(last.solver->model()));
+  const auto points = field_points(wheel.surface, displacement_lattice(last.solver->model()));
   for_each_position<3>(*last.solver, *last.solution, [&](int position, const PositionFields<3>& fields) {
     if (!all && position != worst) return;
-    run.positions.push_back({fields.ground_azimuth, points.values({"displacement", "m", fields.displacement}),
-                             points.values(von_mises_field(fields.stress))[0]});
+    wheel.positions.push_back({fields.ground_azimuth,
+                               points.values({"displacement", "m", fields.displacement}),
+                               points.values(von_mises_field(fields.stress))[0]});
   });
+  return wheel;
+}
+
+void add_fields(const SolvedShape<3>& last, ReportRun<3>& run) {
+  LitWheel wheel = lit_wheel(last);
+  run.surface = std::move(wheel.surface);
+  run.positions = std::move(wheel.positions);
 }
 
 }  // namespace
@@ -160,10 +215,12 @@ ReportRun<dim> report_of_folder(const fs::path& folder, const Case& c) {
                      .load = load_text(rolling_model<dim>(c)),
                      .grid = polar_grid<dim>(c),
                      .trials = 0,
-                     .rejected = 0,
+                     .rejected = {},
+                     .events = {},
                      .history = {},
                      .outlines = read_outlines(folder),
                      .flags = {},
+                     .limits = {},
                      .summary = {},
                      .surface = {},
                      .positions = {},
@@ -181,6 +238,7 @@ ReportRun<dim> report_of_results(const fs::path& folder, const Case& c, const Ru
   run.is_running = false;
   run.status = status_text(reason);
   run.flags = flags(c, summary, reason);
+  run.limits = limits(c, summary.after.wheel);
   run.summary = summary;
   run.shape = last.shape;
   add_fields(last, run);
@@ -188,6 +246,32 @@ ReportRun<dim> report_of_results(const fs::path& folder, const Case& c, const Ru
   return run;
 }
 
+template <int dim>
+ReportRun<dim> report_without_results(const fs::path& folder, const Case& c, StopReason reason) {
+  ReportRun<dim> run = report_of_folder<dim>(folder, c);
+  run.is_running = false;
+  run.status = status_text(reason);
+  run.flags = {reason == StopReason::failed_start
+                   ? "There is no wheel to show: " + first_line(folder / failure_report_file)
+                   : "The run ended before its results were computed: `wheelwright report` computes them."};
+  std::ranges::move(warnings(with_levels_of_results(c)), std::back_inserter(run.flags));
+  return run;
+}
+
+template <int dim>
+std::string loaded_wheel(const SolvedShape<dim>& solved) {
+  if constexpr (dim == 2) {
+    return loaded_wheel_json(*solved.shape, all_position_fields(*solved.solver, *solved.solution));
+  } else {
+    const LitWheel wheel = lit_wheel(solved);
+    return loaded_wheel_json(wheel.surface, wheel.positions);
+  }
+}
+
+template ReportRun<2> report_without_results(const fs::path&, const Case&, StopReason);
+template ReportRun<3> report_without_results(const fs::path&, const Case&, StopReason);
+template std::string loaded_wheel(const SolvedShape<2>&);
+template std::string loaded_wheel(const SolvedShape<3>&);
 template ReportRun<2> report_of_folder(const fs::path&, const Case&);
 template ReportRun<3> report_of_folder(const fs::path&, const Case&);
 template ReportRun<2> report_of_results(const fs::path&, const Case&, const RunSummary<2>&,

@@ -26,10 +26,19 @@ struct SolvedShape {
   const State<dim>* solution;
 };
 
-/// The same of a run that ended, with its last shape. `reason` is absent where it is not known to have ended.
+/// The loaded wheel in its load positions, as the page holds it.
+template <int dim>
+std::string loaded_wheel(const SolvedShape<dim>& solved);
+
+/// What is known of a run that ended, with its last shape. `reason` is absent where it is not known to have
+/// ended.
 template <int dim>
 ReportRun<dim> report_of_results(const std::filesystem::path& folder, const Case& c,
                                  const RunSummary<dim>& summary, const SolvedShape<dim>& last,
                                  std::optional<StopReason> reason);
+
+/// The same of a run that ended without results: its first shape could not be solved, or there was no time.
+template <int dim>
+ReportRun<dim> report_without_results(const std::filesystem::path& folder, const Case& c, StopReason reason);
 
 }  // namespace wheelwright

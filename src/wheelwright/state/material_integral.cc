@@ -8,7 +8,7 @@ template <int dim>
 void for_each_strain(const StateSolver<dim>& solver, const State<dim>& state,
                      const MaterialDensity<dim>& covered, const StrainVisitor<dim>& visit) {
   const RollingModel<dim>& model = solver.model();
-  const auto displacement = state.displacement();
+  const Displacement<dim>& displacement = state.displacement();
   MaterialRule<dim>(state.domain(), model.degree)
       .for_each_cell([&](int cell, std::span<const ReferencePoint<dim>> points) {
         const auto place = model.grid.cell_position(cell);
@@ -22,7 +22,7 @@ void for_each_strain(const StateSolver<dim>& solver, const State<dim>& state,
                             determinant<dim>(map.jacobian(ShapeFunctions<dim>(model.degree, point.xi))));
         }
         const Material& material = model.materials.in_row(place[0]);
-        for_each_strain<dim>(displacement->strains(cell, xi),
+        for_each_strain<dim>(displacement.strains(cell, xi),
                              [&](int load_case, int q, const Voigt<dim>& strain) {
                                visit(load_case / model.grid.n_sectors, weights[q], material, strain);
                              });

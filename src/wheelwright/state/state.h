@@ -33,6 +33,15 @@ class Displacement {
   virtual Matrix strains(int cell, std::span<const Vec<dim>> points) const = 0;
 };
 
+/// The largest values of every load position, over the quadrature points of the material. The tread is seen
+/// through the nodes of the level set's grid, without its refinement.
+template <int dim>
+struct StrainPeaks {
+  std::vector<double> von_mises;           ///< stress [Pa]
+  std::vector<Vec<dim>> von_mises_places;  ///< where they are: polar coordinates of the body (m, rad, m)
+  std::vector<double> principal;           ///< absolute value of a principal strain
+};
+
 /// Shape gradients of several functions.
 struct ShapeGradients {
   std::vector<std::vector<double>> densities;  ///< [function][point of State::boundary()]
@@ -68,8 +77,12 @@ class State {
   /// Wall times of the solution's phases.
   virtual const std::vector<PhaseTime>& phases() const = 0;
 
-  /// The displacement everywhere: it costs one sweep over the interior unknowns.
-  virtual std::unique_ptr<const Displacement<dim>> displacement() const = 0;
+  /// The displacement everywhere. The first call costs one sweep over the interior unknowns; the state
+  /// remembers it.
+  virtual const Displacement<dim>& displacement() const = 0;
+
+  /// The first call costs one evaluation of the strains; the state remembers them.
+  virtual const StrainPeaks<dim>& strain_peaks() const = 0;
 
   /// The points of the moving boundary at which shape gradients are given.
   virtual const std::vector<SurfacePoint<dim>>& boundary() const = 0;

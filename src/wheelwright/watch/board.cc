@@ -11,21 +11,24 @@ namespace {
 /// A page draws no more of a curve.
 constexpr std::size_t most_points = 4000;
 
-double measure_named(const WatchedShape& shape, std::string_view name) {
+template <int dim>
+double measure_named(const WatchedShape<dim>& shape, std::string_view name) {
   const auto found = std::ranges::find(shape.measures, name, &MeasureValue::name);
   return found == shape.measures.end() ? std::nan("") : found->value;
 }
 
 }  // namespace
 
-void Board::show(std::shared_ptr<const WatchedShape> shape) {
+template <int dim>
+void Board<dim>::show(std::shared_ptr<const WatchedShape<dim>> shape) {
   CurvePoint point{.version = 0,
                    .shape = shape->number,
                    .objective = shape->objective,
                    .mean_travel = measure_named(*shape, name(Quantity::mean_travel)),
                    .run_out = measure_named(*shape, name(Quantity::run_out)),
-                   .volume_fraction = shape->measure / sector_measure<2>(shape->psi.lattice.grid())};
-  update([&](BoardView& view) {
+                   .volume_fraction = shape->measure / sector_measure<dim>(shape->psi.lattice.grid())};
+  update([&](BoardView<dim>& view) {
+    view.proposed.reset();
     if (!view.first) view.first = shape;
     view.shape = std::move(shape);
     point.version = view.version + 1;
@@ -34,29 +37,36 @@ void Board::show(std::shared_ptr<const WatchedShape> shape) {
   });
 }
 
-BoardView Board::view() const {
+template <int dim>
+BoardView<dim> Board<dim>::view() const {
   const std::scoped_lock lock(mutex_);
   return view_;
 }
 
-BoardView Board::view_after(long version, std::chrono::milliseconds patience) const {
+template <int dim>
+BoardView<dim> Board<dim>::view_after(long version, std::chrono::milliseconds patience) const {
   std::unique_lock lock(mutex_);
   changed_.wait_for(lock, patience, [&] { return is_closed_ || view_.version > version; });
   return view_;
 }
 
-std::vector<CurvePoint> Board::curve_after(long version) const {
+template <int dim>
+std::vector<CurvePoint> Board<dim>::curve_after(long version) const {
   const std::scoped_lock lock(mutex_);
   const auto first = std::ranges::upper_bound(curve_, version, {}, &CurvePoint::version);
   return {first, curve_.end()};
 }
 
-void Board::close() {
+template <int dim>
+void Board<dim>::close() {
   {
     const std::scoped_lock lock(mutex_);
     is_closed_ = true;
   }
   changed_.notify_all();
 }
+
+template class Board<2>;
+template class Board<3>;
 
 }  // namespace wheelwright

@@ -16,16 +16,17 @@
 namespace wheelwright {
 
 /// A shape of a run with its solution, for those who show it. Immutable.
+template <int dim>
 struct WatchedShape {
   std::shared_ptr<const Case> source;
-  std::shared_ptr<const StateSolver<2>> solver;  ///< which the solution needs
-  std::shared_ptr<const State<2>> solution;
-  LevelSet<2> psi;
+  std::shared_ptr<const StateSolver<dim>> solver;  ///< which the solution needs
+  std::shared_ptr<const State<dim>> solution;
+  LevelSet<dim> psi;
   int number;  ///< of the accepted shape
   double objective;
   std::vector<TermValue> terms;
   std::vector<MeasureValue> measures;
-  double measure, target_measure;  ///< of one sector [m^2]
+  double measure, target_measure;  ///< of one sector [m^2], or [m^3] when dim = 3
 };
 
 /// What is kept of every shape, for curves.
@@ -42,9 +43,11 @@ constexpr const char* to_string(Activity activity) {
 }
 
 /// What a run looks like now.
+template <int dim>
 struct BoardView {
   long version = 0;  ///< grows with every change
-  std::shared_ptr<const WatchedShape> shape, first;
+  std::shared_ptr<const WatchedShape<dim>> shape, first;
+  std::shared_ptr<const LevelSet<dim>> proposed;  ///< drawn by a command, and not solved yet; mostly null
   Activity activity = Activity::starting;
   std::optional<StopReason> reason;  ///< why it settled or ended
   bool can_undo = false;
@@ -54,6 +57,7 @@ struct BoardView {
 
 /// Where a run leaves what others show: the newest shape replaces the one before it, whether or not anyone
 /// has seen that. Any thread may use it.
+template <int dim>
 class Board {
  public:
   /// Changes what is to be seen.
@@ -68,13 +72,13 @@ class Board {
   }
 
   /// The same for a new shape, whose numbers become points of the curves.
-  void show(std::shared_ptr<const WatchedShape> shape);
+  void show(std::shared_ptr<const WatchedShape<dim>> shape);
 
-  BoardView view() const;
+  BoardView<dim> view() const;
 
   /// The view once its version is above the given one, at the latest after this time, or when the board is
   /// closed.
-  BoardView view_after(long version, std::chrono::milliseconds patience) const;
+  BoardView<dim> view_after(long version, std::chrono::milliseconds patience) const;
 
   /// The points of the curves that came after a version, oldest first.
   std::vector<CurvePoint> curve_after(long version) const;
@@ -85,7 +89,7 @@ class Board {
  private:
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
-  BoardView view_;
+  BoardView<dim> view_;
   std::deque<CurvePoint> curve_;
   bool is_closed_ = false;
 };

@@ -2,50 +2,60 @@
 
 namespace wheelwright {
 
-void BoardObserver::operator()(const Event<2>& event, const RunView<2>& run) {
+template <int dim>
+void BoardObserver<dim>::operator()(const Event<dim>& event, const RunView<dim>& run) {
   if (std::holds_alternative<CaseChanged>(event)) source_.reset();
-  if (const auto* done = std::get_if<TrialDone<2>>(&event))
+  if (const auto* done = std::get_if<TrialDone<dim>>(&event))
     if (done->trial.verdict == Verdict::accepted && done->trial.solution) show(*done, run);
+  if (const auto* proposed = std::get_if<ShapeProposed<dim>>(&event))
+    board_->update([&](BoardView<dim>& view) {
+      view.proposed = std::make_shared<const LevelSet<dim>>(proposed->shape);
+    });
   if (const auto* waits = std::get_if<RunWaits>(&event))
-    board_->update([&](BoardView& view) {
+    board_->update([&](BoardView<dim>& view) {
       view.activity = waits->reason ? Activity::settled : Activity::paused;
       view.reason = waits->reason;
     });
   if (std::holds_alternative<RunProceeds>(event))
-    board_->update([](BoardView& view) {
+    board_->update([](BoardView<dim>& view) {
       view.activity = Activity::computing;
       view.reason.reset();
     });
   if (const auto* done = std::get_if<CommandDone>(&event))
-    board_->update([&](BoardView& view) {
+    board_->update([&](BoardView<dim>& view) {
+      view.proposed.reset();
       view.message = done->text;
       view.is_refusal = !done->was_obeyed;
       view.can_undo = run.can_undo;
     });
-  if (const auto* ended = std::get_if<RunEnded<2>>(&event))
-    board_->update([&](BoardView& view) {
+  if (const auto* ended = std::get_if<RunEnded<dim>>(&event))
+    board_->update([&](BoardView<dim>& view) {
       view.activity = Activity::ended;
       view.reason = ended->reason;
     });
 }
 
-void BoardObserver::show(const TrialDone<2>& done, const RunView<2>& run) {
+template <int dim>
+void BoardObserver<dim>::show(const TrialDone<dim>& done, const RunView<dim>& run) {
   if (!source_) source_ = std::make_shared<const Case>(run.study.source);
-  const OptimizationState<2>& state = done.state;
-  auto shape =
-      std::make_shared<WatchedShape>(WatchedShape{.source = source_,
-                                                  .solver = run.study.solver,
-                                                  .solution = done.trial.solution,
-                                                  .psi = state.shape,
-                                                  .number = state.iteration,
-                                                  .objective = state.evaluation.function("objective").value,
-                                                  .terms = state.evaluation.terms,
-                                                  .measures = state.evaluation.measures,
-                                                  .measure = state.measure,
-                                                  .target_measure = state.target_measure});
+  const OptimizationState<dim>& state = done.state;
+  auto shape = std::make_shared<WatchedShape<dim>>(
+      WatchedShape<dim>{.source = source_,
+                        .solver = run.study.solver,
+                        .solution = done.trial.solution,
+                        .psi = state.shape,
+                        .number = state.iteration,
+                        .objective = state.evaluation.function("objective").value,
+                        .terms = state.evaluation.terms,
+                        .measures = state.evaluation.measures,
+                        .measure = state.measure,
+                        .target_measure = state.target_measure});
   if (board_->view().activity == Activity::starting)
-    board_->update([](BoardView& view) { view.activity = Activity::computing; });
+    board_->update([](BoardView<dim>& view) { view.activity = Activity::computing; });
   board_->show(std::move(shape));
 }
+
+template class BoardObserver<2>;
+template class BoardObserver<3>;
 
 }  // namespace wheelwright

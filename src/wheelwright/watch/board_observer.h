@@ -8,16 +8,17 @@
 namespace wheelwright {
 
 /// Shows a run on a board. Costs the run next to nothing: it copies the nodal values of the shape.
-class BoardObserver : public Observer<2> {
+template <int dim>
+class BoardObserver : public Observer<dim> {
  public:
-  explicit BoardObserver(std::shared_ptr<Board> board) : board_(std::move(board)) {}
+  explicit BoardObserver(std::shared_ptr<Board<dim>> board) : board_(std::move(board)) {}
 
-  void operator()(const Event<2>& event, const RunView<2>& run) override;
+  void operator()(const Event<dim>& event, const RunView<dim>& run) override;
 
  private:
-  void show(const TrialDone<2>& done, const RunView<2>& run);
+  void show(const TrialDone<dim>& done, const RunView<dim>& run);
 
-  std::shared_ptr<Board> board_;
+  std::shared_ptr<Board<dim>> board_;
   std::shared_ptr<const Case> source_;  ///< as long as it does not change
 };
 

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "wheelwright/analysis/rolling_analysis.h"
+#include "wheelwright/base/units.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/evolution/volume.h"
 #include "wheelwright/report/solution_fields.h"
@@ -16,9 +17,23 @@ using Json = nlohmann::ordered_json;
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
-Json settings_json(const WatchedShape& shape) {
+/// The bounds of the case, in the units of its sections.
+Json bounds_json(const Case& c) {
+  Json bounds = Json::array();
+  for (const Constraint& bound : c.constraints) {
+    Json json{{"quantity", name(bound.quantity)}};
+    if (bound.at_least) json["at_least"] = *bound.at_least;
+    if (bound.at_most) json["at_most"] = *bound.at_most;
+    if (bound.equals) json["equals"] = *bound.equals;
+    bounds.push_back(std::move(json));
+  }
+  return bounds;
+}
+
+template <int dim>
+Json settings_json(const WatchedShape<dim>& shape) {
   const Case& c = *shape.source;
-  const double ring = sector_measure<2>(shape.psi.lattice.grid());
+  const double ring = sector_measure<dim>(shape.psi.lattice.grid());
   return {{"load",
            {{"force_N", c.load.force},
             {"travel_m", c.load.travel ? Json(*c.load.travel) : Json()},
@@ -32,13 +47,18 @@ Json settings_json(const WatchedShape& shape) {
             {"uniformity_annulus", c.objective.uniformity_annulus},
             {"uniformity_dual", c.objective.uniformity_dual},
             {"uniformity_l2", c.objective.uniformity_l2}}},
-          {"volume_target", shape.target_measure / ring}};
+          {"volume_target", shape.target_measure / ring},
+          {"minimum_wall_m", c.optimizer.minimum_wall.value_or(0)},
+          {"minimum_gap_m", c.optimizer.minimum_gap.value_or(0)},
+          {"bounds", bounds_json(c)}};
 }
 
-Json wheel_json(const WatchedShape& shape) {
-  const PolarGrid<2>& grid = shape.psi.lattice.grid();
+template <int dim>
+Json wheel_json(const WatchedShape<dim>& shape) {
+  const PolarGrid<dim>& grid = shape.psi.lattice.grid();
   const HoleRange room = free_region(*shape.source);
-  return {{"inner_radius_m", grid.inner_radius},
+  return {{"dimension", dim},
+          {"inner_radius_m", grid.inner_radius},
           {"outer_radius_m", grid.outer_radius},
           {"width_m", grid.width},
           {"sectors", grid.n_sectors},
@@ -47,32 +67,35 @@ Json wheel_json(const WatchedShape& shape) {
           {"cell_m", grid.resolution()}};
 }
 
-Json numbers_json(const WatchedShape& shape) {
-  Json numbers{{"objective_J_per_m", number(shape.objective)},
-               {"volume_fraction", shape.measure / sector_measure<2>(shape.psi.lattice.grid())}};
+template <int dim>
+Json numbers_json(const WatchedShape<dim>& shape) {
+  Json numbers{{dim == 2 ? "objective_J_per_m" : "objective_J", number(shape.objective)},
+               {"volume_fraction", shape.measure / sector_measure<dim>(shape.psi.lattice.grid())}};
   for (const TermValue& term : shape.terms) numbers[term.name] = number(term.value);
   for (const MeasureValue& measure : shape.measures) numbers[measure.name] = number(measure.value);
   return numbers;
 }
 
-Json outline_json(const WatchedShape& shape) {
+Json outline_json(const LevelSet<2>& psi) {
   Json loops = Json::array();
-  for (OutlineLoop& loop : sector_outline(shape.psi))
+  for (OutlineLoop& loop : sector_outline(psi))
     loops.push_back(
         {{"in_every_sector", loop.is_in_every_sector}, {"points_um", std::move(loop.micrometres)}});
   return loops;
 }
 
 /// The travel of the rim at all load positions of a sector.
-Json travel_json(const WatchedShape& shape) {
+template <int dim>
+Json travel_json(const WatchedShape<dim>& shape) {
   std::vector<double> travel;
   for (const auto& contact : shape.solution->contacts()) travel.push_back(contact.rim.towards_ground);
   return of_all(shape.solution->positions(), travel);
 }
 
-Json pressure_json(const WatchedShape& shape, int position) {
+template <int dim>
+Json pressure_json(const WatchedShape<dim>& shape, int position) {
   Json x = Json::array(), pressure = Json::array();
-  for (const ContactPoint& point : contact_points(*shape.solver, *shape.solution)) {
+  for (const ContactPoint& point : curve_points<dim>(contact_points(*shape.solver, *shape.solution))) {
     if (point.position != position) continue;
     x.push_back(point.x);
     pressure.push_back(point.pressure);
@@ -81,19 +104,20 @@ Json pressure_json(const WatchedShape& shape, int position) {
 }
 
 /// The mean travel of the rim under forces up to one and a half times the present one.
-Json force_curve_json(const WatchedShape& shape) {
+template <int dim>
+Json force_curve_json(const WatchedShape<dim>& shape) {
   double force = 0;
   for (const auto& contact : shape.solution->contacts()) force += contact.rim_force.towards_ground;
   force /= static_cast<double>(shape.solution->contacts().size());
   std::vector<double> loads;
   for (const double factor : {0.25, 0.5, 0.75, 1.0, 1.25, 1.5}) loads.push_back(factor * force);
-  const auto under = under_loads<2>(*shape.solution, loads);
+  const auto under = under_loads<dim>(*shape.solution, loads);
   if (!under) return Json();
   Json forces{0.0}, travels{0.0};
   for (std::size_t k = 0; k < loads.size(); ++k) {
     std::vector<double> travel;
     for (const ContactSummary& summary : (*under)[k]) travel.push_back(summary.travel);
-    forces.push_back(loads[k] * shape.source->wheel.width);
+    forces.push_back(loads[k] * whole_width(dim, shape.source->wheel.width));
     travels.push_back(rolling_variation(of_all(shape.solution->positions(), travel)).mean);
   }
   return {{"force_N", std::move(forces)}, {"travel_m", std::move(travels)}};
@@ -101,7 +125,9 @@ Json force_curve_json(const WatchedShape& shape) {
 
 }  // namespace
 
-std::string frame_json(const BoardView& view, const std::vector<CurvePoint>& curve, const FrameQuery& query) {
+template <int dim>
+std::string frame_json(const BoardView<dim>& view, const std::vector<CurvePoint>& curve,
+                       const FrameQuery& query) {
   Json json{{"version", view.version},
             {"activity", to_string(view.activity)},
             {"reason", view.reason ? Json(to_string(*view.reason)) : Json()},
@@ -114,17 +140,21 @@ std::string frame_json(const BoardView& view, const std::vector<CurvePoint>& cur
         {p.shape, number(p.objective), number(p.mean_travel), number(p.run_out), p.volume_fraction});
   json["curve"] = std::move(points);
   if (view.shape) {
-    const WatchedShape& shape = *view.shape;
+    const WatchedShape<dim>& shape = *view.shape;
     json["shape"] = shape.number;
     json["wheel"] = wheel_json(shape);
     json["settings"] = settings_json(shape);
     json["numbers"] = numbers_json(shape);
-    json["outline"] = outline_json(shape);
+    json["is_proposed"] = view.proposed != nullptr;
+    if constexpr (dim == 2) json["outline"] = outline_json(view.proposed ? *view.proposed : shape.psi);
     json["travel_m"] = travel_json(shape);
     json["pressure"] = pressure_json(shape, query.position);
     if (query.wants_force_curve) json["force_curve"] = force_curve_json(shape);
   }
   return json.dump(-1, ' ', true, Json::error_handler_t::replace);
 }
+
+template std::string frame_json(const BoardView<2>&, const std::vector<CurvePoint>&, const FrameQuery&);
+template std::string frame_json(const BoardView<3>&, const std::vector<CurvePoint>&, const FrameQuery&);
 
 }  // namespace wheelwright

@@ -24,7 +24,8 @@ class PageCommands {
 
   explicit PageCommands(CommandQueue& queue) : queue_(queue) {}
 
-  /// Whether pages may give this command. To save, to stop, and what a program gives, come from elsewhere.
+  /// Whether commands like this come from pages. To save, to stop, and what a program gives, come from
+  /// elsewhere.
   static bool is_for_pages(const Command& command);
 
   /// Empty while too many are waiting.
@@ -48,11 +49,12 @@ class PageCommands {
 };
 
 /// Tells them what became of the commands.
-class PageCommandsObserver : public Observer<2> {
+template <int dim>
+class PageCommandsObserver : public Observer<dim> {
  public:
   explicit PageCommandsObserver(std::shared_ptr<PageCommands> commands) : commands_(std::move(commands)) {}
 
-  void operator()(const Event<2>& event, const RunView<2>&) override {
+  void operator()(const Event<dim>& event, const RunView<dim>&) override {
     if (const auto* done = std::get_if<CommandDone>(&event)) commands_->note(*done);
   }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <type_traits>
 
 #include "wheelwright/cad/check_outline.h"
 #include "wheelwright/cad/fit_outline.h"
@@ -11,6 +12,7 @@
 #include "wheelwright/case/write.h"
 #include "wheelwright/cut/measure.h"
 #include "wheelwright/evolution/volume.h"
+#include "wheelwright/export/fit_surface.h"
 #include "wheelwright/export/formats.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/files/level_set_file.h"
@@ -19,14 +21,14 @@
 #include "wheelwright/report/solution_fields.h"
 #include "wheelwright/run/provenance.h"
 #include "wheelwright/run/run_files.h"
-#include "wheelwright/run/run_report.h"
 #include "wheelwright/run/run_title.h"
 
 namespace wheelwright {
 namespace {
 
-double volume_share(const LevelSet<2>& psi, double measure) {
-  return measure / sector_measure<2>(psi.lattice.grid());
+template <int dim>
+double volume_share(const LevelSet<dim>& psi, double measure) {
+  return measure / sector_measure<dim>(psi.lattice.grid());
 }
 
 NoProduct no_product(const Failure& failure) {
@@ -37,13 +39,25 @@ NoProduct no_product(const std::vector<cad::OutlineFault>& faults) {
   return {fmt::format("the outline cannot be exported: {}", faults.front().what)};
 }
 
-}  // namespace
-
-std::string loaded_wheel(const WatchedShape& shape) {
-  return loaded_wheel_json(shape.psi, all_position_fields(*shape.solver, *shape.solution));
+template <int dim>
+std::string title(const WatchedShape<dim>& shape) {
+  return fmt::format("{}, shape {}", run_title(*shape.source), shape.number);
 }
 
-Expected<std::string, NoProduct> exported(const WatchedShape& shape, std::string_view name) {
+/// What a format makes of a wheel.
+template <class Model>
+Expected<std::string, NoProduct> file(std::string (*of_wheel)(const Model&),
+                                      const std::type_identity_t<Model>& wheel) {
+  try {
+    return of_wheel(wheel);
+  } catch (const std::runtime_error& error) {
+    return NoProduct{error.what()};
+  }
+}
+
+}  // namespace
+
+Expected<std::string, NoProduct> exported(const WatchedShape<2>& shape, std::string_view name) {
   constexpr double tolerance = 1e-5;
   const ExportFormat* format = find_export_format(name);
   if (!format || !format->of_plane) return NoProduct{"there is no such format for a plane wheel"};
@@ -51,22 +65,33 @@ Expected<std::string, NoProduct> exported(const WatchedShape& shape, std::string
   if (!outline) return no_product({outline.failure()});
   const auto report = cad::check_outline(*outline, shape.psi, tolerance);
   if (!report) return no_product(report.failure());
-  const WheelModel wheel{.title = fmt::format("{}, shape {}", run_title(*shape.source), shape.number),
-                         .program = program_text(),
-                         .shape = shape.psi,
-                         .outline = *std::move(outline),
-                         .width = shape.source->wheel.width,
-                         .tolerance = tolerance};
-  try {
-    return format->of_plane(wheel);
-  } catch (const std::runtime_error& error) {
-    return NoProduct{error.what()};
-  }
+  return file(format->of_plane, {.title = title(shape),
+                                 .program = program_text(),
+                                 .shape = shape.psi,
+                                 .outline = *std::move(outline),
+                                 .width = shape.source->wheel.width,
+                                 .tolerance = tolerance});
 }
 
+Expected<std::string, NoProduct> exported(const WatchedShape<3>& shape, std::string_view name) {
+  constexpr double tolerance = 1e-4;
+  const ExportFormat* format = find_export_format(name);
+  if (!format || !format->of_surface) return NoProduct{"there is no such format for a wheel in 3D"};
+  const int degree = shape.source->grid.degree;
+  auto fitted = fit_surface(shape.psi, degree, tolerance);
+  if (!fitted) return NoProduct{fitted.failure().what};
+  return file(format->of_surface, {.title = title(shape),
+                                   .program = program_text(),
+                                   .shape = shape.psi,
+                                   .surface = std::move(fitted->surface),
+                                   .parts = fitted->parts,
+                                   .map_degree = degree});
+}
+
+template <int dim>
 Expected<std::string, NoProduct> design_report(const std::filesystem::path& folder,
-                                               const LevelSet<2>& initial, const WatchedShape& shape) {
-  const StateSolver<2>& solver = *shape.solver;
+                                               const LevelSet<dim>& initial, const WatchedShape<dim>& shape) {
+  const StateSolver<dim>& solver = *shape.solver;
   const auto first = solver.states(initial, solver.distinct_positions(initial), Interrupt());
   if (!first) return no_product(first.failure());
   const double measure = material_measure(initial);
@@ -77,11 +102,10 @@ Expected<std::string, NoProduct> design_report(const std::filesystem::path& fold
   if (!after) return no_product(after.failure());
   double energy = 0;
   for (const double value : of_all((*first)->positions(), (*first)->strain_energy())) energy += value;
-  const RunSummary<2> summary{.title = run_title(*shape.source),
-                              .before = {0, energy, *before},
-                              .after = {shape.number, shape.objective, *after}};
-  return report_page({page_run(report_of_results<2>(folder, *shape.source, summary,
-                                                    {&shape.psi, &solver, shape.solution.get()}, {}))});
+  const RunSummary<dim> summary{.title = run_title(*shape.source),
+                                .before = {0, energy, *before},
+                                .after = {shape.number, shape.objective, *after}};
+  return report_page({page_run(report_of_results<dim>(folder, *shape.source, summary, solved(shape), {}))});
 }
 
 bool is_design_name(std::string_view name) {
@@ -91,8 +115,12 @@ bool is_design_name(std::string_view name) {
   });
 }
 
+template <int dim>
 Expected<std::filesystem::path, NoProduct> save_design(const std::filesystem::path& folder,
-                                                       const std::string& name, const WatchedShape& shape) {
+                                                       const std::string& name,
+                                                       const WatchedShape<dim>& shape) {
+  if (dim == 3)
+    return NoProduct{"a case cannot begin with a saved shape in 3D: go on from the run's folder, or export"};
   if (!is_design_name(name)) return NoProduct{"a name has 1 to 40 letters, digits, - and _"};
   const std::filesystem::path designs = folder / designs_folder, file = designs / (name + ".toml"),
                               level_set = designs / (name + ".levelset");
@@ -111,5 +139,14 @@ Expected<std::filesystem::path, NoProduct> save_design(const std::filesystem::pa
   write_atomically(file, fmt::format("# {}\n\n{}", program_text(), to_toml(c)));
   return file;
 }
+
+template Expected<std::string, NoProduct> design_report(const std::filesystem::path&, const LevelSet<2>&,
+                                                        const WatchedShape<2>&);
+template Expected<std::filesystem::path, NoProduct> save_design(const std::filesystem::path&,
+                                                                const std::string&, const WatchedShape<2>&);
+template Expected<std::string, NoProduct> design_report(const std::filesystem::path&, const LevelSet<3>&,
+                                                        const WatchedShape<3>&);
+template Expected<std::filesystem::path, NoProduct> save_design(const std::filesystem::path&,
+                                                                const std::string&, const WatchedShape<3>&);
 
 }  // namespace wheelwright

@@ -58,17 +58,22 @@ Case watched_case(Case c) {
   return c;
 }
 
-WatchSession::WatchSession(CommandQueue& commands)
-    : board_(std::make_shared<Board>()), commands_(std::make_shared<PageCommands>(commands)) {}
+template <int dim>
+WatchSession<dim>::WatchSession(CommandQueue& commands, OfferedDesigns designs)
+    : designs_(std::move(designs)),
+      board_(std::make_shared<Board<dim>>()),
+      commands_(std::make_shared<PageCommands>(commands)) {}
 
-void WatchSession::watch(Run<2>& run) {
+template <int dim>
+void WatchSession<dim>::watch(Run<dim>& run) {
   folder_ = run.folder();
-  run.add(std::make_unique<CommandLog<2>>());
-  run.add(std::make_unique<BoardObserver>(board_));
-  run.add(std::make_unique<PageCommandsObserver>(commands_));
+  run.add(std::make_unique<CommandLog<dim>>());
+  run.add(std::make_unique<BoardObserver<dim>>(board_));
+  run.add(std::make_unique<PageCommandsObserver<dim>>(commands_));
 }
 
-std::vector<Route> WatchSession::routes() {
+template <int dim>
+std::vector<Route> WatchSession<dim>::routes() {
   using enum Route::Method;
   using enum Route::Access;
   const std::string script = "text/javascript; charset=utf-8";
@@ -76,6 +81,7 @@ std::vector<Route> WatchSession::routes() {
           asset("/page.css", "text/css; charset=utf-8", assets::report_css),
           asset("/watch.css", "text/css; charset=utf-8", assets::watch_css),
           asset("/chart.js", script, assets::chart_js),
+          asset("/three.js", script, assets::three_js),
           asset("/parts.js", script, assets::parts_js),
           asset("/watch.js", script, assets::watch_js),
           {get, token, "/frame", [this](const PageRequest& request) { return frame(request); }},
@@ -83,40 +89,61 @@ std::vector<Route> WatchSession::routes() {
           {get, token, "/export", [this](const PageRequest& request) { return exported_file(request); }},
           {get, token, "/report", [this](const PageRequest&) { return report(); }},
           {post, token, "/save", [this](const PageRequest& request) { return save(request); }},
+          {get, token, "/designs", [this](const PageRequest&) { return PageAnswer{.body = designs_.json}; }},
+          {post, token, "/take", [this](const PageRequest& request) { return take(request); }},
           {post, token, "/command", [this](const PageRequest& request) { return command(request); }}};
 }
 
-void WatchSession::close() {
+template <int dim>
+void WatchSession<dim>::close() {
   board_->close();
   commands_->close();
 }
 
-PageAnswer WatchSession::frame(const PageRequest& request) const {
+template <int dim>
+PageAnswer WatchSession<dim>::frame(const PageRequest& request) const {
   const FrameQuery query{.position = static_cast<int>(std::min(parameter(request, "position"), 1000L)),
                          .wants_force_curve = parameter(request, "force_curve") > 0};
-  const BoardView view = board_->view_after(parameter(request, "after"), patience);
+  const BoardView<dim> view = board_->view_after(parameter(request, "after"), patience);
   return {.body = frame_json(view, board_->curve_after(parameter(request, "curve")), query)};
 }
 
-PageAnswer WatchSession::command(const PageRequest& request) {
+template <int dim>
+PageAnswer WatchSession<dim>::command(const PageRequest& request) {
   const auto parsed = parse_command(request.body);
   if (!parsed) return message(400, false, parsed.failure().reason);
-  if (!PageCommands::is_for_pages(*parsed)) return message(400, false, "no command of a page");
-  const auto ticket = commands_->give(*parsed);
+  if (!PageCommands::is_for_pages(*parsed) || std::holds_alternative<TakeShape>(*parsed))
+    return message(400, false, "no command of a page");
+  return obeyed(*parsed);
+}
+
+/// The shape of a design that is offered: a page gives its name, never a file.
+template <int dim>
+PageAnswer WatchSession<dim>::take(const PageRequest& request) {
+  const auto found = designs_.shapes.find(request.body);
+  if (found == designs_.shapes.end()) return message(422, false, "there is no such design");
+  return obeyed(TakeShape{found->second.string()});
+}
+
+template <int dim>
+PageAnswer WatchSession<dim>::obeyed(Command command) {
+  const auto ticket = commands_->give(std::move(command));
   if (!ticket) return message(429, false, "too many commands are waiting");
   const auto answer = commands_->answer(*ticket, patience);
   if (!answer) return message(202, false, "not obeyed yet");
   return message(200, answer->was_obeyed, answer->text);
 }
 
-PageAnswer WatchSession::loaded() const {
-  const BoardView view = board_->view();
+template <int dim>
+PageAnswer WatchSession<dim>::loaded() const {
+  const BoardView<dim> view = board_->view();
   if (!view.shape) return no_shape();
-  return {.body = loaded_wheel(*view.shape)};
+  return {.body = loaded_wheel(solved(*view.shape))};
 }
 
-PageAnswer WatchSession::exported_file(const PageRequest& request) const {
-  const BoardView view = board_->view();
+template <int dim>
+PageAnswer WatchSession<dim>::exported_file(const PageRequest& request) const {
+  const BoardView<dim> view = board_->view();
   const auto format = request.parameters.find("format");
   if (!view.shape || format == request.parameters.end()) return no_shape();
   const auto file = exported(*view.shape, format->second);
@@ -124,20 +151,25 @@ PageAnswer WatchSession::exported_file(const PageRequest& request) const {
   return {.type = "application/octet-stream", .body = *file};
 }
 
-PageAnswer WatchSession::report() const {
-  const BoardView view = board_->view();
+template <int dim>
+PageAnswer WatchSession<dim>::report() const {
+  const BoardView<dim> view = board_->view();
   if (!view.shape) return no_shape();
   const auto page = design_report(folder_, view.first->psi, *view.shape);
   if (!page) return message(422, false, page.failure().reason);
   return {.type = "application/octet-stream", .body = *page};
 }
 
-PageAnswer WatchSession::save(const PageRequest& request) const {
-  const BoardView view = board_->view();
+template <int dim>
+PageAnswer WatchSession<dim>::save(const PageRequest& request) const {
+  const BoardView<dim> view = board_->view();
   if (!view.shape) return no_shape();
   const auto file = save_design(folder_, request.body, *view.shape);
   if (!file) return message(422, false, file.failure().reason);
   return message(200, true, file->string());
 }
+
+template class WatchSession<2>;
+template class WatchSession<3>;
 
 }  // namespace wheelwright

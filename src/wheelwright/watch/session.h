@@ -7,6 +7,7 @@
 #include "wheelwright/run/run.h"
 #include "wheelwright/server/local_server.h"
 #include "wheelwright/watch/board.h"
+#include "wheelwright/watch/designs.h"
 #include "wheelwright/watch/page_commands.h"
 
 namespace wheelwright {
@@ -17,13 +18,14 @@ Case watched_case(Case c);
 
 /// What connects pages with one run: the addresses that they use, the commands that they give and what they
 /// are shown. It knows the run by its events and its queue of commands alone. Any thread may call the routes.
+template <int dim>
 class WatchSession {
  public:
   /// The queue must outlive the session.
-  explicit WatchSession(CommandQueue& commands);
+  explicit WatchSession(CommandQueue& commands, OfferedDesigns designs = {});
 
   /// Makes a run that takes its commands from the queue known to pages, before it is executed.
-  void watch(Run<2>& run);
+  void watch(Run<dim>& run);
 
   /// For a server, which the session must outlive.
   std::vector<Route> routes();
@@ -38,9 +40,12 @@ class WatchSession {
   PageAnswer exported_file(const PageRequest& request) const;
   PageAnswer report() const;
   PageAnswer save(const PageRequest& request) const;
+  PageAnswer take(const PageRequest& request);
+  PageAnswer obeyed(Command command);
 
   std::filesystem::path folder_;  ///< of the run
-  std::shared_ptr<Board> board_;
+  OfferedDesigns designs_;
+  std::shared_ptr<Board<dim>> board_;
   std::shared_ptr<PageCommands> commands_;
 };
 

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "wheelwright/app/case_input.h"
-#include "wheelwright/app/case_report.h"
+#include "wheelwright/run/case_report.h"
 #include "wheelwright/app/commands/commands.h"
 #include "wheelwright/app/exit_code.h"
 #include "wheelwright/app/memory.h"
@@ -9,6 +9,7 @@
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/report/described_wheel.h"
 #include "wheelwright/run/feature_warnings.h"
+#include "wheelwright/run/loose_material.h"
 #include "wheelwright/run/study.h"
 
 namespace wheelwright {
@@ -23,9 +24,13 @@ class CheckCommand : public Subcommand {
   int run() override {
     const auto c = read_or_tell(case_file_);
     if (!c) return exit_usage;
+    const auto lack = lack_of_memory(*c, available_memory());
+    const auto loose = lack ? std::vector<std::string>() : loose_material(*c);
+    for (const std::string& piece : loose) tell("{}: {}\n", case_file_, piece);
+    if (!loose.empty()) return exit_usage;
     print("{}\n", styled(stdout, Style::green, case_file_ + ": no problems"));
     print_lines(stdout, derived_report(*c));
-    if (const auto lack = lack_of_memory(*c, available_memory())) {
+    if (lack) {
       print_warnings(stdout, *c);
       print_warning(stdout, "this case cannot run here: " + *lack);
       return exit_done;

@@ -41,17 +41,30 @@ Expected<PageRun> report_of_run(const RunInput<dim>& run) {
       run.folder, run.source, summary, {&last.shape, &solver, last_states->get()}, run.checkpoint.finished));
 }
 
+/// The page of an exploration or a sweep, whose points open the reports of its designs.
+std::optional<std::filesystem::path> page_of_designs(const std::filesystem::path& folder) {
+  for (const char* name : {"explore.html", "sweep.html"})
+    if (std::filesystem::exists(folder / name)) return folder / name;
+  return {};
+}
+
 class ReportCommand : public Subcommand {
  public:
   ReportCommand() : Subcommand("report", "Write a page that explains one or more runs") {}
 
   void declare(Options& options) override {
-    options.arguments("RUN", folders_, 1, "Folders of runs; several stand side by side");
+    options.arguments(
+        "RUN", folders_, 1,
+        "Folders of runs; several stand side by side. Of an exploration or a sweep its page is told");
     options.text("--output", "FILE", output_, not_empty, "The page; without it report.html");
     add_threads(options, threads_);
   }
 
   int run() override {
+    if (const auto page = page_of_designs(folders_.front()); page && folders_.size() == 1) {
+      fmt::print("{}\n", page->string());
+      return exit_done;
+    }
     const std::string file = output_.value_or("report.html");
     if (std::filesystem::exists(file)) {
       tell("{}: exists already; choose another file with --output, or remove it\n", file);

@@ -47,6 +47,8 @@ class WatchCommand : public Subcommand {
     options.flag("--no-browser", no_browser_, "Only print the address of the page");
     options.text("--replay", "FILE", replay_, not_empty,
                  "Give the run the commands of a commands.jsonl again, without a page");
+    options.text("--designs", "DIR", designs_, not_empty,
+                 "Offer the designs in the folder of an exploration or a sweep");
     add_threads(options, threads_);
   }
 
@@ -55,20 +57,33 @@ class WatchCommand : public Subcommand {
     const bool is_run = fs::is_directory(input_);
     const fs::path case_file = is_run ? fs::path(input_) / "case.toml" : fs::path(input_);
     auto c = read_or_tell(case_file);
-    if (!c) return exit_usage;
+    if (!c || !find_designs()) return exit_usage;
     if (!may_compute(name(), *c, case_file, threads_)) return exit_refused;
     const fs::path folder = is_run ? fs::path(input_) : fs::path(output_.value_or(c->output.folder));
-    auto run = is_run ? Run<2>::resume(*c, folder) : Run<2>::begin(watched_case(*c), folder);
-    if (!run) return report_not_begun<2>(run.failure(), folder);
-    if (is_run) report_resumption(run->resumption(), folder);
-    run->add(std::make_unique<TerminalObserver<2>>());
-    commands_.add_source([&signals] { return signals.next_command(); });
-    return replay_ ? replay(*run, signals) : serve(*run, signals);
+    return in_dimension_of(*c, [&](auto dim) {
+      auto run = is_run ? Run<dim>::resume(*c, folder) : Run<dim>::begin(watched_case(*c), folder);
+      if (!run) return report_not_begun<dim>(run.failure(), folder);
+      if (is_run) report_resumption(run->resumption(), folder);
+      run->add(std::make_unique<TerminalObserver<dim>>());
+      commands_.add_source([&signals] { return signals.next_command(); });
+      return replay_ ? replay(*run, signals) : serve(*run, signals);
+    });
   }
 
  private:
-  int serve(Run<2>& run, const Signals& signals) {
-    WatchSession session(commands_);
+  bool find_designs() {
+    if (!designs_) return true;
+    auto found = offered_designs(*designs_);
+    if (found)
+      offered_ = *std::move(found);
+    else
+      tell("wheelwright watch: --designs: {}\n", found.failure().reason);
+    return bool(found);
+  }
+
+  template <int dim>
+  int serve(Run<dim>& run, const Signals& signals) {
+    WatchSession<dim> session(commands_, offered_);
     session.watch(run);
     const LocalServer server(session.routes(), port_);
     const AddressFile address(server.address());
@@ -88,21 +103,23 @@ class WatchCommand : public Subcommand {
     if (!no_browser_) std::thread([file = address.path()] { open_browser(file); }).detach();
   }
 
-  int replay(Run<2>& run, const Signals& signals) {
+  template <int dim>
+  int replay(Run<dim>& run, const Signals& signals) {
     auto log = parse_command_log(content(*replay_));
     if (!log) {
       tell("{}: {}\n", *replay_, log.failure().reason);
       return exit_usage;
     }
-    auto replay = std::make_unique<CommandReplay<2>>(*std::move(log));
+    auto replay = std::make_unique<CommandReplay<dim>>(*std::move(log));
     commands_.add_source(replay->source());
-    run.add(std::make_unique<CommandLog<2>>());
+    run.add(std::make_unique<CommandLog<dim>>());
     run.add(std::move(replay));
     return report_result(run.execute(commands_, AtEnd::wait), run.folder(), signals);
   }
 
   std::string input_;
-  std::optional<std::string> output_, replay_;
+  std::optional<std::string> output_, replay_, designs_;
+  OfferedDesigns offered_;
   int port_ = 0;
   bool no_browser_ = false;
   std::optional<int> threads_;

@@ -2,7 +2,7 @@
 // What all pages draw with.
 const parts = (() => {
   const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-  const curveColours = ["#1f77b4", "#d1495b", "#2e8b57", "#b8860b", "#7b4fa3", "#008b8b", "#c2549d", "#6b7280"];
+  const curveColours = ["#1f77b4", "#d1495b", "#2e8b57", "#b8860b", "#9565c4", "#008b8b", "#c2549d", "#737a88"];
   const degree = 180 / Math.PI;
 
   // --- Elements ---------------------------------------------------------------------------------------
@@ -144,6 +144,163 @@ const parts = (() => {
     };
   }
 
+  // --- The lit surface of a wheel in 3D ---------------------------------------------------------------
+
+  // The surface of the whole wheel from that of sector 0. Where the rim, the tread, side faces and holes meet, each of
+  // them has vertices of its own, so that the edges between them are sharp: `sources` tells of which vertex.
+  function wheelSurface(run) {
+    const { fields, sectors } = run;
+    const points = new Float32Array(bytes(fields.points).buffer);
+    const triangles = new Uint32Array(bytes(fields.triangles).buffer), parts = bytes(fields.parts);
+    const n = points.length / 3, places = new Float32Array(points.length * sectors);
+    for (let s = 0; s < sectors; ++s) {
+      const c = Math.cos(2 * Math.PI * s / sectors), d = Math.sin(2 * Math.PI * s / sectors);
+      for (let k = 0; k < n; ++k) {
+        const x = points[3 * k], y = points[3 * k + 1];
+        places.set([c * x - d * y, d * x + c * y, points[3 * k + 2] - run.width_m / 2], 3 * (s * n + k));
+      }
+    }
+    const known = new Map(), sources = [], corners = new Uint32Array(triangles.length * sectors);
+    for (let s = 0; s < sectors; ++s)
+      for (let k = 0; k < triangles.length; ++k) {
+        const vertex = (triangles[k] + s * n) % (n * sectors), key = 4 * vertex + parts[Math.floor(k / 3)];
+        if (!known.has(key)) {
+          known.set(key, sources.length);
+          sources.push(vertex);
+        }
+        corners[s * triangles.length + k] = known.get(key);
+      }
+    const positions = fields.positions.map((p) => ({
+      azimuth: p.azimuth_rad, stress: bytes(p.root_of_stress),
+      displacement: [p.x, p.y, p.z].map((text) => new Int16Array(bytes(text).buffer)),
+    }));
+    return { places, sources, corners, positions };
+  }
+
+  // What the colours can stand for: a share in [0, 1] at a vertex, and the value at the scale's end.
+  function colourings(run, surface) {
+    const { full_stress_Pa, full_displacement_m } = run.fields;
+    const size = ({ displacement }, v) => Math.hypot(...displacement.map((d) => d[v])) / 32767;
+    const most = Math.max(...surface.positions.map((position) => {
+      let largest = 0;
+      for (let v = 0; v < position.stress.length; ++v) largest = Math.max(largest, size(position, v));
+      return largest;
+    }));
+    return {
+      stress: { name: "von Mises stress, on a scale of square roots", end: full_stress_Pa * 1e-6, unit: "MPa", power: 2,
+        share: (position, v) => position.stress[v] / 255 },
+      displacement: { name: "displacement", end: most * full_displacement_m * 1e3, unit: "mm", power: 1,
+        share: (position, v) => most > 0 ? size(position, v) / most : 0 },
+    };
+  }
+
+  // Draws the lit wheel on the ground: a function of the position, the magnification and the colouring. The wheel turns
+  // under the mouse or a finger, and with the arrow keys; the mouse's wheel and + and - change its size.
+  function surfacePainter(canvas, run) {
+    let renderer;
+    try {
+      renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
+    } catch {
+      return null;
+    }
+    const radius = run.outer_radius_m;
+    const wheel = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.MeshPhongMaterial(
+      { vertexColors: THREE.VertexColors, shininess: 25, specular: 0x222222 }));
+    let surface = null, full = 0, places = null, colours = null;
+    const kinds = {};
+    // Takes another shape of the same wheel; it is seen when it is painted.
+    const take = (fields) => {
+      surface = wheelSurface({ ...run, fields });
+      full = fields.full_displacement_m / 32767;
+      Object.assign(kinds, colourings({ fields }, surface));
+      places = new Float32Array(3 * surface.sources.length);
+      colours = new Float32Array(3 * surface.sources.length);
+      wheel.geometry.dispose();
+      wheel.geometry = new THREE.BufferGeometry();
+      wheel.geometry.setAttribute("position", new THREE.BufferAttribute(places, 3));
+      wheel.geometry.setAttribute("color", new THREE.BufferAttribute(colours, 3));
+      wheel.geometry.setIndex(new THREE.BufferAttribute(surface.corners, 1));
+    };
+    take(run.fields);
+    const ground = new THREE.Mesh(new THREE.PlaneBufferGeometry(2.2 * radius, run.width_m + 0.5 * radius),
+      new THREE.MeshBasicMaterial({ transparent: true, opacity: 0.35, side: THREE.DoubleSide }));
+    ground.rotation.x = -Math.PI / 2;
+    ground.position.y = -radius * 1.001;
+    const turned = new THREE.Group(), scene = new THREE.Scene();
+    turned.add(wheel, ground);
+    scene.add(turned, new THREE.HemisphereLight(0xffffff, 0xc8c8d0, 0.75));
+    const key = new THREE.DirectionalLight(0xffffff, 0.55);
+    key.position.set(-0.5, 0.8, 1);
+    scene.add(key);
+    const camera = new THREE.OrthographicCamera(-1, 1, 1, -1, 0.1, 10);
+    camera.position.z = 5;
+    const view = { yaw: -0.6, pitch: 0.25, size: 1 };
+    const draw = () => {
+      const pixels = Math.min(1200, Math.round(canvas.clientWidth * (window.devicePixelRatio || 1))) || 600;
+      renderer.setSize(pixels, pixels, false);
+      const half = 1.2 / view.size;
+      Object.assign(camera, { left: -half, right: half, top: half, bottom: -half });
+      camera.updateProjectionMatrix();
+      turned.rotation.set(view.pitch, view.yaw, 0);
+      turned.scale.setScalar(1 / radius);
+      ground.material.color.set(colour("--quiet"));
+      renderer.render(scene, camera);
+    };
+    const paint = (index, magnified, kind) => {
+      const position = surface.positions[index], { share } = kinds[kind], factor = magnified * full;
+      const [dx, dy, dz] = position.displacement;
+      surface.sources.forEach((v, k) => {
+        places[3 * k] = surface.places[3 * v] + factor * dx[v];
+        places[3 * k + 1] = surface.places[3 * v + 1] + factor * dy[v];
+        places[3 * k + 2] = surface.places[3 * v + 2] + factor * dz[v];
+        const at = share(position, v) * (viridis.length - 1), low = Math.min(Math.floor(at), viridis.length - 2);
+        for (let c = 0; c < 3; ++c)
+          colours[3 * k + c] = (viridis[low][c] + (at - low) * (viridis[low + 1][c] - viridis[low][c])) / 255;
+      });
+      wheel.rotation.z = -Math.PI / 2 - position.azimuth;  // the ground's azimuth points down
+      for (const name of ["position", "color"]) wheel.geometry.getAttribute(name).needsUpdate = true;
+      wheel.geometry.computeVertexNormals();
+      draw();
+    };
+    const turn = (yaw, pitch) => {
+      view.yaw += yaw;
+      view.pitch = Math.max(-1.5, Math.min(1.5, view.pitch + pitch));
+      draw();
+    };
+    const resize = (factor) => {
+      view.size = Math.max(0.5, Math.min(20, view.size * factor));
+      draw();
+    };
+    canvas.tabIndex = 0;
+    canvas.style.touchAction = "none";
+    canvas.style.cursor = "grab";
+    let held = null;
+    canvas.addEventListener("pointerdown", (event) => {
+      held = [event.clientX, event.clientY];
+      canvas.setPointerCapture(event.pointerId);
+    });
+    canvas.addEventListener("pointermove", (event) => {
+      if (!held) return;
+      const per_pixel = 3 / canvas.clientWidth;
+      turn((event.clientX - held[0]) * per_pixel, (event.clientY - held[1]) * per_pixel);
+      held = [event.clientX, event.clientY];
+    });
+    for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, () => { held = null; });
+    canvas.addEventListener("wheel", (event) => {
+      event.preventDefault();
+      resize(Math.exp(-0.001 * event.deltaY));
+    }, { passive: false });
+    canvas.addEventListener("keydown", (event) => {
+      const step = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, -0.1], ArrowDown: [0, 0.1] }[event.key];
+      const factor = { "+": 1.2, "-": 1 / 1.2 }[event.key];
+      if (!step && !factor) return;
+      event.preventDefault();
+      if (step) turn(...step);
+      else resize(factor);
+    });
+    return Object.assign(paint, { kinds, take });
+  }
+
   // The ground, flat and solid. Near the contact, magnified displacements take the tread a little below it.
   function drawGround(canvas, run) {
     const size = canvas.width = canvas.height = Math.round(canvas.clientWidth * (window.devicePixelRatio || 1)) || 600;
@@ -216,7 +373,7 @@ const parts = (() => {
         data: { labels: options.labels, datasets: data(curves) },
         options: { animation: false, responsive: true, maintainAspectRatio: false, interaction: { mode: "nearest",
           intersect: false }, scales: { x: { ...(options.bars ? {} : { type: "linear" }), ...axis(xTitle) },
-          y: axis(yTitle) }, plugins: { legend: { display: curves.length > 1, labels: { color: colour("--ink") } } } },
+          y: { ...axis(yTitle), ...options.y } }, plugins: { legend: { display: curves.length > 1, labels: { color: colour("--ink") } } } },
       });
     };
     // Other curves, of the same kinds.
@@ -228,9 +385,14 @@ const parts = (() => {
       drawn.data.datasets.length = of.length;
       drawn.update("none");
     };
-    return { figure, start, update };
+    // In the colours that hold now.
+    const recolour = () => {
+      drawn?.destroy();
+      start();
+    };
+    return { figure, start, update, recolour };
   }
 
-  return { colour, curveColours, degree, element, shown, change, minutes, viridis, gradient, bytes, wheelPainter,
-    drawGround, roundMagnification, wheelPath, paintWheel, chart };
+  return { colour, curveColours, degree, element, shown, change, minutes, viridis, gradient, wheelPainter,
+    surfacePainter, drawGround, roundMagnification, wheelPath, paintWheel, chart };
 })();

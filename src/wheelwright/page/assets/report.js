@@ -2,8 +2,8 @@
 (() => {
   const data = JSON.parse(document.getElementById("data").textContent);
   const page = document.getElementById("page");
-  const { colour, curveColours, degree, element, shown, change, minutes, viridis, gradient, bytes, wheelPainter,
-    drawGround, roundMagnification, chart, wheelPath, paintWheel } = parts;
+  const { colour, curveColours, degree, element, shown, change, minutes, gradient, wheelPainter,
+    surfacePainter, drawGround, roundMagnification, chart, wheelPath, paintWheel } = parts;
 
   // --- Numbers ----------------------------------------------------------------------------------------
 
@@ -26,7 +26,11 @@
     return element("div", { class: "wide" }, element("table", {}, element("thead", {}, head), body));
   }
 
-  const rejectedText = (run) => `${run.trials} trial shapes, ${run.rejected} rejected`;
+  function rejectedText(run) {
+    const reasons = Object.entries(run.rejected), n = reasons.reduce((sum, [, count]) => sum + count, 0);
+    const why = n ? ` (${reasons.map(([reason, count]) => `${reason.replaceAll("_", " ")}: ${count}`).join(", ")})` : "";
+    return `${run.trials} trial shapes, ${n} rejected${why}`;
+  }
 
   // What a buyer asks, and the answers.
   function answers(run) {
@@ -39,177 +43,43 @@
     answer("stiffness", "How stiff?", `${shown(after.stiffness_N_per_m * 1e-3)} N/mm`);
     answer("evenness", "How even does it roll?", `run-out ${shown(after.run_out_m * 1e3)} mm, force varies by ` +
       `${shown(after.force_variation_N)} N`);
-    answer("volume", "How much material?", `${shown(volume * 1e6)} cm\u00b3, ${shown(100 * after.volume_fraction)} % of ` +
-      "the ring");
+    answer("volume", "How heavy?", `${"mass_kg" in after ? `${shown(after.mass_kg)} kg, ` : ""}` +
+      `${shown(volume * 1e6)} cm\u00b3, ${shown(100 * after.volume_fraction)} % of the ring`);
+    if ("minimum_wall_m" in after)
+      answer("wall", "How thick is the thinnest wall?", `${shown(after.minimum_wall_m * 1e3)} mm`);
     answer("stress", "What peak stress, and where?", `${shown(after.peak_von_mises_Pa * 1e-6)} MPa at radius ` +
-      `${(place.radius_m * 1e3).toFixed(1)} mm`);
+      `${shown(place.radius_m * 1e3)} mm, azimuth ${shown(place.azimuth_rad * degree)}\u00b0`);
     answer("pressure", "What pressure on the ground?", `${shown(after.peak_pressure_Pa * 1e-6)} MPa`);
     answer("travel", "How far does it sink?", `${shown(after.mean_travel_m * 1e3)} mm`);
     answer("load", "For which load?", `${shown(after.load_N)} N`);
     answer("strain", "Is it made for this load?", `largest strain ${shown(100 * after.largest_strain)} %, travel ` +
       `${shown(100 * after.travel_by_ring_thickness)} % of the ring`);
     answer("change", "What changed?", `travel ${change(before.mean_travel_m, after.mean_travel_m)}, run-out ` +
-      `${change(before.run_out_m, after.run_out_m)}`);
-    answer("trust", "Can I trust it?", run.flags.length === 0 ? "nothing to report" :
-      `${run.flags.length} remark${run.flags.length > 1 ? "s" : ""} below`);
-    answer("making", "How was it made?", `${run.status}, ${rejectedText(run)}, ${minutes(run.seconds)}`);
+      `${change(before.run_out_m, after.run_out_m)}, peak stress ` +
+      `${change(before.peak_von_mises_Pa, after.peak_von_mises_Pa)}`);
+    answer("trust", "Can I trust it?", run.flags.length === 0 ? "no remarks; its limits stand below" :
+      `${run.flags.length} remark${run.flags.length > 1 ? "s" : ""} and the limits below`);
+    answer("making", "How was it made?", `${run.status}; ${run.trials} trial shapes, ${minutes(run.seconds)}`);
     return list;
   }
 
   function flags(run) {
-    const list = element("ul", { class: "flags" });
-    for (const text of run.flags) list.append(element("li", {}, text));
-    if (run.flags.length === 0) list.append(element("li", { class: "fine" }, "No remarks: strains are small, the " +
-      "contact is resolved, the run ended by itself."));
+    const list = element("ul", { class: "flags", id: `${run.id}-flags` });
+    for (const text of run.flags) list.append(element("li", {}, text[0].toUpperCase() + text.slice(1)));
+    if (run.flags.length === 0 && !run.is_running) list.append(element("li", { class: "fine" }, "No remarks: strains are small and the " +
+      "contact is resolved."));
     return list;
   }
 
-  // --- The lit surface of a wheel in 3D ---------------------------------------------------------------
+  // What the numbers do not tell.
+  const limits = (run) => element("ul", { class: "quiet", id: `${run.id}-limits` },
+    ...run.limits.map((text) => element("li", {}, text)));
 
-  // The surface of the whole wheel from that of sector 0. Where the rim, the tread, side faces and holes meet, each of
-  // them has vertices of its own, so that the edges between them are sharp: `sources` tells of which vertex.
-  function wheelSurface(run) {
-    const { fields, sectors } = run;
-    const points = new Float32Array(bytes(fields.points).buffer);
-    const triangles = new Uint32Array(bytes(fields.triangles).buffer), parts = bytes(fields.parts);
-    const n = points.length / 3, places = new Float32Array(points.length * sectors);
-    for (let s = 0; s < sectors; ++s) {
-      const c = Math.cos(2 * Math.PI * s / sectors), d = Math.sin(2 * Math.PI * s / sectors);
-      for (let k = 0; k < n; ++k) {
-        const x = points[3 * k], y = points[3 * k + 1];
-        places.set([c * x - d * y, d * x + c * y, points[3 * k + 2] - run.width_m / 2], 3 * (s * n + k));
-      }
-    }
-    const known = new Map(), sources = [], corners = new Uint32Array(triangles.length * sectors);
-    for (let s = 0; s < sectors; ++s)
-      for (let k = 0; k < triangles.length; ++k) {
-        const vertex = (triangles[k] + s * n) % (n * sectors), key = 4 * vertex + parts[Math.floor(k / 3)];
-        if (!known.has(key)) {
-          known.set(key, sources.length);
-          sources.push(vertex);
-        }
-        corners[s * triangles.length + k] = known.get(key);
-      }
-    const positions = fields.positions.map((p) => ({
-      azimuth: p.azimuth_rad, stress: bytes(p.root_of_stress),
-      displacement: [p.x, p.y, p.z].map((text) => new Int16Array(bytes(text).buffer)),
-    }));
-    return { places, sources, corners, positions };
-  }
-
-  // What the colours can stand for: a share in [0, 1] at a vertex, and the value at the scale's end.
-  function colourings(run, surface) {
-    const { full_stress_Pa, full_displacement_m } = run.fields;
-    const size = ({ displacement }, v) => Math.hypot(...displacement.map((d) => d[v])) / 32767;
-    const most = Math.max(...surface.positions.map((position) => {
-      let largest = 0;
-      for (let v = 0; v < position.stress.length; ++v) largest = Math.max(largest, size(position, v));
-      return largest;
-    }));
-    return {
-      stress: { name: "von Mises stress, on a scale of square roots", end: full_stress_Pa * 1e-6, unit: "MPa", power: 2,
-        share: (position, v) => position.stress[v] / 255 },
-      displacement: { name: "displacement", end: most * full_displacement_m * 1e3, unit: "mm", power: 1,
-        share: (position, v) => most > 0 ? size(position, v) / most : 0 },
-    };
-  }
-
-  // Draws the lit wheel on the ground: a function of the position, the magnification and the colouring. The wheel turns
-  // under the mouse or a finger, and with the arrow keys; the mouse's wheel and + and - change its size.
-  function surfacePainter(canvas, run) {
-    let renderer;
-    try {
-      renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
-    } catch {
-      return null;
-    }
-    const surface = wheelSurface(run), kinds = colourings(run, surface), { sources } = surface;
-    const radius = run.outer_radius_m, full = run.fields.full_displacement_m / 32767;
-    const geometry = new THREE.BufferGeometry();
-    const places = new Float32Array(3 * sources.length), colours = new Float32Array(3 * sources.length);
-    geometry.setAttribute("position", new THREE.BufferAttribute(places, 3));
-    geometry.setAttribute("color", new THREE.BufferAttribute(colours, 3));
-    geometry.setIndex(new THREE.BufferAttribute(surface.corners, 1));
-    const wheel = new THREE.Mesh(geometry, new THREE.MeshPhongMaterial(
-      { vertexColors: THREE.VertexColors, shininess: 25, specular: 0x222222 }));
-    const ground = new THREE.Mesh(new THREE.PlaneBufferGeometry(2.2 * radius, run.width_m + 0.5 * radius),
-      new THREE.MeshBasicMaterial({ transparent: true, opacity: 0.35, side: THREE.DoubleSide }));
-    ground.rotation.x = -Math.PI / 2;
-    ground.position.y = -radius * 1.001;
-    const turned = new THREE.Group(), scene = new THREE.Scene();
-    turned.add(wheel, ground);
-    scene.add(turned, new THREE.HemisphereLight(0xffffff, 0xc8c8d0, 0.75));
-    const key = new THREE.DirectionalLight(0xffffff, 0.55);
-    key.position.set(-0.5, 0.8, 1);
-    scene.add(key);
-    const camera = new THREE.OrthographicCamera(-1, 1, 1, -1, 0.1, 10);
-    camera.position.z = 5;
-    const view = { yaw: -0.6, pitch: 0.25, size: 1 };
-    const draw = () => {
-      const pixels = Math.min(1200, Math.round(canvas.clientWidth * (window.devicePixelRatio || 1))) || 600;
-      renderer.setSize(pixels, pixels, false);
-      const half = 1.2 / view.size;
-      Object.assign(camera, { left: -half, right: half, top: half, bottom: -half });
-      camera.updateProjectionMatrix();
-      turned.rotation.set(view.pitch, view.yaw, 0);
-      turned.scale.setScalar(1 / radius);
-      ground.material.color.set(colour("--quiet"));
-      renderer.render(scene, camera);
-    };
-    const paint = (index, magnified, kind) => {
-      const position = surface.positions[index], { share } = kinds[kind], factor = magnified * full;
-      const [dx, dy, dz] = position.displacement;
-      sources.forEach((v, k) => {
-        places[3 * k] = surface.places[3 * v] + factor * dx[v];
-        places[3 * k + 1] = surface.places[3 * v + 1] + factor * dy[v];
-        places[3 * k + 2] = surface.places[3 * v + 2] + factor * dz[v];
-        const at = share(position, v) * (viridis.length - 1), low = Math.min(Math.floor(at), viridis.length - 2);
-        for (let c = 0; c < 3; ++c)
-          colours[3 * k + c] = (viridis[low][c] + (at - low) * (viridis[low + 1][c] - viridis[low][c])) / 255;
-      });
-      wheel.rotation.z = -Math.PI / 2 - position.azimuth;  // the ground's azimuth points down
-      for (const name of ["position", "color"]) geometry.getAttribute(name).needsUpdate = true;
-      geometry.computeVertexNormals();
-      draw();
-    };
-    const turn = (yaw, pitch) => {
-      view.yaw += yaw;
-      view.pitch = Math.max(-1.5, Math.min(1.5, view.pitch + pitch));
-      draw();
-    };
-    const resize = (factor) => {
-      view.size = Math.max(0.5, Math.min(20, view.size * factor));
-      draw();
-    };
-    canvas.tabIndex = 0;
-    canvas.style.touchAction = "none";
-    canvas.style.cursor = "grab";
-    let held = null;
-    canvas.addEventListener("pointerdown", (event) => {
-      held = [event.clientX, event.clientY];
-      canvas.setPointerCapture(event.pointerId);
-    });
-    canvas.addEventListener("pointermove", (event) => {
-      if (!held) return;
-      const per_pixel = 3 / canvas.clientWidth;
-      turn((event.clientX - held[0]) * per_pixel, (event.clientY - held[1]) * per_pixel);
-      held = [event.clientX, event.clientY];
-    });
-    for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, () => { held = null; });
-    canvas.addEventListener("wheel", (event) => {
-      event.preventDefault();
-      resize(Math.exp(-0.001 * event.deltaY));
-    }, { passive: false });
-    canvas.addEventListener("keydown", (event) => {
-      const step = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, -0.1], ArrowDown: [0, 0.1] }[event.key];
-      const factor = { "+": 1.2, "-": 1 / 1.2 }[event.key];
-      if (!step && !factor) return;
-      event.preventDefault();
-      if (step) turn(...step);
-      else resize(factor);
-    });
-    return Object.assign(paint, { kinds });
-  }
+  // Holes that merged, vanished or reached a band on the way.
+  const events = (run) => element("details", { id: `${run.id}-events` },
+    element("summary", {}, `What happened to the holes: ${run.events.length} shape${run.events.length > 1 ? "s" : ""}`),
+    element("ul", {}, ...run.events.map(({ shape, text }) => element("li", {}, `Shape ${shape}: ` +
+      text.replaceAll("_", " ")))));
 
   // --- The wheel rolling ------------------------------------------------------------------------------
 
@@ -264,7 +134,17 @@
     slider.addEventListener("input", () => { roll(false); draw(); });
     for (const control of [choice, kind]) control.addEventListener("change", draw);
     const start = () => { paint = (is_surface ? surfacePainter : wheelPainter)(picture, run); draw(); };
-    return { figure, start, draw };
+    // On paper what lies over a canvas hides it, even where it is transparent: one canvas shows both.
+    const print = () => {
+      const copy = element("canvas", { class: "print-copy", "aria-hidden": "true", style: "position:absolute;inset:0" });
+      [copy.width, copy.height] = [picture.width, picture.height];
+      const context = copy.getContext("2d", { willReadFrequently: true });
+      context.drawImage(picture, 0, 0);
+      if (!is_surface) context.drawImage(ground, 0, 0, copy.width, copy.height);
+      frame.append(copy);
+      return () => copy.remove();
+    };
+    return { figure, start, draw, print };
   }
 
   // --- The shapes of the run --------------------------------------------------------------------------
@@ -303,17 +183,18 @@
   function curves(run) {
     const charts = [], column = (word) => Object.keys(run.history).find((name) => name.startsWith(word));
     const iterations = run.history.iteration ?? [];
-    const course = (title, words, factor, yTitle) => {
-      const found = words.map(column).filter((name) => name && run.history[name].some((v) => v !== null));
+    const course = (title, words, factor, yTitle, y) => {
+      const found = words.map(column).filter((name) => name && run.history[name].some((v) => v !== null))
+        .filter((name, k, all) => k === 0 || String(run.history[name]) !== String(run.history[all[0]]));
       if (found.length)
-        charts.push(chart(title, "shape", yTitle, found.map((name) => ({ name: name.split(" [")[0], x: iterations,
-          y: run.history[name].map((v) => v === null ? null : v * factor) }))));
+        charts.push(chart(title, "shape", yTitle, found.map((name) => ({ name: name.split(" [")[0].replaceAll("_", " "),
+          x: iterations, y: run.history[name].map((v) => v === null ? null : v * factor) })), { y }));
     };
     course("Objective and its terms", ["objective", "strain_energy", "uniformity_annulus", "uniformity_dual",
       "uniformity_l2"], 1, (column("objective") ?? "").replace("objective ", ""));
     course("Mean travel and run-out", ["mean_travel", "run_out"], 1e3, "[mm]");
     course("Peaks of pressure and stress", ["peak_pressure", "peak_von_mises ["], 1e-6, "[MPa]");
-    course("Volume", ["volume fraction"], 100, "[% of the ring]");
+    course("Volume", ["volume fraction"], 100, "[% of the ring]", { grace: 0.05 });
     if (run.rolling) {
       const turn = ({ azimuths_rad }, values, factor) => {  // one sector, closed
         const x = azimuths_rad.map((a) => a * degree), sector = 360 / run.sectors;
@@ -365,6 +246,7 @@
       element("p", { class: "quiet", id: `${run.id}-status` }, `${run.status}; load ${run.load}`));
     if (run.summary) made.append(answers(run));
     made.append(flags(run));
+    if (run.limits.length) made.append(section("What was not checked", limits(run)));
     if (run.summary) made.append(section("Before and after",
       table([["before", run.summary.before], ["after", run.summary.after]].map(([name, numbers]) =>
         ({ name, numbers, units: run.numbers })))));
@@ -375,10 +257,12 @@
       later.push(shapes(run));
       pictures.append(later.at(-1).figure);
     }
-    made.append(section("The wheel", pictures));
+    if (pictures.childElementCount) made.append(section("The wheel", pictures));
+    if (run.events.length) made.append(events(run));
     const charts = curves(run);
     later.push(...charts);
-    made.append(section("Curves", element("div", { class: "pictures" }, ...charts.map(({ figure }) => figure))));
+    if (charts.length)
+      made.append(section("Curves", element("div", { class: "pictures" }, ...charts.map(({ figure }) => figure))));
     made.append(provenance(run));
     return made;
   }
@@ -392,6 +276,24 @@
     ({ name: run.name, numbers: run.summary.after, units: run.numbers })))));
   page.append(element("div", { class: "runs" }, ...data.runs.map((run) => article(run, later))));
   for (const part of later) part.start();
-  addEventListener("resize", () => later.forEach((part) => part.draw?.()));
+  const redraw = () => later.forEach((part) => part.draw?.());
+  const recolour = () => {
+    later.forEach((part) => part.recolour?.());
+    redraw();
+  };
+  addEventListener("resize", redraw);
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", recolour);
+  // Paper is white: what is drawn in the colours of a dark page is drawn anew.
+  let printed = [];
+  addEventListener("beforeprint", () => {
+    document.documentElement.classList.add("printed");
+    recolour();
+    printed = later.flatMap((part) => part.print ? [part.print()] : []);
+  });
+  addEventListener("afterprint", () => {
+    document.documentElement.classList.remove("printed");
+    printed.forEach((remove) => remove());
+    recolour();
+  });
   if (data.runs.some((run) => run.is_running)) setTimeout(() => location.reload(), 5000);
 })();

@@ -56,6 +56,7 @@
   }
 
   function paint() {
+    if (!frame.outline) return;
     const size = Math.round(wheel.clientWidth * (devicePixelRatio || 1)) || 600;
     if (wheel.width !== size) wheel.width = wheel.height = size;
     const context = wheel.getContext("2d"), unit = scale();
@@ -140,6 +141,7 @@
   }
 
   function go(point) {
+    if (edit.isGiven) return;
     edit.to = point;
     const least = Math.max(0.3 * tipRadius(), 1e-3);
     if (edit.tool in brushes && distance(point, edit.path.at(-1)) > least && edit.path.length < 200) edit.path.push(point);
@@ -158,7 +160,7 @@
       paint: () => ({ do: "paint", as: "material", path_m: done.path, radius_m: tipRadius() }),
       erase: () => ({ do: "paint", as: "hole", path_m: done.path, radius_m: tipRadius() }),
     }[done.tool]();
-    wheel.dataset.given = String(performance.now());
+    done.isGiven = true;
     await give(command);
     if (edit === done) edit = null;
     paint();
@@ -226,7 +228,7 @@
     if (edit && event.buttons) go(pointOf(event));
   });
   wheel.addEventListener("pointerup", (event) => {
-    if (!edit || edit.tool === "fill") return;
+    if (!edit || edit.isGiven) return;
     go(pointOf(event));
     finish();
   });
@@ -243,8 +245,8 @@
         : [middle * Math.cos(first), middle * Math.sin(first)];
       if (edit) go(cursor);
     } else if (event.key === "Enter" || event.key === " ") {
-      if (edit) finish();
-      else if (cursor) begin(cursor);
+      if (edit && !edit.isGiven) finish();
+      else if (!edit && cursor) begin(cursor);
     } else if (event.key === "Escape") {
       edit = null;
     } else if (event.key === "Delete" && cursor) {
@@ -263,7 +265,7 @@
   const loadedEvery = 1500;  // ms
 
   async function loadWheel() {
-    if (isLoading || !frame?.outline) return;
+    if (isLoading || !frame?.wheel) return;
     isLoading = true;
     const version = frame.version;
     try {
@@ -296,18 +298,79 @@
       `displacements are drawn ${loaded.magnified} times as large.`;
   }
 
+  // --- A wheel in 3D ----------------------------------------------------------------------------------
+
+  let solid = null;  // { paint, fields, isLoaded }: the lit surface, in place of the plane wheel
+  const isSolid = () => frame?.wheel?.dimension === 3;
+
+  const drawnWith = (address) => new Promise((done, failed) => {
+    const script = element("script", { src: address });
+    script.addEventListener("load", done);
+    script.addEventListener("error", failed);
+    document.body.append(script);
+  });
+
+  // Shows the surface of the newest shape.
+  async function showSolid() {
+    const shape = frame.shape, fields = await (await ask("/loaded")).json();
+    if (solid) {
+      solid.paint?.take(fields);
+      solid.fields = fields;
+    } else {
+      await drawnWith("/three.js");
+      const canvas = element("canvas", { id: "solid", role: "img", "aria-label":
+        "The wheel as a lit surface, coloured by von Mises stress; arrow keys turn it, plus and minus change its size" });
+      wheel.hidden = at("tools").hidden = at("save").hidden = true;
+      at("stage").append(canvas);
+      at("wheel-help").textContent = "Drag the wheel to turn it. With the keys: arrows, plus and minus.";
+      const { outer_radius_m, width_m, sectors } = frame.wheel;
+      solid = { paint: parts.surfacePainter(canvas, { fields, outer_radius_m, width_m, sectors }), fields, isLoaded: false };
+      if (!solid.paint) tell("this browser cannot draw in three dimensions", true);
+      at("roll").disabled = fields.positions.length < 2;
+    }
+    drawSolid();
+    at("stage").dataset.solid = String(shape);
+  }
+
+  function drawSolid() {
+    const { fields, paint: paintSolid, isLoaded } = solid;
+    const magnified = parts.roundMagnification(0.03 * frame.wheel.outer_radius_m / fields.full_displacement_m);
+    paintSolid?.(Number(at("position").value) % fields.positions.length, isLoaded ? magnified : 0, "stress");
+    at("loaded").hidden = false;
+    at("loaded-text").textContent = `Von Mises stress up to ${shown(fields.full_stress_Pa * 1e-6)} MPa` +
+      (isLoaded ? `; displacements are drawn ${magnified} times as large.` : ".");
+  }
+
+  function loadOrUnload() {
+    if (!isSolid()) return loadWheel();
+    if (!solid) return null;
+    solid.isLoaded = !solid.isLoaded;
+    at("load").setAttribute("aria-pressed", String(solid.isLoaded));
+    return drawSolid();
+  }
+
+  // --- Rolling ----------------------------------------------------------------------------------------
+
+  const showPosition = () => solid ? drawSolid() : loaded && showLoaded();
+
+  // One position after the other. Where painting takes long, it leaves as much time for everything else.
   function roll(on) {
-    clearInterval(rolling);
-    rolling = on ? setInterval(() => {
-      at("position").value = (Number(at("position").value) + 1) % loaded.n;
-      showLoaded();
-      look();
-    }, 150) : null;
+    const betweenPositions = 150;
+    clearTimeout(rolling);
+    const advance = () => {
+      const start = performance.now(), n = solid ? solid.fields.positions.length : loaded.n;
+      at("position").value = (Number(at("position").value) + 1) % n;
+      showPosition();
+      if (start - curvesDrawn > 4 * betweenCurves) look();
+      const painting = performance.now() - start;
+      rolling = setTimeout(advance, Math.max(betweenPositions - painting, painting));
+    };
+    rolling = on ? setTimeout(advance, betweenPositions) : null;
     at("roll").textContent = on ? "Stop" : "Roll";
     at("roll").setAttribute("aria-pressed", String(on));
   }
 
-  at("load").addEventListener("click", loadWheel);
+  at("load").addEventListener("click", loadOrUnload);
   at("roll").addEventListener("click", () => roll(rolling === null));
   setInterval(() => { if (loaded && frame && loaded.version !== frame.version) loadWheel(); }, loadedEvery);
 
@@ -330,8 +393,10 @@
     }
   }
 
-  for (const format of ["step", "dxf", "svg", "stl", "3mf", "png", "vtu"])
-    at("format").append(element("option", { value: format }, format.toUpperCase()));
+  function offerFormats() {
+    for (const format of isSolid() ? ["stl", "3mf", "vtu", "vtp", "png"] : ["step", "dxf", "svg", "stl", "3mf", "png", "vtu"])
+      at("format").append(element("option", { value: format }, format.toUpperCase()));
+  }
   at("export").addEventListener("click", () =>
     takeAway(`/export?format=${at("format").value}`, `${at("name").value}.${at("format").value}`));
   at("report").addEventListener("click", () => takeAway("/report", `${at("name").value}.html`));
@@ -344,18 +409,52 @@
     }
   });
 
+  // --- Designs of an exploration or a sweep -----------------------------------------------------------
+
+  async function offerDesigns() {
+    const { quantities, designs } = await (await ask("/designs")).json();
+    const [across, up] = [quantities[0], quantities[1] ?? quantities[0]];
+    const solved = designs.filter(({ numbers: n }) => quantities.length > 0 && n[across.key] !== null && n[up.key] !== null);
+    if (solved.length === 0) return;
+    for (const { name, start, front } of solved)
+      at("design").append(element("option", { value: name }, `${name}${front === 1 ? "*" : ""} ${start}`));
+    at("designs").hidden = false;
+    const points = solved.map(({ numbers: n }) => ({ x: n[across.key], y: n[up.key] }));
+    const isChosen = (k) => solved[k]?.name === at("design").value;
+    const axis = (text) => ({ title: { display: true, text, color: colour("--quiet") }, ticks: { color: colour("--quiet") },
+      grid: { color: colour("--line") } });
+    const front = new Chart(at("front"), { type: "scatter", data: { datasets: [{ data: points,
+      pointRadius: ({ dataIndex: k }) => isChosen(k) ? 9 : solved[k]?.front === 1 ? 6 : 4,
+      backgroundColor: ({ dataIndex: k }) => colour(isChosen(k) ? "--bad" : solved[k]?.front === 1 ? "--accent" : "--quiet") }] },
+    options: { animation: false, responsive: true, maintainAspectRatio: false, scales: { x: axis(across.key), y: axis(up.key) },
+      plugins: { legend: { display: false }, tooltip: { callbacks: { label: ({ dataIndex: k }) => solved[k].name } } },
+      onClick: (event, [hit]) => {
+        if (!hit) return;
+        at("design").value = solved[hit.index].name;
+        takeDesign();
+      } } });
+    const takeDesign = async () => {
+      front.update("none");
+      const answer = await (await ask("/take", { method: "POST", body: at("design").value })).json();
+      tell(answer.text, !answer.obeyed);
+    };
+    at("design").addEventListener("change", () => front.update("none"));
+    at("take").addEventListener("click", takeDesign);
+  }
+  offerDesigns().catch(() => {});
+
   // --- Numbers ----------------------------------------------------------------------------------------
 
   // The numbers: id, label, unit, factor from SI, key of the frame's numbers.
-  const numbers = [["objective", "objective", "J/m", 1, "objective_J_per_m"],
+  const numbers = [["objective", "objective", "J/m", 1, "objective_J_per_m"], ["objective", "objective", "J", 1, "objective_J"],
     ["volume", "volume", "% of the ring", 100, "volume_fraction"],
     ["travel", "mean travel", "mm", 1e3, "mean_travel"], ["run-out", "run-out", "mm", 1e3, "run_out"],
     ["pressure", "peak pressure", "MPa", 1e-6, "peak_pressure"]];
-  for (const [id, label] of [...numbers, ["shape", "shape"]])
+  for (const [id, label] of new Map([...numbers, ["shape", "shape"]].map((number) => [number[0], number])).values())
     at("numbers").append(element("div", {}, element("dt", {}, label), element("dd", { id: `number-${id}` }, "-")));
 
   function showNumbers() {
-    for (const [id, , unit, factor, key] of numbers)
+    for (const [id, , unit, factor, key] of numbers.filter((number) => number[4] in frame.numbers))
       at(`number-${id}`).textContent = `${shown(frame.numbers[key] * factor)} ${unit}`;
     at("number-shape").textContent = String(frame.shape);
   }
@@ -371,7 +470,7 @@
   // --- Curves -----------------------------------------------------------------------------------------
 
   const charts = {
-    objective: chart("Objective, shape by shape", "shape", "[J/m]", [{ name: "objective", x: [], y: [] }]),
+    objective: chart("Objective, shape by shape", "shape", "[J/m, in 3D J]", [{ name: "objective", x: [], y: [] }]),
     travel: chart("Travel at this load, round one sector", "azimuth [\u00b0]", "[mm]", [{ name: "travel", x: [], y: [] }]),
     pressure: chart("Contact pressure", "along the ground [mm]", "[MPa]", [{ name: "pressure", x: [], y: [] }]),
     force: chart("Force and travel", "mean travel [mm]", "[N]", [{ name: "force", x: [], y: [] }]),
@@ -457,6 +556,17 @@
     const force = frame.settings.load.force_N;
     const weight = (id, label, key, low, high) => setting(id, label, { ...powers(low, high), digits: 3,
       value: () => frame.settings.weights[key], command: (v) => ({ do: "weights", [key]: v }) });
+    // Widths of which 0 allows any.
+    const ring = frame.wheel.outer_radius_m - frame.wheel.inner_radius_m;
+    const width = (id, label, key) => setting(id, label, { ...linear(0, 250 * ring), digits: 3,
+      value: () => 1e3 * frame.settings[key], command: (v) => ({ do: "widths", [key]: v * 1e-3 }) });
+    const relations = { at_least: "at least", at_most: "at most", equals: "equal to" };
+    const limit = (k, bound, relation) => {
+      const first = bound[relation], range = first > 0 ? powers(0.2 * first, 5 * first) : linear(-1, 1);
+      return setting(`bound-${k}-${relation}`, `${bound.quantity.replaceAll("_", " ")} ${relations[relation]} [SI]`, {
+        ...range, digits: 4, value: () => frame.settings.bounds[k][relation],
+        command: (v) => ({ do: "bound", constraint: k, [relation]: v }) });
+    };
     settings = [
       setting("force", "load [N]", { ...linear(0.1 * force, 3 * force), digits: 4,
         value: () => frame.settings.load.force_N,
@@ -465,6 +575,9 @@
         value: () => 100 * frame.settings.volume_target, command: (v) => ({ do: "volume", target: v / 100 }) }),
       weight("stiff", "weight of stiffness", "strain_energy", 0.01, 100),
       weight("even", "weight of even rolling", "uniformity_dual", 1, 1e5),
+      width("wall", "thinnest wall [mm]", "minimum_wall_m"), width("gap", "narrowest gap [mm]", "minimum_gap_m"),
+      ...frame.settings.bounds.flatMap((bound, k) => Object.keys(relations).filter((relation) => relation in bound)
+        .map((relation) => limit(k, bound, relation))),
     ];
   }
   const present = (members) => Object.fromEntries(Object.entries(members).filter(([, v]) => v !== null));
@@ -477,11 +590,11 @@
   at("undo").addEventListener("click", () => give({ do: "undo" }));
   at("reset").addEventListener("click", () => give({ do: "reset" }));
   at("position").addEventListener("input", () => {
-    if (loaded) showLoaded();
+    showPosition();
     look();
   });
 
-  let version = 0, curveVersion = 0, painted = 0, framed = 0;
+  let version = 0, curveVersion = 0, painted = 0, shapesPainted = 0, framed = 0;
   let waiting = new AbortController();
 
   // Asks at once for what is there, e.g. when another load position is to be shown.
@@ -492,7 +605,7 @@
 
   // The curves of the last shape, when no other follows.
   setInterval(() => {
-    const isQuiet = frame?.outline && performance.now() - framed > betweenCurves;
+    const isQuiet = frame?.wheel && performance.now() - framed > betweenCurves;
     if (isQuiet && curvesOf !== frame.version) look();
   }, betweenCurves);
 
@@ -506,7 +619,7 @@
 
   const painting = () => new Promise((done) => requestAnimationFrame(done));
 
-  function take(news) {
+  async function take(news) {
     const isNew = news.version !== frame?.version;
     frame = news;
     framed = performance.now();
@@ -514,13 +627,21 @@
     curve.push(...news.curve);
     if (curve.length > mostPoints) curve.splice(0, curve.length - mostPoints);
     showState();
-    if (!frame.outline) return;
-    if (!settings) makeSettings();
+    if (!frame.wheel) return;
+    if (!settings) {
+      makeSettings();
+      offerFormats();
+    }
     for (const follow of settings) follow();
+    // An edge that a command drew replaces what the user drew; its numbers come with its solution.
+    if (frame.is_proposed && edit?.isGiven) edit = null;
     paint();
-    showNumbers();
-    if (frame.force_curve) showCurves();
+    if (isSolid() && isNew) await showSolid();
     if (isNew) wheel.dataset.painted = String(++painted);
+    if (frame.is_proposed) return;
+    showNumbers();
+    if ("force_curve" in frame) showCurves();
+    if (news.curve.length > 0) wheel.dataset.shapes = String(++shapesPainted);
     wheel.dataset.shape = String(frame.shape);
     wheel.dataset.version = String(frame.version);
   }
@@ -530,7 +651,7 @@
       try {
         const news = await next();
         await painting();
-        take(news);
+        await take(news);
       } catch (error) {
         if (error instanceof NotAllowed) {
           at("state").textContent = "open the address that the program printed";

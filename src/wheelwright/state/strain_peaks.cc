@@ -1,4 +1,4 @@
-#include "wheelwright/analysis/strain_peaks.h"
+#include "wheelwright/state/strain_peaks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -118,8 +118,8 @@ std::array<double, 3> principal_strains<3>(const double* strain, double) {
 }
 
 template <int dim>
-StrainPeaks<dim> strain_peaks(const StateSolver<dim>& solver, const State<dim>& state,
-                              const Displacement<dim>& displacement) {
+StrainPeaks<dim> strain_peaks(const StateSolver<dim>& solver, const State<dim>& state) {
+  const Displacement<dim>& displacement = state.displacement();
   const PolarGrid<dim>& grid = solver.model().grid;
   const int n_positions = state.positions().size();
   const auto points = material_points(state.domain(), solver.model().degree);
@@ -138,7 +138,7 @@ StrainPeaks<dim> strain_peaks(const StateSolver<dim>& solver, const State<dim>& 
   return {std::move(all.deviator), std::move(all.places), std::move(all.principal)};
 }
 
-template StrainPeaks<2> strain_peaks(const StateSolver<2>&, const State<2>&, const Displacement<2>&);
-template StrainPeaks<3> strain_peaks(const StateSolver<3>&, const State<3>&, const Displacement<3>&);
+template StrainPeaks<2> strain_peaks(const StateSolver<2>&, const State<2>&);
+template StrainPeaks<3> strain_peaks(const StateSolver<3>&, const State<3>&);
 
 }  // namespace wheelwright

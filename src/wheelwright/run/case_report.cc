@@ -1,4 +1,4 @@
-#include "wheelwright/app/case_report.h"
+#include "wheelwright/run/case_report.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,172 @@
+/// Solves the first shape of a case in 3D, with contact in all its load positions, adjoints and the gradient
+/// of the objective, on one thread, and prints phase by phase the user time and the peak of memory, then the
+/// rate in unknowns per second. Keys of the case may be given other numbers.
+/// usage: shape_in_3d CASE [KEY=NUMBER ...]
+///
+/// The parts of a shape are measured by doing them once more, after it.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <optional>
+#include <string>
+
+#include "unavoidable_work.h"
+#include "wheelwright/base/blas_settings.h"
+#include "wheelwright/base/parallel.h"
+#include "wheelwright/case/read.h"
+#include "wheelwright/case/set_number.h"
+#include "wheelwright/run/study.h"
+
+namespace wheelwright::bench {
+namespace {
+
+/// User time of this process [s].
+double user_seconds() {
+  rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_utime.tv_sec) + 1e-6 * static_cast<double>(usage.ru_utime.tv_usec);
+}
+
+/// The peak of the resident memory since the last call of forget_peak() [GB].
+double peak_memory() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("VmHWM:")) return std::atof(line.c_str() + 6) * 1024e-9;
+  return 0;
+}
+void forget_peak() { std::ofstream("/proc/self/clear_refs") << 5; }
+
+/// Does some work and prints its line; returns what the work returns.
+template <class Work>
+auto measured(const std::string& phase, double& seconds, Work work) {
+  forget_peak();
+  const double start = user_seconds();
+  auto result = work();
+  seconds = user_seconds() - start;
+  fmt::print("{:34} {:9.2f} s {:8.2f} GB\n", phase, seconds, peak_memory());
+  std::fflush(stdout);
+  return result;
+}
+
+/// The columns of the sector in the contact zones of all positions, and the number of columns of the widest.
+struct Zones {
+  std::vector<bool> loaded;
+  int widest = 0;
+};
+
+Zones contact_zones(const State<3>& state, const PolarGrid<3>& grid, int points_per_column) {
+  Zones zones{std::vector<bool>(grid.columns(), false)};
+  for (const auto& contact : state.contacts()) {
+    for (const auto& point : contact.points) zones.loaded[point.column % grid.columns()] = true;
+    zones.widest = std::max(zones.widest, static_cast<int>(contact.points.size()) / points_per_column);
+  }
+  return zones;
+}
+
+/// Parts of a shape, done once more.
+std::optional<Failure> measure_parts(const RollingProblem<3>& problem, const LevelSet<3>& psi,
+                                     const Zones& zones, int& unknowns) {
+  const RollingModel<3>& model = problem.model();
+  const SectorHarmonics harmonics(model.grid.n_sectors);
+  double seconds = 0;
+  const auto domain =
+      measured("cut quadrature", seconds, [&] { return cut_domain(psi, model.points_in_cut_cells()); });
+  if (!domain) return domain.failure();
+  auto sector = measured("assembly", seconds,
+                         [&] { return sector_stiffness(*domain, problem.elements(), problem.core_rows()); });
+  const auto ring = measured("sector's factor, harmonics", seconds, [&] {
+    return CyclicStiffness<3>::factor(
+        std::move(sector), [&](int harmonic) { return problem.tread().outer_stiffness(harmonics, harmonic); },
+        harmonics);
+  });
+  if (!ring) return ring.failure();
+  unknowns = ring_unknowns(problem, *ring);
+  measured("contact operator", seconds,
+           [&] { return SurfaceCompliance<3>(*ring, problem.tread(), zones.widest - 1, zones.loaded); });
+  std::vector<int> order(ring->sector().space.n_nodes());
+  for (int node = 0; node < static_cast<int>(order.size()); ++node) order[ring->row(3 * node) / 3] = node;
+  const auto factor = measured("of it: sector's factor", seconds, [&] {
+    return PartialCholesky::factor(ring->sector().matrix, 3, order, ring->sector_factor().n_trailing() / 3);
+  });
+  fmt::print(
+      "unknowns of a sector {}, of its boundary {}, of its outer line {}; {} columns in contact zones of "
+      "{} columns\n",
+      ring->sector_factor().size(), ring->n_boundary(), ring->n_outer(),
+      std::ranges::count(zones.loaded, true), zones.widest);
+  return {};
+}
+
+std::optional<Failure> measure(const Case& c) {
+  const auto study = make_study<3>(c);
+  if (!study) return study.failure();
+  double seconds = 0;
+  const auto problem =
+      measured("tread, once per run", seconds, [&] { return RollingProblem<3>::create(study->model()); });
+  if (!problem) return problem.failure();
+  const LevelSet<3>& psi = study->initial;
+  const LoadPositions positions = problem->distinct_positions(psi);
+
+  Zones zones;
+  double of_states = 0, of_gradient = 0;
+  {
+    const auto state =
+        measured("one shape: states", of_states, [&] { return problem->states(psi, positions, {}); });
+    if (!state) return state.failure();
+    const auto evaluation = measured("one shape: adjoints, gradient", of_gradient, [&] {
+      return differentiate<3>(*problem, study->functions, psi, **state);
+    });
+    if (!evaluation) return evaluation.failure();
+    for (const auto& [phase, wall] : evaluation->phases)
+      fmt::print("  wall time of {:20} {:9.2f} s\n", phase, wall);
+    fmt::print("objective {:.12g}; Newton iterations {}\n", evaluation->function("objective").value,
+               fmt::join(evaluation->newton_iterations, " "));
+    zones = contact_zones(**state, study->grid(), problem->tread_surface().rows().n_points);
+  }
+  int unknowns = 0;
+  if (const auto failure = measure_parts(*problem, psi, zones, unknowns)) return failure;
+  fmt::print("{} unknowns, {} of {} positions solved: {:.0f} unknowns/s per core\n", unknowns,
+             positions.size(), study->model().n_positions, unknowns / (of_states + of_gradient));
+  return {};
+}
+
+int run(int count, char** arguments) {
+  auto read = read_case(arguments[1]);
+  for (const auto& problem : read.problems) fmt::print(stderr, "{}\n", problem.text());
+  if (!read.value) return 2;
+  for (int i = 2; i < count; ++i) {
+    const std::string set = arguments[i];
+    const auto equals = set.find('=');
+    if (equals == std::string::npos) {
+      fmt::print(stderr, "{}: KEY=NUMBER is missing its =\n", set);
+      return 2;
+    }
+    if (const auto problem =
+            set_number(*read.value, set.substr(0, equals), std::atof(set.c_str() + equals + 1))) {
+      fmt::print(stderr, "{}\n", *problem);
+      return 2;
+    }
+  }
+  if (const auto failure = measure(*read.value)) {
+    fmt::print(stderr, "{}: {}\n", to_string(failure->reason), failure->detail);
+    return 3;
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace wheelwright::bench
+
+int main(int count, char** arguments) {
+  wheelwright::restart_with_blas_settings(arguments);
+  const wheelwright::ThreadLimit one_thread(1);
+  if (count < 2) {
+    fmt::print(stderr, "usage: {} CASE [KEY=NUMBER ...]\n", arguments[0]);
+    return 2;
+  }
+  return wheelwright::bench::run(count, arguments);
+}

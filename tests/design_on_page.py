@@ -1,0 +1,138 @@
+"""Designs a wheel on the page of `wheelwright watch` alone, from a preset to a STEP file, by mouse and keyboard: the steps of
+docs/watch.md. The test of the page looks at what each of them changes, and scripts/draw-watch draws them."""
+
+import time
+
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+
+PRESET = "curved-spokes"
+
+
+class Page:
+    """What a user sees of the page and does on it. `look` is called now and then while the user waits."""
+
+    def __init__(self, browser, look=lambda: None):
+        self.browser = browser
+        self.look = look
+
+    def element(self, name):
+        return self.browser.find_element(By.ID, name)
+
+    def text(self, name):
+        return self.element(name).text
+
+    def wheel(self, name):
+        return self.element("wheel").get_attribute(f"data-{name}")
+
+    def shape(self):
+        return int(self.wheel("shape") or -1)
+
+    def number(self, name):
+        return float(self.text(f"number-{name}").split()[0])
+
+    def until(self, wanted, seconds=180):
+        end = time.time() + seconds
+        while not wanted():
+            if time.time() > end:
+                raise TimeoutError(self.text("state") + " " + self.text("message"))
+            self.look()
+            time.sleep(0.02)
+
+    def more_shapes(self, n):
+        """Waits for so many, or until there are no better ones."""
+        first = self.shape()
+        self.until(lambda: self.shape() >= first + n or "no better shape" in self.text("state"))
+
+    def type(self, name, text):
+        self.element(name).send_keys(Keys.CONTROL, "a", Keys.NULL, text, Keys.ENTER)
+
+    def pause(self):
+        if self.text("go") == "Pause":
+            self.element("go").click()
+        self.until(lambda: self.text("go") == "Go on")
+
+    def go_on(self):
+        """From a pause, or from the end of a step."""
+        self.until(lambda: self.text("go") == "Go on")
+        self.element("go").click()
+
+    def stroke(self, tool, radii, azimuth, steps=6):
+        """Draws with the mouse along a ray, at these shares of the outer radius."""
+        self.element(f"tool-{tool}").click()
+        self.browser.execute_script("arguments[0].scrollIntoView({block: 'center'})", self.element("wheel"))
+        half = 0.47 * self.element("wheel").size["width"]
+        at = lambda r: (round(half * r * azimuth[0]), round(-half * r * azimuth[1]))
+        places = [at(radii[0] + (radii[1] - radii[0]) * k / steps) for k in range(steps + 1)]
+        actions = ActionChains(self.browser, duration=30)
+        actions.move_to_element_with_offset(self.element("wheel"), *places[0]).click_and_hold()
+        for (x, y), (nx, ny) in zip(places, places[1:]):
+            actions.move_by_offset(nx - x, ny - y)
+        actions.release().perform()
+
+    def obeyed(self, beginning):
+        self.until(lambda: self.text("message").startswith(beginning))
+
+
+def steps(page):
+    """Each step: its name, and what the user does."""
+
+    def begin():
+        page.until(lambda: page.shape() >= 3)
+        page.pause()
+        page.element("reset").click()  # it changed before the page was there
+        page.obeyed("back to the initial shape")
+        for _ in range(10):
+            page.look()
+            before = page.shape()
+            page.element("step").click()
+            page.until(lambda before=before: page.shape() > before or "no better shape" in page.text("state"))
+        page.go_on()
+
+    def load():
+        page.type("force-number", "4000")
+        page.obeyed("new load: force 4000 N")
+        page.more_shapes(6)
+
+    def paint():
+        page.pause()
+        page.stroke("paint", (0.6, 0.97), (0.995, 0.1))
+        page.obeyed("material painted")
+
+    def undo():
+        page.element("undo").click()
+        page.obeyed("the last change is undone")
+
+    def even():
+        page.type("even-number", "5")
+        page.obeyed("new weights")
+        page.go_on()
+        page.more_shapes(8)
+        page.pause()
+
+    def loaded():
+        page.element("load").click()
+        page.until(lambda: page.element("roll").is_enabled())
+        page.browser.execute_script("arguments[0].scrollIntoView({block: 'center'})", page.element("loaded-wheel"))
+        page.element("roll").send_keys(Keys.ENTER)
+        first = page.element("loaded-wheel").get_attribute("data-position")
+        page.until(lambda: page.element("loaded-wheel").get_attribute("data-position") != first)
+        for _ in range(12):
+            page.look()
+        page.element("roll").click()
+
+    def take_away():
+        page.type("name", "my-spokes")
+        page.element("save").click()
+        page.obeyed("saved")
+        page.element("format").send_keys("STEP")
+        page.element("export").click()
+        page.obeyed("my-spokes.step is downloaded")
+
+    return [("begin", begin), ("load", load), ("paint", paint), ("undo", undo), ("even", even), ("loaded", loaded),
+            ("take_away", take_away)]
+
+
+def downloads_to(browser, folder):
+    browser.execute_cdp_cmd("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(folder)})
