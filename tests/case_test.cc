@@ -413,6 +413,7 @@ Case case_with(const std::string& header) {
   Case c = with_holes();
   c.constraints = {constraint_sections().example};
   c.constraints[0].at_least = 1;
+  if (header == "[[load.case]]") c.load.cases = {load_case_sections().example};
   return c;
 }
 
@@ -455,6 +456,14 @@ std::string_view written_key(const std::vector<Key<Struct>>& keys, const Key<Str
   for (const auto& other : keys)
     if (are_alternatives(other, key) && std::holds_alternative<NumberField<Struct>>(other.field))
       written = other.name;
+  // Two names of one optional number: the later one is written.
+  for (const auto& other : keys)
+    for (const auto& same : keys) {
+      const auto* number = std::get_if<OptionalNumberField<Struct>>(&other.field);
+      const auto* twin = std::get_if<OptionalNumberField<Struct>>(&same.field);
+      if (number && twin && &other > &same && number->member == twin->member && are_alternatives(other, key))
+        written = other.name;
+    }
   return written;
 }
 

@@ -602,5 +602,25 @@ TEST_F(CommandLine, TheProgramLoadsFewLibraries) {
   EXPECT_LT(std::ranges::count(libraries, '\n'), 40) << libraries;
 }
 
+// A stiffness that no wheel of this volume has, and one that every wheel has.
+TEST_F(CommandLine, ARunThatDoesNotKeepABoundHasAnExitCodeOfItsOwn) {
+  for (const bool can_be_kept : {false, true}) {
+    std::ofstream(folder() / "bound.toml")
+        << "[[holes.ring]]\ncount = 16\ncenter_radius = 0.265\nradius = 0.03\n"
+           "[grid]\nradial_cells = 14\nangular_cells = 128\ntread_levels = 0\n"
+           "[load]\npositions = 1\n"
+           "[optimizer]\niterations = 1\nrim_band = 0.02\ntread_band = 0.02\n"
+           "[[constraint]]\nquantity = \"stiffness\"\nat_least = "
+        << (can_be_kept ? "1e6" : "1e12") << '\n';
+    const std::string output = can_be_kept ? "kept" : "missed";
+    const Outcome run = wheelwright(fmt::format("run bound.toml --output {}", output), folder());
+    EXPECT_EQ(run.code, can_be_kept ? exit_done : exit_infeasible) << run.output;
+    // The bound and its value are told beside the files of a run that is done.
+    std::ifstream summary(folder() / output / "summary.json");
+    const std::string text{std::istreambuf_iterator<char>(summary), {}};
+    EXPECT_NE(text.find("\"stiffness\""), std::string::npos) << text;
+  }
+}
+
 }  // namespace
 }  // namespace wheelwright::testing

@@ -920,7 +920,7 @@ const Section<Optimizer>& optimizer_section() {
           {.name = "step",
            .unit = "cells",
            .field = OptionalNumberField<Optimizer>{&Optimizer::step, above(0, 10),
-                                                   "1.5; with method = \"descent\" 0.5"},
+                                                   "1.25; with method = \"descent\" 0.5"},
            .meaning = "maximum move of the boundary from one shape to the next"},
           {.name = "max_halvings",
            .unit = "",

@@ -243,7 +243,7 @@ OptimizerOptions optimizer_options(const Case& c) {
   options.iterations = c.optimizer.iterations;
   const bool descends = optimizer_method(c) == OptimizerMethod::descent;
   options.method = descends ? Method::descent : Method::sequential_quadratic;
-  options.step = c.optimizer.step.value_or(descends ? 0.5 : 1.5);
+  options.step = c.optimizer.step.value_or(descends ? 0.5 : 1.25);
   options.max_halvings = c.optimizer.max_halvings;
   options.accepted_increase = c.optimizer.accepted_increase;
   options.tolerance = c.optimizer.tolerance;
