@@ -3,10 +3,11 @@
 namespace wheelwright::bench {
 namespace {
 
-/// Harmonics of real data, a complex one counted as four real ones: those of 0 and n/2 are real.
-double real_harmonics(int n_sectors) {
+/// Harmonics of real data in units of real ones, when each of the complex ones, all but 0 and n/2, costs
+/// `complex` as much.
+double real_harmonics(int n_sectors, double complex) {
   const int real = n_sectors % 2 == 0 ? 2 : 1;
-  return real + 4.0 * (n_sectors - real) / 2;
+  return real + complex * (n_sectors - real) / 2;
 }
 
 double cube(double x) { return x * x * x; }
@@ -17,27 +18,29 @@ std::vector<KernelWork> unavoidable_work(const RollingProblem<2>& problem,
                                          const RollingSolution<2>& solution) {
   const auto& ring = solution.ring;
   const auto& tread = problem.tread();
-  const double harmonics = real_harmonics(ring.n_sectors()), boundary = ring.n_boundary(),
+  // A symmetric wheel has real factors, to which a complex vector is two real ones.
+  const bool symmetric = ring.is_mirror_symmetric();
+  const double factors = real_harmonics(ring.n_sectors(), symmetric ? 1 : 4),
+               vectors = real_harmonics(ring.n_sectors(), symmetric ? 2 : 4), boundary = ring.n_boundary(),
                outer = ring.n_outer();
   const double positions = solution.states.size();
   const double modes = solution.displacement.modes.rows(),
                swept_entries = ring.sector_factor().sweep_entries(solution.sweep);
 
-  const double width = solution.surface.width(), per_column = tread.base_per_column(),
-               base = per_column * (2.0 * tread.reach() + 2), samples = tread.compliance(0).rows(),
-               sampled_base = base + per_column * 2 * width;
+  const double line = tread.samples().of_line.columns(), samples = tread.samples().of_line.rows(),
+               tests = tread.tests().of_line.rows(), apart = 2.0 * solution.surface->width() + 1,
+               solved_columns = tread.columns_per_sector() * (symmetric ? 0.5 : 1);
   const double contact_operator =
-      tread.columns_per_sector() * 2 * samples * (base * sampled_base + base * samples * (2 * width + 1));
+      solved_columns * tests * (vectors * 2 * outer * outer + 2 * samples * line * apart);
   double boundary_points = 0;
   for (const auto& cell : solution.domain.cut) boundary_points += cell.boundary.size();
   const double cell_dofs = problem.elements().element(0).n_dofs();
-  const double interface = boundary - outer, solutions = harmonics * positions;
+  const double interface = boundary - outer, solutions = vectors * positions;
   const double outer_line = solutions * 2 * outer * outer,
                interface_sweep = solutions * interface * (2 * outer + interface);
 
   return {{"Cholesky of a sector", ring.sector_factor().factor_flops()},
-          {"Cholesky of the harmonics", harmonics * cube(boundary) / 3},
-          {"compliance of the outer line", harmonics * 2 * cube(outer) / 3},
+          {"Cholesky of the harmonics", factors * cube(boundary) / 3},
           {"contact operators", contact_operator},
           {"backward sweep, direct", 2 * swept_entries * modes + outer_line + interface_sweep},
           {"both sweeps, adjoint", 4 * swept_entries * modes + 2 * (outer_line + interface_sweep)},

@@ -251,6 +251,92 @@ TEST(Cyclic, RealHarmonicsGiveWhatComplexOnesGive) {
   EXPECT_LT(relative_difference(by_row, turned_by_row), 1e-9);
 }
 
+/// A boundary in 3D: an interface of two azimuths and an outer line of four, three nodes along the axle each.
+struct SpatialBoundary {
+  SpatialBoundary() {
+    for (const int period : {2, 4}) {
+      const int first = static_cast<int>(azimuth.unknowns.size());
+      const auto unknown = [&](int line, int axial, int c) { return first + 3 * (3 * line + axial) + c; };
+      for (int line = 0; line < period; ++line)
+        for (int axial = 0; axial < 3; ++axial)
+          for (int c = 0; c < 3; ++c) {
+            azimuth.unknowns.push_back(
+                {unknown((period - line) % period, axial, c), line == 0 ? 0 : 1, c == 1 ? -1.0 : 1.0});
+            width.unknowns.push_back({unknown(line, 2 - axial, c), 0, c == 2 ? -1.0 : 1.0});
+          }
+    }
+  }
+  int n_interface = 18, n = 54;
+  BoundaryMirror azimuth, width;
+};
+
+/// A Hermitian, positive definite matrix that commutes with both reflections.
+ComplexMatrix symmetric_stiffness(const SpatialBoundary& boundary, std::complex<double> forward) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  ComplexMatrix k(boundary.n, boundary.n);
+  for (int j = 0; j < boundary.n; ++j)
+    for (int i = j; i < boundary.n; ++i) {
+      k(i, j) =
+          i == j ? std::complex<double>(boundary.n) : std::complex<double>(uniform(random), uniform(random));
+      k(j, i) = std::conj(k(i, j));
+    }
+  const auto average = [&](auto image) {
+    const ComplexMatrix before = k;
+    for (int j = 0; j < boundary.n; ++j)
+      for (int i = 0; i < boundary.n; ++i) k(i, j) = 0.5 * (before(i, j) + image(before, i, j));
+  };
+  average([&](const ComplexMatrix& a, int i, int j) {
+    const auto &from = boundary.width.unknowns[i], &to = boundary.width.unknowns[j];
+    return from.sign * to.sign * a(from.image, to.image);
+  });
+  average([&](const ComplexMatrix& a, int i, int j) {
+    const auto &from = boundary.azimuth.unknowns[i], &to = boundary.azimuth.unknowns[j];
+    const auto phase = [&](const auto& u) { return u.sign * (u.ahead == 1 ? forward : 1.0); };
+    return phase(from) * std::conj(a(from.image, to.image)) * std::conj(phase(to));
+  });
+  return k;
+}
+
+// Symmetries of the stiffness change neither the solution nor the condensed loads; the loads have none.
+TEST(HarmonicFactor, FindsTheSameSolutionWithAndWithoutSymmetries) {
+  const SpatialBoundary boundary;
+  const std::complex<double> forward = std::polar(1.0, 0.7);
+  const ComplexMatrix k = symmetric_stiffness(boundary, forward);
+  std::mt19937 random(13);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  ComplexMatrix loads(boundary.n, 3);
+  for (auto& x : loads.entries()) x = {uniform(random), uniform(random)};
+  const int n_outer = boundary.n - boundary.n_interface;
+  for (const bool azimuth : {false, true})
+    for (const bool width : {false, true}) {
+      BoundarySymmetry symmetry{
+          .n_interface = boundary.n_interface, .classes = {}, .width = {}, .azimuth = {}};
+      if (azimuth) symmetry.azimuth = boundary.azimuth;
+      if (width) {
+        symmetry.width = boundary.width;
+        for (const double sign : {1.0, -1.0})
+          symmetry.classes.emplace_back(boundary.width, boundary.n_interface, sign);
+      } else {
+        symmetry.classes.emplace_back(boundary.n, boundary.n_interface);
+      }
+      const auto factor = HarmonicFactor::factor(std::make_shared<const BoundarySymmetry>(symmetry), forward,
+                                                 false, [&](int i, int j) { return k(i, j); });
+      ASSERT_TRUE(factor);
+      ComplexMatrix x = loads;
+      factor->eliminate(x);
+      ComplexMatrix outer = block(x, boundary.n_interface, 0, n_outer, 3);
+      factor->solve_last(outer);
+      for (int j = 0; j < 3; ++j) std::copy_n(outer.column(j), n_outer, x.column(j) + boundary.n_interface);
+      factor->substitute(x);
+      ComplexMatrix residual = loads;
+      multiply(1, k, Op::none, x, Op::none, -1, residual);
+      double largest = 0;
+      for (const auto& r : residual.entries()) largest = std::max(largest, std::abs(r));
+      EXPECT_LT(largest, 1e-12) << azimuth << width;
+    }
+}
+
 /// The stiffness of a sector with a hole, on square cells.
 SectorStiffness<2> stiffness_with_a_hole(const ElementTable<2>& table) {
   const auto domain = cut_domain(testing::paper_holes(table.grid()), 4);

@@ -134,7 +134,7 @@ TEST(Loads, ARotatingRingGrowsAsThickWalledTheorySays) {
     const double from_b = 2 * (lambda + mu) + 2 * mu * a * a / (b * b);
     const double A = k * (b * b * (4 * lambda + 6 * mu) + 2 * mu * std::pow(a, 4) / (b * b)) / from_b;
     const double B = k * std::pow(a, 4) - A * a * a;
-    const RingField u = (*state)->displacement()->at_nodes(0);
+    const RingField u = (*state)->displacement().at_nodes(0);
     const Lattice<2> lattice(model.grid, model.degree);
     // In the sector opposite to the ground.
     for (int node = 0; node < lattice.n_nodes(); ++node) {

@@ -311,6 +311,8 @@ class Page(Browser, unittest.TestCase):
             for (let k = 3; k < data.length; k += 4) covered += data[k] === 255;
             return covered / (data.length / 4);""")
         self.assertTrue(0.3 < covered < 0.7, covered)
+        self.assertTrue(self.browser.execute_script(
+            "return document.querySelector('.print-copy').nextElementSibling === null"))
         self.browser.execute_script("dispatchEvent(new Event('afterprint'))")
         self.assertEqual(self.browser.find_elements(By.CLASS_NAME, "print-copy"), [])
         pdf = base64.b64decode(self.browser.execute_cdp_cmd("Page.printToPDF", {})["data"])

@@ -53,6 +53,8 @@ TEST(Rolling3D, ContactCarriesTheLoadAndSectorsAgree) {
   const Circle hole{0.26, 0.5 * model.grid.sector_angle(), 0.03};
   const auto s = problem->solve(make_level_set<3>(Lattice<3>(model.grid, 2), std::span(&hole, 1)));
   ASSERT_TRUE(s) << s.failure().detail;
+  EXPECT_TRUE(s->ring.is_mirror_symmetric());
+  EXPECT_TRUE(s->ring.is_symmetric_across_width());
   for (size_t i = 0; i < s->states.size(); ++i) {
     double force = 0;
     for (size_t q = 0; q < s->states[i].traction.size(); ++q)

@@ -1,3 +1,5 @@
+#include <sys/wait.h>
+
 #include <numbers>
 
 #include "tests/run_support.h"
@@ -85,6 +87,25 @@ TEST_F(SavedShape, IsTheSameOnTheSameGrid) {
   EXPECT_EQ(second.state->evaluation.function("objective").value, before);
 }
 
+TEST_F(SavedShape, ARunBeginsWithTheLastShapeOfAnother) {
+  const fs::path first = folder() / "first", second = folder() / "second";
+  run(read(uneven_wheel + uneven_holes + small_grid + optimizer(3)), "first");
+  const auto program = fs::read_symlink("/proc/self/exe").parent_path() / "wheelwright";
+  const auto code = [&](const std::string& arguments) {
+    return WEXITSTATUS(std::system(
+        fmt::format("cd '{}' && '{}' run {} >out.txt 2>&1", folder().string(), program.string(), arguments)
+            .c_str()));
+  };
+  ASSERT_EQ(code("first --output second --iterations 0"), 0) << content(folder() / "out.txt");
+  EXPECT_EQ(content(first / saved_shape_file), content(second / saved_shape_file));
+  EXPECT_EQ(code("first"), 2);  // where to?
+  EXPECT_EQ(code("first/shape.levelset --output third"), 2);
+  EXPECT_NE(content(folder() / "out.txt").find("no load"), std::string::npos);
+  fs::remove(first / saved_shape_file);
+  EXPECT_EQ(code("first --output third"), 2);
+  EXPECT_FALSE(fs::exists(folder() / "third"));
+}
+
 TEST_F(SavedShape, StaysInTheFolderOfTheRunThatBeginsWithIt) {
   run(read(uneven_wheel + uneven_holes + small_grid + optimizer(1)), "first");
   const Case c = read(uneven_wheel + "[shape]\nfrom = \"first\"\n" + small_grid + optimizer(1));
@@ -170,6 +191,7 @@ TEST_F(SavedShape, WhatDoesNotFitIsRefusedWithItsPlace) {
   expect(problem("first", uneven_wheel + uneven_holes), "cannot be drawn over");
   expect(problem("first", uneven_wheel, "[[shape.circle]]\ncount = 4\ncenter_radius = 0.27\nradius = 0.02\n"),
          "cannot be drawn over");
+  expect(problem("first", "[wheel]\nsectors = 4\ndimension = 3\n"), "only wheels in the plane");
   const LevelSet<3> solid{Lattice<3>({0.2, 0.34, 0.12, 4, {2, 4, 1}}, 1),
                           std::vector<double>(3 * 4 * 2, -1.0)};
   std::ofstream(folder() / "solid", std::ios::binary) << level_set_file(solid);

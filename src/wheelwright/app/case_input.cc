@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <thread>
 
-#include "wheelwright/run/case_report.h"
 #include "wheelwright/app/exit_code.h"
 #include "wheelwright/app/memory.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/base/parallel.h"
+#include "wheelwright/case/load_saved_shape.h"
 #include "wheelwright/case/read.h"
+#include "wheelwright/run/case_report.h"
 
 namespace wheelwright {
 namespace {
@@ -25,6 +26,14 @@ void limit_threads(int n_threads) {
 }  // namespace
 
 std::optional<Case> read_or_tell(const std::filesystem::path& file) {
+  if (file.extension() == std::filesystem::path(saved_shape_file).extension()) {
+    tell(
+        "{}: a saved shape has no load and no material: name it in a case, by [shape] from = \"{}\", or give "
+        "the "
+        "folder of its run\n",
+        file.string(), file.string());
+    return {};
+  }
   CaseResult result = read_case(file);
   if (result.value) return std::move(result.value);
   constexpr std::size_t most_told = 100;

@@ -302,8 +302,9 @@ struct ProblemSize {
 ProblemSize problem_size(const Case& c) {
   const bool in_3d = c.wheel.dimension == 3;
   const double per_line_node = c.wheel.dimension * static_cast<double>(axial_nodes(c));
+  const int axial_points = std::min(c.contact.quadrature_points, c.grid.degree + 1);
   const double points = c.contact.quadrature_points * (1 << tread_levels_of_results(c)) *
-                        (in_3d ? c.contact.quadrature_points * c.grid.axial_cells : 1);  // per column
+                        (in_3d ? axial_points * c.grid.axial_cells : 1);  // per column
   ProblemSize size{};
   size.sectors = c.wheel.sectors;
   size.positions = c.load.positions * static_cast<double>(std::max<std::size_t>(c.load.cases.size(), 1));
@@ -322,9 +323,9 @@ ProblemSize problem_size(const Case& c) {
 
 /// How many of each array exist at the peak of memory, fitted to measurements.
 struct Copies {
-  double condensed, harmonics, compliance, surface;
+  double condensed, harmonics, surface;
 };
-constexpr Copies in_the_plane{3.5, 1.8, 7.6, 1.2}, in_space{3, 1.1, 3.3, 4};
+constexpr Copies in_the_plane{3.5, 0.55, 1.2}, in_space{3, 0.55, 4};
 
 }  // namespace
 
@@ -345,7 +346,8 @@ double estimated_memory(const Case& c) {
   const double factor = number * fill;
   const double condensed = number * copies.condensed * square(2 * n.radial_line + n.sector_line());
   const double harmonics = complex * copies.harmonics * (n.sectors / 2 + 1) * square(n.boundary());
-  const double compliance = number * copies.compliance * square(n.ring_line) / n.sectors;
+  // Right-hand sides on the outer line that are solved together.
+  const double responses = number * 5 * 192 * n.ring_line;
   const double surface =
       number * copies.surface * (2 * n.zone_columns - 1) * n.loaded_columns * square(n.tractions);
   const double tread = number * (24 * square(observations) + 1.8 * observations * n.columns * n.positions);
@@ -353,7 +355,7 @@ double estimated_memory(const Case& c) {
   const double shape = number * 10 * holes;
   // The dual norm has its own ring, and so has a finer tread of the results.
   const double rings = 1 + wants_dual(c) + (tread_levels_of_results(c) > tread_levels(c));
-  return libraries + fields + rings * (factor + condensed + harmonics) + compliance + surface + tread +
+  return libraries + fields + rings * (factor + condensed + harmonics) + responses + surface + tread +
          zones + shape;
 }
 

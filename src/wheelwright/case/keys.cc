@@ -270,7 +270,9 @@ const Section<Contact>& contact_section() {
                {.name = "quadrature_points",
                 .unit = "",
                 .field = IntegerField<Contact>{&Contact::quadrature_points, between(1, 20)},
-                .meaning = "number of Gauss points on each contact face"}}};
+                .meaning =
+                    "number of Gauss points on each contact face; in 3D along the ground, and along the axle "
+                    "at most degree + 1"}}};
   return section;
 }
 

@@ -1,7 +1,9 @@
 #include "wheelwright/ring/surface_compliance.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <numbers>
 
 #include "wheelwright/base/parallel.h"
 #include "wheelwright/base/periodic.h"
@@ -12,9 +14,9 @@ namespace {
 /// Right-hand sides that are solved together: enough for fast products, and few enough to take little memory.
 constexpr int rhs_together = 192;
 
-/// Calls f(part, first, n) for the parts of columns of the ring's outer line from `first_column` on: n rows
-/// of a field by sectors (CyclicStiffness) from row `first` of sector `part.sector` are rows `part.row` and
-/// following of the piece of the line.
+/// Calls visit(row, sector, first, n) for `n_columns` columns of the ring's outer line from `first_column`
+/// on: the n rows from `row` on of that piece of the line are those from `first` on of the sector in a field
+/// by sectors (CyclicStiffness).
 template <int dim, class Visit>
 void for_each_part(const Tread<dim>& tread, int first_column, int n_columns, Visit visit) {
   const int per_column = tread.base_per_column(), per_sector = tread.columns_per_sector();
@@ -57,6 +59,32 @@ std::vector<std::vector<Matrix>> responses(const CyclicStiffness<dim>& ring, con
   return result;
 }
 
+/// The mirror image, in the plane of azimuth 0, of the response of one column to tractions on another.
+template <int dim>
+Matrix mirror_image(const Tread<dim>& tread, const Matrix& block) {
+  // The image of a column's frame is the frame at the end of the column's image.
+  const double angle = 2 * std::numbers::pi / tread.n_columns();
+  const double c = std::cos(angle), s = std::sin(angle);
+  const int n_components = tread.traced_components();
+  const auto images = [&](int point) { return tread.surface().mirror_images[2 * point] / 2; };
+  const auto reflect = [&](double& radial, double& circumferential) {
+    const double r = radial, t = circumferential;
+    radial = c * r + s * t;
+    circumferential = s * r - c * t;
+  };
+  auto result = Matrix::unfilled(block.rows(), block.columns());
+  for (int from = 0; from < block.columns() / n_components; ++from)
+    for (int to = 0; to < block.rows() / n_components; ++to) {
+      const int i0 = n_components * images(to), j0 = n_components * images(from);
+      for (int j = 0; j < n_components; ++j)
+        for (int i = 0; i < n_components; ++i)
+          result(i0 + i, j0 + j) = block(n_components * to + i, n_components * from + j);
+      for (int j = 0; j < n_components; ++j) reflect(result(i0, j0 + j), result(i0 + 1, j0 + j));
+      for (int i = 0; i < n_components; ++i) reflect(result(i0 + i, j0), result(i0 + i, j0 + 1));
+    }
+  return result;
+}
+
 }  // namespace
 
 template <int dim>
@@ -68,9 +96,13 @@ SurfaceCompliance<dim>::SurfaceCompliance(const CyclicStiffness<dim>& ring, cons
       blocks_(size_t(2 * width + 1) * columns_per_sector_) {
   // -S (C + T G T^T) Te^T with the tread's compliance C and transfer T and the core's compliance G.
   const TraceKernel &samples = tread.samples(), &tests = tread.tests();
+  const auto image_of = [&](int column) { return columns_per_sector_ - 1 - column; };
+  const auto is_image = [&](int column) {
+    return ring.is_mirror_symmetric() && column > image_of(column) && loaded[image_of(column)];
+  };
   std::vector<int> columns;
   for (int c = 0; c < columns_per_sector_; ++c)
-    if (loaded[c]) columns.push_back(c);
+    if (loaded[c] && !is_image(c)) columns.push_back(c);
   const int n_columns = static_cast<int>(columns.size()),
             together = std::max(1, rhs_together / std::max(1, tests.of_line.rows()));
   for (int first = 0; first < n_columns; first += together) {
@@ -86,6 +118,11 @@ SurfaceCompliance<dim>::SurfaceCompliance(const CyclicStiffness<dim>& ring, cons
       }
     });
   }
+  parallel_for(columns_per_sector_, [&](int from) {
+    if (!loaded[from] || !is_image(from)) return;
+    for (int d = -width; d <= width; ++d)
+      blocks_[(2 * width + 1) * from + d + width] = mirror_image(tread, block(image_of(from), -d));
+  });
 }
 
 template class SurfaceCompliance<2>;

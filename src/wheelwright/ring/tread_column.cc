@@ -217,6 +217,23 @@ std::vector<int> mirror_images(const std::vector<ReferencePoint<dim>>& rule, int
   return images;
 }
 
+/// The Gauss points of a contact face. Along the axle the pressure is as smooth as the displacement, and
+/// degree + 1 points resolve it; along the ground it begins and ends inside of faces.
+template <int dim>
+std::vector<ReferencePoint<dim - 1>> contact_rule(int points, int degree) {
+  if constexpr (dim == 2) return unit_cell_rule<1>(points);
+  const GaussRule along_ground = gauss_rule(points), along_axle = gauss_rule(std::min(points, degree + 1));
+  std::vector<ReferencePoint<dim - 1>> rule;
+  for (size_t k = 0; k < along_axle.points.size(); ++k)
+    for (int i = 0; i < points; ++i) {
+      ReferencePoint<dim - 1> point{{along_ground.points[i]},
+                                    along_ground.weights[i] * along_axle.weights[k]};
+      point.xi[dim - 2] = along_axle.points[k];
+      rule.push_back(point);
+    }
+  return rule;
+}
+
 /// A cell of a column.
 template <int dim>
 struct ColumnCell {
@@ -244,7 +261,7 @@ class ColumnAssembly {
         contact_points_(points_per_direction),
         annulus_points_(tread.annulus_points),
         volume_rule_(unit_cell_rule<dim>(degree_ + 2)),
-        face_rule_(unit_cell_rule<dim - 1>(points_per_direction)),
+        face_rule_(contact_rule<dim>(points_per_direction, degree_)),
         annulus_rule_(unit_cell_rule<dim>(tread.annulus_points)) {
     if constexpr (dim == 3) axial_cells_ = grid_.cells[2];
     int n_cells = 0;

@@ -51,7 +51,7 @@ struct RollingModel {
   GhostPenalty ghost;
   SideFaces side_faces = SideFaces::free;  ///< when dim = 3
   ContactForm contact;
-  int contact_points = 5;       ///< Gauss points per direction on each contact face
+  int contact_points = 5;       ///< Gauss points on each contact face, along the axle at most degree + 1
   TreadGrid tread;              ///< rows that are condensed once per run, and their refinement
   double load;                  ///< P [N/m when dim = 2, N when dim = 3]
   double horizontal_force = 0;  ///< H on the rim, towards larger azimuth; if not 0, it moves along the ground

@@ -53,7 +53,9 @@ class ReportCommand : public Subcommand {
   ReportCommand() : Subcommand("report", "Write a page that explains one or more runs") {}
 
   void declare(Options& options) override {
-    options.arguments("RUN", folders_, 1, "Folders of runs; several stand side by side. Of an exploration or a sweep its page is told");
+    options.arguments(
+        "RUN", folders_, 1,
+        "Folders of runs; several stand side by side. Of an exploration or a sweep its page is told");
     options.text("--output", "FILE", output_, not_empty, "The page; without it report.html");
     add_threads(options, threads_);
   }

@@ -3,17 +3,43 @@
 #include "wheelwright/app/execute.h"
 #include "wheelwright/app/exit_code.h"
 #include "wheelwright/app/shared_options.h"
+#include "wheelwright/app/terminal.h"
+#include "wheelwright/case/load_saved_shape.h"
 #include "wheelwright/case/shorten.h"
 
 namespace wheelwright {
 namespace {
+
+/// The case of a run whose initial shape is the run's last one. Nothing if there is none, which is told then.
+std::optional<Case> case_from_run(const std::filesystem::path& folder) {
+  auto c = read_or_tell(folder / "case.toml");
+  if (!c) return {};
+  if (c->wheel.dimension == 3) {
+    tell(
+        "{}: only wheels in the plane can begin with the shape of a run; `wheelwright resume` goes on with "
+        "this "
+        "one\n",
+        folder.string());
+    return {};
+  }
+  c->holes = {};
+  c->shapes = {};
+  c->expectations = {};
+  c->saved_shape = {.from = std::filesystem::absolute(folder).string(), .checksum = {}, .shape = {}};
+  const auto problems = load_saved_shape(*c, {});
+  for (const FileProblem& problem : problems)
+    tell("{}: {}; {}\n", folder.string(), problem.problem, problem.remedy);
+  if (!problems.empty()) return {};
+  return c;
+}
 
 class RunCommand : public Subcommand {
  public:
   RunCommand() : Subcommand("run", "Optimize a case and write the results to its folder") {}
 
   void declare(Options& options) override {
-    add_case(options, case_file_);
+    options.argument("CASE", case_file_,
+                     "case file, or the folder of a run: a new run with its case begins with its last shape");
     add_output(options, output_, "Folder for the results, instead of the case's output.folder");
     add_iterations(options, iterations_);
     add_threads(options, threads_);
@@ -21,7 +47,13 @@ class RunCommand : public Subcommand {
 
   int run() override {
     Signals signals;
-    auto c = read_or_tell(case_file_);
+    const bool from_run = std::filesystem::is_directory(case_file_);
+    if (from_run && !output_) {
+      tell("{}: give the new run's folder by --output; `wheelwright resume` goes on with this one\n",
+           case_file_);
+      return exit_usage;
+    }
+    auto c = from_run ? case_from_run(case_file_) : read_or_tell(case_file_);
     if (!c) return exit_usage;
     if (iterations_) c = with_iterations(*std::move(c), *iterations_);
     if (!may_compute(name(), *c, case_file_, threads_)) return exit_refused;

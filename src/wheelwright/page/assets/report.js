@@ -134,12 +134,14 @@
     slider.addEventListener("input", () => { roll(false); draw(); });
     for (const control of [choice, kind]) control.addEventListener("change", draw);
     const start = () => { paint = (is_surface ? surfacePainter : wheelPainter)(picture, run); draw(); };
-    // Browsers print what was drawn in a plane, but not what WebGL drew.
+    // On paper what lies over a canvas hides it, even where it is transparent: one canvas shows both.
     const print = () => {
       const copy = element("canvas", { class: "print-copy", "aria-hidden": "true", style: "position:absolute;inset:0" });
       [copy.width, copy.height] = [picture.width, picture.height];
-      copy.getContext("2d").drawImage(picture, 0, 0);
-      picture.after(copy);
+      const context = copy.getContext("2d", { willReadFrequently: true });
+      context.drawImage(picture, 0, 0);
+      if (!is_surface) context.drawImage(ground, 0, 0, copy.width, copy.height);
+      frame.append(copy);
       return () => copy.remove();
     };
     return { figure, start, draw, print };
