@@ -196,10 +196,16 @@ void add_fields(const SolvedShape<3>& last, ReportRun<3>& run) {
 }  // namespace
 
 std::vector<ShapeOutline> read_outlines(const fs::path& folder) {
-  std::ifstream stream(folder / outline_file);
+  const fs::path file = folder / outline_file;
+  std::ifstream counted(file), stream(file);
+  const auto n = static_cast<std::size_t>(
+      std::count(std::istreambuf_iterator<char>(counted), std::istreambuf_iterator<char>(), '\n'));
+  const std::size_t step = n / most_outlines + 1;
   std::vector<ShapeOutline> outlines;
-  for (std::string line; std::getline(stream, line);)
-    if (auto outline = parse_outline_line(line)) outlines.push_back(*std::move(outline));
+  std::string line;
+  for (std::size_t k = 0; std::getline(stream, line); ++k)
+    if (k % step == 0 || k + 1 == n)
+      if (auto outline = parse_outline_line(line)) outlines.push_back(*std::move(outline));
   return outlines;
 }
 

@@ -11,7 +11,11 @@ namespace wheelwright {
 /// The outlines of a run's accepted shapes, one line each, in the order of the shapes.
 inline constexpr const char* outline_file = "outlines.jsonl";
 
-/// The lines of the file; lines that are damaged, as the last one may be after a kill, are left out.
+/// So many does a report show of a long run.
+inline constexpr std::size_t most_outlines = 400;
+
+/// The lines of the file, evenly thinned to about most_outlines with the first and the last one; lines that
+/// are damaged, as the last one may be after a kill, are left out.
 std::vector<ShapeOutline> read_outlines(const std::filesystem::path& folder);
 
 /// What is known of a run while it goes on: what its folder says.
