@@ -16,13 +16,13 @@ constexpr int rhs_together = 192;
 
 /// Calls visit(row, sector, first, n) for `n_columns` columns of the ring's outer line from `first_column`
 /// on: the n rows from `row` on of that piece of the line are those from `first` on of the sector in a field
-/// by sectors (CyclicStiffness).
+/// by `n_sectors` sectors (CyclicStiffness), which repeats itself after them.
 template <int dim, class Visit>
-void for_each_part(const Tread<dim>& tread, int first_column, int n_columns, Visit visit) {
+void for_each_part(const Tread<dim>& tread, int n_sectors, int first_column, int n_columns, Visit visit) {
   const int per_column = tread.base_per_column(), per_sector = tread.columns_per_sector();
   for (int c = 0; c < n_columns; ++c) {
     const int column = wrap(first_column + c, tread.n_columns());
-    visit(per_column * c, column / per_sector, per_column * (column % per_sector), per_column);
+    visit(per_column * c, column / per_sector % n_sectors, per_column * (column % per_sector), per_column);
   }
 }
 
@@ -36,7 +36,7 @@ std::vector<std::vector<Matrix>> responses(const CyclicStiffness<dim>& ring, con
   const int n_loaded = static_cast<int>(loaded.size()), n_line = 2 * reach + 2;
   Matrix loads(ring.n_outer(), n_loaded * n_tests * n_sectors);
   for (int k = 0; k < n_loaded; ++k)
-    for_each_part(tread, loaded[k] - reach, n_line, [&](int row, int sector, int first, int n) {
+    for_each_part(tread, n_sectors, loaded[k] - reach, n_line, [&](int row, int sector, int first, int n) {
       for (int test = 0; test < n_tests; ++test)
         for (int i = 0; i < n; ++i)
           loads(first + i, (k * n_tests + test) * n_sectors + sector) += tests(test, row + i);
@@ -46,11 +46,12 @@ std::vector<std::vector<Matrix>> responses(const CyclicStiffness<dim>& ring, con
   parallel_for(n_loaded, [&](int k) {
     const int n_seen = n_line + 2 * width;
     auto seen = Matrix::unfilled(n_seen * tread.base_per_column(), n_tests);
-    for_each_part(tread, loaded[k] - width - reach, n_seen, [&](int row, int sector, int first, int n) {
-      for (int test = 0; test < n_tests; ++test)
-        std::copy_n(outer.column((k * n_tests + test) * n_sectors + sector) + first, n,
-                    seen.column(test) + row);
-    });
+    for_each_part(tread, n_sectors, loaded[k] - width - reach, n_seen,
+                  [&](int row, int sector, int first, int n) {
+                    for (int test = 0; test < n_tests; ++test)
+                      std::copy_n(outer.column((k * n_tests + test) * n_sectors + sector) + first, n,
+                                  seen.column(test) + row);
+                  });
     for (int d = -width; d <= width; ++d)
       result[k].push_back(product(
           samples, Op::none,
