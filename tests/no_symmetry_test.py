@@ -753,7 +753,7 @@ class NoSymmetry(unittest.TestCase):
 
     def test_an_optimized_wheel_is_analyzed_as_its_run_told(self):
         folder = Path(self.temporary.name) / "optimized"
-        run_program("run", self.case, "--output", folder, "--iterations", 3)
+        run_program("run", self.case, "--output", folder, "--iterations", 4)
         summary = json.loads((folder / "summary.json").read_text())["after"]
         first, last = self.numbers("compare", self.case, folder, "--positions", POSITIONS)["wheels"]
         for key in ("mean_travel_m", "stiffness_N_per_m", "peak_pressure_Pa", "peak_von_mises_Pa", "largest_strain",

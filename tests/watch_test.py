@@ -42,6 +42,7 @@ tread_levels = 0
 [optimizer]
 rim_band = 0.0175
 tread_band = 0.035
+minimum_wall = 0.006
 """
 
 
