@@ -6,9 +6,9 @@
 #include <numbers>
 #include <random>
 
-#include "wheelwright/run/case_report.h"
 #include "wheelwright/case/hole_rings.h"
 #include "wheelwright/case/read.h"
+#include "wheelwright/run/case_report.h"
 
 // What a case's problems say, beyond their line and kind, where only the right hint helps.
 

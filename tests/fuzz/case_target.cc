@@ -2,13 +2,13 @@
 #include <cmath>
 
 #include "tests/fuzz/target.h"
-#include "wheelwright/run/case_report.h"
 #include "wheelwright/base/text.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/drawn_shapes.h"
 #include "wheelwright/case/keys.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/write.h"
+#include "wheelwright/run/case_report.h"
 
 using namespace wheelwright;
 using namespace wheelwright::testing;

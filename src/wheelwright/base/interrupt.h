@@ -5,7 +5,7 @@
 
 namespace wheelwright {
 
-/// Where the contact problems of a shape stand.
+/// Tells how far the contact problems of a shape are.
 struct ContactProgress {
   int position, n_positions;  ///< the load position that is being solved, from 0
   int newton_steps;           ///< taken at this position so far

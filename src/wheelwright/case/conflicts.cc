@@ -510,7 +510,7 @@ void check_speed(const Case& c, Conflicts& found) {
                    "give material.density"});
 }
 
-/// What a load case changes of the key of that name in [load].
+/// Whether a load case replaces the key of that name in [load].
 bool changes(const CaseLoad& load, std::string_view name) {
   if (name == "mass" || name == "force") return load.force.has_value();
   if (name == "travel") return load.travel.has_value();
@@ -557,7 +557,7 @@ std::vector<int> all_load_cases(const Case& c) {
   return all;
 }
 
-/// Those that are minimized.
+/// The load cases that the objective contains.
 std::vector<int> weighted_load_cases(const Case& c) {
   std::vector<int> result = all_load_cases(c);
   std::erase_if(result, [&](int k) { return c.load.cases[k].weight == 0; });

@@ -284,10 +284,6 @@ double contact_columns(const Case& c) {
 
 constexpr double square(double x) { return x * x; }
 
-}  // namespace
-
-namespace {
-
 /// The sizes that decide what a run needs.
 struct ProblemSize {
   double sectors, positions;
@@ -357,8 +353,8 @@ double estimated_memory(const Case& c) {
   const double shape = number * 10 * holes;
   // The dual norm has its own ring, and so has a finer tread of the results.
   const double rings = 1 + wants_dual(c) + (tread_levels_of_results(c) > tread_levels(c));
-  return libraries + fields + rings * (factor + condensed + harmonics) + responses + surface + tread +
-         zones + shape;
+  return libraries + fields + rings * (factor + condensed + harmonics) + responses + surface + tread + zones +
+         shape;
 }
 
 double estimated_seconds_in_3d(const Case& c) {

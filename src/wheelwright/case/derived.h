@@ -19,7 +19,7 @@ std::vector<Case> single_load_cases(const Case& c);
 /// The load cases of a constraint, by their numbers: that of its name, or all.
 std::vector<int> load_cases_of(const Case& c, const Constraint& constraint);
 
-// Those that depend on a load are about the section [load], unless they say something else.
+// Numbers that depend on a load are those of the section [load], unless they say something else.
 
 /// P [N/m].
 double load_per_metre(const Case& c);

@@ -63,8 +63,8 @@ struct ContactAdjoint {
 template <int dim>
 class ReducedContact {
  public:
-  /// `surface` must be as wide as the zone: columns up to zone.n_columns - 1 apart, or half of the ring; with friction or a lean
-  /// it must have all components.
+  /// `surface` must be as wide as the zone: columns up to zone.n_columns - 1 apart, or half of the ring; with
+  /// friction or a lean it must have all components.
   ReducedContact(const SurfaceCompliance<dim>& surface, const Tread<dim>& tread, const PolarGrid<dim>& grid,
                  GroundPosition ground, ContactZone zone, RimControl rim, const Preload& preload = {});
 

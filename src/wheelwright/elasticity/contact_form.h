@@ -8,7 +8,7 @@ enum class ContactMethod {
   penalty,  ///< (22): I_P
 };
 
-/// What the tread meets.
+/// The body that the tread meets.
 enum class Counterpart {
   ground,  ///< flat and rigid, in unilateral contact
   ring,    ///< a rigid ring round the tread, to which all of it is bonded: Phi(z) = z and g = 0

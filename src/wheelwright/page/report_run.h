@@ -19,7 +19,7 @@ struct HistoryCurve {
   std::vector<double> values;
 };
 
-/// What happened to the holes at one accepted shape, as history.csv tells it.
+/// This tells what happened to the holes at one accepted shape, as history.csv has it.
 struct HoleEvents {
   std::string shape, text;
 };

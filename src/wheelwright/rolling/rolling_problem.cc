@@ -146,10 +146,6 @@ bool all_finite(const Matrix& a) {
   return std::all_of(a.entries().begin(), a.entries().end(), [](double x) { return std::isfinite(x); });
 }
 
-}  // namespace
-
-namespace {
-
 /// The components of the column frame that contact meets: without friction and lean the ground pushes in the
 /// plane of the wheel.
 template <int dim>

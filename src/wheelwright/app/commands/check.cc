@@ -1,13 +1,13 @@
 #include <fmt/format.h>
 
 #include "wheelwright/app/case_input.h"
-#include "wheelwright/run/case_report.h"
 #include "wheelwright/app/commands/commands.h"
 #include "wheelwright/app/exit_code.h"
 #include "wheelwright/app/memory.h"
 #include "wheelwright/app/shared_options.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/report/described_wheel.h"
+#include "wheelwright/run/case_report.h"
 #include "wheelwright/run/feature_warnings.h"
 #include "wheelwright/run/loose_material.h"
 #include "wheelwright/run/predicted_deformation.h"

@@ -168,7 +168,8 @@ class VerifyCommand : public Subcommand {
     const auto taylor = report_taylor(c, solver, *shape, direction, step);
     if (!taylor) return taylor.failure();
     const auto cases = load_cases<dim>(c);
-    const auto states = states_of_cases<dim>(solver, cases, *shape, solver.all_positions(), tell_contact_progress());
+    const auto states =
+        states_of_cases<dim>(solver, cases, *shape, solver.all_positions(), tell_contact_progress());
     if (!states) return states.failure();
     bool balance = true;
     for (size_t k = 0; k < states->size(); ++k) {
