@@ -28,6 +28,9 @@ def parsed(arguments):
     parser.add_argument("--seed", type=int, default=1, help="of the random breaks (%(default)s)")
     parser.add_argument("--jobs", type=int, default=2, help="tests at a time (%(default)s)")
     parser.add_argument("--tests", default="", metavar="REGEX", help="build and run only these test programs")
+    parser.add_argument("--budget", type=float, default=float("inf"), metavar="SECONDS",
+                        help="of the tests asked about one break, fastest first; what they do not notice counts as a "
+                        "survivor (all tests that reach it)")
     parser.add_argument("--report", type=Path, metavar="FILE", help="write the report to this file too")
     parser.add_argument("--folder", type=Path, default=ROOT / "build/mutants", metavar="DIR",
                         help="of the copy and its build (build/mutants)")
@@ -49,13 +52,13 @@ def sampled(mutants, options):
     return mutants
 
 
-def try_all(chosen, units, jobs):
+def try_all(chosen, units, jobs, budget):
     """(mutant, what caught it or None, number of programs that reach it), in the order of the mutants."""
     done = 0
 
     def attempt(mutant):
         nonlocal done
-        caught, reaching = tests.first_to_notice(units, mutant.number)
+        caught, reaching = tests.first_to_notice(units, mutant.number, budget)
         done += 1
         tell(f"{done}/{len(chosen)} {mutant.name} {mutant.place()} {caught or 'SURVIVED'}")
         return mutant, caught, reaching
@@ -110,7 +113,7 @@ def main():
                          tell)
     units = tests.units_of(options.folder / "build", options.tests)
     tests.measure(units, mutants, options.jobs, tell)
-    results = try_all(sampled(mutants, options), units, options.jobs)
+    results = try_all(sampled(mutants, options), units, options.jobs, options.budget)
     text, good = report(results, options, time.monotonic() - start)
     print(text)
     if options.report:

@@ -99,10 +99,15 @@ def measure(units, mutants, jobs, tell):
     units.sort(key=lambda unit: unit.seconds)
 
 
-def first_to_notice(units, number):
-    """What catches a mutant, or None; and how many units reach it."""
+def first_to_notice(units, number, budget):
+    """What catches a mutant, or None; and how many units reach it. Units that would take more than `budget` seconds
+    together are not asked."""
     reaching = [unit for unit in units if number in unit.reached]
+    spent = 0.0
     for unit in reaching:
+        spent += unit.seconds
+        if spent > budget:
+            break
         caught = run(unit, {"WHEELWRIGHT_MUTANT": str(number)}, 20 + 5 * unit.seconds)
         if caught:
             return caught, len(reaching)
