@@ -57,7 +57,7 @@ struct Load {
   double hole_pressure = 0;            ///< in the holes [Pa]
   double speed = 0;                    ///< of the axle along the ground, for the pull of rotation [m/s]
   int positions = 8;                   ///< N_d, load positions per sector
-  std::vector<CaseLoad> cases;         ///< empty: this load alone
+  std::vector<CaseLoad> cases = {};    ///< empty: this load alone
   bool operator==(const Load&) const = default;
 };
 
@@ -76,7 +76,7 @@ struct HoleRing {
   int count = 0;
   double center_radius = 0;
   double radius = 0;
-  std::optional<double> phase;  ///< azimuth of the first hole's centre; absent: half the spacing
+  std::optional<double> phase = {};  ///< azimuth of the first hole's centre; absent: half the spacing
   bool operator==(const HoleRing&) const = default;
 };
 
@@ -299,9 +299,9 @@ struct Objective {
 /// Bounds of a quantity.
 struct Constraint {
   Quantity quantity = Quantity::objective;
-  std::optional<double> at_least, at_most, equals;
+  std::optional<double> at_least = {}, at_most = {}, equals = {};
   OverPositions over = OverPositions::mean;
-  std::string load_case;  ///< empty: every one
+  std::string load_case = {};  ///< empty: every one
   bool operator==(const Constraint&) const = default;
 };
 

@@ -176,6 +176,17 @@ const Section<Load>& load_section() {
   return section;
 }
 
+namespace {
+
+CaseLoad example_load_case() {
+  CaseLoad kerb;
+  kerb.name = "kerb";
+  kerb.force = 600 * standard_gravity;
+  return kerb;
+}
+
+}  // namespace
+
 const SectionArray<CaseLoad>& load_case_sections() {
   static const SectionArray<CaseLoad> sections{
       .parent = "load",
@@ -185,14 +196,7 @@ const SectionArray<CaseLoad>& load_case_sections() {
           "factorization; what it does not give is that of [load]; the first one is the load of "
           "pictures, pressures and numbers without a load case ([several loads](optimization.md))",
       .in = [](Case& c) -> std::vector<CaseLoad>& { return c.load.cases; },
-      .example = {.name = "kerb",
-                  .force = 600 * standard_gravity,
-                  .travel = {},
-                  .horizontal_force = {},
-                  .torque = {},
-                  .body_force = {},
-                  .hole_pressure = {},
-                  .speed = {}},
+      .example = example_load_case(),
       .keys = {
           {.name = "name",
            .unit = "",
@@ -816,6 +820,17 @@ const Section<Objective>& objective_section() {
   return section;
 }
 
+namespace {
+
+Constraint example_constraint() {
+  Constraint energy;
+  energy.quantity = Quantity::strain_energy;
+  energy.at_most = 5;
+  return energy;
+}
+
+}  // namespace
+
 const SectionArray<Constraint>& constraint_sections() {
   static const SectionArray<Constraint> sections{
       .parent = "",
@@ -826,7 +841,7 @@ const SectionArray<Constraint>& constraint_sections() {
           "not keep it ends with exit code 9; give any number of them, ten bounds in all; the volume is free "
           "when a bound, or what is minimized, is about volume_fraction or mass",
       .in = [](Case& c) -> std::vector<Constraint>& { return c.constraints; },
-      .example = {.quantity = Quantity::strain_energy, .at_least = {}, .at_most = 5, .equals = {}},
+      .example = example_constraint(),
       .keys = {
           {.name = "quantity",
            .unit = "",

@@ -18,9 +18,9 @@ struct EvolutionOptions {
   VelocityOptions velocity;
   /// tau of (76), in units of the squared resolution of the grid. With 0, smooth() is the identity.
   double smoothing = 0;
-  Bands bands;           ///< that stay material
-  FeatureSize features;  ///< the least widths of walls and gaps
-  int cut_points = 4;    ///< Gauss points per direction in cut cells; those of a solver that uses them again
+  Bands bands;                ///< that stay material
+  FeatureSize features = {};  ///< the least widths of walls and gaps
+  int cut_points = 4;  ///< Gauss points per direction in cut cells; those of a solver that uses them again
 };
 
 /// Moves shapes on one lattice. Matrices that depend only on the lattice are factored once. All returned

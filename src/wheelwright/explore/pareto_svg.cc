@@ -31,8 +31,8 @@ struct Axis {
   const RankedQuantity& quantity;
   double low = HUGE_VAL, high = -HUGE_VAL, from, to;
 
-  Axis(const RankedQuantity& shown, const std::vector<RankedDesign>& designs, double from, double to)
-      : quantity(shown), from(from), to(to) {
+  Axis(const RankedQuantity& shown, const std::vector<RankedDesign>& designs, double first, double last)
+      : quantity(shown), from(first), to(last) {
     for (const RankedDesign& one : designs)
       if (const double v = value(one); std::isfinite(v)) low = std::min(low, v), high = std::max(high, v);
     if (low > high) low = 0, high = 1;

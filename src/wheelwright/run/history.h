@@ -23,7 +23,7 @@ struct HistoryColumns {
   std::vector<Quantity> measures;  ///< one column each, by the names of Evaluation::measures
   /// Three columns each, by the names of BoundState: value, bound and multiplier.
   std::vector<Quantity> bounds = {};
-  std::vector<std::string> phases;  ///< one column each, in seconds, by the names of Evaluation::phases
+  std::vector<std::string> phases = {};  ///< one column each, in seconds, by the names of Evaluation::phases
 };
 
 /// One trial shape, accepted or not. NaN, and values that a failed evaluation did not reach, are written as

@@ -2,24 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <fstream>
-#include <iterator>
 #include <limits>
 
 #include "wheelwright/case/derived.h"
-#include "wheelwright/case/read.h"
 #include "wheelwright/case/write.h"
 #include "wheelwright/cut/measure.h"
 #include "wheelwright/evolution/regrid.h"
-#include "wheelwright/evolution/volume.h"
 #include "wheelwright/files/atomic_file.h"
-#include "wheelwright/files/level_set_file.h"
-#include "wheelwright/geometry/components.h"
-#include "wheelwright/geometry/values_on.h"
+#include "wheelwright/run/on_other_grid.h"
 #include "wheelwright/run/own_drawings.h"
 #include "wheelwright/run/provenance.h"
-#include "wheelwright/run/summarized_run.h"
+#include "wheelwright/run/replacements.h"
 
 namespace wheelwright {
 namespace {
@@ -28,21 +21,6 @@ namespace {
 constexpr double seconds_between_signs = 2;
 
 constexpr const char* case_file = "case.toml";
-
-std::string problem_text(const Diagnostic& d) {
-  return fmt::format("{}{}{}: {}{}{}", d.key, d.value.empty() ? "" : " = ", d.value, d.problem,
-                     d.remedy.empty() ? "" : "; ", d.remedy);
-}
-
-/// The case if a file with it in that folder would be accepted.
-Expected<Case, Refusal> checked(const Case& c, const std::filesystem::path& folder) {
-  CaseResult result = parse_case(to_toml(c), folder / case_file);
-  if (result.value) return *std::move(result.value);
-  std::string reason;
-  for (const Diagnostic& problem : result.problems)
-    reason += (reason.empty() ? "" : "; ") + problem_text(problem);
-  return Refusal{reason};
-}
 
 template <int dim>
 Trial<dim> failed_trial(int iteration, const LevelSet<dim>& shape, const Failure& failure) {
@@ -55,41 +33,6 @@ Trial<dim> failed_trial(int iteration, const LevelSet<dim>& shape, const Failure
           .measure = 0,
           .verdict = Verdict::failed,
           .failure = failure};
-}
-
-/// How the holes of a shape changed on its way to another grid.
-template <int dim>
-std::vector<ShapeEvent<dim>> changes_by_grid(const LevelSet<dim>& before, const LevelSet<dim>& after) {
-  PolarGrid<dim> fine = after.lattice.grid();
-  for (int& cells : fine.cells) cells *= component_samples;
-  return topology_changes(components(values_on(before, Lattice<dim>(fine, 1)), 1), components(after));
-}
-
-/// The level set in a file.
-template <int dim>
-Expected<LevelSet<dim>, Refusal> read_shape(const std::filesystem::path& file) {
-  constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 28;
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error) || std::filesystem::file_size(file, error) > most_bytes)
-    return Refusal{fmt::format("{}: there is no shape", file.string())};
-  std::ifstream stream(file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-  auto shape = parse_level_set_file<dim>(bytes);
-  if (!shape) return Refusal{fmt::format("{}: {}", file.string(), shape.failure().detail)};
-  return *std::move(shape);
-}
-
-/// Whether shapes of one grid are shapes of the other: their sectors are equal rings.
-template <int dim>
-bool is_same_wheel(const PolarGrid<dim>& a, const PolarGrid<dim>& b) {
-  constexpr double near = 1e-9;
-  const bool is_as_wide = dim == 2 || std::abs(a.width - b.width) <= near * b.width;
-  return a.n_sectors == b.n_sectors && is_as_wide && std::abs(a.inner_radius - b.inner_radius) <= near &&
-         std::abs(a.outer_radius - b.outer_radius) <= near;
-}
-
-Refusal refusal(const Failure& failure) {
-  return {fmt::format("{}: {}", to_string(failure.reason), failure.detail)};
 }
 
 }  // namespace
@@ -206,14 +149,13 @@ std::optional<Failure> RunLoop<dim>::move_to_grid(int level) {
   auto study = make_study<dim>(work_->study.source, level);
   if (!study) return study.failure();
   const auto work = make_work(*std::move(study));
-  std::vector<ShapeEvent<dim>> events;
-  const auto moved = state_on(*work, events);
+  auto moved = on_other_grid(*state_, work->study.initial.lattice, work->optimizer.evolver());
   if (!moved) return moved.failure();
   std::optional<Trial<dim>> trial;
   auto anew = work->optimizer.restart(
-      *moved, [&](const Trial<dim>& seen, const OptimizationState<dim>&) { trial = seen; });
+      moved->state, [&](const Trial<dim>& seen, const OptimizationState<dim>&) { trial = seen; });
   if (!anew) return anew.failure();
-  trial->events = std::move(events);
+  trial->events = std::move(moved->events);
   work_ = work;
   state_ = *std::move(anew);
   notify(GridChanged{grid_text(work_->study.computed())});
@@ -221,38 +163,18 @@ std::optional<Failure> RunLoop<dim>::move_to_grid(int level) {
   return {};
 }
 
-/// The current shape on the grid of other work, with the same measure; what the grid makes of its holes.
-template <int dim>
-Expected<OptimizationState<dim>> RunLoop<dim>::state_on(const Work& work,
-                                                        std::vector<ShapeEvent<dim>>& events) const {
-  const Evolver<dim>& evolver = work.optimizer.evolver();
-  const LevelSet<dim> there = evolver.keep_bands(regrid(state_->shape, work.study.initial.lattice));
-  double edges = 0;
-  for (const auto& point : state_->evaluation.boundary) edges += point.weight;
-  auto with_measure = evolver.with_measure(there, state_->measure, edges);
-  if (!with_measure) return with_measure.failure();
-  OptimizationState<dim> state = *state_;
-  state.shape = std::move(with_measure->shape);
-  state.measure = with_measure->measure;
-  events = changes_by_grid(state_->shape, state.shape);
-  return state;
-}
-
 template <int dim>
 RunResult<dim> RunLoop<dim>::end(StopReason reason) {
   save();
   stop_file_->remove();
-  const bool is_stopped = reason == StopReason::stop_requested;
-  const auto is_stopped_again = [this, is_stopped] { return is_stopped && commands_.waiting_stops() > 0; };
-  const Interrupt interrupt(is_stopped_again, contact_progress());
-  const SharedSolution solution = final_solution(interrupt);
-  const auto [solver, shown] = solution_of_results(solution, interrupt);
-  const auto summary = run_summary(*solver, shown.get());
-  notify(RunEnded<dim>{reason, &*state_, shown.get(), solver.get(), summary ? &*summary : nullptr,
-                       failed_trials_});
+  // What is left of the results can be long: a command to stop that still comes is obeyed there too.
+  const Interrupt interrupt([this] { return commands_.waiting_stops() > 0; }, contact_progress());
+  const auto results = final_results(work_->study, *initial_, *state_, solved_, interrupt);
+  notify(RunEnded<dim>{reason, &*state_, results.shown.get(), results.solver.get(),
+                       results.summary ? &*results.summary : nullptr, failed_trials_});
   RunResult<dim> ended = result(reason);
-  ended.summary = summary;
-  if (!is_stopped) ended.findings = findings_at_the_end(solution.get());
+  ended.summary = results.summary;
+  if (reason != StopReason::stop_requested) ended.findings = findings_at_the_end(results.own.get());
   return ended;
 }
 
@@ -302,64 +224,6 @@ std::vector<Finding> RunLoop<dim>::findings_at_the_end(const State<dim>* solutio
   return findings<dim>(expectations, noted.found, *work_->study.solver, *state_, solution);
 }
 
-/// The loop's own solution of the last accepted shape, if it is known to be the last when it is accepted. It
-/// is solved again where other shapes were tried after it, and in a resumed run that had ended: until then
-/// the memory of a solution is not held.
-template <int dim>
-typename RunLoop<dim>::SharedSolution RunLoop<dim>::final_solution(const Interrupt& interrupt) {
-  if (last_solution_) return last_solution_;
-  const StateSolver<dim>& solver = *work_->study.solver;
-  auto states = solver.states(state_->shape, solver.distinct_positions(state_->shape), interrupt);
-  return states ? *std::move(states) : nullptr;
-}
-
-/// What the files of results show: the last shape on a finer tread, where the case lets the program choose,
-/// else the loop's own solution.
-template <int dim>
-std::pair<typename RunLoop<dim>::SharedSolver, typename RunLoop<dim>::SharedSolution>
-RunLoop<dim>::solution_of_results(const SharedSolution& own, const Interrupt& interrupt) {
-  const Study<dim>& study = work_->study;
-  const Case c = study.computed();
-  if (!own || tread_levels_of_results(c) == tread_levels(c)) return {study.solver, own};
-  const auto finer = make_solver(rolling_model<dim>(with_levels_of_results(c)));
-  if (!finer) return {study.solver, own};
-  auto states = (*finer)->states(state_->shape, (*finer)->distinct_positions(state_->shape), interrupt);
-  if (!states) return {study.solver, own};
-  return {*finer, *std::move(states)};
-}
-
-/// The initial shape as the solver of the results sees it: what was noted of its trial, where that solver is
-/// the run's own. Else, and in a resumed run, it is solved here; for a run that was stopped on a coarser
-/// grid, on that.
-template <int dim>
-std::optional<DescribedWheel<dim>> RunLoop<dim>::initial_wheel(const StateSolver<dim>& solver) const {
-  if (initial_wheel_ && &solver == work_->study.solver.get()) return initial_wheel_;
-  const bool is_coarser = work_->study.level > 0;
-  const LevelSet<dim>& shape = is_coarser ? work_->study.initial : initial_->shape;
-  const auto states = solver.states(shape, solver.distinct_positions(shape), Interrupt());
-  if (!states) return {};
-  return described(solver, shape, is_coarser ? material_measure(shape) : initial_->measure, **states);
-}
-
-template <int dim>
-std::optional<DescribedWheel<dim>> RunLoop<dim>::described(const StateSolver<dim>& solver,
-                                                           const LevelSet<dim>& shape, double measure,
-                                                           const State<dim>& state) const {
-  auto wheel = described_wheel(solver, shape, volume_fraction(work_->study.grid(), measure), state);
-  if (!wheel) return {};
-  return *std::move(wheel);
-}
-
-template <int dim>
-std::optional<RunSummary<dim>> RunLoop<dim>::run_summary(const StateSolver<dim>& solver,
-                                                         const State<dim>* last) const {
-  if (!last) return {};
-  const auto now = described(solver, state_->shape, state_->measure, *last);
-  const auto first = state_->iteration > 0 ? initial_wheel(solver) : now;
-  if (!first || !now) return {};
-  return summarized_run(work_->study.source, *initial_, *first, *state_, *now);
-}
-
 template <int dim>
 void RunLoop<dim>::observe(const Trial<dim>& trial, const OptimizationState<dim>& state) {
   sign_of_life_.lap();
@@ -374,8 +238,8 @@ void RunLoop<dim>::observe(const Trial<dim>& trial, const OptimizationState<dim>
     const bool is_initial =
         state.iteration == 0 && work_->study.level == 0 && state.shape.values == initial_->shape.values;
     if (is_initial && trial.solution && tread_levels_of_results(c) == tread_levels(c))
-      initial_wheel_ = described(*work_->study.solver, state.shape, state.measure, *trial.solution);
-    last_solution_ = reason_to_stop(work_->study.optimizer, state) ? trial.solution : nullptr;
+      solved_.initial = described(*work_->study.solver, state.shape, state.measure, *trial.solution);
+    solved_.last = reason_to_stop(work_->study.optimizer, state) ? trial.solution : nullptr;
   } else if (trial.verdict == Verdict::failed) {
     failed_trials_.push_back(trial);
     failed_trials_.back().solution.reset();
@@ -489,30 +353,22 @@ std::vector<Point> RunLoop<dim>::hole_at(const Point& point) const {
 
 template <int dim>
 std::optional<Refusal> RunLoop<dim>::draw(std::span<const Stroke> strokes, const std::string& what) {
-  const Evolver<dim>& evolver = work_->optimizer.evolver();
-  LevelSet<dim> shape = state_->shape;
-  for (const Stroke& stroke : strokes) shape = with_stroke(shape, stroke);
-  auto smooth = evolver.redistance(evolver.keep_bands(shape));
-  if (!smooth) return refusal(smooth.failure());
-  auto attached = evolver.without_islands(
-      *smooth, work_->study.optimizer.largest_island * sector_measure<dim>(work_->study.grid()));
-  if (!attached) return refusal(attached.failure());
+  const auto shape =
+      drawn_over(state_->shape, strokes, work_->optimizer.evolver(),
+                 work_->study.optimizer.largest_island * sector_measure<dim>(work_->study.grid()));
+  if (!shape) return shape.failure();
   Past before = present();
-  if (auto refusal = replace_shape(attached->psi, what)) return refusal;
+  if (auto refusal = replace_shape(*shape, what)) return refusal;
   remember(std::move(before));
   return {};
 }
 
 template <int dim>
 std::optional<Refusal> RunLoop<dim>::take_shape(const std::filesystem::path& file, const std::string& what) {
-  const auto shape = read_shape<dim>(file);
+  const auto shape = shape_of_file(file, state_->shape.lattice, work_->optimizer.evolver());
   if (!shape) return shape.failure();
-  if (!is_same_wheel(shape->lattice.grid(), state_->shape.lattice.grid()))
-    return Refusal{fmt::format("{}: its wheel has other radii or another number of sectors", file.string())};
   Past before = present();
-  if (auto refusal =
-          replace_shape(work_->optimizer.evolver().keep_bands(regrid(*shape, state_->shape.lattice)), what))
-    return refusal;
+  if (auto refusal = replace_shape(*shape, what)) return refusal;
   remember(std::move(before));
   return {};
 }
@@ -575,7 +431,7 @@ std::optional<Refusal> RunLoop<dim>::replace_shape(const LevelSet<dim>& shape, c
 template <int dim>
 std::optional<Refusal> RunLoop<dim>::work_on(const Case& changed, const LevelSet<dim>& shape,
                                              const std::string& what) {
-  const auto c = checked(changed, folder_);
+  const auto c = accepted_case(changed, folder_ / case_file);
   if (!c) return c.failure();
   const int level = work_->study.level;
   if (level_of(*c, initial_->shape) != 0 || level_of(*c, state_->shape) != level)
@@ -592,7 +448,7 @@ std::optional<Refusal> RunLoop<dim>::work_on(const Case& changed, const LevelSet
   if (!anew) return refusal(anew.failure());
 
   work_ = make_work(*std::move(study));
-  initial_wheel_.reset();
+  solved_.initial.reset();
   initial_->objective = first->evaluation.function("objective").value;
   state_ = *std::move(anew);
   has_ended_by_itself_ = false;

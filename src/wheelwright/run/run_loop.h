@@ -3,6 +3,7 @@
 #include <deque>
 
 #include "wheelwright/base/stopwatch.h"
+#include "wheelwright/run/final_results.h"
 #include "wheelwright/run/run.h"
 #include "wheelwright/run/stop_file.h"
 
@@ -21,9 +22,6 @@ class RunLoop : private RunControl {
   RunResult<dim> resume(const Checkpoint<dim>& checkpoint);
 
  private:
-  using SharedSolution = std::shared_ptr<const State<dim>>;
-  using SharedSolver = std::shared_ptr<const StateSolver<dim>>;
-
   /// What the loop works on. A change of the case replaces it as a whole.
   struct Work {
     Study<dim> study;
@@ -64,19 +62,11 @@ class RunLoop : private RunControl {
   bool begins_on_coarser_grid() const;
   void begin_on_coarser_grid();
   std::optional<Failure> move_to_grid(int level);
-  Expected<OptimizationState<dim>> state_on(const Work& work, std::vector<ShapeEvent<dim>>& events) const;
   RunResult<dim> end(StopReason reason);
   RunResult<dim> end_without_a_shape(const Failure& failure);
   RunResult<dim> end_between_grids(const Failure& failure);
   std::vector<Finding> findings_at_the_end(const State<dim>* solution);
   RunResult<dim> result(StopReason reason) const;
-  SharedSolution final_solution(const Interrupt& interrupt);
-  std::pair<SharedSolver, SharedSolution> solution_of_results(const SharedSolution& own,
-                                                              const Interrupt& interrupt);
-  std::optional<DescribedWheel<dim>> initial_wheel(const StateSolver<dim>& solver) const;
-  std::optional<DescribedWheel<dim>> described(const StateSolver<dim>& solver, const LevelSet<dim>& shape,
-                                               double measure, const State<dim>& state) const;
-  std::optional<RunSummary<dim>> run_summary(const StateSolver<dim>& solver, const State<dim>* last) const;
 
   void observe(const Trial<dim>& trial, const OptimizationState<dim>& state);
   bool must_yield();
@@ -97,10 +87,9 @@ class RunLoop : private RunControl {
   std::shared_ptr<const Work> work_;
   std::optional<OptimizationState<dim>> state_;
   std::optional<InitialShape<dim>> initial_;
-  std::optional<DescribedWheel<dim>> initial_wheel_;  ///< by the run's own solver, if it was seen
+  SolvedShapes<dim> solved_;  ///< the last one only when nothing follows it: until then it is not held
   std::vector<Trial<dim>> failed_trials_;
-  std::deque<Past> past_;         ///< newest last
-  SharedSolution last_solution_;  ///< of the last accepted shape, kept when nothing follows it
+  std::deque<Past> past_;  ///< newest last
 
   bool is_stopped_ = false;
   std::optional<int> pause_at_;       ///< the number of the shape after which the run waits

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "wheelwright/base/interrupt.h"
+#include "wheelwright/report/run_summary.h"
+#include "wheelwright/run/checkpoint.h"
+#include "wheelwright/run/study.h"
+
+namespace wheelwright {
+
+/// What a loop has solved already of the shapes that its results show; empty where it would have to be solved
+/// again.
+template <int dim>
+struct SolvedShapes {
+  std::optional<DescribedWheel<dim>> initial;  ///< by the study's solver
+  std::shared_ptr<const State<dim>> last;      ///< by the study's solver, of the last accepted shape
+};
+
+/// The last shape of a run, as its results show it.
+template <int dim>
+struct FinalResults {
+  std::shared_ptr<const State<dim>> own;  ///< by the study's solver; null where it was interrupted or failed
+  std::shared_ptr<const StateSolver<dim>> solver;  ///< of `shown`
+  /// On the tread of the results, which is finer where the case lets the program choose it; else `own`.
+  std::shared_ptr<const State<dim>> shown;
+  std::optional<RunSummary<dim>>
+      summary;  ///< both shapes by `solver`; empty where one of them has no solution
+};
+
+/// Solves what is not solved yet. Where that is interrupted, the results show what there is.
+template <int dim>
+FinalResults<dim> final_results(const Study<dim>& study, const InitialShape<dim>& initial,
+                                const OptimizationState<dim>& state, const SolvedShapes<dim>& solved,
+                                const Interrupt& interrupt);
+
+/// A shape with this measure of one sector, described; empty where its contact curve has no description.
+template <int dim>
+std::optional<DescribedWheel<dim>> described(const StateSolver<dim>& solver, const LevelSet<dim>& shape,
+                                             double measure, const State<dim>& state);
+
+}  // namespace wheelwright

@@ -1,0 +1,39 @@
+#include "wheelwright/run/on_other_grid.h"
+
+#include "wheelwright/evolution/regrid.h"
+#include "wheelwright/geometry/components.h"
+#include "wheelwright/geometry/values_on.h"
+
+namespace wheelwright {
+namespace {
+
+/// How the holes of a shape changed on its way to another grid.
+template <int dim>
+std::vector<ShapeEvent<dim>> changes_by_grid(const LevelSet<dim>& before, const LevelSet<dim>& after) {
+  PolarGrid<dim> fine = after.lattice.grid();
+  for (int& cells : fine.cells) cells *= component_samples;
+  return topology_changes(components(values_on(before, Lattice<dim>(fine, 1)), 1), components(after));
+}
+
+}  // namespace
+
+template <int dim>
+Expected<OnOtherGrid<dim>> on_other_grid(const OptimizationState<dim>& state, const Lattice<dim>& lattice,
+                                         const Evolver<dim>& evolver) {
+  const LevelSet<dim> there = evolver.keep_bands(regrid(state.shape, lattice));
+  double edges = 0;
+  for (const auto& point : state.evaluation.boundary) edges += point.weight;
+  auto with_measure = evolver.with_measure(there, state.measure, edges);
+  if (!with_measure) return with_measure.failure();
+  OnOtherGrid<dim> moved{.state = state, .events = changes_by_grid(state.shape, with_measure->shape)};
+  moved.state.shape = std::move(with_measure->shape);
+  moved.state.measure = with_measure->measure;
+  return moved;
+}
+
+template Expected<OnOtherGrid<2>> on_other_grid(const OptimizationState<2>&, const Lattice<2>&,
+                                                const Evolver<2>&);
+template Expected<OnOtherGrid<3>> on_other_grid(const OptimizationState<3>&, const Lattice<3>&,
+                                                const Evolver<3>&);
+
+}  // namespace wheelwright

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "wheelwright/evolution/evolver.h"
+#include "wheelwright/geometry/topology.h"
+#include "wheelwright/optimize/optimization_state.h"
+
+namespace wheelwright {
+
+/// A state whose shape stands on another grid; its evaluation is still that of the shape that it was.
+template <int dim>
+struct OnOtherGrid {
+  OptimizationState<dim> state;
+  std::vector<ShapeEvent<dim>> events;  ///< how the grid changed its holes
+};
+
+/// The state's shape on the lattice, with the same measure and the evolver's bands. Fails as
+/// Evolver::with_measure() does.
+template <int dim>
+Expected<OnOtherGrid<dim>> on_other_grid(const OptimizationState<dim>& state, const Lattice<dim>& lattice,
+                                         const Evolver<dim>& evolver);
+
+}  // namespace wheelwright
