@@ -104,6 +104,47 @@ TEST_F(RunTest, StopsSavedAndResumesWithTheSameBytes) {
   }
 }
 
+/// Asks for a stop as soon as the last shape is saved, before the results are solved.
+class StopBeforeTheResults : public Observer<2> {
+ public:
+  StopBeforeTheResults(int last_shape, CommandQueue& commands)
+      : last_shape_(last_shape), commands_(commands) {}
+
+  void operator()(const Event<2>& event, const RunView<2>&) override {
+    const auto* save = std::get_if<SaveRequested<2>>(&event);
+    if (save && save->state.iteration == last_shape_) commands_.push(Stop{});
+  }
+
+ private:
+  int last_shape_;
+  CommandQueue& commands_;
+};
+
+// They are on a finer tread than the loop's, and so have to be solved.
+TEST_F(RunTest, StopInterruptsTheResultsWhichAResumedRunCompletes) {
+  constexpr int last_shape = 2;
+  std::string text = small_case(last_shape);
+  const std::string own = "tread_levels = 0";
+  text.replace(text.find(own), own.size(), "tread_levels = \"auto\"");
+  straight(text);
+  const fs::path stopped = folder() / "stopped";
+  {
+    CommandQueue commands;
+    auto run = TheRun::begin(the_case(text), stopped);
+    ASSERT_TRUE(run);
+    run->add(std::make_unique<StopBeforeTheResults>(last_shape, commands));
+    const auto result = run->execute(commands);
+    EXPECT_EQ(result.reason, StopReason::stop_requested);
+    EXPECT_EQ(result.state->iteration, last_shape);
+  }
+  CommandQueue none;
+  Recorder::Record record;
+  const auto resumed = execute(TheRun::resume(case_of(stopped), stopped), none, record);
+  EXPECT_EQ(resumed.reason, StopReason::iterations);
+  EXPECT_TRUE(resumed.summary);
+  expect_equal_results(folder() / "straight", stopped);
+}
+
 // The stop comes while a shape is evaluated: the trial is forgotten.
 TEST_F(RunTest, StopInterruptsAnEvaluation) {
   const std::string text = small_case(8);

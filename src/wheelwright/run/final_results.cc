@@ -6,12 +6,25 @@
 namespace wheelwright {
 namespace {
 
+/// Solves shapes until it is interrupted.
 template <int dim>
-std::shared_ptr<const State<dim>> solution(const StateSolver<dim>& solver, const LevelSet<dim>& shape,
-                                           const Interrupt& interrupt) {
-  auto states = solver.states(shape, solver.distinct_positions(shape), interrupt);
-  return states ? *std::move(states) : nullptr;
-}
+class Solutions {
+ public:
+  explicit Solutions(const Interrupt& interrupt) : interrupt_(interrupt) {}
+
+  /// Null where there is none.
+  std::shared_ptr<const State<dim>> of(const StateSolver<dim>& solver, const LevelSet<dim>& shape) {
+    auto states = solver.states(shape, solver.distinct_positions(shape), interrupt_);
+    if (states) return *std::move(states);
+    is_interrupted_ = is_interrupted_ || states.failure().reason == FailureReason::interrupted;
+    return nullptr;
+  }
+  bool is_interrupted() const { return is_interrupted_; }
+
+ private:
+  const Interrupt& interrupt_;
+  bool is_interrupted_ = false;
+};
 
 /// The solver of the results; null where it is the study's own.
 template <int dim>
@@ -26,10 +39,10 @@ std::shared_ptr<const StateSolver<dim>> finer_solver(const Study<dim>& study) {
 /// that.
 template <int dim>
 std::optional<DescribedWheel<dim>> initial_wheel(const Study<dim>& study, const InitialShape<dim>& initial,
-                                                 const StateSolver<dim>& solver, const Interrupt& interrupt) {
+                                                 const StateSolver<dim>& solver, Solutions<dim>& solutions) {
   const bool is_coarser = study.level > 0;
   const LevelSet<dim>& shape = is_coarser ? study.initial : initial.shape;
-  const auto state = solution(solver, shape, interrupt);
+  const auto state = solutions.of(solver, shape);
   if (!state) return {};
   return described(solver, shape, is_coarser ? material_measure(shape) : initial.measure, *state);
 }
@@ -49,22 +62,24 @@ FinalResults<dim> final_results(const Study<dim>& study, const InitialShape<dim>
                                 const OptimizationState<dim>& state, const SolvedShapes<dim>& solved,
                                 const Interrupt& interrupt) {
   FinalResults<dim> results;
-  results.own = solved.last ? solved.last : solution(*study.solver, state.shape, interrupt);
+  Solutions<dim> solutions(interrupt);
+  results.own = solved.last ? solved.last : solutions.of(*study.solver, state.shape);
   results.shown = results.own;
   results.solver = study.solver;
-  if (!results.own) return results;
-  if (auto finer = finer_solver(study))
-    if (auto states = solution(*finer, state.shape, interrupt)) {
+  if (const auto finer = results.own ? finer_solver(study) : nullptr)
+    if (auto states = solutions.of(*finer, state.shape)) {
       results.shown = std::move(states);
-      results.solver = std::move(finer);
+      results.solver = finer;
     }
-  const auto after = described(*results.solver, state.shape, state.measure, *results.shown);
-  if (!after) return results;
-  const bool is_seen = solved.initial && results.solver == study.solver;
-  const auto before = state.iteration == 0 ? after
-                      : is_seen            ? solved.initial
-                                           : initial_wheel(study, initial, *results.solver, interrupt);
-  if (before) results.summary = summarized_run(study.source, initial, *before, state, *after);
+  if (results.shown) {
+    const auto after = described(*results.solver, state.shape, state.measure, *results.shown);
+    const bool is_seen = solved.initial && results.solver == study.solver;
+    const auto before = state.iteration == 0 ? after
+                        : is_seen            ? solved.initial
+                                             : initial_wheel(study, initial, *results.solver, solutions);
+    if (before && after) results.summary = summarized_run(study.source, initial, *before, state, *after);
+  }
+  results.is_interrupted = solutions.is_interrupted();
   return results;
 }
 

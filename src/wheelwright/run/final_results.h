@@ -29,7 +29,7 @@ struct FinalResults {
       summary;  ///< both shapes by `solver`; empty where one of them has no solution
 };
 
-/// Solves what is not solved yet. Where that is interrupted, the results show what there is.
+/// Solves what is not solved yet.
 template <int dim>
 FinalResults<dim> final_results(const Study<dim>& study, const InitialShape<dim>& initial,
                                 const OptimizationState<dim>& state, const SolvedShapes<dim>& solved,

@@ -167,9 +167,10 @@ template <int dim>
 RunResult<dim> RunLoop<dim>::end(StopReason reason) {
   save();
   stop_file_->remove();
-  // What is left of the results can be long: a command to stop that still comes is obeyed there too.
   const Interrupt interrupt([this] { return commands_.waiting_stops() > 0; }, contact_progress());
   const auto results = final_results(work_->study, *initial_, *state_, solved_, interrupt);
+  if (results.is_interrupted && reason != StopReason::gave_up)
+    reason = StopReason::stop_requested;  // a resumed run completes them
   notify(RunEnded<dim>{reason, &*state_, results.shown.get(), results.solver.get(),
                        results.summary ? &*results.summary : nullptr, failed_trials_});
   RunResult<dim> ended = result(reason);
