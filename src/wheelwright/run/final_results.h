@@ -25,8 +25,9 @@ struct FinalResults {
   std::shared_ptr<const StateSolver<dim>> solver;  ///< of `shown`
   /// On the tread of the results, which is finer where the case lets the program choose it; else `own`.
   std::shared_ptr<const State<dim>> shown;
-  std::optional<RunSummary<dim>>
-      summary;  ///< both shapes by `solver`; empty where one of them has no solution
+  /// Both shapes by `solver`; empty where one of them has no solution.
+  std::optional<RunSummary<dim>> summary;
+  bool is_interrupted = false;  ///< and therefore without some of this
 };
 
 /// Solves what is not solved yet.
