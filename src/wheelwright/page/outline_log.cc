@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "wheelwright/geometry/contour.h"
@@ -48,9 +49,9 @@ Points simplified(Points points) {
 
 }  // namespace
 
-ShapeOutline shape_outline(int shape, const LevelSet<2>& psi) {
+ShapeOutline shape_outline(int shape, double objective, const LevelSet<2>& psi) {
   const double units = outline_units / psi.lattice.grid().outer_radius;
-  ShapeOutline outline{shape, {}};
+  ShapeOutline outline{shape, objective, {}};
   for (const Contour& contour : material_contours(psi, 2)) {
     if (contour.kind != ContourKind::free) continue;
     Points points;
@@ -63,13 +64,17 @@ ShapeOutline shape_outline(int shape, const LevelSet<2>& psi) {
 }
 
 std::string outline_line(const ShapeOutline& outline) {
-  return nlohmann::json{{"shape", outline.shape}, {"contours", outline.contours}}.dump() + '\n';
+  return nlohmann::json{
+             {"shape", outline.shape}, {"objective", outline.objective}, {"contours", outline.contours}}
+             .dump() +
+         '\n';
 }
 
 std::optional<ShapeOutline> parse_outline_line(const std::string& line) {
   const auto json = nlohmann::json::parse(line, nullptr, false);
   try {
     return ShapeOutline{json.at("shape").get<int>(),
+                        json.value("objective", std::numeric_limits<double>::quiet_NaN()),
                         json.at("contours").get<std::vector<std::vector<std::array<int, 2>>>>()};
   } catch (const nlohmann::json::exception&) {
     return {};

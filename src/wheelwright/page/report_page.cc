@@ -224,7 +224,8 @@ Json run_json(const ReportRun<dim>& run) {
   }
   Json outlines = Json::array();
   for (const ShapeOutline& outline : run.outlines)
-    outlines.push_back({{"shape", outline.shape}, {"contours", outline.contours}});
+    outlines.push_back(
+        {{"shape", outline.shape}, {"objective", outline.objective}, {"contours", outline.contours}});
   Json events = Json::array();
   for (const HoleEvents& event : run.events) events.push_back({{"shape", event.shape}, {"text", event.text}});
   Json json{{"dimension", dim},

@@ -27,6 +27,7 @@ struct HoleEvents {
 /// The edges of one accepted shape, in whole outline units.
 struct ShapeOutline {
   int shape;
+  double objective;  ///< its value, as history.csv has it; NaN where the file does not tell
   std::vector<std::vector<std::array<int, 2>>> contours;  ///< closed polylines round the whole wheel
 };
 
@@ -34,7 +35,7 @@ struct ShapeOutline {
 inline constexpr int outline_units = 10000;
 
 /// The edges of the holes of a shape, simplified to within two outline units.
-ShapeOutline shape_outline(int shape, const LevelSet<2>& psi);
+ShapeOutline shape_outline(int shape, double objective, const LevelSet<2>& psi);
 
 /// One line of a file of outlines, and back; nothing from a line that is none.
 std::string outline_line(const ShapeOutline& outline);

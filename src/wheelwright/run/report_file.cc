@@ -19,9 +19,10 @@ constexpr double most_share_of_time = 0.01;
 /// Keeps the lines of the shapes up to the one that the run goes on from.
 void keep_outlines(const std::filesystem::path& folder, std::optional<int> resumed_after) {
   std::string kept;
-  if (resumed_after)
-    for (const ShapeOutline& outline : read_outlines(folder))
-      if (outline.shape <= *resumed_after) kept += outline_line(outline);
+  std::ifstream stream(folder / outline_file);
+  for (std::string line; resumed_after && std::getline(stream, line);)
+    if (const auto outline = parse_outline_line(line); outline && outline->shape <= *resumed_after)
+      kept += line + '\n';
   write_atomically(folder / outline_file, kept);
 }
 
@@ -46,7 +47,9 @@ void ReportFile<dim>::operator()(const Event<dim>& event, const RunView<dim>& ru
     keep_outlines(run.folder, started->resumed_after);
   if (const auto* done = std::get_if<TrialDone<dim>>(&event);
       done && done->trial.verdict == Verdict::accepted) {
-    add_outline(run.folder, shape_outline(done->state.iteration, mid_plane_section(done->state.shape)));
+    add_outline(run.folder,
+                shape_outline(done->state.iteration, done->state.evaluation.function("objective").value,
+                              mid_plane_section(done->state.shape)));
     waited_ += clock_.lap();
     if (waited_ >= std::max(wait_, least_seconds_between_pages)) {
       write_atomically(run.folder / page_file,

@@ -32,8 +32,36 @@ double number(const std::string& cell) {
   return !cell.empty() && *end == '\0' ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// The columns of the accepted shapes that hold numbers, how many trials there were, why some were rejected,
-/// and what happened to the holes.
+/// Rows that come one after the other, evenly thinned to at most twice `most`, with the first and the last
+/// one.
+class ThinnedRows {
+ public:
+  static constexpr std::size_t most = 1000;
+
+  void add(std::vector<double> row) {
+    last_ = std::move(row);
+    if (n_++ % step_ != 0) return;
+    rows_.push_back(last_);
+    if (rows_.size() < 2 * most) return;
+    for (std::size_t k = 1; 2 * k < rows_.size(); ++k) rows_[k] = std::move(rows_[2 * k]);
+    rows_.resize(rows_.size() / 2);
+    step_ *= 2;
+  }
+
+  std::vector<std::vector<double>> rows() const {
+    auto result = rows_;
+    if (n_ > 0 && (n_ - 1) % step_ != 0) result.push_back(last_);
+    return result;
+  }
+
+ private:
+  std::size_t n_ = 0, step_ = 1;
+  std::vector<std::vector<double>> rows_;
+  std::vector<double> last_;
+};
+
+/// The columns of the accepted shapes that hold numbers, thinned where there are thousands of them, how many
+/// trials there were, why some were rejected, and what happened to the holes.
 template <int dim>
 void read_history(const fs::path& file, ReportRun<dim>& run) {
   std::ifstream stream(file);
@@ -45,6 +73,7 @@ void read_history(const fs::path& file, ReportRun<dim>& run) {
   const auto index = [&](const char* name) { return std::ranges::find(columns, name) - columns.begin(); };
   const auto accepted = index("accepted"), reason = index("reason"), events = index("events"),
              iteration = index("iteration");
+  ThinnedRows accepted_rows;
   while (std::getline(stream, line)) {
     const auto cells = csv_cells(line);
     if (cells.size() != columns.size()) continue;
@@ -55,10 +84,13 @@ void read_history(const fs::path& file, ReportRun<dim>& run) {
       continue;
     }
     if (!cell(events).empty()) run.events.push_back({cell(iteration), cell(events)});
-    auto curve = run.history.begin();
+    std::vector<double> row;
     for (std::size_t k = 0; k < columns.size(); ++k)
-      if (columns[k] != "reason" && columns[k] != "events") (curve++)->values.push_back(number(cells[k]));
+      if (columns[k] != "reason" && columns[k] != "events") row.push_back(number(cells[k]));
+    accepted_rows.add(std::move(row));
   }
+  for (const auto& row : accepted_rows.rows())
+    for (std::size_t k = 0; k < row.size(); ++k) run.history[k].values.push_back(row[k]);
 }
 
 std::string content(const fs::path& file) {

@@ -168,7 +168,7 @@
       context.strokeStyle = colour("--bad");
       context.stroke(edges(run.outlines[0]));
       context.setLineDash([]);
-      const value = run.history[column]?.[i];
+      const value = run.outlines[i].objective;
       caption.textContent = `Shape ${run.outlines[i].shape} of ${run.outlines[last].shape}: ${column} ${shown(value)}; ` +
         "dashed: the edges of the initial holes.";
     };

@@ -1,0 +1,86 @@
+#include "wheelwright/run/run_report.h"
+
+#include "tests/run_support.h"
+#include "wheelwright/case/read.h"
+#include "wheelwright/run/report_file.h"
+#include "wheelwright/run/study.h"
+
+namespace wheelwright::testing {
+namespace {
+
+constexpr int last_shape = 5003;
+
+double objective(int shape) { return 40 + 1e-3 * shape; }
+
+ShapeOutline outline(int shape) { return {shape, objective(shape), {{{shape, 0}, {0, 1}, {1, 0}}}}; }
+
+/// The folder of a run with thousands of shapes; every third one was rejected once before it was accepted.
+class LongRun : public TemporaryFolder {
+ protected:
+  LongRun() : source_(*parse_case(small_case(1), "case.toml").value) {
+    std::ofstream history(folder() / "history.csv"), outlines(folder() / outline_file);
+    history << "iteration,trial,accepted,reason,objective [J/m],elapsed [s],events\n";
+    for (int shape = 0; shape <= last_shape; ++shape) {
+      if (shape % 3 == 1) history << fmt::format("{},0,0,objective_rose,50,{},\n", shape, shape);
+      history << fmt::format("{},1,1,,{:.17g},{},{}\n", shape, objective(shape), shape + 0.5,
+                             shape % 1000 == 7 ? "a hole vanished" : "");
+      outlines << outline_line(outline(shape));
+    }
+  }
+
+  Case source_;
+};
+
+TEST_F(LongRun, IsShownByEvenlyThinnedShapesEachWithItsOwnNumbers) {
+  const auto run = report_of_folder<2>(folder(), source_);
+  EXPECT_EQ(run.trials, last_shape + 1 + (last_shape + 1) / 3);
+  EXPECT_EQ(run.rejected.at("objective_rose"), (last_shape + 1) / 3);
+  EXPECT_EQ(run.events.size(), 5u);
+  EXPECT_EQ(run.seconds, last_shape + 0.5);
+
+  const auto& iterations = run.history.front().values;
+  ASSERT_EQ(run.history[3].name, "objective [J/m]");
+  ASSERT_EQ(iterations.size(), run.history[3].values.size());
+  EXPECT_LE(iterations.size(), 2000u);
+  EXPECT_GE(iterations.size(), 1000u);
+  EXPECT_EQ(iterations.front(), 0);
+  EXPECT_EQ(iterations.back(), last_shape);
+  const double step = iterations[1] - iterations[0];
+  for (std::size_t k = 0; k < iterations.size(); ++k) {
+    if (k + 1 < iterations.size()) {
+      EXPECT_EQ(iterations[k], step * static_cast<double>(k));
+    }
+    EXPECT_EQ(run.history[3].values[k], objective(static_cast<int>(iterations[k])));
+  }
+
+  EXPECT_LE(run.outlines.size(), most_outlines + 1);
+  EXPECT_GE(run.outlines.size(), most_outlines / 2);
+  EXPECT_EQ(run.outlines.front().shape, 0);
+  EXPECT_EQ(run.outlines.back().shape, last_shape);
+  for (const ShapeOutline& shown : run.outlines) {
+    EXPECT_EQ(shown.objective, objective(shown.shape));
+    EXPECT_EQ(shown.contours, outline(shown.shape).contours);
+  }
+}
+
+// Thinned for a page, not in the folder.
+TEST_F(LongRun, KeepsAllOutlinesUpToTheShapeThatItIsResumedAfter) {
+  const auto study = make_study<2>(source_);
+  ASSERT_TRUE(study);
+  const auto optimizer = optimizer_of(*study);
+  const Observers<2> observers;
+  ReportFile<2> file;
+  file(RunStarted{.resumed_after = 4990}, RunView<2>{.folder = folder(),
+                                                     .study = *study,
+                                                     .evolver = optimizer.evolver(),
+                                                     .initial = nullptr,
+                                                     .elapsed_seconds = 0,
+                                                     .can_undo = false,
+                                                     .observers = observers});
+  std::string expected;
+  for (int shape = 0; shape <= 4990; ++shape) expected += outline_line(outline(shape));
+  EXPECT_TRUE(content(folder() / outline_file) == expected);
+}
+
+}  // namespace
+}  // namespace wheelwright::testing
