@@ -48,18 +48,17 @@ std::vector<KernelWork> unavoidable_work(const RollingProblem<2>& problem,
 }
 
 template <int dim>
-int ring_unknowns(const RollingProblem<dim>& problem, const CyclicStiffness<dim>& ring) {
-  const auto& space = ring.sector().space;
-  const PolarGrid<dim>& grid = problem.model().grid;
+int ring_unknowns(const SectorSpace<dim>& space) {
+  const PolarGrid<dim>& grid = space.grid();
   const int lines = space.degree() * grid.columns();
   int core_nodes = 0, axial_nodes = 1;
   for (int node = 0; node < space.n_nodes(); ++node) core_nodes += space.position(node)[1] < lines;
   if constexpr (dim == 3) axial_nodes = space.degree() * grid.cells[2] + 1;
-  const int tread_nodes = lines * space.degree() * problem.tread().rows() * axial_nodes;
+  const int tread_nodes = lines * space.degree() * (grid.cells[0] - space.core_rows()) * axial_nodes;
   return dim * grid.n_sectors * (core_nodes + tread_nodes);
 }
 
-template int ring_unknowns(const RollingProblem<2>&, const CyclicStiffness<2>&);
-template int ring_unknowns(const RollingProblem<3>&, const CyclicStiffness<3>&);
+template int ring_unknowns(const SectorSpace<2>&);
+template int ring_unknowns(const SectorSpace<3>&);
 
 }  // namespace wheelwright::bench
