@@ -17,7 +17,6 @@ double cube(double x) { return x * x * x; }
 std::vector<KernelWork> unavoidable_work(const RollingProblem<2>& problem,
                                          const RollingSolution<2>& solution) {
   const auto& ring = solution.ring;
-  const auto& tread = problem.tread();
   // A symmetric wheel has real factors, to which a complex vector is two real ones.
   const bool symmetric = ring.is_mirror_symmetric();
   const double factors = real_harmonics(ring.n_sectors(), symmetric ? 1 : 4),
@@ -27,11 +26,6 @@ std::vector<KernelWork> unavoidable_work(const RollingProblem<2>& problem,
   const double modes = solution.displacement.modes.rows(),
                swept_entries = ring.sector_factor().sweep_entries(solution.sweep);
 
-  const double line = tread.samples().of_line.columns(), samples = tread.samples().of_line.rows(),
-               tests = tread.tests().of_line.rows(), apart = 2.0 * solution.surface->width() + 1,
-               solved_columns = tread.columns_per_sector() * (symmetric ? 0.5 : 1);
-  const double contact_operator =
-      solved_columns * tests * (vectors * 2 * outer * outer + 2 * samples * line * apart);
   double boundary_points = 0;
   for (const auto& cell : solution.domain.cut) boundary_points += cell.boundary.size();
   const double cell_dofs = problem.elements().element(0).n_dofs();
@@ -41,7 +35,7 @@ std::vector<KernelWork> unavoidable_work(const RollingProblem<2>& problem,
 
   return {{"Cholesky of a sector", ring.sector_factor().factor_flops()},
           {"Cholesky of the harmonics", factors * cube(boundary) / 3},
-          {"contact operators", contact_operator},
+          {"compliance of the surface", solution.surface->flops()},
           {"backward sweep, direct", 2 * swept_entries * modes + outer_line + interface_sweep},
           {"both sweeps, adjoint", 4 * swept_entries * modes + 2 * (outer_line + interface_sweep)},
           {"strains on the boundary", boundary_points * 2 * n_strains<2> * cell_dofs * 2 * modes}};
