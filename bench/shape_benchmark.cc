@@ -240,7 +240,7 @@ void add_benchmarks(Workshop& shop, Measurements& m) {
     GridTimes& times = m.grids[g];
     add("sector Cholesky/" + size.grid(), [&, size](auto& state) {
       const auto& solution = shop.solution(size);
-      times.unknowns = ring_unknowns(shop.wheel(size).problem(), solution.ring);
+      times.unknowns = ring_unknowns(solution.ring.sector().space);
       times.work = unavoidable_work(shop.wheel(size).problem(), solution);
       sector_cholesky(state, solution, times.phase("of factorization: sector Cholesky"));
     });

@@ -20,6 +20,9 @@
 #include "wheelwright/base/parallel.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/set_number.h"
+#include "wheelwright/geometry/mirror.h"
+#include "wheelwright/rolling/half_width_solver.h"
+#include "wheelwright/rolling/turned_state.h"
 #include "wheelwright/run/study.h"
 
 namespace wheelwright::bench {
@@ -68,24 +71,26 @@ Zones contact_zones(const State<3>& state, const PolarGrid<3>& grid, int points_
   return zones;
 }
 
+/// The wheel whose equations are solved, in place of the wheel of the case: its half, or turned back.
+struct SolvedWheel {
+  const RollingProblem<3>& problem;
+  CutDomain<3> domain;
+};
+
 /// Parts of a shape, done once more.
-std::optional<Failure> measure_parts(const RollingProblem<3>& problem, const LevelSet<3>& psi,
-                                     const Zones& zones, int& unknowns) {
-  const RollingModel<3>& model = problem.model();
-  const SectorHarmonics harmonics(model.grid.n_sectors);
+std::optional<Failure> measure_parts(const SolvedWheel& wheel, const Zones& zones) {
+  const RollingProblem<3>& problem = wheel.problem;
+  const SectorHarmonics harmonics(problem.model().grid.n_sectors);
   double seconds = 0;
-  const auto domain =
-      measured("cut quadrature", seconds, [&] { return cut_domain(psi, model.points_in_cut_cells()); });
-  if (!domain) return domain.failure();
-  auto sector = measured("assembly", seconds,
-                         [&] { return sector_stiffness(*domain, problem.elements(), problem.core_rows()); });
+  auto sector = measured("assembly", seconds, [&] {
+    return sector_stiffness(wheel.domain, problem.elements(), problem.core_rows());
+  });
   const auto ring = measured("sector's factor, harmonics", seconds, [&] {
     return CyclicStiffness<3>::factor(
         std::move(sector), [&](int harmonic) { return problem.tread().outer_stiffness(harmonics, harmonic); },
         harmonics);
   });
   if (!ring) return ring.failure();
-  unknowns = ring_unknowns(problem, *ring);
   measured("contact operator", seconds,
            [&] { return SurfaceCompliance<3>(*ring, problem.tread(), zones.widest - 1, zones.loaded); });
   std::vector<int> order(ring->sector().space.n_nodes());
@@ -93,44 +98,74 @@ std::optional<Failure> measure_parts(const RollingProblem<3>& problem, const Lev
   const auto factor = measured("of it: sector's factor", seconds, [&] {
     return PartialCholesky::factor(ring->sector().matrix, 3, order, ring->sector_factor().n_trailing() / 3);
   });
+  fmt::print("sector's factor: {:.1f} Gflop, {:.1f} Gflop/s\n", 1e-9 * factor->factor_flops(),
+             1e-9 * factor->factor_flops() / seconds);
   fmt::print(
-      "unknowns of a sector {}, of its boundary {}, of its outer line {}; {} columns in contact zones of "
-      "{} columns\n",
+      "unknowns of a sector {}, of its boundary {}, of its outer line {}; {} coordinates of tests and {} of "
+      "samples in a column; {} columns in contact zones of {} columns; reach {} columns\n",
       ring->sector_factor().size(), ring->n_boundary(), ring->n_outer(),
-      std::ranges::count(zones.loaded, true), zones.widest);
+      problem.tread().tests().of_line.rows(), problem.tread().samples().of_line.rows(),
+      std::ranges::count(zones.loaded, true), zones.widest, problem.tread().reach());
   return {};
+}
+
+/// The columns in contact zones as the solved wheel numbers them.
+Zones turned_back(const Zones& zones, int columns) {
+  Zones result = zones;
+  const int n = static_cast<int>(zones.loaded.size());
+  for (int c = 0; c < n; ++c) result.loaded[c] = zones.loaded[(c + columns) % n];
+  return result;
 }
 
 std::optional<Failure> measure(const Case& c) {
   const auto study = make_study<3>(c);
   if (!study) return study.failure();
   double seconds = 0;
-  const auto problem =
-      measured("tread, once per run", seconds, [&] { return RollingProblem<3>::create(study->model()); });
-  if (!problem) return problem.failure();
+  const auto solver =
+      measured("tread, once per run", seconds, [&] { return make_solver(study->solver->model()); });
+  if (!solver) return solver.failure();
   const LevelSet<3>& psi = study->initial;
-  const LoadPositions positions = problem->distinct_positions(psi);
+  const LoadPositions positions = (*solver)->distinct_positions(psi);
 
+  std::optional<SolvedWheel> wheel;
   Zones zones;
   double of_states = 0, of_gradient = 0;
+  int unknowns = 0;
   {
     const auto state =
-        measured("one shape: states", of_states, [&] { return problem->states(psi, positions, {}); });
+        measured("one shape: states", of_states, [&] { return (*solver)->states(psi, positions, {}); });
     if (!state) return state.failure();
     const auto evaluation = measured("one shape: adjoints, gradient", of_gradient, [&] {
-      return differentiate<3>(*problem, study->functions, psi, **state);
+      return differentiate<3>(**solver, study->functions, psi, **state);
     });
     if (!evaluation) return evaluation.failure();
     for (const auto& [phase, wall] : evaluation->phases)
       fmt::print("  wall time of {:20} {:9.2f} s\n", phase, wall);
     fmt::print("objective {:.12g}; Newton iterations {}\n", evaluation->function("objective").value,
                fmt::join(evaluation->newton_iterations, " "));
-    zones = contact_zones(**state, study->grid(), problem->tread_surface().rows().n_points);
+    const RollingModel<3>& model = (*solver)->model();
+    zones = contact_zones(**state, model.grid, static_cast<int>((*solver)->tread_surface().points.size()));
+    const CutDomain<3>& domain = (*state)->domain();
+    unknowns = ring_unknowns(
+        SectorSpace<3>(domain, model.degree, model.grid.cells[0] - model.tread.rows, model.side_faces));
+    if (const auto* half = dynamic_cast<const HalfWidthSolver*>(solver->get());
+        half && is_mirror_symmetric(psi, MirrorPlane::width)) {
+      wheel.emplace(half->half(), first_half(domain));
+    } else {
+      const auto whole = half ? half->whole()
+                              : Expected<std::shared_ptr<const RollingProblem<3>>>(
+                                    std::dynamic_pointer_cast<const RollingProblem<3>>(*solver));
+      if (!whole) return whole.failure();
+      wheel.emplace(**whole, domain);
+    }
   }
-  int unknowns = 0;
-  if (const auto failure = measure_parts(*problem, psi, zones, unknowns)) return failure;
+  const int first = is_mirror_symmetric(psi) ? 0
+                                             : best_first_column(wheel->domain, wheel->problem.elements(),
+                                                                 wheel->problem.core_rows());
+  if (first > 0) wheel->domain = turned_back(psi, wheel->domain, first).domain;
+  if (const auto failure = measure_parts(*wheel, turned_back(zones, first))) return failure;
   fmt::print("{} unknowns, {} of {} positions solved: {:.0f} unknowns/s per core\n", unknowns,
-             positions.size(), study->model().n_positions, unknowns / (of_states + of_gradient));
+             positions.size(), (*solver)->model().n_positions, unknowns / (of_states + of_gradient));
   return {};
 }
 

@@ -59,7 +59,7 @@ int run(int radial_cells, int angular_cells, int n_positions, int repetitions) {
     }
     if (fastest.empty() || total(evaluation->phases) < total(fastest)) fastest = evaluation->phases;
   }
-  fmt::print("{}", to_json(ring_unknowns(*problem, problem->solve(psi)->ring), *states, fastest));
+  fmt::print("{}", to_json(ring_unknowns(problem->solve(psi)->ring.sector().space), *states, fastest));
   return 0;
 }
 

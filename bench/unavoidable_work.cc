@@ -17,7 +17,6 @@ double cube(double x) { return x * x * x; }
 std::vector<KernelWork> unavoidable_work(const RollingProblem<2>& problem,
                                          const RollingSolution<2>& solution) {
   const auto& ring = solution.ring;
-  const auto& tread = problem.tread();
   // A symmetric wheel has real factors, to which a complex vector is two real ones.
   const bool symmetric = ring.is_mirror_symmetric();
   const double factors = real_harmonics(ring.n_sectors(), symmetric ? 1 : 4),
@@ -27,11 +26,6 @@ std::vector<KernelWork> unavoidable_work(const RollingProblem<2>& problem,
   const double modes = solution.displacement.modes.rows(),
                swept_entries = ring.sector_factor().sweep_entries(solution.sweep);
 
-  const double line = tread.samples().of_line.columns(), samples = tread.samples().of_line.rows(),
-               tests = tread.tests().of_line.rows(), apart = 2.0 * solution.surface->width() + 1,
-               solved_columns = tread.columns_per_sector() * (symmetric ? 0.5 : 1);
-  const double contact_operator =
-      solved_columns * tests * (vectors * 2 * outer * outer + 2 * samples * line * apart);
   double boundary_points = 0;
   for (const auto& cell : solution.domain.cut) boundary_points += cell.boundary.size();
   const double cell_dofs = problem.elements().element(0).n_dofs();
@@ -41,25 +35,24 @@ std::vector<KernelWork> unavoidable_work(const RollingProblem<2>& problem,
 
   return {{"Cholesky of a sector", ring.sector_factor().factor_flops()},
           {"Cholesky of the harmonics", factors * cube(boundary) / 3},
-          {"contact operators", contact_operator},
+          {"compliance of the surface", solution.surface->flops()},
           {"backward sweep, direct", 2 * swept_entries * modes + outer_line + interface_sweep},
           {"both sweeps, adjoint", 4 * swept_entries * modes + 2 * (outer_line + interface_sweep)},
           {"strains on the boundary", boundary_points * 2 * n_strains<2> * cell_dofs * 2 * modes}};
 }
 
 template <int dim>
-int ring_unknowns(const RollingProblem<dim>& problem, const CyclicStiffness<dim>& ring) {
-  const auto& space = ring.sector().space;
-  const PolarGrid<dim>& grid = problem.model().grid;
+int ring_unknowns(const SectorSpace<dim>& space) {
+  const PolarGrid<dim>& grid = space.grid();
   const int lines = space.degree() * grid.columns();
   int core_nodes = 0, axial_nodes = 1;
   for (int node = 0; node < space.n_nodes(); ++node) core_nodes += space.position(node)[1] < lines;
   if constexpr (dim == 3) axial_nodes = space.degree() * grid.cells[2] + 1;
-  const int tread_nodes = lines * space.degree() * problem.tread().rows() * axial_nodes;
+  const int tread_nodes = lines * space.degree() * (grid.cells[0] - space.core_rows()) * axial_nodes;
   return dim * grid.n_sectors * (core_nodes + tread_nodes);
 }
 
-template int ring_unknowns(const RollingProblem<2>&, const CyclicStiffness<2>&);
-template int ring_unknowns(const RollingProblem<3>&, const CyclicStiffness<3>&);
+template int ring_unknowns(const SectorSpace<2>&);
+template int ring_unknowns(const SectorSpace<3>&);
 
 }  // namespace wheelwright::bench

@@ -20,6 +20,6 @@ std::vector<KernelWork> unavoidable_work(const RollingProblem<2>& problem,
 
 /// Displacement unknowns of the full ring, the tread included.
 template <int dim>
-int ring_unknowns(const RollingProblem<dim>& problem, const CyclicStiffness<dim>& ring);
+int ring_unknowns(const SectorSpace<dim>& space);
 
 }  // namespace wheelwright::bench

@@ -11,6 +11,7 @@
 #include "wheelwright/analysis/deformation_size.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/write.h"
+#include "wheelwright/run/predicted_deformation.h"
 #include "wheelwright/run/study.h"
 
 namespace wheelwright {
@@ -54,10 +55,21 @@ std::string unbalanced(const State<2>& state, double load) {
   return "";
 }
 
+/// Whether the rim of a wheel that could not be solved would travel by less than 5 % of the ring's thickness
+/// on the coarse grid of `check`, or is not known to travel farther: then its failure needs mending. Heavier
+/// loads are beyond linear elasticity.
+bool is_lightly_loaded(const Case& c) {
+  const auto size = predicted_size(c);
+  if (size) return size->travel < 0.05;
+  return size.failure().reason != FailureReason::rim_under_ground &&
+         size.failure().reason != FailureReason::material_overlaps;
+}
+
 End end_of(const Case& drawn) {
   const CaseResult read = parse_case(to_toml(drawn), "random.toml");
   if (!read.value) {
     const std::string text = read.problems.front().text();
+    if (read.problems.front().key.empty()) return {End::refused, "names no key: " + text};
     const auto changed = mended(drawn, read.problems);
     if (!changed) return {End::refused, "no remedy that can be followed: " + text};
     const End after = end_of(*changed);
@@ -79,41 +91,41 @@ End end_of(const Case& drawn) {
     case FailureReason::disconnected_material:
     case FailureReason::protected_band:
       return {End::failed, ""};
+    case FailureReason::no_contact:
+    case FailureReason::not_positive_definite:
+    case FailureReason::newton_stalled:
+      if (!is_lightly_loaded(c)) return {End::failed, ""};
+      [[fallthrough]];
     default:
       return {End::failed, std::string(to_string(failure.reason)) + ": " + failure.detail};
   }
 }
 
-/// Every wheel is solved and balanced, refused with a remedy that helps, or fails for a physical reason, but
-/// for at most this many, and each in less than 20 s of processor time.
-void expect_an_end_of_each(int n, unsigned seed, int most_complaints) {
+/// Every wheel is solved and balanced, refused with a remedy that helps, or fails for a physical reason, and
+/// each in less than 20 s of processor time.
+void expect_an_end_of_each(int n, unsigned seed) {
   RandomWheels wheels(seed);
   std::map<End::Kind, int> count;
-  int complaints = 0;
   double longest = 0;
   for (int k = 0; k < n; ++k) {
     const Case c = wheels.draw();
     const std::clock_t begin = std::clock();
     const End end = end_of(c);
-    longest = std::max(longest, double(std::clock() - begin) / CLOCKS_PER_SEC);
+    const double seconds = double(std::clock() - begin) / CLOCKS_PER_SEC;
+    longest = std::max(longest, seconds);
     ++count[end.kind];
-    if (end.complaint.empty()) continue;
-    ++complaints;
-    std::cout << "wheel " << k << ": " << end.complaint << "\n";
+    EXPECT_LT(seconds, 20) << "wheel " << k;
+    EXPECT_EQ(end.complaint, "") << "wheel " << k << "\n" << to_toml(c);
   }
-  EXPECT_LE(complaints, most_complaints);
   std::cout << count[End::solved] << " solved, " << count[End::refused] << " refused, " << count[End::failed]
             << " failed; at most " << longest << " s each\n";
-  EXPECT_LT(longest, 20);
   EXPECT_GE(count[End::solved], 0.8 * n);
   EXPECT_LE(count[End::refused], 0.1 * n);
 }
 
-TEST(RandomWheels, AreSolvedOrRefusedWithAReason) { expect_an_end_of_each(12, 2, 0); }
+TEST(RandomWheels, AreSolvedOrRefusedWithAReason) { expect_an_end_of_each(12, 2); }
 
-// Of these, four are known: two overloaded wheels with friction that stall, and two whose advised change only
-// uncovers that they are crushed.
-TEST(RandomWheels, AreSolvedOrRefusedWithAReasonSlow) { expect_an_end_of_each(300, 1, 4); }
+TEST(RandomWheels, AreSolvedOrRefusedWithAReasonSlow) { expect_an_end_of_each(300, 1); }
 
 }  // namespace
 }  // namespace wheelwright

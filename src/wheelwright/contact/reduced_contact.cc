@@ -77,35 +77,59 @@ ReducedContact<dim>::ReducedContact(const SurfaceCompliance<dim>& surface, const
       preload_.push_back(points_[i].frame.template to_ground<dim>(z));
     }
 
-  const int n = n_points() * components();
-  Matrix flexibility(n, n);
-  for (int from = 0; from < zone.n_columns; ++from)
-    for (int to = 0; to < zone.n_columns; ++to)
-      set_flexibility(to, from,
-                      surface.block(wrap(zone.first_column + from, tread.n_columns()),
-                                    difference(to, from, tread.n_columns())),
-                      surface.components(), flexibility);
-  flexibility_ = std::make_shared<const Matrix>(std::move(flexibility));
+  flexibility_ = std::make_shared<const Matrix>(flexibility(surface, tread));
 }
 
+/// Traces of a column (Tread) in the frame of the ground, with the components that contact needs.
 template <int dim>
-void ReducedContact<dim>::set_flexibility(int to_column, int from_column, const Matrix& block, int traced,
-                                          Matrix& flexibility) const {
-  const int n_components = components();
-  const int first_to = per_column() * to_column, first_from = per_column() * from_column;
-  const auto to_axes = ground_axes<dim>(points_[first_to].frame);
-  const auto from_axes = ground_axes<dim>(points_[first_from].frame);
-  for (int from = 0; from < per_column(); ++from)
-    for (int to = 0; to < per_column(); ++to)
-      for (int j = 0; j < n_components; ++j) {
-        Vec<dim> sample{};
-        for (int k = 0; k < traced; ++k)
-          for (int i = 0; i < traced; ++i)
-            sample[i] += block(traced * to + i, traced * from + k) * from_axes[j][k];
-        for (int i = 0; i < n_components; ++i)
-          flexibility(n_components * (first_to + to) + i, n_components * (first_from + from) + j) =
-              dot<dim>(to_axes[i], sample);
+Matrix ReducedContact<dim>::in_ground_frame(const Matrix& traces, int traced, int column) const {
+  const auto axes = ground_axes<dim>(points_[per_column() * column].frame);
+  const int n = components();
+  auto result = Matrix::unfilled(n * per_column(), traces.columns());
+  for (int j = 0; j < traces.columns(); ++j)
+    for (int q = 0; q < per_column(); ++q)
+      for (int i = 0; i < n; ++i) {
+        double sum = 0;
+        for (int k = 0; k < traced; ++k) sum += axes[i][k] * traces(traced * q + k, j);
+        result(n * q + i, j) = sum;
       }
+  return result;
+}
+
+/// F = -S H T^T - C: samples S and tests T of the seams, their compliance H, and the compliance C of the
+/// columns between them.
+template <int dim>
+Matrix ReducedContact<dim>::flexibility(const SurfaceCompliance<dim>& surface, const Tread<dim>& tread) const {
+  const int n_zone = zone_.n_columns, n_column = per_column() * components(), n_seam = tread.n_seam(),
+            traced = tread.traced_components();
+  std::vector<Matrix> samples;
+  for (int c = 0; c < n_zone; ++c) samples.push_back(in_ground_frame(tread.samples(), traced, c));
+  auto result = Matrix::unfilled(n_zone * n_column, n_zone * n_column);
+  for (int from = 0; from < n_zone; ++from) {
+    const int column = wrap(zone_.first_column + from, ring_columns_);
+    const auto apart = [&](int to) { return difference(to, from, ring_columns_); };
+    int first = 0, last = 0;
+    for (int to = 0; to < n_zone; ++to) first = std::min(first, apart(to)), last = std::max(last, apart(to));
+    // Displacements of the seams `first` to `last` + 1 after the column's own one.
+    const Matrix tests = in_ground_frame(tread.tests(), traced, from);
+    Matrix seams((last + 2 - first) * n_seam, n_column);
+    for (int side = 0; side < 2; ++side) {
+      const Matrix& responses = surface.responses(column + side);
+      const int own = responses.rows() / n_seam / 2;
+      multiply(1, block(responses, (first - side + own) * n_seam, 0, seams.rows(), n_seam), Op::none,
+               block(tests, 0, side * n_seam, n_column, n_seam), Op::transpose, 1, seams);
+    }
+    Matrix block_columns(n_zone * n_column, n_column);
+    for (int to = 0; to < n_zone; ++to)
+      multiply_rows(-1, samples[to], seams, (apart(to) - first) * n_seam, 0, block_columns, to * n_column);
+    const Matrix compliance =
+        in_ground_frame(transposed(in_ground_frame(tread.compliance(), traced, from)), traced, from);
+    for (int j = 0; j < n_column; ++j)
+      for (int i = 0; i < n_column; ++i) block_columns(from * n_column + i, j) -= compliance(j, i);
+    std::copy(block_columns.entries().begin(), block_columns.entries().end(),
+              result.column(from * n_column));
+  }
+  return result;
 }
 
 template <int dim>

@@ -64,7 +64,7 @@ template <int dim>
 class ReducedContact {
  public:
   /// `surface` must be as wide as the zone: columns up to zone.n_columns - 1 apart, or half of the ring; with
-  /// friction or a lean it must have all components.
+  /// friction or a lean the tread must trace all components.
   ReducedContact(const SurfaceCompliance<dim>& surface, const Tread<dim>& tread, const PolarGrid<dim>& grid,
                  GroundPosition ground, ContactZone zone, RimControl rim, const Preload& preload = {});
 
@@ -148,10 +148,8 @@ class ReducedContact {
   int point_of_column(int point) const { return point % per_column(); }
   ObservationRows<dim> observation_rows() const { return {per_column(), 0}; }
   int n_free() const { return static_cast<int>(rim_.free.size()); }
-  /// Adds the block between two columns of the zone to the flexibility; `block` has the first `traced`
-  /// components in the columns' frames.
-  void set_flexibility(int to_column, int from_column, const Matrix& block, int traced,
-                       Matrix& flexibility) const;
+  Matrix in_ground_frame(const Matrix& traces, int traced, int column) const;
+  Matrix flexibility(const SurfaceCompliance<dim>& surface, const Tread<dim>& tread) const;
   RimMotion rim_motion(const std::vector<double>& free) const;
   /// Whether a point may carry traction.
   bool is_active(int point, const Vec<dim>& z) const;

@@ -217,6 +217,28 @@ Expected<CutDomain<dim>> cut_domain(const LevelSet<dim>& given, int points) {
   return domain;
 }
 
+CutDomain<3> first_half(const CutDomain<3>& whole) {
+  CutDomain<3> half{.grid = first_half(whole.grid), .kinds = {}, .cut = {}, .ghost_faces = {}};
+  const auto number = [&](int cell) {
+    const auto p = whole.grid.cell_position(cell);
+    return p[2] < half.grid.cells[2] ? half.grid.cell_index(p) : -1;
+  };
+  for (int cell = 0; cell < whole.grid.n_cells(); ++cell)
+    if (number(cell) >= 0) half.kinds.push_back(whole.kinds[cell]);
+  for (CutCell<3> cut : whole.cut) {
+    cut.cell = number(cut.cell);
+    if (cut.cell >= 0) half.cut.push_back(std::move(cut));
+  }
+  for (GhostFace face : whole.ghost_faces) {
+    const int minus = number(face.minus), plus = number(face.plus);
+    if (minus < 0) continue;
+    face.minus = minus;
+    face.plus = plus < 0 ? minus : plus;
+    half.ghost_faces.push_back(face);
+  }
+  return half;
+}
+
 template <int dim>
 std::optional<Failure> check_attached(const CutDomain<dim>& domain, int rim_rows, int tread_rows) {
   if (auto failure = check_bands(domain, rim_rows, tread_rows)) return failure;

@@ -31,7 +31,8 @@ struct CutCell {
 };
 
 /// An interior face between two active cells of which at least one is cut. `plus` is the next cell after
-/// `minus` along `axis`. If axis = 1 and `minus` is in the last column, `plus` belongs to the next sector.
+/// `minus` along `axis`. If axis = 1 and `minus` is in the last column, `plus` belongs to the next sector. In
+/// half a wheel, `plus` is `minus` itself where the next cell along the axle (axis = 2) is its mirror image.
 struct GhostFace {
   int minus, plus;
   int axis;
@@ -56,6 +57,10 @@ struct CutDomain {
 /// not_finite.
 template <int dim>
 Expected<CutDomain<dim>> cut_domain(const LevelSet<dim>& psi, int points);
+
+/// Half of a domain with an even number of cells along the axle, which is its own mirror image in the middle
+/// of the width: the cells before the middle.
+CutDomain<3> first_half(const CutDomain<3>& whole);
 
 /// Checks whether the shape can be computed. Returns protected_band if a cell of the innermost `rim_rows`
 /// rows or of the outermost `tread_rows` rows is not full, tread_cut_off if active cells of the outermost row

@@ -303,6 +303,23 @@ Matrix ghost_stiffness(const ElasticElement<dim>& minus, const ElasticElement<di
   return k;
 }
 
+Matrix half_of_symmetric_pair(const Matrix& form, int degree) {
+  const int n = form.rows() / 2;
+  Matrix pair(2 * n, n);  // the displacements of both cells by those of the minus cell
+  for (int a = 0; a < nodes_per_cell<3>(degree); ++a) {
+    const int layer = local_node_position<3>(degree, a)[2];
+    const int image = a + (degree - 2 * layer) * power(degree + 1, 2);
+    for (int c = 0; c < 3; ++c) {
+      const int dof = ElasticElement<3>::dof(a, c);
+      pair(dof, dof) = 1;
+      pair(n + ElasticElement<3>::dof(image, c), dof) = c == 2 ? -1 : 1;
+    }
+  }
+  Matrix half = product(pair, Op::transpose, product(form, Op::none, pair, Op::none), Op::none);
+  for (double& x : half.entries()) x /= 2;
+  return half;
+}
+
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                        \
   template Voigt<dim> stress<dim>(const Material&, const Voigt<dim>&);                                      \
   template Vec<dim> traction<dim>(const Voigt<dim>&, const Vec<dim>&);                                      \

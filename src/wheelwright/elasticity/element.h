@@ -135,4 +135,9 @@ template <int dim>
 Matrix ghost_stiffness(const ElasticElement<dim>& minus, const ElasticElement<dim>& plus, int axis,
                        double angle, const Material& material, const GhostPenalty& ghost);
 
+/// A form on the dofs of two cells (minus, plus) side by side along the axle, for fields that are their own
+/// mirror image in the face between them: the half of it that belongs to the minus cell, on the dofs of that
+/// cell.
+Matrix half_of_symmetric_pair(const Matrix& form, int degree);
+
 }  // namespace wheelwright

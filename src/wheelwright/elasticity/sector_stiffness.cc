@@ -32,6 +32,7 @@ ElementTable<dim>::ElementTable(const PolarGrid<dim>& grid, int degree, const Ma
                                              axis == 1 ? column_angle : 0.0,
                                              for_ghost_penalty(materials.in_row(radial)), ghost));
     }
+    if constexpr (dim == 3) ghosts_at_middle_.push_back(half_of_symmetric_pair(face_ghost(radial, 2), degree));
   }
 }
 
@@ -51,12 +52,16 @@ SectorStiffness<dim> sector_stiffness(const CutDomain<dim>& domain, const Elemen
   }
   for (const GhostFace& face : domain.ghost_faces) {
     if (!space.holds(face) || (table.ghost().kind == GhostPenaltyKind::paper && !face.crossed)) continue;
+    const int radial = grid.cell_position(face.minus)[0];
     auto nodes = space.cell_nodes(face.minus);
+    if (face.axis == 2 && face.minus == face.plus) {
+      sector.ghosts.push_back({std::move(nodes), &table.ghost_at_middle(radial)});
+      continue;
+    }
     const auto plus = space.cell_nodes(face.plus, space.wraps(face) ? 1 : 0);
     nodes.insert(nodes.end(), plus.begin(), plus.end());
     pattern.couple(nodes);
-    sector.ghosts.push_back(
-        {std::move(nodes), &table.face_ghost(grid.cell_position(face.minus)[0], face.axis)});
+    sector.ghosts.push_back({std::move(nodes), &table.face_ghost(radial, face.axis)});
   }
 
   StencilMatrix<dim> matrix(std::move(pattern));

@@ -40,6 +40,9 @@ class ElementTable {
   const Matrix& full_cell_stiffness(int radial) const { return stiffness_[radial]; }
   /// The ghost penalty of a face on the dofs (minus cell, plus cell); `radial` is the row of the minus cell.
   const Matrix& face_ghost(int radial, int axis) const { return ghosts_[dim * radial + axis]; }
+  /// Half of that of a face whose plus cell is the mirror image of the minus cell, on the dofs of the minus
+  /// cell; when dim = 3.
+  const Matrix& ghost_at_middle(int radial) const { return ghosts_at_middle_[radial]; }
 
  private:
   PolarGrid<dim> grid_;
@@ -50,7 +53,7 @@ class ElementTable {
   SideFaces sides_;
   std::vector<ElasticElement<dim>> elements_;
   std::vector<Matrix> stiffness_;
-  std::vector<Matrix> ghosts_;
+  std::vector<Matrix> ghosts_, ghosts_at_middle_;
 };
 
 /// Stiffness of the core of one sector: bulk (2) and ghost penalty (81), with a fixed rim, free sector faces
@@ -61,7 +64,7 @@ struct SectorStiffness {
   SparseSymmetric matrix;
 
   /// A face with ghost penalty: `stiffness` acts on the dofs of `nodes` (minus cell, plus cell; -1 for fixed
-  /// nodes).
+  /// nodes; the minus cell alone if the plus cell is its mirror image).
   struct Ghost {
     std::vector<int> nodes;
     const Matrix* stiffness;

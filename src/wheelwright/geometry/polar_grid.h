@@ -72,6 +72,13 @@ struct PolarGrid {
   }
 };
 
+/// The grid of the first half of the width of another, which has an even number of cells along the axle.
+inline PolarGrid<3> first_half(PolarGrid<3> grid) {
+  grid.width /= 2;
+  grid.cells[2] /= 2;
+  return grid;
+}
+
 /// Cartesian position of a point given as (radius, azimuth[, axial]).
 template <int dim>
 Vec<dim> cartesian(const Vec<dim>& polar) {

@@ -50,6 +50,13 @@ void multiply(std::complex<double> alpha, const ComplexMatrix& a, Op op_a, const
               &beta, c.data(), m);
 }
 
+void multiply_rows(double alpha, const Matrix& a, const Matrix& b, int first_of_b, double beta, Matrix& c,
+                   int first_of_c) {
+  if (a.rows() == 0 || b.columns() == 0) return;
+  cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, a.rows(), b.columns(), a.columns(), alpha, a.data(),
+              a.rows(), b.data() + first_of_b, std::max(1, b.rows()), beta, c.data() + first_of_c, c.rows());
+}
+
 void multiply_columns(double alpha, const Matrix& a, Op op, const double* b, int columns, double beta,
                       double* c) {
   const int m = op == Op::none ? a.rows() : a.columns(), k = op == Op::none ? a.columns() : a.rows();

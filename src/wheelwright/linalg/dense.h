@@ -94,6 +94,11 @@ void multiply(double alpha, const Matrix& a, Op op_a, const Matrix& b, Op op_b, 
 void multiply(std::complex<double> alpha, const ComplexMatrix& a, Op op_a, const ComplexMatrix& b, Op op_b,
               std::complex<double> beta, ComplexMatrix& c);
 
+/// Computes c = alpha * a * b + beta * c on some rows of b and c: as many as a has columns and rows, from
+/// these ones on.
+void multiply_rows(double alpha, const Matrix& a, const Matrix& b, int first_of_b, double beta, Matrix& c,
+                   int first_of_c);
+
 /// Computes c = alpha * op(a) * b + beta * c, where b and c are the first entries of contiguous column-major
 /// matrices with this number of columns.
 void multiply_columns(double alpha, const Matrix& a, Op op, const double* b, int columns, double beta,

@@ -15,6 +15,13 @@ using Complex = std::complex<double>;
 int cholesky(int n, double* a, int lda) { return LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', n, a, lda); }
 int cholesky(int n, Complex* a, int lda) { return LAPACKE_zpotrf_work(LAPACK_COL_MAJOR, 'L', n, a, lda); }
 
+/// The lower triangle of (l l^H)^-1 in the place of l.
+int invert(int n, double* l) { return LAPACKE_dpotri_work(LAPACK_COL_MAJOR, 'L', n, l, n); }
+int invert(int n, Complex* l) { return LAPACKE_zpotri_work(LAPACK_COL_MAJOR, 'L', n, l, n); }
+
+double conjugate(double x) { return x; }
+Complex conjugate(const Complex& x) { return std::conj(x); }
+
 /// b = op(l)^-1 b from the left, or b = b op(l)^-1 from the right.
 void solve_triangle(CBLAS_SIDE side, bool adjoint, int m, int n, const double* l, int ldl, double* b,
                     int ldb) {
@@ -37,8 +44,9 @@ void subtract_product(bool adjoint_a, bool adjoint_b, int m, int n, int k, const
 void subtract_product(bool adjoint_a, bool adjoint_b, int m, int n, int k, const Complex* a, int lda,
                       const Complex* b, int ldb, Complex* c, int ldc) {
   const Complex one = 1, minus_one = -1;
-  cblas_zgemm(CblasColMajor, adjoint_a ? CblasConjTrans : CblasNoTrans,
-              adjoint_b ? CblasConjTrans : CblasNoTrans, m, n, k, &minus_one, a, lda, b, ldb, &one, c, ldc);
+  // With three products of real numbers in place of four.
+  cblas_zgemm3m(CblasColMajor, adjoint_a ? CblasConjTrans : CblasNoTrans,
+                adjoint_b ? CblasConjTrans : CblasNoTrans, m, n, k, &minus_one, a, lda, b, ldb, &one, c, ldc);
 }
 
 /// c -= a a^H, the lower triangle.
@@ -107,6 +115,18 @@ void TwoBlockCholesky<Scalar>::solve_last(DenseMatrix<Scalar>& loads) const {
     if (panel.first >= l_.n_first()) forward(panel, l_.n_first(), loads);
   for (const Panel& panel : std::views::reverse(l_.panels()))
     if (panel.first >= l_.n_first()) backward(panel, l_.n_first(), loads);
+}
+
+template <class Scalar>
+DenseMatrix<Scalar> TwoBlockCholesky<Scalar>::last_inverse() const {
+  const int first = l_.n_first(), n = l_.size() - first;
+  auto inverse = DenseMatrix<Scalar>::unfilled(n, n);
+  for (int j = 0; j < n; ++j)
+    for (int i = j; i < n; ++i) inverse(i, j) = l_(first + i, first + j);
+  invert(n, inverse.data());
+  for (int j = 0; j < n; ++j)
+    for (int i = j + 1; i < n; ++i) inverse(j, i) = conjugate(inverse(i, j));
+  return inverse;
 }
 
 template <class Scalar>

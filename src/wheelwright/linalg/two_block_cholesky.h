@@ -24,6 +24,9 @@ class TwoBlockCholesky {
   /// Solves for the last block in place: condensed loads (n_last() rows) become displacements.
   void solve_last(DenseMatrix<Scalar>& loads) const;
 
+  /// The last block of the inverse, both triangles: all that solve_last() can return.
+  DenseMatrix<Scalar> last_inverse() const;
+
   /// Back substitution in place: (L_11^-1 f_1, x_2) becomes (x_1, x_2).
   void substitute(DenseMatrix<Scalar>& x) const;
 

@@ -260,6 +260,27 @@ Matrix CyclicStiffness<dim>::outer_displacements(const Matrix& condensed_loads) 
 }
 
 template <int dim>
+std::vector<Matrix> CyclicStiffness<dim>::outer_compliance(int farthest) const {
+  const int n = n_sectors();
+  std::vector<ComplexMatrix> by_harmonic(harmonics_.n_harmonics());
+  parallel_for(harmonics_.n_harmonics(),
+               [&](int h) { by_harmonic[h] = harmonic_factors_[h].outer_compliance(); });
+  std::vector<Matrix> by_sector(std::min(farthest, n / 2) + 1);
+  parallel_for(static_cast<int>(by_sector.size()), [&](int ahead) {
+    Matrix& g = by_sector[ahead] = Matrix(n_outer_, n_outer_);
+    for (int h = 0; h < harmonics_.n_harmonics(); ++h) {
+      const double weight = (h == 0 || 2 * h == n ? 1.0 : 2.0) / n;
+      const std::complex<double> phase = weight * harmonics_.phase(h, ahead);
+      const std::complex<double>* x = by_harmonic[h].data();
+      double* to = g.data();
+      for (size_t k = 0; k < g.entries().size(); ++k)
+        to[k] += phase.real() * x[k].real() - phase.imag() * x[k].imag();
+    }
+  });
+  return by_sector;
+}
+
+template <int dim>
 Matrix CyclicStiffness<dim>::boundary_displacements(const Matrix& outer,
                                                     const std::vector<ComplexMatrix>& interface) const {
   const int n_interface = n_boundary_ - n_outer_;

@@ -58,6 +58,11 @@ class CyclicStiffness {
   /// Displacements of the outer line for condensed loads on it, both n_outer x load cases.
   Matrix outer_displacements(const Matrix& condensed_loads) const;
 
+  /// The same as matrices: displacements of the outer line of a sector for unit loads on that of another,
+  /// which is 0, 1, ... `farthest` sectors behind, at most half of the ring. Displacements that far behind are
+  /// the transposed matrix.
+  std::vector<Matrix> outer_compliance(int farthest) const;
+
   /// Boundary displacements (n_boundary x load cases) from those of the outer line and the interface loads
   /// returned by eliminate_interface().
   Matrix boundary_displacements(const Matrix& outer, const std::vector<ComplexMatrix>& interface) const;

@@ -67,6 +67,59 @@ void HarmonicFactor::apply(Step step, Rows rows, ComplexMatrix& x) const {
   from_even_and_odd(*symmetry.width, step == Step::substitute ? 0 : symmetry.n_interface, n, x);
 }
 
+namespace {
+
+ComplexMatrix adjoint(const ComplexMatrix& a) {
+  auto result = ComplexMatrix::unfilled(a.columns(), a.rows());
+  for (int j = 0; j < a.columns(); ++j)
+    for (int i = 0; i < a.rows(); ++i) result(j, i) = std::conj(a(i, j));
+  return result;
+}
+
+ComplexMatrix complex(const Matrix& a) {
+  auto result = ComplexMatrix::unfilled(a.rows(), a.columns());
+  std::copy(a.entries().begin(), a.entries().end(), result.entries().begin());
+  return result;
+}
+ComplexMatrix complex(ComplexMatrix a) { return a; }
+
+/// B a B^H for a Hermitian a, where `apply` replaces the columns x of a matrix by B x.
+template <class Apply>
+ComplexMatrix congruent(ComplexMatrix a, Apply apply) {
+  apply(a);
+  ComplexMatrix result = adjoint(a);
+  apply(result);
+  return result;
+}
+
+}  // namespace
+
+ComplexMatrix HarmonicFactor::outer_compliance(const Part& part, int n_interface) {
+  ComplexMatrix inverse =
+      std::visit([](const auto& factor) { return complex(factor.last_inverse()); }, part.factor);
+  if (!part.basis) return inverse;
+  const int n = n_interface + inverse.rows();
+  return congruent(std::move(inverse),
+                   [&](ComplexMatrix& x) { part.basis->from_coordinates(n_interface, n, x); });
+}
+
+ComplexMatrix HarmonicFactor::outer_compliance() const {
+  const BoundarySymmetry& symmetry = *symmetry_;
+  if (!symmetry.width) return outer_compliance(parts_.front(), symmetry.n_interface);
+  const int n = static_cast<int>(symmetry.width->unknowns.size()), n_outer = n - symmetry.n_interface;
+  ComplexMatrix result(n_outer, n_outer);
+  for (size_t p = 0; p < parts_.size(); ++p) {
+    const SymmetryClass& of_class = symmetry.classes[p];
+    const ComplexMatrix own = outer_compliance(parts_[p], of_class.n_interface());
+    const auto place = [&](int k) { return of_class.place(of_class.n_interface() + k) - symmetry.n_interface; };
+    for (int j = 0; j < own.columns(); ++j)
+      for (int i = 0; i < own.rows(); ++i) result(place(i), place(j)) = own(i, j);
+  }
+  return congruent(std::move(result), [&](ComplexMatrix& x) {
+    from_even_and_odd(*symmetry.width, symmetry.n_interface, n, x);
+  });
+}
+
 void HarmonicFactor::eliminate(ComplexMatrix& loads) const { apply(Step::eliminate, Rows::all, loads); }
 
 void HarmonicFactor::solve_last(ComplexMatrix& loads) const { apply(Step::solve_last, Rows::outer, loads); }

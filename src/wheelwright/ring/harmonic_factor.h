@@ -37,6 +37,9 @@ class HarmonicFactor {
   void solve_last(ComplexMatrix& loads) const;
   void substitute(ComplexMatrix& x) const;
 
+  /// The compliance of the outer line, Hermitian: what solve_last() does to all unit loads.
+  ComplexMatrix outer_compliance() const;
+
  private:
   /// The part for one class of fields.
   struct Part {
@@ -51,6 +54,7 @@ class HarmonicFactor {
   /// Applies a step of all parts to the values of all unknowns, or of those of the outer line.
   void apply(Step step, Rows rows, ComplexMatrix& x) const;
   static void apply(const Part& part, Step step, int n_interface, ComplexMatrix& x);
+  static ComplexMatrix outer_compliance(const Part& part, int n_interface);
 
   std::shared_ptr<const BoundarySymmetry> symmetry_;
   std::vector<Part> parts_;

@@ -1,9 +1,7 @@
 #include "wheelwright/ring/surface_compliance.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
-#include <numbers>
 
 #include "wheelwright/base/parallel.h"
 #include "wheelwright/base/periodic.h"
@@ -14,115 +12,266 @@ namespace {
 /// Right-hand sides that are solved together: enough for fast products, and few enough to take little memory.
 constexpr int rhs_together = 192;
 
-/// Calls visit(row, sector, first, n) for `n_columns` columns of the ring's outer line from `first_column`
-/// on: the n rows from `row` on of that piece of the line are those from `first` on of the sector in a field
-/// by `n_sectors` sectors (CyclicStiffness), which repeats itself after them.
-template <int dim, class Visit>
-void for_each_part(const Tread<dim>& tread, int n_sectors, int first_column, int n_columns, Visit visit) {
-  const int per_column = tread.base_per_column(), per_sector = tread.columns_per_sector();
-  for (int c = 0; c < n_columns; ++c) {
-    const int column = wrap(first_column + c, tread.n_columns());
-    visit(per_column * c, column / per_sector % n_sectors, per_column * (column % per_sector), per_column);
+/// Neighbouring seams whose compliance is computed together: they share most of the outer line.
+constexpr int seams_together = 12;
+
+/// What a seam is on the base: identity on its own part, and the tread's map for its line.
+template <int dim>
+class SeamMap {
+ public:
+  explicit SeamMap(const Tread<dim>& tread) : tread_(tread) {}
+
+  int n_seam() const { return tread_.n_seam(); }
+  int per_column() const { return tread_.base_per_column(); }
+  int reach() const { return tread_.base_reach(); }
+  int n_line() const { return tread_.n_line(); }
+
+  /// Calls visit(row, column) for `n` columns from `first` on: the parts of the base in them, one below the
+  /// other from row 0 on, and the columns of the ring, 0 <= column < n_columns().
+  template <class Visit>
+  void for_each_part(int first, int n, Visit visit) const {
+    for (int c = 0; c < n; ++c) visit(per_column() * c, wrap(first + c, tread_.n_columns()));
   }
+
+  /// Displacements of the seams seam - width - 1 to seam + width + 1, one below the other, for unit loads on
+  /// the unknowns of `seam`. `base`: the displacements of the base, from the column reach() before the first
+  /// of these seams on.
+  Matrix seen(const Matrix& base, int width) const {
+    const int n_seams = 2 * width + 3;
+    auto result = Matrix::unfilled(n_seam() * n_seams, base.columns());
+    for (int k = 0; k < n_seams; ++k) {
+      const int first = n_seam() * k, apart = k - width - 1;
+      multiply_rows(1, tread_.line_of_base(), base, per_column() * k, 0, result, first + per_column());
+      for (int j = 0; j < base.columns(); ++j)
+        std::copy_n(base.column(j) + per_column() * (k + reach()), per_column(), result.column(j) + first);
+      if (std::abs(apart) > tread_.reach()) continue;
+      const Matrix& own = tread_.line_compliance(apart);
+      for (int j = 0; j < n_line(); ++j)
+        for (int i = 0; i < n_line(); ++i)
+          result(first + per_column() + i, per_column() + j) += own(i, j);
+    }
+    return result;
+  }
+
+ private:
+  const Tread<dim>& tread_;
+};
+
+/// responses() of some seams of the sector, by solving the ring for each of their unknowns.
+template <int dim>
+void solve_for_seams(const CyclicStiffness<dim>& ring, const Tread<dim>& tread, int width,
+                     std::span<const int> seams, std::vector<Matrix>& responses) {
+  const SeamMap<dim> map(tread);
+  const int n_sectors = ring.n_sectors(), per_sector = tread.columns_per_sector(), n_unknowns = map.n_seam(),
+            n_base = map.per_column(), reach = map.reach(), n_seams = static_cast<int>(seams.size());
+  // The field repeats itself after the sectors of the factored ring.
+  const auto sector = [&](int column) { return column / per_sector % n_sectors; };
+  const auto row = [&](int column) { return n_base * (column % per_sector); };
+  Matrix loads(ring.n_outer(), n_seams * n_unknowns * n_sectors);
+  const auto field = [&](int seam, int unknown) { return (seam * n_unknowns + unknown) * n_sectors; };
+  for (int k = 0; k < n_seams; ++k) {
+    for (int i = 0; i < n_base; ++i) loads(row(seams[k]) + i, field(k, i) + sector(seams[k])) = 1;
+    map.for_each_part(seams[k] - reach, 2 * reach + 1, [&](int first, int column) {
+      for (int i = 0; i < map.n_line(); ++i)
+        for (int j = 0; j < n_base; ++j)
+          loads(row(column) + j, field(k, n_base + i) + sector(column)) += tread.line_of_base()(i, first + j);
+    });
+  }
+  const Matrix outer = ring.outer_displacements(loads);
+  parallel_for(n_seams, [&](int k) {
+    const int n_seen = 2 * (width + 1 + reach) + 1;
+    auto base = Matrix::unfilled(n_base * n_seen, n_unknowns);
+    map.for_each_part(seams[k] - width - 1 - reach, n_seen, [&](int first, int column) {
+      for (int unknown = 0; unknown < n_unknowns; ++unknown)
+        std::copy_n(outer.column(field(k, unknown) + sector(column)) + row(column), n_base,
+                    base.column(unknown) + first);
+    });
+    responses[seams[k]] = map.seen(base, width);
+  });
 }
 
-/// The samples' coordinates in the columns around the loaded ones, for unit tests on loaded columns of the
-/// sector: [loaded column][-width ... width], one column per coordinate of the tests.
+/// The compliance of the outer line between `n_to` columns of the ring from `first_to` on (rows) and `n_from`
+/// columns from `first_from` on.
 template <int dim>
-std::vector<std::vector<Matrix>> responses(const CyclicStiffness<dim>& ring, const Tread<dim>& tread,
-                                           int width, std::span<const int> loaded) {
-  const Matrix &tests = tread.tests().of_line, &samples = tread.samples().of_line;
-  const int n_sectors = ring.n_sectors(), reach = tread.reach(), n_tests = tests.rows();
-  const int n_loaded = static_cast<int>(loaded.size()), n_line = 2 * reach + 2;
-  Matrix loads(ring.n_outer(), n_loaded * n_tests * n_sectors);
-  for (int k = 0; k < n_loaded; ++k)
-    for_each_part(tread, n_sectors, loaded[k] - reach, n_line, [&](int row, int sector, int first, int n) {
-      for (int test = 0; test < n_tests; ++test)
+Matrix outer_compliance(const std::vector<Matrix>& by_sector, int n_sectors, const SeamMap<dim>& map,
+                        int per_sector, int first_to, int n_to, int first_from, int n_from) {
+  const int n = map.per_column();
+  auto result = Matrix::unfilled(n * n_to, n * n_from);
+  map.for_each_part(first_from, n_from, [&](int column, int from) {
+    map.for_each_part(first_to, n_to, [&](int row, int to) {
+      const int ahead = wrap(to / per_sector - from / per_sector, n_sectors);
+      const int i0 = n * (to % per_sector), j0 = n * (from % per_sector);
+      const bool behind = ahead > n_sectors / 2;
+      const Matrix& g = by_sector[behind ? n_sectors - ahead : ahead];
+      for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i)
-          loads(first + i, (k * n_tests + test) * n_sectors + sector) += tests(test, row + i);
+          result(row + i, column + j) = behind ? g(j0 + j, i0 + i) : g(i0 + i, j0 + j);
     });
-  const Matrix outer = ring.outer_displacements(loads);
-  std::vector<std::vector<Matrix>> result(n_loaded);
-  parallel_for(n_loaded, [&](int k) {
-    const int n_seen = n_line + 2 * width;
-    auto seen = Matrix::unfilled(n_seen * tread.base_per_column(), n_tests);
-    for_each_part(tread, n_sectors, loaded[k] - width - reach, n_seen,
-                  [&](int row, int sector, int first, int n) {
-                    for (int test = 0; test < n_tests; ++test)
-                      std::copy_n(outer.column((k * n_tests + test) * n_sectors + sector) + first, n,
-                                  seen.column(test) + row);
-                  });
-    for (int d = -width; d <= width; ++d)
-      result[k].push_back(product(
-          samples, Op::none,
-          block(seen, (d + width) * tread.base_per_column(), 0, samples.columns(), n_tests), Op::none));
   });
   return result;
 }
 
-/// The mirror image, in the plane of azimuth 0, of the response of one column to tractions on another.
-template <int dim>
-Matrix mirror_image(const Tread<dim>& tread, const Matrix& block) {
-  // The image of a column's frame is the frame at the end of the column's image.
-  const double angle = 2 * std::numbers::pi / tread.n_columns();
-  const double c = std::cos(angle), s = std::sin(angle);
-  const int n_components = tread.traced_components();
-  const auto images = [&](int point) { return tread.surface().mirror_images[2 * point] / 2; };
-  const auto reflect = [&](double& radial, double& circumferential) {
-    const double r = radial, t = circumferential;
-    radial = c * r + s * t;
-    circumferential = s * r - c * t;
-  };
-  auto result = Matrix::unfilled(block.rows(), block.columns());
-  for (int from = 0; from < block.columns() / n_components; ++from)
-    for (int to = 0; to < block.rows() / n_components; ++to) {
-      const int i0 = n_components * images(to), j0 = n_components * images(from);
-      for (int j = 0; j < n_components; ++j)
-        for (int i = 0; i < n_components; ++i)
-          result(i0 + i, j0 + j) = block(n_components * to + i, n_components * from + j);
-      for (int j = 0; j < n_components; ++j) reflect(result(i0, j0 + j), result(i0 + 1, j0 + j));
-      for (int i = 0; i < n_components; ++i) reflect(result(i0 + i, j0), result(i0 + i, j0 + 1));
+/// Runs of neighbours among ascending numbers, of at most `longest`.
+std::vector<std::span<const int>> runs(std::span<const int> numbers, int longest) {
+  std::vector<std::span<const int>> result;
+  size_t first = 0;
+  for (size_t k = 1; k <= numbers.size(); ++k)
+    if (k == numbers.size() || numbers[k] != numbers[k - 1] + 1 || k - first == size_t(longest)) {
+      result.push_back(numbers.subspan(first, k - first));
+      first = k;
     }
   return result;
+}
+
+/// responses() of some seams of the sector, ascending, from the compliance of the outer line.
+template <int dim>
+void apply_to_outer_line(const CyclicStiffness<dim>& ring, const Tread<dim>& tread, int width,
+                         std::span<const int> seams, std::vector<Matrix>& responses) {
+  const SeamMap<dim> map(tread);
+  const int reach = map.reach(), n_base = map.per_column(), n_line = map.n_line(),
+            per_sector = tread.columns_per_sector();
+  const int farthest = (2 * reach + width + 1 + seams_together + per_sector) / per_sector + 1;
+  const std::vector<Matrix> by_sector = ring.outer_compliance(farthest);
+  const auto groups = runs(seams, seams_together);
+  parallel_for(static_cast<int>(groups.size()), [&](int group) {
+    const int first = groups[group].front(), n = static_cast<int>(groups[group].size());
+    const int n_from = n + 2 * reach, n_to = n + 2 * (width + 1 + reach);
+    const Matrix g = outer_compliance(by_sector, ring.n_sectors(), map, per_sector,
+                                      first - width - 1 - reach, n_to, first - reach, n_from);
+    Matrix on_base(n_base * n_from, n_line * n);  // loads on the lines, as loads on the base
+    for (int k = 0; k < n; ++k)
+      for (int i = 0; i < n_line; ++i)
+        for (int j = 0; j < tread.line_of_base().columns(); ++j)
+          on_base(n_base * k + j, n_line * k + i) = tread.line_of_base()(i, j);
+    const Matrix of_lines = product(g, Op::none, on_base, Op::none);
+    for (int k = 0; k < n; ++k) {
+      auto base = Matrix::unfilled(n_base * (2 * (width + 1 + reach) + 1), map.n_seam());
+      for (int i = 0; i < map.n_seam(); ++i) {
+        const double* from =
+            i < n_base ? g.column(n_base * (k + reach) + i) : of_lines.column(n_line * k + i - n_base);
+        std::copy_n(from + n_base * k, base.rows(), base.column(i));
+      }
+      responses[first + k] = map.seen(base, width);
+    }
+  });
+}
+
+/// The mirror image of a seam's unknown in the plane of azimuth 0: unknown `image` of seam -c - `behind`.
+struct SeamImage {
+  int image, behind;
+  double sign;
+};
+
+template <int dim>
+std::vector<SeamImage> seam_images(const Tread<dim>& tread) {
+  const int n_base = tread.base_per_column(), per_line = tread.n_base() - n_base;  // per azimuth of the base
+  std::vector<SeamImage> images;
+  for (int i = 0; i < tread.n_seam(); ++i) {
+    const double sign = i % dim == 1 ? -1 : 1;
+    const bool inside = i >= per_line && i < n_base;  // on an azimuth between this seam and the next
+    images.push_back({inside ? n_base - per_line * (i / per_line) + i % per_line : i,
+                      inside ? 1 : 0, sign});
+  }
+  return images;
+}
+
+/// responses() of a seam from those of its mirror images.
+template <int dim>
+Matrix mirror_image(const Tread<dim>& tread, int width, const Matrix& of_image, const Matrix& of_image_before) {
+  const auto images = seam_images(tread);
+  const int n = tread.n_seam(), range = width + 1;
+  Matrix result(of_image.rows(), n);
+  for (int j = 0; j < n; ++j) {
+    const SeamImage& from = images[j];
+    const Matrix& source = from.behind == 0 ? of_image : of_image_before;
+    for (int d = -range; d <= range; ++d)
+      for (int i = 0; i < n; ++i) {
+        const SeamImage& to = images[i];
+        const int apart = -d - to.behind + from.behind;
+        // Farther than `range` are only unknowns that no pair of columns within `width` needs.
+        if (std::abs(apart) <= range)
+          result(n * (d + range) + i, j) =
+              from.sign * to.sign * source(n * (apart + range) + to.image, from.image);
+      }
+  }
+  return result;
+}
+
+/// The seams of the sector whose responses are computed, ascending, and those that are their mirror images.
+struct Seams {
+  std::vector<int> computed, mirrored;
+};
+
+Seams seams_of(const std::vector<bool>& loaded_columns, bool is_mirror_symmetric) {
+  const int n = static_cast<int>(loaded_columns.size());
+  const auto is_loaded = [&](int seam) {
+    return loaded_columns[wrap(seam, n)] || loaded_columns[wrap(seam - 1, n)];
+  };
+  Seams seams;
+  for (int c = 0; c < n; ++c) {
+    if (!is_loaded(c)) continue;
+    const bool is_image = is_mirror_symmetric && 2 * c > n && is_loaded(n - c) && is_loaded(n - c - 1);
+    (is_image ? seams.mirrored : seams.computed).push_back(c);
+  }
+  return seams;
+}
+
+/// Floating-point operations of both routes for the seams that are computed, without those of SeamMap::seen().
+struct RouteFlops {
+  double solving, inverting;
+};
+
+template <int dim>
+RouteFlops route_flops(const CyclicStiffness<dim>& ring, const Tread<dim>& tread, int width,
+                       std::span<const int> seams) {
+  // A product of a real number and a complex one counts as two real ones, one of two complex ones as four. The
+  // parts of a ring that is symmetric across its width have half the size.
+  const bool is_real = ring.is_mirror_symmetric();
+  const double outer = ring.n_outer(), harmonics = ring.n_sectors() / 2 + 1,
+               by_width = ring.is_symmetric_across_width() ? 0.5 : 1;
+  const double n_seams = static_cast<double>(seams.size()), n_base = tread.base_per_column(),
+               reach = tread.base_reach();
+  RouteFlops flops{};
+  flops.solving = n_seams * tread.n_seam() * harmonics * (is_real ? 2 : 4) * 2 * outer * outer * by_width;
+  flops.inverting =
+      harmonics * (is_real ? 1 : 4) * 2.0 / 3 * outer * outer * outer * by_width * by_width;
+  for (const auto group : runs(seams, seams_together)) {
+    const double n = static_cast<double>(group.size());
+    flops.inverting +=
+        2 * n_base * (n + 2 * (width + 1 + reach)) * n_base * (n + 2 * reach) * tread.n_line() * n;
+  }
+  return flops;
 }
 
 }  // namespace
 
 template <int dim>
 SurfaceCompliance<dim>::SurfaceCompliance(const CyclicStiffness<dim>& ring, const Tread<dim>& tread,
-                                          int width, const std::vector<bool>& loaded)
-    : columns_per_sector_(tread.columns_per_sector()),
-      components_(tread.traced_components()),
-      width_(width),
-      blocks_(size_t(2 * width + 1) * columns_per_sector_) {
-  // -S (C + T G T^T) Te^T with the tread's compliance C and transfer T and the core's compliance G.
-  const TraceKernel &samples = tread.samples(), &tests = tread.tests();
-  const auto image_of = [&](int column) { return columns_per_sector_ - 1 - column; };
-  const auto is_image = [&](int column) {
-    return ring.is_mirror_symmetric() && column > image_of(column) && loaded[image_of(column)];
-  };
-  std::vector<int> columns;
-  for (int c = 0; c < columns_per_sector_; ++c)
-    if (loaded[c] && !is_image(c)) columns.push_back(c);
-  const int n_columns = static_cast<int>(columns.size()),
-            together = std::max(1, rhs_together / std::max(1, tests.of_line.rows()));
-  for (int first = 0; first < n_columns; first += together) {
-    const std::span group = std::span(columns).subspan(first, std::min(together, n_columns - first));
-    const auto coordinates = responses(ring, tread, width, group);
-    parallel_for(static_cast<int>(group.size()), [&](int k) {
-      for (int d = -width; d <= width; ++d) {
-        Matrix& result = blocks_[(2 * width + 1) * group[k] + d + width];
-        result = std::abs(d) <= tread.reach() ? tread.compliance(d)
-                                              : Matrix(samples.basis.rows(), tests.basis.rows());
-        const Matrix of_tests = product(coordinates[k][d + width], Op::none, tests.basis, Op::transpose);
-        multiply(-1, samples.basis, Op::none, of_tests, Op::none, -1, result);
-      }
-    });
+                                          int width, const std::vector<bool>& loaded,
+                                          std::optional<ComplianceRoute> route)
+    : columns_per_sector_(tread.columns_per_sector()), width_(width), responses_(columns_per_sector_) {
+  // R + X G X^T with the compliance R of the lines on a fixed base, that of the core G, and the seams X on
+  // the base.
+  const Seams seams = seams_of(loaded, ring.is_mirror_symmetric());
+  const auto [solving, inverting] = route_flops(ring, tread, width, seams.computed);
+  route_ = route.value_or(solving < inverting ? ComplianceRoute::solve_seams
+                                              : ComplianceRoute::invert_outer_line);
+  flops_ = (route_ == ComplianceRoute::solve_seams ? solving : inverting) +
+           2.0 * static_cast<double>(seams.computed.size()) * tread.n_seam() *
+               static_cast<double>(tread.line_of_base().entries().size()) * (2 * width + 3);
+  if (route_ == ComplianceRoute::solve_seams) {
+    const size_t together = std::max(1, rhs_together / tread.n_seam());
+    for (size_t first = 0; first < seams.computed.size(); first += together)
+      solve_for_seams(
+          ring, tread, width,
+          std::span(seams.computed).subspan(first, std::min(together, seams.computed.size() - first)),
+          responses_);
+  } else {
+    apply_to_outer_line(ring, tread, width, seams.computed, responses_);
   }
-  parallel_for(columns_per_sector_, [&](int from) {
-    if (!loaded[from] || !is_image(from)) return;
-    for (int d = -width; d <= width; ++d)
-      blocks_[(2 * width + 1) * from + d + width] = mirror_image(tread, block(image_of(from), -d));
+  parallel_for(static_cast<int>(seams.mirrored.size()), [&](int k) {
+    const int seam = seams.mirrored[k], image = columns_per_sector_ - seam;
+    responses_[seam] = mirror_image(tread, width, responses_[image], responses_[image - 1]);
   });
 }
 

@@ -4,19 +4,12 @@
 #include <cmath>
 
 #include "wheelwright/base/periodic.h"
-#include "wheelwright/linalg/column_basis.h"
 
 namespace wheelwright {
 namespace {
 
 /// Couplings below this fraction of a column's own are dropped.
 constexpr double negligible = 1e-14;
-
-/// The columns of a map on retained unknowns that belong to the column's first (0) or last (1) line.
-template <int dim>
-Matrix on_line(const TreadColumn<dim>& column, const Matrix& map, int side) {
-  return block(map, 0, column.n_base + side * column.n_line, map.rows(), column.n_line);
-}
 
 /// A block of a column's stiffness: rows of its first (0) or last (1) line, columns of one of them.
 template <int dim>
@@ -67,22 +60,35 @@ Matrix traces(const std::vector<TreadPoint<dim>>& points, int traced, OfTraction
   return result;
 }
 
-/// Maps on the base of column c that are seen in column c + difference, for -reach <= difference <= reach, as
-/// one map on the base line from `reach` columns before the seen column on.
-Matrix on_base_line(const std::vector<Matrix>& by_difference, int per_column) {
-  const int n = static_cast<int>(by_difference.size());
-  Matrix result(by_difference.front().rows(), per_column * (n + 1));
-  for (int k = 0; k < n; ++k) {
-    const Matrix& map = by_difference[n - 1 - k];  // of the column k - reach ahead
-    double* to = result.column(per_column * k);
-    for (size_t e = 0; e < map.entries().size(); ++e) to[e] += map.entries()[e];
-  }
+/// A map on a column's retained unknowns as one on its own seam and the next one.
+template <int dim>
+Matrix on_seams(const TreadColumn<dim>& column, const Matrix& map, int per_column) {
+  const int n_line = column.n_line, n_seam = per_column + n_line;
+  Matrix result(map.rows(), 2 * n_seam);
+  const auto put = [&](int from, int n, int to) {
+    for (int j = 0; j < n; ++j) std::copy_n(map.column(from + j), map.rows(), result.column(to + j));
+  };
+  put(0, per_column, 0);
+  put(per_column, column.n_base - per_column, n_seam);
+  put(column.n_base, n_line, per_column);
+  put(column.n_base + n_line, n_line, n_seam + per_column);
   return result;
 }
 
-TraceKernel trace_kernel(const std::vector<Matrix>& by_difference, int per_column) {
-  ColumnBasis found = column_basis(on_base_line(by_difference, per_column), negligible);
-  return {std::move(found.basis), std::move(found.coordinates)};
+/// Displacements of line 0 for displacements of the base's own parts of the columns -reach - 1 to reach + 1.
+/// `response(c)`: of line c to loads on line 0; `load[side]`: on the first and last line of a column whose
+/// base is displaced.
+template <class Response>
+Matrix base_on_line(const Response& response, const Matrix (&load)[2], int reach, int per_column) {
+  const int n_line = load[0].rows(), n_base = load[0].columns();
+  Matrix result(n_line, per_column * (2 * reach + 3));
+  for (int c = -reach - 1; c <= reach; ++c) {
+    Matrix of_column = product(response(-c), Op::none, load[0], Op::none);
+    multiply(1, response(-c - 1), Op::none, load[1], Op::none, 1, of_column);
+    double* to = result.column(per_column * (c + reach + 1));
+    for (int k = 0; k < n_line * n_base; ++k) to[k] += of_column.entries()[k];
+  }
+  return result;
 }
 
 /// The base's stiffness by its line's own parts: `by_difference[k]` acts on all nodes of a column's base.
@@ -126,11 +132,11 @@ Expected<Tread<dim>> Tread<dim>::condense(const ElementTable<dim>& table, const 
     --reach;
   tread.reach_ = reach;
 
-  // A column observes and loads the lines of another column through its own first and last line.
+  for (int d = -reach; d <= reach; ++d) tread.line_compliance_.push_back(response(d));
+
   const TreadColumn<dim>& own = tread.column_;
-  const int n_base = own.n_base, n_line = own.n_line, n_contact = own.surface.rows().n_contact();
-  const Matrix stiffness_on_base = block(own.stiffness, 0, 0, own.stiffness.rows(), n_base);
-  const Matrix observed = block(own.observation, 0, 0, n_contact, own.observation.columns());
+  const int n_base = own.n_base, n_line = own.n_line, n_contact = own.surface.rows().n_contact(),
+            per_column = tread.base_per_column();
   const auto samples = [&](const Matrix& seen) {
     return traces<dim>(
         own.surface.points, traced, [&](const auto&) { return form.tau(); },
@@ -141,50 +147,28 @@ Expected<Tread<dim>> Tread<dim>::condense(const ElementTable<dim>& table, const 
         own.surface.points, traced, [&](const auto& point) { return form.theta() / point.gamma; },
         [](const auto&) { return 1.0; }, seen);
   };
-  Matrix line_load_of_base[2], base_rows[2], sample_rows[2], test_rows[2];
+  const Matrix observed = on_seams(own, block(own.observation, 0, 0, n_contact, own.observation.columns()), per_column);
+  tread.samples_ = samples(observed);
+  tread.tests_ = tests(observed);
+  tread.compliance_ = samples(transposed(tests(transposed(block(own.compliance, 0, 0, n_contact, n_contact)))));
+
+  // The base of a column loads its two lines, and they load it.
+  Matrix line_load_of_base[2];
   for (int side = 0; side < 2; ++side) {
-    line_load_of_base[side] = Matrix(n_line, n_base);
-    for (int j = 0; j < n_base; ++j)
-      for (int i = 0; i < n_line; ++i)
-        line_load_of_base[side](i, j) = -stiffness_on_base(n_base + side * n_line + i, j);
-    base_rows[side] = Matrix(n_base, n_line);
-    for (int j = 0; j < n_line; ++j)
-      for (int i = 0; i < n_base; ++i) base_rows[side](i, j) = -line_load_of_base[side](j, i);
-    sample_rows[side] = samples(on_line(own, observed, side));
-    test_rows[side] = tests(on_line(own, observed, side));
+    line_load_of_base[side] = block(own.stiffness, n_base + side * n_line, 0, n_line, n_base);
+    for (double& x : line_load_of_base[side].entries()) x = -x;
   }
-  const int n_traces = sample_rows[0].rows();
-  std::vector<Matrix> all_sampled, all_tested, all_base;
+  tread.line_of_base_ = base_on_line(response, line_load_of_base, reach, per_column);
+  std::vector<Matrix> all_base;
   for (int d = -reach; d <= reach; ++d) {
-    Matrix base(n_base, n_base), sampled(n_traces, n_base), tested(n_traces, n_base),
-        compliance(n_traces, n_traces);
-    if (d == 0) {
-      const Matrix own_observation = block(own.observation, 0, 0, n_contact, n_base);
-      base = block(own.stiffness, 0, 0, n_base, n_base);
-      sampled = samples(own_observation);
-      tested = tests(own_observation);
-      compliance = samples(transposed(tests(transposed(block(own.compliance, 0, 0, n_contact, n_contact)))));
-    }
-    for (int seen = 0; seen < 2; ++seen) {
-      Matrix of_base(n_line, n_base), of_tests(n_line, n_traces);
-      for (int loaded = 0; loaded < 2; ++loaded) {
-        const Matrix& seen_lines = response(d + seen - loaded);
-        multiply(1, seen_lines, Op::none, line_load_of_base[loaded], Op::none, 1, of_base);
-        multiply(1, seen_lines, Op::none, test_rows[loaded], Op::transpose, 1, of_tests);
-      }
-      multiply(1, base_rows[seen], Op::none, of_base, Op::none, 1, base);
-      multiply(1, sample_rows[seen], Op::none, of_base, Op::none, 1, sampled);
-      multiply(1, test_rows[seen], Op::none, of_base, Op::none, 1, tested);
-      multiply(1, sample_rows[seen], Op::none, of_tests, Op::none, 1, compliance);
-    }
+    Matrix base = d == 0 ? block(own.stiffness, 0, 0, n_base, n_base) : Matrix(n_base, n_base);
+    for (int seen = 0; seen < 2; ++seen)
+      for (int loaded = 0; loaded < 2; ++loaded)
+        multiply(-1, line_load_of_base[seen], Op::transpose,
+                 product(response(d + seen - loaded), Op::none, line_load_of_base[loaded], Op::none), Op::none,
+                 1, base);
     all_base.push_back(std::move(base));
-    all_sampled.push_back(std::move(sampled));
-    all_tested.push_back(std::move(tested));
-    tread.compliance_.push_back(std::move(compliance));
   }
-  const int per_column = tread.base_per_column();
-  tread.samples_ = trace_kernel(all_sampled, per_column);
-  tread.tests_ = trace_kernel(all_tested, per_column);
   tread.line_stiffness_ = by_own_parts(all_base, per_column);
   return tread;
 }

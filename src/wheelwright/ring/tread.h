@@ -6,19 +6,12 @@
 
 namespace wheelwright {
 
-/// What traces in a column depend on: the base of all columns that reach it, as coordinates in a basis that
-/// all of them share.
-struct TraceKernel {
-  Matrix basis;    ///< traces x coordinates, orthonormal columns
-  Matrix of_line;  ///< coordinates x (2 reach + 2) base_per_column: of the base line from `reach` columns
-                   ///< before the traces' column on
-};
-
 /// The tread: the outermost rows of cells, eliminated by static condensation once per run. It is attached to
 /// the core along its base, the core's outer line. It is a ring of equal columns (one angular cell each), so
 /// that the response of one column and its rotations describe it completely. See TreadColumn for the order of
 /// base and observations; a load is a combination of observations. "Line c" consists of the nodes above the
-/// base on column c's first azimuth.
+/// base on column c's first azimuth. "Seam c" is column c's own part of the base, then line c: a column meets
+/// the rest of the ring in its own seam and the next one alone, however fine it is inside.
 template <int dim>
 class Tread {
  public:
@@ -48,17 +41,26 @@ class Tread {
   /// The equations of the lines above a fixed base.
   const CyclicChain& lines() const { return *lines_; }
 
-  /// Trial traces z = tau sigma(u)n - gamma u ("samples") and test traces theta/gamma sigma(v)n - v
-  /// ("tests") of a unit displacement of the base, with traced_components() rows per point, in the column
-  /// frame. Transposed tests: the load on the base from a unit traction (times dS) on the column.
-  ///
-  /// Fine points see little of a coarse base: traces = basis * coordinates, with few coordinates.
-  int traced_components() const { return traced_; }
-  const TraceKernel& samples() const { return samples_; }
-  const TraceKernel& tests() const { return tests_; }
+  int n_seam() const { return base_per_column() + column_.n_line; }
 
-  /// Samples of column c + difference for a unit test load on column c, base fixed; |difference| <= reach().
-  const Matrix& compliance(int difference) const { return compliance_[difference + reach_]; }
+  /// Trial traces z = tau sigma(u)n - gamma u ("samples") and test traces theta/gamma sigma(v)n - v
+  /// ("tests") of unit displacements of a column's own seam and of the next one, with traced_components()
+  /// rows per point, in the column frame. Transposed tests: the loads on the seams from a unit traction
+  /// (times dS) on the column.
+  int traced_components() const { return traced_; }
+  const Matrix& samples() const { return samples_; }
+  const Matrix& tests() const { return tests_; }
+
+  /// Samples of a column for unit tractions on it, its seams fixed.
+  const Matrix& compliance() const { return compliance_; }
+
+  /// Displacements of line c + difference for unit loads on line c, base fixed; |difference| <= reach().
+  const Matrix& line_compliance(int difference) const { return line_compliance_[difference + reach_]; }
+
+  /// Displacements of line c for displacements of the base, by the parts of the columns c - base_reach() to c
+  /// + base_reach(). Transposed: the loads on the base from loads on the line.
+  int base_reach() const { return reach_ + 1; }
+  const Matrix& line_of_base() const { return line_of_base_; }
 
   /// The tread's stiffness on the core's outer line for one harmonic of the sectors, as
   /// CyclicStiffness::OuterStiffness.
@@ -70,8 +72,8 @@ class Tread {
   TreadColumn<dim> column_;
   int degree_ = 0, n_columns_ = 0, columns_per_sector_ = 0, reach_ = 0, traced_ = dim;
   std::optional<CyclicChain> lines_;
-  TraceKernel samples_, tests_;
-  std::vector<Matrix> compliance_;
+  Matrix samples_, tests_, compliance_, line_of_base_;
+  std::vector<Matrix> line_compliance_;
   /// Between the base lines' own parts (base_per_column() unknowns) of columns that differ by -reach - 1 to
   /// reach + 1: rows for the later column.
   std::vector<Matrix> line_stiffness_;

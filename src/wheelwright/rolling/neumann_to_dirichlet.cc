@@ -98,7 +98,17 @@ std::vector<double> NeumannToDirichlet<dim>::energies(const Matrix& tractions) c
   return result;
 }
 
+template <int dim>
+Expected<typename StateSolver<dim>::TractionMap> traction_map(const RollingModel<dim>& model, DualNorm norm) {
+  auto created = NeumannToDirichlet<dim>::create(model, norm);
+  if (!created) return created.failure();
+  const auto map = std::make_shared<const NeumannToDirichlet<dim>>(*std::move(created));
+  return typename StateSolver<dim>::TractionMap([map](const Matrix& tractions) { return (*map)(tractions); });
+}
+
 template class NeumannToDirichlet<2>;
 template class NeumannToDirichlet<3>;
+template Expected<StateSolver<2>::TractionMap> traction_map(const RollingModel<2>&, DualNorm);
+template Expected<StateSolver<3>::TractionMap> traction_map(const RollingModel<3>&, DualNorm);
 
 }  // namespace wheelwright

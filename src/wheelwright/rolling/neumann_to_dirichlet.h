@@ -31,4 +31,8 @@ class NeumannToDirichlet {
   CyclicStiffness<dim> ring_;
 };
 
+/// That operator as StateSolver::neumann_to_dirichlet() returns it.
+template <int dim>
+Expected<typename StateSolver<dim>::TractionMap> traction_map(const RollingModel<dim>& model, DualNorm norm);
+
 }  // namespace wheelwright

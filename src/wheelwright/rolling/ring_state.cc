@@ -3,9 +3,11 @@
 #include <mutex>
 
 #include "wheelwright/base/stopwatch.h"
+#include "wheelwright/geometry/mirror.h"
 #include "wheelwright/rolling/neumann_to_dirichlet.h"
 #include "wheelwright/rolling/ring_displacement.h"
 #include "wheelwright/rolling/shape_gradient.h"
+#include "wheelwright/rolling/turned_state.h"
 #include "wheelwright/state/strain_peaks.h"
 
 namespace wheelwright {
@@ -98,18 +100,35 @@ template <int dim>
 Expected<std::shared_ptr<const State<dim>>> RollingProblem<dim>::states(const CutShape<dim>& shape,
                                                                         LoadPositions positions,
                                                                         const Interrupt& interrupt) const {
-  auto solution = solve(shape, std::move(positions), interrupt);
-  if (!solution) return solution.failure();
-  return ring_state(*this, *std::move(solution));
+  const auto solved = [&](const CutShape<dim>& of,
+                          LoadPositions at) -> Expected<std::shared_ptr<const State<dim>>> {
+    auto solution = solve(of, std::move(at), interrupt);
+    if (!solution) return solution.failure();
+    return ring_state(*this, *std::move(solution));
+  };
+  if (positions.stand_for_images() || is_mirror_symmetric(shape.psi))
+    return solved(shape, std::move(positions));
+  // Without a mirror plane at azimuth 0 a sector may begin anywhere.
+  Stopwatch watch;
+  auto domain = shape.domain ? Expected<CutDomain<dim>>(*shape.domain)
+                             : cut_domain(shape.psi, model_.points_in_cut_cells());
+  if (!domain) return domain.failure();
+  if (auto failure = check_attached(*domain, protected_rim_rows(), protected_tread_rows())) return *failure;
+  const int first = best_first_column(*domain, *elements_, core_rows());
+  if (first == 0) return solved({shape.psi, &*domain}, std::move(positions));
+  const auto turned = turned_back(shape.psi, *domain, first);
+  std::vector<PhaseTime> phases{{phase::cut, watch.lap()}};
+  auto state = solved({turned.psi, &turned.domain}, turned_back(positions, model_.grid, first));
+  if (!state) return state;
+  phases.insert(phases.end(), (*state)->phases().begin(), (*state)->phases().end());
+  return turned_state<dim>(*std::move(state), std::make_shared<const CutDomain<dim>>(*std::move(domain)),
+                           std::move(positions), first, std::move(phases));
 }
 
 template <int dim>
 Expected<typename StateSolver<dim>::TractionMap> RollingProblem<dim>::neumann_to_dirichlet(
     DualNorm norm) const {
-  auto created = NeumannToDirichlet<dim>::create(model_, norm);
-  if (!created) return created.failure();
-  const auto map = std::make_shared<const NeumannToDirichlet<dim>>(*std::move(created));
-  return typename StateSolver<dim>::TractionMap([map](const Matrix& tractions) { return (*map)(tractions); });
+  return traction_map<dim>(model_, norm);
 }
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                       \

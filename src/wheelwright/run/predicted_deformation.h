@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "wheelwright/analysis/deformation_size.h"
 #include "wheelwright/case/case.h"
 
 namespace wheelwright {
@@ -12,5 +13,8 @@ namespace wheelwright {
 /// in plane strain, and only if the shape is the same over the width. Empty if nothing exceeds what
 /// deformation_warning() allows, or if no grid of that size can be solved.
 std::optional<std::string> predicted_deformation(const Case& c);
+
+/// The numbers of that solution, for the one load of a case in the plane.
+Expected<DeformationSize> predicted_size(const Case& c);
 
 }  // namespace wheelwright

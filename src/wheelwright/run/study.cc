@@ -19,7 +19,7 @@
 #include "wheelwright/functionals/uniformity_l2.h"
 #include "wheelwright/geometry/components.h"
 #include "wheelwright/geometry/values_on.h"
-#include "wheelwright/rolling/rolling_problem.h"
+#include "wheelwright/rolling/half_width_solver.h"
 #include "wheelwright/run/bounded_functions.h"
 
 namespace wheelwright {
@@ -138,6 +138,12 @@ Expected<WeightedSum<dim>> objective_terms(const Case& c, const StateSolver<dim>
 
 template <int dim>
 Expected<std::shared_ptr<const StateSolver<dim>>> make_solver(const RollingModel<dim>& model) {
+  if constexpr (dim == 3)
+    if (HalfWidthSolver::can_halve(model)) {
+      auto solver = HalfWidthSolver::create(model);
+      if (!solver) return solver.failure();
+      return std::shared_ptr<const StateSolver<dim>>(*std::move(solver));
+    }
   auto problem = RollingProblem<dim>::create(model);
   if (!problem) return problem.failure();
   return std::shared_ptr<const StateSolver<dim>>(

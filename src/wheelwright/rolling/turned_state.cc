@@ -1,0 +1,268 @@
+#include "wheelwright/rolling/turned_state.h"
+
+#include <algorithm>
+#include <mutex>
+#include <optional>
+
+#include "wheelwright/base/periodic.h"
+#include "wheelwright/geometry/axle_rotation.h"
+
+namespace wheelwright {
+namespace {
+
+/// The columns of a matrix in runs of `n`, each run turned by some of them.
+Matrix turned_columns(const Matrix& a, int n, int by) {
+  auto result = Matrix::unfilled(a.rows(), a.columns());
+  for (int j = 0; j < a.columns(); ++j) {
+    const int run = j / n * n;
+    std::copy_n(a.column(j), a.rows(), result.column(run + wrap(j - run + by, n)));
+  }
+  return result;
+}
+
+/// The displacement of a wheel, from that of the wheel turned back.
+template <int dim>
+class TurnedDisplacement : public Displacement<dim> {
+ public:
+  TurnedDisplacement(const State<dim>& turned, int columns)
+      : turned_(turned), lattice_(turned.model().grid, turned.model().degree), columns_(columns) {}
+
+  RingField at_nodes(int position) const override {
+    const RingField there = turned_.displacement().at_nodes(position);
+    const int by = lattice_.degree() * columns_;
+    const AxleRotation forward(columns_ * lattice_.grid().cell_size()[1]);
+    RingField here = there;
+    for (int sector = 0; sector < lattice_.grid().n_sectors; ++sector)
+      for (int node = 0; node < lattice_.n_nodes(); ++node) {
+        auto p = lattice_.node_position(node);
+        p[1] += sector * lattice_.nodes()[1];
+        double* to = &here.values[dim * ring_node<dim>(lattice_, p)];
+        p[1] -= by;
+        Vec<dim> u;
+        std::copy_n(&there.values[dim * ring_node<dim>(lattice_, p)], dim, u.begin());
+        u = forward.forward(u);
+        std::copy(u.begin(), u.end(), to);
+      }
+    return here;
+  }
+
+  Matrix strains(int cell, std::span<const Vec<dim>> points) const override {
+    const PolarGrid<dim>& grid = lattice_.grid();
+    auto place = grid.cell_position(cell);
+    place[1] -= columns_;
+    const int sectors_back = place[1] < 0 ? 1 : 0;
+    place[1] += sectors_back * grid.columns();
+    const Matrix there = turned_.displacement().strains(grid.cell_index(place), points);
+    return turned_columns(there, grid.n_sectors, sectors_back);
+  }
+
+ private:
+  const State<dim>& turned_;
+  Lattice<dim> lattice_;
+  int columns_;
+};
+
+template <int dim>
+class TurnedState : public State<dim> {
+ public:
+  TurnedState(std::shared_ptr<const State<dim>> turned, std::shared_ptr<const CutDomain<dim>> domain,
+              LoadPositions positions, int columns, std::vector<PhaseTime> phases)
+      : turned_(std::move(turned)),
+        domain_(std::move(domain)),
+        positions_(std::move(positions)),
+        columns_(columns),
+        phases_(std::move(phases)),
+        observations_(turned_columns(turned_->observations(), ring_columns(), columns)),
+        contacts_(turned_->contacts()),
+        boundary_(turned_->boundary()),
+        displacement_(*turned_, columns) {
+    for (auto& contact : contacts_) turn(contact);
+    const PolarGrid<dim>& grid = domain_->grid;
+    for (auto& point : boundary_) {
+      auto place = grid.cell_position(point.cell);
+      const int before = place[1];
+      place[1] = wrap(before + columns, grid.columns());
+      point.cell = grid.cell_index(place);
+      point.normal = rotated<dim>(point.normal, (place[1] - before) * grid.cell_size()[1]);
+    }
+  }
+
+  const RollingModel<dim>& model() const override { return turned_->model(); }
+  const CutDomain<dim>& domain() const override { return *domain_; }
+  const LoadPositions& positions() const override { return positions_; }
+  const std::vector<ContactPatch<dim>>& contacts() const override { return contacts_; }
+  const std::vector<double>& strain_energy() const override { return turned_->strain_energy(); }
+  const Matrix& observations() const override { return observations_; }
+  const std::vector<PhaseTime>& phases() const override { return phases_; }
+  const Displacement<dim>& displacement() const override { return displacement_; }
+  const std::vector<SurfacePoint<dim>>& boundary() const override { return boundary_; }
+
+  const StrainPeaks<dim>& strain_peaks() const override {
+    std::call_once(has_peaks_, [this] {
+      peaks_ = turned_->strain_peaks();
+      const PolarGrid<dim>& grid = domain_->grid;
+      const double all_round = grid.n_sectors * grid.sector_angle();
+      for (auto& place : peaks_.von_mises_places) {
+        place[1] += columns_ * grid.cell_size()[1];
+        if (place[1] >= all_round) place[1] -= all_round;
+      }
+    });
+    return peaks_;
+  }
+
+  Expected<ShapeGradients> shape_gradients(
+      std::span<const FunctionalDerivative<dim>> functions) const override {
+    std::vector<FunctionalDerivative<dim>> there(functions.begin(), functions.end());
+    for (auto& function : there)
+      function.tread_loads = turned_columns(function.tread_loads, ring_columns(), -columns_);
+    return turned_->shape_gradients(there);
+  }
+
+  Expected<std::vector<std::vector<ContactPatch<dim>>>> contacts_under(
+      std::span<const RollingModel<dim>> models) const override {
+    auto contacts = turned_->contacts_under(models);
+    if (!contacts) return contacts;
+    for (auto& of_model : *contacts)
+      for (auto& contact : of_model) turn(contact);
+    return contacts;
+  }
+
+  Expected<std::shared_ptr<const State<dim>>> under(const RollingModel<dim>& model,
+                                                    const Interrupt& interrupt) const override {
+    auto there = turned_->under(model, interrupt);
+    if (!there) return there;
+    auto phases = (*there)->phases();
+    return turned_state<dim>(*std::move(there), domain_, positions_, columns_, std::move(phases));
+  }
+
+ private:
+  int ring_columns() const { return domain_->grid.ring_columns(); }
+  void turn(ContactPatch<dim>& contact) const {
+    for (auto& point : contact.points) point.column = wrap(point.column + columns_, ring_columns());
+  }
+
+  std::shared_ptr<const State<dim>> turned_;
+  std::shared_ptr<const CutDomain<dim>> domain_;
+  LoadPositions positions_;
+  int columns_;
+  std::vector<PhaseTime> phases_;
+  Matrix observations_;
+  std::vector<ContactPatch<dim>> contacts_;
+  std::vector<SurfacePoint<dim>> boundary_;
+  TurnedDisplacement<dim> displacement_;
+  mutable std::once_flag has_peaks_;
+  mutable StrainPeaks<dim> peaks_;
+};
+
+/// The nodes that a sector shares with its neighbours if it begins at `column`.
+template <int dim>
+class SharedNodes {
+ public:
+  SharedNodes(const CutDomain<dim>& domain, const ElementTable<dim>& table, int core_rows)
+      : domain_(domain), table_(table), core_rows_(core_rows), lattice_(domain.grid, table.degree()) {
+    const PolarGrid<dim>& grid = domain.grid;
+    coupled_.resize(grid.columns());
+    for (const GhostFace& face : domain.ghost_faces)
+      if (face.axis == 1 && (table.ghost().kind == GhostPenaltyKind::full || face.crossed))
+        coupled_[grid.cell_position(face.plus)[1]].push_back(face.plus);
+  }
+
+  int count(int column) const {
+    const PolarGrid<dim>& grid = domain_.grid;
+    std::vector<char> shared(lattice_.n_nodes(), 0);
+    const auto mark = [&](int cell, auto counts) {
+      const auto place = grid.cell_position(cell);
+      if (place[0] >= core_rows_) return;
+      for (int a = 0; a < nodes_per_cell<dim>(lattice_.degree()); ++a) {
+        const auto node = lattice_.cell_node(place, a);
+        if (node[0] > 0 && node[0] < lattice_.degree() * core_rows_ && counts(node[1]))
+          shared[lattice_.node_index(node)] = 1;
+      }
+    };
+    const int line = lattice_.degree() * column, after_last = lattice_.nodes()[1];
+    for (int cell = 0; cell < grid.n_cells(); ++cell) {
+      const int place = grid.cell_position(cell)[1];
+      const bool touches = place == column || wrap(place + 1, grid.columns()) == column;
+      if (touches && domain_.active(cell))
+        mark(cell, [&](int azimuthal) { return azimuthal % after_last == line; });
+    }
+    for (const int cell : coupled_[column]) mark(cell, [](int) { return true; });
+    return static_cast<int>(std::ranges::count(shared, 1));
+  }
+
+ private:
+  const CutDomain<dim>& domain_;
+  const ElementTable<dim>& table_;
+  int core_rows_;
+  Lattice<dim> lattice_;
+  std::vector<std::vector<int>>
+      coupled_;  ///< by columns: cells that ghost faces couple with the column before
+};
+
+}  // namespace
+
+template <int dim>
+int best_first_column(const CutDomain<dim>& domain, const ElementTable<dim>& table, int core_rows) {
+  constexpr double worth_turning = 0.95;
+  const SharedNodes<dim> nodes(domain, table, core_rows);
+  const int here = nodes.count(0);
+  int best = 0, fewest = here;
+  for (int column = 1; column < domain.grid.columns(); ++column)
+    if (const int n = nodes.count(column); n < fewest && n <= worth_turning * here) {
+      fewest = n;
+      best = column;
+    }
+  return best;
+}
+
+template <int dim>
+TurnedShape<dim> turned_back(const LevelSet<dim>& psi, const CutDomain<dim>& domain, int columns) {
+  const PolarGrid<dim>& grid = domain.grid;
+  const auto cell = [&](int from, int by) {
+    auto place = grid.cell_position(from);
+    place[1] = wrap(place[1] + by, grid.columns());
+    return grid.cell_index(place);
+  };
+  TurnedShape<dim> result{psi, domain};
+  for (int node = 0; node < psi.lattice.n_nodes(); ++node) {
+    auto p = psi.lattice.node_position(node);
+    p[1] += psi.lattice.degree() * columns;
+    result.psi.values[node] = psi.values[psi.lattice.node_index(p)];
+  }
+  for (int i = 0; i < grid.n_cells(); ++i) result.domain.kinds[i] = domain.kinds[cell(i, columns)];
+  for (CutCell<dim>& cut : result.domain.cut) cut.cell = cell(cut.cell, -columns);
+  std::ranges::sort(result.domain.cut, {}, &CutCell<dim>::cell);
+  for (GhostFace& face : result.domain.ghost_faces) {
+    face.minus = cell(face.minus, -columns);
+    face.plus = cell(face.plus, -columns);
+  }
+  return result;
+}
+
+template <int dim>
+LoadPositions turned_back(LoadPositions positions, const PolarGrid<dim>& grid, int columns) {
+  for (auto& ground : positions.grounds) ground.column = wrap(ground.column - columns, grid.ring_columns());
+  return positions;
+}
+
+template <int dim>
+std::shared_ptr<const State<dim>> turned_state(std::shared_ptr<const State<dim>> turned,
+                                               std::shared_ptr<const CutDomain<dim>> domain,
+                                               LoadPositions positions, int columns,
+                                               std::vector<PhaseTime> phases) {
+  return std::make_shared<const TurnedState<dim>>(std::move(turned), std::move(domain), std::move(positions),
+                                                  columns, std::move(phases));
+}
+
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                             \
+  template int best_first_column(const CutDomain<dim>&, const ElementTable<dim>&, int);          \
+  template TurnedShape<dim> turned_back(const LevelSet<dim>&, const CutDomain<dim>&, int);       \
+  template LoadPositions turned_back(LoadPositions, const PolarGrid<dim>&, int);                 \
+  template std::shared_ptr<const State<dim>> turned_state(std::shared_ptr<const State<dim>>,     \
+                                                          std::shared_ptr<const CutDomain<dim>>, \
+                                                          LoadPositions, int, std::vector<PhaseTime>);
+WHEELWRIGHT_INSTANTIATE(2)
+WHEELWRIGHT_INSTANTIATE(3)
+#undef WHEELWRIGHT_INSTANTIATE
+
+}  // namespace wheelwright

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "wheelwright/elasticity/sector_stiffness.h"
+#include "wheelwright/state/state.h"
+
+namespace wheelwright {
+
+/// The shape of a wheel turned back by some columns, with its cells: what was in column `columns` is in
+/// column 0 then, and another piece of the wheel is the sector.
+template <int dim>
+struct TurnedShape {
+  LevelSet<dim> psi;
+  CutDomain<dim> domain;
+};
+template <int dim>
+TurnedShape<dim> turned_back(const LevelSet<dim>& psi, const CutDomain<dim>& domain, int columns);
+
+/// The same of the ground.
+template <int dim>
+LoadPositions turned_back(LoadPositions positions, const PolarGrid<dim>& grid, int columns);
+
+/// The column at whose first azimuth a sector is best cut out of the ring: there it shares the fewest nodes
+/// with its neighbours, with those that ghost faces couple. 0 unless that saves a twentieth of them.
+template <int dim>
+int best_first_column(const CutDomain<dim>& domain, const ElementTable<dim>& table, int core_rows);
+
+/// The states of a shape, from those of the shape turned back. `domain`: cells of the shape.
+template <int dim>
+std::shared_ptr<const State<dim>> turned_state(std::shared_ptr<const State<dim>> turned,
+                                               std::shared_ptr<const CutDomain<dim>> domain,
+                                               LoadPositions positions, int columns,
+                                               std::vector<PhaseTime> phases);
+
+}  // namespace wheelwright
