@@ -34,6 +34,14 @@ Vec<dim> from_axle(const PolarGrid<dim>& grid, Vec<dim> position) {
   return position;
 }
 
+/// y += factor x, where the entries of y are `stride` apart.
+void add(double factor, const double* x, int n, double* y, int stride) {
+  if (stride == 1)
+    for (int i = 0; i < n; ++i) y[i] += factor * x[i];
+  else
+    for (int i = 0; i < n; ++i) y[stride * i] += factor * x[i];
+}
+
 /// Height of the axle's middle above the ground that the undeformed tread touches.
 template <int dim>
 double undeformed_height(const PolarGrid<dim>& grid, double camber) {
@@ -94,7 +102,7 @@ Matrix ReducedContact<dim>::in_ground_frame(const std::vector<Matrix>& traces, i
   for (size_t k = 0; k < traces.size(); ++k)
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < result.columns(); ++j)
-        for (int q = 0; q < n_points; ++q) result(n * q + i, j) += axes[i][k] * traces[k](q, j);
+        add(axes[i][k], traces[k].column(j), n_points, result.column(j) + i, n);
   return result;
 }
 
@@ -110,8 +118,8 @@ Matrix ReducedContact<dim>::column_compliance(const Tread<dim>& tread, int colum
       for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i)
           for (int from = 0; from < n_points; ++from)
-            for (int to = 0; to < n_points; ++to)
-              result(n * to + i, n * from + j) += axes[i][k] * axes[j][l] * compliance(to, from);
+            add(axes[i][k] * axes[j][l], compliance.column(from), n_points, result.column(n * from + j) + i,
+                n);
     }
   return result;
 }
