@@ -105,6 +105,7 @@ int run(const std::string& path, double best, int most_trials, int starts) {
 
 int main(int count, char** arguments) {
   wheelwright::restart_with_blas_settings(arguments);
+  wheelwright::keep_freed_memory();
   if (count < 3) {
     fmt::print(stderr, "usage: {} CASE BEST [TRIALS [STARTS]]\n", arguments[0]);
     return 2;

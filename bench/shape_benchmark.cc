@@ -10,8 +10,8 @@
 
 #include "summary.h"
 #include "tests/support.h"
-#include "wheelwright/base/blas_settings.h"
 #include "wheelwright/base/parallel.h"
+#include "wheelwright/base/process_settings.h"
 #include "wheelwright/base/stopwatch.h"
 #include "wheelwright/cut/measure.h"
 #include "wheelwright/evolution/evolver.h"
@@ -275,6 +275,7 @@ void add_benchmarks(Workshop& shop, Measurements& m) {
 int main(int count, char** arguments) {
   using namespace wheelwright::bench;
   wheelwright::restart_with_blas_settings(arguments);
+  wheelwright::keep_freed_memory();
   const wheelwright::ThreadLimit one_thread(1);
   benchmark::Initialize(&count, arguments);
   if (benchmark::ReportUnrecognizedArguments(count, arguments)) return 2;

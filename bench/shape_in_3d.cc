@@ -16,8 +16,8 @@
 #include <string>
 
 #include "unavoidable_work.h"
-#include "wheelwright/base/blas_settings.h"
 #include "wheelwright/base/parallel.h"
+#include "wheelwright/base/process_settings.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/set_number.h"
 #include "wheelwright/geometry/mirror.h"
@@ -198,6 +198,7 @@ int run(int count, char** arguments) {
 
 int main(int count, char** arguments) {
   wheelwright::restart_with_blas_settings(arguments);
+  wheelwright::keep_freed_memory();
   const wheelwright::ThreadLimit one_thread(1);
   if (count < 2) {
     fmt::print(stderr, "usage: {} CASE [KEY=NUMBER ...]\n", arguments[0]);

@@ -11,8 +11,8 @@
 
 #include "tests/support.h"
 #include "unavoidable_work.h"
-#include "wheelwright/base/blas_settings.h"
 #include "wheelwright/base/parallel.h"
+#include "wheelwright/base/process_settings.h"
 
 namespace wheelwright::bench {
 namespace {
@@ -68,6 +68,7 @@ int run(int radial_cells, int angular_cells, int n_positions, int repetitions) {
 
 int main(int count, char** arguments) {
   wheelwright::restart_with_blas_settings(arguments);
+  wheelwright::keep_freed_memory();
   const wheelwright::ThreadLimit one_thread(1);
   if (count != 5) {
     fmt::print(stderr, "usage: {} RADIAL_CELLS ANGULAR_CELLS POSITIONS REPETITIONS\n", arguments[0]);

@@ -48,8 +48,9 @@ std::pair<double, double> at_ends(const GaussRule& rule, const std::vector<doubl
 }
 
 struct Pressures {
-  double peak = 0;          ///< of the position
-  double largest_jump = 0;  ///< between both sides of a face of two cells where their mean exceeds half of the peak
+  double peak = 0;  ///< of the position
+  double largest_jump =
+      0;  ///< between both sides of a face of two cells where their mean exceeds half of the peak
 };
 
 Pressures pressures(const ContactPatch<2>& patch, int points_per_cell) {

@@ -48,7 +48,8 @@ LevelSet<dim> unsymmetric_shape(const RollingModel<dim>& model) {
 template <int dim>
 LevelSet<dim> symmetric_shape(const RollingModel<dim>& model) {
   const double angle = model.grid.sector_angle();
-  return shape_with<dim>(model, {{0.265, 0, 0.030}, {0.262, 0.31 * angle, 0.025}, {0.262, 0.69 * angle, 0.025}});
+  return shape_with<dim>(model,
+                         {{0.265, 0, 0.030}, {0.262, 0.31 * angle, 0.025}, {0.262, 0.69 * angle, 0.025}});
 }
 
 template <int dim>
@@ -90,13 +91,12 @@ TEST(SurfaceCompliance, IsTheSameByBothRoutes) {
   expect_one_result_of_both_routes<3>(spatial, unsymmetric_shape(spatial), std::vector<bool>(10, true));
   auto even = symmetric_shape(spatial);
   const int n_line = even.lattice.n_nodes();
-  for (int i = 0; i < n_line; ++i)
-    even.values[i] -= 0.003 * std::sin(15 * even.lattice.polar_point(i)[2]);
+  for (int i = 0; i < n_line; ++i) even.values[i] -= 0.003 * std::sin(15 * even.lattice.polar_point(i)[2]);
   expect_one_result_of_both_routes<3>(spatial, even, std::vector<bool>(10, true));
 }
 
-// Maxwell and Betti: what seam b does under a unit load on seam a, a does under one on b. On a symmetric wheel
-// one of the two is computed and the other one is a mirror image.
+// Maxwell and Betti: what seam b does under a unit load on seam a, a does under one on b. On a symmetric
+// wheel one of the two is computed and the other one is a mirror image.
 template <int dim>
 void expect_reciprocity(const RollingModel<dim>& model, const LevelSet<dim>& psi, bool is_symmetric) {
   const auto problem = RollingProblem<dim>::create(model);

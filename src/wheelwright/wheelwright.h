@@ -13,8 +13,8 @@
 /// handles signals.
 
 #include "wheelwright/analysis/rolling_analysis.h"
-#include "wheelwright/base/blas_settings.h"
 #include "wheelwright/base/parallel.h"
+#include "wheelwright/base/process_settings.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/version.h"
 #include "wheelwright/files/level_set_file.h"

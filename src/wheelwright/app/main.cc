@@ -10,7 +10,7 @@
 #include "wheelwright/app/exit_code.h"
 #include "wheelwright/app/guarded.h"
 #include "wheelwright/app/terminal.h"
-#include "wheelwright/base/blas_settings.h"
+#include "wheelwright/base/process_settings.h"
 #include "wheelwright/run/provenance.h"
 
 namespace wheelwright {
@@ -77,6 +77,7 @@ int after_flushing(int code) {
 
 int main(int argc, char** argv) {
   wheelwright::restart_with_blas_settings(argv);
+  wheelwright::keep_freed_memory();
   return wheelwright::guarded(
       "wheelwright", [&] { return wheelwright::after_flushing(wheelwright::parse_and_run(argc, argv)); });
 }

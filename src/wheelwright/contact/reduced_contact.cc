@@ -34,6 +34,14 @@ Vec<dim> from_axle(const PolarGrid<dim>& grid, Vec<dim> position) {
   return position;
 }
 
+/// y += factor x, where the entries of y are `stride` apart.
+void add(double factor, const double* x, int n, double* y, int stride) {
+  if (stride == 1)
+    for (int i = 0; i < n; ++i) y[i] += factor * x[i];
+  else
+    for (int i = 0; i < n; ++i) y[stride * i] += factor * x[i];
+}
+
 /// Height of the axle's middle above the ground that the undeformed tread touches.
 template <int dim>
 double undeformed_height(const PolarGrid<dim>& grid, double camber) {
@@ -54,8 +62,13 @@ ReducedContact<dim>::ReducedContact(const SurfaceCompliance<dim>& surface, const
       friction_(tread.form().friction),
       tau_(tread.form().tau()),
       theta_(tread.form().theta()),
+      ground_(ground.column + ground.offset - zone.first_column),
       preload_resultant_(preload.resultant) {
   const double column_angle = grid.cell_size()[1], height = undeformed_height(grid, ground.camber);
+  for (const auto& point : tread.points()) {
+    const auto& x = point.position;
+    places_.push_back({std::atan2(x[1], x[0]) / column_angle, dim == 3 ? x[dim - 1] : 0.0});
+  }
   for (int c = 0; c < zone.n_columns; ++c) {
     const GroundFrame frame{(zone.first_column + c - ground.column - ground.offset) * column_angle,
                             ground.camber};
@@ -82,52 +95,81 @@ ReducedContact<dim>::ReducedContact(const SurfaceCompliance<dim>& surface, const
 
 /// Traces of a column (Tread) in the frame of the ground, with the components that contact needs.
 template <int dim>
-Matrix ReducedContact<dim>::in_ground_frame(const Matrix& traces, int traced, int column) const {
+Matrix ReducedContact<dim>::in_ground_frame(const std::vector<Matrix>& traces, int column) const {
   const auto axes = ground_axes<dim>(points_[per_column() * column].frame);
-  const int n = components();
-  auto result = Matrix::unfilled(n * per_column(), traces.columns());
-  for (int j = 0; j < traces.columns(); ++j)
-    for (int q = 0; q < per_column(); ++q)
-      for (int i = 0; i < n; ++i) {
-        double sum = 0;
-        for (int k = 0; k < traced; ++k) sum += axes[i][k] * traces(traced * q + k, j);
-        result(n * q + i, j) = sum;
-      }
+  const int n = components(), n_points = per_column();
+  Matrix result(n * n_points, traces.front().columns());
+  for (size_t k = 0; k < traces.size(); ++k)
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < result.columns(); ++j)
+        add(axes[i][k], traces[k].column(j), n_points, result.column(j) + i, n);
+  return result;
+}
+
+/// The compliance of a column between its seams, in the same way.
+template <int dim>
+Matrix ReducedContact<dim>::column_compliance(const Tread<dim>& tread, int column) const {
+  const auto axes = ground_axes<dim>(points_[per_column() * column].frame);
+  const int n = components(), n_points = per_column(), traced = tread.traced_components();
+  Matrix result(n * n_points, n * n_points);
+  for (int k = 0; k < traced; ++k)
+    for (int l = 0; l < traced; ++l) {
+      const Matrix& compliance = tread.compliance(k, l);
+      for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i)
+          for (int from = 0; from < n_points; ++from)
+            add(axes[i][k] * axes[j][l], compliance.column(from), n_points, result.column(n * from + j) + i,
+                n);
+    }
+  return result;
+}
+
+/// Displacements of the zone's seams, one below the other from its first azimuth to its last, for unit
+/// tractions on one of its columns: H T^T.
+template <int dim>
+Matrix ReducedContact<dim>::seams_of_column(const SurfaceCompliance<dim>& surface, const Tread<dim>& tread,
+                                            int from) const {
+  const int n = tread.n_seam(), n_zone = zone_.n_columns, n_column = per_column() * components();
+  const auto apart = [&](int seam) {
+    return seam == 0 ? difference(0, from, ring_columns_) : difference(seam - 1, from, ring_columns_) + 1;
+  };
+  int first = 0, last = 0;
+  for (int seam = 0; seam <= n_zone; ++seam) {
+    first = std::min(first, apart(seam));
+    last = std::max(last, apart(seam));
+  }
+  const Matrix tests = in_ground_frame(tread.tests(), from);
+  Matrix by_distance((last + 1 - first) * n, n_column);
+  for (int side = 0; side < 2; ++side) {
+    const Matrix& responses = surface.responses(wrap(zone_.first_column + from, ring_columns_) + side);
+    const int own = surface.width() + 1;
+    multiply(1, block(responses, (first - side + own) * n, 0, by_distance.rows(), n), Op::none,
+             block(tests, 0, side * n, n_column, n), Op::transpose, 1, by_distance);
+  }
+  auto result = Matrix::unfilled((n_zone + 1) * n, n_column);
+  for (int j = 0; j < n_column; ++j)
+    for (int seam = 0; seam <= n_zone; ++seam)
+      std::copy_n(by_distance.column(j) + (apart(seam) - first) * n, n, result.column(j) + seam * n);
   return result;
 }
 
 /// F = -S H T^T - C: samples S and tests T of the seams, their compliance H, and the compliance C of the
 /// columns between them.
 template <int dim>
-Matrix ReducedContact<dim>::flexibility(const SurfaceCompliance<dim>& surface, const Tread<dim>& tread) const {
-  const int n_zone = zone_.n_columns, n_column = per_column() * components(), n_seam = tread.n_seam(),
-            traced = tread.traced_components();
-  std::vector<Matrix> samples;
-  for (int c = 0; c < n_zone; ++c) samples.push_back(in_ground_frame(tread.samples(), traced, c));
-  auto result = Matrix::unfilled(n_zone * n_column, n_zone * n_column);
+Matrix ReducedContact<dim>::flexibility(const SurfaceCompliance<dim>& surface,
+                                        const Tread<dim>& tread) const {
+  const int n_zone = zone_.n_columns, n_column = per_column() * components(), n_seam = tread.n_seam();
+  auto seams = Matrix::unfilled((n_zone + 1) * n_seam, n_zone * n_column);
   for (int from = 0; from < n_zone; ++from) {
-    const int column = wrap(zone_.first_column + from, ring_columns_);
-    const auto apart = [&](int to) { return difference(to, from, ring_columns_); };
-    int first = 0, last = 0;
-    for (int to = 0; to < n_zone; ++to) first = std::min(first, apart(to)), last = std::max(last, apart(to));
-    // Displacements of the seams `first` to `last` + 1 after the column's own one.
-    const Matrix tests = in_ground_frame(tread.tests(), traced, from);
-    Matrix seams((last + 2 - first) * n_seam, n_column);
-    for (int side = 0; side < 2; ++side) {
-      const Matrix& responses = surface.responses(column + side);
-      const int own = responses.rows() / n_seam / 2;
-      multiply(1, block(responses, (first - side + own) * n_seam, 0, seams.rows(), n_seam), Op::none,
-               block(tests, 0, side * n_seam, n_column, n_seam), Op::transpose, 1, seams);
-    }
-    Matrix block_columns(n_zone * n_column, n_column);
-    for (int to = 0; to < n_zone; ++to)
-      multiply_rows(-1, samples[to], seams, (apart(to) - first) * n_seam, 0, block_columns, to * n_column);
-    const Matrix compliance =
-        in_ground_frame(transposed(in_ground_frame(tread.compliance(), traced, from)), traced, from);
+    const Matrix of_column = seams_of_column(surface, tread, from);
+    std::copy(of_column.entries().begin(), of_column.entries().end(), seams.column(from * n_column));
+  }
+  auto result = Matrix::unfilled(n_zone * n_column, n_zone * n_column);
+  for (int to = 0; to < n_zone; ++to) {
+    multiply_rows(-1, in_ground_frame(tread.samples(), to), seams, to * n_seam, 0, result, to * n_column);
+    const Matrix compliance = column_compliance(tread, to);
     for (int j = 0; j < n_column; ++j)
-      for (int i = 0; i < n_column; ++i) block_columns(from * n_column + i, j) -= compliance(j, i);
-    std::copy(block_columns.entries().begin(), block_columns.entries().end(),
-              result.column(from * n_column));
+      for (int i = 0; i < n_column; ++i) result(to * n_column + i, to * n_column + j) -= compliance(i, j);
   }
   return result;
 }
@@ -198,17 +240,40 @@ std::vector<Vec<dim>> ReducedContact<dim>::without_contact(const std::vector<dou
   return result;
 }
 
+/// Of every point of a column the nearest one `shift` columns ahead, at the same place along the axle.
+template <int dim>
+std::vector<typename ReducedContact<dim>::Neighbour> ReducedContact<dim>::neighbours(double shift) const {
+  std::vector<Neighbour> result;
+  for (const Place& from : places_) {
+    const double target = from.columns + shift;
+    const int whole = static_cast<int>(std::floor(target));
+    Neighbour nearest{whole, 0};
+    double smallest = std::numeric_limits<double>::infinity();
+    for (int columns = whole - 1; columns <= whole + 1; ++columns)
+      for (int q = 0; q < per_column(); ++q) {
+        if (std::abs(places_[q].along_axle - from.along_axle) > 1e-9) continue;
+        const double distance = std::abs(columns + places_[q].columns - target);
+        if (distance >= smallest) continue;
+        smallest = distance;
+        nearest = {columns, q};
+      }
+    result.push_back(nearest);
+  }
+  return result;
+}
+
 template <int dim>
 ContactUnknowns<dim> ReducedContact<dim>::start_from(const ContactState<dim>& other) const {
-  const int shift = per_column() * (other.zone.n_columns - zone_.n_columns) / 2;
-  const int n_other = static_cast<int>(other.augmented.size());
+  const std::vector<Neighbour> nearest = neighbours(other.ground - ground_);
   ContactUnknowns<dim> x{{}, std::vector<double>(n_free())};
   for (int i = 0; i < n_points(); ++i) {
     const Point& point = points_[i];
     Vec<dim> open{};
     open[0] = point.gamma * std::max(0.0, point.gap - displacement<dim>(other.rim, point.position)[0]);
-    const int j = i + shift;
-    x.augmented.push_back(j >= 0 && j < n_other ? other.augmented[j] : open);
+    const auto [columns, q] = nearest[point_of_column(i)];
+    const int column = zone_column(i) + columns;
+    x.augmented.push_back(
+        column >= 0 && column < other.zone.n_columns ? other.augmented[per_column() * column + q] : open);
   }
   return x;
 }
@@ -354,6 +419,7 @@ std::optional<ContactUnknowns<dim>> ReducedContact<dim>::newton_step(
 template <int dim>
 ContactState<dim> ReducedContact<dim>::state(const ContactUnknowns<dim>& x, int newton_iterations) const {
   ContactState<dim> state{zone_, x.augmented, {}, rim_motion(x.rim), {}, newton_iterations};
+  state.ground = ground_;
   state.rim_force = scaled(-1, preload_resultant_);
   for (int i = 0; i < n_points(); ++i) {
     state.traction.push_back(response(i, x.augmented[i]).traction);

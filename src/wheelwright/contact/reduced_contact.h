@@ -39,6 +39,7 @@ struct ContactState {
   RimMotion rim;
   RimForce rim_force;     ///< on the rim: its load, and the reaction in motions that are not free
   int newton_iterations;  ///< of all attempts
+  double ground = 0;      ///< the ground position, in columns from the zone's first azimuth
 };
 
 /// What a function's adjoint problem (79) brings to the contact of one load position.
@@ -148,7 +149,19 @@ class ReducedContact {
   int point_of_column(int point) const { return point % per_column(); }
   ObservationRows<dim> observation_rows() const { return {per_column(), 0}; }
   int n_free() const { return static_cast<int>(rim_.free.size()); }
-  Matrix in_ground_frame(const Matrix& traces, int traced, int column) const;
+  /// Where a point is in its column.
+  struct Place {
+    double columns;     ///< of the azimuth, from 0 to 1
+    double along_axle;  ///< [m]
+  };
+  /// A point of a column so many columns ahead.
+  struct Neighbour {
+    int columns, point;
+  };
+  std::vector<Neighbour> neighbours(double shift) const;
+  Matrix in_ground_frame(const std::vector<Matrix>& traces, int column) const;
+  Matrix column_compliance(const Tread<dim>& tread, int column) const;
+  Matrix seams_of_column(const SurfaceCompliance<dim>& surface, const Tread<dim>& tread, int from) const;
   Matrix flexibility(const SurfaceCompliance<dim>& surface, const Tread<dim>& tread) const;
   RimMotion rim_motion(const std::vector<double>& free) const;
   /// Whether a point may carry traction.
@@ -163,6 +176,8 @@ class ReducedContact {
   RimControl rim_;
   Counterpart counterpart_;
   double friction_, tau_, theta_;
+  double ground_;                   ///< the ground position, in columns from the zone's first azimuth
+  std::vector<Place> places_;       ///< of the points of a column
   std::vector<double> thresholds_;  ///< of given friction; empty: Coulomb's law
   std::vector<Point> points_;
   std::shared_ptr<const Matrix> flexibility_;

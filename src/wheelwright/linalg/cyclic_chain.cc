@@ -35,14 +35,14 @@ Expected<CyclicChain> CyclicChain::factor(const Matrix& diagonal, const Matrix& 
   const int n = diagonal.rows();
   CyclicChain chain;
   chain.n_links_ = n_links;
-  Matrix pivot = diagonal, coupling;
+  Matrix pivot = diagonal, pivot_factor, coupling;
   const double largest_rounding = nearly_converged * largest_entry(diagonal);
   double last_change = std::numeric_limits<double>::infinity();
   for (int k = 0;; ++k) {
-    chain.pivot_factor_ = pivot;
-    if (k == most_pivots || !cholesky(chain.pivot_factor_)) return not_positive_definite();
+    pivot_factor = pivot;
+    if (k == most_pivots || !cholesky(pivot_factor)) return not_positive_definite();
     coupling = next;
-    cholesky_solve(chain.pivot_factor_, coupling);
+    cholesky_solve(pivot_factor, coupling);
     Matrix following = diagonal;
     multiply(-1, next, Op::transpose, coupling, Op::none, 1, following);
     double change = 0;
@@ -52,6 +52,8 @@ Expected<CyclicChain> CyclicChain::factor(const Matrix& diagonal, const Matrix& 
     last_change = change;
     pivot = std::move(following);
   }
+  chain.inverse_pivot_ = identity(n);
+  cholesky_solve(pivot_factor, chain.inverse_pivot_);
   chain.step_ = Matrix(n, n);
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) chain.step_(i, j) = -coupling(j, i);
@@ -102,7 +104,7 @@ void CyclicChain::solve_some(const Matrix& loads, int first, int n_rhs, Matrix& 
     std::swap(passed, closed);
     std::transform(passed.data(), passed.data() + passed.entries().size(), link(c), link(c), std::plus());
   }
-  cholesky_solve(pivot_factor_, x);
+  x = product(inverse_pivot_, Op::none, x, Op::none);
   for (int c = n_links_ - 1; c > 0; --c)
     multiply_columns(1, step_, Op::transpose, link(c), n_rhs, 1, link(c - 1));
   multiply_columns(1, closing_, Op::transpose, link(0), n_rhs, 0, passed.data());

@@ -25,10 +25,10 @@ class CyclicChain {
   void solve_some(const Matrix& loads, int first, int n_rhs, Matrix& result) const;
 
   int n_links_ = 0;
-  Matrix pivot_factor_;  ///< Cholesky factor of the pivot X = diagonal - next^T X^-1 next
-  Matrix step_;          ///< -next^T X^-1: propagates the load of a link to the next link
-  Matrix closing_;       ///< (1 - step^n_links)^-1
-  int memory_ = 0;       ///< number of links after which the powers of step vanish to rounding
+  Matrix inverse_pivot_;  ///< X^-1 of the pivot X = diagonal - next^T X^-1 next
+  Matrix step_;           ///< -next^T X^-1: propagates the load of a link to the next link
+  Matrix closing_;        ///< (1 - step^n_links)^-1
+  int memory_ = 0;        ///< number of links after which the powers of step vanish to rounding
 };
 
 }  // namespace wheelwright

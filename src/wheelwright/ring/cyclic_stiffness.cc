@@ -261,21 +261,34 @@ Matrix CyclicStiffness<dim>::outer_displacements(const Matrix& condensed_loads) 
 
 template <int dim>
 std::vector<Matrix> CyclicStiffness<dim>::outer_compliance(int farthest) const {
-  const int n = n_sectors();
-  std::vector<ComplexMatrix> by_harmonic(harmonics_.n_harmonics());
-  parallel_for(harmonics_.n_harmonics(),
-               [&](int h) { by_harmonic[h] = harmonic_factors_[h].outer_compliance(); });
-  std::vector<Matrix> by_sector(std::min(farthest, n / 2) + 1);
-  parallel_for(static_cast<int>(by_sector.size()), [&](int ahead) {
-    Matrix& g = by_sector[ahead] = Matrix(n_outer_, n_outer_);
-    for (int h = 0; h < harmonics_.n_harmonics(); ++h) {
-      const double weight = (h == 0 || 2 * h == n ? 1.0 : 2.0) / n;
-      const std::complex<double> phase = weight * harmonics_.phase(h, ahead);
-      const std::complex<double>* x = by_harmonic[h].data();
-      double* to = g.data();
-      for (size_t k = 0; k < g.entries().size(); ++k)
-        to[k] += phase.real() * x[k].real() - phase.imag() * x[k].imag();
+  const int n = n_sectors(), n_harmonics = harmonics_.n_harmonics(), n_blocks = std::min(farthest, n / 2) + 1;
+  // One column per harmonic, real parts and then imaginary ones, times the phases of every sector.
+  const size_t n_entries = size_t(n_outer_) * n_outer_;
+  std::vector<Matrix> by_sector;
+  for (int ahead = 0; ahead < n_blocks; ++ahead) by_sector.emplace_back(n_outer_, n_outer_);
+  std::vector<ComplexMatrix> by_harmonic(n_harmonics);
+  parallel_for(n_harmonics, [&](int h) { by_harmonic[h] = harmonic_factors_[h].outer_compliance(); });
+  Matrix phases(2 * n_harmonics, n_blocks);
+  for (int ahead = 0; ahead < n_blocks; ++ahead)
+    for (int h = 0; h < n_harmonics; ++h) {
+      const std::complex<double> phase = (h == 0 || 2 * h == n ? 1.0 : 2.0) / n * harmonics_.phase(h, ahead);
+      phases(h, ahead) = phase.real();
+      phases(n_harmonics + h, ahead) = -phase.imag();
     }
+  constexpr int together = 1024;
+  parallel_for(static_cast<int>((n_entries + together - 1) / together), [&](int part) {
+    const size_t first = size_t(part) * together;
+    const int size = static_cast<int>(std::min<size_t>(together, n_entries - first));
+    auto entries = Matrix::unfilled(size, 2 * n_harmonics);
+    for (int h = 0; h < n_harmonics; ++h)
+      for (int k = 0; k < size; ++k) {
+        const std::complex<double> entry = by_harmonic[h].entries()[first + k];
+        entries(k, h) = entry.real();
+        entries(k, n_harmonics + h) = entry.imag();
+      }
+    const Matrix sums = product(entries, Op::none, phases, Op::none);
+    for (int ahead = 0; ahead < n_blocks; ++ahead)
+      std::copy_n(sums.column(ahead), size, by_sector[ahead].data() + first);
   });
   return by_sector;
 }

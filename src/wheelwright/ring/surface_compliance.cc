@@ -47,8 +47,7 @@ class SeamMap {
       if (std::abs(apart) > tread_.reach()) continue;
       const Matrix& own = tread_.line_compliance(apart);
       for (int j = 0; j < n_line(); ++j)
-        for (int i = 0; i < n_line(); ++i)
-          result(first + per_column() + i, per_column() + j) += own(i, j);
+        for (int i = 0; i < n_line(); ++i) result(first + per_column() + i, per_column() + j) += own(i, j);
     }
     return result;
   }
@@ -136,8 +135,8 @@ void apply_to_outer_line(const CyclicStiffness<dim>& ring, const Tread<dim>& tre
   parallel_for(static_cast<int>(groups.size()), [&](int group) {
     const int first = groups[group].front(), n = static_cast<int>(groups[group].size());
     const int n_from = n + 2 * reach, n_to = n + 2 * (width + 1 + reach);
-    const Matrix g = outer_compliance(by_sector, ring.n_sectors(), map, per_sector,
-                                      first - width - 1 - reach, n_to, first - reach, n_from);
+    const Matrix g = outer_compliance(by_sector, ring.n_sectors(), map, per_sector, first - width - 1 - reach,
+                                      n_to, first - reach, n_from);
     Matrix on_base(n_base * n_from, n_line * n);  // loads on the lines, as loads on the base
     for (int k = 0; k < n; ++k)
       for (int i = 0; i < n_line; ++i)
@@ -169,15 +168,15 @@ std::vector<SeamImage> seam_images(const Tread<dim>& tread) {
   for (int i = 0; i < tread.n_seam(); ++i) {
     const double sign = i % dim == 1 ? -1 : 1;
     const bool inside = i >= per_line && i < n_base;  // on an azimuth between this seam and the next
-    images.push_back({inside ? n_base - per_line * (i / per_line) + i % per_line : i,
-                      inside ? 1 : 0, sign});
+    images.push_back({inside ? n_base - per_line * (i / per_line) + i % per_line : i, inside ? 1 : 0, sign});
   }
   return images;
 }
 
 /// responses() of a seam from those of its mirror images.
 template <int dim>
-Matrix mirror_image(const Tread<dim>& tread, int width, const Matrix& of_image, const Matrix& of_image_before) {
+Matrix mirror_image(const Tread<dim>& tread, int width, const Matrix& of_image,
+                    const Matrix& of_image_before) {
   const auto images = seam_images(tread);
   const int n = tread.n_seam(), range = width + 1;
   Matrix result(of_image.rows(), n);
@@ -216,31 +215,45 @@ Seams seams_of(const std::vector<bool>& loaded_columns, bool is_mirror_symmetric
   return seams;
 }
 
-/// Floating-point operations of both routes for the seams that are computed, without those of SeamMap::seen().
-struct RouteFlops {
-  double solving, inverting;
+/// Floating-point operations.
+struct Work {
+  double triangular, products;  ///< of triangular factors, and of dense products
+  double flops() const { return triangular + products; }
+  /// In units of an operation of a product: one of a triangular factor takes twice as long.
+  double time() const { return 2 * triangular + products; }
 };
 
+/// A product of a real number and a complex one counts as two real ones, one of two complex ones as four. The
+/// parts of a ring that is symmetric across its width have half the size.
 template <int dim>
-RouteFlops route_flops(const CyclicStiffness<dim>& ring, const Tread<dim>& tread, int width,
+Work work_of_solving(const CyclicStiffness<dim>& ring, double n_loads) {
+  const double outer = ring.n_outer(), n_harmonics = ring.n_sectors() / 2 + 1;
+  return {.triangular = n_loads * n_harmonics * (ring.is_mirror_symmetric() ? 2 : 4) * 2 * outer * outer *
+                        (ring.is_symmetric_across_width() ? 0.5 : 1),
+          .products = n_loads * n_harmonics * 8 * ring.n_sectors() * outer};
+}
+
+template <int dim>
+Work work_of_inverting(const CyclicStiffness<dim>& ring, const Tread<dim>& tread, int width,
                        std::span<const int> seams) {
-  // A product of a real number and a complex one counts as two real ones, one of two complex ones as four. The
-  // parts of a ring that is symmetric across its width have half the size.
-  const bool is_real = ring.is_mirror_symmetric();
-  const double outer = ring.n_outer(), harmonics = ring.n_sectors() / 2 + 1,
-               by_width = ring.is_symmetric_across_width() ? 0.5 : 1;
-  const double n_seams = static_cast<double>(seams.size()), n_base = tread.base_per_column(),
-               reach = tread.base_reach();
-  RouteFlops flops{};
-  flops.solving = n_seams * tread.n_seam() * harmonics * (is_real ? 2 : 4) * 2 * outer * outer * by_width;
-  flops.inverting =
-      harmonics * (is_real ? 1 : 4) * 2.0 / 3 * outer * outer * outer * by_width * by_width;
+  const double outer = ring.n_outer(), n_harmonics = ring.n_sectors() / 2 + 1,
+               n_base = tread.base_per_column(), reach = tread.base_reach();
+  Work work{.triangular = n_harmonics * (ring.is_mirror_symmetric() ? 1 : 4) * 2.0 / 3 * outer * outer *
+                          outer * (ring.is_symmetric_across_width() ? 0.25 : 1),
+            .products = 0};
   for (const auto group : runs(seams, seams_together)) {
     const double n = static_cast<double>(group.size());
-    flops.inverting +=
+    work.products +=
         2 * n_base * (n + 2 * (width + 1 + reach)) * n_base * (n + 2 * reach) * tread.n_line() * n;
   }
-  return flops;
+  return work;
+}
+
+/// Of SeamMap::seen(), which both routes end with.
+template <int dim>
+double flops_of_seeing(const Tread<dim>& tread, int width, double n_seams) {
+  return 2 * n_seams * tread.n_seam() * static_cast<double>(tread.line_of_base().entries().size()) *
+         (2 * width + 3);
 }
 
 }  // namespace
@@ -253,12 +266,13 @@ SurfaceCompliance<dim>::SurfaceCompliance(const CyclicStiffness<dim>& ring, cons
   // R + X G X^T with the compliance R of the lines on a fixed base, that of the core G, and the seams X on
   // the base.
   const Seams seams = seams_of(loaded, ring.is_mirror_symmetric());
-  const auto [solving, inverting] = route_flops(ring, tread, width, seams.computed);
-  route_ = route.value_or(solving < inverting ? ComplianceRoute::solve_seams
-                                              : ComplianceRoute::invert_outer_line);
-  flops_ = (route_ == ComplianceRoute::solve_seams ? solving : inverting) +
-           2.0 * static_cast<double>(seams.computed.size()) * tread.n_seam() *
-               static_cast<double>(tread.line_of_base().entries().size()) * (2 * width + 3);
+  const double n_computed = static_cast<double>(seams.computed.size());
+  const Work solving = work_of_solving(ring, n_computed * tread.n_seam()),
+             inverting = work_of_inverting(ring, tread, width, seams.computed);
+  route_ = route.value_or(solving.time() < inverting.time() ? ComplianceRoute::solve_seams
+                                                            : ComplianceRoute::invert_outer_line);
+  flops_ = (route_ == ComplianceRoute::solve_seams ? solving : inverting).flops() +
+           flops_of_seeing(tread, width, n_computed);
   if (route_ == ComplianceRoute::solve_seams) {
     const size_t together = std::max(1, rhs_together / tread.n_seam());
     for (size_t first = 0; first < seams.computed.size(); first += together)

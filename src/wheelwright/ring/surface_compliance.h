@@ -18,7 +18,7 @@ template <int dim>
 class SurfaceCompliance {
  public:
   /// For columns up to `width` apart, and loads on some columns of a sector (and of all others). By default
-  /// the route is the one that takes fewer floating-point operations.
+  /// the route is the one whose floating-point operations take less time.
   SurfaceCompliance(const CyclicStiffness<dim>& ring, const Tread<dim>& tread, int width,
                     const std::vector<bool>& loaded, std::optional<ComplianceRoute> route = {});
 

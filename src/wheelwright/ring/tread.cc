@@ -40,23 +40,18 @@ std::vector<Matrix> line_responses(const CyclicChain& lines, int n_line) {
 }
 
 /// Traces of what is observed on Gamma_C (rows as in ObservationRows): samples z = tau sigma(u)n - gamma u,
-/// or tests theta/gamma sigma(u)n - u; the first `traced` components.
+/// or tests theta/gamma sigma(u)n - u; of the first `traced` components, one row per point.
 template <int dim, class OfTraction, class OfDisplacement>
-Matrix traces(const std::vector<TreadPoint<dim>>& points, int traced, OfTraction of_traction,
-              OfDisplacement of_displacement, const Matrix& observed) {
+std::vector<Matrix> traces(const std::vector<TreadPoint<dim>>& points, int traced, OfTraction of_traction,
+                           OfDisplacement of_displacement, const Matrix& observed) {
   const int n_points = static_cast<int>(points.size());
   const ObservationRows<dim> rows{n_points, 0};
-  Matrix result(traced * n_points, observed.columns());
-  for (int j = 0; j < observed.columns(); ++j) {
-    const double* o = observed.column(j);
-    double* trace = result.column(j);
-    for (int q = 0; q < n_points; ++q) {
-      const double traction = of_traction(points[q]), displacement = of_displacement(points[q]);
-      for (int d = 0; d < traced; ++d)
-        trace[traced * q + d] =
-            traction * o[rows.traction(q) + d] - displacement * o[rows.displacement(q) + d];
-    }
-  }
+  std::vector<Matrix> result(traced, Matrix(n_points, observed.columns()));
+  for (int d = 0; d < traced; ++d)
+    for (int j = 0; j < observed.columns(); ++j)
+      for (int q = 0; q < n_points; ++q)
+        result[d](q, j) = of_traction(points[q]) * observed(rows.traction(q) + d, j) -
+                          of_displacement(points[q]) * observed(rows.displacement(q) + d, j);
   return result;
 }
 
@@ -147,10 +142,15 @@ Expected<Tread<dim>> Tread<dim>::condense(const ElementTable<dim>& table, const 
         own.surface.points, traced, [&](const auto& point) { return form.theta() / point.gamma; },
         [](const auto&) { return 1.0; }, seen);
   };
-  const Matrix observed = on_seams(own, block(own.observation, 0, 0, n_contact, own.observation.columns()), per_column);
+  const Matrix observed =
+      on_seams(own, block(own.observation, 0, 0, n_contact, own.observation.columns()), per_column);
   tread.samples_ = samples(observed);
   tread.tests_ = tests(observed);
-  tread.compliance_ = samples(transposed(tests(transposed(block(own.compliance, 0, 0, n_contact, n_contact)))));
+  std::vector<std::vector<Matrix>> by_traction;
+  for (const Matrix& of_tests : tests(transposed(block(own.compliance, 0, 0, n_contact, n_contact))))
+    by_traction.push_back(samples(transposed(of_tests)));
+  for (int i = 0; i < traced; ++i)
+    for (int j = 0; j < traced; ++j) tread.compliance_.push_back(by_traction[j][i]);
 
   // The base of a column loads its two lines, and they load it.
   Matrix line_load_of_base[2];
@@ -165,8 +165,8 @@ Expected<Tread<dim>> Tread<dim>::condense(const ElementTable<dim>& table, const 
     for (int seen = 0; seen < 2; ++seen)
       for (int loaded = 0; loaded < 2; ++loaded)
         multiply(-1, line_load_of_base[seen], Op::transpose,
-                 product(response(d + seen - loaded), Op::none, line_load_of_base[loaded], Op::none), Op::none,
-                 1, base);
+                 product(response(d + seen - loaded), Op::none, line_load_of_base[loaded], Op::none),
+                 Op::none, 1, base);
     all_base.push_back(std::move(base));
   }
   tread.line_stiffness_ = by_own_parts(all_base, per_column);

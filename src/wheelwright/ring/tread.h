@@ -44,15 +44,15 @@ class Tread {
   int n_seam() const { return base_per_column() + column_.n_line; }
 
   /// Trial traces z = tau sigma(u)n - gamma u ("samples") and test traces theta/gamma sigma(v)n - v
-  /// ("tests") of unit displacements of a column's own seam and of the next one, with traced_components()
-  /// rows per point, in the column frame. Transposed tests: the loads on the seams from a unit traction
-  /// (times dS) on the column.
+  /// ("tests") of unit displacements of a column's own seam and of the next one: of every component of the
+  /// column frame that is traced, one row per point. Transposed tests: the loads on the seams from a unit
+  /// traction (times dS) on the column.
   int traced_components() const { return traced_; }
-  const Matrix& samples() const { return samples_; }
-  const Matrix& tests() const { return tests_; }
+  const std::vector<Matrix>& samples() const { return samples_; }
+  const std::vector<Matrix>& tests() const { return tests_; }
 
-  /// Samples of a column for unit tractions on it, its seams fixed.
-  const Matrix& compliance() const { return compliance_; }
+  /// Samples of component i of a column for unit tractions of component j on it, its seams fixed.
+  const Matrix& compliance(int i, int j) const { return compliance_[traced_ * i + j]; }
 
   /// Displacements of line c + difference for unit loads on line c, base fixed; |difference| <= reach().
   const Matrix& line_compliance(int difference) const { return line_compliance_[difference + reach_]; }
@@ -72,8 +72,8 @@ class Tread {
   TreadColumn<dim> column_;
   int degree_ = 0, n_columns_ = 0, columns_per_sector_ = 0, reach_ = 0, traced_ = dim;
   std::optional<CyclicChain> lines_;
-  Matrix samples_, tests_, compliance_, line_of_base_;
-  std::vector<Matrix> line_compliance_;
+  std::vector<Matrix> samples_, tests_, compliance_, line_compliance_;
+  Matrix line_of_base_;
   /// Between the base lines' own parts (base_per_column() unknowns) of columns that differ by -reach - 1 to
   /// reach + 1: rows for the later column.
   std::vector<Matrix> line_stiffness_;

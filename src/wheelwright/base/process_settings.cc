@@ -1,5 +1,6 @@
-#include "wheelwright/base/blas_settings.h"
+#include "wheelwright/base/process_settings.h"
 
+#include <malloc.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -27,6 +28,14 @@ bool has_avx512() {
 }
 
 }  // namespace
+
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  constexpr int mebibyte = 1 << 20;
+  mallopt(M_MMAP_THRESHOLD, 32 * mebibyte);
+  mallopt(M_TRIM_THRESHOLD, 256 * mebibyte);
+#endif
+}
 
 void restart_with_blas_settings(char* const* arguments) {
   bool changed = false;
