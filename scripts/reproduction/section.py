@@ -51,6 +51,7 @@ class Figure:
     cases: list[str]
     section: Callable[[Runs, Album], str]
     may_fail: tuple[str, ...] = ()  # cases whose failure the section tells
+    shapes: tuple[tuple[str, str], ...] = ()  # a case and another one, whose last shape is evaluated under the first
 
     @property
     def label(self) -> str:
