@@ -103,5 +103,5 @@ def ways(ours: str, rules: str) -> str:
 
 
 def joined(*parts: str) -> str:
-    """The parts with an empty line between; paragraphs are wrapped, tables and pictures are not."""
-    return "\n".join(part if part[0] in "|!" else textwrap.fill(part, 115) + "\n" for part in parts)
+    """The parts with an empty line between; paragraphs are wrapped, tables, pictures and commands are not."""
+    return "\n".join(part if part[0] in "|! " else textwrap.fill(part, 115) + "\n" for part in parts)
