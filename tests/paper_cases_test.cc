@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "wheelwright/case/dimension.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/shorten.h"
 #include "wheelwright/rolling/rolling_problem.h"
@@ -31,16 +32,17 @@ Case read(const std::string& name) {
 }
 
 /// Runs a case and compares all that it expects.
-void expect_as_expected(const Case& c) {
+template <int dim>
+void expect_as_expected_in(const Case& c) {
   ASSERT_FALSE(c.expectations.empty());
-  const auto study = make_study<2>(c);
+  const auto study = make_study<dim>(c);
   ASSERT_TRUE(study);
   ASSERT_EQ(c.objective.mean, MeanStress::exact);
   std::vector<FoundQuantity> found;
-  std::shared_ptr<const State<2>> last_solution;
-  const auto outcome = optimize<2>(
+  std::shared_ptr<const State<dim>> last_solution;
+  const auto outcome = optimize<dim>(
       optimizer_of(*study), study->initial,
-      [&](const Trial<2>& trial, const OptimizationState<2>& state) {
+      [&](const Trial<dim>& trial, const OptimizationState<dim>& state) {
         if (trial.verdict != Verdict::accepted) return;
         for (auto& quantity : found_quantities(c.expectations, *study->solver, state, *trial.solution))
           found.push_back(std::move(quantity));
@@ -49,8 +51,17 @@ void expect_as_expected(const Case& c) {
       [] { return false; });
   ASSERT_TRUE(outcome.state) << outcome.failure->detail;
   for (const Finding& finding :
-       findings<2>(c.expectations, found, *study->solver, *outcome.state, last_solution.get()))
+       findings<dim>(c.expectations, found, *study->solver, *outcome.state, last_solution.get()))
     EXPECT_TRUE(finding.met()) << finding.text();
+}
+
+void expect_as_expected(const Case& c) {
+  in_dimension_of(c, [&](auto dim) { expect_as_expected_in<dim>(c); });
+}
+
+/// A shape in three dimensions takes many seconds.
+bool is_slow(const Case& c) {
+  return c.wheel.dimension == 3 || c.grid.angular_cells > 576;  // the fine reference of Fig. 9
 }
 
 class PaperCases : public testing::TestWithParam<std::string> {};
@@ -62,7 +73,7 @@ TEST_P(PaperCases, TheFirstShapesAreAsExpected) {
     const auto solution = RollingProblem<2>::create(rolling_model<2>(c))->solve(initial_shape<2>(c));
     ASSERT_FALSE(solution);
     EXPECT_EQ(solution.failure().reason, FailureReason::not_positive_definite);
-  } else if (c.grid.angular_cells <= 576) {  // the fine reference of Fig. 9 is slow
+  } else if (!is_slow(c)) {
     expect_as_expected(with_iterations(c, std::min(few, c.optimizer.iterations)));
   }
 }

@@ -14,7 +14,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, "scripts")
 
 from reproduction.__main__ import chosen, summary  # noqa: E402
-from reproduction.execute import Records, Task, follows_rounding, perturbations, perturbed, tasks_of  # noqa: E402
+from reproduction.execute import Records, Task, follows_rounding, of_shape, perturbations, perturbed, tasks_of  # noqa: E402
 from reproduction.family import Family, Values, Verdict, both, judged, over  # noqa: E402
 from reproduction.figures import figures  # noqa: E402
 from reproduction.hole import measured  # noqa: E402
@@ -146,6 +146,15 @@ class Families(unittest.TestCase):
             first, last = map(float, Values([high, low]).text(2).split(" to "))
             self.assertTrue(first <= low and high <= last)
 
+    def test_the_shape_of_another_run_takes_the_place_of_holes_and_descent(self):
+        for figure in figures:
+            for case, shape in figure.shapes:
+                self.assertIn(shape, figure.cases)
+                text = of_shape(Path(f"cases/paper/{case}.toml").read_text(), shape)
+                self.assertNotRegex(text, r"\[\[")
+                self.assertEqual(re.findall(r"^iterations = .*", text, re.MULTILINE), ["iterations = 0"])
+                self.assertIn(f'from = "{shape}"', text)
+
     def test_perturbed_cases_differ_by_their_radii_alone(self):
         for case in sorted(Path("cases/paper").glob("rules_*.toml")):
             text = case.read_text()
@@ -197,7 +206,7 @@ class Command(unittest.TestCase):
     def written(self, folder: Path, jobs: int) -> dict[str, bytes]:
         """The page, without the times in it, and its pictures."""
         folder.mkdir()
-        command = [sys.executable, "-m", "reproduction", program, "23", "--iterations", "1", "--jobs", str(jobs)]
+        command = [sys.executable, "-m", "reproduction", program, "22", "--iterations", "1", "--jobs", str(jobs)]
         subprocess.run(
             [*command, "--page", str(folder / "page.md"), "--runs", str(folder / "runs")],
             check=True,
@@ -212,7 +221,7 @@ class Command(unittest.TestCase):
     def test_two_cases_at_a_time_give_what_one_gives(self):
         with tempfile.TemporaryDirectory() as folder:
             one, two = self.written(Path(folder) / "one", 1), self.written(Path(folder) / "two", 2)
-        self.assertIn("holes108_je_comparison.svg", one)
+        self.assertIn("holes48_je_comparison.svg", one)
         self.assertEqual(one, two)
 
 

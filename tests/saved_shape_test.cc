@@ -7,6 +7,7 @@
 #include "wheelwright/case/load_saved_shape.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/write.h"
+#include "wheelwright/cut/measure.h"
 #include "wheelwright/files/level_set_file.h"
 #include "wheelwright/run/run.h"
 
@@ -65,8 +66,9 @@ class SavedShape : public TemporaryFolder {
     return result.problems.empty() ? "" : result.problems.front().text();
   }
 
-  RunResult<2> run(const Case& c, const std::string& name) {
-    auto run = wheelwright::Run<2>::begin(c, folder() / name);
+  template <int dim = 2>
+  RunResult<dim> run(const Case& c, const std::string& name) {
+    auto run = wheelwright::Run<dim>::begin(c, folder() / name);
     if (!run) throw std::runtime_error("the run does not begin");
     CommandQueue commands;
     return run->execute(commands);
@@ -191,11 +193,12 @@ TEST_F(SavedShape, WhatDoesNotFitIsRefusedWithItsPlace) {
   expect(problem("first", uneven_wheel + uneven_holes), "cannot be drawn over");
   expect(problem("first", uneven_wheel, "[[shape.circle]]\ncount = 4\ncenter_radius = 0.27\nradius = 0.02\n"),
          "cannot be drawn over");
-  expect(problem("first", "[wheel]\nsectors = 4\ndimension = 3\n"), "only wheels in the plane");
   const LevelSet<3> solid{Lattice<3>({0.2, 0.34, 0.12, 4, {2, 4, 1}}, 1),
                           std::vector<double>(3 * 4 * 2, -1.0)};
   std::ofstream(folder() / "solid", std::ios::binary) << level_set_file(solid);
   expect(problem("solid", uneven_wheel), "three dimensions");
+  const std::string thin = "[wheel]\nsectors = 2\ndimension = 3\nwidth = 0.05\n[load]\npositions = 1\n";
+  expect(problem("solid", thin), "wheel.width = 0.12");
   std::string bytes = content(folder() / "first" / saved_shape_file);
   bytes[bytes.size() / 2] ^= 4;
   std::ofstream(folder() / "damaged", std::ios::binary) << bytes;
@@ -215,6 +218,59 @@ class StopAfter : public Observer<2> {
   CommandQueue& commands_;
   int left_;
 };
+
+const std::string solid_wheel = R"(
+[wheel]
+sectors = 12
+dimension = 3
+[load]
+positions = 1
+)";
+const std::string solid_grid = R"(
+[grid]
+radial_cells = 7
+angular_cells = 48
+axial_cells = 2
+degree = 1
+[material]
+poissons_ratio = 0.3
+)";
+const std::string solid_bands = "[optimizer]\nrim_band = 0.0201\ntread_band = 0.0405\n";
+
+TEST_F(SavedShape, InThreeDimensionsIsTheSameOnTheSameGrid) {
+  const std::string sphere = "[[holes.sphere]]\ncount = 12\ncenter_radius = 0.26\nradius = 0.03\nz = 0.02\n";
+  const Case drawn = read(solid_wheel + sphere + solid_grid + solid_bands + "iterations = 0\n");
+  const auto first = run<3>(drawn, "first");
+  const Case again =
+      read(solid_wheel + "[shape]\nfrom = \"first\"\n" + solid_grid + solid_bands + "iterations = 0\n");
+  EXPECT_EQ(initial_shape<3>(again).values, first.state->shape.values);
+  const auto second = run<3>(again, "second");
+  EXPECT_EQ(second.state->evaluation.function("objective").value,
+            first.state->evaluation.function("objective").value);
+  EXPECT_EQ(content(folder() / "first" / saved_shape_file), content(folder() / "second" / saved_shape_file));
+}
+
+TEST_F(SavedShape, OfAWheelInThePlaneIsExtruded) {
+  const std::string plane_wheel = "[wheel]\nsectors = 12\n[load]\npositions = 1\n",
+                    hole = "[[holes.ring]]\ncount = 12\ncenter_radius = 0.26\nradius = 0.03\n",
+                    plane_grid = "[grid]\nradial_cells = 7\nangular_cells = 48\ntread_levels = 0\n";
+  const auto plane = run(read(plane_wheel + hole + plane_grid + solid_bands + "iterations = 0\n"), "plane");
+  const Case c =
+      read(solid_wheel + "[shape]\nfrom = \"plane\"\n" + solid_grid + solid_bands + "iterations = 0\n");
+  const LevelSet<3> shape = initial_shape<3>(c);
+  const LevelSet<2> section =
+      initial_shape<2>(read(plane_wheel + "[shape]\nfrom = \"plane\"\n" + plane_grid +
+                            "level_set_degree = 1\n" + solid_bands + "iterations = 0\n"));
+  for (int node = 0; node < shape.lattice.n_nodes(); ++node) {
+    const auto p = shape.lattice.node_position(node);
+    EXPECT_EQ(shape.values[node], section.values[section.lattice.node_index({p[0], p[1]})]);
+  }
+  EXPECT_NEAR(material_measure(shape), 0.12 * material_measure(section), 1e-9);
+  const double ring = 0.5 * 2 * pi / 12 * (0.34 * 0.34 - 0.2 * 0.2);
+  const auto change = volume_change_of_saved_shape<3>(c);
+  EXPECT_NEAR(change->there * ring, plane.initial->measure, 1e-9);
+  EXPECT_NEAR(change->here * ring * 0.12, material_measure(shape), 1e-9);
+}
 
 class CoarseLevels : public SavedShape {};
 

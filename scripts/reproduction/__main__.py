@@ -9,7 +9,7 @@ import textwrap
 import time
 from pathlib import Path
 
-from .execute import execute_all, perturbations, tasks_of
+from .execute import Task, execute_all, perturbations, tasks_of
 from .family import Verdict
 from .figures import figures
 from .progress import CaseProgress
@@ -28,9 +28,15 @@ def chosen(words: list[str]) -> list[Figure]:
     return [f for f in figures if not wanted or wanted.intersection(f.numbers)]
 
 
+def shapes_of(figure: Figure) -> list[Task]:
+    """The shapes of cases that the figure evaluates under other cases."""
+    return [Task(case, shape=shape) for case, shape in figure.shapes]
+
+
 def section(figure: Figure, runs: Runs, album: Album) -> str:
     mine = {name: runs[name] for name in figure.cases}
     commands = "".join(f"    wheelwright run cases/paper/{n}.toml  # {f.run.seconds:.0f} s\n" for n, f in mine.items())
+    mine |= {task.family: runs[task.family] for task in shapes_of(figure)}
     failures = [f for f in mine.values() if f.failure and f.name not in figure.may_fail]
     body = "".join(f"Not reproduced, {f.name}: `{f.failure}`\n" for f in failures) or figure.section(mine, album)
     expected = sum(f.run.expected for f in mine.values())
@@ -122,6 +128,7 @@ def main() -> None:
     options = arguments()
     selection = chosen(options.figures)
     tasks = [task for name in dict.fromkeys(n for figure in selection for n in figure.cases) for task in tasks_of(name)]
+    tasks += [task for figure in selection for task in shapes_of(figure)]
     album = Album(options.page.with_suffix(""))
     album.folder.mkdir(parents=True, exist_ok=True)
     run_options = [] if options.iterations is None else ["--iterations", str(options.iterations)]

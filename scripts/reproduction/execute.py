@@ -21,22 +21,34 @@ perturbations = [sign * size * 1e-6 for size in (1, 3, 6, 10) for sign in (1, -1
 
 @dataclass
 class Task:
-    """A run to be made: of a case, or of its perturbation number `perturbation`."""
+    """A run to be made: of a case, of its perturbation number `perturbation`, or of the last shape of the case `shape`
+    as the first and only one of this case."""
 
     case: str
     perturbation: int | None = None
+    shape: str | None = None
+
+    @property
+    def family(self) -> str:
+        """The name under which its results are found."""
+        return self.case if self.shape is None else f"{self.case}_of_{self.shape}"
 
     @property
     def name(self) -> str:
-        return self.case if self.perturbation is None else f"{self.case}_{self.perturbation + 1}"
+        return self.family if self.perturbation is None else f"{self.family}_{self.perturbation + 1}"
 
     def case_file(self, folder: Path) -> Path:
-        """The file to run; that of a perturbed case is written to `folder`."""
+        """The file to run; that of a changed case is written to `folder`."""
         file = cases / f"{self.case}.toml"
-        if self.perturbation is None:
+        if self.perturbation is None and self.shape is None:
             return file
         copy = folder / f"{self.name}.toml"
-        copy.write_text(perturbed(file.read_text(), perturbations[self.perturbation]))
+        text = file.read_text()
+        if self.perturbation is not None:
+            text = perturbed(text, perturbations[self.perturbation])
+        if self.shape is not None:
+            text = of_shape(text, self.shape)
+        copy.write_text(text)
         return copy
 
 
@@ -52,6 +64,14 @@ def perturbed(case: str, relative: float) -> str:
     changed = lambda m: f"radius = {float(m[1]) * (1 + relative):.12g}"  # noqa: E731
     case = re.sub(r"^radius = (\S+)", changed, case, flags=re.MULTILINE)
     return case + "\n[output]\nvtu_every = 0\n"
+
+
+def of_shape(case: str, run: str) -> str:
+    """The case of the shape of a run in the folder beside, in place of its holes, without expected values."""
+    case = re.sub(r"^\[\[expect\]\].*", "", case, flags=re.MULTILINE | re.DOTALL)
+    case = re.sub(r"^\[\[holes\.\w+\]\]\n([^\[]*\n)?", "", case, flags=re.MULTILINE)
+    case = re.sub(r"^iterations = .*", "iterations = 0", case, flags=re.MULTILINE)
+    return case + f'\n[shape]\nfrom = "{run}"\n'
 
 
 def tasks_of(case: str) -> list[Task]:
@@ -146,7 +166,9 @@ def execute_all(program: str, tasks: list[Task], folder: Path, options: list[str
         return run
 
     families: dict[str, Family] = {}
-    with ThreadPoolExecutor(jobs) as pool:
-        for task, run in zip(tasks, pool.map(one, tasks)):
-            families.setdefault(task.case, Family(task.case, [])).members.append(run)
+    # Those that need the shapes of others come last.
+    for part in ([t for t in tasks if t.shape is None], [t for t in tasks if t.shape is not None]):
+        with ThreadPoolExecutor(jobs) as pool:
+            for task, run in zip(part, pool.map(one, part)):
+                families.setdefault(task.family, Family(task.family, [])).members.append(run)
     return families

@@ -50,5 +50,11 @@ figures = [
         uniformity,
     ),
     Figure(range(22, 23), "48 holes", _with_rules("holes48_je", "holes48_jp2"), holes_48),
-    Figure(range(23, 24), "108 holes", _with_rules("holes108_je"), holes_108),
+    Figure(
+        range(23, 24),
+        "108 holes",
+        [*_with_rules("holes108_je"), "holes108_je_section", "holes108_je_3d"],
+        holes_108,
+        shapes=(("holes108_je_3d", "holes108_je_section"),),
+    ),
 ]

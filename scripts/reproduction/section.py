@@ -51,6 +51,7 @@ class Figure:
     cases: list[str]
     section: Callable[[Runs, Album], str]
     may_fail: tuple[str, ...] = ()  # cases whose failure the section tells
+    shapes: tuple[tuple[str, str], ...] = ()  # a case and another one, whose last shape is evaluated under the first
 
     @property
     def label(self) -> str:
@@ -102,5 +103,5 @@ def ways(ours: str, rules: str) -> str:
 
 
 def joined(*parts: str) -> str:
-    """The parts with an empty line between; paragraphs are wrapped, tables and pictures are not."""
-    return "\n".join(part if part[0] in "|!" else textwrap.fill(part, 115) + "\n" for part in parts)
+    """The parts with an empty line between; paragraphs are wrapped, tables, pictures and commands are not."""
+    return "\n".join(part if part[0] in "|! " else textwrap.fill(part, 115) + "\n" for part in parts)

@@ -150,7 +150,10 @@ int DesignSession::run(const Case& c, std::size_t n_designs, Signals& signals, c
 
 bool is_plane_or_tell(const std::string& command, const Case& c, const std::string& file) {
   if (c.wheel.dimension == 2) return true;
-  tell("wheelwright {}: {}: this command works on cases with wheel.dimension = 2 alone\n", command, file);
+  tell(
+      "wheelwright {}: {}: this command tries many designs, each of which takes minutes to hours in 3D; take "
+      "wheel.dimension = 2, and begin a case in 3D with the best design, by [shape] from\n",
+      command, file);
   return false;
 }
 

@@ -84,8 +84,11 @@ Expected<WheelInput<dim>, ExitCode> wheel_of(Case c, const fs::path& input, cons
 Expected<Case, ExitCode> plane_case(const fs::path& input, const Computation& computation) {
   auto c = affordable_case(input, computation);
   if (!c || c->wheel.dimension == 2) return c;
-  tell("wheelwright {}: {}: this command works on cases with wheel.dimension = 2 alone\n",
-       computation.command, input.string());
+  tell(
+      "wheelwright {}: {}: this command lays outlines over each other, and a wheel in 3D has none; "
+      "`wheelwright "
+      "report` puts runs in 3D side by side, with their numbers and surfaces\n",
+      computation.command, input.string());
   return exit_refused;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "wheelwright/base/quantity.h"
@@ -237,11 +238,15 @@ struct PictureShape {
   bool operator==(const PictureShape&) const = default;
 };
 
-/// The shape of an earlier run, to begin with instead of holes and drawn shapes.
+/// A shape of a wheel in the plane or in three dimensions.
+using SavedLevelSet = std::variant<LevelSet<2>, LevelSet<3>>;
+
+/// The shape of an earlier run, to begin with instead of holes and drawn shapes. A wheel in three dimensions
+/// may begin with the shape of one in the plane, extruded.
 struct SavedShape {
   std::string from;      ///< a run's folder or a file of its kind; relative to the case's file; empty: none
   std::string checksum;  ///< of the file; never empty in a case that was read from a file with `from`
-  Loaded<LevelSet<2>> shape;
+  Loaded<SavedLevelSet> shape;
   bool operator==(const SavedShape&) const = default;
 };
 

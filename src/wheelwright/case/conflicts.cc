@@ -271,6 +271,31 @@ void check_tapered(const Case& c, Conflicts& found) {
   }
 }
 
+/// The ring and the sectors of a saved shape must be those of the wheel; in three dimensions its width too.
+template <int dim>
+void check_saved_grid(const Case& c, const PolarGrid<dim>& grid, Conflicts& found) {
+  if (dim == 3 && c.wheel.dimension == 2) {
+    found.push_back({{"shape.from", "wheel.dimension"},
+                     "a wheel in the plane cannot begin with a shape in three dimensions",
+                     "take wheel.dimension = 3, or the shape of a run in the plane"});
+    return;
+  }
+  const std::string problem = misfit(grid, polar_grid<dim>(c));
+  if (problem.empty()) return;
+  std::vector<std::string> keys{"shape.from", "wheel.inner_radius", "wheel.outer_radius", "wheel.sectors"};
+  std::string width;
+  if (dim == 3) {
+    keys.push_back("wheel.width");
+    width = fmt::format("wheel.width = {}, ", number_text(grid.width));
+  }
+  found.push_back(
+      {std::move(keys), fmt::format("the saved shape does not fit: {}", problem),
+       fmt::format("give wheel.inner_radius = {}, wheel.outer_radius = {}, {}and for wheel.sectors "
+                   "one of {}",
+                   number_text(grid.inner_radius), number_text(grid.outer_radius), width,
+                   fmt::join(divisors(grid.n_sectors), ", "))});
+}
+
 /// A saved shape takes the place of holes and drawn shapes, and must fit the ring and its sectors.
 void check_saved_shape(const Case& c, Conflicts& found) {
   if (c.saved_shape.from.empty()) return;
@@ -279,26 +304,17 @@ void check_saved_shape(const Case& c, Conflicts& found) {
                      "holes and shapes cannot be drawn over the shape of another run",
                      "keep the shape of the other run, or what is drawn"});
   };
-  if (c.wheel.dimension == 3)
-    found.push_back({{"shape.from", "wheel.dimension"},
-                     "only wheels in the plane can begin with a saved shape",
-                     "take wheel.dimension = 2, or draw the shape"});
   if (!c.holes.rings.empty()) refuse_besides("holes.ring[1]");
   if (!c.holes.circles.empty()) refuse_besides("holes.circle[1]");
   for_each_shape_section([&](const auto& section) {
     if (!section.of(c).empty()) refuse_besides(section.path() + "[1]");
   });
-  const LevelSet<2>* shape = c.saved_shape.shape.contents.get();
+  const SavedLevelSet* shape = c.saved_shape.shape.contents.get();
   if (!shape || c.wheel.inner_radius >= c.wheel.outer_radius) return;
-  const PolarGrid<2>& grid = shape->lattice.grid();
-  const std::string problem = misfit(grid, polar_grid<2>(c));
-  if (problem.empty()) return;
-  found.push_back({{"shape.from", "wheel.inner_radius", "wheel.outer_radius", "wheel.sectors"},
-                   fmt::format("the saved shape does not fit: {}", problem),
-                   fmt::format("give wheel.inner_radius = {}, wheel.outer_radius = {}, and for wheel.sectors "
-                               "one of {}",
-                               number_text(grid.inner_radius), number_text(grid.outer_radius),
-                               fmt::join(divisors(grid.n_sectors), ", "))});
+  if (const auto* solid = std::get_if<LevelSet<3>>(shape))
+    check_saved_grid<3>(c, solid->lattice.grid(), found);
+  else
+    check_saved_grid<2>(c, std::get<LevelSet<2>>(*shape).lattice.grid(), found);
 }
 
 /// The coarser grids must have whole cells in each sector, room between their wider bands, and rows of cells

@@ -15,21 +15,11 @@ constexpr const char* table = "shape";
 constexpr const char* key = "shape.from";
 constexpr std::size_t most_bytes = std::size_t{1} << 28;
 
-/// Why these bytes are no shape of a wheel in the plane, with what to do.
-FileProblem fault(const fs::path& file, const std::string& bytes, const FormatError& error) {
-  if (parse_level_set_file<3>(bytes))
-    return {Kind::conflict,
-            key,
-            "",
-            0,
-            fmt::format("{} is a shape in three dimensions", file.string()),
-            "take the shape of a run in the plane"};
-  return {Kind::unreadable,
-          key,
-          "",
-          0,
-          fmt::format("{} cannot be used: {}: {}", file.string(), to_string(error.fault), error.detail),
-          fmt::format("give the folder of a run, or its file {}", saved_shape_file)};
+Expected<SavedLevelSet, FormatError> parsed(const std::string& bytes) {
+  if (auto solid = parse_level_set_file<3>(bytes)) return SavedLevelSet(*std::move(solid));
+  auto plane = parse_level_set_file<2>(bytes);
+  if (!plane) return plane.failure();
+  return SavedLevelSet(*std::move(plane));
 }
 
 }  // namespace
@@ -54,11 +44,14 @@ std::vector<FileProblem> load_saved_shape(Case& c, const fs::path& folder) {
   // The blocks of such a file end in their own checksums, after which that of the whole file no longer
   // depends on what is in them. Read backwards it does.
   check_checksum(saved.checksum, {bytes->rbegin(), bytes->rend()}, table, problems);
-  auto shape = parse_level_set_file<2>(*bytes);
+  auto shape = parsed(*bytes);
   if (shape)
-    saved.shape.contents = std::make_shared<const LevelSet<2>>(*std::move(shape));
+    saved.shape.contents = std::make_shared<const SavedLevelSet>(*std::move(shape));
   else
-    problems.push_back(fault(file, *bytes, shape.failure()));
+    problems.push_back({Kind::unreadable, key, "", 0,
+                        fmt::format("{} cannot be used: {}: {}", file.string(),
+                                    to_string(shape.failure().fault), shape.failure().detail),
+                        fmt::format("give the folder of a run, or its file {}", saved_shape_file)});
   return problems;
 }
 

@@ -151,7 +151,7 @@ LevelSet<dim> Evolver<dim>::with_features(const LevelSet<dim>& psi) const {
   if (!features_.any()) return psi;
   LevelSet<dim> result = with_feature_size(psi, features_);
   if (result.values == psi.values) return result;
-  return bands_.keep(is_mirror_symmetric(psi) ? mirror_symmetric_part(result) : std::move(result));
+  return bands_.keep(with_symmetries_of(psi, std::move(result)));
 }
 
 template <int dim>
@@ -175,7 +175,7 @@ Expected<MeasuredShape<dim>> Evolver<dim>::with_measure(const LevelSet<dim>& psi
 template <int dim>
 Expected<AttachedShape<dim>> Evolver<dim>::without_islands(const LevelSet<dim>& psi, double largest) const {
   auto attached = wheelwright::without_islands<dim>(psi, largest);
-  if (attached) attached->psi = bands_.keep(std::move(attached->psi));
+  if (attached) attached->psi = bands_.keep(with_symmetries_of(psi, std::move(attached->psi)));
   return attached;
 }
 

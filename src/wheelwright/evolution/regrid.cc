@@ -11,8 +11,7 @@ template <int dim>
 LevelSet<dim> regrid(const LevelSet<dim>& psi, const Lattice<dim>& lattice) {
   const LevelSet<dim> values = values_on(psi, lattice);
   if (have_same_nodes(psi.lattice, lattice)) return values;
-  const LevelSet<dim> distance = sub_cell_filter(redistance(values));
-  return is_mirror_symmetric(psi) ? mirror_symmetric_part(distance) : distance;
+  return with_symmetries_of(psi, sub_cell_filter(redistance(values)));
 }
 
 template LevelSet<2> regrid(const LevelSet<2>&, const Lattice<2>&);

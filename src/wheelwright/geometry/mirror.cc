@@ -38,10 +38,18 @@ LevelSet<dim> mirror_symmetric_part(const LevelSet<dim>& psi, MirrorPlane plane)
   return part;
 }
 
+template <int dim>
+LevelSet<dim> with_symmetries_of(const LevelSet<dim>& other, LevelSet<dim> psi) {
+  for (const MirrorPlane plane : {MirrorPlane::azimuth, MirrorPlane::width})
+    if (is_mirror_symmetric(other, plane)) psi = mirror_symmetric_part(psi, plane);
+  return psi;
+}
+
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                    \
   template bool is_mirror_symmetric(const Lattice<dim>&, std::span<const double>, double, MirrorPlane); \
   template bool is_mirror_symmetric(const LevelSet<dim>&, MirrorPlane);                                 \
-  template LevelSet<dim> mirror_symmetric_part(const LevelSet<dim>&, MirrorPlane);
+  template LevelSet<dim> mirror_symmetric_part(const LevelSet<dim>&, MirrorPlane);                      \
+  template LevelSet<dim> with_symmetries_of(const LevelSet<dim>&, LevelSet<dim>);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)
 #undef WHEELWRIGHT_INSTANTIATE

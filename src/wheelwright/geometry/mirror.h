@@ -25,6 +25,11 @@ bool is_mirror_symmetric(const LevelSet<dim>& psi, MirrorPlane plane = MirrorPla
 template <int dim>
 LevelSet<dim> mirror_symmetric_part(const LevelSet<dim>& psi, MirrorPlane plane = MirrorPlane::azimuth);
 
+/// The shape with the mirror symmetries that another one has, to the last bit: what a stage makes of a
+/// symmetric shape is symmetric up to rounding alone.
+template <int dim>
+LevelSet<dim> with_symmetries_of(const LevelSet<dim>& other, LevelSet<dim> psi);
+
 /// Index of the cell that is the mirror image of a cell in the same sector.
 template <int dim>
 int mirror_image(const PolarGrid<dim>& grid, int cell, MirrorPlane plane = MirrorPlane::azimuth) {

@@ -4,6 +4,10 @@
 
 #include "wheelwright/cad/outline_fault.h"
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/dimension.h"
+#include "wheelwright/geometry/section.h"
+#include "wheelwright/report/described_wheel.h"
+#include "wheelwright/run/study.h"
 
 namespace wheelwright {
 namespace {
@@ -51,6 +55,11 @@ std::vector<std::string> feature_warnings(const Case& c, const cad::Clearances& 
         "optimizer.minimum_wall keeps walls thick, a finer grid resolves thinner ones",
         measured.wall->width * mm, place(*measured.wall), measured.wall->width / cell));
   return result;
+}
+
+cad::Clearances initial_clearances(const Case& c) {
+  return outline_clearances(
+      in_dimension_of(c, [&](auto dim) { return mid_plane_section(initial_shape<dim>(c)); }));
 }
 
 }  // namespace wheelwright

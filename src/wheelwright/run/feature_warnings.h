@@ -15,4 +15,8 @@ inline constexpr double least_cells_per_wall = 3;
 /// allows, with its place, and a wall of less than three cells that is no band at rim or tread.
 std::vector<std::string> feature_warnings(const Case& c, const cad::Clearances& measured);
 
+/// The thinnest wall and the narrowest gap of the initial shape; in 3D of its section in the middle of the
+/// width.
+cad::Clearances initial_clearances(const Case& c);
+
 }  // namespace wheelwright

@@ -35,7 +35,9 @@ void write_drawings(const std::filesystem::path& folder, const Case& c) {
   for (const PictureShape& shape : c.shapes.pictures)
     if (shape.picture.contents) write_atomically(folder / shape.path, shape.picture.contents->bytes);
   if (c.saved_shape.shape.contents)
-    write_atomically(folder / c.saved_shape.from, level_set_file(*c.saved_shape.shape.contents));
+    write_atomically(
+        folder / c.saved_shape.from,
+        std::visit([](const auto& shape) { return level_set_file(shape); }, *c.saved_shape.shape.contents));
 }
 
 }  // namespace wheelwright

@@ -19,7 +19,10 @@ constexpr int least_rows = 6;
 /// With an even number, positions over the middle of a hole and of a spoke are among them.
 constexpr int most_positions = 4;
 
-bool is_prismatic(const Case& c) { return c.holes.spheres.empty() && c.holes.tapered.empty(); }
+bool is_prismatic(const Case& c) {
+  const SavedLevelSet* saved = c.saved_shape.shape.contents.get();
+  return c.holes.spheres.empty() && c.holes.tapered.empty() && !(saved && saved->index() == 1);
+}
 
 /// The wheel in the plane, which the middle of its width shows.
 Case in_the_plane(Case c) {

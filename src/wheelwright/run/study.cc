@@ -18,6 +18,7 @@
 #include "wheelwright/functionals/uniformity_dual.h"
 #include "wheelwright/functionals/uniformity_l2.h"
 #include "wheelwright/geometry/components.h"
+#include "wheelwright/geometry/section.h"
 #include "wheelwright/geometry/values_on.h"
 #include "wheelwright/rolling/half_width_solver.h"
 #include "wheelwright/run/bounded_functions.h"
@@ -176,11 +177,23 @@ const ShapeFunction<dim>& Study<dim>::objective() const {
 
 namespace {
 
-/// The shape of another run that a case begins with; null if it draws its own.
-template <int dim>
-const LevelSet<dim>* saved_shape(const Case& c) {
-  if constexpr (dim == 2) return c.saved_shape.shape.contents.get();
-  return nullptr;
+/// The shape of another run that a case begins with, on its own grid; nothing if the case draws its own.
+const SavedLevelSet* saved_shape(const Case& c) { return c.saved_shape.shape.contents.get(); }
+
+/// What `on_lattice(shape, lattice)` makes of a saved shape; shapes of wheels in the plane are extruded.
+template <int dim, class OnLattice>
+LevelSet<dim> saved_on(const Lattice<dim>& lattice, const SavedLevelSet& saved, OnLattice on_lattice) {
+  if constexpr (dim == 3)
+    if (const auto* plane = std::get_if<LevelSet<2>>(&saved))
+      return extruded(on_lattice(*plane, section_lattice(lattice)), lattice);
+  return on_lattice(std::get<LevelSet<dim>>(saved), lattice);
+}
+
+/// Of a saved shape, as a share of its ring.
+double volume_fraction_of(const SavedLevelSet& saved) {
+  return std::visit(
+      [](const auto& shape) { return volume_fraction(shape.lattice.grid(), material_measure(shape)); },
+      saved);
 }
 
 /// The shape that a case draws, at the nodes of a lattice.
@@ -200,19 +213,19 @@ LevelSet<dim> drawn_on(const Lattice<dim>& lattice, const Case& c) {
 template <int dim>
 LevelSet<dim> initial_shape(const Case& c) {
   const Lattice<dim> lattice(polar_grid<dim>(c), level_set_degree(c));
-  const LevelSet<dim>* saved = saved_shape<dim>(c);
-  return ProtectedBands<dim>(lattice, bands(c)).keep(saved ? regrid(*saved, lattice) : drawn_on(lattice, c));
+  const auto moved = [](const auto& shape, const auto& nodes) { return regrid(shape, nodes); };
+  const SavedLevelSet* saved = saved_shape(c);
+  return ProtectedBands<dim>(lattice, bands(c))
+      .keep(saved ? saved_on(lattice, *saved, moved) : drawn_on(lattice, c));
 }
 
 template <int dim>
 std::optional<VolumeChange> volume_change_of_saved_shape(const Case& c) {
-  const LevelSet<dim>* saved = saved_shape<dim>(c);
+  const SavedLevelSet* saved = saved_shape(c);
   if (!saved) return {};
   const LevelSet<dim> here = initial_shape<dim>(c);
-  const auto fraction = [](const LevelSet<dim>& shape) {
-    return volume_fraction(shape.lattice.grid(), material_measure(shape));
-  };
-  return VolumeChange{fraction(*saved), fraction(here)};
+  return VolumeChange{volume_fraction_of(*saved),
+                      volume_fraction(here.lattice.grid(), material_measure(here))};
 }
 
 std::string text(const VolumeChange& change) {
@@ -226,8 +239,9 @@ std::vector<ShapeEvent<dim>> lost_on_the_grid(const Case& c) {
   PolarGrid<dim> fine = polar_grid<dim>(c);
   for (int& cells : fine.cells) cells *= component_samples;
   const Lattice<dim> samples(fine, 1);
-  const LevelSet<dim>* saved = saved_shape<dim>(c);
-  const auto given = saved ? values_on(*saved, samples) : drawn_on(samples, c);
+  const auto sampled = [](const auto& shape, const auto& nodes) { return values_on(shape, nodes); };
+  const SavedLevelSet* saved = saved_shape(c);
+  const auto given = saved ? saved_on(samples, *saved, sampled) : drawn_on(samples, c);
   return topology_changes(components(given, 1), components(initial_shape<dim>(c)));
 }
 

@@ -119,8 +119,6 @@ template <int dim>
 Expected<std::filesystem::path, NoProduct> save_design(const std::filesystem::path& folder,
                                                        const std::string& name,
                                                        const WatchedShape<dim>& shape) {
-  if (dim == 3)
-    return NoProduct{"a case cannot begin with a saved shape in 3D: go on from the run's folder, or export"};
   if (!is_design_name(name)) return NoProduct{"a name has 1 to 40 letters, digits, - and _"};
   const std::filesystem::path designs = folder / designs_folder, file = designs / (name + ".toml"),
                               level_set = designs / (name + ".levelset");

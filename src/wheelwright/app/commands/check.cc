@@ -6,7 +6,7 @@
 #include "wheelwright/app/memory.h"
 #include "wheelwright/app/shared_options.h"
 #include "wheelwright/app/terminal.h"
-#include "wheelwright/report/described_wheel.h"
+#include "wheelwright/case/dimension.h"
 #include "wheelwright/run/case_report.h"
 #include "wheelwright/run/feature_warnings.h"
 #include "wheelwright/run/loose_material.h"
@@ -36,8 +36,9 @@ class CheckCommand : public Subcommand {
       print_warning(stdout, "this case cannot run here: " + *lack);
       return exit_done;
     }
-    if (const auto change = volume_change_of_saved_shape<2>(*c)) print("{}\n", text(*change));
-    const cad::Clearances clearances = outline_clearances(initial_shape<2>(*c));
+    const auto change = in_dimension_of(*c, [&](auto dim) { return volume_change_of_saved_shape<dim>(*c); });
+    if (change) print("{}\n", text(*change));
+    const cad::Clearances clearances = initial_clearances(*c);
     print_lines(stdout, clearance_report(clearances));
     print_warnings(stdout, *c);
     if (const auto warning = predicted_deformation(*c)) print_warning(stdout, *warning);

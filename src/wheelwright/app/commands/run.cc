@@ -14,14 +14,6 @@ namespace {
 std::optional<Case> case_from_run(const std::filesystem::path& folder) {
   auto c = read_or_tell(folder / "case.toml");
   if (!c) return {};
-  if (c->wheel.dimension == 3) {
-    tell(
-        "{}: only wheels in the plane can begin with the shape of a run; `wheelwright resume` goes on with "
-        "this "
-        "one\n",
-        folder.string());
-    return {};
-  }
   c->holes = {};
   c->shapes = {};
   c->expectations = {};
