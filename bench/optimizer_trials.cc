@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "wheelwright/report/described_wheel.h"
 #include "wheelwright/wheelwright.h"
 
 namespace wheelwright::bench {
@@ -31,6 +32,9 @@ struct Course {
   std::vector<double> objectives;  ///< of every trial; NaN where there is none
   std::vector<bool> accepted;
   StopReason reason;
+  double end;                  ///< the objective of the last shape
+  cad::Clearances clearances;  ///< of the outline of the last shape, measured on the curves fitted to it
+  double cell;
 
   int trials() const { return static_cast<int>(objectives.size()) - 1; }
   double best() const {
@@ -56,14 +60,18 @@ Expected<Course> course(const Case& c, int most_trials, bool tells) {
                                                  : std::numeric_limits<double>::quiet_NaN());
     result.accepted.push_back(trial.verdict == Verdict::accepted);
     if (tells)
-      fmt::print("{:4} {:4} {:12.6f} step {:.4f} next {:.4f} pairs {} {}\n", result.trials(), trial.iteration,
-                 result.objectives.back(), trial.step, state.step, state.memory.pairs.size(),
+      fmt::print("{:4} {:4} {:12.6f} step {:.4f} next {:.4f} pairs {} widths {} {}\n", result.trials(),
+                 trial.iteration, result.objectives.back(), trial.step, state.step, state.memory.pairs.size(),
+                 static_cast<int>(state.final_widths),
                  trial.failure ? to_string(trial.failure->reason) : to_string(trial.verdict));
   };
   const auto optimizer = optimizer_of(*study);
   auto state = optimizer.start(study->initial, observe);
   if (!state) return state.failure();
   result.reason = optimizer.run(*state, observe, [&] { return result.trials() >= most_trials; });
+  result.end = optimizer.objective_of(state->evaluation);
+  result.clearances = outline_clearances(state->shape);
+  result.cell = state->shape.lattice.grid().resolution();
   return result;
 }
 
@@ -71,6 +79,11 @@ template <class Value>
 Value median(std::vector<Value> values) {
   std::ranges::sort(values);
   return values[values.size() / 2];
+}
+
+/// In cells.
+std::string width_text(const std::optional<cad::Clearance>& clearance, double cell) {
+  return clearance ? fmt::format("{:.2f}", clearance->width / cell) : "none";
 }
 
 std::string count_text(int trials) { return trials == 9999 ? "-" : std::to_string(trials); }
@@ -90,9 +103,14 @@ int run(const std::string& path, double best, int most_trials, int starts) {
     to_percent.push_back(found->trials_to(1.01 * best));
     to_tenth.push_back(found->trials_to(1.001 * best));
     ends.push_back(found->best());
-    fmt::print("start {}: {:>4} trials to 1 %, {:>4} to 0.1 %; best {:.4f} of {} trials, {} rejected ({})\n",
-               start, count_text(to_percent.back()), count_text(to_tenth.back()), ends.back(),
-               found->trials(), std::ranges::count(found->accepted, false), to_string(found->reason));
+    fmt::print(
+        "start {}: {:>4} trials to 1 %, {:>4} to 0.1 %; best {:.4f} of {} trials, {} rejected; end {:.4f}, "
+        "wall {} "
+        "and gap {} cells ({})\n",
+        start, count_text(to_percent.back()), count_text(to_tenth.back()), ends.back(), found->trials(),
+        std::ranges::count(found->accepted, false), found->end,
+        width_text(found->clearances.wall, found->cell), width_text(found->clearances.gap, found->cell),
+        to_string(found->reason));
     std::fflush(stdout);
   }
   fmt::print("median:  {:>4}             {:>4}            {:.4f}\n", count_text(median(to_percent)),

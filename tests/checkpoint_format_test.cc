@@ -74,6 +74,7 @@ TEST(CheckpointFormat, HoldsTheWholeState) {
   EXPECT_EQ(a.memory.multipliers, b.memory.multipliers);
   EXPECT_EQ(a.history, b.history);
   EXPECT_EQ(a.history_begin, b.history_begin);
+  EXPECT_EQ(a.final_widths, b.final_widths);
   EXPECT_EQ(written.initial.shape.values, parsed->initial.shape.values);
   EXPECT_EQ(written.initial.objective, parsed->initial.objective);
   EXPECT_EQ(written.found[1].quantity, parsed->found[1].quantity);
@@ -211,6 +212,7 @@ TEST(CheckpointFormat, RejectsStatesThatNoRunHas) {
   }));
   EXPECT_FALSE(accepts([](auto& c) { c.state.iteration = -1; }));
   EXPECT_FALSE(accepts([](auto& c) { c.state.step = 0; }));
+  EXPECT_FALSE(accepts([](auto& c) { c.state.final_widths = static_cast<FinalWidths>(3); }));
   EXPECT_FALSE(accepts([](auto& c) { c.state.memory.pairs[1].change.pop_back(); }));
   EXPECT_FALSE(accepts([&](auto& c) { c.state.memory.multipliers[0] = nan; }));
   EXPECT_FALSE(accepts([](auto& c) { c.state.evaluation.mean_observations.entries().pop_back(); }));

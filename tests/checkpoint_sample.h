@@ -69,7 +69,9 @@ Checkpoint<dim> some_checkpoint() {
                                  {random.numbers(n_nodes), random.numbers(n_nodes)}},
                                 random.numbers(2),
                                 random.numbers(3)},
-                               random.numbers(4)};
+                               random.numbers(4),
+                               0,
+                               FinalWidths::kept};
   return {{"[load]\nforce = 1\n", "wheelwright 1.2.3"},
           state,
           {some_level_set<dim>(random, 1), random.number(), random.number()},

@@ -978,15 +978,17 @@ const Section<Optimizer>& optimizer_section() {
                "the annulus"},
           {.name = "minimum_wall",
            .unit = "m",
-           .field = OptionalNumberField<Optimizer>{&Optimizer::minimum_wall, above(0, 1000), "any"},
+           .field = OptionalNumberField<Optimizer>{&Optimizer::minimum_wall, between(0, 1000),
+                                                   "any at first, one cell in the last part of a run"},
            .meaning = "least thickness of the material between two edges: thinner walls are made as thick in "
-                      "every shape; the bands at rim and tread must be as thick"},
+                      "every shape; the bands at rim and tread must be as thick; 0 means any to the end"},
           {.name = "minimum_gap",
            .unit = "m",
-           .field = OptionalNumberField<Optimizer>{&Optimizer::minimum_gap, above(0, 1000), "any"},
+           .field = OptionalNumberField<Optimizer>{&Optimizer::minimum_gap, between(0, 1000),
+                                                   "any at first, one cell in the last part of a run"},
            .meaning =
                "least width of a hole: narrower parts of holes, and smaller holes, are filled in every "
-               "shape"}}};
+               "shape; 0 means any to the end"}}};
   return section;
 }
 

@@ -77,6 +77,20 @@ std::vector<bool> Evolver<dim>::held_by_bands(std::span<const SurfacePoint<dim>>
   return held;
 }
 
+template <int dim>
+std::vector<bool> Evolver<dim>::held_by_widths(const LevelSet<dim>& psi,
+                                               std::span<const SurfacePoint<dim>> boundary,
+                                               std::span<const double> velocity,
+                                               const FeatureSize& size) const {
+  auto [wall, gap] = at_least_width(psi, boundary, size);
+  std::vector<bool> held;
+  for (std::size_t q = 0; q < boundary.size(); ++q) {
+    const double v = interpolate(node_weights<dim>(lattice_, boundary[q].cell, boundary[q].xi), velocity);
+    held.push_back((wall[q] && v < 0) || (gap[q] && v > 0));
+  }
+  return held;
+}
+
 /// Of the nodes around a point those decide its velocity that are on its side of the edge: it lies up to a
 /// tenth of a cell off.
 template <int dim>
@@ -147,27 +161,28 @@ LevelSet<dim> Evolver<dim>::keep_bands(const LevelSet<dim>& psi) const {
 }
 
 template <int dim>
-LevelSet<dim> Evolver<dim>::with_features(const LevelSet<dim>& psi) const {
-  if (!features_.any()) return psi;
-  LevelSet<dim> result = with_feature_size(psi, features_);
+LevelSet<dim> Evolver<dim>::with_features(const LevelSet<dim>& psi, const FeatureSize& size) const {
+  if (!size.any()) return psi;
+  LevelSet<dim> result = with_feature_size(psi, size);
   if (result.values == psi.values) return result;
   return bands_.keep(with_symmetries_of(psi, std::move(result)));
 }
 
 template <int dim>
-Expected<MeasuredShape<dim>> Evolver<dim>::measured(LevelSet<dim> psi) const {
-  return wheelwright::measured(with_features(psi), cut_points_);
+Expected<MeasuredShape<dim>> Evolver<dim>::measured(LevelSet<dim> psi, const FeatureSize& size) const {
+  return wheelwright::measured(with_features(psi, size), cut_points_);
 }
 
 template <int dim>
 Expected<MeasuredShape<dim>> Evolver<dim>::with_measure(const LevelSet<dim>& psi, double target,
-                                                        double boundary_measure) const {
+                                                        double boundary_measure,
+                                                        const FeatureSize& size) const {
   constexpr int most_turns = 6;
-  LevelSet<dim> shape = with_features(psi);
+  LevelSet<dim> shape = with_features(psi, size);
   for (int turn = 1;; ++turn) {
     auto shifted = wheelwright::with_measure<dim>(shape, bands_, target, boundary_measure, cut_points_);
-    if (!shifted || !features_.any() || turn == most_turns) return shifted;
-    shape = with_features(shifted->shape);
+    if (!shifted || !size.any() || turn == most_turns) return shifted;
+    shape = with_features(shifted->shape, size);
     if (shape.values == shifted->shape.values) return shifted;
   }
 }

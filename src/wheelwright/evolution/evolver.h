@@ -19,7 +19,7 @@ struct EvolutionOptions {
   /// tau of (76), in units of the squared resolution of the grid. With 0, smooth() is the identity.
   double smoothing = 0;
   Bands bands;                ///< that stay material
-  FeatureSize features = {};  ///< the least widths of walls and gaps
+  FeatureSize features = {};  ///< the least widths of walls and gaps in every shape
   int cut_points = 4;  ///< Gauss points per direction in cut cells; those of a solver that uses them again
 };
 
@@ -65,14 +65,27 @@ class Evolver {
   Expected<LevelSet<dim>> smooth(const LevelSet<dim>& psi) const;
   LevelSet<dim> keep_bands(const LevelSet<dim>& psi) const;
 
-  /// The shape with the least widths of walls and gaps (with_feature_size()).
-  LevelSet<dim> with_features(const LevelSet<dim>& psi) const;
+  /// The least widths of walls and gaps in every shape.
+  const FeatureSize& features() const { return features_; }
 
-  /// As the free functions with these names, of the shape with_features(). The shift to the measure thins
-  /// walls or gaps again: shape and shift are found in turns, until the widths hold after the shift.
-  Expected<MeasuredShape<dim>> measured(LevelSet<dim> psi) const;
+  /// The shape with these least widths of walls and gaps (with_feature_size()).
+  LevelSet<dim> with_features(const LevelSet<dim>& psi, const FeatureSize& size) const;
+
+  /// As the free functions with these names, of the shape with_features(), which are features() where none
+  /// are given. The shift to the measure thins walls or gaps again: shape and shift are found in turns, until
+  /// the widths hold after the shift.
+  Expected<MeasuredShape<dim>> measured(LevelSet<dim> psi, const FeatureSize& size) const;
+  Expected<MeasuredShape<dim>> with_measure(const LevelSet<dim>& psi, double target, double boundary_measure,
+                                            const FeatureSize& size) const;
   Expected<MeasuredShape<dim>> with_measure(const LevelSet<dim>& psi, double target,
-                                            double boundary_measure) const;
+                                            double boundary_measure) const {
+    return with_measure(psi, target, boundary_measure, features_);
+  }
+
+  /// Which points of the boundary would, with this velocity, narrow a wall or a gap that is as narrow as it
+  /// may be already.
+  std::vector<bool> held_by_widths(const LevelSet<dim>& psi, std::span<const SurfacePoint<dim>> boundary,
+                                   std::span<const double> velocity, const FeatureSize& size) const;
   Expected<AttachedShape<dim>> without_islands(const LevelSet<dim>& psi, double largest) const;
 
   /// Changes of the holes between two shapes: topology_changes(), and holes that reached a protected band.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "wheelwright/evolution/redistance.h"
@@ -93,8 +94,11 @@ class DistanceToCentres {
   DistanceToCentres(const Lattice<dim>& lattice, const std::vector<MedialBall<dim>>& balls)
       : lattice_(lattice), nearest_(images(lattice, balls)) {}
 
-  double operator()(int node) const {
-    const Vec<dim> x = cartesian<dim>(lattice_.polar_point(node));
+  double operator()(int node) const { return from(lattice_.polar_point(node)); }
+
+  /// Of a point (radius, azimuth[, axial]).
+  double from(const Vec<dim>& polar) const {
+    const Vec<dim> x = cartesian<dim>(polar);
     Vec<dim> apart = nearest_.points()[nearest_.index_of_nearest(x)];
     for (int d = 0; d < dim; ++d) apart[d] -= x[d];
     return norm<dim>(apart);
@@ -113,6 +117,27 @@ class DistanceToCentres {
   const Lattice<dim>& lattice_;
   NearestPoint<dim> nearest_;
 };
+
+template <int dim>
+Vec<dim> polar_position(const PolarGrid<dim>& grid, const SurfacePoint<dim>& point) {
+  const auto cell = grid.cell_position(point.cell);
+  Vec<dim> polar{grid.inner_radius};
+  for (int d = 0; d < dim; ++d) polar[d] += (cell[d] + point.xi[d]) * grid.cell_size()[d];
+  return polar;
+}
+
+/// Which points lie on the surface of such balls, whose radii hardly differ.
+template <int dim>
+std::vector<bool> touched(const LevelSet<dim>& psi, std::span<const SurfacePoint<dim>> boundary,
+                          const std::vector<MedialBall<dim>>& balls, double radius) {
+  std::vector<bool> result(boundary.size(), false);
+  if (balls.empty()) return result;
+  constexpr double near = 1.05;
+  const DistanceToCentres<dim> distance(psi.lattice, balls);
+  for (std::size_t q = 0; q < boundary.size(); ++q)
+    result[q] = distance.from(polar_position(psi.lattice.grid(), boundary[q])) < near * radius;
+  return result;
+}
 
 /// The shape whose material is this one's holes.
 template <int dim>
@@ -171,6 +196,43 @@ LevelSet<dim> without_narrow_gaps(const LevelSet<dim>& psi, double gap) {
 }
 
 template <int dim>
+LevelSet<dim> without_thin_walls(const LevelSet<dim>& psi, double wall) {
+  return negative(without_narrow_gaps(negative(psi), wall));
+}
+
+template <int dim>
+std::vector<ShapeEvent<dim>> narrowest_places(const LevelSet<dim>& psi, const FeatureSize& size) {
+  std::vector<ShapeEvent<dim>> result;
+  const auto add = [&](ShapeEventKind kind, const LevelSet<dim>& shape, double width) {
+    if (width <= 0) return;
+    const auto balls = thin_walls(shape, 0.5 * width * (1 - rounding));
+    if (balls.empty()) return;
+    const auto& least = *std::ranges::min_element(balls, {}, &MedialBall<dim>::radius);
+    Vec<dim> place = least.centre;
+    place[0] = std::hypot(least.centre[0], least.centre[1]);
+    place[1] = std::atan2(least.centre[1], least.centre[0]);
+    if (place[1] < 0) place[1] += psi.lattice.grid().sector_angle();
+    const double r = least.radius, pi = std::numbers::pi;
+    result.push_back({kind, place, dim == 2 ? pi * r * r : 4 * pi / 3 * r * r * r});
+  };
+  add(ShapeEventKind::thin_wall_mended, psi, size.wall);
+  add(ShapeEventKind::narrow_gap_mended, negative(psi), size.gap);
+  return result;
+}
+
+template <int dim>
+AtLeastWidth at_least_width(const LevelSet<dim>& psi, std::span<const SurfacePoint<dim>> boundary,
+                            const FeatureSize& size) {
+  constexpr double hardly_wider = 1.03;
+  const double wall = 0.5 * hardly_wider * size.wall, gap = 0.5 * hardly_wider * size.gap;
+  const auto at = [&](const LevelSet<dim>& shape, double radius) {
+    return radius > 0 ? touched<dim>(psi, boundary, thin_walls(shape, radius), radius)
+                      : std::vector<bool>(boundary.size(), false);
+  };
+  return {.wall = at(psi, wall), .gap = at(negative(psi), gap)};
+}
+
+template <int dim>
 LevelSet<dim> with_feature_size(const LevelSet<dim>& psi, const FeatureSize& size) {
   LevelSet<dim> result = psi;
   if (size.gap > 0) result = without_narrow_gaps(result, size.gap);
@@ -178,10 +240,14 @@ LevelSet<dim> with_feature_size(const LevelSet<dim>& psi, const FeatureSize& siz
   return result;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                              \
-  template std::vector<MedialBall<dim>> thin_walls(const LevelSet<dim>&, double); \
-  template LevelSet<dim> with_thick_walls(const LevelSet<dim>&, double);          \
-  template LevelSet<dim> without_narrow_gaps(const LevelSet<dim>&, double);       \
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                                \
+  template std::vector<MedialBall<dim>> thin_walls(const LevelSet<dim>&, double);                   \
+  template LevelSet<dim> with_thick_walls(const LevelSet<dim>&, double);                            \
+  template LevelSet<dim> without_narrow_gaps(const LevelSet<dim>&, double);                         \
+  template LevelSet<dim> without_thin_walls(const LevelSet<dim>&, double);                          \
+  template AtLeastWidth at_least_width(const LevelSet<dim>&, std::span<const SurfacePoint<dim>>,    \
+                                       const FeatureSize&);                                         \
+  template std::vector<ShapeEvent<dim>> narrowest_places(const LevelSet<dim>&, const FeatureSize&); \
   template LevelSet<dim> with_feature_size(const LevelSet<dim>&, const FeatureSize&);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)

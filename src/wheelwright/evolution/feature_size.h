@@ -1,6 +1,11 @@
 #pragma once
 
+#include <algorithm>
+#include <span>
+#include <vector>
+
 #include "wheelwright/geometry/level_set.h"
+#include "wheelwright/geometry/topology.h"
 
 namespace wheelwright {
 
@@ -10,7 +15,13 @@ struct FeatureSize {
   double gap = 0;   ///< of a hole, likewise, and across the hole
 
   bool any() const { return wall > 0 || gap > 0; }
+  bool operator==(const FeatureSize&) const = default;
 };
+
+/// The larger of both widths each.
+inline FeatureSize larger(const FeatureSize& a, const FeatureSize& b) {
+  return {.wall = std::max(a.wall, b.wall), .gap = std::max(a.gap, b.gap)};
+}
 
 /// A ball in the material that touches its boundary at two places.
 template <int dim>
@@ -38,8 +49,24 @@ LevelSet<dim> with_thick_walls(const LevelSet<dim>& psi, double wall);
 template <int dim>
 LevelSet<dim> without_narrow_gaps(const LevelSet<dim>& psi, double gap);
 
+/// Walls thinner than `wall` taken out: the opening, which is the closing of the holes.
+template <int dim>
+LevelSet<dim> without_thin_walls(const LevelSet<dim>& psi, double wall);
+
+/// The narrowest of the walls and of the gaps that are narrower than these widths: at most one event each.
+template <int dim>
+std::vector<ShapeEvent<dim>> narrowest_places(const LevelSet<dim>& psi, const FeatureSize& size);
+
 /// Both: first the gaps, whose filling makes no thin walls.
 template <int dim>
 LevelSet<dim> with_feature_size(const LevelSet<dim>& psi, const FeatureSize& size);
+
+/// Where points of the boundary bound a wall, or a gap, that is hardly wider than the least: up to 3 % more.
+struct AtLeastWidth {
+  std::vector<bool> wall, gap;  ///< one value per point
+};
+template <int dim>
+AtLeastWidth at_least_width(const LevelSet<dim>& psi, std::span<const SurfacePoint<dim>> boundary,
+                            const FeatureSize& size);
 
 }  // namespace wheelwright

@@ -16,6 +16,8 @@ enum class ShapeEventKind {
   hole_at_rim_band,    ///< a hole reached the protected band at the rim
   hole_at_tread_band,  ///< a hole reached the protected band at the tread
   island_removed,      ///< material that was not attached to the rim was removed
+  thin_wall_mended,    ///< a wall thinner than the least width was made thicker, or taken out
+  narrow_gap_mended,   ///< a gap narrower than the least width was filled
 };
 
 /// The kind as a word for logs and files, e.g. "holes_merged".
@@ -35,6 +37,10 @@ constexpr const char* to_string(ShapeEventKind kind) {
       return "hole_at_tread_band";
     case ShapeEventKind::island_removed:
       return "island_removed";
+    case ShapeEventKind::thin_wall_mended:
+      return "thin_wall_mended";
+    case ShapeEventKind::narrow_gap_mended:
+      return "narrow_gap_mended";
   }
   return "unknown";
 }
@@ -43,7 +49,8 @@ template <int dim>
 struct ShapeEvent {
   ShapeEventKind kind;
   Vec<dim> place;  ///< (radius, azimuth[, axial]) in the sector
-  double measure;  ///< area [m^2] or volume [m^3] of the hole or piece of material, as in Component
+  double measure;  ///< area [m^2] or volume [m^3] of the hole or piece of material, as in Component; of the
+                   ///< ball that fitted into a wall or gap where that was narrowest
 };
 
 /// Describes an event, e.g. "holes_merged of 83.2 mm^2 at azimuth 12.30 deg, radius 270.1 mm".

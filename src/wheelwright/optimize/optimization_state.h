@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "wheelwright/base/expected.h"
+#include "wheelwright/evolution/feature_size.h"
 #include "wheelwright/geometry/topology.h"
 #include "wheelwright/optimize/curvature_memory.h"
 #include "wheelwright/sensitivity/evaluate.h"
@@ -46,6 +47,16 @@ struct OptimizerOptions {
   /// How far the measure moves towards the target in one shape at the full step, as a fraction of the whole
   /// sector; only when it is held exactly.
   double measure_rate = 0.01;
+  /// The least widths in the last part of a run. Until the descent slows, or two thirds of the shapes are
+  /// done, shapes need not have them; then one is mended, and all that follow have them.
+  FeatureSize final_widths = {};
+};
+
+/// Whether shapes have OptimizerOptions::final_widths.
+enum class FinalWidths {
+  not_yet,
+  kept,
+  impossible,  ///< no shape that has them could be evaluated
 };
 
 /// What a method learns from the shapes before.
@@ -72,6 +83,7 @@ struct OptimizationState {
   /// The last shape whose objective is not compared with those before it: the first, one at which the
   /// objective was changed, or one whose measure had not been the target's yet.
   int history_begin = 0;
+  FinalWidths final_widths = FinalWidths::not_yet;
 };
 
 enum class Verdict {
@@ -111,6 +123,13 @@ struct Trial {
   /// What the evaluation was computed from; null when there was none.
   std::shared_ptr<const State<dim>> solution = {};
 };
+
+/// The least widths of the shapes that follow a state, where all shapes have those given.
+template <int dim>
+FeatureSize widths_after(const FeatureSize& of_all, const OptimizerOptions& options,
+                         const OptimizationState<dim>& state) {
+  return state.final_widths == FinalWidths::kept ? larger(of_all, options.final_widths) : of_all;
+}
 
 /// Whether the measure is held exactly, but has not reached its target yet.
 template <int dim>

@@ -45,13 +45,46 @@ bool is_finite(const Evaluation<dim>& evaluation) {
   return std::isfinite(sum);
 }
 
-bool is_converged(const OptimizerOptions& options, const std::vector<double>& history, bool has_bounds) {
-  if (options.tolerance <= 0 || history.size() <= convergence_window) return false;
+/// Whether the objective falls by less than the tolerance over some shapes, relative.
+bool is_slow(const OptimizerOptions& options, double tolerance, const std::vector<double>& history,
+             bool has_bounds) {
+  if (tolerance <= 0 || history.size() <= convergence_window) return false;
   const double before = history[history.size() - 1 - convergence_window];
   double fall = before - history.back();
   // The paper's rule lets the measure drift, and the objective rise with it; so do bounds that are violated.
   if (options.measure_control == MeasureControl::proportional || has_bounds) fall = std::abs(fall);
-  return fall < options.tolerance * std::abs(before);
+  return fall < tolerance * std::abs(before);
+}
+
+/// Whether final widths are asked for that the state's shape may not have.
+template <int dim>
+bool may_be_mended(const OptimizerOptions& options, const OptimizationState<dim>& state) {
+  return options.final_widths.any() && state.final_widths == FinalWidths::not_yet &&
+         !is_approaching(options, state);
+}
+
+/// When the descent is slow, when a third of the shapes is left, and when something is so narrow that the
+/// grid does not see it any more: from there on the objective falls by faults of the discretization.
+template <int dim>
+bool is_to_be_mended(const OptimizerOptions& options, const OptimizationState<dim>& state) {
+  constexpr double slow = 5e-3, unseen = 0.4;
+  const bool is_last_part = 3 * (options.iterations - state.iteration) <= options.iterations;
+  return may_be_mended(options, state) && state.iteration < options.iterations &&
+         (is_last_part ||
+          is_slow(options, std::max(slow, options.tolerance), state.history,
+                  !bound_constraints(state.evaluation).empty()) ||
+          !narrowest_places(state.shape, {.wall = unseen * options.final_widths.wall,
+                                          .gap = unseen * options.final_widths.gap})
+               .empty());
+}
+
+template <int dim>
+double merit_of(const Evaluation<dim>& evaluation, const std::string& objective,
+                std::vector<double> penalties) {
+  const auto constraints = bound_constraints(evaluation);
+  const double value = evaluation.function(objective).value;
+  if (penalties.size() != constraints.size()) penalties.assign(constraints.size(), std::abs(value));
+  return merit(value, constraints, penalties);
 }
 
 /// A change of the objective is a jump when it is more than this many times what the gradient foretells, and
@@ -143,7 +176,7 @@ std::optional<StopReason> reason_to_stop(const OptimizerOptions& options,
   if (state.iteration >= options.iterations) return StopReason::iterations;
   const auto bounds = bound_constraints(state.evaluation);
   if (largest_violation(bounds) <= feasible_violation &&
-      is_converged(options, state.history, !bounds.empty()))
+      is_slow(options, options.tolerance, state.history, !bounds.empty()))
     return StopReason::converged;
   return {};
 }
@@ -160,8 +193,9 @@ Expected<OptimizationState<dim>> ShapeOptimizer<dim>::start(const LevelSet<dim>&
   Trial<dim> trial = trial_at_rest<dim>(0, evolver_.keep_bands(initial));
   const double given = material_measure(trial.shape);
   const auto target = is_in_reach(given) ? options_.target_measure : std::nullopt;
-  auto cells = finish(trial, target, boundary_measure(boundary_samples<dim>(trial.shape)));
-  if (!trial.failure) evaluate(trial, std::move(cells), nullptr);
+  auto cells =
+      finish(trial, target, boundary_measure(boundary_samples<dim>(trial.shape)), evolver_.features());
+  if (!trial.failure) evaluate(trial, std::move(cells), nullptr, evolver_.features());
   if (trial.failure) {
     if (target) name_target(given, *target, *target, *trial.failure);
     return *trial.failure;
@@ -186,7 +220,7 @@ template <int dim>
 Expected<OptimizationState<dim>> ShapeOptimizer<dim>::restart(const OptimizationState<dim>& state,
                                                               const Observer& observer) const {
   Trial<dim> trial = trial_at_rest<dim>(state.iteration, state.shape);
-  evaluate(trial, {}, nullptr);
+  evaluate(trial, {}, nullptr, evolver_.features());
   if (trial.failure) return *trial.failure;
   trial.verdict = Verdict::accepted;
   OptimizationState<dim> anew = state;
@@ -198,6 +232,7 @@ Expected<OptimizationState<dim>> ShapeOptimizer<dim>::restart(const Optimization
   anew.memory = {};
   anew.history = {objective_of(*trial.evaluation)};
   anew.history_begin = state.iteration;
+  anew.final_widths = FinalWidths::not_yet;
   observer(trial, anew);
   return anew;
 }
@@ -206,8 +241,88 @@ template <int dim>
 std::optional<StopReason> ShapeOptimizer<dim>::advance(OptimizationState<dim>& state,
                                                        const Observer& observer,
                                                        const std::function<bool()>& stop_requested) const {
+  if (state.iteration < options_.iterations && stop_requested()) return StopReason::stop_requested;
+  const auto mending = is_to_be_mended(options_, state) ? mend(state, observer) : Mending::nothing;
+  if (mending == Mending::interrupted) return StopReason::stop_requested;
+  if (mending == Mending::done) return std::nullopt;
+  const auto reason = descend(state, observer, stop_requested);
+  const bool goes_no_further = reason == StopReason::no_descent || reason == StopReason::gave_up;
+  if (!goes_no_further || !may_be_mended(options_, state)) return reason;
+  const auto at_last = mend(state, observer);
+  if (at_last == Mending::interrupted) return StopReason::stop_requested;
+  return at_last == Mending::done ? std::nullopt : reason;
+}
+
+/// Gives the state's shape the final widths, if it does not have them: walls that are too thin are made
+/// thicker, or taken out if that is better. Other shapes are not compared with those before.
+template <int dim>
+typename ShapeOptimizer<dim>::Mending ShapeOptimizer<dim>::mend(OptimizationState<dim>& state,
+                                                                const Observer& observer) const {
+  OptimizationState<dim> next = state;
+  next.final_widths = FinalWidths::kept;
+  const FeatureSize widths = widths_after(next);
+  if (evolver_.with_features(state.shape, widths).values == state.shape.values) {
+    state = std::move(next);
+    return Mending::nothing;
+  }
+  std::vector<Trial<dim>> trials{mended(next, state.shape)};
+  const LevelSet<dim> cut = without_thin_walls(state.shape, widths.wall);
+  if (cut.values != state.shape.values) trials.push_back(mended(next, cut));
+  if (std::ranges::any_of(trials, was_interrupted<dim>)) return Mending::interrupted;
+  const auto merit_or_worst = [&](const Trial<dim>& trial) {
+    return trial.failure ? std::numeric_limits<double>::infinity()
+                         : merit_of(*trial.evaluation, options_.objective, state.memory.penalties);
+  };
+  std::ranges::stable_sort(trials, std::greater<>(), merit_or_worst);
+  for (size_t k = 0; k < trials.size(); ++k) trials[k].halvings = static_cast<int>(k);
+  Trial<dim>& best = trials.back();
+  if (best.failure) {
+    state.final_widths = FinalWidths::impossible;
+    for (const auto& trial : trials) observer(trial, state);
+    return Mending::nothing;
+  }
+  for (size_t k = 0; k + 1 < trials.size(); ++k) observer(trials[k], state);
+  best.verdict = Verdict::accepted;
+  for (const auto& event : narrowest_places(state.shape, widths)) best.events.push_back(event);
+  add_changes(state.shape, best);
+  next.shape = best.shape;
+  next.evaluation = *best.evaluation;
+  next.measure = best.measure;
+  next.iteration = best.iteration;
+  next.step = options_.step;
+  ++next.since_redistance;
+  ++next.since_smoothing;
+  next.history = {objective_of(*best.evaluation)};
+  next.history_begin = best.iteration;
+  state = std::move(next);
+  observer(best, state);
+  return Mending::done;
+}
+
+/// The trial of a shape with the widths of the shapes that follow the state.
+template <int dim>
+Trial<dim> ShapeOptimizer<dim>::mended(const OptimizationState<dim>& state,
+                                       const LevelSet<dim>& shape) const {
+  const auto start = std::chrono::steady_clock::now();
+  Trial<dim> trial = trial_at_rest<dim>(state.iteration + 1, evolver_.keep_bands(shape));
+  auto cells =
+      finish(trial, state.target_measure, boundary_measure(state.evaluation.boundary), widths_after(state));
+  trial.evolution_seconds = seconds_since(start);
+  if (!trial.failure) evaluate(trial, std::move(cells), &state.evaluation, widths_after(state));
+  trial.verdict = trial.failure ? Verdict::failed : Verdict::objective_rose;
+  return trial;
+}
+
+template <int dim>
+FeatureSize ShapeOptimizer<dim>::widths_after(const OptimizationState<dim>& state) const {
+  return wheelwright::widths_after(evolver_.features(), options_, state);
+}
+
+template <int dim>
+std::optional<StopReason> ShapeOptimizer<dim>::descend(OptimizationState<dim>& state,
+                                                       const Observer& observer,
+                                                       const std::function<bool()>& stop_requested) const {
   if (const auto reason = reason_to_stop(options_, state)) return reason;
-  if (stop_requested()) return StopReason::stop_requested;
   const auto proposals = proposals_from(evolver_, options_, state);
   if (!proposals) {
     observer(failed_trial(state, 0, state.step, proposals.failure()), state);
@@ -283,7 +398,7 @@ Trial<dim> ShapeOptimizer<dim>::attempt(const OptimizationState<dim>& state, con
   trial.max_velocity = largest_magnitude(move.velocity);
   auto cells = evolve(state, move, trial);
   trial.evolution_seconds = seconds_since(start);
-  if (!trial.failure) evaluate(trial, std::move(cells), &state.evaluation);
+  if (!trial.failure) evaluate(trial, std::move(cells), &state.evaluation, widths_after(state));
   if (!trial.failure)
     trial.failure =
         check_jump(objective_of(state.evaluation), objective_of(*trial.evaluation), move.objective_change);
@@ -326,7 +441,7 @@ typename ShapeOptimizer<dim>::MadeCells ShapeOptimizer<dim>::evolve(const Optimi
   if (take(evolver_.move(state.shape, move.velocity, move.distance * lattice_.grid().resolution()), trial) &&
       (!redistances || take(evolver_.redistance(trial.shape), trial)) &&
       (!smooths || take(evolver_.smooth(trial.shape), trial)))
-    return finish(trial, move.measure, boundary_measure(state.evaluation.boundary));
+    return finish(trial, move.measure, boundary_measure(state.evaluation.boundary), widths_after(state));
   return {};
 }
 
@@ -335,13 +450,14 @@ typename ShapeOptimizer<dim>::MadeCells ShapeOptimizer<dim>::evolve(const Optimi
 template <int dim>
 typename ShapeOptimizer<dim>::MadeCells ShapeOptimizer<dim>::finish(Trial<dim>& trial,
                                                                     std::optional<double> target,
-                                                                    double boundary_measure) const {
+                                                                    double boundary_measure,
+                                                                    const FeatureSize& widths) const {
   const double largest = options_.largest_island * sector_measure<dim>(lattice_.grid());
   for (int k = 0; k < max_removals; ++k) {
     trial.measure = unknown;
     MadeCells cells;
     if (target && options_.measure_control == MeasureControl::exact)
-      cells = take(evolver_.with_measure(trial.shape, *target, boundary_measure), trial);
+      cells = take(evolver_.with_measure(trial.shape, *target, boundary_measure, widths), trial);
     if (trial.failure) return {};
     auto attached = evolver_.without_islands(trial.shape, largest);
     if (!attached) {
@@ -365,9 +481,9 @@ void ShapeOptimizer<dim>::add_changes(const LevelSet<dim>& before, Trial<dim>& t
 
 /// The trial's shape is cut and measured unless the shift to the target has done so.
 template <int dim>
-void ShapeOptimizer<dim>::evaluate(Trial<dim>& trial, MadeCells cells,
-                                   const Evaluation<dim>* previous) const {
-  if (!cells) cells = take(evolver_.measured(trial.shape), trial);
+void ShapeOptimizer<dim>::evaluate(Trial<dim>& trial, MadeCells cells, const Evaluation<dim>* previous,
+                                   const FeatureSize& widths) const {
+  if (!cells) cells = take(evolver_.measured(trial.shape, widths), trial);
   if (trial.failure) return;
   auto evaluated = evaluate_({trial.shape, &*cells}, previous);
   if (!evaluated) {
@@ -404,7 +520,8 @@ OptimizationState<dim> ShapeOptimizer<dim>::successor(const OptimizationState<di
                               .since_smoothing = count(options_.smooth_every, state.since_smoothing),
                               .memory = proposals.remembered(move, *trial.evaluation),
                               .history = state.history,
-                              .history_begin = state.history_begin};
+                              .history_begin = state.history_begin,
+                              .final_widths = state.final_widths};
   if (is_approaching(options_, state)) {
     next.history.clear();
     next.history_begin = next.iteration;

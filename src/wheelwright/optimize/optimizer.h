@@ -78,9 +78,9 @@ class ShapeOptimizer {
   Expected<OptimizationState<dim>> restart(const OptimizationState<dim>& state,
                                            const Observer& observer) const;
 
-  /// Proceeds to the next accepted shape; a reason when there is none, the state then stays as it is.
-  /// `stop_requested` is asked before every trial. The observer sees a failure of the velocity as a trial
-  /// without a shape of its own.
+  /// Proceeds to the next accepted shape, by a step or by mending the final widths; a reason when there is
+  /// none, the state then stays as it is. `stop_requested` is asked before every trial. The observer sees a
+  /// failure of the velocity as a trial without a shape of its own.
   std::optional<StopReason> advance(OptimizationState<dim>& state, const Observer& observer,
                                     const std::function<bool()>& stop_requested) const;
 
@@ -95,16 +95,24 @@ class ShapeOptimizer {
 
  private:
   using MadeCells = std::optional<CutDomain<dim>>;  ///< of the trial's shape; empty: not made yet
+  enum class Mending { nothing, done, interrupted };
+  Mending mend(OptimizationState<dim>& state, const Observer& observer) const;
+  Trial<dim> mended(const OptimizationState<dim>& state, const LevelSet<dim>& shape) const;
+  std::optional<StopReason> descend(OptimizationState<dim>& state, const Observer& observer,
+                                    const std::function<bool()>& stop_requested) const;
   Trial<dim> attempt(const OptimizationState<dim>& state, const Proposals<dim>& proposals,
                      const Move<dim>& move, int halvings) const;
   Trial<dim> attempt_at_rest(const OptimizationState<dim>& state, const Proposals<dim>& proposals,
                              Move<dim> move, int halvings) const;
   MadeCells evolve(const OptimizationState<dim>& state, const Move<dim>& move, Trial<dim>& trial) const;
-  MadeCells finish(Trial<dim>& trial, std::optional<double> target, double boundary_measure) const;
+  MadeCells finish(Trial<dim>& trial, std::optional<double> target, double boundary_measure,
+                   const FeatureSize& widths) const;
   bool is_in_reach(double measure) const;
   void name_target(double from, double to, double target, Failure& failure) const;
   void add_changes(const LevelSet<dim>& before, Trial<dim>& trial) const;
-  void evaluate(Trial<dim>& trial, MadeCells cells, const Evaluation<dim>* previous) const;
+  void evaluate(Trial<dim>& trial, MadeCells cells, const Evaluation<dim>* previous,
+                const FeatureSize& widths) const;
+  FeatureSize widths_after(const OptimizationState<dim>& state) const;
   bool is_due(int every, int since, int halvings) const;
   OptimizationState<dim> successor(const OptimizationState<dim>& state, const Proposals<dim>& proposals,
                                    const Move<dim>& move, const Trial<dim>& trial) const;

@@ -114,15 +114,19 @@ typename SequentialQuadraticProposals<dim>::Span SequentialQuadraticProposals<di
   return span;
 }
 
-/// Points of the boundary that would move into a band stand still: the move is sought without them.
+/// Points of the boundary that would move into a band, or narrow what is as narrow as it may be, stand still:
+/// the move is sought without them.
 template <int dim>
 Expected<Move<dim>> SequentialQuadraticProposals<dim>::move(double step) const {
   const auto& boundary = state_.evaluation.boundary;
   auto move = move_with(std::vector<bool>(boundary.size(), false), step);
-  const auto held = evolver_.held_by_bands(boundary, move.velocity);
+  const auto by_bands = evolver_.held_by_bands(boundary, move.velocity);
+  auto held = evolver_.held_by_widths(state_.shape, boundary, move.velocity,
+                                      widths_after(evolver_.features(), options_, state_));
+  for (std::size_t q = 0; q < held.size(); ++q) held[q] = held[q] || by_bands[q];
   if (std::ranges::any_of(held, [](bool h) { return h; })) {
     move = move_with(held, step);
-    evolver_.hold(boundary, held, move.velocity);
+    evolver_.hold(boundary, by_bands, move.velocity);
   }
   if (!std::isfinite(move.step)) return Failure{FailureReason::not_finite, "the velocity"};
   return move;

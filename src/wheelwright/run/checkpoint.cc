@@ -8,7 +8,7 @@ namespace wheelwright {
 namespace {
 
 constexpr std::string_view file_kind = "CKPT";
-constexpr std::uint32_t version = 4;
+constexpr std::uint32_t version = 5;
 
 constexpr int largest_int = std::numeric_limits<int>::max();
 
@@ -196,7 +196,7 @@ StepMemory read_memory(ByteReader& reader) {
 template <int dim>
 void append(const OptimizationState<dim>& state, ByteWriter& writer) {
   const auto& [shape, evaluation, measure, target_measure, iteration, step, since_redistance, since_smoothing,
-               memory, history, history_begin] = state;
+               memory, history, history_begin, final_widths] = state;
   append(shape, writer);
   append(evaluation, writer);
   writer.number(measure);
@@ -208,6 +208,7 @@ void append(const OptimizationState<dim>& state, ByteWriter& writer) {
   append(memory, writer);
   writer.numbers(history);
   writer.integer(history_begin);
+  writer.integer(static_cast<int>(final_widths));
 }
 
 /// What is wrong with the parts of a state taken together; empty when they fit.
@@ -246,6 +247,8 @@ std::optional<OptimizationState<dim>> read_state(ByteReader& reader) {
   auto memory = read_memory(reader);
   auto history = reader.finite_numbers("the objectives so far");
   const int history_begin = count("the shape that the objectives begin with");
+  const auto final_widths = static_cast<FinalWidths>(
+      reader.integer(0, static_cast<int>(FinalWidths::impossible), "whether shapes have their final widths"));
   if (!reader.ok()) return {};
   OptimizationState<dim> state{.shape = *std::move(shape),
                                .evaluation = std::move(evaluation),
@@ -257,7 +260,8 @@ std::optional<OptimizationState<dim>> read_state(ByteReader& reader) {
                                .since_smoothing = since_smoothing,
                                .memory = std::move(memory),
                                .history = std::move(history),
-                               .history_begin = history_begin};
+                               .history_begin = history_begin,
+                               .final_widths = final_widths};
   const std::string_view problem = misfit(state);
   if (!problem.empty()) reader.fail(problem);
   return state;

@@ -257,6 +257,13 @@ EvolutionOptions evolution_options(const Case& c) {
   return options;
 }
 
+/// One cell, where the case does not give widths for all shapes.
+template <int dim>
+FeatureSize final_widths(const Case& c) {
+  const double cell = polar_grid<dim>(c).resolution();
+  return {.wall = c.optimizer.minimum_wall ? 0 : cell, .gap = c.optimizer.minimum_gap ? 0 : cell};
+}
+
 template <int dim>
 OptimizerOptions optimizer_options(const Case& c) {
   OptimizerOptions options;
@@ -273,6 +280,7 @@ OptimizerOptions optimizer_options(const Case& c) {
                             : holds_volume(c)                        ? MeasureControl::exact
                                                                      : MeasureControl::free;
   options.measure_rate = c.volume.rate;
+  if (!descends) options.final_widths = final_widths<dim>(c);
   if (c.volume.target) options.target_measure = *c.volume.target * sector_measure<dim>(polar_grid<dim>(c));
   return options;
 }
@@ -309,6 +317,8 @@ Expected<Study<dim>> make_study(const Case& source, int level) {
   if (!functions) return functions.failure();
   EvolutionOptions evolution = evolution_options(c);
   evolution.cut_points = (*solver)->model().points_in_cut_cells();
+  OptimizerOptions optimizer = optimizer_options<dim>(c);
+  if (level > 0) optimizer.final_widths = {};  // the case's own grid has its own cells
   return Study<dim>{.source = source,
                     .level = level,
                     .solver = *std::move(solver),
@@ -316,7 +326,7 @@ Expected<Study<dim>> make_study(const Case& source, int level) {
                     .functions = *std::move(functions),
                     .initial = initial_shape<dim>(c),
                     .evolution = evolution,
-                    .optimizer = optimizer_options<dim>(c)};
+                    .optimizer = optimizer};
 }
 
 template <int dim>
