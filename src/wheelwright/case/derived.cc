@@ -398,12 +398,14 @@ double estimated_memory(const Case& c) {
 
 double estimated_seconds_in_3d(const Case& c) {
   const ProblemSize n = problem_size(c);
-  constexpr double flops_per_second = 55e9;  // dense matrices on one core
+  const bool real = has_real_harmonics(c);
+  constexpr double flops_per_second = 45e9;  // dense matrices on one core
   const double cube = n.boundary() * n.boundary() * n.boundary() / 3 +
                       2 * n.sector_line() * n.sector_line() * n.sector_line() / 3;
-  const double harmonics = (has_real_harmonics(c) ? 1 : 4) * (n.sectors / 2 + 1) * cube / flops_per_second;
+  const double harmonics = (real ? 1 : 4) * (n.sectors / 2 + 1) * cube / flops_per_second;
   const double sector = 2e-9 * square(n.sector_dofs);
-  const double contact = 9e-7 * (2 * n.zone_columns - 1) * n.loaded_columns * square(n.tractions);
+  const double contact =
+      (real ? 2.5e-7 : 6e-7) * (2 * n.zone_columns - 1) * n.loaded_columns * square(n.tractions);
   return harmonics + sector + contact;
 }
 
