@@ -1,9 +1,9 @@
 /// Solves the first shape of a case in 3D, with contact in all its load positions, adjoints and the gradient
-/// of the objective, on one thread, and prints phase by phase the user time and the peak of memory, then the
-/// rate in unknowns per second. Keys of the case may be given other numbers.
-/// usage: shape_in_3d CASE [KEY=NUMBER ...]
+/// of the objective, and prints phase by phase user time, wall time and the peak of memory, then the rate in
+/// unknowns per second of user time. Keys of the case may be given other numbers.
+/// usage: shape_in_3d [--threads N] CASE [KEY=NUMBER ...]
 ///
-/// The parts of a shape are measured by doing them once more, after it.
+/// On one thread, the default, the parts of a shape are measured by doing them once more, after it.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -18,6 +18,7 @@
 #include "unavoidable_work.h"
 #include "wheelwright/base/parallel.h"
 #include "wheelwright/base/process_settings.h"
+#include "wheelwright/base/stopwatch.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/set_number.h"
 #include "wheelwright/geometry/mirror.h"
@@ -49,9 +50,10 @@ template <class Work>
 auto measured(const std::string& phase, double& seconds, Work work) {
   forget_peak();
   const double start = user_seconds();
+  Stopwatch watch;
   auto result = work();
   seconds = user_seconds() - start;
-  fmt::print("{:34} {:9.2f} s {:8.2f} GB\n", phase, seconds, peak_memory());
+  fmt::print("{:34} {:9.2f} s {:8.2f} GB {:9.2f} s wall time\n", phase, seconds, peak_memory(), watch.lap());
   std::fflush(stdout);
   return result;
 }
@@ -101,10 +103,10 @@ std::optional<Failure> measure_parts(const SolvedWheel& wheel, const Zones& zone
   fmt::print("sector's factor: {:.1f} Gflop, {:.1f} Gflop/s\n", 1e-9 * factor->factor_flops(),
              1e-9 * factor->factor_flops() / seconds);
   fmt::print(
-      "unknowns of a sector {}, of its boundary {}, of its outer line {}; {} coordinates of tests and {} of "
-      "samples in a column; {} columns in contact zones of {} columns; reach {} columns\n",
-      ring->sector_factor().size(), ring->n_boundary(), ring->n_outer(),
-      problem.tread().tests().of_line.rows(), problem.tread().samples().of_line.rows(),
+      "unknowns of a sector {}, of its boundary {}, of its outer line {}, of a seam of the tread {}; {} "
+      "columns "
+      "in contact zones of {} columns; reach {} columns\n",
+      ring->sector_factor().size(), ring->n_boundary(), ring->n_outer(), problem.tread().n_seam(),
       std::ranges::count(zones.loaded, true), zones.widest, problem.tread().reach());
   return {};
 }
@@ -117,7 +119,7 @@ Zones turned_back(const Zones& zones, int columns) {
   return result;
 }
 
-std::optional<Failure> measure(const Case& c) {
+std::optional<Failure> measure(const Case& c, bool with_parts) {
   const auto study = make_study<3>(c);
   if (!study) return study.failure();
   double seconds = 0;
@@ -163,13 +165,14 @@ std::optional<Failure> measure(const Case& c) {
                                              : best_first_column(wheel->domain, wheel->problem.elements(),
                                                                  wheel->problem.core_rows());
   if (first > 0) wheel->domain = turned_back(psi, wheel->domain, first).domain;
-  if (const auto failure = measure_parts(*wheel, turned_back(zones, first))) return failure;
+  if (with_parts)
+    if (const auto failure = measure_parts(*wheel, turned_back(zones, first))) return failure;
   fmt::print("{} unknowns, {} of {} positions solved: {:.0f} unknowns/s per core\n", unknowns,
              positions.size(), (*solver)->model().n_positions, unknowns / (of_states + of_gradient));
   return {};
 }
 
-int run(int count, char** arguments) {
+int run(int count, char** arguments, bool with_parts) {
   auto read = read_case(arguments[1]);
   for (const auto& problem : read.problems) fmt::print(stderr, "{}\n", problem.text());
   if (!read.value) return 2;
@@ -186,7 +189,7 @@ int run(int count, char** arguments) {
       return 2;
     }
   }
-  if (const auto failure = measure(*read.value)) {
+  if (const auto failure = measure(*read.value, with_parts)) {
     fmt::print(stderr, "{}: {}\n", to_string(failure->reason), failure->detail);
     return 3;
   }
@@ -199,10 +202,12 @@ int run(int count, char** arguments) {
 int main(int count, char** arguments) {
   wheelwright::restart_with_blas_settings(arguments);
   wheelwright::keep_freed_memory();
-  const wheelwright::ThreadLimit one_thread(1);
-  if (count < 2) {
-    fmt::print(stderr, "usage: {} CASE [KEY=NUMBER ...]\n", arguments[0]);
+  const bool has_threads = count > 2 && std::string(arguments[1]) == "--threads";
+  const int threads = has_threads ? std::atoi(arguments[2]) : 1, skipped = has_threads ? 2 : 0;
+  if (count - skipped < 2 || threads < 1) {
+    fmt::print(stderr, "usage: {} [--threads N] CASE [KEY=NUMBER ...]\n", arguments[0]);
     return 2;
   }
-  return wheelwright::bench::run(count, arguments);
+  const wheelwright::ThreadLimit limit(threads);
+  return wheelwright::bench::run(count - skipped, arguments + skipped, threads == 1);
 }

@@ -284,13 +284,48 @@ double contact_columns(const Case& c) {
 
 constexpr double square(double x) { return x * x; }
 
-/// The sizes that decide what a run needs.
+/// Whether the profile of a tapered hole is its own mirror image in the middle of the width.
+bool is_even(const HoleTapered& hole) {
+  const auto& profile = hole.profile;
+  for (std::size_t k = 0; k < profile.size(); ++k) {
+    const auto &there = profile[profile.size() - 1 - k], &here = profile[k];
+    if (std::abs(here[0] + there[0]) > 1e-12 || std::abs(here[1] - there[1]) > 1e-12) return false;
+  }
+  return true;
+}
+
+/// Whether wheel and loads are their own mirror images across the width, so that half of it is solved.
+/// Spheres outside of the middle count as if nothing mirrored them.
+bool is_halved(const Case& c) {
+  if (c.wheel.dimension != 3 || c.grid.axial_cells % 2 != 0) return false;
+  for (const Case& single : single_load_cases(c))
+    if (single.load.camber != 0 || single.load.lateral_force != 0) return false;
+  return std::ranges::all_of(c.holes.spheres, [](const HoleSphere& sphere) { return sphere.z == 0; }) &&
+         std::ranges::all_of(c.holes.tapered, is_even);
+}
+
+/// Whether the holes of a case are their own mirror images in the plane of azimuth 0, so that its harmonics
+/// are real. Drawn shapes count as if they were not.
+bool has_real_harmonics(const Case& c) {
+  if (c.shapes != Shapes{} || !c.holes.circles.empty()) return false;
+  const auto is_its_image = [](const auto& hole) {
+    const double spacings = hole.phase.value_or(0) * hole.count / pi;  // between the hole and its image
+    return std::abs(spacings - std::round(spacings)) < 1e-9;
+  };
+  return std::ranges::all_of(c.holes.rings, is_its_image) &&
+         std::ranges::all_of(c.holes.spheres, is_its_image) &&
+         std::ranges::all_of(c.holes.tapered, is_its_image);
+}
+
+/// The sizes that decide what a run needs. Of a wheel that is solved on half of its width, those of the half
+/// but for `dofs`, `cells` and `observed`.
 struct ProblemSize {
   double sectors, positions;
   double columns, cells;          ///< of the full ring
   double dofs, sector_dofs;       ///< if every cell held material
   double radial_line, ring_line;  ///< dofs of a face between sectors, and of the core's outer line
   double tractions;               ///< components at the contact points of a column
+  double observed;                ///< numbers that a column of the tread observes
   double zone_columns, loaded_columns;
 
   double sector_line() const { return ring_line / sectors; }
@@ -299,7 +334,9 @@ struct ProblemSize {
 
 ProblemSize problem_size(const Case& c) {
   const bool in_3d = c.wheel.dimension == 3;
-  const double per_line_node = c.wheel.dimension * static_cast<double>(axial_nodes(c));
+  const double solved = is_halved(c) ? 0.5 : 1;
+  const double per_line_node =
+      c.wheel.dimension * solved * static_cast<double>(axial_nodes(c) + (solved < 1));
   const int axial_points = std::min(c.contact.quadrature_points, c.grid.degree + 1);
   const double points = c.contact.quadrature_points * (1 << tread_levels_of_results(c)) *
                         (in_3d ? axial_points * c.grid.axial_cells : 1);  // per column
@@ -309,10 +346,11 @@ ProblemSize problem_size(const Case& c) {
   size.columns = c.grid.angular_cells;
   size.cells = size.columns * c.grid.radial_cells * (in_3d ? c.grid.axial_cells : 1);
   size.dofs = static_cast<double>(dof_bound(c));
-  size.sector_dofs = size.dofs / size.sectors;
+  size.sector_dofs = solved * size.dofs / size.sectors;
   size.radial_line = per_line_node * (c.grid.degree * c.grid.radial_cells + 1);
   size.ring_line = per_line_node * c.grid.degree * size.columns;
-  size.tractions = c.wheel.dimension * points;
+  size.tractions = c.wheel.dimension * solved * points;
+  size.observed = 2 * c.wheel.dimension * points;
   for (const Case& single : single_load_cases(c))
     size.zone_columns = std::max(size.zone_columns, contact_columns(single));
   size.loaded_columns = std::min(size.columns / size.sectors, size.positions * size.zone_columns);
@@ -332,7 +370,6 @@ double estimated_memory(const Case& c) {
   const ProblemSize n = problem_size(c);
   const bool in_3d = c.wheel.dimension == 3;
   const Copies& copies = in_3d ? in_space : in_the_plane;
-  const double observations = 2 * n.tractions;
   double holes = 0;
   for (const HoleRing& ring : c.holes.rings) holes += ring.count / n.sectors;
 
@@ -343,12 +380,14 @@ double estimated_memory(const Case& c) {
                             : 0.6 * n.sector_dofs * std::log2(std::max(n.sector_dofs, 2.0));
   const double factor = number * fill;
   const double condensed = number * copies.condensed * square(2 * n.radial_line + n.sector_line());
-  const double harmonics = complex * copies.harmonics * (n.sectors / 2 + 1) * square(n.boundary());
+  const bool real_harmonics = in_3d && has_real_harmonics(c);
+  const double harmonics =
+      (real_harmonics ? number : complex) * copies.harmonics * (n.sectors / 2 + 1) * square(n.boundary());
   // Right-hand sides on the outer line that are solved together.
   const double responses = number * 5 * 192 * n.ring_line;
   const double surface =
       number * copies.surface * (2 * n.zone_columns - 1) * n.loaded_columns * square(n.tractions);
-  const double tread = number * (24 * square(observations) + 1.8 * observations * n.columns * n.positions);
+  const double tread = number * (24 * square(2 * n.tractions) + 1.8 * n.observed * n.columns * n.positions);
   const double zones = number * 0.3 * n.positions * square(n.zone_columns * n.tractions);
   const double shape = number * 10 * holes;
   // The dual norm has its own ring, and so has a finer tread of the results.
@@ -359,12 +398,14 @@ double estimated_memory(const Case& c) {
 
 double estimated_seconds_in_3d(const Case& c) {
   const ProblemSize n = problem_size(c);
-  constexpr double flops_per_second = 55e9;  // dense matrices on one core
+  const bool real = has_real_harmonics(c);
+  constexpr double flops_per_second = 45e9;  // dense matrices on one core
   const double cube = n.boundary() * n.boundary() * n.boundary() / 3 +
                       2 * n.sector_line() * n.sector_line() * n.sector_line() / 3;
-  const double harmonics = 4 * (n.sectors / 2 + 1) * cube / flops_per_second;
+  const double harmonics = (real ? 1 : 4) * (n.sectors / 2 + 1) * cube / flops_per_second;
   const double sector = 2e-9 * square(n.sector_dofs);
-  const double contact = 9e-7 * (2 * n.zone_columns - 1) * n.loaded_columns * square(n.tractions);
+  const double contact =
+      (real ? 2.5e-7 : 6e-7) * (2 * n.zone_columns - 1) * n.loaded_columns * square(n.tractions);
   return harmonics + sector + contact;
 }
 

@@ -715,7 +715,8 @@ const Section<Grid>& grid_section() {
           {.name = "axial_cells",
            .unit = "",
            .field = IntegerField<Grid>{&Grid::axial_cells, cell_count},
-           .meaning = "number of cells along the axle; in 3D"},
+           .meaning = "number of cells along the axle; in 3D; if it is even, a wheel that is its own mirror "
+                      "image across the width is solved on half of it"},
           {.name = "degree",
            .unit = "",
            .field = IntegerField<Grid>{&Grid::degree, between(1, 2)},

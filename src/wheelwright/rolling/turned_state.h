@@ -1,6 +1,6 @@
 #pragma once
 
-#include "wheelwright/elasticity/sector_stiffness.h"
+#include "wheelwright/ring/cyclic_stiffness.h"
 #include "wheelwright/state/state.h"
 
 namespace wheelwright {

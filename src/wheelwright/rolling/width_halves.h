@@ -1,6 +1,5 @@
 #pragma once
 
-#include "wheelwright/cut/cut_domain.h"
 #include "wheelwright/state/state.h"
 
 namespace wheelwright {
