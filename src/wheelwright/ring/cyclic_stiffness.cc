@@ -261,21 +261,27 @@ Matrix CyclicStiffness<dim>::outer_displacements(const Matrix& condensed_loads) 
 
 template <int dim>
 std::vector<Matrix> CyclicStiffness<dim>::outer_compliance(int farthest) const {
-  const int n = n_sectors(), n_harmonics = harmonics_.n_harmonics(), n_blocks = std::min(farthest, n / 2) + 1;
-  // One column per harmonic, real parts and then imaginary ones, times the phases of every sector.
-  const size_t n_entries = size_t(n_outer_) * n_outer_;
-  std::vector<Matrix> by_sector;
-  for (int ahead = 0; ahead < n_blocks; ++ahead) by_sector.emplace_back(n_outer_, n_outer_);
+  const int n = n_sectors(), n_harmonics = harmonics_.n_harmonics();
+  std::vector<int> needed;
+  for (int ahead = 0; ahead < n; ++ahead)
+    if (std::min(ahead, n - ahead) <= farthest) needed.push_back(ahead);
+  const int n_needed = static_cast<int>(needed.size());
+  std::vector<Matrix> by_sector(n);
+  for (const int ahead : needed) by_sector[ahead] = Matrix::unfilled(n_outer_, n_outer_);
   std::vector<ComplexMatrix> by_harmonic(n_harmonics);
   parallel_for(n_harmonics, [&](int h) { by_harmonic[h] = harmonic_factors_[h].outer_compliance(); });
-  Matrix phases(2 * n_harmonics, n_blocks);
-  for (int ahead = 0; ahead < n_blocks; ++ahead)
+
+  // One column per harmonic, real parts and then imaginary ones, times the phases of every sector.
+  Matrix phases(2 * n_harmonics, n_needed);
+  for (int k = 0; k < n_needed; ++k)
     for (int h = 0; h < n_harmonics; ++h) {
-      const std::complex<double> phase = (h == 0 || 2 * h == n ? 1.0 : 2.0) / n * harmonics_.phase(h, ahead);
-      phases(h, ahead) = phase.real();
-      phases(n_harmonics + h, ahead) = -phase.imag();
+      const std::complex<double> phase =
+          (h == 0 || 2 * h == n ? 1.0 : 2.0) / n * harmonics_.phase(h, needed[k]);
+      phases(h, k) = phase.real();
+      phases(n_harmonics + h, k) = -phase.imag();
     }
   constexpr int together = 1024;
+  const size_t n_entries = size_t(n_outer_) * n_outer_;
   parallel_for(static_cast<int>((n_entries + together - 1) / together), [&](int part) {
     const size_t first = size_t(part) * together;
     const int size = static_cast<int>(std::min<size_t>(together, n_entries - first));
@@ -287,8 +293,7 @@ std::vector<Matrix> CyclicStiffness<dim>::outer_compliance(int farthest) const {
         entries(k, n_harmonics + h) = entry.imag();
       }
     const Matrix sums = product(entries, Op::none, phases, Op::none);
-    for (int ahead = 0; ahead < n_blocks; ++ahead)
-      std::copy_n(sums.column(ahead), size, by_sector[ahead].data() + first);
+    for (int k = 0; k < n_needed; ++k) std::copy_n(sums.column(k), size, by_sector[needed[k]].data() + first);
   });
   return by_sector;
 }

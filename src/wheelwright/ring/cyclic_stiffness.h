@@ -58,9 +58,9 @@ class CyclicStiffness {
   /// Displacements of the outer line for condensed loads on it, both n_outer x load cases.
   Matrix outer_displacements(const Matrix& condensed_loads) const;
 
-  /// The same as matrices: displacements of the outer line of a sector for unit loads on that of another,
-  /// which is 0, 1, ... `farthest` sectors behind, at most half of the ring. Displacements that far behind are
-  /// the transposed matrix.
+  /// The same as matrices: displacements of the outer line of a sector for unit loads on that of another.
+  /// Place `ahead` holds them for a sector `ahead` sectors farther on, modulo n_sectors(); those that are
+  /// farther away than `farthest` in both directions are empty.
   std::vector<Matrix> outer_compliance(int farthest) const;
 
   /// Boundary displacements (n_boundary x load cases) from those of the outer line and the interface loads

@@ -111,13 +111,14 @@ ComplexMatrix HarmonicFactor::outer_compliance() const {
   for (size_t p = 0; p < parts_.size(); ++p) {
     const SymmetryClass& of_class = symmetry.classes[p];
     const ComplexMatrix own = outer_compliance(parts_[p], of_class.n_interface());
-    const auto place = [&](int k) { return of_class.place(of_class.n_interface() + k) - symmetry.n_interface; };
+    const auto place = [&](int k) {
+      return of_class.place(of_class.n_interface() + k) - symmetry.n_interface;
+    };
     for (int j = 0; j < own.columns(); ++j)
       for (int i = 0; i < own.rows(); ++i) result(place(i), place(j)) = own(i, j);
   }
-  return congruent(std::move(result), [&](ComplexMatrix& x) {
-    from_even_and_odd(*symmetry.width, symmetry.n_interface, n, x);
-  });
+  return congruent(std::move(result),
+                   [&](ComplexMatrix& x) { from_even_and_odd(*symmetry.width, symmetry.n_interface, n, x); });
 }
 
 void HarmonicFactor::eliminate(ComplexMatrix& loads) const { apply(Step::eliminate, Rows::all, loads); }

@@ -89,24 +89,37 @@ void solve_for_seams(const CyclicStiffness<dim>& ring, const Tread<dim>& tread, 
   });
 }
 
+/// Neighbouring columns of the ring in one sector.
+struct SectorPart {
+  int first;   ///< among the columns that were divided
+  int sector;  ///< not wrapped: of column 0 it is 0, before it -1
+  int column;  ///< the first one's, in the sector
+  int n;
+};
+
+/// `n` columns from `first` on, by sectors.
+std::vector<SectorPart> by_sectors(int first, int n, int per_sector) {
+  std::vector<SectorPart> parts;
+  for (int k = 0; k < n; k += parts.back().n) {
+    const int column = wrap(first + k, per_sector);
+    parts.push_back({k, (first + k - column) / per_sector, column, std::min(n - k, per_sector - column)});
+  }
+  return parts;
+}
+
 /// The compliance of the outer line between `n_to` columns of the ring from `first_to` on (rows) and `n_from`
-/// columns from `first_from` on.
-template <int dim>
-Matrix outer_compliance(const std::vector<Matrix>& by_sector, int n_sectors, const SeamMap<dim>& map,
-                        int per_sector, int first_to, int n_to, int first_from, int n_from) {
-  const int n = map.per_column();
-  auto result = Matrix::unfilled(n * n_to, n * n_from);
-  map.for_each_part(first_from, n_from, [&](int column, int from) {
-    map.for_each_part(first_to, n_to, [&](int row, int to) {
-      const int ahead = wrap(to / per_sector - from / per_sector, n_sectors);
-      const int i0 = n * (to % per_sector), j0 = n * (from % per_sector);
-      const bool behind = ahead > n_sectors / 2;
-      const Matrix& g = by_sector[behind ? n_sectors - ahead : ahead];
-      for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i)
-          result(row + i, column + j) = behind ? g(j0 + j, i0 + i) : g(i0 + i, j0 + j);
-    });
-  });
+/// columns from `first_from` on. `by_sector`: CyclicStiffness::outer_compliance().
+Matrix outer_compliance(const std::vector<Matrix>& by_sector, int per_column, int per_sector, int first_to,
+                        int n_to, int first_from, int n_from) {
+  const int n_sectors = static_cast<int>(by_sector.size());
+  auto result = Matrix::unfilled(per_column * n_to, per_column * n_from);
+  for (const SectorPart& from : by_sectors(first_from, n_from, per_sector))
+    for (const SectorPart& to : by_sectors(first_to, n_to, per_sector)) {
+      const Matrix& g = by_sector[wrap(to.sector - from.sector, n_sectors)];
+      for (int j = 0; j < per_column * from.n; ++j)
+        std::copy_n(g.column(per_column * from.column + j) + per_column * to.column, per_column * to.n,
+                    result.column(per_column * from.first + j) + per_column * to.first);
+    }
   return result;
 }
 
@@ -129,14 +142,14 @@ void apply_to_outer_line(const CyclicStiffness<dim>& ring, const Tread<dim>& tre
   const SeamMap<dim> map(tread);
   const int reach = map.reach(), n_base = map.per_column(), n_line = map.n_line(),
             per_sector = tread.columns_per_sector();
-  const int farthest = (2 * reach + width + 1 + seams_together + per_sector) / per_sector + 1;
+  const int farthest = (2 * reach + width + 1 + seams_together) / per_sector + 1;
   const std::vector<Matrix> by_sector = ring.outer_compliance(farthest);
   const auto groups = runs(seams, seams_together);
   parallel_for(static_cast<int>(groups.size()), [&](int group) {
     const int first = groups[group].front(), n = static_cast<int>(groups[group].size());
     const int n_from = n + 2 * reach, n_to = n + 2 * (width + 1 + reach);
-    const Matrix g = outer_compliance(by_sector, ring.n_sectors(), map, per_sector, first - width - 1 - reach,
-                                      n_to, first - reach, n_from);
+    const Matrix g = outer_compliance(by_sector, n_base, per_sector, first - width - 1 - reach, n_to,
+                                      first - reach, n_from);
     Matrix on_base(n_base * n_from, n_line * n);  // loads on the lines, as loads on the base
     for (int k = 0; k < n; ++k)
       for (int i = 0; i < n_line; ++i)
