@@ -149,8 +149,8 @@ def holes_108(r: Runs, album: Album) -> str:
             ("the paper's rules", rules.run.column("objective")),
             ("in 3D, per metre of width", [energy / 0.12 for energy in solid.run.column("objective")]),
         ),
-        "The full size of the run in 3D, two million unknowns, is not part of this page. It takes 40 s and 4.9 GB for "
-        "each shape on a core:\n",
+        "The full size of the run in 3D, two million unknowns, is not part of this page. `check` estimates 40 s and "
+        "4.9 GB for each shape on a core:\n",
         "    sed -e 's/^angular_cells = .*/angular_cells = 360/' -e 's/^axial_cells = .*/axial_cells = 6/' \\\n"
         "        cases/paper/holes108_je_3d.toml > full.toml\n    wheelwright run full.toml\n",
     )
