@@ -67,7 +67,7 @@ bool may_be_mended(const OptimizerOptions& options, const OptimizationState<dim>
 /// grid does not see it any more: from there on the objective falls by faults of the discretization.
 template <int dim>
 bool is_to_be_mended(const OptimizerOptions& options, const OptimizationState<dim>& state) {
-  constexpr double slow = 5e-3, unseen = 0.4;
+  constexpr double slow = 5e-3, unseen = 0.15;
   const bool is_last_part = 3 * (options.iterations - state.iteration) <= options.iterations;
   return may_be_mended(options, state) && state.iteration < options.iterations &&
          (is_last_part ||
