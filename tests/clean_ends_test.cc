@@ -99,7 +99,7 @@ bool has_event(const Trial<2>& trial, ShapeEventKind kind) {
 
 /// 48 holes, whose webs become thinner than a cell.
 TEST(FinalWidths, AreMendedOnceInAShapeOfItsOwn) {
-  const Course course = course_of(case_text(start_named("Holes48On14x192"), 9));
+  const Course course = course_of(case_text(start_named("Holes48On20x192"), 15));
   std::vector<const Trial<2>*> mended;
   for (const auto& trial : course.trials)
     if (has_event(trial, ShapeEventKind::thin_wall_mended)) mended.push_back(&trial);
@@ -108,7 +108,7 @@ TEST(FinalWidths, AreMendedOnceInAShapeOfItsOwn) {
   EXPECT_EQ(first.verdict, Verdict::accepted);
   EXPECT_EQ(first.step, 0);
   EXPECT_GE(first.iteration, 1);
-  EXPECT_LT(first.iteration, 9);
+  EXPECT_LT(first.iteration, 15);
   // Objectives before are not compared with: the history begins with it.
   EXPECT_EQ(course.last.history_begin, first.iteration);
   EXPECT_EQ(course.last.history.front(), first.evaluation->function("objective").value);
@@ -134,8 +134,8 @@ TEST(FinalWidths, ShapesThatHaveThemStayAsTheyAre) {
 }
 
 TEST(FinalWidths, AreNotAskedForWhereTheCaseGivesWidths) {
-  const Start& start = start_named("Holes48On14x192");
-  const Course any = course_of(case_text(start, 9, "minimum_wall = 0\nminimum_gap = 0\n"));
+  const Start& start = start_named("Holes48On20x192");
+  const Course any = course_of(case_text(start, 15, "minimum_wall = 0\nminimum_gap = 0\n"));
   EXPECT_EQ(any.last.final_widths, FinalWidths::not_yet);
   const double cell = any.last.shape.lattice.grid().resolution();
   EXPECT_FALSE(thin_walls(any.last.shape, 0.4 * cell).empty());
