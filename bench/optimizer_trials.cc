@@ -93,7 +93,7 @@ int run(const std::string& path, double best, int most_trials, int starts) {
   for (const auto& problem : read.problems) fmt::print(stderr, "{}\n", problem.text());
   if (!read.value) return 2;
   std::vector<int> to_percent, to_tenth;
-  std::vector<double> ends;
+  std::vector<double> bests, ends, walls, gaps;
   for (int start = 0; start < starts; ++start) {
     const auto found = course(with_radii_changed(*read.value, start, starts), most_trials, starts == 1);
     if (!found) {
@@ -102,19 +102,33 @@ int run(const std::string& path, double best, int most_trials, int starts) {
     }
     to_percent.push_back(found->trials_to(1.01 * best));
     to_tenth.push_back(found->trials_to(1.001 * best));
-    ends.push_back(found->best());
+    bests.push_back(found->best());
+    ends.push_back(found->end);
+    const auto cells = [&](const std::optional<cad::Clearance>& c) { return c ? c->width / found->cell : 0; };
+    walls.push_back(cells(found->clearances.wall));
+    gaps.push_back(cells(found->clearances.gap));
     fmt::print(
         "start {}: {:>4} trials to 1 %, {:>4} to 0.1 %; best {:.4f} of {} trials, {} rejected; end {:.4f}, "
         "wall {} "
         "and gap {} cells ({})\n",
-        start, count_text(to_percent.back()), count_text(to_tenth.back()), ends.back(), found->trials(),
+        start, count_text(to_percent.back()), count_text(to_tenth.back()), bests.back(), found->trials(),
         std::ranges::count(found->accepted, false), found->end,
         width_text(found->clearances.wall, found->cell), width_text(found->clearances.gap, found->cell),
         to_string(found->reason));
     std::fflush(stdout);
   }
   fmt::print("median:  {:>4}             {:>4}            {:.4f}\n", count_text(median(to_percent)),
-             count_text(median(to_tenth)), median(ends));
+             count_text(median(to_tenth)), median(bests));
+  const auto counts = [](const std::vector<int>& trials) {
+    const auto [least, most] = std::ranges::minmax(trials);
+    return least == most ? count_text(least)
+                         : fmt::format("{} ({} to {})", count_text(median(trials)), count_text(least),
+                                       count_text(most));
+  };
+  const auto [least_end, most_end] = std::ranges::minmax(ends);
+  fmt::print("row: {} | {} | {:.3f} | {:.3f} ({:.3f} to {:.3f}) | {:.2f} | {:.2f}\n", counts(to_percent),
+             counts(to_tenth), median(bests), median(ends), least_end, most_end, std::ranges::min(walls),
+             std::ranges::min(gaps));
   return 0;
 }
 

@@ -5,6 +5,7 @@
 
 #include "tests/support.h"
 #include "wheelwright/case/read.h"
+#include "wheelwright/evolution/feature_size.h"
 #include "wheelwright/geometry/topology.h"
 #include "wheelwright/report/described_wheel.h"
 #include "wheelwright/run/study.h"
@@ -56,17 +57,17 @@ Course course_of(const std::string& text) {
 }
 
 const Start starts[] = {
-    {"16 holes, 8 x 96", 16, 8, 96, {0.26}, 16, 0.035},
-    {"16 holes, 14 x 192", 16, 14, 192, {0.27}, 16, 0.04},
-    {"16 holes, 20 x 200", 8, 20, 200, {0.27}, 16, 0.04},
-    {"48 holes, 8 x 96", 24, 8, 96, {0.24, 0.285}, 24, 0.016},
-    {"48 holes, 14 x 192", 24, 14, 192, {0.235, 0.294}, 24, 0.0231},
-    {"48 holes, 20 x 192", 24, 20, 192, {0.235, 0.294}, 24, 0.0231},
-    {"48 holes staggered, 8 x 96", 24, 8, 96, {0.24, 0.285}, 24, 0.016, true},
-    {"48 holes staggered, 14 x 192", 24, 14, 192, {0.235, 0.294}, 24, 0.0231, true},
-    {"48 holes staggered, 20 x 192", 24, 20, 192, {0.235, 0.294}, 24, 0.0231, true},
-    {"108 holes, 14 x 180", 36, 14, 180, {0.2265, 0.2648, 0.3031}, 36, 0.0154},
-    {"108 holes, 20 x 216", 36, 20, 216, {0.2263, 0.267, 0.3077}, 36, 0.0154},
+    {"Holes16On8x96", 16, 8, 96, {0.26}, 16, 0.035},
+    {"Holes16On14x192", 16, 14, 192, {0.27}, 16, 0.04},
+    {"Holes16On20x200", 8, 20, 200, {0.27}, 16, 0.04},
+    {"Holes48On8x96", 24, 8, 96, {0.24, 0.285}, 24, 0.016},
+    {"Holes48On14x192", 24, 14, 192, {0.235, 0.294}, 24, 0.0231},
+    {"Holes48On20x192", 24, 20, 192, {0.235, 0.294}, 24, 0.0231},
+    {"Holes48StaggeredOn8x96", 24, 8, 96, {0.24, 0.285}, 24, 0.016, true},
+    {"Holes48StaggeredOn14x192", 24, 14, 192, {0.235, 0.294}, 24, 0.0231, true},
+    {"Holes48StaggeredOn20x192", 24, 20, 192, {0.235, 0.294}, 24, 0.0231, true},
+    {"Holes108On14x180", 36, 14, 180, {0.2265, 0.2648, 0.3031}, 36, 0.0154},
+    {"Holes108On20x216", 36, 20, 216, {0.2263, 0.267, 0.3077}, 36, 0.0154},
 };
 
 class CleanEnd : public ::testing::TestWithParam<Start> {};
@@ -81,26 +82,64 @@ TEST_P(CleanEnd, HasWallsAndGapsOfACell) {
   EXPECT_GT(clearances.gap->width, 0.95 * cell);
   EXPECT_EQ(course.last.final_widths, FinalWidths::kept);
   EXPECT_NEAR(course.last.measure, course.last.target_measure, 1e-6 * course.last.target_measure);
-  if (clearances.gap->width < 0.95 * cell || clearances.wall->width < 0.95 * cell) {
-    auto n = course.last.shape;
-    for (double& v : n.values) v = -v;
-    const auto w = thin_walls(course.last.shape, 0.5 * cell), g = thin_walls(n, 0.5 * cell);
-    double lw = 1, lg = 1;
-    for (auto& b : w) lw = std::min(lw, b.radius);
-    for (auto& b : g) lg = std::min(lg, b.radius);
-    fmt::print("walls {} {} gaps {} {}; wall at {} {} gap at {} {}\n", w.size(), 2 * lw / cell, g.size(), 2 * lg / cell,
-               std::hypot(clearances.wall->from[0], clearances.wall->from[1]), std::atan2(clearances.wall->from[1], clearances.wall->from[0]),
-               std::hypot(clearances.gap->from[0], clearances.gap->from[1]), std::atan2(clearances.gap->from[1], clearances.gap->from[0]));
-    for (const auto& hole : components(course.last.shape).all) fmt::print("  {} {} at {} {}\n", hole.is_material, hole.measure, hole.centre[0], hole.centre[1]);
-  }
-  fmt::print("{}: wall {:.2f}, gap {:.2f} cells; J {:.4f} -> {:.4f}, {} shapes ({})\n", GetParam().name,
-             clearances.wall->width / cell, clearances.gap->width / cell,
-             course.trials.front().evaluation->function("objective").value,
-             course.last.evaluation.function("objective").value, course.last.iteration,
-             to_string(course.reason));
+  const auto value = [](const Evaluation<2>& evaluation) { return evaluation.function("objective").value; };
+  EXPECT_LT(value(course.last.evaluation), value(*course.trials.front().evaluation));
+  RecordProperty("widths", fmt::format("wall {:.2f}, gap {:.2f} cells", clearances.wall->width / cell,
+                                       clearances.gap->width / cell));
 }
 
-INSTANTIATE_TEST_SUITE_P(Starts, CleanEnd, ::testing::ValuesIn(starts));
+INSTANTIATE_TEST_SUITE_P(Starts, CleanEnd, ::testing::ValuesIn(starts),
+                         [](const auto& start) { return start.param.name; });
+
+const Start& start_named(std::string_view name) { return *std::ranges::find(starts, name, &Start::name); }
+
+bool has_event(const Trial<2>& trial, ShapeEventKind kind) {
+  return std::ranges::any_of(trial.events, [&](const auto& event) { return event.kind == kind; });
+}
+
+/// 48 holes, whose webs become thinner than a cell.
+TEST(FinalWidths, AreMendedOnceInAShapeOfItsOwn) {
+  const Course course = course_of(case_text(start_named("Holes48On20x192"), 15));
+  std::vector<const Trial<2>*> mended;
+  for (const auto& trial : course.trials)
+    if (has_event(trial, ShapeEventKind::thin_wall_mended)) mended.push_back(&trial);
+  ASSERT_EQ(mended.size(), 1u);
+  const Trial<2>& first = *mended.front();
+  EXPECT_EQ(first.verdict, Verdict::accepted);
+  EXPECT_EQ(first.step, 0);
+  EXPECT_GE(first.iteration, 1);
+  EXPECT_LT(first.iteration, 15);
+  // Objectives before are not compared with: the history begins with it.
+  EXPECT_EQ(course.last.history_begin, first.iteration);
+  EXPECT_EQ(course.last.history.front(), first.evaluation->function("objective").value);
+  for (const auto& trial : course.trials) {
+    if (trial.verdict != Verdict::accepted || trial.iteration < first.iteration) continue;
+    EXPECT_TRUE(thin_walls(trial.shape, 0.48 * trial.shape.lattice.grid().resolution()).empty());
+  }
+  // The other way to mend was tried before, and is worse.
+  const auto other = std::ranges::find_if(course.trials, [&](const Trial<2>& trial) {
+    return trial.iteration == first.iteration && trial.step == 0 && trial.verdict != Verdict::accepted;
+  });
+  ASSERT_NE(other, course.trials.end());
+  EXPECT_LT(other->halvings, first.halvings);
+  if (other->evaluation)
+    EXPECT_GT(other->evaluation->function("objective").value, first.evaluation->function("objective").value);
+}
+
+TEST(FinalWidths, ShapesThatHaveThemStayAsTheyAre) {
+  const Course course = course_of(case_text(start_named("Holes16On14x192"), 9));
+  EXPECT_EQ(course.last.final_widths, FinalWidths::kept);
+  EXPECT_EQ(course.last.history_begin, 0);
+  for (const auto& trial : course.trials) EXPECT_TRUE(trial.iteration == 0 || trial.step > 0);
+}
+
+TEST(FinalWidths, AreNotAskedForWhereTheCaseGivesWidths) {
+  const Start& start = start_named("Holes48On20x192");
+  const Course any = course_of(case_text(start, 15, "minimum_wall = 0\nminimum_gap = 0\n"));
+  EXPECT_EQ(any.last.final_widths, FinalWidths::not_yet);
+  const double cell = any.last.shape.lattice.grid().resolution();
+  EXPECT_FALSE(thin_walls(any.last.shape, 0.4 * cell).empty());
+}
 
 }  // namespace
 }  // namespace wheelwright

@@ -10,6 +10,7 @@
 #include "wheelwright/cad/fit_outline.h"
 #include "wheelwright/cut/measure.h"
 #include "wheelwright/evolution/evolver.h"
+#include "wheelwright/geometry/components.h"
 #include "wheelwright/geometry/mirror.h"
 #include "wheelwright/report/described_wheel.h"
 
@@ -138,6 +139,80 @@ TEST(FeatureSize, AShapeOfAGivenMeasureHasTheWidthsToo) {
     EXPECT_GT(wall_of(shape->shape), 0.99 * 0.011);
     EXPECT_EQ(is_mirror_symmetric(shape->shape), is_mirror_symmetric(psi));
   }
+}
+
+/// The opening takes out the wall between two holes, which become one.
+TEST(FeatureSize, ThinWallsAreTakenOut) {
+  const auto grid = grid_of(28, 384);
+  const auto psi = two_holes(grid, 0.006);
+  const auto without = without_thin_walls(psi, 0.010);
+  EXPECT_EQ(components(psi).all.size(), 3u);
+  EXPECT_EQ(components(without).all.size(), 2u);
+  EXPECT_LT(material_measure(without), material_measure(psi));
+  EXPECT_GT(material_measure(without), material_measure(psi) - 0.02 * 0.010);
+  EXPECT_EQ(without_thin_walls(psi, 0.005).values, psi.values);
+}
+
+/// Points are told to bound a wall when it is at most 3 % wider than the least, and no others.
+TEST(FeatureSize, PointsAtTheLeastWidthAreFound) {
+  const auto grid = grid_of(28, 384);
+  const Vec<2> middle = cartesian<2>({0.27, 0.47 * grid.sector_angle()});
+  const auto farthest = [&](double wall) {
+    const auto psi = two_holes(grid, wall);
+    const std::vector<SurfacePoint<2>> boundary = [&] {
+      std::vector<SurfacePoint<2>> points;
+      for (const auto& sample : boundary_samples<2>(psi)) points.push_back(sample);
+      return points;
+    }();
+    const auto at = at_least_width<2>(psi, boundary, {.wall = 0.010, .gap = 0.010});
+    EXPECT_EQ(std::ranges::count(at.gap, true), 0);
+    double result = 0;
+    for (size_t q = 0; q < boundary.size(); ++q) {
+      if (!at.wall[q]) continue;
+      const auto cell = grid.cell_position(boundary[q].cell);
+      const Vec<2> x = cartesian<2>({grid.inner_radius + (cell[0] + boundary[q].xi[0]) * grid.cell_size()[0],
+                                     (cell[1] + boundary[q].xi[1]) * grid.cell_size()[1]});
+      result = std::max(result, std::hypot(x[0] - middle[0], x[1] - middle[1]));
+    }
+    return result;
+  };
+  EXPECT_GT(farthest(0.0102), 0.005);
+  EXPECT_LT(farthest(0.0102), 0.008);
+  EXPECT_EQ(farthest(0.0106), 0);
+}
+
+/// What would narrow a wall, or a gap, of the least width is held; what widens it may move.
+TEST(FeatureSize, MovesThatNarrowTheLeastWidthsAreHeld) {
+  const auto grid = grid_of(28, 384);
+  EvolutionOptions options;
+  options.bands = {{0.01, 1}, {0.01, 2}};
+  const Evolver<2> evolver(Lattice<2>(grid, 2), options);
+  const auto count = [&](const LevelSet<2>& psi, double velocity) {
+    std::vector<SurfacePoint<2>> boundary;
+    for (const auto& sample : boundary_samples<2>(psi)) boundary.push_back(sample);
+    const std::vector<double> everywhere(psi.values.size(), velocity);
+    return std::ranges::count(
+        evolver.held_by_widths(psi, boundary, everywhere, {.wall = 0.010, .gap = 0.010}), true);
+  };
+  EXPECT_GT(count(two_holes(grid, 0.0102), -1), 0);
+  EXPECT_EQ(count(two_holes(grid, 0.0102), 1), 0);
+  EXPECT_GT(count(holes_with_slit(grid, 0.0102), 1), 0);
+  EXPECT_EQ(count(holes_with_slit(grid, 0.0102), -1), 0);
+  EXPECT_EQ(count(two_holes(grid, 0.0110), -1), 0);
+}
+
+TEST(FeatureSize, TheNarrowestPlacesAreNamed) {
+  const auto grid = grid_of(28, 384);
+  const auto places = narrowest_places(two_holes(grid, 0.006), {.wall = 0.010, .gap = 0.010});
+  ASSERT_EQ(places.size(), 1u);
+  EXPECT_EQ(places[0].kind, ShapeEventKind::thin_wall_mended);
+  EXPECT_NEAR(places[0].place[0], 0.27, 1e-3);
+  EXPECT_NEAR(places[0].place[1], 0.47 * grid.sector_angle(), 1e-2);
+  EXPECT_NEAR(places[0].measure, M_PI * 0.003 * 0.003, 2e-6);
+  EXPECT_TRUE(narrowest_places(two_holes(grid, 0.006), {.wall = 0.005, .gap = 0.010}).empty());
+  const auto slit = narrowest_places(holes_with_slit(grid, 0.006), {.wall = 0.001, .gap = 0.010});
+  ASSERT_EQ(slit.size(), 1u);
+  EXPECT_EQ(slit[0].kind, ShapeEventKind::narrow_gap_mended);
 }
 
 TEST(FeatureSize, WallsOfA3DShapeBecomeThickToo) {

@@ -23,6 +23,7 @@ enum class FailureReason {
   negative_energy,        ///< a strain energy came out negative
   empty_shape,            ///< no material, or no boundary to move
   objective_jumped,       ///< the objective changed by more than a small step can explain
+  too_narrow,             ///< walls or gaps stay narrower than the least width
   unsupported_model,      ///< the solver has no equations for this model
   interrupted,            ///< the caller asked the computation to end early (base/interrupt.h)
 };
@@ -58,6 +59,8 @@ constexpr const char* to_string(FailureReason reason) {
       return "empty_shape";
     case FailureReason::objective_jumped:
       return "objective_jumped";
+    case FailureReason::too_narrow:
+      return "too_narrow";
     case FailureReason::unsupported_model:
       return "unsupported_model";
     case FailureReason::interrupted:

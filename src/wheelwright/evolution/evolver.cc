@@ -1,5 +1,7 @@
 #include "wheelwright/evolution/evolver.h"
 
+#include <fmt/format.h>
+
 #include <numeric>
 
 #include "wheelwright/evolution/multilinear.h"
@@ -8,6 +10,7 @@
 #include "wheelwright/evolution/transport.h"
 #include "wheelwright/geometry/finite.h"
 #include "wheelwright/geometry/mirror.h"
+#include "wheelwright/geometry/place.h"
 #include "wheelwright/linalg/dense.h"
 
 namespace wheelwright {
@@ -170,7 +173,21 @@ LevelSet<dim> Evolver<dim>::with_features(const LevelSet<dim>& psi, const Featur
 
 template <int dim>
 Expected<MeasuredShape<dim>> Evolver<dim>::measured(LevelSet<dim> psi, const FeatureSize& size) const {
-  return wheelwright::measured(with_features(psi, size), cut_points_);
+  LevelSet<dim> shape = with_features(psi, size);
+  if (auto failure = check_widths(shape, size)) return *failure;
+  return wheelwright::measured(std::move(shape), cut_points_);
+}
+
+/// What is narrower than the least widths by more than the nodes can help.
+template <int dim>
+std::optional<Failure> Evolver<dim>::check_widths(const LevelSet<dim>& psi, const FeatureSize& size) const {
+  constexpr double enough = 0.96;
+  const auto narrow = narrowest_places(psi, {.wall = enough * size.wall, .gap = enough * size.gap});
+  if (narrow.empty()) return {};
+  const bool is_wall = narrow.front().kind == ShapeEventKind::thin_wall_mended;
+  return Failure{FailureReason::too_narrow,
+                 fmt::format("a {} at {} stays narrower than {:.4g} mm", is_wall ? "wall" : "gap",
+                             place_text<dim>(narrow.front().place), 1e3 * (is_wall ? size.wall : size.gap))};
 }
 
 template <int dim>
@@ -181,7 +198,11 @@ Expected<MeasuredShape<dim>> Evolver<dim>::with_measure(const LevelSet<dim>& psi
   LevelSet<dim> shape = with_features(psi, size);
   for (int turn = 1;; ++turn) {
     auto shifted = wheelwright::with_measure<dim>(shape, bands_, target, boundary_measure, cut_points_);
-    if (!shifted || !size.any() || turn == most_turns) return shifted;
+    if (!shifted || !size.any()) return shifted;
+    if (turn == most_turns) {
+      if (auto failure = check_widths(shifted->shape, size)) return *failure;
+      return shifted;
+    }
     shape = with_features(shifted->shape, size);
     if (shape.values == shifted->shape.values) return shifted;
   }

@@ -13,8 +13,9 @@
 namespace wheelwright {
 namespace {
 
-/// The cosine between the normals of places that face each other.
-constexpr double facing = -0.5;
+/// The cosine between the normals of places that face each other, and between their directions from the centre
+/// of a ball that lie opposite.
+constexpr double facing = -0.5, opposite = -0.8;
 
 /// How much smaller than the wanted radius a ball must be to count, relative: less than the curves of an
 /// outline may deviate.
@@ -70,7 +71,11 @@ std::optional<MedialBall<dim>> ball_between(const BoundaryPoints<dim>& boundary,
     const double smaller = -dot<dim>(apart, apart) / (2 * dot<dim>(apart, normal));
     if (!(smaller > 0 && smaller < radius)) break;
     radius = smaller;
-    if (dot<dim>(normal, boundary.normals[nearest]) < facing) facing_radius = radius;
+    // At the tip of a sharp neck the boundary's own normal says nothing, but the direction from the centre.
+    Vec<dim> towards;
+    for (int d = 0; d < dim; ++d) towards[d] = apart[d] / radius + normal[d];
+    if (dot<dim>(normal, boundary.normals[nearest]) < facing || dot<dim>(normal, towards) < opposite)
+      facing_radius = radius;
   }
   if (facing_radius == 0 || facing_radius > hardly_larger * radius) return {};
   return MedialBall<dim>{centre_of(radius), radius};

@@ -63,19 +63,14 @@ bool may_be_mended(const OptimizerOptions& options, const OptimizationState<dim>
          !is_approaching(options, state);
 }
 
-/// When the descent is slow, when a third of the shapes is left, and when something is so narrow that the
-/// grid does not see it any more: from there on the objective falls by faults of the discretization.
+/// When the descent is slow, or a third of the shapes is left.
 template <int dim>
 bool is_to_be_mended(const OptimizerOptions& options, const OptimizationState<dim>& state) {
-  constexpr double slow = 5e-3, unseen = 0.4;
+  constexpr double slow = 5e-3;
   const bool is_last_part = 3 * (options.iterations - state.iteration) <= options.iterations;
   return may_be_mended(options, state) && state.iteration < options.iterations &&
-         (is_last_part ||
-          is_slow(options, std::max(slow, options.tolerance), state.history,
-                  !bound_constraints(state.evaluation).empty()) ||
-          !narrowest_places(state.shape, {.wall = unseen * options.final_widths.wall,
-                                          .gap = unseen * options.final_widths.gap})
-               .empty());
+         (is_last_part || is_slow(options, std::max(slow, options.tolerance), state.history,
+                                  !bound_constraints(state.evaluation).empty()));
 }
 
 template <int dim>

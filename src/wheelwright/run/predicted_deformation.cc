@@ -44,21 +44,10 @@ Expected<DeformationSize> deformation_of(const Case& c) {
   return deformation_size(**solver, shape, **state);
 }
 
-/// The case that is solved for the prediction.
-Case coarse_case(Case c) {
-  c.load.positions = std::min(c.load.positions, most_positions);
-  c.grid.tread_levels.reset();
-  int level = 0;
-  while ((c.grid.radial_cells >> level) * (c.grid.angular_cells >> level) > most_cells &&
-         c.grid.radial_cells >> (level + 1) >= least_rows)
-    ++level;
-  return on_coarser_grid(c, level);
-}
-
 /// Under the one load of a case.
 std::optional<std::string> predicted_under_load(const Case& source) {
   if (!is_prismatic(source)) return {};
-  const Case coarse = coarse_case(in_the_plane(source));
+  const Case coarse = on_predicting_grid(in_the_plane(source));
   const auto size = deformation_of(coarse);
   if (!size && !is_physical(size.failure().reason)) return {};
   const std::string text = size ? deformation_warning(*size) : size.failure().detail;
@@ -68,7 +57,17 @@ std::optional<std::string> predicted_under_load(const Case& source) {
 
 }  // namespace
 
-Expected<DeformationSize> predicted_size(const Case& c) { return deformation_of(coarse_case(c)); }
+Case on_predicting_grid(Case c) {
+  c.load.positions = std::min(c.load.positions, most_positions);
+  c.grid.tread_levels.reset();
+  int level = 0;
+  while ((c.grid.radial_cells >> level) * (c.grid.angular_cells >> level) > most_cells &&
+         c.grid.radial_cells >> (level + 1) >= least_rows)
+    ++level;
+  return on_coarser_grid(c, level);
+}
+
+Expected<DeformationSize> predicted_size(const Case& c) { return deformation_of(on_predicting_grid(c)); }
 
 std::optional<std::string> predicted_deformation(const Case& c) {
   if (c.load.cases.empty()) return predicted_under_load(c);

@@ -257,11 +257,13 @@ EvolutionOptions evolution_options(const Case& c) {
   return options;
 }
 
-/// One cell, where the case does not give widths for all shapes.
+/// One cell, where the case does not give widths for all shapes, and some more for what shapes miss of it.
 template <int dim>
 FeatureSize final_widths(const Case& c) {
+  constexpr double wall = 1.05, gap = 1.12;
   const double cell = polar_grid<dim>(c).resolution();
-  return {.wall = c.optimizer.minimum_wall ? 0 : cell, .gap = c.optimizer.minimum_gap ? 0 : cell};
+  return {.wall = c.optimizer.minimum_wall ? 0 : wall * cell,
+          .gap = c.optimizer.minimum_gap ? 0 : gap * cell};
 }
 
 template <int dim>

@@ -7,6 +7,7 @@
 #include "wheelwright/app/shared_options.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/case/dimension.h"
+#include "wheelwright/run/bound_warnings.h"
 #include "wheelwright/run/case_report.h"
 #include "wheelwright/run/feature_warnings.h"
 #include "wheelwright/run/loose_material.h"
@@ -42,6 +43,7 @@ class CheckCommand : public Subcommand {
     print_lines(stdout, clearance_report(clearances));
     print_warnings(stdout, *c);
     if (const auto warning = predicted_deformation(*c)) print_warning(stdout, *warning);
+    for (const std::string& warning : bound_warnings(*c)) print_warning(stdout, warning);
     for (const std::string& warning : feature_warnings(*c, clearances)) print_warning(stdout, warning);
     return exit_done;
   }

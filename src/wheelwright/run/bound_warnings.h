@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "wheelwright/case/case.h"
+
+namespace wheelwright {
+
+/// Bounds of a 2D case that look like values of the whole width, whereas bounds are per metre of width: those
+/// that are nearer to what the initial shape has on its whole width than to what it has per metre, computed
+/// on a coarse grid. Empty in 3D, and if the shape cannot be computed.
+std::vector<std::string> bound_warnings(const Case& c);
+
+}  // namespace wheelwright
