@@ -325,6 +325,9 @@ enum class OptimizerMethod {
   descent,
 };
 
+/// When holes are made where none are.
+enum class NucleationTime { never, converged };
+
 struct Optimizer {
   OptimizerMethod method = OptimizerMethod::automatic;
   int iterations = 100;
@@ -341,6 +344,7 @@ struct Optimizer {
   std::optional<double> rim_band;                   ///< absent: 1/14 of the ring
   std::optional<double> tread_band;                 ///< absent: see bands()
   std::optional<double> minimum_wall, minimum_gap;  ///< of what is cut [m]; absent: any
+  NucleationTime nucleation = NucleationTime::never;
   bool operator==(const Optimizer&) const = default;
 };
 

@@ -635,10 +635,10 @@ void check_volume(const Case& c, Conflicts& found) {
   const auto [rim, tread] = bands(c);
   const double low = w.inner_radius + rim.thickness, high = w.outer_radius - tread.thickness;
   if (!c.volume.target || low >= high) return;
-  if (!has_holes(c)) {
+  if (!has_holes(c) && c.optimizer.nucleation == NucleationTime::never) {
     found.push_back({{"volume.target"},
                      "there are no holes that could grow or shrink",
-                     "give holes, or leave the key out"});
+                     "give holes, or optimizer.nucleation = \"converged\", or leave the key out"});
     return;
   }
   const double ring = square(w.outer_radius) - square(w.inner_radius);
@@ -670,6 +670,20 @@ void check_method(const Case& c, Conflicts& found) {
 /// Finds least widths that the bands or the ring contradict.
 void check_feature_size(const Case& c, Conflicts& found) {
   const double ring = c.wheel.outer_radius - c.wheel.inner_radius;
+/// The derivative by which holes are made is that of a plane hole without load on its edge.
+void check_nucleation(const Case& c, Conflicts& found) {
+  if (c.optimizer.nucleation == NucleationTime::never) return;
+  const auto refuse = [&](std::vector<std::string> keys, std::string problem) {
+    found.push_back({std::move(keys), std::move(problem), "take nucleation = \"never\""});
+  };
+  if (c.wheel.dimension == 3)
+    refuse({"optimizer.nucleation", "wheel.dimension"}, "holes are made in two dimensions alone");
+  const auto has_pressure = [](const Case& single) { return single.load.hole_pressure != 0; };
+  if (std::ranges::any_of(single_load_cases(c), has_pressure))
+    refuse({"optimizer.nucleation", "load.hole_pressure", "load.case"},
+           "whether a hole pays is not known under a pressure in the holes");
+}
+
   const auto check = [&](const char* key, std::optional<double> width) {
     if (width && *width >= ring)
       found.push_back({with_ring_shape({key}), fmt::format("the ring is only {:.6g} m thick", ring),
@@ -870,6 +884,7 @@ std::vector<Conflict> conflicts(const Case& c) {
   check_constraints(c, found);
   check_expectations(c, found);
   return found;
+  check_nucleation(c, found);
 }
 
 }  // namespace wheelwright

@@ -971,7 +971,14 @@ const Section<Optimizer>& optimizer_section() {
            .field = OptionalNumberField<Optimizer>{&Optimizer::minimum_gap, above(0, 1000), "any"},
            .meaning =
                "least width of a hole: narrower parts of holes, and smaller holes, are filled in every "
-               "shape"}}};
+               "shape"},
+          {.name = "nucleation",
+           .unit = "",
+           .field = choice<&Optimizer::nucleation>({"never", "converged"}),
+           .meaning = "when holes are made where there are none: converged: where the search has converged, "
+                      "small holes are made where the topological derivative says that they lower J most; "
+                      "where J has not fallen when it has converged again, they are taken back and the run "
+                      "ends; in two dimensions"}}};
   return section;
 }
 

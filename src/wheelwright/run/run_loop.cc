@@ -17,6 +17,7 @@
 #include "wheelwright/files/level_set_file.h"
 #include "wheelwright/geometry/components.h"
 #include "wheelwright/geometry/values_on.h"
+#include "wheelwright/run/nucleated_shape.h"
 #include "wheelwright/run/own_drawings.h"
 #include "wheelwright/run/provenance.h"
 #include "wheelwright/run/summarized_run.h"
@@ -142,6 +143,7 @@ RunResult<dim> RunLoop<dim>::resume(const Checkpoint<dim>& checkpoint) {
   write_case_file();
   state_ = checkpoint.state;
   initial_ = checkpoint.initial;
+  nucleation_ = checkpoint.nucleation;
   elapsed_ = checkpoint.elapsed_seconds;
   notify(RunStarted{.resumed_after = state_->iteration});
   if (at_end_ == AtEnd::wait) search_anew();  // a checkpoint has no solution to show
@@ -162,6 +164,7 @@ RunResult<dim> RunLoop<dim>::advance() {
       must_yield();  // an evaluation was interrupted: by a command to stop
       continue;
     }
+    if (nucleates(*reason)) continue;
     if (work_->study.level == 0 && at_end_ == AtEnd::finish) return end(*reason);
     if (work_->study.level == 0) {
       wait_for_more(*reason);
@@ -173,6 +176,74 @@ RunResult<dim> RunLoop<dim>::advance() {
     if (failure) must_yield();
   }
   return end(StopReason::stop_requested);
+}
+
+/// At the end of a search: judges the newest holes, and makes others where they pay. Whether the search goes
+/// on.
+template <int dim>
+bool RunLoop<dim>::nucleates(StopReason reason) {
+  const Study<dim>& study = work_->study;
+  if (study.source.optimizer.nucleation == NucleationTime::never || nucleation_.is_over) return false;
+  if (nucleation_.before && !has_paid<dim>(study.optimizer, *nucleation_.before, state_->evaluation))
+    return undo_nucleation(reason);
+  nucleation_.before.reset();
+  return (reason == StopReason::converged || reason == StopReason::no_descent) && makes_holes();
+}
+
+template <int dim>
+bool RunLoop<dim>::makes_holes() {
+  if constexpr (dim == 2) {
+    const Study<2>& study = work_->study;
+    const Evolver<2>& evolver = work_->optimizer.evolver();
+    auto made = nucleated_shape(study, work_->evaluate, evolver, *state_);
+    if (!made) return goes_on_after(made.failure());
+    if (!*made) {
+      nucleation_.is_over = true;
+      return false;
+    }
+    std::optional<Trial<2>> trial;
+    auto anew = state_at(work_->optimizer, (*made)->shape, trial);
+    if (!anew) return goes_on_after(anew.failure());
+    trial->events = evolver.changes(state_->shape, anew->shape);
+    nucleation_.before = before_nucleation(study.optimizer, *state_);
+    state_ = *std::move(anew);
+    notify(ShapeReplaced{(*made)->text});
+    observe(*trial, *state_);
+    return true;
+  }
+  return false;
+}
+
+/// Back to the shape before the newest holes, with which the search ends. Holes that had not all the shapes
+/// that they needed may be made again when the run is extended.
+template <int dim>
+bool RunLoop<dim>::undo_nucleation(StopReason reason) {
+  std::optional<Trial<dim>> trial;
+  auto anew = state_at(work_->optimizer, nucleation_.before->shape, trial);
+  if (!anew) return goes_on_after(anew.failure());
+  trial->events = work_->optimizer.evolver().changes(state_->shape, anew->shape);
+  const std::string text =
+      fmt::format("nucleation undone: it ended at {:.6g}, not below {:.6g}",
+                  work_->optimizer.objective_of(state_->evaluation), nucleation_.before->objective);
+  nucleation_ = {.before = {}, .is_over = reason != StopReason::iterations};
+  state_ = *std::move(anew);
+  notify(ShapeReplaced{text});
+  observe(*trial, *state_);
+  return false;
+}
+
+/// Where holes could not be made or undone: whether it was because of a command to stop. Else no more are
+/// made.
+template <int dim>
+bool RunLoop<dim>::goes_on_after(const Failure& failure) {
+  if (failure.reason == FailureReason::interrupted) {
+    must_yield();
+    return true;
+  }
+  nucleation_.is_over = true;
+  notify(CommandDone{nullptr, fmt::format("nucleation: {}: {}", to_string(failure.reason), failure.detail),
+                     false});
+  return false;
 }
 
 /// Also true for a run that was stopped before the descent began.
@@ -294,6 +365,7 @@ std::vector<Finding> RunLoop<dim>::findings_at_the_end(const State<dim>* solutio
   Checkpoint<dim> noted{.provenance = {},
                         .state = *state_,
                         .initial = *initial_,
+                        .nucleation = {},
                         .found = {},
                         .history = {},
                         .elapsed_seconds = 0,
@@ -395,6 +467,7 @@ void RunLoop<dim>::notify(const Event<dim>& event) {
                           .observers = observers_};
   for (const auto& observer : observers_) (*observer)(event, view);
 }
+                          .nucleation = nucleation_,
 
 template <int dim>
 void RunLoop<dim>::write_case_file() const {
@@ -569,6 +642,7 @@ std::optional<Refusal> RunLoop<dim>::replace_shape(const LevelSet<dim>& shape, c
   notify(ShapeReplaced{what});
   observe(*trial, *state_);
   return {};
+  nucleation_ = {};
 }
 
 /// Proceeds under another case, from a shape that may be another one too.
@@ -600,6 +674,7 @@ std::optional<Refusal> RunLoop<dim>::work_on(const Case& changed, const LevelSet
   notify(CaseChanged{what});
   observe(*trial, *state_);  // saved by the checkpointer, before case.toml says so
   write_case_file();
+  nucleation_ = {};
   return {};
 }
 

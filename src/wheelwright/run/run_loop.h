@@ -61,6 +61,10 @@ class RunLoop : private RunControl {
                                             std::optional<Trial<dim>>& trial) const;
 
   RunResult<dim> advance();
+  bool nucleates(StopReason reason);
+  bool makes_holes();
+  bool undo_nucleation(StopReason reason);
+  bool goes_on_after(const Failure& failure);
   bool begins_on_coarser_grid() const;
   void begin_on_coarser_grid();
   std::optional<Failure> move_to_grid(int level);
@@ -98,6 +102,7 @@ class RunLoop : private RunControl {
   std::optional<OptimizationState<dim>> state_;
   std::optional<InitialShape<dim>> initial_;
   std::optional<DescribedWheel<dim>> initial_wheel_;  ///< by the run's own solver, if it was seen
+  Nucleation<dim> nucleation_;
   std::vector<Trial<dim>> failed_trials_;
   std::deque<Past> past_;         ///< newest last
   SharedSolution last_solution_;  ///< of the last accepted shape, kept when nothing follows it
