@@ -363,6 +363,7 @@ struct Expectation {
   double value = 0;              ///< in the unit of history.csv
   double margin = 0.01;          ///< relative to the value
   std::optional<int> iteration;  ///< number of the accepted shape; absent: the last one
+  std::string load_case = {};    ///< that it is about; empty: the first one
   bool operator==(const Expectation&) const = default;
 };
 

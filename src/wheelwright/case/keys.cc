@@ -1023,7 +1023,11 @@ const SectionArray<Expectation>& expectation_sections() {
           "an expected result; a run that finds another value reports it and ends with exit "
           "code 7; give any number of them",
       .in = [](Case& c) -> std::vector<Expectation>& { return c.expectations; },
-      .example = {.quantity = Quantity::strain_energy, .value = 35, .margin = 0.01, .iteration = {}},
+      .example = {.quantity = Quantity::strain_energy,
+                  .value = 35,
+                  .margin = 0.01,
+                  .iteration = {},
+                  .load_case = {}},
       .keys = {{.name = "quantity",
                 .unit = "",
                 .field = choice<&Expectation::quantity>({quantity_names.begin(), quantity_names.end()}),
@@ -1042,7 +1046,11 @@ const SectionArray<Expectation>& expectation_sections() {
                 .unit = "",
                 .field = OptionalIntegerField<Expectation>{&Expectation::iteration, between(0, 1000000),
                                                            "the last shape"},
-                .meaning = "number of the accepted shape; 0 is the initial shape"}}};
+                .meaning = "number of the accepted shape; 0 is the initial shape"},
+               {.name = "load_case",
+                .unit = "",
+                .field = TextField<Expectation>{&Expectation::load_case, "the first one"},
+                .meaning = "the name of the [[load.case]] that it is about"}}};
   return sections;
 }
 

@@ -371,7 +371,8 @@ std::vector<Finding> RunLoop<dim>::findings_at_the_end(const State<dim>* solutio
                         .elapsed_seconds = 0,
                         .finished = {}};
   for (const auto& observer : observers_) observer->add_to(noted);
-  return findings<dim>(expectations, noted.found, *work_->study.solver, *state_, solution);
+  return findings<dim>(expectations, noted.found, *work_->study.solver, work_->study.load_cases, *state_,
+                       solution);
 }
 
 /// The loop's own solution of the last accepted shape, if it is known to be the last when it is accepted. It
@@ -381,7 +382,8 @@ template <int dim>
 typename RunLoop<dim>::SharedSolution RunLoop<dim>::final_solution(const Interrupt& interrupt) {
   if (last_solution_) return last_solution_;
   const StateSolver<dim>& solver = *work_->study.solver;
-  auto states = solver.states(state_->shape, solver.distinct_positions(state_->shape), interrupt);
+  auto states = solver.states(state_->shape,
+                              distinct_positions(solver, work_->study.load_cases, state_->shape), interrupt);
   return states ? *std::move(states) : nullptr;
 }
 
@@ -395,7 +397,8 @@ RunLoop<dim>::solution_of_results(const SharedSolution& own, const Interrupt& in
   if (!own || tread_levels_of_results(c) == tread_levels(c)) return {study.solver, own};
   const auto finer = make_solver(rolling_model<dim>(with_levels_of_results(c)));
   if (!finer) return {study.solver, own};
-  auto states = (*finer)->states(state_->shape, (*finer)->distinct_positions(state_->shape), interrupt);
+  auto states = (*finer)->states(state_->shape, distinct_positions(**finer, study.load_cases, state_->shape),
+                                 interrupt);
   if (!states) return {study.solver, own};
   return {*finer, *std::move(states)};
 }
@@ -408,7 +411,8 @@ std::optional<DescribedWheel<dim>> RunLoop<dim>::initial_wheel(const StateSolver
   if (initial_wheel_ && &solver == work_->study.solver.get()) return initial_wheel_;
   const bool is_coarser = work_->study.level > 0;
   const LevelSet<dim>& shape = is_coarser ? work_->study.initial : initial_->shape;
-  const auto states = solver.states(shape, solver.distinct_positions(shape), Interrupt());
+  const auto states =
+      solver.states(shape, distinct_positions(solver, work_->study.load_cases, shape), Interrupt());
   if (!states) return {};
   return described(solver, shape, is_coarser ? material_measure(shape) : initial_->measure, **states);
 }
@@ -417,7 +421,8 @@ template <int dim>
 std::optional<DescribedWheel<dim>> RunLoop<dim>::described(const StateSolver<dim>& solver,
                                                            const LevelSet<dim>& shape, double measure,
                                                            const State<dim>& state) const {
-  auto wheel = described_wheel(solver, shape, volume_fraction(work_->study.grid(), measure), state);
+  auto wheel = described_wheel(solver, shape, volume_fraction(work_->study.grid(), measure), state,
+                               work_->study.load_cases);
   if (!wheel) return {};
   return *std::move(wheel);
 }
@@ -462,12 +467,12 @@ void RunLoop<dim>::notify(const Event<dim>& event) {
                           .study = work_->study,
                           .evolver = work_->optimizer.evolver(),
                           .initial = initial_ ? &*initial_ : nullptr,
+                          .nucleation = nucleation_,
                           .elapsed_seconds = elapsed_,
                           .can_undo = !past_.empty(),
                           .observers = observers_};
   for (const auto& observer : observers_) (*observer)(event, view);
 }
-                          .nucleation = nucleation_,
 
 template <int dim>
 void RunLoop<dim>::write_case_file() const {
@@ -637,12 +642,12 @@ std::optional<Refusal> RunLoop<dim>::replace_shape(const LevelSet<dim>& shape, c
   stops_before_ = 0;
   if (!anew) return refusal(anew.failure());
   state_ = *std::move(anew);
+  nucleation_ = {};
   has_ended_by_itself_ = false;
   ++changes_;
   notify(ShapeReplaced{what});
   observe(*trial, *state_);
   return {};
-  nucleation_ = {};
 }
 
 /// Proceeds under another case, from a shape that may be another one too.
@@ -669,12 +674,12 @@ std::optional<Refusal> RunLoop<dim>::work_on(const Case& changed, const LevelSet
   initial_wheel_.reset();
   initial_->objective = first->evaluation.function("objective").value;
   state_ = *std::move(anew);
+  nucleation_ = {};
   has_ended_by_itself_ = false;
   ++changes_;
   notify(CaseChanged{what});
   observe(*trial, *state_);  // saved by the checkpointer, before case.toml says so
   write_case_file();
-  nucleation_ = {};
   return {};
 }
 
