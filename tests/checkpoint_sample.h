@@ -75,6 +75,7 @@ Checkpoint<dim> some_checkpoint() {
   return {{"[load]\nforce = 1\n", "wheelwright 1.2.3"},
           state,
           {some_level_set<dim>(random, 1), random.number(), random.number()},
+          {{{some_level_set<dim>(random, 2), random.number(), random.number(), true}}, false},
           {{1, "peak_von_mises", random.number()}, {0, "run_out", random.number()}},
           {123456789012, 0xfedcba98},
           17.25,

@@ -44,7 +44,7 @@ void expect_as_expected_in(const Case& c) {
       optimizer_of(*study), study->initial,
       [&](const Trial<dim>& trial, const OptimizationState<dim>& state) {
         if (trial.verdict != Verdict::accepted) return;
-        for (auto& quantity : found_quantities(c.expectations, *study->solver, state, *trial.solution))
+        for (auto& quantity : found_quantities(c.expectations, *study->solver, study->load_cases, state, *trial.solution))
           found.push_back(std::move(quantity));
         last_solution = trial.solution;
       },

@@ -330,6 +330,9 @@ enum class OptimizerMethod {
   descent,
 };
 
+/// When holes are made where none are.
+enum class NucleationTime { never, converged };
+
 struct Optimizer {
   OptimizerMethod method = OptimizerMethod::automatic;
   int iterations = 100;
@@ -346,6 +349,7 @@ struct Optimizer {
   std::optional<double> rim_band;                   ///< absent: 1/14 of the ring
   std::optional<double> tread_band;                 ///< absent: see bands()
   std::optional<double> minimum_wall, minimum_gap;  ///< of what is cut [m]; absent: any
+  NucleationTime nucleation = NucleationTime::never;
   bool operator==(const Optimizer&) const = default;
 };
 
@@ -364,6 +368,7 @@ struct Expectation {
   double value = 0;              ///< in the unit of history.csv
   double margin = 0.01;          ///< relative to the value
   std::optional<int> iteration;  ///< number of the accepted shape; absent: the last one
+  std::string load_case = {};    ///< that it is about; empty: the first one
   bool operator==(const Expectation&) const = default;
 };
 

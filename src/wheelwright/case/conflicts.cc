@@ -595,14 +595,17 @@ void check_names_of_load_cases(const Case& c, Conflicts& found) {
       found.push_back({{key}, "another load case has this name", "take a name of its own"});
     names.push_back(cases[k].name);
   }
-  for (std::size_t i = 0; i < c.constraints.size(); ++i) {
-    const std::string& name = c.constraints[i].load_case;
-    if (name.empty() || std::ranges::find(names, name) != names.end()) continue;
-    found.push_back({{fmt::format("constraint[{}].load_case", i + 1)},
+  const auto check_named = [&](std::string_view table, std::size_t i, const std::string& name) {
+    if (name.empty() || std::ranges::find(names, name) != names.end()) return;
+    found.push_back({{fmt::format("{}[{}].load_case", table, i + 1)},
                      "there is no load case of this name",
                      names.empty() ? "add a [[load.case]], or leave the key out"
                                    : fmt::format("known: {}", fmt::join(names, ", "))});
-  }
+  };
+  for (std::size_t i = 0; i < c.constraints.size(); ++i)
+    check_named("constraint", i, c.constraints[i].load_case);
+  for (std::size_t i = 0; i < c.expectations.size(); ++i)
+    check_named("expect", i, c.expectations[i].load_case);
   if (cases.empty()) return;
   if (weighted_load_cases(c).empty())
     found.push_back({{"load.case[1].weight"},
@@ -651,10 +654,10 @@ void check_volume(const Case& c, Conflicts& found) {
   const auto [rim, tread] = bands(c);
   const double low = w.inner_radius + rim.thickness, high = w.outer_radius - tread.thickness;
   if (!c.volume.target || low >= high) return;
-  if (!has_holes(c)) {
+  if (!has_holes(c) && c.optimizer.nucleation == NucleationTime::never) {
     found.push_back({{"volume.target"},
                      "there are no holes that could grow or shrink",
-                     "give holes, or leave the key out"});
+                     "give holes, or optimizer.nucleation = \"converged\", or leave the key out"});
     return;
   }
   const double ring = square(w.outer_radius) - square(w.inner_radius);
@@ -681,6 +684,20 @@ void check_method(const Case& c, Conflicts& found) {
   };
   if (c.optimizer.velocity == VelocityKind::harmonic) refuse("optimizer.velocity", "\"h1\"");
   if (c.volume.control == VolumeControl::paper) refuse("volume.control", "\"exact\"");
+}
+
+/// The derivative by which holes are made is that of a plane hole without load on its edge.
+void check_nucleation(const Case& c, Conflicts& found) {
+  if (c.optimizer.nucleation == NucleationTime::never) return;
+  const auto refuse = [&](std::vector<std::string> keys, std::string problem) {
+    found.push_back({std::move(keys), std::move(problem), "take nucleation = \"never\""});
+  };
+  if (c.wheel.dimension == 3)
+    refuse({"optimizer.nucleation", "wheel.dimension"}, "holes are made in two dimensions alone");
+  const auto has_pressure = [](const Case& single) { return single.load.hole_pressure != 0; };
+  if (std::ranges::any_of(single_load_cases(c), has_pressure))
+    refuse({"optimizer.nucleation", "load.hole_pressure", "load.case"},
+           "whether a hole pays is not known under a pressure in the holes");
 }
 
 /// Finds least widths that the bands or the ring contradict.
@@ -840,7 +857,8 @@ void check_expectations(const Case& c, Conflicts& found) {
       found.push_back({{key("quantity"), fmt::format("objective.{}", name(expectation.quantity))},
                        "it has no weight in the objective, so the run does not compute it",
                        "give it a weight, however small, or expect another quantity"});
-    for (const Need& need : unmet_needs(single_load_cases(c).front(), expectation.quantity))
+    for (const Need& need :
+         unmet_needs(single_load_cases(c)[load_case_of(c, expectation)], expectation.quantity))
       found.push_back(
           {{key("quantity"), need.key}, need.problem, "change that key, or expect another quantity"});
     if (expectation.iteration && *expectation.iteration > c.optimizer.iterations)
@@ -882,6 +900,7 @@ std::vector<Conflict> conflicts(const Case& c) {
   check_volume(c, found);
   check_method(c, found);
   check_feature_size(c, found);
+  check_nucleation(c, found);
   check_minimized(c, found);
   check_constraints(c, found);
   check_expectations(c, found);

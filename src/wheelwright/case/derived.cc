@@ -45,6 +45,11 @@ std::vector<int> load_cases_of(const Case& c, const Constraint& constraint) {
   return result;
 }
 
+int load_case_of(const Case& c, const Expectation& expectation) {
+  const auto found = std::ranges::find(c.load.cases, expectation.load_case, &CaseLoad::name);
+  return found == c.load.cases.end() ? 0 : static_cast<int>(found - c.load.cases.begin());
+}
+
 double load_per_metre(const Case& c) { return c.load.force / c.wheel.width; }
 
 double hertz_half_width(const Case& c) {

@@ -19,6 +19,9 @@ std::vector<Case> single_load_cases(const Case& c);
 /// The load cases of a constraint, by their numbers: that of its name, or all.
 std::vector<int> load_cases_of(const Case& c, const Constraint& constraint);
 
+/// The load case that an expectation is about: the first one, unless it names another.
+int load_case_of(const Case& c, const Expectation& expectation);
+
 // Numbers that depend on a load are those of the section [load], unless they say something else.
 
 /// P [N/m].

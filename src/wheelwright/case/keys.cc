@@ -989,7 +989,14 @@ const Section<Optimizer>& optimizer_section() {
                                                    "any at first, one cell in the last part of a run"},
            .meaning =
                "least width of a hole: narrower parts of holes, and smaller holes, are filled in every "
-               "shape; 0 means any to the end"}}};
+               "shape; 0 means any to the end"},
+          {.name = "nucleation",
+           .unit = "",
+           .field = choice<&Optimizer::nucleation>({"never", "converged"}),
+           .meaning = "when holes are made where there are none: converged: where the search has converged, "
+                      "small holes are made where the topological derivative says that they lower J most; "
+                      "where J has not fallen when it has converged again, they are taken back and the run "
+                      "ends; in two dimensions"}}};
   return section;
 }
 
@@ -1034,7 +1041,11 @@ const SectionArray<Expectation>& expectation_sections() {
           "an expected result; a run that finds another value reports it and ends with exit "
           "code 7; give any number of them",
       .in = [](Case& c) -> std::vector<Expectation>& { return c.expectations; },
-      .example = {.quantity = Quantity::strain_energy, .value = 35, .margin = 0.01, .iteration = {}},
+      .example = {.quantity = Quantity::strain_energy,
+                  .value = 35,
+                  .margin = 0.01,
+                  .iteration = {},
+                  .load_case = {}},
       .keys = {{.name = "quantity",
                 .unit = "",
                 .field = choice<&Expectation::quantity>({quantity_names.begin(), quantity_names.end()}),
@@ -1053,7 +1064,11 @@ const SectionArray<Expectation>& expectation_sections() {
                 .unit = "",
                 .field = OptionalIntegerField<Expectation>{&Expectation::iteration, between(0, 1000000),
                                                            "the last shape"},
-                .meaning = "number of the accepted shape; 0 is the initial shape"}}};
+                .meaning = "number of the accepted shape; 0 is the initial shape"},
+               {.name = "load_case",
+                .unit = "",
+                .field = TextField<Expectation>{&Expectation::load_case, "the first one"},
+                .meaning = "the name of the [[load.case]] that it is about"}}};
   return sections;
 }
 

@@ -5,9 +5,21 @@
 
 namespace wheelwright {
 
-double DesignResult::value(const RankedQuantity& quantity) const {
-  const auto found = numbers.find(std::string(quantity.key));
+double DesignResult::value(const RankedQuantity& quantity) const { return value(std::string(quantity.key)); }
+
+double DesignResult::value(const std::string& key) const {
+  const auto found = numbers.find(key);
   return found == numbers.end() ? std::nan("") : found->second;
+}
+
+std::string key_in_case(std::string_view key, std::string_view load_case) {
+  return std::string(key) + " in " + std::string(load_case);
+}
+
+std::vector<std::string> other_load_cases(const Case& c) {
+  std::vector<std::string> names;
+  for (std::size_t k = 1; k < c.load.cases.size(); ++k) names.push_back(c.load.cases[k].name);
+  return names;
 }
 
 std::vector<double> costs(const DesignResult& result, const std::vector<RankedQuantity>& quantities) {

@@ -29,12 +29,20 @@ struct DesignResult {
   Progression progression;
   std::string status;  ///< why the run ended, as in StopReason; or why it did not begin
   int shapes = 0;
-  /// By their keys in summary.json; empty if the run has no results.
+  /// By their keys in summary.json, and by key_in_case() under other load cases; empty if the run has no
+  /// results.
   std::map<std::string, double> numbers = {};
 
   /// In SI units; NaN if it is not known.
   double value(const RankedQuantity& quantity) const;
+  double value(const std::string& key) const;
 };
+
+/// The key of a number under another load case than the first one, e.g. "run_out_m in kerb".
+std::string key_in_case(std::string_view key, std::string_view load_case);
+
+/// The names of a case's load cases but the first one, whose numbers have no addition.
+std::vector<std::string> other_load_cases(const Case& c);
 
 /// A design with its result.
 struct RatedDesign {

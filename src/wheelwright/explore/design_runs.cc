@@ -92,6 +92,10 @@ std::map<std::string, double> numbers_of(const fs::path& folder, int& shapes) {
   for (const WheelNumber<2>& number : wheel_numbers<2>())  // some are told of some wheels only
     if (after.contains(number.key) && after[number.key].is_number())
       numbers[number.key] = after[number.key].get<double>();
+  if (after.contains("load_cases"))
+    for (const auto& [load_case, of_case] : after["load_cases"].items())
+      for (const auto& [key, value] : of_case.items())
+        if (value.is_number()) numbers[key_in_case(key, load_case)] = value.template get<double>();
   return numbers;
 }
 

@@ -25,10 +25,37 @@ const char* word(Progression progression) { return progression == Progression::f
 
 Json number_json(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
-double number_of(const DesignResult& result, const char* key) {
-  const auto found = result.numbers.find(key);
-  return found == result.numbers.end() ? std::nan("") : found->second;
+/// The names of the designs' load cases but the first one.
+std::vector<std::string> load_cases_of(const std::vector<RankedDesign>& designs) {
+  std::vector<std::string> names;
+  for (const RankedDesign& one : designs)
+    for (const std::string& name : other_load_cases(one.design.source))
+      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+  return names;
 }
+
+/// The keys of all numbers: those of the first load case, then those of the others that depend on the load.
+std::vector<std::string> number_keys(const std::vector<RankedDesign>& designs) {
+  std::vector<std::string> keys;
+  for (const auto& number : wheel_numbers<2>()) keys.emplace_back(number.key);
+  for (const std::string& load_case : load_cases_of(designs))
+    for (const auto& number : wheel_numbers<2>())
+      if (!number.is_of_shape) keys.push_back(key_in_case(number.key, load_case));
+  return keys;
+}
+
+/// Whether a ranked quantity is another one under another load.
+bool depends_on_the_load(const RankedQuantity& quantity) {
+  const auto& numbers = wheel_numbers<2>();
+  const auto found = std::ranges::find(numbers, quantity.key, &WheelNumber<2>::key);
+  return found != numbers.end() && !found->is_of_shape;
+}
+
+/// A column of the table for people.
+struct ShownNumber {
+  std::string heading, key;
+  double factor;  ///< from SI units
+};
 
 /// The names of all parameters, in the order in which they first come.
 std::vector<std::string> parameter_names(const std::vector<RankedDesign>& designs) {
@@ -66,7 +93,8 @@ std::string designs_csv(const std::vector<RankedDesign>& designs) {
   const auto names = parameter_names(designs);
   std::vector<std::string> header{"rank", "design", "front", "run", "ended", "shapes", "start", "sectors"};
   header.insert(header.end(), names.begin(), names.end());
-  for (const auto& number : wheel_numbers<2>()) header.emplace_back(number.key);
+  const auto keys = number_keys(designs);
+  header.insert(header.end(), keys.begin(), keys.end());
   std::string text = csv_line(header);
   int rank = 0;
   for (const RankedDesign& one : designs) {
@@ -76,8 +104,7 @@ std::string designs_csv(const std::vector<RankedDesign>& designs) {
         one.result.status,         std::to_string(one.result.shapes),
         one.design.text,           std::to_string(one.design.source.wheel.sectors)};
     for (const std::string& name : names) cells.push_back(csv_number(parameter(one.design, name)));
-    for (const auto& number : wheel_numbers<2>())
-      cells.push_back(csv_number(number_of(one.result, number.key)));
+    for (const std::string& key : keys) cells.push_back(csv_number(one.result.value(key)));
     text += csv_line(cells);
   }
   return text;
@@ -102,8 +129,8 @@ std::string designs_json(const std::vector<RankedDesign>& designs,
                {"shapes", one.result.shapes},
                {"numbers", Json::object()}};
     for (const auto& [name, value] : one.design.parameters) entry["parameters"][name] = value;
-    for (const auto& number : wheel_numbers<2>())
-      entry["numbers"][number.key] = number_json(number_of(one.result, number.key));
+    for (const std::string& key : number_keys(designs))
+      entry["numbers"][key] = number_json(one.result.value(key));
     json["designs"].push_back(std::move(entry));
   }
   return json.dump(2) + '\n';
@@ -112,15 +139,23 @@ std::string designs_json(const std::vector<RankedDesign>& designs,
 std::string designs_table(const std::vector<RankedDesign>& designs,
                           const std::vector<RankedQuantity>& quantities, int most_rows) {
   std::vector<std::vector<std::string>> rows{{"rank", "design", "start"}};
+  std::vector<ShownNumber> shown;
   for (const RankedQuantity& quantity : quantities)
-    rows[0].push_back(fmt::format("{} [{}]", quantity.word, quantity.unit));
+    shown.push_back(
+        {fmt::format("{} [{}]", quantity.word, quantity.unit), std::string(quantity.key), quantity.factor});
+  for (const std::string& load_case : load_cases_of(designs))
+    for (const RankedQuantity& quantity : quantities)
+      if (depends_on_the_load(quantity))
+        shown.push_back({fmt::format("{} in {} [{}]", quantity.word, load_case, quantity.unit),
+                         key_in_case(quantity.key, load_case), quantity.factor});
+  for (const ShownNumber& number : shown) rows[0].push_back(number.heading);
   for (int i = 0; i < std::min(most_rows, static_cast<int>(designs.size())); ++i) {
     const RankedDesign& one = designs[i];
     std::vector<std::string> row{fmt::format("{}{}", i + 1, one.front == 1 ? "*" : ""), one.design.name,
                                  one.design.text};
-    for (const RankedQuantity& quantity : quantities) {
-      const double value = one.result.value(quantity);
-      row.push_back(std::isnan(value) ? one.result.status : fmt::format("{:.5g}", value * quantity.factor));
+    for (const auto& [heading, key, factor] : shown) {
+      const double value = one.result.value(key);
+      row.push_back(std::isnan(value) ? one.result.status : fmt::format("{:.5g}", value * factor));
     }
     rows.push_back(std::move(row));
   }
@@ -146,11 +181,21 @@ std::string designs_page(const std::vector<RankedDesign>& designs,
                                   {"label", quantity.label},
                                   {"unit", quantity.unit},
                                   {"factor", quantity.factor}});
+  const auto others = load_cases_of(designs);
+  for (const std::string& load_case : others)
+    for (const RankedQuantity& quantity : ranked_quantities())
+      if (depends_on_the_load(quantity))
+        data["quantities"].push_back({{"key", key_in_case(quantity.key, load_case)},
+                                      {"label", fmt::format("{} in {}", quantity.label, load_case)},
+                                      {"unit", quantity.unit},
+                                      {"factor", quantity.factor}});
   int rank = 0;
   for (const RankedDesign& one : designs) {
     Json values = Json::object();
-    for (const RankedQuantity& quantity : ranked_quantities())
-      values[std::string(quantity.key)] = number_json(one.result.value(quantity));
+    for (const auto& quantity : data["quantities"]) {
+      const std::string key = quantity["key"];
+      values[key] = number_json(one.result.value(key));
+    }
     data["designs"].push_back({{"rank", ++rank},
                                {"name", one.design.name},
                                {"text", one.design.text},

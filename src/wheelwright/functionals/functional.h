@@ -48,6 +48,13 @@ class Functional {
   /// one held from an earlier shape. The derivative is taken at a fixed mean.
   virtual FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                         const State<dim>& state, const Matrix& mean) const = 0;
+
+  /// What a small round hole in every sector changes of the part that depends on the shape alone, per its
+  /// area (volume when dim = 3). `x`: its centre, Cartesian, in the body frame [m]; `radius` [m].
+  virtual double of_small_hole(const PolarGrid<dim>& /*grid*/, const Vec<dim>& /*x*/,
+                               double /*radius*/) const {
+    return 0;
+  }
 };
 
 }  // namespace wheelwright

@@ -15,6 +15,9 @@ class Mass : public Functional<dim> {
   std::string name() const override { return std::string(wheelwright::name(Quantity::mass)); }
   FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                 const State<dim>& state, const Matrix& mean) const override;
+  double of_small_hole(const PolarGrid<dim>& grid, const Vec<dim>&, double) const override {
+    return -density_ * grid.n_sectors;
+  }
 
  private:
   double density_;

@@ -12,6 +12,7 @@ class MaterialVolume : public Functional<dim> {
   std::string name() const override { return "volume"; }
   FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                 const State<dim>& state, const Matrix& mean) const override;
+  double of_small_hole(const PolarGrid<dim>&, const Vec<dim>&, double) const override { return -1; }
 };
 
 }  // namespace wheelwright

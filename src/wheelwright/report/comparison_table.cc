@@ -24,17 +24,42 @@ std::string shortened(const std::string& name) {
 
 }  // namespace
 
+namespace {
+
+/// Null wheels have no value.
+template <int dim>
+void add_row(const WheelNumber<dim>& number, const std::string& in_case,
+             const std::vector<const DescribedWheel<dim>*>& wheels, std::vector<ComparedRow>& rows) {
+  ComparedRow row{fmt::format("{}{} [{}]", number.label, in_case, number.unit), {}};
+  for (const DescribedWheel<dim>* wheel : wheels) {
+    const auto value = wheel ? number.value(*wheel) : std::nullopt;
+    row.values.push_back(value ? std::optional(*value * number.factor) : std::nullopt);
+  }
+  if (std::ranges::any_of(row.values, [](const auto& value) { return value.has_value(); }))
+    rows.push_back(std::move(row));
+}
+
+/// The names of the wheels' other load cases, in the order in which they first come.
+template <int dim>
+std::vector<std::string> other_load_cases(const std::vector<const DescribedWheel<dim>*>& wheels) {
+  std::vector<std::string> names;
+  for (const DescribedWheel<dim>* wheel : wheels)
+    for (const DescribedWheel<dim>& other : wheel->others)
+      if (std::ranges::find(names, other.load_case) == names.end()) names.push_back(other.load_case);
+  return names;
+}
+
+}  // namespace
+
 template <int dim>
 std::vector<ComparedRow> compared_rows(const std::vector<const DescribedWheel<dim>*>& wheels) {
   std::vector<ComparedRow> rows;
-  for (const WheelNumber<dim>& number : wheel_numbers<dim>()) {
-    ComparedRow row{fmt::format("{} [{}]", number.label, number.unit), {}};
-    for (const DescribedWheel<dim>* wheel : wheels) {
-      const auto value = number.value(*wheel);
-      row.values.push_back(value ? std::optional(*value * number.factor) : std::nullopt);
-    }
-    if (std::ranges::any_of(row.values, [](const auto& value) { return value.has_value(); }))
-      rows.push_back(std::move(row));
+  for (const WheelNumber<dim>& number : wheel_numbers<dim>()) add_row(number, "", wheels, rows);
+  for (const std::string& load_case : other_load_cases(wheels)) {
+    std::vector<const DescribedWheel<dim>*> others;
+    for (const DescribedWheel<dim>* wheel : wheels) others.push_back(under_load_case(*wheel, load_case));
+    for (const WheelNumber<dim>& number : wheel_numbers<dim>())
+      if (!number.is_of_shape) add_row(number, " in " + load_case, others, rows);
   }
   return rows;
 }

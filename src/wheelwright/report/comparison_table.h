@@ -14,7 +14,8 @@ struct ComparedRow {
   std::vector<std::optional<double>> values;  ///< one per wheel; nothing where it has none
 };
 
-/// The numbers of wheels (wheel_numbers) that at least one of them has.
+/// The numbers of wheels (wheel_numbers) that at least one of them has; then those that depend on the load
+/// under every other load case.
 template <int dim>
 std::vector<ComparedRow> compared_rows(const std::vector<const DescribedWheel<dim>*>& wheels);
 

@@ -1,5 +1,6 @@
 #include "wheelwright/report/described_wheel.h"
 
+#include <algorithm>
 #include <numbers>
 #include <numeric>
 
@@ -74,16 +75,43 @@ Expected<DescribedWheel<dim>> described_wheel(const StateSolver<dim>& solver, co
 }
 
 template <int dim>
+Expected<DescribedWheel<dim>> described_wheel(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
+                                              double volume_fraction, const State<dim>& state,
+                                              const LoadCases<dim>& cases) {
+  auto wheel = described_wheel(solver, psi, volume_fraction, state);
+  for (std::size_t k = 0; k < cases.size() && wheel; ++k) {
+    if (k == 0) {
+      wheel->load_case = cases[k].name;
+      continue;
+    }
+    const auto other_state = state.under(with_loads_of(state.model(), cases[k].model), Interrupt());
+    if (!other_state) return other_state.failure();
+    auto other = described_wheel(solver, psi, volume_fraction, **other_state);
+    if (!other) return other.failure();
+    other->load_case = cases[k].name;
+    wheel->others.push_back(*std::move(other));
+  }
+  return wheel;
+}
+
+template <int dim>
+const DescribedWheel<dim>* under_load_case(const DescribedWheel<dim>& wheel, const std::string& load_case) {
+  const auto found = std::ranges::find(wheel.others, load_case, &DescribedWheel<dim>::load_case);
+  return found == wheel.others.end() ? nullptr : &*found;
+}
+
+template <int dim>
 const std::vector<WheelNumber<dim>>& wheel_numbers() {
   using Wheel = DescribedWheel<dim>;
   using Number = std::optional<double>;
   static const std::vector<WheelNumber<dim>> numbers{
       {"volume of the ring", "%", percent, "volume_fraction",
-       [](const Wheel& w) -> Number { return w.volume_fraction; }},
+       [](const Wheel& w) -> Number { return w.volume_fraction; }, true},
       {"mass", "kg", 1, "mass_kg",
        [](const Wheel& w) -> Number {
          return w.mass ? Number(*w.mass * whole_width(dim, w.grid.width)) : std::nullopt;
-       }},
+       },
+       true},
       {"load", "N", 1, "load_N",
        [](const Wheel& w) -> Number { return w.rolling.load * whole_width(dim, w.grid.width); }},
       {"mean travel", "mm", mm, "mean_travel_m",
@@ -114,17 +142,20 @@ const std::vector<WheelNumber<dim>>& wheel_numbers() {
        dim == 2 ? "strain_energy_J_per_m" : "strain_energy_J",
        [](const Wheel& w) -> Number { return w.summary.strain_energy; }},
       {"thinnest wall", "mm", mm, "minimum_wall_m",
-       [](const Wheel& w) -> Number { return width(w.clearances.wall); }},
+       [](const Wheel& w) -> Number { return width(w.clearances.wall); }, true},
       {"narrowest gap", "mm", mm, "minimum_gap_m",
-       [](const Wheel& w) -> Number { return width(w.clearances.gap); }},
+       [](const Wheel& w) -> Number { return width(w.clearances.gap); }, true},
   };
   return numbers;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                    \
-  template Expected<DescribedWheel<dim>> described_wheel(const StateSolver<dim>&, const LevelSet<dim>&, \
-                                                         double, const State<dim>&);                    \
-  template cad::Clearances outline_clearances(const LevelSet<dim>&);                                    \
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                                        \
+  template Expected<DescribedWheel<dim>> described_wheel(const StateSolver<dim>&, const LevelSet<dim>&,     \
+                                                         double, const State<dim>&);                        \
+  template Expected<DescribedWheel<dim>> described_wheel(const StateSolver<dim>&, const LevelSet<dim>&,     \
+                                                         double, const State<dim>&, const LoadCases<dim>&); \
+  template const DescribedWheel<dim>* under_load_case(const DescribedWheel<dim>&, const std::string&);      \
+  template cad::Clearances outline_clearances(const LevelSet<dim>&);                                        \
   template const std::vector<WheelNumber<dim>>& wheel_numbers();
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)

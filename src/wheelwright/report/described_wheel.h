@@ -7,6 +7,7 @@
 #include "wheelwright/analysis/rolling_analysis.h"
 #include "wheelwright/analysis/shape_summary.h"
 #include "wheelwright/cad/clearance.h"
+#include "wheelwright/state/load_case.h"
 
 namespace wheelwright {
 
@@ -23,12 +24,25 @@ struct DescribedWheel {
   cad::Clearances clearances;
   ShapeSummary<dim> summary;
   RollingAnalysis rolling;
+  std::string load_case = {};               ///< under which; empty: the wheel has one load alone
+  std::vector<DescribedWheel> others = {};  ///< the same wheel under its other load cases
 };
 
 /// Describes a shape by its states. Fails as the contact problem does, which is solved at a fixed travel too.
 template <int dim>
 Expected<DescribedWheel<dim>> described_wheel(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                               double volume_fraction, const State<dim>& state);
+
+/// The same under several load cases; the state is that of the first, the others are solved on the same
+/// factor.
+template <int dim>
+Expected<DescribedWheel<dim>> described_wheel(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
+                                              double volume_fraction, const State<dim>& state,
+                                              const LoadCases<dim>& cases);
+
+/// The wheel under the load case of that name; null if it has none.
+template <int dim>
+const DescribedWheel<dim>* under_load_case(const DescribedWheel<dim>& wheel, const std::string& load_case);
 
 /// The thinnest wall and the narrowest gap of a shape, measured on the curves that follow its edges. Nothing
 /// when dim = 3 and where no curves can be fitted.
@@ -44,6 +58,7 @@ struct WheelNumber {
   const char* key;   ///< for programs, with the SI unit
   /// In SI units, on the whole width; nothing where a wheel has no such number.
   std::optional<double> (*value)(const DescribedWheel<dim>&);
+  bool is_of_shape = false;  ///< the same under every load
 };
 
 /// The numbers by which wheels are judged and compared, in the order in which they are told.

@@ -13,6 +13,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// The numbers that depend on the load, under every other load case.
+template <int dim>
+Json load_cases_json(const DescribedWheel<dim>& wheel) {
+  Json json = Json::object();
+  for (const DescribedWheel<dim>& other : wheel.others)
+    for (const WheelNumber<dim>& number : wheel_numbers<dim>())
+      if (const auto value = number.value(other); value && !number.is_of_shape)
+        json[other.load_case][number.key] = *value;
+  return json;
+}
+
 template <int dim>
 Json shape_json(const SummarizedShape<dim>& shape, const std::string& minimized) {
   Json json{{"shape", shape.iteration}};
@@ -28,6 +39,8 @@ Json shape_json(const SummarizedShape<dim>& shape, const std::string& minimized)
   json["largest_rotation_rad"] = summary.deformation.rotation;
   json["travel_by_ring_thickness"] = summary.deformation.travel;
   json["edges_overlap"] = summary.deformation.edges_overlap;
+  if (!shape.wheel.load_case.empty()) json["load_case"] = shape.wheel.load_case;
+  if (!shape.wheel.others.empty()) json["load_cases"] = load_cases_json(shape.wheel);
   return json;
 }
 

@@ -37,6 +37,11 @@ std::string wheels_json(const std::vector<ComparedWheel>& wheels) {
         {"name", wheel.numbers.name}, {"shape", wheel.numbers.which}, {"width_m", wheel.numbers.grid.width}};
     for (const WheelNumber<2>& number : wheel_numbers<2>())
       if (const auto value = number.value(wheel.numbers)) entry[number.key] = *value;
+    if (!wheel.numbers.load_case.empty()) entry["load_case"] = wheel.numbers.load_case;
+    for (const DescribedWheel<2>& other : wheel.numbers.others)
+      for (const WheelNumber<2>& number : wheel_numbers<2>())
+        if (const auto value = number.value(other); value && !number.is_of_shape)
+          entry["load_cases"][other.load_case][number.key] = *value;
     json.push_back(std::move(entry));
   }
   return nlohmann::ordered_json{{"wheels", std::move(json)}}.dump(2) + '\n';

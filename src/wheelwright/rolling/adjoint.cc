@@ -215,9 +215,8 @@ void subtract_states(const RollingSolution<dim>& s, std::span<const FunctionalDe
 /// Takes the energy-weighted modes of the displacement off those of q: p = q - energy v.
 template <int dim>
 void subtract_energy_weighted(const RollingSolution<dim>& s, const std::vector<double>& energy,
-                              Matrix& modes) {
+                              const Matrix& states, Matrix& modes) {
   if (energy.empty()) return;
-  const Matrix& states = s.displacement.modes;
   if (all_equal(energy)) {
     for (size_t k = 0; k < states.entries().size(); ++k)
       modes.entries()[k] -= energy.front() * states.entries()[k];
@@ -244,7 +243,9 @@ Matrix energy_weighted(const RollingSolution<dim>& s, const std::vector<double>&
 template <int dim>
 Expected<std::vector<Adjoint>> solve_adjoints(const RollingProblem<dim>& problem,
                                               const RollingSolution<dim>& s,
-                                              std::span<const FunctionalDerivative<dim>> functions) {
+                                              std::span<const FunctionalDerivative<dim>> functions,
+                                              const SectorFields& displacement,
+                                              const PartialCholesky::Sweep& sweep) {
   if (functions.empty()) return std::vector<Adjoint>{};
   const Tread<dim>& tread = problem.tread();
   const CyclicStiffness<dim>& ring = s.ring;
@@ -271,20 +272,21 @@ Expected<std::vector<Adjoint>> solve_adjoints(const RollingProblem<dim>& problem
               of_functions[f].column(ring.sector_factor().n_interior()));
   }
   Matrix modes = stacked(std::move(of_functions));
-  ring.sector_factor().substitute(s.sweep, modes);
+  ring.sector_factor().substitute(sweep, modes);
   of_functions = unstacked(std::move(modes), n_functions);
   std::vector<Adjoint> adjoints;
   for (int f = 0; f < n_functions; ++f) {
-    subtract_energy_weighted(s, functions[f].energy, of_functions[f]);
+    subtract_energy_weighted(s, functions[f].energy, displacement.modes, of_functions[f]);
     adjoints.push_back({std::move(of_functions[f]), contact->second[f]});
   }
   return adjoints;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                \
-  template Matrix energy_weighted(const RollingSolution<dim>&, const std::vector<double>&, Matrix); \
-  template Expected<std::vector<Adjoint>> solve_adjoints(                                           \
-      const RollingProblem<dim>&, const RollingSolution<dim>&, std::span<const FunctionalDerivative<dim>>);
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                                       \
+  template Matrix energy_weighted(const RollingSolution<dim>&, const std::vector<double>&, Matrix);        \
+  template Expected<std::vector<Adjoint>> solve_adjoints(                                                  \
+      const RollingProblem<dim>&, const RollingSolution<dim>&, std::span<const FunctionalDerivative<dim>>, \
+      const SectorFields&, const PartialCholesky::Sweep&);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)
 #undef WHEELWRIGHT_INSTANTIATE

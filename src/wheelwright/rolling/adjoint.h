@@ -8,7 +8,8 @@ namespace wheelwright {
 /// The adjoint problems (79) of one function at all positions.
 struct Adjoint {
   /// p in the core without the rim's motion: its components along the load cases of the displacement's modes,
-  /// sum_j multiplicity_j weights(j, k) p_j, as RollingSolution::displacement.
+  /// sum_j multiplicity_j weights(j, k) p_j, as RollingSolution::displacement; in the unknowns that were
+  /// asked for.
   Matrix modes;
   std::vector<RimMotion> rim;  ///< of every position
 };
@@ -20,10 +21,22 @@ template <int dim>
 Matrix energy_weighted(const RollingSolution<dim>& solution, const std::vector<double>& energy, Matrix modes);
 
 /// K p + S^T m = -dJ/dv with the transposed contact tangent, for several functions as one block of right-hand
-/// sides. Fails with no_contact when a position's contact system is singular.
+/// sides. Fails with no_contact when a position's contact system is singular. `displacement` is the
+/// solution's own, or complete_displacement(): p is found in the unknowns of `sweep`, in which it must hold
+/// v.
 template <int dim>
 Expected<std::vector<Adjoint>> solve_adjoints(const RollingProblem<dim>& problem,
                                               const RollingSolution<dim>& solution,
-                                              std::span<const FunctionalDerivative<dim>> functions);
+                                              std::span<const FunctionalDerivative<dim>> functions,
+                                              const SectorFields& displacement,
+                                              const PartialCholesky::Sweep& sweep);
+
+/// In the unknowns that the shape gradient needs.
+template <int dim>
+Expected<std::vector<Adjoint>> solve_adjoints(const RollingProblem<dim>& problem,
+                                              const RollingSolution<dim>& solution,
+                                              std::span<const FunctionalDerivative<dim>> functions) {
+  return solve_adjoints(problem, solution, functions, solution.displacement, solution.sweep);
+}
 
 }  // namespace wheelwright

@@ -75,15 +75,25 @@ class WholeState : public State<3> {
 
   Expected<ShapeGradients> shape_gradients(
       std::span<const FunctionalDerivative<3>> functions) const override {
-    std::vector<FunctionalDerivative<3>> of_half;
-    for (const auto& function : functions) of_half.push_back(halves().derivative_of_half(function));
-    auto gradients = half_->shape_gradients(of_half);
+    auto gradients = half_->shape_gradients(of_half(functions));
     if (!gradients) return gradients;
     for (auto& densities : gradients->densities) {
       const std::vector<double> images = densities;
       densities.insert(densities.end(), images.begin(), images.end());
     }
     return gradients;
+  }
+
+  Expected<std::vector<std::vector<double>>> topological_derivatives(
+      std::span<const FunctionalDerivative<3>> functions,
+      std::span<const MaterialPoint<3>> points) const override {
+    std::vector<MaterialPoint<3>> there(points.begin(), points.end());
+    for (auto& point : there) {
+      const auto place = halves().place(point.cell);
+      point.cell = place.cell;
+      if (place.is_image) point.xi[2] = 1 - point.xi[2];
+    }
+    return half_->topological_derivatives(of_half(functions), there);
   }
 
   Expected<std::vector<std::vector<ContactPatch<3>>>> contacts_under(
@@ -118,6 +128,12 @@ class WholeState : public State<3> {
 
  private:
   const WidthHalves& halves() const { return solver_.halves(); }
+
+  std::vector<FunctionalDerivative<3>> of_half(std::span<const FunctionalDerivative<3>> functions) const {
+    std::vector<FunctionalDerivative<3>> result;
+    for (const auto& function : functions) result.push_back(halves().derivative_of_half(function));
+    return result;
+  }
 
   Expected<std::shared_ptr<const State<3>>> on_whole_width(const Interrupt& interrupt) const {
     const auto whole = solver_.whole();

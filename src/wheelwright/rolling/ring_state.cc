@@ -7,6 +7,7 @@
 #include "wheelwright/rolling/neumann_to_dirichlet.h"
 #include "wheelwright/rolling/ring_displacement.h"
 #include "wheelwright/rolling/shape_gradient.h"
+#include "wheelwright/rolling/topological_derivative.h"
 #include "wheelwright/rolling/turned_state.h"
 #include "wheelwright/state/strain_peaks.h"
 
@@ -50,6 +51,12 @@ class RingState : public State<dim> {
     auto densities = wheelwright::shape_gradients<dim>(problem_, solution_, functions, *adjoints);
     return ShapeGradients{std::move(densities),
                           {{phase::adjoint, adjoint_seconds}, {phase::gradient, watch.lap()}}};
+  }
+
+  Expected<std::vector<std::vector<double>>> topological_derivatives(
+      std::span<const FunctionalDerivative<dim>> functions,
+      std::span<const MaterialPoint<dim>> points) const override {
+    return wheelwright::topological_derivatives<dim>(problem_, solution_, functions, points);
   }
 
   Expected<std::vector<std::vector<ContactPatch<dim>>>> contacts_under(

@@ -4,6 +4,7 @@
 
 #include "wheelwright/base/parallel.h"
 #include "wheelwright/geometry/mirror.h"
+#include "wheelwright/rolling/work_of_loads.h"
 
 namespace wheelwright {
 
@@ -41,59 +42,6 @@ Matrix dilatation_columns(const ElasticElement<dim>& element, std::span<const Re
   }
   return columns;
 }
-
-/// The work of body force and pressure in the adjoint problem, at a point of the moving boundary, summed over
-/// positions and sectors.
-template <int dim>
-class WorkOfLoads {
- public:
-  WorkOfLoads(const RollingModel<dim>& model, const RollingSolution<dim>& s, const Adjoint& adjoint)
-      : model_(model), s_(s), adjoint_(adjoint) {
-    if (!s.core_loads.empty())
-      on_modes_ = product(scaled_rows(case_multiplicities(s), s.displacement.weights), Op::transpose,
-                          s.core_loads.weights, Op::none);
-  }
-
-  /// p_0 div p - f.p; `p`: modes on the cell's dofs, `angle`: the cell's azimuth in the sector.
-  double density(const typename ElasticElement<dim>::Point& at, const Material& material, double angle,
-                 const Matrix& p) const {
-    if (s_.core_loads.empty()) return 0;
-    double density = 0;
-    for (int k = 0; k < p.rows(); ++k) {
-      Vec<dim> value{}, force;
-      for (int d = 0; d < dim; ++d) {
-        for (int i = 0; i < p.columns(); ++i) value[d] += at.displacement[d][i] * p(k, i);
-        force[d] = on_modes_(k, d);
-      }
-      for (int i = 0; i < p.columns(); ++i) density += on_modes_(k, dim) * at.dilatation[i] * p(k, i);
-      density -= dot<dim>(force, rotated<dim>(value, angle));
-      if (on_modes_.columns() > dim + 1)
-        density -= on_modes_(k, dim + 1) * material.density.value_or(0) *
-                   (at.position[0] * value[0] + at.position[1] * value[1]);
-    }
-    return density - work_on_rim(at.position, material, angle);
-  }
-
- private:
-  double work_on_rim(const Vec<dim>& position, const Material& material, double angle) const {
-    const PolarGrid<dim>& grid = model_.grid;
-    double work = 0;
-    for (int i = 0; i < s_.positions.size(); ++i)
-      for (int sector = 0; sector < grid.n_sectors; ++sector) {
-        const double to_ground = angle + sector * grid.sector_angle() - s_.positions.grounds[i].azimuth(grid);
-        const Vec<dim> x = rotated<dim>(position, to_ground);
-        work += s_.positions.multiplicities[i] *
-                dot<dim>(model_.distributed.force_at(x, material.density.value_or(0)),
-                         displacement<dim>(adjoint_.rim[i], x));
-      }
-    return work;
-  }
-
-  const RollingModel<dim>& model_;
-  const RollingSolution<dim>& s_;
-  const Adjoint& adjoint_;
-  Matrix on_modes_;  ///< loads along a sector's axes, then pressure, by modes
-};
 
 template <int dim>
 using BoundaryRule = std::vector<ReferenceSurfacePoint<dim>>;

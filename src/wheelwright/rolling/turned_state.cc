@@ -112,10 +112,20 @@ class TurnedState : public State<dim> {
 
   Expected<ShapeGradients> shape_gradients(
       std::span<const FunctionalDerivative<dim>> functions) const override {
-    std::vector<FunctionalDerivative<dim>> there(functions.begin(), functions.end());
-    for (auto& function : there)
-      function.tread_loads = turned_columns(function.tread_loads, ring_columns(), -columns_);
-    return turned_->shape_gradients(there);
+    return turned_->shape_gradients(turned_back(functions));
+  }
+
+  Expected<std::vector<std::vector<double>>> topological_derivatives(
+      std::span<const FunctionalDerivative<dim>> functions,
+      std::span<const MaterialPoint<dim>> points) const override {
+    const PolarGrid<dim>& grid = domain_->grid;
+    std::vector<MaterialPoint<dim>> there(points.begin(), points.end());
+    for (auto& point : there) {
+      auto place = grid.cell_position(point.cell);
+      place[1] = wrap(place[1] - columns_, grid.columns());
+      point.cell = grid.cell_index(place);
+    }
+    return turned_->topological_derivatives(turned_back(functions), there);
   }
 
   Expected<std::vector<std::vector<ContactPatch<dim>>>> contacts_under(
@@ -137,6 +147,13 @@ class TurnedState : public State<dim> {
 
  private:
   int ring_columns() const { return domain_->grid.ring_columns(); }
+  std::vector<FunctionalDerivative<dim>> turned_back(
+      std::span<const FunctionalDerivative<dim>> functions) const {
+    std::vector<FunctionalDerivative<dim>> there(functions.begin(), functions.end());
+    for (auto& function : there)
+      function.tread_loads = turned_columns(function.tread_loads, ring_columns(), -columns_);
+    return there;
+  }
   void turn(ContactPatch<dim>& contact) const {
     for (auto& point : contact.points) point.column = wrap(point.column + columns_, ring_columns());
   }

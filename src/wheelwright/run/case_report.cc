@@ -132,7 +132,8 @@ std::vector<std::string> warnings(const Case& c) {
         "also "
         "measure that; with grid.angular_cells a multiple of sectors * positions = {} they do not",
         total_load_positions(c)));
-  if (!has_holes(c)) result.push_back("there are no holes, so no boundary can move");
+  if (!has_holes(c) && c.optimizer.nucleation == NucleationTime::never)
+    result.push_back("there are no holes, so no boundary can move");
   if (const double cells = smallest_hole_in_cells(c);
       cells < least_cells_per_hole && c.optimizer.smoothing == 0)
     result.push_back(

@@ -284,6 +284,32 @@ std::optional<InitialShape<dim>> read_initial(ByteReader& reader) {
   return InitialShape<dim>{*std::move(shape), objective, measure};
 }
 
+template <int dim>
+void append(const Nucleation<dim>& nucleation, ByteWriter& writer) {
+  const auto& [before, is_over] = nucleation;
+  writer.integer(is_over ? 1 : 0);
+  writer.integer(before ? 1 : 0);
+  if (!before) return;
+  const auto& [shape, objective, violation, is_comparable] = *before;
+  append(shape, writer);
+  writer.number(objective);
+  writer.number(violation);
+  writer.integer(is_comparable ? 1 : 0);
+}
+
+template <int dim>
+Nucleation<dim> read_nucleation(ByteReader& reader) {
+  Nucleation<dim> nucleation;
+  nucleation.is_over = reader.integer(0, 1, "whether holes are made no more") == 1;
+  if (reader.integer(0, 1, "whether holes are to be judged") == 0) return nucleation;
+  auto shape = read_level_set<dim>(reader);
+  const double objective = reader.finite_number("the objective before the newest holes");
+  const double violation = reader.finite_number("the violation before the newest holes");
+  const bool is_comparable = reader.integer(0, 1, "whether the newest holes can be judged") == 1;
+  if (reader.ok()) nucleation.before = {*std::move(shape), objective, violation, is_comparable};
+  return nucleation;
+}
+
 void append(const std::vector<FoundQuantity>& found, ByteWriter& writer) {
   append_all(found, writer, [&](const FoundQuantity& one) {
     const auto& [iteration, quantity, value] = one;
@@ -306,30 +332,37 @@ std::vector<FoundQuantity> read_found(ByteReader& reader) {
 
 template <int dim>
 std::string checkpoint_file(const Checkpoint<dim>& checkpoint) {
-  const auto& [provenance, state, initial, found, history, elapsed_seconds, finished] = checkpoint;
-  ByteWriter origin, current, first, run;
+  const auto& [provenance, state, initial, nucleation, found, history, elapsed_seconds, finished] =
+      checkpoint;
+  ByteWriter origin, current, first, holes, run;
   origin.text(provenance.resolved_case);
   origin.text(provenance.program);
   append(state, current);
   append(initial, first);
+  append(nucleation, holes);
   run.integer(static_cast<std::int64_t>(history.bytes));
   run.integer(history.checksum);
   run.number(elapsed_seconds);
   run.integer(finished ? static_cast<int>(*finished) : -1);
   append(found, run);
-  return block_file(
-      file_kind, version,
-      {{"CASE", origin.bytes()}, {"STAT", current.bytes()}, {"INIT", first.bytes()}, {"RUN ", run.bytes()}});
+  return block_file(file_kind, version,
+                    {{"CASE", origin.bytes()},
+                     {"STAT", current.bytes()},
+                     {"INIT", first.bytes()},
+                     {"HOLE", holes.bytes()},
+                     {"RUN ", run.bytes()}});
 }
 
 template <int dim>
 Expected<Checkpoint<dim>, FormatError> parse_checkpoint_file(std::string_view bytes) {
-  const auto blocks = parse_block_file(bytes, file_kind, version, {"CASE", "STAT", "INIT", "RUN "});
+  const auto blocks = parse_block_file(bytes, file_kind, version, {"CASE", "STAT", "INIT", "HOLE", "RUN "});
   if (!blocks) return blocks.failure();
-  ByteReader origin((*blocks)[0]), current((*blocks)[1]), first((*blocks)[2]), run((*blocks)[3]);
+  ByteReader origin((*blocks)[0]), current((*blocks)[1]), first((*blocks)[2]), holes((*blocks)[3]),
+      run((*blocks)[4]);
   Provenance provenance{origin.text(), origin.text()};
   auto state = read_state<dim>(current);
   auto initial = read_initial<dim>(first);
+  auto nucleation = read_nucleation<dim>(holes);
   const HistoryMark history{
       static_cast<std::uint64_t>(
           run.integer(0, std::numeric_limits<std::int64_t>::max(), "the length of history.csv")),
@@ -339,17 +372,13 @@ Expected<Checkpoint<dim>, FormatError> parse_checkpoint_file(std::string_view by
   const auto finished =
       run.integer(-1, static_cast<int>(StopReason::stop_requested), "the reason why the run ended");
   auto found = read_found(run);
-  for (ByteReader* reader : {&origin, &current, &first, &run}) {
+  for (ByteReader* reader : {&origin, &current, &first, &holes, &run}) {
     reader->finish();
     if (!reader->ok()) return FormatError{FormatFault::invalid_value, reader->problem()};
   }
-  Checkpoint<dim> checkpoint{std::move(provenance),
-                             *std::move(state),
-                             *std::move(initial),
-                             std::move(found),
-                             history,
-                             elapsed_seconds,
-                             {}};
+  Checkpoint<dim> checkpoint{
+      std::move(provenance), *std::move(state), *std::move(initial), std::move(nucleation),
+      std::move(found),      history,           elapsed_seconds,     {}};
   if (finished >= 0) checkpoint.finished = static_cast<StopReason>(finished);
   return checkpoint;
 }

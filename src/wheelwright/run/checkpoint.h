@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "wheelwright/files/block_file.h"
+#include "wheelwright/nucleation/nucleation.h"
 #include "wheelwright/optimize/optimizer.h"
 #include "wheelwright/run/history.h"
 
@@ -40,6 +41,7 @@ struct Checkpoint {
   Provenance provenance;
   OptimizationState<dim> state;
   InitialShape<dim> initial;
+  Nucleation<dim> nucleation;
   std::vector<FoundQuantity> found;    ///< for the case's expectations
   HistoryMark history;                 ///< the end of history.csv at this shape
   double elapsed_seconds;              ///< computed so far

@@ -45,6 +45,7 @@ void Checkpointer<dim>::write(const OptimizationState<dim>& state, const RunView
   Checkpoint<dim> checkpoint{.provenance = provenance(run.study.source),
                              .state = state,
                              .initial = *run.initial,
+                             .nucleation = run.nucleation,
                              .found = {},
                              .history = {},
                              .elapsed_seconds = 0,

@@ -36,19 +36,47 @@ std::optional<double> computed(Quantity quantity, const StateSolver<dim>& solver
   return value.over_positions.value_or(value.of_shape);
 }
 
+/// The place of a load case of that name; the first one's if there is none.
 template <int dim>
-std::optional<double> value_of(Quantity quantity, const StateSolver<dim>& solver,
-                               const OptimizationState<dim>& state, const State<dim>* solution) {
+int place_of(const LoadCases<dim>& cases, const std::string& load_case) {
+  const auto found = std::ranges::find(cases, load_case, &LoadCase<dim>::name);
+  return found == cases.end() ? 0 : static_cast<int>(found - cases.begin());
+}
+
+/// The quantity under a load case, as history.csv names it.
+template <int dim>
+std::string quantity_name(const Expectation& expectation, const LoadCases<dim>& cases) {
+  return name_in_case(std::string(name(expectation.quantity)), cases, place_of(cases, expectation.load_case));
+}
+
+/// `solution` is that of the load case.
+template <int dim>
+std::optional<double> value_under(const std::string& in_history, Quantity quantity,
+                                  const StateSolver<dim>& solver, const OptimizationState<dim>& state,
+                                  const State<dim>* solution) {
   const Evaluation<dim>& evaluation = state.evaluation;
   if (quantity == Quantity::objective) return evaluation.function("objective").value;
   if (quantity == Quantity::volume_fraction) return volume_fraction(solver.model().grid, state.measure);
   if (quantity == Quantity::peak_von_mises)
     return solution ? std::optional(std::ranges::max(solution->strain_peaks().von_mises)) : std::nullopt;
-  if (const auto functional = named_value(evaluation.terms, name(quantity))) return functional;
-  if (const auto measure = named_value(evaluation.measures, name(quantity))) return measure;
+  if (const auto functional = named_value(evaluation.terms, in_history)) return functional;
+  if (const auto measure = named_value(evaluation.measures, in_history)) return measure;
   if (quantity == Quantity::minimum_wall || quantity == Quantity::minimum_gap)
     return clearance(quantity, state.shape);
   return solution ? computed(quantity, solver, state.shape, *solution) : std::nullopt;
+}
+
+/// `solution` is that of the first load case.
+template <int dim>
+std::optional<double> value_of(const Expectation& expectation, const StateSolver<dim>& solver,
+                               const LoadCases<dim>& cases, const OptimizationState<dim>& state,
+                               const State<dim>* solution) {
+  const std::string in_history = quantity_name(expectation, cases);
+  const int load_case = place_of(cases, expectation.load_case);
+  if (load_case == 0 || !solution)
+    return value_under(in_history, expectation.quantity, solver, state, solution);
+  const auto other = solution->under(cases[load_case].model, Interrupt());
+  return value_under(in_history, expectation.quantity, solver, state, other ? other->get() : nullptr);
 }
 
 }  // namespace
@@ -61,7 +89,8 @@ bool Finding::met() const {
 std::string Finding::text() const {
   const std::string shape =
       expectation.iteration ? fmt::format("shape {}", *expectation.iteration) : "the last shape";
-  const std::string quantity = fmt::format("{} of {}", name(expectation.quantity), shape);
+  const std::string in_case = expectation.load_case.empty() ? "" : " in " + expectation.load_case;
+  const std::string quantity = fmt::format("{}{} of {}", name(expectation.quantity), in_case, shape);
   const std::string expected =
       fmt::format("{:.6g} within {:.3g} %", expectation.value, 100 * expectation.margin);
   if (!found) return fmt::format("{}: not computed, expected {}", quantity, expected);
@@ -81,7 +110,8 @@ void ExpectationWatch<dim>::operator()(const Event<dim>& event, const RunView<di
   if (!done || done->trial.verdict != Verdict::accepted || !done->trial.solution) return;
   const int iteration = done->state.iteration;
   std::erase_if(found_, [&](const FoundQuantity& f) { return f.iteration == iteration; });
-  for (auto& found : found_quantities(expectations_, *run.study.solver, done->state, *done->trial.solution))
+  for (auto& found : found_quantities(expectations_, *run.study.solver, run.study.load_cases, done->state,
+                                      *done->trial.solution))
     found_.push_back(std::move(found));
 }
 
@@ -92,28 +122,29 @@ void ExpectationWatch<dim>::add_to(Checkpoint<dim>& checkpoint) {
 
 template <int dim>
 std::vector<FoundQuantity> found_quantities(const std::vector<Expectation>& expectations,
-                                            const StateSolver<dim>& solver,
+                                            const StateSolver<dim>& solver, const LoadCases<dim>& cases,
                                             const OptimizationState<dim>& state, const State<dim>& solution) {
   std::vector<FoundQuantity> result;
   for (const Expectation& expectation : expectations)
     if (expectation.iteration == state.iteration)
-      if (const auto value = value_of(expectation.quantity, solver, state, &solution))
-        result.push_back({state.iteration, std::string(name(expectation.quantity)), *value});
+      if (const auto value = value_of(expectation, solver, cases, state, &solution))
+        result.push_back({state.iteration, quantity_name(expectation, cases), *value});
   return result;
 }
 
 template <int dim>
 std::vector<Finding> findings(const std::vector<Expectation>& expectations,
                               const std::vector<FoundQuantity>& found, const StateSolver<dim>& solver,
-                              const OptimizationState<dim>& last, const State<dim>* solution) {
+                              const LoadCases<dim>& cases, const OptimizationState<dim>& last,
+                              const State<dim>* solution) {
   std::vector<Finding> result;
   for (const Expectation& expectation : expectations) {
     if (!expectation.iteration) {
-      result.push_back({expectation, value_of(expectation.quantity, solver, last, solution)});
+      result.push_back({expectation, value_of(expectation, solver, cases, last, solution)});
       continue;
     }
     const auto noted = std::ranges::find_if(found, [&](const FoundQuantity& f) {
-      return expectation.iteration == f.iteration && name(expectation.quantity) == f.quantity;
+      return expectation.iteration == f.iteration && quantity_name(expectation, cases) == f.quantity;
     });
     result.push_back({expectation, noted == found.end() ? std::nullopt : std::optional(noted->value)});
   }
@@ -124,19 +155,20 @@ bool need_a_solution(const std::vector<Expectation>& expectations) {
   constexpr std::array in_history{Quantity::strain_energy, Quantity::mean_travel, Quantity::run_out,
                                   Quantity::peak_pressure};
   return std::ranges::any_of(expectations, [&](const Expectation& e) {
-    return std::ranges::find(in_history, e.quantity) == in_history.end() &&
-           quantity_functional<2>(e.quantity, usual_positions(e.quantity), {}) != nullptr;
+    const bool is_in_history =
+        e.load_case.empty() && std::ranges::find(in_history, e.quantity) != in_history.end();
+    return !is_in_history && quantity_functional<2>(e.quantity, usual_positions(e.quantity), {}) != nullptr;
   });
 }
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                         \
   template class ExpectationWatch<dim>;                                                                      \
   template std::vector<FoundQuantity> found_quantities(const std::vector<Expectation>&,                      \
-                                                       const StateSolver<dim>&,                              \
+                                                       const StateSolver<dim>&, const LoadCases<dim>&,       \
                                                        const OptimizationState<dim>&, const State<dim>&);    \
   template std::vector<Finding> findings(const std::vector<Expectation>&, const std::vector<FoundQuantity>&, \
-                                         const StateSolver<dim>&, const OptimizationState<dim>&,             \
-                                         const State<dim>*);
+                                         const StateSolver<dim>&, const LoadCases<dim>&,                     \
+                                         const OptimizationState<dim>&, const State<dim>*);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)
 #undef WHEELWRIGHT_INSTANTIATE

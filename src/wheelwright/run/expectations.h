@@ -15,7 +15,7 @@ struct Finding {
 
   /// Whether it is as expected.
   bool met() const;
-  /// One line for people, e.g. "strain_energy of the last shape: 34.96, as expected within 1 %".
+  /// One line for people, e.g. "strain_energy in kerb of the last shape: 34.96, as expected within 1 %".
   std::string text() const;
 };
 
@@ -34,10 +34,10 @@ class ExpectationWatch : public Observer<dim> {
 };
 
 /// The values of the quantities that are expected of this shape, selected by its number. `solution` is that
-/// of the shape, at all load positions or at those that represent them.
+/// of the shape under the first of the load cases, at all load positions or at those that represent them.
 template <int dim>
 std::vector<FoundQuantity> found_quantities(const std::vector<Expectation>& expectations,
-                                            const StateSolver<dim>& solver,
+                                            const StateSolver<dim>& solver, const LoadCases<dim>& cases,
                                             const OptimizationState<dim>& state, const State<dim>& solution);
 
 /// One finding for each expectation, in their order: from what was found along the way and from the last
@@ -45,7 +45,8 @@ std::vector<FoundQuantity> found_quantities(const std::vector<Expectation>& expe
 template <int dim>
 std::vector<Finding> findings(const std::vector<Expectation>& expectations,
                               const std::vector<FoundQuantity>& found, const StateSolver<dim>& solver,
-                              const OptimizationState<dim>& last, const State<dim>* solution);
+                              const LoadCases<dim>& cases, const OptimizationState<dim>& last,
+                              const State<dim>* solution);
 
 /// Whether any of them is about the stress, which is only known from a solution.
 bool need_a_solution(const std::vector<Expectation>& expectations);

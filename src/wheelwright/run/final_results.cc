@@ -10,11 +10,11 @@ namespace {
 template <int dim>
 class Solutions {
  public:
-  explicit Solutions(const Interrupt& interrupt) : interrupt_(interrupt) {}
+  Solutions(const LoadCases<dim>& cases, const Interrupt& interrupt) : cases_(cases), interrupt_(interrupt) {}
 
   /// Null where there is none.
   std::shared_ptr<const State<dim>> of(const StateSolver<dim>& solver, const LevelSet<dim>& shape) {
-    auto states = solver.states(shape, solver.distinct_positions(shape), interrupt_);
+    auto states = solver.states(shape, distinct_positions(solver, cases_, shape), interrupt_);
     if (states) return *std::move(states);
     is_interrupted_ = is_interrupted_ || states.failure().reason == FailureReason::interrupted;
     return nullptr;
@@ -22,6 +22,7 @@ class Solutions {
   bool is_interrupted() const { return is_interrupted_; }
 
  private:
+  const LoadCases<dim>& cases_;
   const Interrupt& interrupt_;
   bool is_interrupted_ = false;
 };
@@ -44,15 +45,17 @@ std::optional<DescribedWheel<dim>> initial_wheel(const Study<dim>& study, const 
   const LevelSet<dim>& shape = is_coarser ? study.initial : initial.shape;
   const auto state = solutions.of(solver, shape);
   if (!state) return {};
-  return described(solver, shape, is_coarser ? material_measure(shape) : initial.measure, *state);
+  return described(solver, study.load_cases, shape, is_coarser ? material_measure(shape) : initial.measure,
+                   *state);
 }
 
 }  // namespace
 
 template <int dim>
-std::optional<DescribedWheel<dim>> described(const StateSolver<dim>& solver, const LevelSet<dim>& shape,
-                                             double measure, const State<dim>& state) {
-  auto wheel = described_wheel(solver, shape, volume_fraction(solver.model().grid, measure), state);
+std::optional<DescribedWheel<dim>> described(const StateSolver<dim>& solver, const LoadCases<dim>& cases,
+                                             const LevelSet<dim>& shape, double measure,
+                                             const State<dim>& state) {
+  auto wheel = described_wheel(solver, shape, volume_fraction(solver.model().grid, measure), state, cases);
   if (!wheel) return {};
   return *std::move(wheel);
 }
@@ -62,7 +65,7 @@ FinalResults<dim> final_results(const Study<dim>& study, const InitialShape<dim>
                                 const OptimizationState<dim>& state, const SolvedShapes<dim>& solved,
                                 const Interrupt& interrupt) {
   FinalResults<dim> results;
-  Solutions<dim> solutions(interrupt);
+  Solutions<dim> solutions(study.load_cases, interrupt);
   results.own = solved.last ? solved.last : solutions.of(*study.solver, state.shape);
   results.shown = results.own;
   results.solver = study.solver;
@@ -72,7 +75,8 @@ FinalResults<dim> final_results(const Study<dim>& study, const InitialShape<dim>
       results.solver = finer;
     }
   if (results.shown) {
-    const auto after = described(*results.solver, state.shape, state.measure, *results.shown);
+    const auto after =
+        described(*results.solver, study.load_cases, state.shape, state.measure, *results.shown);
     const bool is_seen = solved.initial && results.solver == study.solver;
     const auto before = state.iteration == 0 ? after
                         : is_seen            ? solved.initial
@@ -87,9 +91,9 @@ template FinalResults<2> final_results(const Study<2>&, const InitialShape<2>&, 
                                        const SolvedShapes<2>&, const Interrupt&);
 template FinalResults<3> final_results(const Study<3>&, const InitialShape<3>&, const OptimizationState<3>&,
                                        const SolvedShapes<3>&, const Interrupt&);
-template std::optional<DescribedWheel<2>> described(const StateSolver<2>&, const LevelSet<2>&, double,
-                                                    const State<2>&);
-template std::optional<DescribedWheel<3>> described(const StateSolver<3>&, const LevelSet<3>&, double,
-                                                    const State<3>&);
+template std::optional<DescribedWheel<2>> described(const StateSolver<2>&, const LoadCases<2>&,
+                                                    const LevelSet<2>&, double, const State<2>&);
+template std::optional<DescribedWheel<3>> described(const StateSolver<3>&, const LoadCases<3>&,
+                                                    const LevelSet<3>&, double, const State<3>&);
 
 }  // namespace wheelwright

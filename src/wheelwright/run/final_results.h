@@ -38,7 +38,8 @@ FinalResults<dim> final_results(const Study<dim>& study, const InitialShape<dim>
 
 /// A shape with this measure of one sector, described; empty where its contact curve has no description.
 template <int dim>
-std::optional<DescribedWheel<dim>> described(const StateSolver<dim>& solver, const LevelSet<dim>& shape,
-                                             double measure, const State<dim>& state);
+std::optional<DescribedWheel<dim>> described(const StateSolver<dim>& solver, const LoadCases<dim>& cases,
+                                             const LevelSet<dim>& shape, double measure,
+                                             const State<dim>& state);
 
 }  // namespace wheelwright

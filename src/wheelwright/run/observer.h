@@ -53,7 +53,7 @@ struct CaseChanged {
   std::string text;  ///< what changed
 };
 
-/// A command replaced the current shape; the new one is evaluated next.
+/// A command, or the making of holes, replaced the current shape; the new one is evaluated next.
 struct ShapeReplaced {
   std::string text;  ///< by what
 };
@@ -106,9 +106,10 @@ struct RunView {
   const Study<dim>& study;
   const Evolver<dim>& evolver;       ///< the loop's
   const InitialShape<dim>* initial;  ///< null before the first shape
-  double elapsed_seconds;            ///< computed so far, before a resumption too
-  bool can_undo;                     ///< whether there is something for the command Undo
-  const Observers<dim>& observers;   ///< all of them, for whom a checkpoint asks
+  const Nucleation<dim>& nucleation;
+  double elapsed_seconds;           ///< computed so far, before a resumption too
+  bool can_undo;                    ///< whether there is something for the command Undo
+  const Observers<dim>& observers;  ///< all of them, for whom a checkpoint asks
 };
 
 /// Watches a run. The run knows nothing of what its observers do; none of them solves or factors anything. To

@@ -88,6 +88,28 @@ class RollingFiles {
   std::vector<PvdEntry> entries_;
 };
 
+/// The wheel under every load case but the first one: its pictures in its worst position, in the folder
+/// load_cases.
+template <int dim>
+void write_other_load_cases(const RunView<dim>& run, const StateSolver<dim>& solver,
+                            const LevelSet<dim>& shape, const State<dim>& first) {
+  if (run.study.load_cases.size() > 1) make_subfolder(run.folder / "load_cases");
+  for (std::size_t k = 1; k < run.study.load_cases.size(); ++k) {
+    const auto& [name, model] = run.study.load_cases[k];
+    const auto state = first.under(with_loads_of(first.model(), model), Interrupt());
+    if (!state) continue;
+    const int worst = worst_position((*state)->strain_energy());
+    for_each_position<dim>(solver, **state, [&](int position, const PositionFields<dim>& fields) {
+      if (position == worst)
+        write_wheel_pictures(run.folder / "load_cases",
+                             {.prefix = name + "_",
+                              .title = run_title(run.study.source) + ", " + name,
+                              .width = run.study.source.wheel.width},
+                             shape, (*state)->domain(), fields);
+    });
+  }
+}
+
 void write_surface(const RunView<2>&, const LevelSet<2>&, const PositionFields<2>&) {}
 
 void write_surface(const RunView<3>& run, const LevelSet<3>& shape, const PositionFields<3>& worst) {
@@ -116,6 +138,7 @@ void ResultFiles<dim>::operator()(const Event<dim>& event, const RunView<dim>& r
         solution.domain(), fields);
   });
   rolling.write_collection();
+  write_other_load_cases(run, *ended->solver, shape, solution);
 }
 
 template class ResultFiles<2>;

@@ -39,9 +39,9 @@ Expected<std::vector<Finding>> findings_at(const Case& c, const Checkpoint<dim>&
   const auto study = make_study<dim>(c);
   if (!study) return study.failure();
   if (!need_a_solution(c.expectations))
-    return findings<dim>(c.expectations, end.found, *study->solver, end.state, nullptr);
+    return findings<dim>(c.expectations, end.found, *study->solver, study->load_cases, end.state, nullptr);
   const auto states = study->solver->states(end.state.shape, study->solver->all_positions(), Interrupt());
-  return findings<dim>(c.expectations, end.found, *study->solver, end.state,
+  return findings<dim>(c.expectations, end.found, *study->solver, study->load_cases, end.state,
                        states ? states->get() : nullptr);
 }
 

@@ -9,7 +9,7 @@
 #include "wheelwright/cut/measure.h"
 #include "wheelwright/evolution/regrid.h"
 #include "wheelwright/files/atomic_file.h"
-#include "wheelwright/run/on_other_grid.h"
+#include "wheelwright/run/nucleated_shape.h"
 #include "wheelwright/run/own_drawings.h"
 #include "wheelwright/run/provenance.h"
 #include "wheelwright/run/replacements.h"
@@ -85,6 +85,7 @@ RunResult<dim> RunLoop<dim>::resume(const Checkpoint<dim>& checkpoint) {
   write_case_file();
   state_ = checkpoint.state;
   initial_ = checkpoint.initial;
+  nucleation_ = checkpoint.nucleation;
   elapsed_ = checkpoint.elapsed_seconds;
   notify(RunStarted{.resumed_after = state_->iteration});
   if (at_end_ == AtEnd::wait) search_anew();  // a checkpoint has no solution to show
@@ -105,6 +106,7 @@ RunResult<dim> RunLoop<dim>::advance() {
       must_yield();  // an evaluation was interrupted: by a command to stop
       continue;
     }
+    if (nucleates(*reason)) continue;
     if (work_->study.level == 0 && at_end_ == AtEnd::finish) return end(*reason);
     if (work_->study.level == 0) {
       wait_for_more(*reason);
@@ -116,6 +118,74 @@ RunResult<dim> RunLoop<dim>::advance() {
     if (failure) must_yield();
   }
   return end(StopReason::stop_requested);
+}
+
+/// At the end of a search: judges the newest holes, and makes others where they pay. Whether the search goes
+/// on.
+template <int dim>
+bool RunLoop<dim>::nucleates(StopReason reason) {
+  const Study<dim>& study = work_->study;
+  if (study.source.optimizer.nucleation == NucleationTime::never || nucleation_.is_over) return false;
+  if (nucleation_.before && !has_paid<dim>(study.optimizer, *nucleation_.before, state_->evaluation))
+    return undo_nucleation(reason);
+  nucleation_.before.reset();
+  return (reason == StopReason::converged || reason == StopReason::no_descent) && makes_holes();
+}
+
+template <int dim>
+bool RunLoop<dim>::makes_holes() {
+  if constexpr (dim == 2) {
+    const Study<2>& study = work_->study;
+    const Evolver<2>& evolver = work_->optimizer.evolver();
+    auto made = nucleated_shape(study, work_->evaluate, evolver, *state_);
+    if (!made) return goes_on_after(made.failure());
+    if (!*made) {
+      nucleation_.is_over = true;
+      return false;
+    }
+    std::optional<Trial<2>> trial;
+    auto anew = state_at(work_->optimizer, (*made)->shape, trial);
+    if (!anew) return goes_on_after(anew.failure());
+    trial->events = evolver.changes(state_->shape, anew->shape);
+    nucleation_.before = before_nucleation(study.optimizer, *state_);
+    state_ = *std::move(anew);
+    notify(ShapeReplaced{(*made)->text});
+    observe(*trial, *state_);
+    return true;
+  }
+  return false;
+}
+
+/// Back to the shape before the newest holes, with which the search ends. Holes that had not all the shapes
+/// that they needed may be made again when the run is extended.
+template <int dim>
+bool RunLoop<dim>::undo_nucleation(StopReason reason) {
+  std::optional<Trial<dim>> trial;
+  auto anew = state_at(work_->optimizer, nucleation_.before->shape, trial);
+  if (!anew) return goes_on_after(anew.failure());
+  trial->events = work_->optimizer.evolver().changes(state_->shape, anew->shape);
+  const std::string text =
+      fmt::format("nucleation undone: it ended at {:.6g}, not below {:.6g}",
+                  work_->optimizer.objective_of(state_->evaluation), nucleation_.before->objective);
+  nucleation_ = {.before = {}, .is_over = reason != StopReason::iterations};
+  state_ = *std::move(anew);
+  notify(ShapeReplaced{text});
+  observe(*trial, *state_);
+  return false;
+}
+
+/// Where holes could not be made or undone: whether it was because of a command to stop. Else no more are
+/// made.
+template <int dim>
+bool RunLoop<dim>::goes_on_after(const Failure& failure) {
+  if (failure.reason == FailureReason::interrupted) {
+    must_yield();
+    return true;
+  }
+  nucleation_.is_over = true;
+  notify(CommandDone{nullptr, fmt::format("nucleation: {}: {}", to_string(failure.reason), failure.detail),
+                     false});
+  return false;
 }
 
 /// Also true for a run that was stopped before the descent began.
@@ -217,12 +287,14 @@ std::vector<Finding> RunLoop<dim>::findings_at_the_end(const State<dim>* solutio
   Checkpoint<dim> noted{.provenance = {},
                         .state = *state_,
                         .initial = *initial_,
+                        .nucleation = {},
                         .found = {},
                         .history = {},
                         .elapsed_seconds = 0,
                         .finished = {}};
   for (const auto& observer : observers_) observer->add_to(noted);
-  return findings<dim>(expectations, noted.found, *work_->study.solver, *state_, solution);
+  return findings<dim>(expectations, noted.found, *work_->study.solver, work_->study.load_cases, *state_,
+                       solution);
 }
 
 template <int dim>
@@ -239,7 +311,8 @@ void RunLoop<dim>::observe(const Trial<dim>& trial, const OptimizationState<dim>
     const bool is_initial =
         state.iteration == 0 && work_->study.level == 0 && state.shape.values == initial_->shape.values;
     if (is_initial && trial.solution && tread_levels_of_results(c) == tread_levels(c))
-      solved_.initial = described(*work_->study.solver, state.shape, state.measure, *trial.solution);
+      solved_.initial = described(*work_->study.solver, work_->study.load_cases, state.shape, state.measure,
+                                  *trial.solution);
     solved_.last = reason_to_stop(work_->study.optimizer, state) ? trial.solution : nullptr;
   } else if (trial.verdict == Verdict::failed) {
     failed_trials_.push_back(trial);
@@ -255,6 +328,7 @@ void RunLoop<dim>::notify(const Event<dim>& event) {
                           .study = work_->study,
                           .evolver = work_->optimizer.evolver(),
                           .initial = initial_ ? &*initial_ : nullptr,
+                          .nucleation = nucleation_,
                           .elapsed_seconds = elapsed_,
                           .can_undo = !past_.empty(),
                           .observers = observers_};
@@ -421,6 +495,7 @@ std::optional<Refusal> RunLoop<dim>::replace_shape(const LevelSet<dim>& shape, c
   stops_before_ = 0;
   if (!anew) return refusal(anew.failure());
   state_ = *std::move(anew);
+  nucleation_ = {};
   has_ended_by_itself_ = false;
   ++changes_;
   notify(ShapeReplaced{what});
@@ -452,6 +527,7 @@ std::optional<Refusal> RunLoop<dim>::work_on(const Case& changed, const LevelSet
   solved_.initial.reset();
   initial_->objective = first->evaluation.function("objective").value;
   state_ = *std::move(anew);
+  nucleation_ = {};
   has_ended_by_itself_ = false;
   ++changes_;
   notify(CaseChanged{what});

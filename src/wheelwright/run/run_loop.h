@@ -59,6 +59,10 @@ class RunLoop : private RunControl {
                                             std::optional<Trial<dim>>& trial) const;
 
   RunResult<dim> advance();
+  bool nucleates(StopReason reason);
+  bool makes_holes();
+  bool undo_nucleation(StopReason reason);
+  bool goes_on_after(const Failure& failure);
   bool begins_on_coarser_grid() const;
   void begin_on_coarser_grid();
   std::optional<Failure> move_to_grid(int level);
@@ -88,6 +92,7 @@ class RunLoop : private RunControl {
   std::optional<OptimizationState<dim>> state_;
   std::optional<InitialShape<dim>> initial_;
   SolvedShapes<dim> solved_;  ///< the last one only when nothing follows it: until then it is not held
+  Nucleation<dim> nucleation_;
   std::vector<Trial<dim>> failed_trials_;
   std::deque<Past> past_;  ///< newest last
 

@@ -6,6 +6,7 @@
 #include "wheelwright/analysis/shape_summary.h"
 #include "wheelwright/base/stopwatch.h"
 #include "wheelwright/functionals/mean_contact_stress.h"
+#include "wheelwright/geometry/cell_map.h"
 
 namespace wheelwright {
 namespace {
@@ -145,6 +146,51 @@ bool is_finite(const Evaluation<dim>& evaluation) {
   });
 }
 
+template <int dim>
+std::vector<CaseStates<dim>> case_states(const StateSolver<dim>& solver,
+                                         std::span<const State<dim>* const> states) {
+  std::vector<CaseStates<dim>> of_cases;
+  for (const State<dim>* state : states)
+    of_cases.push_back({*state, mean_observations(solver.tread_surface(), *state)});
+  return of_cases;
+}
+
+/// Cartesian, in the body frame [m].
+template <int dim>
+Vec<dim> position_of(const RollingModel<dim>& model, const MaterialPoint<dim>& point) {
+  const auto place = model.grid.cell_position(point.cell);
+  const CellMap<dim> map(model.grid, model.degree, place);
+  return rotated<dim>(map.position(ShapeFunctions<dim>(model.degree, point.xi)),
+                      place[1] * model.grid.cell_size()[1]);
+}
+
+/// The functions' derivatives with respect to the states of every load case, as far as they depend on them.
+template <int dim>
+struct ByStates {
+  std::vector<FunctionValue> values;
+  std::vector<std::vector<FunctionalDerivative<dim>>> derivatives;  ///< [load case]
+  std::vector<std::vector<size_t>> functions;                       ///< that they are of, [load case]
+};
+
+template <int dim>
+ByStates<dim> by_states(std::span<const ShapeFunction<dim>> functions,
+                        const FunctionalValues<dim>& functionals, const StateSolver<dim>& solver,
+                        std::span<const CaseStates<dim>> cases, bool mean_is_held) {
+  ByStates<dim> result{.values = {},
+                       .derivatives = std::vector<std::vector<FunctionalDerivative<dim>>>(cases.size()),
+                       .functions = std::vector<std::vector<size_t>>(cases.size())};
+  for (const ShapeFunction<dim>& function : functions) {
+    auto [value, of_function] = weighted<dim>(function, functionals, solver, cases, mean_is_held);
+    for (size_t k = 0; k < cases.size(); ++k) {
+      if (of_function[k].empty()) continue;  // it does not depend on these states and needs no adjoint
+      result.functions[k].push_back(result.values.size());
+      result.derivatives[k].push_back(std::move(of_function[k]));
+    }
+    result.values.push_back(std::move(value));
+  }
+  return result;
+}
+
 }  // namespace
 
 template <int dim>
@@ -153,9 +199,7 @@ Expected<Evaluation<dim>> differentiate(const StateSolver<dim>& solver, const Lo
                                         const LevelSet<dim>& psi, std::span<const State<dim>* const> states,
                                         const Matrix* held_mean) {
   Stopwatch watch;
-  std::vector<CaseStates<dim>> of_cases;
-  for (const State<dim>* state : states)
-    of_cases.push_back({*state, mean_observations(solver.tread_surface(), *state)});
+  const auto of_cases = case_states(solver, states);
   const State<dim>& first = *states.front();
   Evaluation<dim> evaluation{.functions = {},
                              .terms = {},
@@ -172,25 +216,16 @@ Expected<Evaluation<dim>> differentiate(const StateSolver<dim>& solver, const Lo
   const FunctionalValues<dim> functionals(functions, solver, psi, std::span<const CaseStates<dim>>(of_cases),
                                           held_mean);
   evaluation.terms = functionals.terms(cases, first.positions());
-  std::vector<std::vector<FunctionalDerivative<dim>>> derivatives(states.size());
-  std::vector<std::vector<size_t>> of_states(states.size());
-  for (const ShapeFunction<dim>& function : functions) {
-    auto [value, of_function] = weighted<dim>(function, functionals, solver, of_cases, held_mean != nullptr);
-    for (size_t k = 0; k < states.size(); ++k) {
-      if (of_function[k].empty()) continue;  // it does not depend on these states and needs no adjoint
-      of_states[k].push_back(evaluation.functions.size());
-      derivatives[k].push_back(std::move(of_function[k]));
-    }
-    evaluation.functions.push_back(std::move(value));
-  }
+  auto of_states = by_states<dim>(functions, functionals, solver, of_cases, held_mean != nullptr);
+  evaluation.functions = std::move(of_states.values);
   evaluation.phases.push_back({phase::functionals, watch.lap()});
 
   for (size_t k = 0; k < states.size(); ++k) {
-    const auto gradients = states[k]->shape_gradients(derivatives[k]);
+    const auto gradients = states[k]->shape_gradients(of_states.derivatives[k]);
     if (!gradients) return gradients.failure();
-    for (size_t f = 0; f < of_states[k].size(); ++f)
+    for (size_t f = 0; f < of_states.functions[k].size(); ++f)
       for (size_t q = 0; q < evaluation.boundary.size(); ++q)
-        evaluation.functions[of_states[k][f]].gradient[q] += gradients->densities[f][q];
+        evaluation.functions[of_states.functions[k][f]].gradient[q] += gradients->densities[f][q];
     evaluation.phases.insert(evaluation.phases.end(), gradients->phases.begin(), gradients->phases.end());
   }
   if (!is_finite(evaluation))
@@ -228,7 +263,35 @@ Expected<Evaluated<dim>> evaluate(const StateSolver<dim>& solver,
   return Evaluated<dim>{*std::move(evaluation), std::move(first), *std::move(states)};
 }
 
+template <int dim>
+Expected<std::vector<std::vector<double>>> topological_derivatives(
+    const StateSolver<dim>& solver, const LoadCases<dim>& cases,
+    std::span<const ShapeFunction<dim>> functions, const LevelSet<dim>& psi,
+    std::span<const State<dim>* const> states, std::span<const MaterialPoint<dim>> points, double radius) {
+  const auto of_cases = case_states(solver, states);
+  const FunctionalValues<dim> functionals(functions, solver, psi, std::span<const CaseStates<dim>>(of_cases),
+                                          nullptr);
+  const auto of_states = by_states<dim>(functions, functionals, solver, of_cases, false);
+  std::vector<std::vector<double>> result(functions.size(), std::vector<double>(points.size(), 0.0));
+  for (size_t f = 0; f < functions.size(); ++f)
+    for (const auto& [weight, functional, load_case] : functions[f].terms)
+      for (size_t i = 0; i < points.size(); ++i)
+        result[f][i] += weight * functional->of_small_hole(solver.model().grid,
+                                                           position_of(solver.model(), points[i]), radius);
+  for (size_t k = 0; k < states.size(); ++k) {
+    const auto derivatives = states[k]->topological_derivatives(of_states.derivatives[k], points);
+    if (!derivatives) return derivatives.failure();
+    for (size_t f = 0; f < of_states.functions[k].size(); ++f)
+      for (size_t i = 0; i < points.size(); ++i) result[of_states.functions[k][f]][i] += (*derivatives)[f][i];
+  }
+  return result;
+}
+
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                        \
+  template Expected<std::vector<std::vector<double>>> topological_derivatives(                              \
+      const StateSolver<dim>&, const LoadCases<dim>&, std::span<const ShapeFunction<dim>>,                  \
+      const LevelSet<dim>&, std::span<const State<dim>* const>, std::span<const MaterialPoint<dim>>,        \
+      double);                                                                                              \
   template Expected<Evaluation<dim>> differentiate(const StateSolver<dim>&,                                 \
                                                    std::span<const ShapeFunction<dim>>,                     \
                                                    const LevelSet<dim>&, const State<dim>&, const Matrix*); \

@@ -32,6 +32,16 @@ Expected<Evaluation<dim>> differentiate(const StateSolver<dim>& solver, const Lo
                                         const LevelSet<dim>& psi, std::span<const State<dim>* const> states,
                                         const Matrix* held_mean = nullptr);
 
+/// What a small round hole in every sector changes of the functions, per its area (volume when dim = 3):
+/// their topological derivatives at points of the core that lie in full cells, [function][point]. `radius`:
+/// of the hole, for functions of the shape alone that depend on it [m]. Functions that compare with the mean
+/// contact stress do so with the shape's own. Fails as State::topological_derivatives() does.
+template <int dim>
+Expected<std::vector<std::vector<double>>> topological_derivatives(
+    const StateSolver<dim>& solver, const LoadCases<dim>& cases,
+    std::span<const ShapeFunction<dim>> functions, const LevelSet<dim>& psi,
+    std::span<const State<dim>* const> states, std::span<const MaterialPoint<dim>> points, double radius);
+
 /// The same for a shape: the states of its distinct positions, then differentiate(). All positions are solved
 /// for when the functions' weights or the held mean are not their own mirror image.
 template <int dim>

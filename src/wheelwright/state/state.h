@@ -14,6 +14,7 @@
 #include "wheelwright/state/load_positions.h"
 #include "wheelwright/state/ring_field.h"
 #include "wheelwright/state/rolling_model.h"
+#include "wheelwright/state/topological_derivative.h"
 #include "wheelwright/state/tread_surface.h"
 
 namespace wheelwright {
@@ -92,6 +93,16 @@ class State {
   /// under a pressure p_0. Their adjoint problems (79) are solved as one block of right-hand sides.
   virtual Expected<ShapeGradients> shape_gradients(
       std::span<const FunctionalDerivative<dim>> functions) const = 0;
+
+  /// What a small round hole without traction in every sector changes of several functions, per its area
+  /// (volume when dim = 3), at some points of the core: the topological derivatives, [function][point], each
+  /// summed over its positions (as often as they count) and over the sectors:
+  ///   -sigma(p) : A eps(u) + f.p, and removed_density() of what is integrated over the material,
+  /// with A of strain_of_hole(). Fails as shape_gradients() does; with unsupported_model under a pressure in
+  /// the holes, and in three dimensions for functions with integrals.
+  virtual Expected<std::vector<std::vector<double>>> topological_derivatives(
+      std::span<const FunctionalDerivative<dim>> functions,
+      std::span<const MaterialPoint<dim>> points) const = 0;
 
   /// The contacts of the same shape and positions under other models, which may differ from the solver's in
   /// the loads or the travel of the rim alone: [model][position]. Each starts from the one before. Fails as

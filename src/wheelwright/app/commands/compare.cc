@@ -19,13 +19,15 @@ constexpr std::string_view names_in_folder[] = {"comparison.txt", "comparison.js
 
 /// Solves a wheel in its load positions.
 Expected<ComparedWheel> compared(const WheelInput<2>& wheel) {
-  const auto solver = make_solver(rolling_model<2>(with_levels_of_results(wheel.source)));
+  const Case c = with_levels_of_results(wheel.source);
+  const auto solver = make_solver(rolling_model<2>(c));
   if (!solver) return solver.failure();
   const LevelSet<2>& shape = wheel.shape;
   const auto states = (*solver)->states(shape, (*solver)->all_positions(), tell_contact_progress());
   if (!states) return states.failure();
   const PolarGrid<2>& grid = shape.lattice.grid();
-  auto numbers = described_wheel(**solver, shape, volume_fraction(grid, material_measure(shape)), **states);
+  auto numbers = described_wheel(**solver, shape, volume_fraction(grid, material_measure(shape)), **states,
+                                 load_cases<2>(c));
   if (!numbers) return numbers.failure();
   numbers->name = wheel.name;
   numbers->which = wheel.which;

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "wheelwright/state/functional_derivative.h"
+
+namespace wheelwright {
+
+/// A point of the material, in a cell that is full of it.
+template <int dim>
+struct MaterialPoint {
+  int cell;     ///< of the sector's grid
+  Vec<dim> xi;  ///< position in the unit cell
+};
+
+/// sigma(p) : A eps(u): the work of the adjoint stress on the strain of a small round hole without traction
+/// (strain_of_hole()), per its area, or volume when dim = 3.
+template <int dim>
+double work_on_small_hole(const Material& material, const Voigt<dim>& strain_u, const Voigt<dim>& strain_p);
+
+/// What a small round hole without traction changes of int M(eps(u)) dx besides the share of its adjoint
+/// problem, per area of the hole: the integral of M(eps + e) - M(eps) - M'(eps) e round the hole, with e =
+/// what the hole adds to the strain, less M(eps) and M'(eps) (A eps - eps) of the hole itself (Amstutz and
+/// Novotny 2010, for any density).
+double removed_density(const MaterialDensity<2>& density, const Material& material, const Voigt<2>& strain);
+
+}  // namespace wheelwright

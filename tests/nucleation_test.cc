@@ -1,0 +1,267 @@
+#include "wheelwright/nucleation/nucleation.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "tests/run_support.h"
+#include "tests/support.h"
+#include "wheelwright/case/conflicts.h"
+#include "wheelwright/case/read.h"
+#include "wheelwright/run/run.h"
+
+namespace wheelwright::testing {
+namespace {
+
+/// The middles of all cells, with a cost that is least at one place of the sector.
+struct Costs {
+  std::vector<MaterialPoint<2>> points;
+  std::vector<double> values;
+  operator HoleCosts() const { return {points, values}; }
+};
+
+Costs costs_around(const PolarGrid<2>& grid, double radius, double azimuth, bool with_image) {
+  Costs costs;
+  const Vec<2> h = grid.cell_size();
+  const auto distance = [&](const Vec<2>& polar, double at) {
+    const double along = polar[0] * std::remainder(polar[1] - at, grid.sector_angle());
+    return std::hypot(polar[0] - radius, along);
+  };
+  for (int cell = 0; cell < grid.n_cells(); ++cell) {
+    const auto place = grid.cell_position(cell);
+    const Vec<2> middle{grid.inner_radius + (place[0] + 0.5) * h[0], (place[1] + 0.5) * h[1]};
+    double d = distance(middle, azimuth);
+    if (with_image) d = std::min(d, distance(middle, grid.sector_angle() - azimuth));
+    costs.points.push_back({cell, {0.5, 0.5}});
+    costs.values.push_back(100 * d * d - 0.1);
+  }
+  return costs;
+}
+
+LevelSet<2> solid(const PolarGrid<2>& grid) { return make_level_set(Lattice<2>(grid, 2), {}); }
+
+HoleRules rules(const PolarGrid<2>& grid) {
+  return {.radius = 0.008, .wall = 0.01, .range = {0.21, 0.33}, .most_area = 1, .must_pay = true};
+}
+
+double apart(const PolarGrid<2>& grid, const Circle& a, const Circle& b) {
+  double least = INFINITY;
+  for (const int image : {-1, 0, 1}) {
+    const Vec<2> x = cartesian<2>({a.centre_radius, a.centre_azimuth}),
+                 y = cartesian<2>({b.centre_radius, b.centre_azimuth + image * grid.sector_angle()});
+    least = std::min(least, std::hypot(x[0] - y[0], x[1] - y[1]));
+  }
+  return least;
+}
+
+TEST(HolePlaces, BeginWhereTheCostIsLeastAndKeepTheirDistance) {
+  const auto grid = paper_model(28, 384).grid;
+  const auto costs = costs_around(grid, 0.28, 0.11, false);
+  const auto holes = best_places(solid(grid), costs, rules(grid));
+  ASSERT_GT(holes.size(), 1u);
+  EXPECT_NEAR(holes[0].centre_radius, 0.28, 0.003);
+  EXPECT_NEAR(holes[0].centre_azimuth, 0.11, 0.01);
+  for (size_t i = 0; i < holes.size(); ++i) {
+    EXPECT_GE(holes[i].centre_radius, 0.21 + 0.008);
+    EXPECT_LE(holes[i].centre_radius, 0.33 - 0.008);
+    // The cost is positive farther than sqrt(1e-3) from the place.
+    EXPECT_LT(apart(grid, holes[i], {0.28, 0.11, 0}), std::sqrt(1e-3) + 0.004);
+    for (size_t j = 0; j < i; ++j) EXPECT_GE(apart(grid, holes[i], holes[j]), 2 * 0.008 + 0.01 - 1e-12);
+  }
+}
+
+TEST(HolePlaces, AreMirrorImagesWhereTheCostsAre) {
+  const auto grid = paper_model(28, 384).grid;
+  const double a = grid.sector_angle();
+  const auto holes = best_places(solid(grid), costs_around(grid, 0.28, 0.1, true), rules(grid));
+  ASSERT_GE(holes.size(), 2u);
+  for (const Circle& hole : holes)
+    EXPECT_TRUE(std::ranges::any_of(holes, [&](const Circle& other) {
+      return std::abs(std::remainder(hole.centre_azimuth + other.centre_azimuth, a)) < 1e-12 &&
+             hole.centre_radius == other.centre_radius;
+    }));
+}
+
+TEST(HolePlaces, AreNoneWhereNoHolePaysAndKeepOffOtherHoles) {
+  const auto grid = paper_model(28, 384).grid;
+  auto costs = costs_around(grid, 0.28, 0.11, false);
+  const auto with_hole = holes(grid, 2, {{0.28, 0.11, 0.02}});
+  for (const Circle& hole : best_places(with_hole, costs, rules(grid)))
+    EXPECT_GT(apart(grid, hole, {0.28, 0.11, 0}), 0.02 + 0.008 + 0.01 - 5e-4);
+  for (double& value : costs.values) value += 0.13;
+  EXPECT_TRUE(best_places(solid(grid), costs, rules(grid)).empty());
+  auto in_any_case = rules(grid);
+  in_any_case.must_pay = false;
+  in_any_case.most_area = 0;
+  EXPECT_EQ(best_places(solid(grid), costs, in_any_case).size(), 1u);
+}
+
+TEST(HolePlaces, ShapesHaveTheHolesWithTheirAreas) {
+  const auto grid = paper_model(28, 384).grid;
+  const Circle hole{0.28, 0.11, 0.008};
+  const auto made = with_holes(holes(grid, 2, {{0.25, 0.3, 0.02}}), std::span(&hole, 1));
+  const auto all = components(made).all;
+  EXPECT_EQ(std::ranges::count_if(all, [](const auto& c) { return !c.is_material; }), 2);
+  const auto found =
+      std::ranges::find_if(all, [](const auto& c) { return !c.is_material && c.measure < 5e-4; });
+  ASSERT_NE(found, all.end());
+  EXPECT_NEAR(found->measure, std::numbers::pi * 0.008 * 0.008, 0.1 * found->measure);
+}
+
+/// A ring without holes, or with some, whose volume is to become 0.66, on a small grid with walls of a cell.
+std::string wheel(const std::string& holes, const std::string& nucleation, int iterations = 80) {
+  return fmt::format(R"(
+[wheel]
+sectors = 16
+[load]
+mass = 300
+positions = 4
+[volume]
+target = 0.6614
+rate = 0.02
+{}
+[grid]
+radial_cells = 14
+angular_cells = 128
+tread_levels = 0
+[optimizer]
+nucleation = "{}"
+rim_band = 0.012
+tread_band = 0.02
+minimum_wall = 0.012
+minimum_gap = 0.015
+tolerance = 1e-4
+iterations = {}
+[output]
+folder = "run"
+vtu_every = 0
+checkpoint_every = 1
+)",
+                     holes, nucleation, iterations);
+}
+
+const std::string sixteen_holes = "[[holes.ring]]\ncount = 16\ncenter_radius = 0.27\nradius = 0.04\n";
+
+class NucleationRun : public TemporaryFolder {
+ protected:
+  RunResult<2> run(const std::string& text, const std::string& name = "run") {
+    auto run = wheelwright::Run<2>::begin(*parse_case(text, "case.toml").value, folder() / name);
+    CommandQueue commands;
+    return run->execute(commands);
+  }
+
+  std::string history(const std::string& name = "run") { return content(folder() / name / "history.csv"); }
+};
+
+double objective(const RunResult<2>& result) { return result.state->evaluation.function("objective").value; }
+
+TEST_F(NucleationRun, SlowGivesASolidRingItsHolesAndEndsNearTheOptimumOfSixteen) {
+  const auto with_holes = run(wheel(sixteen_holes, "never"), "holes");
+  const auto from_solid = run(wheel("", "converged"), "solid");
+  EXPECT_TRUE(history("solid").find("nucleation of") != std::string::npos);
+  EXPECT_NEAR(from_solid.state->measure, with_holes.state->measure, 1e-4 * with_holes.state->measure);
+  EXPECT_LT(objective(from_solid), 1.02 * objective(with_holes));
+}
+
+/// Rows of accepted shapes in a history.
+std::vector<std::vector<std::string>> accepted_rows(const std::string& history) {
+  std::vector<std::vector<std::string>> rows;
+  for (const std::string& line : split(history, '\n'))
+    if (auto cells = split(line, ','); cells.size() > 4 && cells[2] == "1") rows.push_back(std::move(cells));
+  return rows;
+}
+
+bool tells(const std::vector<std::string>& row, const std::string& event) {
+  return std::ranges::any_of(row, [&](const auto& cell) { return cell.find(event) != std::string::npos; });
+}
+
+/// The run ends with the very shape that it had before the holes that did not pay.
+TEST_F(NucleationRun, SlowThatDoesNotPayIsUndone) {
+  const auto finer = [](std::string text) {
+    const auto replace = [&](const std::string& from, const std::string& to) {
+      text.replace(text.find(from), from.size(), to);
+    };
+    replace("angular_cells = 128", "angular_cells = 192");
+    replace("positions = 4", "positions = 8");
+    replace("tread_levels = 0", "tread_levels = 1");
+    replace("rim_band = 0.012", "rim_band = 0.01");
+    replace("minimum_wall = 0.012", "minimum_wall = 0.01");
+    replace("tolerance = 1e-4", "tolerance = 1e-5");
+    return text;
+  };
+  const auto without = run(finer(wheel(sixteen_holes, "never")), "without");
+  const auto with = run(finer(wheel(sixteen_holes, "converged")), "with");
+  const auto rows = accepted_rows(history("with"));
+  const auto undone =
+      std::ranges::find_if(rows, [](const auto& row) { return tells(row, "nucleation undone"); });
+  ASSERT_NE(undone, rows.end());
+  auto made = undone;
+  while (made != rows.begin() && !tells(*made, "nucleation of")) --made;
+  ASSERT_GT(made - rows.begin(), 0);
+  EXPECT_EQ((*undone)[4], (*(made - 1))[4]);  // the objectives
+  EXPECT_GT(undone - made, 3);
+  EXPECT_EQ(undone + 1, rows.end());
+  EXPECT_LE(objective(with), objective(without));
+}
+
+/// Stops a run after some accepted shape.
+class StopAt : public Observer<2> {
+ public:
+  StopAt(CommandQueue& commands, int trials) : commands_(commands), left_(trials) {}
+  void operator()(const Event<2>& event, const RunView<2>&) override {
+    const auto* done = std::get_if<TrialDone<2>>(&event);
+    if (done && done->trial.verdict == Verdict::accepted && left_-- == 0) commands_.push(Stop{});
+  }
+
+ private:
+  CommandQueue& commands_;
+  int left_;
+};
+
+TEST_F(NucleationRun, SlowGoesOnTheSameAfterEveryStop) {
+  const std::string text = wheel("", "converged", 45);
+  run(text, "straight");
+  const auto rows = split(history("straight"), '\n');
+  std::vector<int> stops{0, 1};
+  int accepted = 0;
+  for (const std::string& row : rows) {
+    const auto cells = split(row, ',');
+    if (cells.size() < 3 || cells[2] != "1") continue;
+    if (row.find("nucleation") != std::string::npos)
+      for (const int k : {accepted - 1, accepted, accepted + 1}) stops.push_back(k);
+    ++accepted;
+  }
+  for (const int stop : stops) {
+    if (stop < 0 || stop + 1 >= accepted) continue;
+    SCOPED_TRACE(fmt::format("stopped after {} accepted shapes", stop + 1));
+    fs::remove_all(folder() / "stopped");
+    const Case c = *parse_case(text, "case.toml").value;
+    {
+      auto first = wheelwright::Run<2>::begin(c, folder() / "stopped");
+      CommandQueue commands;
+      first->add(std::make_unique<StopAt>(commands, stop));
+      EXPECT_EQ(first->execute(commands).reason, StopReason::stop_requested);
+    }
+    auto second = wheelwright::Run<2>::resume(c, folder() / "stopped");
+    ASSERT_TRUE(second);
+    CommandQueue commands;
+    second->execute(commands);
+    EXPECT_EQ(without_times(history("stopped")), without_times(history("straight")));
+    EXPECT_EQ(content(folder() / "stopped" / "shape.levelset"),
+              content(folder() / "straight" / "shape.levelset"));
+  }
+}
+
+TEST(NucleationCase, IsRefusedInThreeDimensionsAndUnderPressure) {
+  const auto found = [](const std::string& text) {
+    for (const auto& problem : parse_case(text, "case.toml").problems)
+      if (problem.text().find("optimizer.nucleation") != std::string::npos) return true;
+    return false;
+  };
+  const std::string on = "[optimizer]\nnucleation = \"converged\"\n", two = wheel(sixteen_holes, "converged");
+  EXPECT_FALSE(found(two));
+  EXPECT_TRUE(found("[wheel]\ndimension = 3\n[load]\nmass = 300\n" + sixteen_holes + on));
+  EXPECT_TRUE(found("[load]\nmass = 300\nhole_pressure = 1e4\n" + sixteen_holes + on));
+}
+
+}  // namespace
+}  // namespace wheelwright::testing

@@ -1,0 +1,293 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/support.h"
+#include "wheelwright/cut/measure.h"
+#include "wheelwright/elasticity/small_hole.h"
+#include "wheelwright/functionals/mass.h"
+#include "wheelwright/functionals/material_volume.h"
+#include "wheelwright/functionals/peak_von_mises.h"
+#include "wheelwright/functionals/perimeter.h"
+#include "wheelwright/functionals/uniformity_dual.h"
+
+namespace wheelwright {
+namespace {
+
+using testing::holes;
+using testing::paper_model;
+
+/// Half of sigma:eps.
+class EnergyDensity : public MaterialDensity<2> {
+ public:
+  Value at(const Voigt<2>& e, const Material& material) const override {
+    const Voigt<2> sigma = stress<2>(material, e);
+    return {0.5 * (sigma[0] * e[0] + sigma[1] * e[1] + sigma[2] * e[2]), sigma};
+  }
+};
+
+const Material some{2.7e6, 0.31}, thin{2.7e6, 0.31, Plane::stress};
+const Voigt<2> some_strain{0.013, -0.004, 0.009};
+
+double product(const Voigt<2>& a, const Voigt<2>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+TEST(SmallHole, HasNoTraction) {
+  for (const Material& material : {some, thin})
+    for (const double angle : {0.0, 0.7, 2.1, 4.4}) {
+      const Vec<2> n{std::cos(angle), std::sin(angle)};
+      Voigt<2> all = strain_around_hole(material, some_strain, n);
+      for (int k = 0; k < 3; ++k) all[k] += some_strain[k];
+      const Vec<2> t = traction<2>(stress<2>(material, all), n);
+      EXPECT_NEAR(t[0], 0, 1e-9 * material.mu());
+      EXPECT_NEAR(t[1], 0, 1e-9 * material.mu());
+    }
+}
+
+/// The strain of the hole is that of its edge: along the edge both agree.
+TEST(SmallHole, StretchesAsTheMaterialAtItsEdge) {
+  for (const Material& material : {some, thin})
+    for (const double angle : {0.0, 0.7, 2.1, 4.4}) {
+      const double c = std::cos(angle), s = std::sin(angle);
+      Voigt<2> outside = strain_around_hole(material, some_strain, {c, s});
+      for (int k = 0; k < 3; ++k) outside[k] += some_strain[k];
+      const Voigt<2> along{s * s, c * c, -s * c};
+      const Voigt<2> hole = strain_of_hole<2>(material, some_strain);
+      EXPECT_NEAR(product(outside, along), product(hole, along), 1e-12);
+    }
+}
+
+TEST(SmallHole, IsThatOfTheFormulaInInvariants) {
+  const Voigt<2> u = some_strain, p{-0.002, 0.011, 0.0043};
+  for (const Material& material : {some, thin}) {
+    const double lambda = material.lambda(), mu = material.mu();
+    const Voigt<2> sigma = stress<2>(material, u);
+    const double trace_s = sigma[0] + sigma[1], trace_p = p[0] + p[1];
+    const double formula = (lambda + 2 * mu) / (2 * mu * (lambda + mu)) *
+                           (4 * mu * product(sigma, p) + (lambda - mu) * trace_s * trace_p);
+    EXPECT_NEAR(product(stress<2>(material, p), strain_of_hole<2>(material, u)), formula,
+                1e-12 * std::abs(formula));
+  }
+}
+
+/// In pure tension of plane stress a hole takes three times the energy that its own area held: 3 pi a^2 s^2 /
+/// (2 E) (Inglis); all round it takes as much as the same edge with the ring's stress of Lame: twice sigma^2
+/// / E.
+TEST(SmallHole, TakesTheEnergyOfInglisAndLame) {
+  const double e = thin.youngs_modulus, nu = thin.poissons_ratio, s = 1e4;
+  const Voigt<2> tension{s / e, -nu * s / e, 0}, all_round{s * (1 - nu) / e, s * (1 - nu) / e, 0};
+  EXPECT_NEAR(0.5 * product(stress<2>(thin, tension), strain_of_hole<2>(thin, tension)), 1.5 * s * s / e,
+              1e-9 * s * s / e);
+  EXPECT_NEAR(0.5 * product(stress<2>(thin, all_round), strain_of_hole<2>(thin, all_round)), 2 * s * s / e,
+              1e-9 * s * s / e);
+}
+
+TEST(SmallHole, OfThreeDimensionsStretchesAsLamesAndGoodiersCavity) {
+  const double nu = some.poissons_ratio, s = 1e4, strain = s * (1 - 2 * nu) / some.youngs_modulus;
+  const Voigt<3> all_round{strain, strain, strain, 0, 0, 0};
+  const Voigt<3> hole = strain_of_hole<3>(some, all_round);
+  // Its radius grows by 3 (1 - nu) / (2 E) s per unit: Lame's cavity in an unbounded body.
+  for (int d = 0; d < 3; ++d) EXPECT_NEAR(hole[d], 1.5 * (1 - nu) * s / some.youngs_modulus, 1e-15);
+  // In shear: 15 (1 - nu) / (7 - 5 nu) times the distant one (Goodier 1933).
+  const Voigt<3> shear = strain_of_hole<3>(some, {0, 0, 0, 0, 0, 1e-3});
+  EXPECT_NEAR(shear[5], 1e-3 * 15 * (1 - nu) / (7 - 5 * nu), 1e-15);
+}
+
+TEST(TopologicalDerivative, OfTheEnergyAsADensityIsKnown) {
+  for (const Material& material : {some, thin}) {
+    const Voigt<2> sigma = stress<2>(material, some_strain), hole = strain_of_hole<2>(material, some_strain);
+    const double expected = -0.5 * product(sigma, hole);
+    EXPECT_NEAR(removed_density(EnergyDensity(), material, some_strain), expected, 1e-9 * std::abs(expected));
+  }
+}
+
+/// A wheel without symmetry; three holes in the sector.
+LevelSet<2> lopsided(const PolarGrid<2>& grid, std::vector<testing::Hole> more = {}) {
+  const double a = grid.sector_angle();
+  std::vector<testing::Hole> all{{0.2471, 0.06 * a, 0.0153}, {0.2863, 0.41 * a, 0.0191}};
+  all.insert(all.end(), more.begin(), more.end());
+  return holes(grid, 2, all);
+}
+
+RollingModel<2> lopsided_model(int radial, int angular) {
+  auto model = paper_model(radial, angular);
+  model.grid.n_sectors = 8;
+  model.grid.cells[1] = angular / 8;
+  model.contact.friction = 0.4;
+  model.torque = 200;
+  model.distributed = {.body_force = {3e4, 1e4}, .hole_pressure = 0};
+  model.n_positions = 3;
+  return model;
+}
+
+/// The cell and the point of the unit cell at a place.
+MaterialPoint<2> point_at(const PolarGrid<2>& grid, double radius, double azimuth) {
+  const Vec<2> h = grid.cell_size();
+  const double x = (radius - grid.inner_radius) / h[0], y = azimuth / h[1];
+  const std::array<int, 2> cell{static_cast<int>(x), static_cast<int>(y)};
+  return {grid.cell_index(cell), {x - cell[0], y - cell[1]}};
+}
+
+std::vector<ShapeFunction<2>> some_functions(const StateSolver<2>& solver) {
+  const auto dual = std::make_shared<UniformityDual<2>>(*solver.neumann_to_dirichlet(DualNorm::poisson));
+  const auto energy = std::make_shared<StrainEnergy<2>>();
+  return {{"energy", {{1, energy}}},
+          {"sum", {{1, energy}, {1000, dual}}},
+          {"weighted", {{1, energy}}, {0.2, 1.3, 0.7}},
+          {"stress", {{1, std::make_shared<PeakVonMises<2>>(0, PeakNorm{.exponent = 4, .correction = 1})}}}};
+}
+
+std::vector<double> values(const StateSolver<2>& solver, const std::vector<ShapeFunction<2>>& functions,
+                           const LevelSet<2>& psi) {
+  const auto evaluated = evaluate<2>(solver, functions, psi);
+  EXPECT_TRUE(evaluated) << evaluated.failure().detail;
+  std::vector<double> result;
+  for (const auto& f : evaluated->evaluation.functions) result.push_back(f.value);
+  return result;
+}
+
+std::vector<std::vector<double>> derivatives(const StateSolver<2>& solver,
+                                             const std::vector<ShapeFunction<2>>& functions,
+                                             const LevelSet<2>& psi,
+                                             const std::vector<MaterialPoint<2>>& points) {
+  const auto state = testing::all_states<2>(solver, psi);
+  EXPECT_TRUE(state) << state.failure().detail;
+  const State<2>* const only = state->get();
+  const auto result =
+      topological_derivatives<2>(solver, {}, functions, psi, std::span(&only, 1), points, 1e-3);
+  EXPECT_TRUE(result) << result.failure().detail;
+  return *result;
+}
+
+struct Place {
+  double radius, fraction;  ///< of the sector's angle
+};
+
+/// What finite holes of falling radii change per area, [radius][function].
+std::vector<std::vector<double>> by_finite_holes(const StateSolver<2>& solver,
+                                                 const std::vector<ShapeFunction<2>>& functions,
+                                                 const Place& place, const std::vector<double>& radii) {
+  const PolarGrid<2>& grid = solver.model().grid;
+  const auto before = values(solver, functions, lopsided(grid));
+  std::vector<std::vector<double>> result;
+  for (const double r : radii) {
+    result.push_back(
+        values(solver, functions, lopsided(grid, {{place.radius, place.fraction * grid.sector_angle(), r}})));
+    for (size_t f = 0; f < functions.size(); ++f)
+      result.back()[f] = (result.back()[f] - before[f]) / (std::numbers::pi * r * r);
+  }
+  return result;
+}
+
+std::vector<std::vector<double>> derivatives_at(const StateSolver<2>& solver,
+                                                const std::vector<ShapeFunction<2>>& functions,
+                                                const std::vector<Place>& places) {
+  const PolarGrid<2>& grid = solver.model().grid;
+  std::vector<MaterialPoint<2>> points;
+  for (const Place& place : places)
+    points.push_back(point_at(grid, place.radius, place.fraction * grid.sector_angle()));
+  return derivatives(solver, functions, lopsided(grid), points);
+}
+
+/// By which power of the radius the deviation falls from one hole to the next.
+double order(double expected, const std::vector<double>& radii, const std::vector<double>& found, size_t k) {
+  return std::log(std::abs((found[k] - expected) / (found[k + 1] - expected))) /
+         std::log(radii[k] / radii[k + 1]);
+}
+
+/// On a wheel without symmetry, with friction, torque and body force. The deviation is of second order in the
+/// radius until the hole is but two cells wide.
+TEST(TopologicalDerivative, IsTheLimitOfFiniteHoles) {
+  const auto problem = RollingProblem<2>::create(lopsided_model(28, 384));
+  ASSERT_TRUE(problem) << problem.failure().detail;
+  const auto functions = some_functions(*problem);
+  const Place place{0.2731, 0.68};
+  const std::vector<double> radii{0.02, 0.014, 0.01};
+  const auto found = by_finite_holes(*problem, functions, place, radii);
+  const auto expected = derivatives_at(*problem, functions, {place});
+  EXPECT_NEAR(found[2][0], expected[0][0], 0.02 * expected[0][0]);
+  EXPECT_NEAR(found[2][2], expected[2][0], 0.02 * expected[2][0]);
+  for (const size_t k : {0, 1}) {
+    EXPECT_LT(std::abs(found[k + 1][0] - expected[0][0]), 0.5 * std::abs(found[k][0] - expected[0][0]));
+    const double rate = order(expected[1][0], radii, {found[0][1], found[1][1], found[2][1]}, k);
+    EXPECT_GT(rate, 1.8);
+  }
+}
+
+TEST(TopologicalDerivative, SlowIsTheLimitOfFiniteHolesAtSeveralPlaces) {
+  const auto problem = RollingProblem<2>::create(lopsided_model(56, 768));
+  ASSERT_TRUE(problem) << problem.failure().detail;
+  const auto functions = some_functions(*problem);
+  const std::vector<Place> places{{0.2613, 0.24}, {0.2731, 0.68}, {0.2512, 0.83}};
+  const std::vector<double> radii{0.01, 0.007, 0.005};
+  const auto expected = derivatives_at(*problem, functions, places);
+  for (size_t i = 0; i < places.size(); ++i) {
+    const auto found = by_finite_holes(*problem, functions, places[i], radii);
+    for (const size_t f : {0, 2})
+      EXPECT_NEAR(found[2][f], expected[f][i], 0.015 * std::abs(expected[f][i])) << functions[f].name;
+    for (const size_t k : {0, 1}) {
+      const double rate = order(expected[1][i], radii, {found[0][1], found[1][1], found[2][1]}, k);
+      EXPECT_GT(rate, 1.7);
+      EXPECT_LT(rate, 2.8);
+    }
+    EXPECT_NEAR(found[2][3], expected[3][i], 0.15 * std::abs(expected[3][i]));
+  }
+}
+
+/// Positions that stand for their images give what all positions give.
+TEST(TopologicalDerivative, OfDistinctPositionsIsThatOfAll) {
+  auto model = paper_model(14, 192);
+  const auto problem = RollingProblem<2>::create(model);
+  ASSERT_TRUE(problem) << problem.failure().detail;
+  const auto functions = some_functions(*problem);
+  const std::vector<ShapeFunction<2>> symmetric{functions[0], functions[1], functions[3]};
+  const auto psi = testing::paper_holes(model.grid);
+  const std::vector<MaterialPoint<2>> points{point_at(model.grid, 0.21, 0.03),
+                                             point_at(model.grid, 0.31, 0.1)};
+  const auto of_all = derivatives(*problem, symmetric, psi, points);
+  const auto distinct = problem->distinct_positions(psi);
+  ASSERT_TRUE(distinct.stand_for_images());
+  const auto state = static_cast<const StateSolver<2>&>(*problem).states(psi, distinct, Interrupt());
+  ASSERT_TRUE(state);
+  const State<2>* const only = state->get();
+  const auto of_distinct =
+      topological_derivatives<2>(*problem, {}, symmetric, psi, std::span(&only, 1), points, 1e-3);
+  ASSERT_TRUE(of_distinct);
+  for (size_t f = 0; f < symmetric.size(); ++f)
+    for (size_t i = 0; i < points.size(); ++i)
+      EXPECT_NEAR((*of_distinct)[f][i], of_all[f][i], 1e-6 * std::abs(of_all[f][i])) << symmetric[f].name;
+}
+
+/// Of functions of the shape alone: what a hole takes, exactly.
+TEST(TopologicalDerivative, OfTheShapeAloneIsThatOfTheHole) {
+  const auto model = paper_model(14, 192);
+  const auto problem = RollingProblem<2>::create(model);
+  ASSERT_TRUE(problem);
+  const std::vector<ShapeFunction<2>> functions{{"volume", {{1, std::make_shared<MaterialVolume<2>>()}}},
+                                                {"mass", {{2, std::make_shared<Mass<2>>(1100)}}},
+                                                {"perimeter", {{1, std::make_shared<Perimeter<2>>()}}}};
+  const auto found =
+      derivatives(*problem, functions, testing::paper_holes(model.grid), {point_at(model.grid, 0.31, 0.1)});
+  EXPECT_EQ(found[0][0], -1);
+  EXPECT_EQ(found[1][0], -2 * 1100 * 16);
+  EXPECT_NEAR(found[2][0], 2 / 1e-3, 1e-9);
+}
+
+TEST(TopologicalDerivative, IsRefusedUnderAPressureInTheHoles) {
+  auto model = paper_model(14, 192);
+  model.distributed.hole_pressure = 1e4;
+  const auto problem = RollingProblem<2>::create(model);
+  ASSERT_TRUE(problem);
+  const auto psi = testing::paper_holes(model.grid);
+  const auto state = testing::all_states<2>(*problem, psi);
+  ASSERT_TRUE(state);
+  const State<2>* const only = state->get();
+  const std::vector<MaterialPoint<2>> points{point_at(model.grid, 0.31, 0.1)};
+  const auto found = topological_derivatives<2>(*problem, {}, some_functions(*problem), psi,
+                                                std::span(&only, 1), points, 1e-3);
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.failure().reason, FailureReason::unsupported_model);
+}
+
+}  // namespace
+}  // namespace wheelwright
