@@ -16,7 +16,7 @@ using testing::small_grid;
 using testing::some_checkpoint;
 using testing::some_level_set;
 
-const std::vector<std::string_view> checkpoint_tags{"CASE", "STAT", "INIT", "RUN "};
+const std::vector<std::string_view> checkpoint_tags{"CASE", "STAT", "INIT", "HOLE", "RUN "};
 
 template <int dim>
 std::string round_trip(const std::string& bytes) {
