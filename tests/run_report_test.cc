@@ -69,11 +69,13 @@ TEST_F(LongRun, KeepsAllOutlinesUpToTheShapeThatItIsResumedAfter) {
   ASSERT_TRUE(study);
   const auto optimizer = optimizer_of(*study);
   const Observers<2> observers;
+  const Nucleation<2> nucleation;
   ReportFile<2> file;
   file(RunStarted{.resumed_after = 4990}, RunView<2>{.folder = folder(),
                                                      .study = *study,
                                                      .evolver = optimizer.evolver(),
                                                      .initial = nullptr,
+                                                     .nucleation = nucleation,
                                                      .elapsed_seconds = 0,
                                                      .can_undo = false,
                                                      .observers = observers});

@@ -132,7 +132,8 @@ TEST(SolidEvolution, AnIslandIsRemovedAndTheShapeStaysSymmetric) {
 
 TEST(SolidEvolution, WallsMadeThickStaySymmetric) {
   const LevelSet<3> thin = spheres({{0.240, middle, 0.03, 0.02}, {0.290, middle, 0.03, 0.02}});
-  const LevelSet<3> thick = evolver(0.02).with_features(thin);
+  const auto with_walls = evolver(0.02);
+  const LevelSet<3> thick = with_walls.with_features(thin, with_walls.features());
   EXPECT_LT(hole_volume(thick), 0.99 * hole_volume(thin));
   EXPECT_TRUE(is_symmetric(thick));
 }

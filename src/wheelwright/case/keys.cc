@@ -1033,6 +1033,18 @@ const Section<Output>& output_section() {
   return section;
 }
 
+namespace {
+
+Expectation example_expectation() {
+  Expectation energy;
+  energy.quantity = Quantity::strain_energy;
+  energy.value = 35;
+  energy.margin = 0.01;
+  return energy;
+}
+
+}  // namespace
+
 const SectionArray<Expectation>& expectation_sections() {
   static const SectionArray<Expectation> sections{
       .parent = "",
@@ -1041,11 +1053,7 @@ const SectionArray<Expectation>& expectation_sections() {
           "an expected result; a run that finds another value reports it and ends with exit "
           "code 7; give any number of them",
       .in = [](Case& c) -> std::vector<Expectation>& { return c.expectations; },
-      .example = {.quantity = Quantity::strain_energy,
-                  .value = 35,
-                  .margin = 0.01,
-                  .iteration = {},
-                  .load_case = {}},
+      .example = example_expectation(),
       .keys = {{.name = "quantity",
                 .unit = "",
                 .field = choice<&Expectation::quantity>({quantity_names.begin(), quantity_names.end()}),

@@ -32,7 +32,8 @@ ElementTable<dim>::ElementTable(const PolarGrid<dim>& grid, int degree, const Ma
                                              axis == 1 ? column_angle : 0.0,
                                              for_ghost_penalty(materials.in_row(radial)), ghost));
     }
-    if constexpr (dim == 3) ghosts_at_middle_.push_back(half_of_symmetric_pair(face_ghost(radial, 2), degree));
+    if constexpr (dim == 3)
+      ghosts_at_middle_.push_back(half_of_symmetric_pair(face_ghost(radial, 2), degree));
   }
 }
 

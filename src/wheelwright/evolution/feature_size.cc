@@ -13,8 +13,8 @@
 namespace wheelwright {
 namespace {
 
-/// The cosine between the normals of places that face each other, and between their directions from the centre
-/// of a ball that lie opposite.
+/// The cosine between the normals of places that face each other, and between their directions from the
+/// centre of a ball that lie opposite.
 constexpr double facing = -0.5, opposite = -0.8;
 
 /// How much smaller than the wanted radius a ball must be to count, relative: less than the curves of an

@@ -321,9 +321,9 @@ class ColumnAssembly {
   }
 
   /// The penalty of the traction's jump on the faces between a cell at the tread and the next ones in the
-  /// column, and its mirror image beyond the middle of the wheel. Where contact holds the normal displacement,
-  /// pressures that rise by the same slope in every cell and fall back between them do no work on it: without
-  /// the penalty they grow with lambda.
+  /// column, and its mirror image beyond the middle of the wheel. Where contact holds the normal
+  /// displacement, pressures that rise by the same slope in every cell and fall back between them do no work
+  /// on it: without the penalty they grow with lambda.
   void add_pressure_jumps(const ColumnCell<dim>& cell, int layer, int row, int across,
                           const PolarGrid<dim>& fine) {
     constexpr GhostPenalty penalty{GhostPenaltyKind::paper, 0.1};

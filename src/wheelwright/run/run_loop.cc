@@ -10,6 +10,7 @@
 #include "wheelwright/evolution/regrid.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/run/nucleated_shape.h"
+#include "wheelwright/run/on_other_grid.h"
 #include "wheelwright/run/own_drawings.h"
 #include "wheelwright/run/provenance.h"
 #include "wheelwright/run/replacements.h"
