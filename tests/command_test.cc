@@ -320,9 +320,9 @@ TEST_F(RunTest, ACaseThatChangedIsResumedWithTheSameBytes) {
   Load load = c.load;
   load.force *= 0.8;
   const auto react = [&](CommandQueue& commands, int stop_after) {
-    return [&, stop_after](const TrialDone<2>& done) {
+    return [&, stop_after, last = -1](const TrialDone<2>& done) mutable {
       if (done.trial.verdict != Verdict::accepted) return;
-      const bool is_anew = done.trial.step == 0;
+      const bool is_anew = done.state.iteration == std::exchange(last, done.state.iteration);
       if (done.state.iteration == 4 && !is_anew) commands.push(NewLoad{load});
       if (done.state.iteration == stop_after && !is_anew) commands.push(Stop{});
     };

@@ -252,7 +252,7 @@ TEST_F(Killed, AFailingWriteIsFiveNamesTheFileAndKeepsTheOldCheckpoint) {
 }
 
 TEST_F(Killed, BeyondTheLimitOnFileSizesItIsFiveAndGoesOnLater) {
-  const std::string text = small_case(7);
+  const std::string text = small_case_of_any_width(7);
   const fs::path expected = straight(text), place = workplace("limited", text);
   ASSERT_EQ(Program(place, {"run", "case.toml", "--iterations", "3"}).wait(), exit_done);
   const std::vector<std::string> further{"resume", "run", "--iterations", "7"};

@@ -93,10 +93,12 @@ void flip_a_bit(const fs::path& file) {
   std::ofstream(file, std::ios::binary) << bytes;
 }
 
-TEST_F(Resume, TwentyShapesAreTheSameFromEveryStop) { expect_the_same_from_every_stop(small_case(20), 20); }
+TEST_F(Resume, TwentyShapesAreTheSameFromEveryStop) {
+  expect_the_same_from_every_stop(small_case_of_any_width(20), 20);
+}
 
 TEST_F(Resume, AHeldMeanIsPartOfTheState) {
-  expect_the_same_from_every_stop(small_case(6, R"(
+  expect_the_same_from_every_stop(small_case_of_any_width(6, R"(
 [objective]
 strain_energy = 1
 uniformity_dual = 10
@@ -106,14 +108,14 @@ mean = "held"
 }
 
 TEST_F(Resume, PositionsBetweenColumnsGoOnTheSame) {
-  std::string text = small_case(4, "[objective]\nstrain_energy = 1\nuniformity_dual = 10\n");
+  std::string text = small_case_of_any_width(4, "[objective]\nstrain_energy = 1\nuniformity_dual = 10\n");
   const std::string positions = "positions = 2";
   text.replace(text.find(positions), positions.size(), "positions = 7");
   expect_the_same_from_every_stop(text, 4);
 }
 
 TEST_F(Resume, ThePapersRuleAndItsWeightsGoOnTheSame) {
-  expect_the_same_from_every_stop(small_case(5, R"(
+  expect_the_same_from_every_stop(small_case_of_any_width(5, R"(
 [objective]
 strain_energy = 1
 annulus_matches_dual = 10
@@ -125,7 +127,7 @@ control = "paper"
 
 // The wheel with its width, with holes that change along it.
 TEST_F(Resume, AWheelInThreeDimensionsGoesOnTheSame) {
-  std::string text = small_case(3, R"([material]
+  std::string text = small_case_of_any_width(3, R"([material]
 poissons_ratio = 0.3
 [contact]
 quadrature_points = 2
@@ -141,7 +143,7 @@ quadrature_points = 2
 
 // On the way to the target, at it, and after it: 81 % of the ring become 75 % in four shapes.
 TEST_F(Resume, AVolumeOnItsWayGoesOnTheSame) {
-  expect_the_same_from_every_stop(small_case(6, "[volume]\ntarget = 0.75\nrate = 0.02\n"), 6);
+  expect_the_same_from_every_stop(small_case_of_any_width(6, "[volume]\ntarget = 0.75\nrate = 0.02\n"), 6);
   const auto history = split(content(folder() / "straight/run/history.csv"), '\n');
   const auto header = split(history.front(), ',');
   const auto column = std::ranges::find(header, "volume fraction [-]") - header.begin();
@@ -151,8 +153,8 @@ TEST_F(Resume, AVolumeOnItsWayGoesOnTheSame) {
 
 TEST_F(Resume, KeepsTheLastTwoAndTakesTheOlderWhenTheNewestIsDamaged) {
   const fs::path straight = workplace("straight"), damaged = workplace("damaged");
-  ASSERT_EQ(run(straight, small_case(8)), exit_done);
-  ASSERT_EQ(run(damaged, small_case(8)), exit_done);
+  ASSERT_EQ(run(straight, small_case_of_any_width(8)), exit_done);
+  ASSERT_EQ(run(damaged, small_case_of_any_width(8)), exit_done);
   EXPECT_EQ(checkpoint_names(damaged / "run"), (std::vector<std::string>{"shape_000008", "shape_000006"}));
   flip_a_bit(damaged / "run/checkpoints/shape_000008.checkpoint");
   fs::remove(damaged / "run/comparison.svg");
@@ -162,7 +164,7 @@ TEST_F(Resume, KeepsTheLastTwoAndTakesTheOlderWhenTheNewestIsDamaged) {
 
 TEST_F(Resume, IsRefusedWhenNoCheckpointIsGood) {
   const fs::path place = workplace("all-bad");
-  ASSERT_EQ(run(place, small_case(4)), exit_done);
+  ASSERT_EQ(run(place, small_case_of_any_width(4)), exit_done);
   const auto before = results(place / "run");
   for (const fs::path& file : CheckpointFolder(place / "run").files()) flip_a_bit(file);
   EXPECT_EQ(resume(place, 6), exit_checkpoint);
@@ -171,7 +173,7 @@ TEST_F(Resume, IsRefusedWhenNoCheckpointIsGood) {
 
 TEST_F(Resume, NeverBeginsAgainWhereCheckpointsAreGone) {
   const fs::path place = workplace("gone");
-  ASSERT_EQ(run(place, small_case(3)), exit_done);
+  ASSERT_EQ(run(place, small_case_of_any_width(3)), exit_done);
   fs::remove_all(place / "run/checkpoints");
   const auto before = results(place / "run");
   EXPECT_EQ(resume(place), exit_checkpoint);
@@ -180,7 +182,7 @@ TEST_F(Resume, NeverBeginsAgainWhereCheckpointsAreGone) {
 
 TEST_F(Resume, IsRefusedForAnotherCaseOrHistory) {
   const fs::path place = workplace("changed");
-  ASSERT_EQ(run(place, small_case(2)), exit_done);
+  ASSERT_EQ(run(place, small_case_of_any_width(2)), exit_done);
   const std::string good = content(place / "run/case.toml");
   std::string other = good;
   other.replace(other.find("friction = 0\n"), 13, "friction = 1\n");
@@ -199,7 +201,7 @@ TEST_F(Resume, IsRefusedForAnotherCaseOrHistory) {
 
 TEST_F(Resume, TheCaseOfARunNamesWhatComputedIt) {
   const fs::path place = workplace("named");
-  ASSERT_EQ(run(place, small_case(0)), exit_done);
+  ASSERT_EQ(run(place, small_case_of_any_width(0)), exit_done);
   const std::string first_line = split(content(place / "run/case.toml"), '\n').front();
   const std::string source = WHEELWRIGHT_SOURCE_DIR;
   EXPECT_TRUE(first_line.starts_with(fmt::format("# wheelwright {}, commit ", version()))) << first_line;
@@ -210,7 +212,7 @@ TEST_F(Resume, TheCaseOfARunNamesWhatComputedIt) {
 
 TEST_F(Resume, OfAFinishedRunChangesNothing) {
   const fs::path place = workplace("finished");
-  ASSERT_EQ(run(place, small_case(4)), exit_done);
+  ASSERT_EQ(run(place, small_case_of_any_width(4)), exit_done);
   const auto written = fs::last_write_time(place / "run/comparison.svg");
   const auto history = content(place / "run/history.csv");
   EXPECT_EQ(resume(place), exit_done);
@@ -220,8 +222,8 @@ TEST_F(Resume, OfAFinishedRunChangesNothing) {
 
 TEST_F(Resume, WritesResultsThatAKillLeftOut) {
   const fs::path straight = workplace("straight"), killed = workplace("killed");
-  ASSERT_EQ(run(straight, small_case(4)), exit_done);
-  ASSERT_EQ(run(killed, small_case(4)), exit_done);
+  ASSERT_EQ(run(straight, small_case_of_any_width(4)), exit_done);
+  ASSERT_EQ(run(killed, small_case_of_any_width(4)), exit_done);
   const fs::path newest = CheckpointFolder(killed / "run").files().front();
   auto checkpoint = *parse_checkpoint_file<2>(content(newest));
   checkpoint.finished = {};
@@ -233,7 +235,7 @@ TEST_F(Resume, WritesResultsThatAKillLeftOut) {
 
 TEST_F(Resume, DropsRowsAndShapesBehindTheCheckpoint) {
   const fs::path place = workplace("behind");
-  ASSERT_EQ(run(place, small_case(8)), exit_done);
+  ASSERT_EQ(run(place, small_case_of_any_width(8)), exit_done);
   fs::remove(place / "run/checkpoints/shape_000008.checkpoint");
   ASSERT_NE(content(place / "run/shapes.pvd").find("shape_0007.vtu"), std::string::npos);
   std::ofstream(place / "run/STOP");
@@ -244,7 +246,7 @@ TEST_F(Resume, DropsRowsAndShapesBehindTheCheckpoint) {
 
 TEST_F(Resume, BeginsWhenThereIsNoCheckpointYet) {
   const fs::path straight = workplace("straight"), killed = workplace("killed");
-  ASSERT_EQ(run(straight, small_case(3)), exit_done);
+  ASSERT_EQ(run(straight, small_case_of_any_width(3)), exit_done);
   fs::create_directories(killed / "run");
   for (const char* file : {"case.toml", list_of_written_files})
     fs::copy(straight / "run" / file, killed / "run" / file);
@@ -255,8 +257,8 @@ TEST_F(Resume, BeginsWhenThereIsNoCheckpointYet) {
 
 TEST_F(Resume, AFileStopEndsTheRunAndIsRemoved) {
   const fs::path straight = workplace("straight"), stopped = workplace("stopped");
-  ASSERT_EQ(run(straight, small_case(3)), exit_done);
-  ASSERT_EQ(run(stopped, small_case(3), 1), exit_done);
+  ASSERT_EQ(run(straight, small_case_of_any_width(3)), exit_done);
+  ASSERT_EQ(run(stopped, small_case_of_any_width(3), 1), exit_done);
   std::ofstream(stopped / "run/STOP");
   EXPECT_EQ(resume(stopped, 3), exit_terminated);
   EXPECT_FALSE(fs::exists(stopped / "run/STOP"));
@@ -267,7 +269,7 @@ TEST_F(Resume, AFileStopEndsTheRunAndIsRemoved) {
 
 TEST_F(Resume, ByTheClockSavesEveryShapeThatTakesLonger) {
   const auto with = [](int every, double seconds) {
-    std::string text = small_case(5);
+    std::string text = small_case_of_any_width(5);
     text.replace(text.find("checkpoint_every = 3"), 20, fmt::format("checkpoint_every = {}", every));
     text.replace(text.find("checkpoint_seconds = 0"), 22, fmt::format("checkpoint_seconds = {}", seconds));
     return text;
@@ -283,15 +285,15 @@ TEST_F(Resume, ByTheClockSavesEveryShapeThatTakesLonger) {
 
 TEST_F(Resume, IsRefusedWhileAnotherRunHoldsTheFolder) {
   const fs::path place = workplace("locked");
-  ASSERT_EQ(run(place, small_case(2)), exit_done);
+  ASSERT_EQ(run(place, small_case_of_any_width(2)), exit_done);
   {
     const auto lock = FolderLock::acquire(place / "run");
     ASSERT_TRUE(lock);
     EXPECT_FALSE(FolderLock::acquire(place / "run"));
     EXPECT_EQ(resume(place, 3), exit_refused);
-    EXPECT_EQ(run(place, small_case(2)), exit_refused);
+    EXPECT_EQ(run(place, small_case_of_any_width(2)), exit_refused);
   }
-  EXPECT_EQ(run(place, small_case(2)), exit_refused);
+  EXPECT_EQ(run(place, small_case_of_any_width(2)), exit_refused);
   EXPECT_EQ(resume(place, 3), exit_done);
 }
 

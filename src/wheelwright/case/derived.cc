@@ -366,7 +366,7 @@ ProblemSize problem_size(const Case& c) {
 struct Copies {
   double condensed, harmonics, surface;
 };
-constexpr Copies in_the_plane{3.5, 0.55, 0.75}, in_space{3, 0.55, 4};
+constexpr Copies in_the_plane{3.5, 0.55, 0.1}, in_space{3, 0.55, 4};
 
 }  // namespace
 
@@ -392,8 +392,8 @@ double estimated_memory(const Case& c) {
   const double responses = number * 5 * 192 * n.ring_line;
   const double surface =
       number * copies.surface * (2 * n.zone_columns - 1) * n.loaded_columns * square(n.tractions);
-  const double tread = number * (24 * square(2 * n.tractions) + 1.8 * n.observed * n.columns * n.positions);
-  const double zones = number * 0.3 * n.positions * square(n.zone_columns * n.tractions);
+  const double tread = number * (8 * square(2 * n.tractions) + 1.8 * n.observed * n.columns * n.positions);
+  const double zones = number * 0.1 * n.positions * square(n.zone_columns * n.tractions);
   const double shape = number * 10 * holes;
   // The dual norm has its own ring, and so has a finer tread of the results.
   const double rings = 1 + wants_dual(c) + (tread_levels_of_results(c) > tread_levels(c));

@@ -320,7 +320,7 @@
       await drawnWith("/three.js");
       const canvas = element("canvas", { id: "solid", role: "img", "aria-label":
         "The wheel as a lit surface, coloured by von Mises stress; arrow keys turn it, plus and minus change its size" });
-      wheel.hidden = at("tools").hidden = at("save").hidden = true;
+      wheel.hidden = at("tools").hidden = true;
       at("stage").append(canvas);
       at("wheel-help").textContent = "Drag the wheel to turn it. With the keys: arrows, plus and minus.";
       const { outer_radius_m, width_m, sectors } = frame.wheel;
