@@ -531,6 +531,7 @@ class SolidPage(PageTest):
         self.watched.wait(lambda f: f["numbers"]["mean_travel"] > 1.5 * travel)
         self.element("reset").click()
         self.until(lambda: self.element("undo").is_enabled())
+        self.until(lambda: "initial shape" in self.text("message"))
         shown = self.watched.frame()["numbers"]["objective_J"]
         self.element("save").click()
         self.until(lambda: self.text("message").startswith("saved"))
