@@ -10,10 +10,12 @@ namespace {
 
 constexpr int value_width = 12, change_width = 12;
 
+/// Empty where the first value is next to nothing compared with the other.
 std::string change(std::optional<double> first, std::optional<double> value) {
+  constexpr double most_percents = 1e5;
   if (!first || !value) return "";
   const double percents = 100 * (*value / *first - 1);
-  if (!std::isfinite(percents)) return "";
+  if (!(std::abs(percents) < most_percents)) return "";
   if (std::abs(percents) < 0.005) return "0 %";
   return fmt::format("{:+.2f} %", percents);
 }

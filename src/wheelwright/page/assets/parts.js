@@ -23,7 +23,7 @@ const parts = (() => {
 
   function change(before, after) {
     const percents = 100 * (after / before - 1);
-    if (!Number.isFinite(percents)) return "";
+    if (!(Math.abs(percents) < 1e5)) return "";  // before is next to nothing
     return Math.abs(percents) < 0.005 ? "0 %" : `${percents > 0 ? "+" : "\u2212"}${Math.abs(percents).toFixed(2)} %`;
   }
 
