@@ -13,7 +13,7 @@ namespace {
 /// Sizes in pixels.
 constexpr double frame_width = 560, frame_height = 360, left = 92, top = 56, bottom = 66, gap = 30;
 constexpr double panel_height = frame_height + bottom;
-constexpr double wheel_size = 92, wheels_left = left + frame_width + gap, wheels_width = 330;
+constexpr double wheel_size = 92, wheels_left = left + frame_width + gap, wheels_width = 390;
 constexpr int most_wheels = 8, wheels_per_row = 3;
 
 constexpr std::string_view style = R"(<style>
@@ -82,19 +82,29 @@ void draw_points(const Axis& x, const Axis& y, const std::vector<RankedDesign>& 
   }
 }
 
+/// The text of a design in at most two lines as wide as a wheel's place: before and after its first comma.
+std::vector<std::string> caption_lines(const std::string& text) {
+  constexpr std::size_t most = 22;
+  const auto comma = text.find(", ");
+  std::vector<std::string> lines{text.substr(0, std::min(comma, most))};
+  if (comma != std::string::npos) lines.push_back(text.substr(comma + 2, most));
+  return lines;
+}
+
 void draw_wheels(const std::vector<RankedDesign>& designs, std::string& svg) {
   for (int i = 0; i < std::min(most_wheels, static_cast<int>(designs.size())); ++i) {
     const RankedDesign& one = designs[i];
     if (one.front != 1 || one.outline.empty()) continue;
     const double x = wheels_left + (i % wheels_per_row + 0.5) * wheels_width / wheels_per_row,
-                 y = top + (i / wheels_per_row) * (wheel_size + 30) + 0.5 * wheel_size;
+                 y = top + (i / wheels_per_row) * (wheel_size + 44) + 0.5 * wheel_size;
     svg += fmt::format(
         "<path class=\"wheel\" transform=\"translate({:.1f} {:.1f}) scale({})\" d=\"{}\"/><text "
-        "class=\"number middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text><text class=\"small middle\" "
-        "x=\"{:.1f}\" "
-        "y=\"{:.1f}\">{}</text>\n",
-        x, y, wheel_size / 100, one.outline, x, y + 4, i + 1, x, y + 0.5 * wheel_size + 13,
-        escape_xml(one.design.text.substr(0, 24)));
+        "class=\"number middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n",
+        x, y, wheel_size / 100, one.outline, x, y + 4, i + 1);
+    double below = y + 0.5 * wheel_size;
+    for (const std::string& line : caption_lines(one.design.text))
+      svg += fmt::format("<text class=\"small middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", x, below += 13,
+                         escape_xml(line));
   }
 }
 

@@ -87,7 +87,7 @@ WheelState<2> wheel(const std::string& heading, const LevelSet<dim>& shape, doub
 }
 
 template <int dim>
-std::string picture(const RunEnded<dim>& failure) {
+std::string picture(const RunEnded<dim>& failure, Quantity minimized) {
   const Trial<dim>& trial = failure.failed_trials.back();
   const PolarGrid<2> grid = mid_plane_section(trial.shape).lattice.grid();
   const std::string reason = to_string(trial.failure->reason);
@@ -101,8 +101,8 @@ std::string picture(const RunEnded<dim>& failure) {
                                        last.evaluation.function("objective").value, last.measure);
   return comparison_svg(grid, {.title = "Where the run gave up",
                                .caption = trial.failure->detail,
-                               .objective_name = std::string(name(Quantity::objective)),
-                               .objective_unit = unit<dim>(kind(Quantity::objective)),
+                               .objective_name = std::string(name(minimized)),
+                               .objective_unit = unit<dim>(kind(minimized)),
                                .before = accepted,
                                .after = rejected});
 }
@@ -120,7 +120,7 @@ void FailureReport<dim>::operator()(const Event<dim>& event, const RunView<dim>&
   write_drawings(run.folder / "failure", run.study.source);
   write_atomically(run.folder / "failure/case.toml", to_toml(run.study.source));
   write_atomically(run.folder / failure_report_file, report(*ended, run));
-  write_atomically(run.folder / rejected_picture_file, picture(*ended));
+  write_atomically(run.folder / rejected_picture_file, picture(*ended, run.study.source.objective.minimize));
   write_atomically(run.folder / "failure/rejected.levelset", level_set_file(rejected));
   if (ended->state)
     write_atomically(run.folder / "failure/accepted.levelset", level_set_file(ended->state->shape));

@@ -46,16 +46,20 @@ void write_shapes(const RunView<dim>& run, const OptimizationState<dim>& last) {
   const auto after = wheel_state(run, fmt::format("after {} shapes", last.iteration), last.shape,
                                  last.evaluation.function("objective").value, last.measure);
   write_for_workshop(run, after.boundary);
-  write_atomically(run.folder / "comparison.svg",
-                   comparison_svg(run.study.grid(),
-                                  Comparison<dim>{.title = run_title(run.study.source),
-                                                  .caption = fmt::format("sum over {} load positions, {}",
-                                                                         run.study.model().n_positions,
-                                                                         load_text(run.study.model())),
-                                                  .objective_name = std::string(name(Quantity::objective)),
-                                                  .objective_unit = unit<dim>(kind(Quantity::objective)),
-                                                  .before = before,
-                                                  .after = after}));
+  const Quantity minimized = run.study.source.objective.minimize;
+  const std::string load = load_text(run.study.model());
+  write_atomically(
+      run.folder / "comparison.svg",
+      comparison_svg(run.study.grid(),
+                     Comparison<dim>{.title = run_title(run.study.source),
+                                     .caption = minimized == Quantity::objective
+                                                    ? fmt::format("sum over {} load positions, {}",
+                                                                  run.study.model().n_positions, load)
+                                                    : load,
+                                     .objective_name = std::string(name(minimized)),
+                                     .objective_unit = unit<dim>(kind(minimized)),
+                                     .before = before,
+                                     .after = after}));
 }
 
 /// The wheel, its tread and the ground in every load position, at the azimuth of the contact in degrees.
