@@ -240,7 +240,8 @@ std::vector<Vec<dim>> ReducedContact<dim>::without_contact(const std::vector<dou
   return result;
 }
 
-/// Of every point of a column the nearest one `shift` columns ahead, at the same place along the axle.
+/// Finds, for every point of a column, the nearest point `shift` columns ahead, at the same place along the
+/// axle.
 template <int dim>
 std::vector<typename ReducedContact<dim>::Neighbour> ReducedContact<dim>::neighbours(double shift) const {
   std::vector<Neighbour> result;

@@ -149,7 +149,7 @@ class ReducedContact {
   int point_of_column(int point) const { return point % per_column(); }
   ObservationRows<dim> observation_rows() const { return {per_column(), 0}; }
   int n_free() const { return static_cast<int>(rim_.free.size()); }
-  /// Where a point is in its column.
+  /// This is where a point lies in its column.
   struct Place {
     double columns;     ///< of the azimuth, from 0 to 1
     double along_axle;  ///< [m]

@@ -15,8 +15,8 @@ namespace wheelwright {
 template <int dim>
 Voigt<dim> strain_of_hole(const Material& material, const Voigt<dim>& distant);
 
-/// What the hole adds to the distant strain at a place outside of it, given from its centre in units of its
-/// radius (Kirsch 1898).
+/// The strain that the hole adds to the distant one at a place outside of it. `place` is counted from the
+/// centre of the hole in units of its radius (Kirsch 1898).
 Voigt<2> strain_around_hole(const Material& material, const Voigt<2>& distant, const Vec<2>& place);
 
 }  // namespace wheelwright

@@ -178,7 +178,8 @@ Expected<MeasuredShape<dim>> Evolver<dim>::measured(LevelSet<dim> psi, const Fea
   return wheelwright::measured(std::move(shape), cut_points_);
 }
 
-/// What is narrower than the least widths by more than the nodes can help.
+/// Fails where a wall or a gap is narrower than its least width by more than the resolution of the nodes
+/// explains.
 template <int dim>
 std::optional<Failure> Evolver<dim>::check_widths(const LevelSet<dim>& psi, const FeatureSize& size) const {
   constexpr double enough = 0.96;

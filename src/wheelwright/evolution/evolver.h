@@ -71,10 +71,10 @@ class Evolver {
   /// The shape with these least widths of walls and gaps (with_feature_size()).
   LevelSet<dim> with_features(const LevelSet<dim>& psi, const FeatureSize& size) const;
 
-  /// As the free functions with these names, of the shape with_features(), which are features() where none
-  /// are given. The shift to the measure thins walls or gaps again: shape and shift are found in turns, until
-  /// the widths hold after the shift. Fails with
-  /// too_narrow if they are missed by more than 4 % even so.
+  /// These do what the free functions with these names do, with the shape that has the given widths, or
+  /// features() where none are given. The shift to the measure thins walls or gaps again: shape and shift are
+  /// found in turns, until the widths hold after the shift. They fail with too_narrow if a width is missed by
+  /// more than 4 % even so.
   Expected<MeasuredShape<dim>> measured(LevelSet<dim> psi, const FeatureSize& size) const;
   Expected<MeasuredShape<dim>> with_measure(const LevelSet<dim>& psi, double target, double boundary_measure,
                                             const FeatureSize& size) const;

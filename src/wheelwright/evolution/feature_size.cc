@@ -101,7 +101,7 @@ class DistanceToCentres {
 
   double operator()(int node) const { return from(lattice_.polar_point(node)); }
 
-  /// Of a point (radius, azimuth[, axial]).
+  /// The distance from a point that is given as (radius, azimuth[, axial]).
   double from(const Vec<dim>& polar) const {
     const Vec<dim> x = cartesian<dim>(polar);
     Vec<dim> apart = nearest_.points()[nearest_.index_of_nearest(x)];

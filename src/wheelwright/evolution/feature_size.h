@@ -61,7 +61,7 @@ std::vector<ShapeEvent<dim>> narrowest_places(const LevelSet<dim>& psi, const Fe
 template <int dim>
 LevelSet<dim> with_feature_size(const LevelSet<dim>& psi, const FeatureSize& size);
 
-/// Where points of the boundary bound a wall, or a gap, that is hardly wider than the least: up to 3 % more.
+/// This tells which points of the boundary bound a wall, or a gap, that is wider than the least by at most 3 %.
 struct AtLeastWidth {
   std::vector<bool> wall, gap;  ///< one value per point
 };
