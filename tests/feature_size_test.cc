@@ -192,7 +192,9 @@ TEST(FeatureSize, MovesThatNarrowTheLeastWidthsAreHeld) {
     for (const auto& sample : boundary_samples<2>(psi)) boundary.push_back(sample);
     const std::vector<double> everywhere(psi.values.size(), velocity);
     return std::ranges::count(
-        evolver.held_by_widths(psi, boundary, everywhere, {.wall = 0.010, .gap = 0.010}), true);
+        evolver.held_by_widths(boundary, everywhere,
+                               at_least_width<2>(psi, boundary, {.wall = 0.010, .gap = 0.010})),
+        true);
   };
   EXPECT_GT(count(two_holes(grid, 0.0102), -1), 0);
   EXPECT_EQ(count(two_holes(grid, 0.0102), 1), 0);

@@ -81,15 +81,13 @@ std::vector<bool> Evolver<dim>::held_by_bands(std::span<const SurfacePoint<dim>>
 }
 
 template <int dim>
-std::vector<bool> Evolver<dim>::held_by_widths(const LevelSet<dim>& psi,
-                                               std::span<const SurfacePoint<dim>> boundary,
+std::vector<bool> Evolver<dim>::held_by_widths(std::span<const SurfacePoint<dim>> boundary,
                                                std::span<const double> velocity,
-                                               const FeatureSize& size) const {
-  auto [wall, gap] = at_least_width(psi, boundary, size);
+                                               const AtLeastWidth& narrow) const {
   std::vector<bool> held;
   for (std::size_t q = 0; q < boundary.size(); ++q) {
     const double v = interpolate(node_weights<dim>(lattice_, boundary[q].cell, boundary[q].xi), velocity);
-    held.push_back((wall[q] && v < 0) || (gap[q] && v > 0));
+    held.push_back((narrow.wall[q] && v < 0) || (narrow.gap[q] && v > 0));
   }
   return held;
 }

@@ -85,8 +85,8 @@ class Evolver {
 
   /// Which points of the boundary would, with this velocity, narrow a wall or a gap that is as narrow as it
   /// may be already.
-  std::vector<bool> held_by_widths(const LevelSet<dim>& psi, std::span<const SurfacePoint<dim>> boundary,
-                                   std::span<const double> velocity, const FeatureSize& size) const;
+  std::vector<bool> held_by_widths(std::span<const SurfacePoint<dim>> boundary,
+                                   std::span<const double> velocity, const AtLeastWidth& narrow) const;
   Expected<AttachedShape<dim>> without_islands(const LevelSet<dim>& psi, double largest) const;
 
   /// Changes of the holes between two shapes: topology_changes(), and holes that reached a protected band.

@@ -88,7 +88,9 @@ SequentialQuadraticProposals<dim>::SequentialQuadraticProposals(const Evolver<di
     : evolver_(evolver),
       options_(options),
       state_(state),
-      constraints_(bound_constraints(state.evaluation)) {}
+      constraints_(bound_constraints(state.evaluation)),
+      narrow_(at_least_width<dim>(state.shape, state.evaluation.boundary,
+                                  widths_after(evolver.features(), options, state))) {}
 
 template <int dim>
 typename SequentialQuadraticProposals<dim>::Span SequentialQuadraticProposals<dim>::span_in(
@@ -121,8 +123,7 @@ Expected<Move<dim>> SequentialQuadraticProposals<dim>::move(double step) const {
   const auto& boundary = state_.evaluation.boundary;
   auto move = move_with(std::vector<bool>(boundary.size(), false), step);
   const auto by_bands = evolver_.held_by_bands(boundary, move.velocity);
-  auto held = evolver_.held_by_widths(state_.shape, boundary, move.velocity,
-                                      widths_after(evolver_.features(), options_, state_));
+  auto held = evolver_.held_by_widths(boundary, move.velocity, narrow_);
   for (std::size_t q = 0; q < held.size(); ++q) held[q] = held[q] || by_bands[q];
   if (std::ranges::any_of(held, [](bool h) { return h; })) {
     move = move_with(held, step);

@@ -36,6 +36,7 @@ class SequentialQuadraticProposals final : public Proposals<dim> {
   const OptimizerOptions& options_;
   const OptimizationState<dim>& state_;
   std::vector<BoundConstraint> constraints_;
+  AtLeastWidth narrow_;  ///< of the state's shape
 };
 
 }  // namespace wheelwright
