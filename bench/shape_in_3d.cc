@@ -143,13 +143,13 @@ std::optional<Failure> measure(const Case& c, bool with_parts) {
     if (!evaluation) return evaluation.failure();
     for (const auto& [phase, wall] : evaluation->phases)
       fmt::print("  wall time of {:20} {:9.2f} s\n", phase, wall);
-    fmt::print("objective {:.12g}; Newton iterations {}\n", evaluation->function("objective").value,
+    fmt::print("objective {:.16g}; Newton iterations {}\n", evaluation->function("objective").value,
                fmt::join(evaluation->newton_iterations, " "));
     const RollingModel<3>& model = (*solver)->model();
     zones = contact_zones(**state, model.grid, static_cast<int>((*solver)->tread_surface().points.size()));
     const CutDomain<3>& domain = (*state)->domain();
-    unknowns = ring_unknowns(
-        SectorSpace<3>(domain, model.degree, model.grid.cells[0] - model.tread.rows, model.side_faces));
+    unknowns = ring_unknowns(SectorSpace<3>(domain, model.degree, model.grid.cells[0] - model.tread.rows,
+                                            model.side_faces, model.ghost));
     if (const auto* half = dynamic_cast<const HalfWidthSolver*>(solver->get());
         half && is_mirror_symmetric(psi, MirrorPlane::width)) {
       wheel.emplace(half->half(), first_half(domain));
@@ -161,9 +161,8 @@ std::optional<Failure> measure(const Case& c, bool with_parts) {
       wheel.emplace(**whole, domain);
     }
   }
-  const int first = is_mirror_symmetric(psi) ? 0
-                                             : best_first_column(wheel->domain, wheel->problem.elements(),
-                                                                 wheel->problem.core_rows());
+  const int first = best_first_column(wheel->domain, wheel->problem.elements(), wheel->problem.core_rows(),
+                                      possible_first_columns(wheel->domain.grid, is_mirror_symmetric(psi)));
   if (first > 0) wheel->domain = turned_back(psi, wheel->domain, first).domain;
   if (with_parts)
     if (const auto failure = measure_parts(*wheel, turned_back(zones, first))) return failure;

@@ -46,7 +46,10 @@ int ring_unknowns(const SectorSpace<dim>& space) {
   const PolarGrid<dim>& grid = space.grid();
   const int lines = space.degree() * grid.columns();
   int core_nodes = 0, axial_nodes = 1;
-  for (int node = 0; node < space.n_nodes(); ++node) core_nodes += space.position(node)[1] < lines;
+  for (int node = 0; node < space.n_nodes(); ++node) {
+    const int line = space.position(node)[1];
+    if (line >= 0 && line < lines) ++core_nodes;
+  }
   if constexpr (dim == 3) axial_nodes = space.degree() * grid.cells[2] + 1;
   const int tread_nodes = lines * space.degree() * (grid.cells[0] - space.core_rows()) * axial_nodes;
   return dim * grid.n_sectors * (core_nodes + tread_nodes);

@@ -771,6 +771,27 @@ TEST(Derived, LeastGammaAtThePapersThetas) {
   EXPECT_DOUBLE_EQ(least_gamma_0(1, stiffer), least_gamma_0(1, material));
 }
 
+// At half of the least value the tread's stiffness is indefinite, for every aspect; the least one is enough.
+TEST(Derived, LeastGammaFollowsTheAspectOfTheCells) {
+  for (const int angular_cells : {62, 124, 248}) {
+    Case c;
+    c.wheel = {.inner_radius = 0.02516, .outer_radius = 0.03102, .width = 0.0367, .sectors = 31};
+    c.material = {.youngs_modulus = 44e9, .poissons_ratio = 0.48};
+    c.grid.radial_cells = 17;
+    c.grid.angular_cells = angular_cells;
+    c.grid.tread_levels = 1;
+    c.contact.theta = 1;
+    ASSERT_GT(tread_cell_aspect(c), 2);
+    const double least = least_gamma_0(1, c.material, tread_cell_aspect(c));
+    EXPECT_GT(least, 1.2 * least_gamma_0(1, c.material));
+    for (const bool is_enough : {true, false}) {
+      c.contact.gamma_0 = (is_enough ? 1 : 0.5) * least;
+      const auto solver = make_solver(rolling_model<2>(c));
+      EXPECT_EQ(bool(solver), is_enough) << angular_cells;
+    }
+  }
+}
+
 TEST(Derived, LeastGammaOfNearlyIncompressibleMaterialGrowsForPositiveThetaAlone) {
   const Material last{.youngs_modulus = 200e6, .poissons_ratio = 0.485},
       rubber{.youngs_modulus = 200e6, .poissons_ratio = 0.4999};

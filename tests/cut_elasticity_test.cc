@@ -97,7 +97,27 @@ class LoadedSector {
 
   bool is_held(int node) const {
     const auto& p = sector_.space.position(node);
-    return p[0] == lattice_.nodes()[0] - 1 || p[1] == 0 || p[1] >= lattice_.nodes()[1];
+    return p[0] == lattice_.nodes()[0] - 1 || p[1] <= 0 || p[1] >= sector_.space.last_line();
+  }
+
+  /// The exact solution, or its derivative across a sector's face in the coordinate of the unit cell, in
+  /// polar components: what the interpolants of the cells on both sides have on average.
+  Vec<2> held_displacement(const ExactSolution& exact, std::array<int, 2> p) const {
+    const int last = sector_.space.last_line(), derivative = std::max(p[1] - last, -p[1]);
+    if (derivative > 0) p[1] = p[1] < 0 ? 0 : last;
+    const Vec<2> polar = lattice_.polar_point(p);
+    const auto at = [&](double columns) {
+      const Vec<2> there{polar[0], polar[1] + columns * grid_.cell_size()[1]};
+      return rotated<2>(exact.displacement(cartesian<2>(there)), -polar[1]);
+    };
+    Vec<2> u;
+    for (int c = 0; c < 2; ++c) {
+      const double wide = (at(1)[c] - at(-1)[c]) / 2, narrow = at(0.5)[c] - at(-0.5)[c];
+      if (derivative <= 0) u[c] = at(0)[c];
+      if (derivative == 1) u[c] = lattice_.degree() == 1 ? wide : 2 * narrow - wide;
+      if (derivative == 2) u[c] = 2 * (at(1)[c] + at(-1)[c] - 2 * (at(0.5)[c] + at(-0.5)[c]) + 2 * at(0)[c]);
+    }
+    return u;
   }
 
   /// Number among the free unknowns, -1 for held ones.
@@ -127,8 +147,7 @@ class LoadedSector {
     std::vector<double> x(sector_.matrix.size);
     for (int node = 0; node < sector_.space.n_nodes(); ++node) {
       if (!is_held(node)) continue;
-      const Vec<2> polar = lattice_.polar_point(sector_.space.position(node));
-      const Vec<2> u = rotated<2>(exact.displacement(cartesian<2>(polar)), -polar[1]);
+      const Vec<2> u = held_displacement(exact, sector_.space.position(node));
       for (int c = 0; c < 2; ++c) x[2 * node + c] = u[c];
     }
     return x;

@@ -196,6 +196,48 @@ TEST(Cyclic, AgreesWithAPlainSolveOfTheWholeRing) {
   }
 }
 
+/// Displacements of the boundary for random loads on all of its unknowns, two right-hand sides.
+Matrix boundary_displacements(const CyclicStiffness<2>& ring) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  Matrix loads(ring.n_boundary(), 2 * ring.n_sectors());
+  for (double& x : loads.entries()) x = uniform(random);
+  const auto eliminated = ring.eliminate_interface(loads);
+  return ring.boundary_displacements(ring.outer_displacements(eliminated.outer), eliminated.interface);
+}
+
+double relative_difference_of(const Matrix& a, const Matrix& b) {
+  return relative_difference({a.entries().begin(), a.entries().end()},
+                             {b.entries().begin(), b.entries().end()});
+}
+
+// With and without symmetry, which the strong modes do not use.
+TEST(Cyclic, StrongModesGiveWhatAllUnknownsOfTheInterfaceGive) {
+  const auto model = four_sectors();
+  const SectorHarmonics harmonics(n_sectors);
+  const ElementTable<2> table(model.grid, 2, model.materials, model.ghost);
+  const auto problem = RollingProblem<2>::create(model);
+  const auto in_the_middle = holes(model.grid, 2, {{0.265, 0.5 * model.grid.sector_angle(), 0.034}});
+  for (const auto& psi : {unsymmetric_holes(model.grid), in_the_middle}) {
+    const auto domain = cut_domain(psi, 4);
+    ASSERT_TRUE(domain);
+    const auto factored = [&](InterfaceRoute route) {
+      return CyclicStiffness<2>::factor(
+          sector_stiffness(*domain, table, problem->core_rows()),
+          [&](int harmonic) { return problem->tread().outer_stiffness(harmonics, harmonic); }, harmonics,
+          route);
+    };
+    const auto all = factored(InterfaceRoute::all_unknowns), strong = factored(InterfaceRoute::strong_modes);
+    ASSERT_TRUE(all && strong);
+    EXPECT_EQ(all->n_interface_of_harmonics(), all->n_boundary() - all->n_outer());
+    EXPECT_LT(strong->n_interface_of_harmonics(), 0.6 * all->n_interface_of_harmonics());
+    EXPECT_LT(relative_difference_of(boundary_displacements(*strong), boundary_displacements(*all)), 1e-10);
+    const auto compliance = strong->outer_compliance(2), expected = all->outer_compliance(2);
+    for (int ahead = 0; ahead < n_sectors; ++ahead)
+      EXPECT_LT(relative_difference_of(compliance[ahead], expected[ahead]), 1e-10);
+  }
+}
+
 /// The same shape, `columns` farther round.
 LevelSet<2> turned(const LevelSet<2>& psi, int columns) {
   LevelSet<2> result = psi;

@@ -347,6 +347,60 @@ TYPED_TEST(Element, GhostPenaltyDoesNotFeelLinearFields) {
       }
 }
 
+// The penalty of a face between sectors is the minimum of its halves over the derivatives on the face.
+TYPED_TEST(Element, TheHalvesOfAGhostPenaltyAreTheWhole) {
+  constexpr int dim = TypeParam::value;
+  const auto grid = coarse_grid<dim>();
+  for (const auto& [degree, made_of] : elements)
+    for (GhostPenaltyKind kind : {GhostPenaltyKind::full, GhostPenaltyKind::paper}) {
+      SCOPED_TRACE(degree);
+      const Face<dim> face(grid, 1);
+      const ElasticElement<dim> element(grid, degree, face.minus, made_of);
+      const GhostPenalty ghost{kind, 1};
+      const Matrix whole = ghost_stiffness<dim>(element, element, 1, face.angle, made_of, ghost);
+      const auto halves = divided_ghost_stiffness<dim>(element, face.angle, made_of, ghost);
+      const int n = element.n_dofs(), n_shared = halves.minus.rows() - n;
+      const auto in_sum = [&](int k, int first) { return k < n ? first + k : n + k; };
+      Matrix sum(2 * n + n_shared, 2 * n + n_shared);
+      for (int j = 0; j < n + n_shared; ++j)
+        for (int i = 0; i < n + n_shared; ++i) {
+          sum(in_sum(i, 0), in_sum(j, 0)) += halves.minus(i, j);
+          sum(in_sum(i, n), in_sum(j, n)) += halves.plus(i, j);
+        }
+      // The displacement of the face's nodes is one.
+      Matrix glue(2 * n, 2 * n);
+      for (int i = 0; i < 2 * n; ++i) glue(i, i) = 1;
+      for (int a = 0; a < element.n_nodes(); ++a) {
+        const auto p = local_node_position<dim>(degree, a);
+        if (p[1] != 0) continue;
+        const int b = a + degree * (degree + 1);
+        ASSERT_EQ((local_node_position<dim>(degree, b)[1]), degree);
+        for (int c = 0; c < dim; ++c) {
+          glue(n + element.dof(a, c), n + element.dof(a, c)) = 0;
+          glue(n + element.dof(a, c), element.dof(b, c)) = 1;
+        }
+      }
+      // Gaussian elimination of the derivatives.
+      for (int k = 2 * n + n_shared - 1; k >= 2 * n; --k) {
+        ASSERT_GT(sum(k, k), 0);
+        for (int j = 0; j < k; ++j)
+          for (int i = 0; i < k; ++i) sum(i, j) -= sum(i, k) * sum(k, j) / sum(k, k);
+      }
+      const Matrix expected =
+                       product(glue, Op::transpose, product(whole, Op::none, glue, Op::none), Op::none),
+                   found =
+                       product(glue, Op::transpose,
+                               product(block(sum, 0, 0, 2 * n, 2 * n), Op::none, glue, Op::none), Op::none);
+      double largest = 0, difference = 0;
+      for (int j = 0; j < 2 * n; ++j)
+        for (int i = 0; i < 2 * n; ++i) {
+          largest = std::max(largest, std::abs(expected(i, j)));
+          difference = std::max(difference, std::abs(expected(i, j) - found(i, j)));
+        }
+      EXPECT_LT(difference, 1e-12 * largest);
+    }
+}
+
 TEST(Ghost, PenalizesTheJumpOfTheStress) {
   // A radial kink: u_r = max(r - r_face, 0). The stress on the face jumps by (lambda + 2 mu) on the normal,
   // so that the energy is xi h / (2 E) (lambda + 2 mu)^2 |F|, up to the curvature of one cell.

@@ -77,6 +77,22 @@ TEST(FeatureSize, ThinWallsBecomeAsThickAsAsked) {
     }
 }
 
+/// The neck between small holes is thin over less than the distance of two nodes: wherever it lies between
+/// them.
+TEST(FeatureSize, NecksBetweenNodesBecomeAsThickAsAsked) {
+  const auto grid = grid_of(28, 384);
+  const double cell = grid.resolution(), wall = 1.05 * cell, r = 2 * cell;
+  for (const double rows : {0.0, 0.125, 0.25, 0.375})
+    for (const double columns : {0.0, 0.25}) {
+      const double radius = 0.27 + rows * cell, spacing = 2 * std::asin((r + 0.175 * cell) / radius),
+                   at = columns * grid.cell_size()[1];
+      const auto psi = holes(grid, 2, {{radius, at - spacing / 2, r}, {radius, at + spacing / 2, r}});
+      ASSERT_FALSE(thin_walls(psi, 0.3 * wall).empty());
+      EXPECT_TRUE(thin_walls(with_thick_walls(psi, wall), 0.5 * 0.97 * wall).empty())
+          << rows << " rows and " << columns << " columns from a node";
+    }
+}
+
 TEST(FeatureSize, TheMiddleOfAWallIsFound) {
   const auto grid = grid_of(28, 384);
   const double at = 0.47 * grid.sector_angle();
@@ -122,6 +138,29 @@ TEST(FeatureSize, SlitsAndSmallHolesAreFilled) {
   EXPECT_TRUE(std::ranges::all_of(nothing.values, [](double x) { return x < 0; }));
 }
 
+/// Holes like drops, whose tips and waists a closing by the gap leaves partly open, wherever they lie between
+/// the nodes.
+TEST(FeatureSize, DropsAreFilledUntilNoGapIsNarrow) {
+  const auto grid = grid_of(28, 384);
+  const double cell = grid.resolution(), gap = 1.12 * cell, length = 6 * cell;
+  for (int k = 0; k < 40; ++k) {
+    const double radius = (0.35 + 0.02 * k) * cell,
+                 at = 0.5 * grid.sector_angle() + 0.03 * k * grid.cell_size()[1];
+    LevelSet<2> psi = holes(grid, 2, {});
+    for (int node = 0; node < psi.lattice.n_nodes(); ++node) {
+      const Vec<2> p = psi.lattice.polar_point(node);
+      const double along = p[0] * std::cos(p[1] - at) - 0.262 - 0.01 * k * cell,
+                   across = p[0] * std::sin(p[1] - at);
+      // Circles whose radii fall from the head to the tip, and one at the end.
+      const double part = std::clamp(along / length, 0.0, 1.0);
+      const double drop = std::hypot(along - part * length, across) - radius * (1 - 0.9 * part);
+      psi.values[node] = std::max(psi.values[node], -drop);
+    }
+    const auto filled = without_narrow_gaps(psi, gap);
+    EXPECT_TRUE(narrowest_places(filled, {.gap = 0.96 * gap}).empty()) << k;
+  }
+}
+
 /// The shift to a measure thins walls again; the shape that comes out has both.
 TEST(FeatureSize, AShapeOfAGivenMeasureHasTheWidthsToo) {
   const auto grid = grid_of(28, 384);
@@ -138,6 +177,24 @@ TEST(FeatureSize, AShapeOfAGivenMeasureHasTheWidthsToo) {
     EXPECT_NEAR(shape->measure, target, 1e-6 * target);
     EXPECT_GT(wall_of(shape->shape), 0.99 * 0.011);
     EXPECT_EQ(is_mirror_symmetric(shape->shape), is_mirror_symmetric(psi));
+  }
+}
+
+/// A run that begins anew at a shape that it accepted begins at that very shape, although making its walls
+/// thick once more would change it; walls that are missed by more than is accepted are made thick.
+TEST(FeatureSize, AnAcceptedShapeIsAcceptedUnchanged) {
+  const auto grid = grid_of(28, 384);
+  const FeatureSize size{.wall = 0.011};
+  const Evolver<2> evolver(Lattice<2>(grid, 2), {});
+  for (const double azimuth : {0.31, 0.47, 0.5}) {
+    const auto accepted = two_holes(grid, 0.98 * size.wall, azimuth);
+    EXPECT_NE(evolver.with_features(accepted, size).values, accepted.values);
+    const auto again = evolver.measured(accepted, size);
+    ASSERT_TRUE(again) << again.failure().detail;
+    EXPECT_EQ(again->shape.values, accepted.values);
+    const auto mended = evolver.measured(two_holes(grid, 0.9 * size.wall, azimuth), size);
+    ASSERT_TRUE(mended) << mended.failure().detail;
+    EXPECT_GT(wall_of(mended->shape), 0.99 * size.wall);
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "wheelwright/linalg/column_basis.h"
 #include "wheelwright/linalg/cyclic_chain.h"
+#include "wheelwright/linalg/lu_factor.h"
 #include "wheelwright/linalg/partial_cholesky.h"
 #include "wheelwright/linalg/two_block_cholesky.h"
 
@@ -203,6 +204,22 @@ TEST(Dense, AProductOverNothingIsZero) {
   const Matrix c = product(Matrix(3, 0), Op::none, Matrix(0, 4), Op::none);
   EXPECT_EQ(c.columns(), 4);
   EXPECT_EQ(largest_entry(c), 0);
+}
+
+TEST(LuFactor, SolvesAndRefusesASingularMatrix) {
+  constexpr int n = 7;
+  Matrix a(n, n), x(n, 2);
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < n; ++i) a(i, j) = std::sin(3.0 + i + 2 * j * j) + (i + j == n - 1 ? 2 : 0);
+    for (int k = 0; k < 2; ++k) x(j, k) = std::cos(j + 5 * k);
+  }
+  const auto factor = LuFactor::factor(a);
+  ASSERT_TRUE(factor);
+  const Matrix solved = factor->solve(product(a, Op::none, x, Op::none));
+  for (int k = 0; k < 2; ++k)
+    for (int i = 0; i < n; ++i) EXPECT_NEAR(solved(i, k), x(i, k), 1e-12);
+  for (int i = 0; i < n; ++i) a(i, 3) = 0;
+  EXPECT_FALSE(LuFactor::factor(a));
 }
 
 TEST(Dense, NonzeroColumnsSeeTheSmallestNumbersAndNoSignOfZero) {

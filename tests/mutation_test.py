@@ -116,6 +116,19 @@ class TheList(unittest.TestCase):
             with self.assertRaises(StaleList):
                 kept_site({"file": "a", "old": old, "new": "1"}, "x = v[i] + v[i];")
 
+    def test_code_that_no_other_code_can_replace_is_an_error(self):
+        text = "double x = a.b(1, 2) * f({c, d}), y = e;"
+        for old in ("b(1, 2)", "{c, d}", "1, 2", "a.b(1, 2) *", "f({c", "x = a.b(1, 2)"):
+            with self.assertRaises(StaleList):
+                kept_site({"file": "a", "old": old, "new": "1"}, text)
+        for old in ("a.b(1, 2)", "f({c, d})"):
+            self.assertEqual(kept_site({"file": "a", "old": old, "new": "3"}, text).begin, text.index(old))
+
+    def test_code_that_stands_twice_is_told_apart_by_what_is_around_it(self):
+        text = "x = v[i] - v[i] * 2;"
+        site = kept_site({"file": "a", "old": "v[i]", "new": "0", "in": "v[i] * 2"}, text)
+        self.assertEqual((site.begin, site.end), (11, 15))
+
     def test_lines_may_be_broken_otherwise(self):
         site = kept_site({"file": "a", "old": "a + b;", "new": ""}, "x =\n  a +\n  b;")
         self.assertEqual((site.begin, site.end), (6, 14))

@@ -157,6 +157,25 @@ TEST(Newton, NamesWhatIsImpossible) {
   EXPECT_EQ(sliding.failure().reason, FailureReason::newton_stalled);
 }
 
+// The patch of so light a wheel lies between the points of the contact: the nearest one carries the load.
+TEST(Newton, ALoadWhosePatchHoldsNoPointFindsTheGround) {
+  for (const double load : {1e-6, 1e-3, 1.0}) {
+    auto model = paper_model(14, 192);
+    model.n_positions = 7;
+    model.load = load;
+    model.tread.levels = 0;
+    const auto problem = RollingProblem<2>::create(model);
+    ASSERT_TRUE(problem) << problem.failure().detail;
+    const auto s = problem->solve(holes(model.grid, 2, {{0.2581, 0.47 * model.grid.sector_angle(), 0.0273}}));
+    ASSERT_TRUE(s) << s.failure().detail;
+    for (const auto& state : s->states) {
+      EXPECT_NEAR(state.rim_force.towards_ground, load, 1e-9 * load);
+      EXPECT_GT(state.rim.towards_ground, 0);
+      EXPECT_LE(std::ranges::count_if(state.traction, [](const Vec<2>& t) { return t[0] < 0; }), 2);
+    }
+  }
+}
+
 TEST(Newton, RandomShapesConverge) { expect_convergence(60); }
 
 TEST(Newton, RandomShapesConvergeSlow) { expect_convergence(1000); }

@@ -189,6 +189,26 @@ TEST(SequentialQuadratic, ConvergesToTheLevelLineInFewTrials) {
   EXPECT_LT(trials_to(Method::sequential_quadratic, near, 1.5), trials_to(Method::descent, near, 0.5));
 }
 
+// Over the first shapes, far from the minimum, the objective falls as the method's model foretells.
+TEST(SequentialQuadratic, TellsByHowMuchATrialIsToFall) {
+  OptimizerOptions options;
+  options.method = Method::sequential_quadratic;
+  options.step = 0.25;
+  options.iterations = 6;
+  const ShapeOptimizer<2> optimizer(lattice, evolution, options,
+                                    wheelwright::testing::objective_of_shape<2>(bowl_objective));
+  Record record;
+  optimize<2>(optimizer, displaced_hole(), record.observer(), never);
+  ASSERT_GT(record.trials.size(), 6u);
+  for (std::size_t k = 1; k < record.trials.size(); ++k) {
+    const Trial<2>& trial = record.trials[k];
+    ASSERT_EQ(trial.verdict, Verdict::accepted);
+    const double fall = record.trials[k - 1].evaluation->function("objective").value -
+                        trial.evaluation->function("objective").value;
+    EXPECT_NEAR(fall, trial.foretold, 0.3 * trial.foretold) << k;
+  }
+}
+
 /// The bowl with a second function, the measure of the material, between bounds.
 auto bowl_with_bounds(Bounds bounds) {
   return [bounds](const LevelSet<2>& psi) -> Expected<Evaluation<2>> {

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <iomanip>
 #include <map>
 #include <numbers>
 #include <random>
@@ -687,6 +688,37 @@ TEST(DeformedSvg, TheTreadTouchesTheGroundAndNeverCrossesIt) {
       EXPECT_NEAR(highest, -ground + 0.5 * travel * magnification * pixels, 0.3);
     }
   }
+}
+
+// A tread that is bonded to a rigid ring stays there, so the ring is drawn round it, and the material inside
+// moves by all of its displacement: also what comes down.
+TEST(DeformedSvg, ABondedTreadStandsInItsRing) {
+  const auto psi = holes_level_set(2, 1.0);
+  const double pixels = 320 / (1.07 * wheel_grid.outer_radius), travel = 2e-3;
+  const auto down = ring_field(psi.lattice, 2, [&](const Vec<2>& x) {
+    const double share = (wheel_grid.outer_radius - std::hypot(x[0], x[1])) /
+                         (wheel_grid.outer_radius - wheel_grid.inner_radius);
+    return std::array{travel * share * std::cos(0.3), travel * share * std::sin(0.3)};
+  });
+  DeformedPicture<2> picture = picture_of(psi, down, 10);
+  const std::string on_ground = deformed_svg(psi, psi.lattice, picture);
+  picture.is_bonded = true;
+  const std::string svg = deformed_svg(psi, psi.lattice, picture);
+  std::ostringstream ring;
+  ring << "r=\"" << std::fixed << std::setprecision(1) << wheel_grid.outer_radius * pixels + 1
+       << "\" stroke=";
+  EXPECT_EQ(count(svg, ring.str()), 1);
+  EXPECT_EQ(count(on_ground, ring.str()), 0);
+  // The ground's line runs from edge to edge of the picture.
+  EXPECT_EQ(count(on_ground, "h640\""), 1);
+  EXPECT_EQ(count(svg, "h640\""), 0);
+  double innermost = 1e9, outermost = 0;  // about the middle of the moved rim, and about the axle
+  for (const Vec<2>& p : drawn_points(svg)) {
+    innermost = std::min(innermost, std::hypot(p[0], p[1] - 10 * travel * pixels));
+    outermost = std::max(outermost, std::hypot(p[0], p[1]));
+  }
+  EXPECT_NEAR(innermost, wheel_grid.inner_radius * pixels, 0.3);
+  EXPECT_NEAR(outermost, wheel_grid.outer_radius * pixels, 0.3);
 }
 
 TEST(DeformedSvg, SaysLoadPositionAndMagnification) {

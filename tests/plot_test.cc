@@ -77,6 +77,7 @@ TEST(Plot, TicksAreRoundEvenAndAllThatFit) {
     EXPECT_LT(ticks.front() - step, low);
     EXPECT_LT(ticks.back(), high + 1e-6 * size);
     EXPECT_GT(ticks.back() + step, high);
+    for (const double tick : ticks) EXPECT_FALSE(tick == 0 && std::signbit(tick));  // no label "-0"
   }
 }
 

@@ -86,7 +86,8 @@ class RandomWheels {
 
   void draw_contact(Case& c) {
     c.contact.theta = chance(0.4) ? -1 : uniform(-1, 1);
-    c.contact.gamma_0 = std::max(least_gamma_0(c.contact.theta, c.material), 0.01) * log_uniform(1, 1e3);
+    const double least = least_gamma_0(c.contact.theta, c.material, tread_cell_aspect(c));
+    c.contact.gamma_0 = std::max(least, 0.01) * log_uniform(1, 1e3);
     c.contact.quadrature_points = integer(1, 6);
     if (chance(0.1)) c.contact.method = ContactMethod::penalty;
     if (chance(0.5)) c.contact.friction = uniform(0, 1);

@@ -20,23 +20,32 @@ namespace {
 
 using testing::RandomWheels;
 
-/// The case changed as the first problem's remedy says: "take KEY = VALUE" or "take at most LOAD N".
-std::optional<Case> mended(Case c, const std::vector<Diagnostic>& problems) {
+/// Changes a case as the remedy of a problem says: "take KEY = VALUE", "take at most LOAD N" or "remove one
+/// of the two" rings. Returns whether it could be followed.
+bool follow(const std::string& remedy, Case& c) {
   std::smatch match;
-  const std::string remedy = problems.front().remedy;
   if (std::regex_search(remedy, match, std::regex(R"(grid\.tread_levels = (\d+))")))
     c.grid.tread_levels = std::stoi(match[1]);
   else if (std::regex_search(remedy, match, std::regex(R"(contact\.quadrature_points = (\d+))")))
     c.contact.quadrature_points = std::stoi(match[1]);
   else if (std::regex_search(remedy, match, std::regex(R"(degree = (\d))")))
     c.grid.degree = std::stoi(match[1]);
-  else if (std::regex_search(remedy, match, std::regex(R"(at most ([0-9.e+-]+) N)"))) {
-    const double factor = std::stod(match[1]) / c.load.force;
+  else if (std::regex_search(remedy, match, std::regex(R"((?:at most|value <=) ([0-9.e+-]+) N)"))) {
+    const double factor = std::min(1.0, std::stod(match[1]) / c.load.force);
     c.load.force *= factor;
     c.load.horizontal_force *= factor;
     c.load.torque *= factor;
-  } else
-    return {};
+  } else if (remedy.find("remove one of the two") != std::string::npos)
+    c.holes.rings.pop_back();
+  else
+    return false;
+  return true;
+}
+
+/// The case changed as all of its problems say at once.
+std::optional<Case> mended(Case c, const std::vector<Diagnostic>& problems) {
+  for (const Diagnostic& problem : problems)
+    if (!follow(problem.remedy + problem.problem, c)) return {};
   return c;
 }
 
@@ -74,7 +83,9 @@ End end_of(const Case& drawn) {
     const auto changed = mended(drawn, read.problems);
     if (!changed) return {End::refused, "no remedy that can be followed: " + text};
     const End after = end_of(*changed);
-    return {End::refused, after.kind == End::solved ? "" : text + ", then " + after.complaint};
+    if (after.kind == End::solved) return {End::refused, after.complaint};
+    return {End::refused,
+            text + ", then " + (after.kind == End::refused ? "refused again " : "failed ") + after.complaint};
   }
   const Case& c = *read.value;
   const auto solver = make_solver(rolling_model<2>(c));
@@ -102,13 +113,12 @@ End end_of(const Case& drawn) {
   }
 }
 
-/// Every wheel is solved and balanced, refused with a remedy that helps, or fails for a physical reason, but
-/// for at most this many, and each in less than 20 s of processor time.
-void expect_an_end_of_each(int n, unsigned seed, int most_complaints) {
+/// Every wheel is solved and balanced, refused with remedies that help, or fails for a physical reason, and
+/// each in less than 20 s of processor time.
+void expect_an_end_of_each(int n, unsigned seed) {
   const ThreadLimit one_thread(1);  // waiting threads would count as processor time
   RandomWheels wheels(seed);
   std::map<End::Kind, int> count;
-  int complaints = 0;
   double longest = 0;
   for (int k = 0; k < n; ++k) {
     const Case c = wheels.draw();
@@ -119,21 +129,16 @@ void expect_an_end_of_each(int n, unsigned seed, int most_complaints) {
     ++count[end.kind];
     EXPECT_LT(seconds, 20) << "wheel " << k;
     if (end.complaint.empty()) continue;
-    ++complaints;
-    std::cout << "wheel " << k << ": " << end.complaint << "\n" << to_toml(c);
+    ADD_FAILURE() << "wheel " << k << ": " << end.complaint << "\n" << to_toml(c);
   }
   std::cout << count[End::solved] << " solved, " << count[End::refused] << " refused, " << count[End::failed]
             << " failed; at most " << longest << " s each\n";
-  EXPECT_LE(complaints, most_complaints);
   EXPECT_GE(count[End::solved], 0.8 * n);
   EXPECT_LE(count[End::refused], 0.1 * n);
 }
 
-TEST(RandomWheels, AreSolvedOrRefusedWithAReason) { expect_an_end_of_each(12, 2, 0); }
-
-// Of these, four are known: two wheels with friction whose contact stalls near sliding, one of them under a
-// light load, and two whose advised change only uncovers that they are crushed.
-TEST(RandomWheels, AreSolvedOrRefusedWithAReasonSlow) { expect_an_end_of_each(300, 1, 4); }
+TEST(RandomWheels, AreSolvedOrRefusedWithAReason) { expect_an_end_of_each(12, 2); }
+TEST(RandomWheels, AreSolvedOrRefusedWithAReasonSlow) { expect_an_end_of_each(300, 1); }
 
 }  // namespace
 }  // namespace wheelwright

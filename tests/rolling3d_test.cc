@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "tests/support.h"
+#include "wheelwright/contact/contact_solver.h"
 #include "wheelwright/functionals/strain_energy.h"
 #include "wheelwright/functionals/uniformity_annulus.h"
 #include "wheelwright/functionals/uniformity_dual.h"
@@ -130,6 +134,35 @@ TEST(Rolling3D, UniformityPassesTheTaylorTest) {
   auto map = problem->neumann_to_dirichlet(DualNorm::elasticity);
   ASSERT_TRUE(map);
   expect_taylor_orders(model, {{1, std::make_shared<UniformityDual<3>>(*std::move(map))}}, *problem);
+}
+
+// Where Coulomb's cone is round, Newton's method converges quadratically, and not in a finite number of
+// steps: what is left of the residual does not depend on the start.
+TEST(Rolling3D, TheContactIsSolvedToRoundingFromEveryStart) {
+  auto model = pushed_wheel();  // near the limit of friction
+  model.lateral_force = 0.3 * model.load;
+  model.torque = 0.3 * model.load * model.grid.outer_radius;
+  const auto problem = RollingProblem<3>::create(model);
+  ASSERT_TRUE(problem) << problem.failure().detail;
+  const auto s = problem->solve(uneven_hole(model.grid));
+  ASSERT_TRUE(s) << s.failure().detail;
+  for (size_t i = 0; i < s->states.size(); ++i) {
+    const ReducedContact<3>& contact = s->contacts[i];
+    const double disc = model.materials.at_tread().contact_modulus();
+    for (const double factor : {0.03, 0.1, 0.3, 1.0, 3.0, 10.0}) {
+      const auto start =
+          contact.hertz_start(factor * model.load / model.grid.width, model.grid.outer_radius, disc);
+      const auto state = solve_contact<3>(contact, std::span(&start, 1));
+      ASSERT_TRUE(state) << state.failure().detail;
+      double difference = 0, peak = 0;
+      for (size_t q = 0; q < state->traction.size(); ++q)
+        for (int d = 0; d < 3; ++d) {
+          difference = std::max(difference, std::abs(state->traction[q][d] - s->states[i].traction[q][d]));
+          peak = std::max(peak, -state->traction[q][0]);
+        }
+      EXPECT_LT(difference, 1e-12 * peak) << factor;
+    }
+  }
 }
 
 // The ground's forces on the tread carry what acts on the rim, and nothing else.

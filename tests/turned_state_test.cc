@@ -6,8 +6,10 @@
 
 #include "tests/support.h"
 #include "wheelwright/base/periodic.h"
+#include "wheelwright/geometry/mirror.h"
 #include "wheelwright/geometry/shapes.h"
 #include "wheelwright/rolling/ring_state.h"
+#include "wheelwright/rolling/width_halves.h"
 
 namespace wheelwright {
 namespace {
@@ -136,15 +138,14 @@ void expect_the_same(const State<dim>& a, const State<dim>& b) {
 }
 
 template <int dim>
-void expect_that_turning_changes_nothing() {
-  const auto model = wheel<dim>();
+void expect_that_turning_changes_nothing(const RollingModel<dim>& model, const LevelSet<dim>& psi) {
   const auto problem = RollingProblem<dim>::create(model);
   ASSERT_TRUE(problem) << problem.failure().detail;
-  const auto psi = hole_on_the_border(model.grid);
   const auto positions = problem->all_positions();
   auto domain = cut_domain(psi, model.points_in_cut_cells());
   ASSERT_TRUE(domain);
-  EXPECT_GT(best_first_column(*domain, problem->elements(), problem->core_rows()), 0);
+  const auto columns = possible_first_columns(model.grid, is_mirror_symmetric(psi));
+  EXPECT_GT(best_first_column(*domain, problem->elements(), problem->core_rows(), columns), 0);
   const auto turned = problem->states(psi, positions, {});
   auto solved = problem->solve(psi, positions);
   ASSERT_TRUE(turned) << turned.failure().detail;
@@ -161,8 +162,86 @@ void expect_that_turning_changes_nothing() {
   EXPECT_NEAR((*contacts)[0][0].rim.towards_ground / (*under)->contacts()[0].rim.towards_ground, 1, 1e-9);
 }
 
+template <int dim>
+void expect_that_turning_changes_nothing() {
+  const auto model = wheel<dim>();
+  expect_that_turning_changes_nothing(model, hole_on_the_border(model.grid));
+}
+
 TEST(TurnedState, IsTheStateInThePlane) { expect_that_turning_changes_nothing<2>(); }
 TEST(TurnedState, IsTheStateInSpace) { expect_that_turning_changes_nothing<3>(); }
+
+/// A wheel with mirror planes, one of them in the middle of a hole on the border of the sector.
+template <int dim>
+struct SymmetricWheel {
+  SymmetricWheel() {
+    model.grid.cells[1] = 8;
+    const Circle hole{0.2581, 0, 0.0253};
+    psi = mirror_symmetric_part(make_level_set<dim>(Lattice<dim>(model.grid, 1), std::span(&hole, 1)));
+  }
+  RollingModel<dim> model = wheel<dim>();
+  LevelSet<dim> psi{Lattice<dim>(model.grid, 1), {}};
+};
+
+TEST(TurnedState, ByHalfASectorIsTheStateInThePlane) {
+  const SymmetricWheel<2> wheel;
+  expect_that_turning_changes_nothing(wheel.model, wheel.psi);
+}
+TEST(TurnedState, ByHalfASectorIsTheStateInSpace) {
+  const SymmetricWheel<3> wheel;
+  expect_that_turning_changes_nothing(wheel.model, wheel.psi);
+}
+
+template <int dim>
+void expect_that_half_a_sector_keeps_the_mirror_planes() {
+  SymmetricWheel<dim> wheel;
+  wheel.model.torque = wheel.model.contact.friction = 0;
+  wheel.model.distributed.body_force = {};
+  const auto problem = RollingProblem<dim>::create(wheel.model);
+  ASSERT_TRUE(problem);
+  const auto domain = cut_domain(wheel.psi, wheel.model.points_in_cut_cells());
+  const int half = wheel.model.grid.columns() / 2;
+  const auto back = turned_back(wheel.psi, *domain, half);
+  EXPECT_TRUE(is_mirror_symmetric(back.psi));
+  const auto ring = problem->solve({back.psi, &back.domain});
+  ASSERT_TRUE(ring);
+  EXPECT_TRUE(ring->ring.is_mirror_symmetric());
+
+  // Positions that represent their images.
+  const auto positions = problem->distinct_positions(wheel.psi);
+  EXPECT_TRUE(positions.stand_for_images());
+  const auto turned = problem->states(wheel.psi, positions, {});
+  auto solved = problem->solve(wheel.psi, positions);
+  ASSERT_TRUE(turned && solved);
+  const auto as_it_is = ring_state(*problem, *std::move(solved));
+  EXPECT_LT(difference((*turned)->strain_energy(), as_it_is->strain_energy()), 1e-10);
+  FunctionalDerivative<dim> energy;
+  energy.energy.assign(positions.size(), 1);
+  const auto gradient = (*turned)->shape_gradients(std::span(&energy, 1)),
+             expected = as_it_is->shape_gradients(std::span(&energy, 1));
+  ASSERT_TRUE(gradient && expected);
+  EXPECT_LT(difference(moments(**turned, gradient->densities[0]), moments(*as_it_is, expected->densities[0])),
+            1e-8);
+}
+TEST(TurnedState, ByHalfASectorKeepsMirrorPlanesInThePlane) {
+  expect_that_half_a_sector_keeps_the_mirror_planes<2>();
+}
+TEST(TurnedState, ByHalfASectorKeepsMirrorPlanesInSpace) {
+  expect_that_half_a_sector_keeps_the_mirror_planes<3>();
+}
+
+// Ghost faces couple nodes past the sector's face, of which the middle of the width holds some.
+TEST(TurnedState, HalfOfAWheelWithHolesAcrossFacesHasRealHarmonics) {
+  SymmetricWheel<3> wheel;
+  wheel.model.degree = 2;
+  wheel.model.torque = wheel.model.contact.friction = 0;
+  wheel.model.distributed.body_force = {};
+  const auto half = RollingProblem<3>::create(first_half(wheel.model));
+  ASSERT_TRUE(half);
+  const auto solved = half->solve(first_half(wheel.psi));
+  ASSERT_TRUE(solved) << solved.failure().detail;
+  EXPECT_TRUE(solved->ring.is_mirror_symmetric());
+}
 
 TEST(TurnedState, ASectorIsCutWhereItSharesTheFewestNodes) {
   const auto model = wheel<2>();
@@ -176,12 +255,13 @@ TEST(TurnedState, ASectorIsCutWhereItSharesTheFewestNodes) {
     const auto solution = problem->solve({turned.psi, &turned.domain});
     return solution->ring.n_boundary() - solution->ring.n_outer();
   };
-  const int best = best_first_column(*domain, problem->elements(), problem->core_rows());
+  const auto all_columns = possible_first_columns(model.grid, false);
+  const int best = best_first_column(*domain, problem->elements(), problem->core_rows(), all_columns);
   for (int column = 0; column < model.grid.columns(); ++column)
     EXPECT_LE(interface(best), interface(column)) << column;
   // Turned further by the same columns it is best at the first one.
   const auto turned = turned_back(psi, *domain, best);
-  EXPECT_EQ(best_first_column(turned.domain, problem->elements(), problem->core_rows()), 0);
+  EXPECT_EQ(best_first_column(turned.domain, problem->elements(), problem->core_rows(), all_columns), 0);
 }
 
 }  // namespace

@@ -42,7 +42,8 @@ tread_levels = 0
 [optimizer]
 rim_band = 0.0175
 tread_band = 0.035
-minimum_wall = 0.006
+minimum_wall = 0.017
+minimum_gap = 0.0175
 """
 
 

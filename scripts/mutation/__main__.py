@@ -67,8 +67,8 @@ def try_all(chosen, units, jobs, budget):
         return list(pool.map(attempt, chosen))
 
 
-def report(results, options, seconds):
-    """The text, and whether all is as it must be."""
+def report(results, failures, options, seconds):
+    """The text, and whether all is as it must be. `failures` are of the tests that fail without any break."""
     kept = [r for r in results if r[0].name.startswith("k")]
     chance = [r for r in results if r[0].name.startswith("r")]
     survivors = [r for r in results if not r[1]]
@@ -77,6 +77,7 @@ def report(results, options, seconds):
         caught = sum(1 for r in group if r[1])
         if group:
             lines.append(f"{title}: {caught} of {len(group)} caught ({100 * caught / len(group):.1f} %)")
+    lines += [f"not asked, fails without any break: {failure}" for failure in failures]
     lines += ["", f"## Survivors: {len(survivors)}", ""]
     for mutant, _, reaching in survivors:
         lines.append(f"{mutant.name} {mutant.place()}: {mutant.change()}")
@@ -109,12 +110,12 @@ def main():
         for mutant in [*kept, *chosen(set())]:
             print(f"{mutant.name} {mutant.place()}: {mutant.change()}")
         return 0
-    mutants = build.make(ROOT, options.folder, texts, kept, chosen, build.targets_for(ROOT, options.tests), options.jobs,
-                         tell)
+    mutants = build.make(ROOT, options.folder, texts, kept, candidates, chosen,
+                         build.targets_for(ROOT, options.tests), options.jobs, tell)
     units = tests.units_of(options.folder / "build", options.tests)
-    tests.measure(units, mutants, options.jobs, tell)
+    failures = tests.measure(units, mutants, options.jobs, tell)
     results = try_all(sampled(mutants, options), units, options.jobs, options.budget)
-    text, good = report(results, options, time.monotonic() - start)
+    text, good = report(results, failures, options, time.monotonic() - start)
     print(text)
     if options.report:
         options.report.write_text(text)

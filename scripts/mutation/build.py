@@ -1,5 +1,7 @@
 """The mutated copy of the sources: written, compiled, and rid of the breaks that do not compile."""
 
+import hashlib
+import json
 import re
 import subprocess
 
@@ -78,13 +80,29 @@ def broken_lines(copy, output):
     return places
 
 
-def make(root, folder, texts, kept, choose, targets, jobs, tell):
-    """Writes and compiles until every mutant compiles; returns them. `choose` gives the random ones without those
-    that do not compile, which give their place to others."""
+class Refused:
+    """The names of the random breaks that do not compile, remembered for the next time that the same sources are broken
+    in the same order."""
+
+    def __init__(self, file, candidates):
+        self.file = file
+        self.key = hashlib.sha256("\n".join(f"{m.place()} {m.change()}" for m in candidates).encode()).hexdigest()
+        known = json.loads(file.read_text()) if file.exists() else {}
+        self.names = set(known["names"]) if known.get("key") == self.key else set()
+
+    def add(self, names):
+        self.names |= names
+        self.file.write_text(json.dumps({"key": self.key, "names": sorted(self.names)}))
+
+
+def make(root, folder, texts, kept, candidates, choose, targets, jobs, tell):
+    """Writes and compiles until every mutant compiles; returns them. `choose` gives the random ones of the candidates
+    without those that do not compile, which give their place to others."""
     copy, build = folder / "source", folder / "build"
-    refused = set()
+    folder.mkdir(parents=True, exist_ok=True)
+    refused = Refused(folder / "refused.json", candidates)
     while True:
-        chosen = choose(refused)
+        chosen = choose(refused.names)
         mutants = [*kept, *chosen]
         write_copy(root, copy, texts, mutants)
         configure(copy, build)
@@ -102,4 +120,4 @@ def make(root, folder, texts, kept, choose, targets, jobs, tell):
             raise RuntimeError(f"the mutated copy does not compile; kept breaks near the errors: "
                                f"{', '.join(blamed) or 'none'}\n{output[-4000:]}")
         tell(f"{len(guilty)} random breaks do not compile and are replaced")
-        refused |= guilty
+        refused.add(guilty)

@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <type_traits>
 
-/// The mutated copy of the sources (scripts/mutate) is made of these: every place has the code as it is and as
-/// it is broken, and the environment says which of them is broken in a process. Never part of the program.
+/// The mutated copy of the sources (scripts/mutate) is made of these: every place has the code as it is and
+/// as it is broken, and the environment says which of them is broken in a process. Never part of the program.
 #pragma GCC diagnostic error "-Wvla"  // an array's size is no subscript
 
 namespace wheelwright_mutants {

@@ -4,7 +4,7 @@ import random
 import re
 from pathlib import Path
 
-from .source import NAMESPACE, Site, line_of, sites_of
+from .source import NAMESPACE, Site, line_of, sites_of, tokens_of
 
 
 class Mutant:
@@ -39,18 +39,44 @@ def entries_of(path):
             yield {key: value.strip() for key, value in entry.items()}
 
 
+def pieces(code, text):
+    """Where a piece of code stands in a text, however it is broken into lines."""
+    return list(re.finditer(r"\s+".join(map(re.escape, code.split())), text))
+
+
+def is_one_expression(code):
+    """Whether brackets are closed and nothing but operands and operators stands outside them, as far as is told
+    without a compiler."""
+    depth = 0
+    for token in tokens_of(code):
+        depth += (token.text in "([{") - (token.text in ")]}")
+        if depth < 0 or (depth == 0 and token.text in (",", ";", "if", "return")):
+            return False
+    return depth == 0 and not code.startswith((".", "{")) and code[-1] not in "=+-*/%<>&|!?:.,"
+
+
+def declares(code, before):
+    """Whether the code, with what stands before it, declares the variable that it assigns to."""
+    return any(token.text == "=" for token in tokens_of(code)) and before.rstrip()[-1:] not in (";", "{", "}", ")")
+
+
 def kept_site(entry, text):
-    """Where the old code stands, however it is broken into lines. A statement ends in a semicolon, anything else
-    is an expression."""
-    old, new = entry["old"], entry["new"]
-    found = list(re.finditer(r"\s+".join(map(re.escape, old.split())), text))
-    if len(found) != 1:
-        raise StaleList(f"{entry['file']}: {'not found' if not found else 'found more than once'}: {old}")
+    """Where the old code stands, once in the text, or once in the code `in` that stands there once. A statement ends in a
+    semicolon, anything else is an expression."""
+    old, new, around = entry["old"], entry["new"], entry.get("in", entry["old"])
+    outer = pieces(around, text)
+    inner = pieces(old, outer[0][0]) if len(outer) == 1 else outer
+    if len(inner) != 1:
+        raise StaleList(f"{entry['file']}: {'found more than once' if inner else 'not found'}: {old}")
+    begin, end = (outer[0].start() + offset for offset in inner[0].span())
     if old.endswith(";"):
-        guarded = f"if ({NAMESPACE}broken(@)) {{ {new} }} else {{ {found[0][0]} }}"
+        guarded = f"if ({NAMESPACE}broken(@)) {{ {new} }} else {{ {text[begin:end]} }}"
     else:
-        guarded = f"({NAMESPACE}broken(@) ? ({new}) : ({found[0][0]}))"
-    return Site("kept", found[0].start(), found[0].end(), new, guarded)
+        before = text[:begin]
+        if not (is_one_expression(old) and is_one_expression(new)) or before.endswith((".", "->")) or declares(old, before):
+            raise StaleList(f"{entry['file']}: no whole expression: {old}")
+        guarded = f"({NAMESPACE}broken(@) ? ({new}) : ({text[begin:end]}))"
+    return Site("kept", begin, end, new, guarded)
 
 
 def kept_mutants(folder, texts):

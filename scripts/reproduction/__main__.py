@@ -144,8 +144,8 @@ def main() -> None:
     version = subprocess.run([options.program, "--version"], capture_output=True, text=True, check=True).stdout.strip()
     last = (
         f"Last written by {version}: {len(tasks)} runs of {len(runs)} cases took {used:.0f} s of processor time; on "
-        f"{options.jobs} idle cores that is {used / options.jobs:.0f} s. The times beside the commands are those of one "
-        "run."
+        f"{options.jobs} idle {'core' if options.jobs == 1 else 'cores'} that is {used / options.jobs:.0f} s. The times "
+        "beside the commands are those of one run."
     )
     write_page(options.page, sections, textwrap.fill(last, 115))
     album.remove_others_than(options.page.read_text())

@@ -37,6 +37,12 @@ void keep_freed_memory() {
 #endif
 }
 
+void give_freed_memory_back() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
 void restart_with_blas_settings(char* const* arguments) {
   bool changed = false;
   for (const char* name : {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "OMP_THREAD_LIMIT"})

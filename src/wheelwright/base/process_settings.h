@@ -7,6 +7,12 @@ namespace wheelwright {
 /// are given back.
 void keep_freed_memory();
 
+/// Gives the freed memory that the process keeps back to the system, from all threads. A program that
+/// computes for hours calls this now and then: what is in use lies scattered among what was freed, a little
+/// worse after each change, and the process would grow by that. The next shape fetches what it needs again,
+/// which takes about as long as one shape.
+void give_freed_memory_back();
+
 /// For the first line of main(): sees to it that BLAS computes with one thread and with its fastest kernels.
 /// BLAS reads that from the environment before main() begins. If it stands there otherwise, this starts the
 /// program again, in the same process and with the same arguments, which end with a null pointer, as those of

@@ -15,16 +15,15 @@
 #include "wheelwright/elasticity/ghost_penalty.h"
 #include "wheelwright/elasticity/material.h"
 #include "wheelwright/elasticity/side_faces.h"
+#include "wheelwright/geometry/level_set.h"
 
 namespace wheelwright {
 
 struct Drawing;
 struct Picture;
-template <int dim>
-struct LevelSet;
 
 // A case: everything that defines one optimization, as plain data in SI units and radians. The initial values
-// here are the defaults of the case file; names, units, ranges and meanings are declared in case/keys.cc.
+// here are the defaults of the case file; names, units, ranges and meanings are declared in case/*_keys.cc.
 
 struct Wheel {
   int dimension = 2;           ///< 2: the plane of the wheel; 3: the whole width

@@ -352,14 +352,15 @@ void check_coarse_levels(const Case& c, Conflicts& found) {
 }
 
 void check_nitsche(const Case& c, Conflicts& found) {
-  if (c.contact.method != ContactMethod::nitsche) return;
-  const double least = least_gamma_0(c.contact.theta, c.material);
+  if (c.contact.method != ContactMethod::nitsche || c.wheel.inner_radius >= c.wheel.outer_radius) return;
+  const double least = least_gamma_0(c.contact.theta, c.material, tread_cell_aspect(c));
   if (c.contact.gamma_0 >= least) return;
   found.push_back(
-      {{"contact.gamma_0", "contact.theta", "contact.method", "material.poissons_ratio", "material.plane"},
-       fmt::format("too small for theta = {} and poissons_ratio = {}: the stiffness may not be positive "
-                   "definite",
-                   c.contact.theta, c.material.poissons_ratio),
+      {{"contact.gamma_0", "contact.theta", "contact.method", "material.poissons_ratio", "material.plane",
+        "grid.angular_cells", "grid.radial_cells"},
+       fmt::format("too small for theta = {}, poissons_ratio = {} and cells that are {:.2g} times as long as "
+                   "high: the stiffness may not be positive definite",
+                   c.contact.theta, c.material.poissons_ratio, tread_cell_aspect(c)),
        fmt::format("take gamma_0 >= {:.6g}, or theta = -1", rounded_up(least))});
 }
 
@@ -377,6 +378,31 @@ void check_load(const Case& c, Conflicts& found) {
                    "about {:.0f} %, far beyond linear elasticity",
                    2 * half_width, 100 * half_width / (2 * c.wheel.outer_radius)),
        fmt::format("take at most {:.3g} N, or a stiffer material", c.load.force * factor * factor)});
+}
+
+/// The nominal strain of the walls between the holes of a ring: the load spreads below the patch by 45
+/// degrees, and the holes leave a part of each circle.
+double wall_strain(const Case& c, const HoleRing& ring) {
+  const double spread = 2 * hertz_half_width(c) + 2 * (c.wheel.outer_radius - ring.center_radius),
+               left = 1 - ring.count * ring.radius / (std::numbers::pi * ring.center_radius);
+  return c.load.force / (c.wheel.width * c.material.contact_modulus() * spread * left);
+}
+
+/// Tells of loads that would crush the walls between holes. This is an estimate: a case that has no other
+/// problem is solved, which shows whether they are crushed.
+void check_walls(const Case& c, Conflicts& found) {
+  constexpr double largest = 0.25, advised = 0.05;
+  if (c.load.travel || c.contact.with == Counterpart::ring) return;
+  double strain = 0;
+  for (const HoleRing& ring : c.holes.rings) strain = std::max(strain, wall_strain(c, ring));
+  if (strain <= largest) return;
+  found.push_back(
+      {{"load.force", "load.mass", "material.youngs_modulus", "wheel.width"},
+       fmt::format("too large: the walls between the holes would be strained by about {:.0f} %, far "
+                   "beyond linear elasticity",
+                   100 * strain),
+       fmt::format("take at most {:.3g} N, smaller holes or a stiffer material",
+                   c.load.force * std::pow(advised / strain, 2))});
 }
 
 /// The contact of one position is a dense problem.
@@ -904,6 +930,7 @@ std::vector<Conflict> conflicts(const Case& c) {
   check_minimized(c, found);
   check_constraints(c, found);
   check_expectations(c, found);
+  if (!found.empty()) check_load_cases(c, all_load_cases(c), found, check_walls);
   return found;
 }
 

@@ -6,6 +6,7 @@
 
 #include "wheelwright/case/dimension.h"
 #include "wheelwright/case/hole_rings.h"
+#include "wheelwright/elasticity/element.h"
 
 namespace wheelwright {
 
@@ -288,6 +289,7 @@ double contact_columns(const Case& c) {
 }
 
 constexpr double square(double x) { return x * x; }
+constexpr double cube(double x) { return x * x * x; }
 
 /// Whether the profile of a tapered hole is its own mirror image in the middle of the width.
 bool is_even(const HoleTapered& hole) {
@@ -335,6 +337,11 @@ struct ProblemSize {
 
   double sector_line() const { return ring_line / sectors; }
   double boundary() const { return radial_line + sector_line(); }
+  /// Boundary unknowns of the harmonics if they are complex: of large interfaces the strong modes alone.
+  double complex_boundary() const {
+    return (has_strong_modes() ? radial_line / 3 : radial_line) + sector_line();
+  }
+  bool has_strong_modes() const { return radial_line >= 1000 && sectors >= 10; }
 };
 
 ProblemSize problem_size(const Case& c) {
@@ -368,18 +375,24 @@ struct Copies {
 };
 constexpr Copies in_the_plane{3.5, 0.55, 0.1}, in_space{3, 0.55, 4};
 
-}  // namespace
+/// The problem's size where a ghost penalty acts on all of the faces between sectors.
+ProblemSize problem_size_of_grooves(const Case& c) {
+  ProblemSize size = problem_size(c);
+  const double derivatives = size.radial_line * n_compared_derivatives(c.ghost_penalty, c.grid.degree);
+  size.radial_line += derivatives;
+  size.sector_dofs += 2 * derivatives;
+  return size;
+}
 
-double estimated_memory(const Case& c) {
+double estimated_memory(const Case& c, const ProblemSize& n) {
   constexpr double number = sizeof(double), complex = 2 * number;
-  const ProblemSize n = problem_size(c);
   const bool in_3d = c.wheel.dimension == 3;
   const Copies& copies = in_3d ? in_space : in_the_plane;
   double holes = 0;
   for (const HoleRing& ring : c.holes.rings) holes += ring.count / n.sectors;
 
   const double libraries = 26e6;
-  const double fields = number * (56 * n.cells + 4.6 * n.dofs * n.positions);
+  const double fields = number * (is_halved(c) ? 0.5 : 1) * (56 * n.cells + 4.6 * n.dofs * n.positions);
   // Fill of nested dissection: n log n in the plane, n^(4/3) in space.
   const double fill = in_3d ? 6 * std::pow(n.sector_dofs, 4.0 / 3)
                             : 0.6 * n.sector_dofs * std::log2(std::max(n.sector_dofs, 2.0));
@@ -387,7 +400,8 @@ double estimated_memory(const Case& c) {
   const double condensed = number * copies.condensed * square(2 * n.radial_line + n.sector_line());
   const bool real_harmonics = in_3d && has_real_harmonics(c);
   const double harmonics =
-      (real_harmonics ? number : complex) * copies.harmonics * (n.sectors / 2 + 1) * square(n.boundary());
+      copies.harmonics * (n.sectors / 2 + 1) *
+      (real_harmonics ? number * square(n.boundary()) : complex * square(n.complex_boundary()));
   // Right-hand sides on the outer line that are solved together.
   const double responses = number * 5 * 192 * n.ring_line;
   const double surface =
@@ -401,25 +415,42 @@ double estimated_memory(const Case& c) {
          shape;
 }
 
-double estimated_seconds_in_3d(const Case& c) {
-  const ProblemSize n = problem_size(c);
+double estimated_seconds_in_3d(const Case& c, const ProblemSize& n) {
   const bool real = has_real_harmonics(c);
   constexpr double flops_per_second = 45e9;  // dense matrices on one core
-  const double cube = n.boundary() * n.boundary() * n.boundary() / 3 +
-                      2 * n.sector_line() * n.sector_line() * n.sector_line() / 3;
-  const double harmonics = (real ? 1 : 4) * (n.sectors / 2 + 1) * cube / flops_per_second;
+  const double boundary = real ? n.boundary() : n.complex_boundary();
+  const double flops = cube(boundary) / 3 + 2 * cube(n.sector_line()) / 3;
+  const double strong_modes = real || !n.has_strong_modes() ? 0 : 13 * cube(n.radial_line);
+  const double harmonics = ((real ? 1 : 4) * (n.sectors / 2 + 1) * flops + strong_modes) / flops_per_second;
   const double sector = 2e-9 * square(n.sector_dofs);
   const double contact =
       (real ? 2.5e-7 : 6e-7) * (2 * n.zone_columns - 1) * n.loaded_columns * square(n.tractions);
   return harmonics + sector + contact;
 }
 
-double least_gamma_0(double theta, const Material& material) {
+}  // namespace
+
+double estimated_memory(const Case& c) { return estimated_memory(c, problem_size(c)); }
+double estimated_memory_of_grooves(const Case& c) { return estimated_memory(c, problem_size_of_grooves(c)); }
+double estimated_seconds_in_3d(const Case& c) { return estimated_seconds_in_3d(c, problem_size(c)); }
+double estimated_seconds_of_grooves_in_3d(const Case& c) {
+  return estimated_seconds_in_3d(c, problem_size_of_grooves(c));
+}
+
+double least_gamma_0(double theta, const Material& material, double aspect) {
   constexpr double reference = 8.8;  // (lambda + 2 mu) / E at nu = 0.48, where 10 and 100 were found
   const double stiffness = (material.lambda() + 2 * material.mu()) / material.scaling_modulus() / reference;
   // Without the indefinite term a projected pressure needs no more than the last material without projection.
   if (theta <= 0 && material.nearly_incompressible()) return 13.2 * (1 + theta) * (1 + theta);
-  return stiffness * (10 * (1 + theta) * (1 + theta) + 60 * std::max(theta, 0.0));
+  constexpr double per_aspect =
+      0.8;  // 0.80, 0.69, 0.55 and 0.58 were found at the aspects 2.3, 4.6, 9.2 and 19
+  return stiffness *
+         (10 * (1 + theta) * (1 + theta) + 60 * std::max(theta, 0.0) * std::max(1.0, per_aspect * aspect));
+}
+
+double tread_cell_aspect(const Case& c) {
+  return 2 * pi * c.wheel.outer_radius / c.grid.angular_cells /
+         ((c.wheel.outer_radius - c.wheel.inner_radius) / c.grid.radial_cells);
 }
 
 }  // namespace wheelwright

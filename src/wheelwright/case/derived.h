@@ -132,11 +132,21 @@ double estimated_memory(const Case& c);
 /// sector's factor and the contact operator, whose sizes are known and whose speeds were measured.
 double estimated_seconds_in_3d(const Case& c);
 
+/// Bounds of the same for shapes whose edges cross all of the faces between sectors, as grooves round the
+/// wheel do: derivatives on the faces are unknowns then too.
+double estimated_memory_of_grooves(const Case& c);
+double estimated_seconds_of_grooves_in_3d(const Case& c);
+
 /// The minimum gamma_0 for which Nitsche's method is safe with this theta and material. At nu = 0.48 in plane
 /// strain it is 0 for theta = -1, about 10 for theta = 0 and 100 for theta = 1. In between it is
 /// 10 (1 + theta)^2 for the lack of symmetry plus 60 theta for the indefinite boundary term, scaled by
 /// (lambda + 2 mu) / E with E = Material::scaling_modulus(). In nearly incompressible material, whose
-/// elements project the pressure, that scale stays what it is at nu = 0.485 if theta <= 0.
-double least_gamma_0(double theta, const Material& material);
+/// elements project the pressure, that scale stays what it is at nu = 0.485 if theta <= 0. `aspect`: of the
+/// cells at the tread, length along it by height: gamma refers to their diameter, but what bounds the
+/// tractions is the height.
+double least_gamma_0(double theta, const Material& material, double aspect = 1);
+
+/// The aspect of a case's cells at the tread.
+double tread_cell_aspect(const Case& c);
 
 }  // namespace wheelwright

@@ -316,8 +316,8 @@ std::string case_template() {
 std::string case_reference_markdown() {
   std::string result =
       "# The case file\n\n"
-      "<!-- Written by `wheelwright reference` from the declarations in src/wheelwright/case/keys.cc: do not "
-      "edit. -->\n\n"
+      "<!-- Written by `wheelwright reference` from the declarations in src/wheelwright/case/*_keys.cc: "
+      "do not edit. -->\n\n"
       "A case is a [TOML](https://toml.io) file. `wheelwright init` writes one with comments. `wheelwright "
       "check` reports\nevery problem of a case file with its line, and prints the numbers derived from it. A "
       "key that is left out has its\ndefault value. Equation numbers are those of the paper that the method "

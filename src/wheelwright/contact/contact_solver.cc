@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "wheelwright/contact/contact_path.h"
+
 namespace wheelwright {
 namespace {
 
@@ -254,6 +256,68 @@ NewtonEnd<dim> newton_by_given_friction(const ReducedContact<dim>& contact, Cont
   return end;
 }
 
+/// A path from x, and Newton's method from where it ends, which removes its rounding errors.
+NewtonEnd<2> newton_by_path(const ReducedContact<2>& contact, const ContactUnknowns<2>& x,
+                            const Interrupt& interrupt, int steps_before) {
+  const PathEnd<2> path = follow_path(contact, x, interrupt, steps_before);
+  NewtonEnd<2> end = newton(contact, path.x, Cycling::give_up, interrupt, steps_before + path.turns);
+  end.iterations += path.turns;
+  return end;
+}
+
+/// Coulomb's friction in the plane: where Newton's method cycles, a path leads on from its last iterate, and
+/// if none of these arrives, from one of the starts.
+NewtonEnd<2> solve_with_friction(const ReducedContact<2>& contact, std::span<const ContactUnknowns<2>> starts,
+                                 const Interrupt& interrupt) {
+  NewtonEnd<2> end;
+  int iterations = 0;
+  const auto goes_on = [&] { return !end.converged && !interrupt.requested(); };
+  for (const ContactUnknowns<2>& start : starts) {
+    if (goes_on()) {
+      end = newton(contact, contact.touching(start), Cycling::give_up, interrupt, iterations);
+      iterations += end.iterations;
+    }
+    if (goes_on()) {
+      end = newton_by_path(contact, end.x, interrupt, iterations);
+      iterations += end.iterations;
+    }
+  }
+  for (const ContactUnknowns<2>& start : starts)
+    if (goes_on()) {
+      end = newton_by_path(contact, contact.touching(start), interrupt, iterations);
+      iterations += end.iterations;
+    }
+  end.iterations = iterations;
+  return end;
+}
+
+/// Newton's method from each start until one leads to a solution.
+template <int dim>
+NewtonEnd<dim> newton_from_each(const ReducedContact<dim>& contact,
+                                std::span<const ContactUnknowns<dim>> starts, Cycling when_cycling,
+                                const Interrupt& interrupt) {
+  NewtonEnd<dim> end;
+  int iterations = 0;
+  for (const ContactUnknowns<dim>& start : starts) {
+    if (end.converged || interrupt.requested()) break;
+    end = newton(contact, contact.touching(start), when_cycling, interrupt, iterations);
+    iterations += end.iterations;
+  }
+  end.iterations = iterations;
+  return end;
+}
+
+/// Coulomb's friction in space, where its cone is round.
+NewtonEnd<3> solve_with_friction(const ReducedContact<3>& contact, std::span<const ContactUnknowns<3>> starts,
+                                 const Interrupt& interrupt) {
+  NewtonEnd<3> end = newton_from_each(contact, starts, Cycling::give_up, interrupt);
+  if (end.converged || interrupt.requested()) return end;
+  const int iterations = end.iterations;
+  end = newton_by_given_friction(contact, contact.touching(starts.back()), interrupt);
+  end.iterations += iterations;
+  return end;
+}
+
 /// A bonded tread: one linear solve, and another one that lowers its rounding errors.
 template <int dim>
 Expected<ContactState<dim>> solve_bonded(const ReducedContact<dim>& contact) {
@@ -278,26 +342,16 @@ Expected<ContactState<dim>> solve_contact(const ReducedContact<dim>& contact,
                                           std::span<const ContactUnknowns<dim>> starts,
                                           const Interrupt& interrupt) {
   if (contact.is_bonded()) return solve_bonded(contact);
-  const bool has_friction = contact.friction() > 0;
-  NewtonEnd<dim> end;
-  int iterations = 0;
-  for (const ContactUnknowns<dim>& start : starts) {
-    if (end.converged || interrupt.requested()) break;
-    end = newton(contact, contact.touching(start), has_friction ? Cycling::give_up : Cycling::change_fewer,
-                 interrupt);
-    iterations += end.iterations;
-  }
-  if (!end.converged && has_friction && !interrupt.requested()) {
-    end = newton_by_given_friction(contact, contact.touching(starts.back()), interrupt);
-    iterations += end.iterations;
-  }
-  if (end.converged) return contact.state(end.x, iterations);
+  const NewtonEnd<dim> end = contact.friction() > 0
+                                 ? solve_with_friction(contact, starts, interrupt)
+                                 : newton_from_each(contact, starts, Cycling::change_fewer, interrupt);
+  if (end.converged) return contact.state(end.x, end.iterations);
   if (interrupt.requested()) return Failure{FailureReason::interrupted, "while the contact was solved"};
   if (!touches(end.x))
     return Failure{FailureReason::no_contact, "the other loads lift the wheel off the ground"};
   return Failure{FailureReason::newton_stalled,
                  fmt::format("contact: residual {:.3g} Pa after {} iterations from {} starts, {} points{}",
-                             end.residual, iterations, starts.size(), contact.n_points(),
+                             end.residual, end.iterations, starts.size(), contact.n_points(),
                              slides(contact, end.x) ? ", and all touching ones slide" : "")};
 }
 

@@ -306,25 +306,25 @@ RimMotion ReducedContact<dim>::rim_motion(const std::vector<double>& free) const
 template <int dim>
 ContactUnknowns<dim> ReducedContact<dim>::residual(const ContactUnknowns<dim>& x) const {
   const int nc = components(), n = n_points() * nc;
-  Matrix force(n, 1), reply(n, 1);
+  std::vector<double> reply(n);
   ContactUnknowns<dim> result{std::vector<Vec<dim>>(points_.size(), Vec<dim>{}), {}};
   for (const FreeMotion& motion : rim_.free)
     result.rim.push_back(-motion.force - work(preload_resultant_, motion.direction));
   for (int i = 0; i < n_points(); ++i) {
     const Vec<dim> traction = response(i, x.augmented[i]).traction;
     if (!is_active(i, x.augmented[i])) continue;
-    for (int d = 0; d < nc; ++d) force(nc * i + d, 0) = points_[i].weight * traction[d];
+    for (int d = 0; d < nc; ++d)
+      add(points_[i].weight * traction[d], flexibility_->column(nc * i + d), n, reply.data(), 1);
     for (int k = 0; k < n_free(); ++k)
       result.rim[k] -= points_[i].weight *
                        dot<dim>(traction, displacement<dim>(rim_.free[k].direction, points_[i].position));
   }
-  multiply(1, *flexibility_, Op::none, force, Op::none, 0, reply);
   const RimMotion rim = rim_motion(x.rim);
   for (int i = 0; i < n_points(); ++i) {
     Vec<dim> approach = displacement<dim>(rim, points_[i].position);
     approach[0] -= points_[i].gap;
     for (int d = 0; d < nc; ++d)
-      result.augmented[i][d] = x.augmented[i][d] - reply(nc * i + d, 0) + points_[i].gamma * approach[d] -
+      result.augmented[i][d] = x.augmented[i][d] - reply[nc * i + d] + points_[i].gamma * approach[d] -
                                (preload_.empty() ? 0.0 : preload_[i][d]);
   }
   return result;
@@ -387,33 +387,69 @@ Matrix ReducedContact<dim>::active_system(const std::vector<Vec<dim>>& z, const 
 }
 
 template <int dim>
-std::optional<ContactUnknowns<dim>> ReducedContact<dim>::newton_step(
-    const ContactUnknowns<dim>& x, const ContactUnknowns<dim>& residual) const {
-  const int nc = components();
-  const auto active = active_rows(x.augmented);
-  const int n_active = static_cast<int>(active.size());
-  const Matrix tangent = response_tangent(x.augmented, active);
-  Matrix a = active_system(x.augmented, active, tangent), solution(n_active + n_free(), 1);
-  for (int i = 0; i < n_active; ++i) solution(i, 0) = residual.augmented[active[i] / nc][active[i] % nc];
-  for (int k = 0; k < n_free(); ++k) solution(n_active + k, 0) = residual.rim[k];
-  if (!lu_solve(a, solution)) return {};
+std::optional<ContactTangent<dim>> ReducedContact<dim>::tangent(const ContactUnknowns<dim>& x) const {
+  ContactTangent<dim> result;
+  result.contact_ = this;
+  result.active_ = active_rows(x.augmented);
+  result.response_tangent_ = response_tangent(x.augmented, result.active_);
+  auto factor = LuFactor::factor(active_system(x.augmented, result.active_, result.response_tangent_));
+  if (!factor) return {};
+  result.factor_ = *std::move(factor);
+  return result;
+}
+
+template <int dim>
+ContactUnknowns<dim> ContactTangent<dim>::solve(const ContactUnknowns<dim>& residual) const {
+  const ReducedContact<dim>& contact = *contact_;
+  const int nc = contact.components(), n_active = static_cast<int>(active_.size()), n_free = contact.n_free();
+  Matrix solution(n_active + n_free, 1);
+  for (int i = 0; i < n_active; ++i) solution(i, 0) = residual.augmented[active_[i] / nc][active_[i] % nc];
+  for (int k = 0; k < n_free; ++k) solution(n_active + k, 0) = residual.rim[k];
+  solution = factor_.solve(std::move(solution));
 
   // Points without contact follow from the other points: their columns are unit vectors.
   ContactUnknowns<dim> step = residual;
-  const double longest = norm<dim>(points_.front().position);
-  for (int k = 0; k < n_free(); ++k) {
-    step.rim[k] = solution(n_active + k, 0);
-    if (!(std::abs(step.rim[k]) * amplitude(rim_.free[k].direction) < longest)) return {};
-  }
-  for (int i = 0; i < n_points(); ++i) {
-    for (int k = 0; k < n_free(); ++k) {
-      const Vec<dim> motion = displacement<dim>(rim_.free[k].direction, points_[i].position);
-      for (int d = 0; d < nc; ++d) step.augmented[i][d] -= points_[i].gamma * motion[d] * step.rim[k];
+  for (int k = 0; k < n_free; ++k) step.rim[k] = solution(n_active + k, 0);
+  std::vector<double> reply(size_t(nc) * contact.n_points());
+  for (int j = 0; j < n_active; ++j)
+    add(solution(j, 0), response_tangent_.column(j), static_cast<int>(reply.size()), reply.data(), 1);
+  for (int i = 0; i < contact.n_points(); ++i) {
+    const auto& point = contact.points()[i];
+    for (int k = 0; k < n_free; ++k) {
+      const Vec<dim> motion = displacement<dim>(contact.rim().free[k].direction, point.position);
+      for (int d = 0; d < nc; ++d) step.augmented[i][d] -= point.gamma * motion[d] * step.rim[k];
     }
-    for (int d = 0; d < nc; ++d)
-      for (int j = 0; j < n_active; ++j) step.augmented[i][d] += tangent(nc * i + d, j) * solution(j, 0);
+    for (int d = 0; d < nc; ++d) step.augmented[i][d] += reply[nc * i + d];
   }
-  for (int i = 0; i < n_active; ++i) step.augmented[active[i] / nc][active[i] % nc] = solution(i, 0);
+  for (int i = 0; i < n_active; ++i) step.augmented[active_[i] / nc][active_[i] % nc] = solution(i, 0);
+  return step;
+}
+
+template <int dim>
+ContactUnknowns<dim> ReducedContact<dim>::residual_of(int point, const Vec<dim>& traction) const {
+  const int nc = components();
+  ContactUnknowns<dim> result{std::vector<Vec<dim>>(points_.size(), Vec<dim>{}), {}};
+  for (int d = 0; d < nc; ++d) {
+    const double* f = flexibility_->column(nc * point + d);
+    for (int i = 0; i < n_points(); ++i)
+      for (int k = 0; k < nc; ++k)
+        result.augmented[i][k] -= points_[point].weight * traction[d] * f[nc * i + k];
+  }
+  for (const FreeMotion& motion : rim_.free)
+    result.rim.push_back(-points_[point].weight *
+                         dot<dim>(traction, displacement<dim>(motion.direction, points_[point].position)));
+  return result;
+}
+
+template <int dim>
+std::optional<ContactUnknowns<dim>> ReducedContact<dim>::newton_step(
+    const ContactUnknowns<dim>& x, const ContactUnknowns<dim>& residual) const {
+  const auto factored = tangent(x);
+  if (!factored) return {};
+  auto step = factored->solve(residual);
+  const double longest = norm<dim>(points_.front().position);
+  for (int k = 0; k < n_free(); ++k)
+    if (!(std::abs(step.rim[k]) * amplitude(rim_.free[k].direction) < longest)) return {};
   return step;
 }
 
@@ -537,6 +573,8 @@ ContactPatch<dim> ReducedContact<dim>::patch(const ContactState<dim>& state) con
   return patch;
 }
 
+template class ContactTangent<2>;
+template class ContactTangent<3>;
 template class ReducedContact<2>;
 template class ReducedContact<3>;
 

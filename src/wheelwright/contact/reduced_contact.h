@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "wheelwright/contact/contact_law.h"
+#include "wheelwright/linalg/lu_factor.h"
 #include "wheelwright/ring/surface_compliance.h"
 #include "wheelwright/state/contact_patch.h"
 #include "wheelwright/state/load_positions.h"
@@ -54,6 +55,24 @@ struct ContactAdjointLoads {
 struct ContactAdjoint {
   Matrix loads;   ///< -S^T m on the zone's observations, m the multiplier
   RimMotion rim;  ///< of the adjoint
+};
+
+template <int dim>
+class ReducedContact;
+
+/// The derivative of the contact problem's residual at some unknowns, factored.
+template <int dim>
+class ContactTangent {
+ public:
+  /// Returns the change of the unknowns that changes the residual by `residual`.
+  ContactUnknowns<dim> solve(const ContactUnknowns<dim>& residual) const;
+
+ private:
+  friend class ReducedContact<dim>;
+  const ReducedContact<dim>* contact_;
+  std::vector<int> active_;
+  Matrix response_tangent_;
+  LuFactor factor_;
 };
 
 /// The contact problem (27) with the rigid rim (4.3) of one load position, condensed onto its contact zone:
@@ -113,6 +132,12 @@ class ReducedContact {
 
   ContactUnknowns<dim> residual(const ContactUnknowns<dim>& x) const;
 
+  /// The residual's derivative at x, which refers to this object. Empty if it is singular.
+  std::optional<ContactTangent<dim>> tangent(const ContactUnknowns<dim>& x) const;
+
+  /// The change of the residual, beyond that of z itself, when a point's traction changes by `traction`.
+  ContactUnknowns<dim> residual_of(int point, const Vec<dim>& traction) const;
+
   /// Newton's step, to be subtracted. Empty if the tangent is singular or the rim would move farther than the
   /// tread's radius.
   std::optional<ContactUnknowns<dim>> newton_step(const ContactUnknowns<dim>& x,
@@ -142,6 +167,7 @@ class ReducedContact {
   ContactPatch<dim> patch(const ContactState<dim>& state) const;
 
  private:
+  friend class ContactTangent<dim>;
   int components() const { return friction_ > 0 || is_bonded() ? dim : 1; }
   /// The contact points of a column, and the column and the point in it of one of the zone's points.
   int per_column() const { return n_points() / zone_.n_columns; }

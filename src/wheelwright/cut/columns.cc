@@ -396,7 +396,7 @@ void Columns::append_curve(const Piece& piece, int crossing, const GaussRule& ru
   double rise = 0, variation = 0;
   for (const auto& place : piece.interval.places(rule, first, last)) {
     const Zero zero = zeros(piece, place)[crossing];
-    if (zero.slope == 0) continue;
+    if (zero.slope == 0 || place.weight == 0) continue;  // of a part that is no longer than rounding
     const Gradient g = gradient(place.x, zero);
     curve.push_back({place, zero.height, g, -place.weight * g[0] / g[1]});
     rise += curve.back().rise;

@@ -172,13 +172,12 @@ auto ElasticElement<dim>::gradient(const Vec<dim>& xi) const
 }
 
 template <int dim>
-auto ElasticElement<dim>::second_derivative(const Vec<dim>& xi, const Vec<dim>& n) const
+auto ElasticElement<dim>::second_derivative(const Vec<dim>& xi, int axis, const Vec<dim>& n) const
     -> std::array<std::array<double, max_dofs>, dim> {
   const ShapeFunctions<dim> shape(degree_, xi);
   const Mat<dim> inverse_jacobian = inverse<dim>(map_.jacobian(shape));
-  Vec<dim> m{};  // n in the coordinates of the unit cell
-  for (int i = 0; i < dim; ++i)
-    for (int j = 0; j < dim; ++j) m[i] += inverse_jacobian[i][j] * n[j];
+  Vec<dim> m{};  // in the coordinates of the unit cell
+  for (int j = 0; j < dim; ++j) m[axis] += inverse_jacobian[axis][j] * n[j];
   const auto curvature = map_.second_derivative(xi, m);  // d^2 x / dm^2
 
   std::array<std::array<double, max_dofs>, dim> result{};
@@ -254,31 +253,50 @@ Matrix gradient_stiffness(const ElasticElement<dim>& element, const Material& ma
   return k;
 }
 
+namespace {
+
 template <int dim>
-Matrix ghost_stiffness(const ElasticElement<dim>& minus, const ElasticElement<dim>& plus, int axis,
-                       double angle, const Material& material, const GhostPenalty& ghost) {
-  const int n_minus = minus.n_dofs(), n = n_minus + plus.n_dofs();
+using DofMap = std::array<std::array<double, ElasticElement<dim>::max_dofs>, dim>;
+
+/// The ghost penalty compares these values on both sides of a face, at one of its points: linear maps of the
+/// dofs of a cell (rows: components in the frame of the minus cell).
+template <int dim>
+struct FaceTerm {
+  DofMap<dim> minus, plus;
+  double weight;  ///< of the square of their difference
+};
+
+/// A point with the strain of u itself, whose trace is not projected.
+template <int dim>
+typename ElasticElement<dim>::Point with_own_dilatation(const ElasticElement<dim>& element,
+                                                        const Vec<dim>& xi) {
+  auto point = element.at(xi);
+  for (int k = 0; k < element.n_dofs() && element.projects_dilatation(); ++k) {
+    double trace = 0;
+    for (int d = 0; d < dim; ++d) trace += point.strain[d][k];
+    for (int d = 0; d < dim; ++d) point.strain[d][k] += (point.dilatation[k] - trace) / dim;
+  }
+  return point;
+}
+
+/// `at` gives the map and strain of an element at a point of the unit cell.
+template <int dim>
+std::vector<FaceTerm<dim>> face_terms(const ElasticElement<dim>& minus, const ElasticElement<dim>& plus,
+                                      int axis, double angle, const Material& material,
+                                      const GhostPenalty& ghost, const auto& at) {
   const double h = 0.5 * (minus.size_across(axis) + plus.size_across(axis)),
                modulus = material.scaling_modulus();
-  Matrix k(n, n);
-  std::array<std::vector<double>, dim> jump;
-  for (auto& row : jump) row.resize(n);
-  const auto set_jump = [&](const auto& minus_map, const auto& plus_map) {
-    for (int j = 0; j < n_minus; ++j)
-      for (int d = 0; d < dim; ++d) jump[d][j] = -minus_map[d][j];
+  const auto in_frame_of_minus = [&](const DofMap<dim>& of_plus) {
+    DofMap<dim> result{};
     for (int j = 0; j < plus.n_dofs(); ++j) {
       Vec<dim> column;
-      for (int d = 0; d < dim; ++d) column[d] = plus_map[d][j];
+      for (int d = 0; d < dim; ++d) column[d] = of_plus[d][j];
       column = rotated<dim>(column, angle);
-      for (int d = 0; d < dim; ++d) jump[d][n_minus + j] = column[d];
+      for (int d = 0; d < dim; ++d) result[d][j] = column[d];
     }
+    return result;
   };
-  const auto add_jump = [&](double weight) {
-    for (int d = 0; d < dim; ++d)
-      for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i) k(i, j) += weight * jump[d][i] * jump[d][j];
-  };
-
+  std::vector<FaceTerm<dim>> terms;
   for (const auto& q : unit_cell_rule<dim - 1>(minus.degree() + 1)) {
     Vec<dim> xi_minus, xi_plus, reference_normal{};
     for (int d = 0, f = 0; d < dim; ++d) {
@@ -287,20 +305,128 @@ Matrix ghost_stiffness(const ElasticElement<dim>& minus, const ElasticElement<di
       if (d != axis) ++f;
     }
     reference_normal[axis] = 1;
-    const auto at_minus = minus.at(xi_minus), at_plus = plus.at(xi_plus);
+    const auto at_minus = at(minus, xi_minus), at_plus = at(plus, xi_plus);
     const auto surface = map_surface<dim>(at_minus.jacobian, reference_normal);
     const Vec<dim> normal = surface.normal, plus_normal = rotated<dim>(normal, -angle);
     const double weight = q.weight * surface.scale * 0.5 * ghost.xi;
+    terms.push_back({traction_map<dim>(minus, material, at_minus, normal),
+                     in_frame_of_minus(traction_map<dim>(plus, material, at_plus, plus_normal)),
+                     weight * h / modulus});
+    if (n_compared_derivatives(ghost, minus.degree()) > 1)
+      terms.push_back({minus.second_derivative(xi_minus, axis, normal),
+                       in_frame_of_minus(plus.second_derivative(xi_plus, axis, plus_normal)),
+                       weight * h * h * h * modulus});
+  }
+  return terms;
+}
 
-    set_jump(traction_map<dim>(minus, material, at_minus, normal),
-             traction_map<dim>(plus, material, at_plus, plus_normal));
-    add_jump(weight * h / modulus);
-    if (ghost.kind == GhostPenaltyKind::full && minus.degree() > 1) {
-      set_jump(minus.second_derivative(xi_minus, normal), plus.second_derivative(xi_plus, plus_normal));
-      add_jump(weight * h * h * h * modulus);
+/// The form of the jumps on the dofs of both cells.
+template <int dim>
+Matrix jump_stiffness(const ElasticElement<dim>& minus, const ElasticElement<dim>& plus,
+                      const std::vector<FaceTerm<dim>>& terms) {
+  const int n_minus = minus.n_dofs(), n = n_minus + plus.n_dofs();
+  Matrix k(n, n);
+  std::vector<double> jump(n);
+  for (const auto& term : terms)
+    for (int d = 0; d < dim; ++d) {
+      for (int j = 0; j < n_minus; ++j) jump[j] = -term.minus[d][j];
+      for (int j = n_minus; j < n; ++j) jump[j] = term.plus[d][j - n_minus];
+      for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) k(i, j) += term.weight * jump[i] * jump[j];
+    }
+  return k;
+}
+
+/// The places of a node of a cell among the nodes of the cell's first or last face normal to the azimuth, and
+/// among the layers from there.
+struct LayerNode {
+  int face_node;
+  int layer;  ///< 0 on the first azimuth of the cell
+};
+template <int dim>
+LayerNode layer_node(int degree, int node) {
+  const auto p = local_node_position<dim>(degree, node);
+  int face_node = p[0];
+  if constexpr (dim == 3) face_node += p[2] * (degree + 1);
+  return {face_node, p[1]};
+}
+
+/// The dofs of a cell whose displacement has given values on a face normal to the azimuth, the first or the
+/// last, and given derivatives across it with respect to the coordinate of the unit cell. Columns: values at
+/// the face's nodes, then first derivatives, then second ones; polar components at the face.
+template <int dim>
+Matrix extension(int degree, int n_derivatives, bool from_first_face, double column_angle) {
+  const int per_face = dim * power(degree + 1, dim - 1);
+  Matrix result(dim * nodes_per_cell<dim>(degree), per_face * (1 + n_derivatives));
+  for (int a = 0; a < nodes_per_cell<dim>(degree); ++a) {
+    const auto [face_node, layer] = layer_node<dim>(degree, a);
+    const double away = double(layer) / degree - (from_first_face ? 0 : 1);
+    const double powers[] = {1, away, away * away / 2};
+    for (int c = 0; c < dim; ++c) {
+      Vec<dim> unit{};
+      unit[c] = 1;
+      unit = rotated<dim>(unit, -away * column_angle);
+      for (int k = 0; k <= n_derivatives; ++k)
+        for (int d = 0; d < dim; ++d)
+          result(ElasticElement<dim>::dof(a, d), k * per_face + dim * face_node + c) = powers[k] * unit[d];
     }
   }
-  return k;
+  return result;
+}
+
+}  // namespace
+
+template <int dim>
+Matrix ghost_stiffness(const ElasticElement<dim>& minus, const ElasticElement<dim>& plus, int axis,
+                       double angle, const Material& material, const GhostPenalty& ghost) {
+  return jump_stiffness<dim>(
+      minus, plus, face_terms<dim>(minus, plus, axis, angle, material, ghost, with_own_dilatation<dim>));
+}
+
+template <int dim>
+Matrix traction_jump_stiffness(const ElasticElement<dim>& minus, const ElasticElement<dim>& plus, int axis,
+                               double angle, const Material& material, double weight) {
+  const GhostPenalty of_traction{.kind = GhostPenaltyKind::paper, .xi = weight};
+  const auto at = [](const ElasticElement<dim>& element, const Vec<dim>& xi) { return element.at(xi); };
+  return jump_stiffness<dim>(minus, plus,
+                             face_terms<dim>(minus, plus, axis, angle, material, of_traction, at));
+}
+
+template <int dim>
+GhostHalves divided_ghost_stiffness(const ElasticElement<dim>& element, double column_angle,
+                                    const Material& material, const GhostPenalty& ghost) {
+  const int degree = element.degree(), n_cell = element.n_dofs(),
+            n_derivatives = n_compared_derivatives(ghost, degree),
+            per_face = dim * power(degree + 1, dim - 1), n = n_cell + n_derivatives * per_face;
+  const Matrix before = extension<dim>(degree, n_derivatives, false, column_angle),
+               after = extension<dim>(degree, n_derivatives, true, column_angle);
+  GhostHalves halves{Matrix(n, n), Matrix(n, n)};
+  std::vector<double> between(per_face * (1 + n_derivatives)), difference(n);
+  const auto add = [&](const std::array<double, ElasticElement<dim>::max_dofs>& in_cell, int face_layer,
+                       double weight, Matrix& k) {
+    for (int j = 0; j < n_cell; ++j) difference[j] = -in_cell[j];
+    for (int a = 0; a < nodes_per_cell<dim>(degree); ++a)
+      if (const auto [face_node, layer] = layer_node<dim>(degree, a); layer == face_layer)
+        for (int c = 0; c < dim; ++c)
+          difference[ElasticElement<dim>::dof(a, c)] += between[dim * face_node + c];
+    for (int j = n_cell; j < n; ++j) difference[j] = between[j - n_cell + per_face];
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) k(i, j) += weight * difference[i] * difference[j];
+  };
+  for (const auto& term :
+       face_terms<dim>(element, element, 1, column_angle, material, ghost, with_own_dilatation<dim>))
+    for (int d = 0; d < dim; ++d) {
+      for (size_t j = 0; j < between.size(); ++j) {
+        double sum = 0;
+        for (int i = 0; i < n_cell; ++i)
+          sum += term.minus[d][i] * before(i, static_cast<int>(j)) +
+                 term.plus[d][i] * after(i, static_cast<int>(j));
+        between[j] = sum / 2;
+      }
+      add(term.minus[d], degree, 2 * term.weight, halves.minus);
+      add(term.plus[d], 0, 2 * term.weight, halves.plus);
+    }
+  return halves;
 }
 
 Matrix half_of_symmetric_pair(const Matrix& form, int degree) {
@@ -332,7 +458,11 @@ Matrix half_of_symmetric_pair(const Matrix& form, int degree) {
   template Matrix gradient_stiffness<dim>(const ElasticElement<dim>&, const Material&,                      \
                                           std::span<const ReferencePoint<dim>>);                            \
   template Matrix ghost_stiffness<dim>(const ElasticElement<dim>&, const ElasticElement<dim>&, int, double, \
-                                       const Material&, const GhostPenalty&);
+                                       const Material&, const GhostPenalty&);                               \
+  template Matrix traction_jump_stiffness<dim>(const ElasticElement<dim>&, const ElasticElement<dim>&, int, \
+                                               double, const Material&, double);                            \
+  template GhostHalves divided_ghost_stiffness<dim>(const ElasticElement<dim>&, double, const Material&,    \
+                                                    const GhostPenalty&);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)
 #undef WHEELWRIGHT_INSTANTIATE

@@ -79,9 +79,10 @@ class ElasticElement {
   /// The gradient of u: du_i / dx_j in row dim * i + j.
   std::array<std::array<double, max_dofs>, dim * dim> gradient(const Vec<dim>& xi) const;
 
-  /// The second derivative d^2 u / dn^2 along a unit vector n, as a linear map of the dofs (rows: components
-  /// of u).
-  std::array<std::array<double, max_dofs>, dim> second_derivative(const Vec<dim>& xi,
+  /// The second derivative d^2 u / dm^2 across a face, as a linear map of the dofs (rows: components of u):
+  /// m is along the grid's line through the point that crosses the face, normal to `axis`, and its component
+  /// along the face's unit normal n is 1.
+  std::array<std::array<double, max_dofs>, dim> second_derivative(const Vec<dim>& xi, int axis,
                                                                   const Vec<dim>& n) const;
 
   /// Whether the strain's trace is projected.
@@ -127,13 +128,33 @@ Matrix gradient_stiffness(const ElasticElement<dim>& element, const Material& ma
                           std::span<const ReferencePoint<dim>> points);
 
 /// The ghost penalty of one face F on the dofs (minus cell, plus cell): 1/2 int_F xi h_F / E [[sigma
-/// n]].[[sigma n]] as in (81), and for GhostPenaltyKind::full also 1/2 int_F xi h_F^3 E [[d_nn u]].[[d_nn
-/// u]], where h_F is the mean size_across(axis) of the two cells and E is Material::scaling_modulus(). `axis`
-/// is the axis normal to the face, and `angle` is the azimuth of the frame of the plus cell minus that of the
-/// minus cell [rad].
+/// n]].[[sigma n]] as in (81), and for GhostPenaltyKind::full also 1/2 int_F xi h_F^3 E [[d_mm u]].[[d_mm
+/// u]] with m as in second_derivative() and the strain of u itself, where h_F is the mean size_across(axis)
+/// of the two cells and E is Material::scaling_modulus(). `axis` is the axis normal to the face, and `angle`
+/// is the azimuth of the frame of the plus cell minus that of the minus cell [rad].
 template <int dim>
 Matrix ghost_stiffness(const ElasticElement<dim>& minus, const ElasticElement<dim>& plus, int axis,
                        double angle, const Material& material, const GhostPenalty& ghost);
+
+/// The penalty of the traction's jump alone, with the given weight for xi and with the strains that carry the
+/// load, whose trace is projected where the material asks for it.
+template <int dim>
+Matrix traction_jump_stiffness(const ElasticElement<dim>& minus, const ElasticElement<dim>& plus, int axis,
+                               double angle, const Material& material, double weight);
+
+/// The ghost penalty of a face normal to the azimuth as a sum of two forms, each on the dofs of one of its
+/// cells and on derivatives of u across the face, which are unknowns of their own: the minimum of the sum
+/// over all derivatives, polynomials on the face that are continuous along it, is ghost_stiffness(). So the
+/// cells on both sides share nothing but values and derivatives on the face. The dofs of the derivatives come
+/// after those of the cell: at the nodes of the face in the cell's order, with respect to the coordinate of
+/// the unit cell, in polar components at the face; the first derivative, then the second if
+/// n_compared_derivatives() is 2.
+struct GhostHalves {
+  Matrix minus, plus;
+};
+template <int dim>
+GhostHalves divided_ghost_stiffness(const ElasticElement<dim>& element, double column_angle,
+                                    const Material& material, const GhostPenalty& ghost);
 
 /// A form on the dofs of two cells (minus, plus) side by side along the axle, for fields that are their own
 /// mirror image in the face between them: the half of it that belongs to the minus cell, on the dofs of that

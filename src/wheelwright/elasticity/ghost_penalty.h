@@ -14,4 +14,10 @@ struct GhostPenalty {
   bool operator==(const GhostPenalty&) const = default;
 };
 
+/// The number of derivatives across a face that the ghost penalty compares: the first, in the traction, and
+/// perhaps the second.
+constexpr int n_compared_derivatives(const GhostPenalty& ghost, int degree) {
+  return ghost.kind == GhostPenaltyKind::full && degree > 1 ? 2 : 1;
+}
+
 }  // namespace wheelwright

@@ -32,6 +32,8 @@ ElementTable<dim>::ElementTable(const PolarGrid<dim>& grid, int degree, const Ma
                                              axis == 1 ? column_angle : 0.0,
                                              for_ghost_penalty(materials.in_row(radial)), ghost));
     }
+    divided_ghosts_.push_back(divided_ghost_stiffness<dim>(
+        elements_[radial], column_angle, for_ghost_penalty(materials.in_row(radial)), ghost));
     if constexpr (dim == 3)
       ghosts_at_middle_.push_back(half_of_symmetric_pair(face_ghost(radial, 2), degree));
   }
@@ -41,7 +43,9 @@ template <int dim>
 SectorStiffness<dim> sector_stiffness(const CutDomain<dim>& domain, const ElementTable<dim>& table,
                                       int core_rows) {
   const PolarGrid<dim>& grid = domain.grid;
-  SectorStiffness<dim> sector{SectorSpace<dim>(domain, table.degree(), core_rows, table.sides()), {}, {}};
+  SectorStiffness<dim> sector{
+      SectorSpace<dim>(domain, table.degree(), core_rows, table.sides(), table.ghost()), {}, {}};
+  using Face = typename SectorSpace<dim>::Face;
   const SectorSpace<dim>& space = sector.space;
 
   typename StencilMatrix<dim>::Pattern pattern(space);
@@ -52,17 +56,26 @@ SectorStiffness<dim> sector_stiffness(const CutDomain<dim>& domain, const Elemen
     pattern.couple(cell_nodes[cell]);
   }
   for (const GhostFace& face : domain.ghost_faces) {
-    if (!space.holds(face) || (table.ghost().kind == GhostPenaltyKind::paper && !face.crossed)) continue;
+    if (!space.penalizes(face) || table.ghost().xi == 0) continue;
     const int radial = grid.cell_position(face.minus)[0];
-    auto nodes = space.cell_nodes(face.minus);
-    if (face.axis == 2 && face.minus == face.plus) {
-      sector.ghosts.push_back({std::move(nodes), &table.ghost_at_middle(radial)});
+    const auto add = [&](std::vector<int> nodes, const Matrix& stiffness) {
+      pattern.couple(nodes);
+      sector.ghosts.push_back({std::move(nodes), &stiffness});
+    };
+    if (space.wraps(face)) {
+      const GhostHalves& halves = table.divided_face_ghost(radial);
+      add(space.cell_and_face_nodes(face.minus, Face::last), halves.minus);
+      add(space.cell_and_face_nodes(face.plus, Face::first), halves.plus);
       continue;
     }
-    const auto plus = space.cell_nodes(face.plus, space.wraps(face) ? 1 : 0);
+    auto nodes = space.cell_nodes(face.minus);
+    if (face.axis == 2 && face.minus == face.plus) {
+      add(std::move(nodes), table.ghost_at_middle(radial));
+      continue;
+    }
+    const auto plus = space.cell_nodes(face.plus);
     nodes.insert(nodes.end(), plus.begin(), plus.end());
-    pattern.couple(nodes);
-    sector.ghosts.push_back({std::move(nodes), &table.face_ghost(radial, face.axis)});
+    add(std::move(nodes), table.face_ghost(radial, face.axis));
   }
 
   StencilMatrix<dim> matrix(std::move(pattern));

@@ -40,6 +40,8 @@ class ElementTable {
   const Matrix& full_cell_stiffness(int radial) const { return stiffness_[radial]; }
   /// The ghost penalty of a face on the dofs (minus cell, plus cell); `radial` is the row of the minus cell.
   const Matrix& face_ghost(int radial, int axis) const { return ghosts_[dim * radial + axis]; }
+  /// The same of a face between two sectors, which lies in this radial row.
+  const GhostHalves& divided_face_ghost(int radial) const { return divided_ghosts_[radial]; }
   /// Half of that of a face whose plus cell is the mirror image of the minus cell, on the dofs of the minus
   /// cell; when dim = 3.
   const Matrix& ghost_at_middle(int radial) const { return ghosts_at_middle_[radial]; }
@@ -54,6 +56,7 @@ class ElementTable {
   std::vector<ElasticElement<dim>> elements_;
   std::vector<Matrix> stiffness_;
   std::vector<Matrix> ghosts_, ghosts_at_middle_;
+  std::vector<GhostHalves> divided_ghosts_;
 };
 
 /// Stiffness of the core of one sector: bulk (2) and ghost penalty (81), with a fixed rim, free sector faces
@@ -63,8 +66,9 @@ struct SectorStiffness {
   SectorSpace<dim> space;
   SparseSymmetric matrix;
 
-  /// A face with ghost penalty: `stiffness` acts on the dofs of `nodes` (minus cell, plus cell; -1 for fixed
-  /// nodes; the minus cell alone if the plus cell is its mirror image).
+  /// A ghost penalty: `stiffness` acts on the dofs of `nodes`, with -1 for fixed nodes: the minus cell and
+  /// the plus cell of a face; the minus cell alone if the plus cell is its mirror image; or one of these
+  /// cells and the derivatives on the face if it is one between sectors.
   struct Ghost {
     std::vector<int> nodes;
     const Matrix* stiffness;

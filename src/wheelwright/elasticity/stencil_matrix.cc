@@ -62,7 +62,8 @@ void StencilMatrix<dim>::hold(double stiffness) {
   const SectorSpace<dim>& space = *pattern_.space_;
   for (int a = 0; a < space.n_nodes(); ++a)
     for (int c = 0; c < dim; ++c)
-      if (space.is_held(a, c)) matrix_.values[matrix_.column_start[space.dof(a, c)]] = stiffness;
+      if (space.is_held(a, c) && space.position(a)[1] <= space.last_line())
+        matrix_.values[matrix_.column_start[space.dof(a, c)]] = stiffness;
 }
 
 template <int dim>

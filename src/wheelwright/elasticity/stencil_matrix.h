@@ -46,6 +46,7 @@ class StencilMatrix {
   void add(std::span<const int> nodes, const Matrix& block);
 
   /// Gives the dofs that the side faces hold a stiffness of their own, which couples with nothing.
+  /// Derivatives on the last face get theirs in the next sector.
   void hold(double stiffness);
 
   SparseSymmetric release() && { return std::move(matrix_); }

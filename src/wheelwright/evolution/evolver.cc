@@ -171,9 +171,11 @@ LevelSet<dim> Evolver<dim>::with_features(const LevelSet<dim>& psi, const Featur
 
 template <int dim>
 Expected<MeasuredShape<dim>> Evolver<dim>::measured(LevelSet<dim> psi, const FeatureSize& size) const {
-  LevelSet<dim> shape = with_features(psi, size);
-  if (auto failure = check_widths(shape, size)) return *failure;
-  return wheelwright::measured(std::move(shape), cut_points_);
+  if (check_widths(psi, size)) {
+    psi = with_features(psi, size);
+    if (auto failure = check_widths(psi, size)) return *failure;
+  }
+  return wheelwright::measured(std::move(psi), cut_points_);
 }
 
 /// Fails where a wall or a gap is narrower than its least width by more than the resolution of the nodes
@@ -198,12 +200,10 @@ Expected<MeasuredShape<dim>> Evolver<dim>::with_measure(const LevelSet<dim>& psi
   for (int turn = 1;; ++turn) {
     auto shifted = wheelwright::with_measure<dim>(shape, bands_, target, boundary_measure, cut_points_);
     if (!shifted || !size.any()) return shifted;
-    if (turn == most_turns) {
-      if (auto failure = check_widths(shifted->shape, size)) return *failure;
-      return shifted;
-    }
     shape = with_features(shifted->shape, size);
-    if (shape.values == shifted->shape.values) return shifted;
+    if (turn < most_turns && shape.values != shifted->shape.values) continue;
+    if (auto failure = check_widths(shifted->shape, size)) return *failure;
+    return shifted;
   }
 }
 

@@ -25,6 +25,13 @@ constexpr double rounding = 1e-3;
 /// much in walls of two cells, and the shift to a measure some more.
 constexpr double margin = 0.02;
 
+/// Necks and gaps between the nodes may stay too narrow: each further pass puts larger balls there, by the
+/// margin for walls.
+constexpr int most_passes = 12;
+
+/// Each further pass closes gaps that are wider by this part of the least gap.
+constexpr double growth = 0.1;
+
 /// What filling must add at a node to count, by the resolution: redistancing moves the boundary by less.
 constexpr double least_filling = 0.1;
 
@@ -157,6 +164,22 @@ LevelSet<dim> shifted(LevelSet<dim> psi, double shift) {
   return psi;
 }
 
+/// The shape closed by a gap near the centres of some balls.
+template <int dim>
+LevelSet<dim> closed_near(const LevelSet<dim>& psi, const std::vector<MedialBall<dim>>& balls, double gap) {
+  const DistanceToCentres<dim> distance(psi.lattice, balls);
+  const auto signed_distance = redistance(psi);
+  const auto dilated = shifted(signed_distance, -0.5 * gap);
+  const bool fills_all = std::ranges::all_of(dilated.values, [](double x) { return x < 0; });
+  const auto closed = fills_all ? dilated : shifted(redistance(dilated), 0.5 * gap);
+  const double least = least_filling * psi.lattice.grid().resolution();
+  LevelSet<dim> result = psi;
+  for (int node = 0; node < psi.lattice.n_nodes(); ++node)
+    if (distance(node) < gap && closed.values[node] < signed_distance.values[node] - least)
+      result.values[node] = closed.values[node];
+  return result;
+}
+
 }  // namespace
 
 template <int dim>
@@ -174,29 +197,25 @@ std::vector<MedialBall<dim>> thin_walls(const LevelSet<dim>& psi, double radius)
 
 template <int dim>
 LevelSet<dim> with_thick_walls(const LevelSet<dim>& psi, double wall) {
-  const auto balls = thin_walls(psi, 0.5 * wall * (1 - rounding));
-  if (balls.empty()) return psi;
-  const DistanceToCentres<dim> distance(psi.lattice, balls);
   LevelSet<dim> result = psi;
-  for (int node = 0; node < psi.lattice.n_nodes(); ++node)
-    result.values[node] = std::min(result.values[node], distance(node) - 0.5 * (1 + margin) * wall);
+  for (int pass = 1; pass <= most_passes; ++pass) {
+    const auto balls = thin_walls(result, 0.5 * wall * (1 - rounding));
+    if (balls.empty()) break;
+    const DistanceToCentres<dim> distance(psi.lattice, balls);
+    for (int node = 0; node < psi.lattice.n_nodes(); ++node)
+      result.values[node] = std::min(result.values[node], distance(node) - 0.5 * (1 + pass * margin) * wall);
+  }
   return result;
 }
 
 template <int dim>
 LevelSet<dim> without_narrow_gaps(const LevelSet<dim>& psi, double gap) {
-  const auto balls = thin_walls(negative(psi), 0.5 * gap * (1 - rounding));
-  if (balls.empty()) return psi;
-  const DistanceToCentres<dim> distance(psi.lattice, balls);
-  const auto signed_distance = redistance(psi);
-  const auto dilated = shifted(signed_distance, -0.5 * gap);
-  const bool fills_all = std::ranges::all_of(dilated.values, [](double x) { return x < 0; });
-  const auto closed = fills_all ? dilated : shifted(redistance(dilated), 0.5 * gap);
-  const double least = least_filling * psi.lattice.grid().resolution();
   LevelSet<dim> result = psi;
-  for (int node = 0; node < psi.lattice.n_nodes(); ++node)
-    if (distance(node) < gap && closed.values[node] < signed_distance.values[node] - least)
-      result.values[node] = closed.values[node];
+  for (int pass = 0; pass < most_passes; ++pass) {
+    const auto balls = thin_walls(negative(result), 0.5 * gap * (1 - rounding));
+    if (balls.empty()) break;
+    result = closed_near(result, balls, gap * (1 + pass * growth));
+  }
   return result;
 }
 

@@ -38,14 +38,15 @@ template <int dim>
 std::vector<MedialBall<dim>> thin_walls(const LevelSet<dim>& psi, double radius);
 
 /// Walls thinner than `wall` with material added on both sides until they are as thick, and 2 % more: a ball
-/// of that diameter is put in the place of every one of thin_walls(). Elsewhere the shape stays as it is.
+/// of that diameter is put in the place of every one of thin_walls(), and larger ones, up to 24 %, where a
+/// neck between the nodes is still too thin. Elsewhere the shape stays as it is.
 template <int dim>
 LevelSet<dim> with_thick_walls(const LevelSet<dim>& psi, double wall);
 
 /// Holes, and parts of holes, between whose edges less than `gap` is left are filled: near the middle of such
 /// gaps the material is moved outward by half of it and back, each from the signed distance (closing, Serra
-/// 1982). What is left between the edges in between may be too thin for the nodes: there a gap that is half
-/// a cell wider is filled too. Elsewhere the shape stays as it is.
+/// 1982). Where gaps stay narrow, because what fills them lies between the nodes, wider ones are filled too,
+/// by a tenth of `gap` more each time. Elsewhere the shape stays as it is.
 template <int dim>
 LevelSet<dim> without_narrow_gaps(const LevelSet<dim>& psi, double gap);
 
@@ -61,7 +62,8 @@ std::vector<ShapeEvent<dim>> narrowest_places(const LevelSet<dim>& psi, const Fe
 template <int dim>
 LevelSet<dim> with_feature_size(const LevelSet<dim>& psi, const FeatureSize& size);
 
-/// This tells which points of the boundary bound a wall, or a gap, that is wider than the least by at most 3 %.
+/// This tells which points of the boundary bound a wall, or a gap, that is wider than the least by at most 3
+/// %.
 struct AtLeastWidth {
   std::vector<bool> wall, gap;  ///< one value per point
 };

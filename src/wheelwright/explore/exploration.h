@@ -13,7 +13,7 @@ namespace wheelwright {
 
 /// What an exploration tries.
 struct ExplorationPlan {
-  int starts = 30;  ///< the case's own shape, if it has one, and drawn ones
+  int starts = 60;  ///< the case's own shape, if it has one, and drawn ones
   std::uint64_t seed = 1;
   bool keeps_sectors = false;  ///< only numbers of holes that are multiples of the case's sectors
   std::vector<RankedQuantity> quantities;

@@ -248,50 +248,51 @@ std::optional<StopReason> ShapeOptimizer<dim>::advance(OptimizationState<dim>& s
   return at_last == Mending::done ? std::nullopt : reason;
 }
 
-/// Gives the state's shape the final widths, if it does not have them: walls that are too thin are made
-/// thicker, or taken out if that is better. Other shapes are not compared with those before.
+/// Gives the state's shape the final widths, if it does not have them. The best of the mended shapes goes on.
 template <int dim>
 typename ShapeOptimizer<dim>::Mending ShapeOptimizer<dim>::mend(OptimizationState<dim>& state,
                                                                 const Observer& observer) const {
   OptimizationState<dim> next = state;
   next.final_widths = FinalWidths::kept;
-  const FeatureSize widths = widths_after(next);
-  if (evolver_.with_features(state.shape, widths).values == state.shape.values) {
+  if (has_widths(state.shape, widths_after(next))) {
     state = std::move(next);
     return Mending::nothing;
   }
-  std::vector<Trial<dim>> trials{mended(next, state.shape)};
-  const LevelSet<dim> cut = without_thin_walls(state.shape, widths.wall);
-  if (cut.values != state.shape.values) trials.push_back(mended(next, cut));
+  const std::vector<Trial<dim>> trials = mended(next);
   if (std::ranges::any_of(trials, was_interrupted<dim>)) return Mending::interrupted;
+  const bool is_possible = trials.back().verdict == Verdict::accepted;
+  if (!is_possible) state.final_widths = FinalWidths::impossible;
+  for (std::size_t k = 0; k + 1 < trials.size(); ++k) observer(trials[k], state);
+  if (is_possible) state = begun_anew(std::move(next), trials.back());
+  observer(trials.back(), state);
+  return is_possible ? Mending::done : Mending::nothing;
+}
+
+template <int dim>
+bool ShapeOptimizer<dim>::has_widths(const LevelSet<dim>& shape, const FeatureSize& widths) const {
+  return evolver_.with_features(shape, widths).values == shape.values;
+}
+
+/// The state's shape with the widths of the shapes that follow it, in two ways: with walls that are too thin
+/// made thicker, and without them. The better one comes last, and is accepted if it could be evaluated.
+template <int dim>
+std::vector<Trial<dim>> ShapeOptimizer<dim>::mended(const OptimizationState<dim>& state) const {
+  const FeatureSize widths = widths_after(state);
+  std::vector<Trial<dim>> trials{mended(state, state.shape)};
+  const LevelSet<dim> cut = without_thin_walls(state.shape, widths.wall);
+  if (cut.values != state.shape.values) trials.push_back(mended(state, cut));
   const auto merit_or_worst = [&](const Trial<dim>& trial) {
     return trial.failure ? std::numeric_limits<double>::infinity()
                          : merit_of(*trial.evaluation, options_.objective, state.memory.penalties);
   };
   std::ranges::stable_sort(trials, std::greater<>(), merit_or_worst);
-  for (size_t k = 0; k < trials.size(); ++k) trials[k].halvings = static_cast<int>(k);
+  for (std::size_t k = 0; k < trials.size(); ++k) trials[k].halvings = static_cast<int>(k);
   Trial<dim>& best = trials.back();
-  if (best.failure) {
-    state.final_widths = FinalWidths::impossible;
-    for (const auto& trial : trials) observer(trial, state);
-    return Mending::nothing;
-  }
-  for (size_t k = 0; k + 1 < trials.size(); ++k) observer(trials[k], state);
+  if (best.failure) return trials;
   best.verdict = Verdict::accepted;
   for (const auto& event : narrowest_places(state.shape, widths)) best.events.push_back(event);
   add_changes(state.shape, best);
-  next.shape = best.shape;
-  next.evaluation = *best.evaluation;
-  next.measure = best.measure;
-  next.iteration = best.iteration;
-  next.step = options_.step;
-  ++next.since_redistance;
-  ++next.since_smoothing;
-  next.history = {objective_of(*best.evaluation)};
-  next.history_begin = best.iteration;
-  state = std::move(next);
-  observer(best, state);
-  return Mending::done;
+  return trials;
 }
 
 /// The trial of a shape with the widths of the shapes that follow the state.
@@ -306,6 +307,22 @@ Trial<dim> ShapeOptimizer<dim>::mended(const OptimizationState<dim>& state,
   if (!trial.failure) evaluate(trial, std::move(cells), &state.evaluation, widths_after(state));
   trial.verdict = trial.failure ? Verdict::failed : Verdict::objective_rose;
   return trial;
+}
+
+/// The state at the trial's shape, whose objective is not compared with those before.
+template <int dim>
+OptimizationState<dim> ShapeOptimizer<dim>::begun_anew(OptimizationState<dim> state,
+                                                       const Trial<dim>& trial) const {
+  state.shape = trial.shape;
+  state.evaluation = *trial.evaluation;
+  state.measure = trial.measure;
+  state.iteration = trial.iteration;
+  state.step = options_.step;
+  ++state.since_redistance;
+  ++state.since_smoothing;
+  state.history = {objective_of(*trial.evaluation)};
+  state.history_begin = trial.iteration;
+  return state;
 }
 
 template <int dim>
@@ -391,6 +408,7 @@ Trial<dim> ShapeOptimizer<dim>::attempt(const OptimizationState<dim>& state, con
   const auto start = std::chrono::steady_clock::now();
   Trial<dim> trial = failed_trial(state, halvings, move.step, {});
   trial.max_velocity = largest_magnitude(move.velocity);
+  trial.foretold = move.model_decrease;
   auto cells = evolve(state, move, trial);
   trial.evolution_seconds = seconds_since(start);
   if (!trial.failure) evaluate(trial, std::move(cells), &state.evaluation, widths_after(state));

@@ -97,7 +97,10 @@ class ShapeOptimizer {
   using MadeCells = std::optional<CutDomain<dim>>;  ///< of the trial's shape; empty: not made yet
   enum class Mending { nothing, done, interrupted };
   Mending mend(OptimizationState<dim>& state, const Observer& observer) const;
+  bool has_widths(const LevelSet<dim>& shape, const FeatureSize& widths) const;
+  std::vector<Trial<dim>> mended(const OptimizationState<dim>& state) const;
   Trial<dim> mended(const OptimizationState<dim>& state, const LevelSet<dim>& shape) const;
+  OptimizationState<dim> begun_anew(OptimizationState<dim> state, const Trial<dim>& trial) const;
   std::optional<StopReason> descend(OptimizationState<dim>& state, const Observer& observer,
                                     const std::function<bool()>& stop_requested) const;
   Trial<dim> attempt(const OptimizationState<dim>& state, const Proposals<dim>& proposals,

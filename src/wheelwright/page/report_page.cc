@@ -245,6 +245,7 @@ Json run_json(const ReportRun<dim>& run) {
             {"trials", run.trials},
             {"rejected", run.rejected},
             {"events", std::move(events)},
+            {"events_left_out", run.events_left_out},
             {"flags", run.flags},
             {"limits", run.limits},
             {"history", std::move(history)},

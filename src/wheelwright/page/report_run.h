@@ -62,7 +62,8 @@ struct ReportRun {
   PolarGrid<dim> grid;
   int trials;
   std::map<std::string, int> rejected;  ///< trials, by the reason
-  std::vector<HoleEvents> events;
+  std::vector<HoleEvents> events;       ///< the newest ones, oldest first
+  int events_left_out = 0;              ///< older ones
   std::vector<HistoryCurve> history;
   std::vector<ShapeOutline> outlines;
   std::vector<std::string> flags;          ///< what deserves attention, in sentences

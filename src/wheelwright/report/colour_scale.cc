@@ -36,9 +36,7 @@ std::vector<double> sorted(std::span<const double> values) {
 std::vector<double> ticks(const ColourScale& scale, const SiPrefix& prefix) {
   const double lower = scale.lower / prefix.factor, upper = scale.upper / prefix.factor;
   if (!(upper > lower)) return {lower};
-  std::vector<double> result = axis_ticks(lower, upper, most_ticks);
-  for (double& tick : result) tick += 0.0;  // -0 becomes 0
-  return result;
+  return axis_ticks(lower, upper, most_ticks);
 }
 
 }  // namespace

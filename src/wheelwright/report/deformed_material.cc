@@ -60,15 +60,16 @@ std::vector<MaterialPolygon> divided(const MaterialPolygon& polygon, int parts) 
 
 DeformedMaterial::DeformedMaterial(const LevelSet<2>& psi, const Lattice<2>& lattice,
                                    const RingField& displacement, double magnification,
-                                   double contact_azimuth)
+                                   double contact_azimuth, Below below)
     : psi_(psi),
       lattice_(lattice),
       displacement_(displacement),
       magnification_(magnification),
       to_picture_(-0.5 * std::numbers::pi - contact_azimuth),
-      press_(press_of_tread(lattice, displacement, magnification, contact_azimuth)) {}
+      press_(below == Below::ground ? press_of_tread(lattice, displacement, magnification, contact_azimuth)
+                                    : std::vector<double>()) {}
 
-double DeformedMaterial::greatest_press() const { return std::ranges::max(press_); }
+double DeformedMaterial::greatest_press() const { return press_.empty() ? 0 : std::ranges::max(press_); }
 
 Vec<2> DeformedMaterial::undeformed(const Vec<2>& x) const {
   const Vec<2> turned = to_picture_.forward(x);
@@ -86,6 +87,7 @@ Vec<2> DeformedMaterial::moved(const Vec<2>& x, double radius, double azimuth, c
   const PolarGrid<2>& grid = lattice_.grid();
   const double share = (radius - grid.inner_radius) / (grid.outer_radius - grid.inner_radius);
   Vec<2> place = undeformed({x[0] + magnification_ * u[0], x[1] + magnification_ * u[1]});
+  if (press_.empty()) return place;
   place[1] -= share * press_at(azimuth);
   return {place[0], place[1] > grid.outer_radius ? grid.outer_radius : place[1]};
 }

@@ -19,6 +19,12 @@ struct DrawnPoint {
 /// A convex polygon of material.
 using DrawnPiece = std::vector<DrawnPoint>;
 
+/// These things may be below a wheel.
+enum class Below {
+  ground,
+  nothing  ///< a tread that is bonded to a rigid ring does not move
+};
+
 /// The loaded wheel as a picture shows it: turned so that the contact is below, its displacement multiplied
 /// by `magnification`.
 ///
@@ -30,7 +36,7 @@ class DeformedMaterial {
  public:
   /// `lattice` carries the fields. All must outlive this.
   DeformedMaterial(const LevelSet<2>& psi, const Lattice<2>& lattice, const RingField& displacement,
-                   double magnification, double contact_azimuth);
+                   double magnification, double contact_azimuth, Below below);
 
   /// The material of every sector, its cells divided into parts x parts squares, cut ones clipped. Cells that
   /// lie outside of the circle about `centre` (picture coordinates) before they are deformed are left out.
@@ -70,7 +76,7 @@ class DeformedMaterial {
   const RingField& displacement_;
   double magnification_;
   AxleRotation to_picture_;  ///< by which the contact comes to lie below, before the second axis is reversed
-  std::vector<double> press_;  ///< of the tread, at equal azimuths round the ring [m]
+  std::vector<double> press_;  ///< of the tread, at equal azimuths round the ring [m]; empty: nothing below
 };
 
 }  // namespace wheelwright

@@ -163,8 +163,10 @@ std::string marks(const DeformedMaterial& material, const PolarGrid<2>& grid,
     x = rotated<2>(x, -picture.magnification * picture.rim.rotation);
     return Vec<2>{x[0] + axle[0], x[1] + axle[1]};
   };
-  std::string svg = ground_mark(view, grid.outer_radius);
-  if (picture.window) return svg + pressure_mark(view, grid.outer_radius, picture.contact);
+  std::string svg =
+      picture.is_bonded ? ring_mark(view, grid.outer_radius) : ground_mark(view, grid.outer_radius);
+  if (picture.window)
+    return picture.is_bonded ? svg : svg + pressure_mark(view, grid.outer_radius, picture.contact);
   return svg + azimuth_mark(view, on_rim(0), on_rim(1)) + force_marks(view, axle, picture.rim_force, grid);
 }
 
@@ -173,7 +175,8 @@ std::string marks(const DeformedMaterial& material, const PolarGrid<2>& grid,
 template <int dim>
 std::string facts(const DeformedPicture<dim>& picture) {
   std::string text = "load " + force_text(picture.rim_force.towards_ground, "N");
-  text += fmt::format(" \u00b7 contact at {:.4g}\u00b0", picture.contact_azimuth * 180 / std::numbers::pi);
+  text += fmt::format(" \u00b7 {} {:.4g}\u00b0", picture.is_bonded ? "towards" : "contact at",
+                      picture.contact_azimuth * 180 / std::numbers::pi);
   text += fmt::format(" \u00b7 travel {}", value_text(picture.rim.towards_ground, "m"));
   if (picture.rim.rotation != 0)
     text += fmt::format(" \u00b7 wind-up {:.3g}\u00b0", picture.rim.rotation * 180 / std::numbers::pi);
@@ -227,7 +230,8 @@ std::string deformed_svg(const LevelSet<2>& psi, const Lattice<2>& lattice,
   const PolarGrid<2>& grid = lattice.grid();
   const PictureView view = view_of(grid, picture.window);
   const DeformedMaterial material(psi, lattice, picture.displacement, picture.magnification,
-                                  picture.contact_azimuth);
+                                  picture.contact_azimuth,
+                                  picture.is_bonded ? Below::nothing : Below::ground);
   const std::vector<DrawnPiece> pieces = shown_pieces(material, picture, view);
   const ColourScale scale = scale_of(pieces, picture.scale);
   const double bar_x = margin + wheel_size + 40, bar_y = top + 0.5 * wheel_size + 160;

@@ -24,6 +24,7 @@ struct DeformedPicture {
   RingField displacement;  ///< dim components [m]
   double magnification;    ///< of the displacement in the picture
   double contact_azimuth;  ///< azimuth of the contact point in the body frame [rad]: drawn at the bottom
+  bool is_bonded = false;  ///< the tread to a rigid ring, which is drawn instead of the ground
   /// Half the edge of a square view of the contact [m]; absent: the whole wheel.
   std::optional<double> window;
   NamedField scalar;  ///< in an SI unit without prefix, e.g. "von Mises stress" in "Pa"
@@ -40,8 +41,8 @@ struct DeformedPicture {
 double picture_magnification(const RingField& displacement, double outer_radius);
 
 /// The picture as an SVG document: the material with colours between level lines, their scale, the ground as
-/// a line that the tread touches, load, position and magnification, and the place of the largest scalar.
-/// `lattice` carries the fields, on psi's grid.
+/// a line that the tread touches or the rigid ring round a bonded tread, load, position and magnification,
+/// and the place of the largest scalar. `lattice` carries the fields, on psi's grid.
 std::string deformed_svg(const LevelSet<2>& psi, const Lattice<2>& lattice,
                          const DeformedPicture<2>& picture);
 

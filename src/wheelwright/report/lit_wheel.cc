@@ -23,7 +23,8 @@ constexpr int image_pixels = 1040;  // on screens with more than one for each of
 constexpr double outliers = 0.01;   // fraction of the vertices beyond a scale without tail
 constexpr double half_view = 1.1;   // over the wheel's radius
 
-/// How far magnified displacements carry the tread below the ground, at the displacement's nodes there.
+/// How far magnified displacements carry the tread below the ground, if there is one, at the displacement's
+/// nodes there.
 class Press {
  public:
   Press(const Lattice<3>& lattice, const DeformedPicture<3>& picture)
@@ -38,7 +39,7 @@ class Press {
             &picture.displacement.values[3 * ring_node<3>(lattice, {lattice.nodes()[0] - 1, line, axial})];
         const double down = std::cos(azimuth) * u[0] + std::sin(azimuth) * u[1];
         const double below = picture.magnification * down - grid_.outer_radius * (1 - std::cos(from_contact));
-        depths_.push_back(below > 0 ? below : 0);  // nothing for NaN
+        depths_.push_back(below > 0 && !picture.is_bonded ? below : 0);  // nothing for NaN
       }
     }
   }
@@ -134,7 +135,7 @@ std::vector<Vec<3>> displaced(const std::vector<Vec<3>>& points,
     for (int d = 0; d < 3; ++d) x[d] += picture.magnification * displacement[d][k];
     double up = press.at(points[k]);
     const double depth = x_down * x[0] + y_down * x[1] - up - lattice.grid().outer_radius;
-    if (depth > 0) up += depth;
+    if (depth > 0 && !picture.is_bonded) up += depth;
     x[0] -= up * x_down;
     x[1] -= up * y_down;
   }
@@ -150,9 +151,10 @@ std::string deformed_svg(const SurfaceMesh& surface, const Lattice<3>& lattice,
   const ColourScale scale = scale_of(scalar, picture.scale);
   const auto points = standing_on_the_ground(displaced(surface.points, displacement, lattice, picture), grid,
                                              picture.contact_azimuth);
-  const Image image = lit_image(
-      {ground(grid), {.points = points, .triangles = surface.triangles, .colours = colours(scalar, scale)}},
-      wheel_camera(grid), image_pixels);
+  std::vector<LitBody> bodies{
+      {.points = points, .triangles = surface.triangles, .colours = colours(scalar, scale)}};
+  if (!picture.is_bonded) bodies.insert(bodies.begin(), ground(grid));
+  const Image image = lit_image(bodies, wheel_camera(grid), image_pixels);
   const double bar_x = margin + wheel_size + 40, bar_y = top + 0.5 * wheel_size + 160;
   std::string svg = picture_beginning(picture, picture_width, picture_height, margin) +
                     fmt::format("<image x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{2}\" href=\"{3}\"/>\n",

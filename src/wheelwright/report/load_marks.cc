@@ -72,6 +72,27 @@ std::string ground_mark(const PictureView& view, double depth) {
       hatch, ink, view.left, y + 1, view.size);
 }
 
+std::string ring_mark(const PictureView& view, double radius) {
+  const Vec<2> axle = view.pixel({0, 0});
+  const double r = radius * view.pixels_per_metre();
+  const int n = static_cast<int>(2 * std::numbers::pi * r / hatch_spacing);
+  std::string hatch;
+  for (int k = 0; k < n; ++k) {
+    const double angle = 2 * std::numbers::pi * k / n, turned = angle + hatch_depth / r;
+    const Vec<2> from{axle[0] + r * std::cos(angle), axle[1] + r * std::sin(angle)},
+        to{axle[0] + (r + hatch_depth) * std::cos(turned), axle[1] + (r + hatch_depth) * std::sin(turned)};
+    if (from[0] < view.left - hatch_depth || from[0] > view.left + view.size + hatch_depth ||
+        from[1] < view.top - hatch_depth || from[1] > view.top + view.size + hatch_depth)
+      continue;
+    hatch += fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", from[0], from[1], to[0], to[1]);
+  }
+  return fmt::format(
+      "<svg x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{2}\" viewBox=\"{0} {1} {2} {2}\" overflow=\"hidden\" "
+      "fill=\"none\">\n<path stroke=\"#8c959f\" d=\"{3}\"/>\n"
+      "<circle cx=\"{4:.1f}\" cy=\"{5:.1f}\" r=\"{6:.1f}\" stroke=\"{7}\" stroke-width=\"2\"/>\n</svg>\n",
+      view.left, view.top, view.size, hatch, axle[0], axle[1], r + 1, ink);
+}
+
 std::string force_marks(const PictureView& view, const Vec<2>& axle, const RimForce& force,
                         const PolarGrid<2>& grid) {
   if (!view.holds(axle)) return "";

@@ -16,6 +16,10 @@ namespace wheelwright {
 /// [m].
 std::string ground_mark(const PictureView& view, double depth);
 
+/// The rigid ring round a bonded tread: a circle about the axle of the undeformed wheel, hatched outside, as
+/// far as it lies in the view.
+std::string ring_mark(const PictureView& view, double radius);
+
 /// The forces on the rim on the whole width [N, N m] as arrows at the axle, with their values. Forces along
 /// the ground and torques that are small beside the load, reactions of a rim that is held, are left out.
 std::string force_marks(const PictureView& view, const Vec<2>& axle, const RimForce& force,

@@ -140,7 +140,8 @@ std::string legend_entry(const std::string& label, size_t index, std::string_vie
 std::vector<double> axis_ticks(double low, double high, int most) {
   const double step = tick_step(low, high, most), slack = 1e-9 * (high - low);
   std::vector<double> ticks;
-  for (double k = std::ceil((low - slack) / step); k * step <= high + slack; ++k) ticks.push_back(k * step);
+  for (double k = std::ceil((low - slack) / step); k * step <= high + slack; ++k)
+    ticks.push_back(k * step + 0.0);  // -0 becomes 0
   return ticks;
 }
 

@@ -246,6 +246,7 @@ PositionFields<dim> fields_at(const StateSolver<dim>& solver, const State<dim>& 
           .displacement = u,
           .stress = stress_field(solver.model(), state.domain(), u),
           .ground_azimuth = ground_azimuth(solver, position),
+          .is_bonded = solver.model().contact.counterpart == Counterpart::ring,
           .rim = source.is_image ? mirror_image(contact.rim) : contact.rim,
           .rim_force = source.is_image ? mirror_image(contact.rim_force) : contact.rim_force,
           .contact = points_at(solver, state, source, position),

@@ -28,6 +28,7 @@ struct PositionFields {
   RingField displacement;
   RingField stress;       ///< stress_components
   double ground_azimuth;  ///< of n_y, body frame [rad]
+  bool is_bonded;         ///< the tread to a rigid ring, instead of touching the ground
   RimMotion rim;          ///< ground frame
   RimForce rim_force;     ///< on the rim, per metre of width when dim = 2
   std::vector<ContactPoint> contact;

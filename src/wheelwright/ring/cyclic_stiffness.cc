@@ -12,22 +12,27 @@
 namespace wheelwright {
 namespace {
 
-/// Whether the nodes of a sector are their own mirror image.
+/// A node of a sector's boundary as all sectors number it: that of the first face in place of that of the
+/// last.
 template <int dim>
-bool has_mirror_image(const SectorSpace<dim>& space) {
-  const int period = space.degree() * space.grid().cells[1];
-  for (int node = 0; node < space.n_nodes(); ++node) {
-    auto p = space.position(node);
-    if (p[1] > period) continue;
-    p[1] = period - p[1];
-    if (space.number(p) < 0) return false;
-  }
-  return true;
+struct BoundaryNode {
+  std::array<int, dim> position;
+  int shift;  ///< sectors ahead
+};
+
+template <int dim>
+BoundaryNode<dim> boundary_node(const SectorSpace<dim>& space, std::array<int, dim> p) {
+  if (p[1] < space.last_line()) return {p, 0};
+  p[1] = space.last_line() - p[1];
+  return {p, 1};
 }
 
-/// The boundary nodes of a sector, at their positions in the sector's own period, and its interior nodes. The
-/// boundary of a sector that may be mirror-symmetric contains its own mirror image: ghost faces couple nodes
-/// of the next sector's first cells alone.
+template <int dim>
+bool is_on_outer_line(const SectorSpace<dim>& space, const std::array<int, dim>& p) {
+  return p[0] == space.degree() * space.core_rows() && p[1] >= 0 && p[1] <= space.last_line();
+}
+
+/// The boundary nodes of a sector, as all sectors number them, and its interior nodes.
 template <int dim>
 struct BoundaryLayout {
   std::vector<std::array<int, dim>> interface_nodes;  ///< not on the outer line; none twice
@@ -36,27 +41,16 @@ struct BoundaryLayout {
 
 template <int dim>
 BoundaryLayout<dim> boundary_layout(const SectorSpace<dim>& space) {
-  const int period = space.degree() * space.grid().cells[1], outer = space.degree() * space.core_rows();
   std::vector<char> trailing(space.n_nodes(), 0);
   BoundaryLayout<dim> layout;
   for (int node = 0; node < space.n_nodes(); ++node) {
-    auto p = space.position(node);
-    if (p[0] == outer) trailing[node] = 1;
-    if (p[1] < period) continue;
-    trailing[node] = 1;
-    p[1] %= period;
-    if (p[0] == outer) continue;
-    layout.interface_nodes.push_back(p);
-    if (const int own = space.number(p); own >= 0) trailing[own] = 1;
-  }
-  if (has_mirror_image(space)) {
-    const std::vector<std::array<int, dim>> found = layout.interface_nodes;
-    for (auto p : found) {
-      p[1] = (period - p[1]) % period;
-      const int own = space.number(p);
-      if (own < 0 || trailing[own]) continue;
-      trailing[own] = 1;
-      layout.interface_nodes.push_back(p);
+    const auto& p = space.position(node);
+    if (is_on_outer_line<dim>(space, p)) {
+      trailing[node] = 1;
+    } else if (p[1] >= space.last_line()) {
+      trailing[node] = 1;
+      layout.interface_nodes.push_back(boundary_node<dim>(space, p).position);
+      if (const int own = space.number(layout.interface_nodes.back()); own >= 0) trailing[own] = 1;
     }
   }
   for (int node = 0; node < space.n_nodes(); ++node)
@@ -74,6 +68,23 @@ DenseMatrix<Scalar> stacked(const DenseMatrix<Scalar>& top, const DenseMatrix<Sc
   return result;
 }
 
+/// Finding the strong modes takes as long as about four complex factors. On small interfaces most modes are
+/// strong, and the harmonics take little time.
+InterfaceRoute best_route(const BoundarySymmetry& symmetry, const SectorHarmonics& harmonics) {
+  constexpr int fewest_harmonics = 6, smallest_interface = 1000;
+  const bool is_worth_it =
+      harmonics.n_harmonics() >= fewest_harmonics && symmetry.n_interface >= smallest_interface;
+  return is_worth_it && !symmetry.azimuth && !symmetry.width ? InterfaceRoute::strong_modes
+                                                             : InterfaceRoute::all_unknowns;
+}
+
+std::shared_ptr<const BoundarySymmetry> without_symmetry(int n_interface, int n_outer) {
+  auto symmetry = std::make_shared<BoundarySymmetry>();
+  symmetry->n_interface = n_interface;
+  symmetry->classes.emplace_back(n_interface + n_outer, n_interface);
+  return symmetry;
+}
+
 }  // namespace
 
 template <int dim>
@@ -84,7 +95,8 @@ CyclicStiffness<dim>::CyclicStiffness(SectorStiffness<dim> sector, PartialCholes
 template <int dim>
 Expected<CyclicStiffness<dim>> CyclicStiffness<dim>::factor(SectorStiffness<dim> sector,
                                                             const OuterStiffness& outer_stiffness,
-                                                            const SectorHarmonics& harmonics) {
+                                                            const SectorHarmonics& harmonics,
+                                                            std::optional<InterfaceRoute> route) {
   const BoundaryLayout<dim> layout = boundary_layout(sector.space);
   std::vector<int> nodes = nested_dissection(sector, layout.interior_nodes);
   nodes.insert(nodes.end(), layout.trailing_nodes.begin(), layout.trailing_nodes.end());
@@ -98,7 +110,7 @@ Expected<CyclicStiffness<dim>> CyclicStiffness<dim>::factor(SectorStiffness<dim>
 
   const SectorSpace<dim>& own_space = ring.sector_.space;
   const PolarGrid<dim>& grid = own_space.grid();
-  const int period = own_space.degree() * grid.cells[1], outer = own_space.degree() * own_space.core_rows();
+  const int period = own_space.last_line();
   int axial_nodes = 1;
   if constexpr (dim == 3) axial_nodes = own_space.degree() * grid.cells[2] + 1;
   std::map<std::array<int, dim>, int> interface_index;
@@ -109,7 +121,7 @@ Expected<CyclicStiffness<dim>> CyclicStiffness<dim>::factor(SectorStiffness<dim>
   ring.n_boundary_ = n_interface + ring.n_outer_;
   /// The first unknown of a node at a position in the sector's own period; -1 if it is none of the boundary.
   const auto first_unknown = [&](const std::array<int, dim>& p) {
-    if (p[0] == outer) {
+    if (is_on_outer_line<dim>(own_space, p)) {
       int line = p[1];
       if constexpr (dim == 3) line = line * axial_nodes + p[2];
       return n_interface + dim * line;
@@ -120,28 +132,26 @@ Expected<CyclicStiffness<dim>> CyclicStiffness<dim>::factor(SectorStiffness<dim>
   BoundaryMirror azimuth, width;
   azimuth.unknowns.resize(ring.n_boundary_);
   width.unknowns.resize(ring.n_boundary_);
-  bool has_images = true, has_images_across = dim == 3;
+  bool has_images_across = dim == 3;
   for (int node : layout.trailing_nodes) {
-    auto p = own_space.position(node);
-    const int shift = p[1] / period;
-    p[1] %= period;
+    const auto [p, shift] = boundary_node<dim>(own_space, own_space.position(node));
     auto behind = p, across = p;
-    behind[1] = (period - p[1]) % period;
+    if (p[1] > 0) behind[1] = period - p[1];
     if constexpr (dim == 3) across[2] = axial_nodes - 1 - p[2];
     const int first = first_unknown(p), image = first_unknown(behind), image_across = first_unknown(across);
-    has_images &= image >= 0;
     has_images_across &= image_across >= 0;
+    const double of_derivative = p[1] == -1 ? -1 : 1;  // the first one changes its sign with the azimuth
     for (int c = 0; c < dim; ++c) {
       ring.trailing_.push_back({first + c, shift});
-      azimuth.unknowns[first + c] = {image + c, p[1] == 0 ? 0 : 1, c == 1 ? -1.0 : 1.0};
+      azimuth.unknowns[first + c] = {image + c, p[1] <= 0 ? 0 : 1, of_derivative * (c == 1 ? -1.0 : 1.0)};
       width.unknowns[first + c] = {image_across + c, 0, c == 2 ? -1.0 : 1.0};
     }
   }
 
-  const CoupledSectors coupled(ring.trailing_, ring.sector_factor_.release_schur(), ring.n_boundary_);
+  CoupledSectors coupled(ring.trailing_, ring.sector_factor_.release_schur(), ring.n_boundary_);
   auto symmetry = std::make_shared<BoundarySymmetry>();
   symmetry->n_interface = n_interface;
-  if (has_images && coupled.commute_with_azimuth(azimuth)) symmetry->azimuth = std::move(azimuth);
+  if (coupled.commute_with_azimuth(azimuth)) symmetry->azimuth = std::move(azimuth);
   if (has_images_across && coupled.commute_with_width(width)) {
     for (const double sign : {1.0, -1.0}) symmetry->classes.emplace_back(width, n_interface, sign);
     symmetry->width = std::move(width);
@@ -149,6 +159,15 @@ Expected<CyclicStiffness<dim>> CyclicStiffness<dim>::factor(SectorStiffness<dim>
     symmetry->classes.emplace_back(ring.n_boundary_, n_interface);
   }
   ring.symmetry_ = symmetry;
+  std::shared_ptr<const BoundarySymmetry> of_harmonics = symmetry;
+  if (route.value_or(best_route(*symmetry, harmonics)) == InterfaceRoute::strong_modes &&
+      coupled.farthest == 1)
+    ring.modes_ = InterfaceModes::find(coupled.by_difference[1], coupled.by_difference[2], n_interface);
+  if (ring.modes_) {
+    coupled = CoupledSectors(ring.modes_->release_stiffness());
+    of_harmonics = without_symmetry(ring.modes_->n_strong(), ring.n_outer_);
+  }
+  const int n_first = of_harmonics->n_interface;
   std::vector<std::optional<HarmonicFactor>> factors(harmonics.n_harmonics());
   parallel_for(harmonics.n_harmonics(), [&](int h) {
     const ComplexMatrix on_outer_line = outer_stiffness(h);
@@ -157,10 +176,10 @@ Expected<CyclicStiffness<dim>> CyclicStiffness<dim>::factor(SectorStiffness<dim>
     const auto entry = [&](int i, int j) {
       std::complex<double> sum = 0;
       for (size_t d = 0; d < phases.size(); ++d) sum += phases[d] * coupled.by_difference[d](i, j);
-      if (i >= n_interface && j >= n_interface) sum += on_outer_line(i - n_interface, j - n_interface);
+      if (i >= n_first && j >= n_first) sum += on_outer_line(i - n_first, j - n_first);
       return sum;
     };
-    factors[h] = HarmonicFactor::factor(symmetry, harmonics.phase(h, 1),
+    factors[h] = HarmonicFactor::factor(of_harmonics, harmonics.phase(h, 1),
                                         h == 0 || 2 * h == harmonics.n_sectors(), entry);
   });
   for (int h = 0; h < harmonics.n_harmonics(); ++h) {
@@ -184,6 +203,10 @@ CyclicStiffness<dim>::CoupledSectors::CoupledSectors(const std::vector<Trailing>
       by_difference[trailing[j].shift - trailing[i].shift + farthest](trailing[i].boundary,
                                                                       trailing[j].boundary) += schur(i, j);
 }
+
+template <int dim>
+CyclicStiffness<dim>::CoupledSectors::CoupledSectors(std::vector<Matrix> by_difference_)
+    : farthest(static_cast<int>(by_difference_.size()) / 2), by_difference(std::move(by_difference_)) {}
 
 template <int dim>
 double CyclicStiffness<dim>::CoupledSectors::entry(int difference, int i, int j) const {
@@ -238,15 +261,17 @@ Matrix CyclicStiffness<dim>::boundary_loads(const Matrix& trailing_loads) const 
 
 template <int dim>
 typename CyclicStiffness<dim>::EliminatedInterface CyclicStiffness<dim>::eliminate_interface(
-    const Matrix& boundary_loads) const {
-  const int n_interface = n_boundary_ - n_outer_;
-  EliminatedInterface result{harmonics_.forward_each(boundary_loads), {}};
+    Matrix boundary_loads) const {
+  EliminatedInterface result;
+  if (modes_) result.interface.weak_modes = modes_->eliminate(boundary_loads, n_sectors());
+  const int n_first = n_interface_of_harmonics();
+  result.interface.by_harmonic = harmonics_.forward_each(boundary_loads);
   std::vector<ComplexMatrix> outer(harmonics_.n_harmonics());
   parallel_for(harmonics_.n_harmonics(), [&](int h) {
-    ComplexMatrix& loads = result.interface[h];
+    ComplexMatrix& loads = result.interface.by_harmonic[h];
     harmonic_factors_[h].eliminate(loads);
-    outer[h] = block(loads, n_interface, 0, n_outer_, loads.columns());
-    loads = block(loads, 0, 0, n_interface, loads.columns());
+    outer[h] = block(loads, n_first, 0, n_outer_, loads.columns());
+    loads = block(loads, 0, 0, n_first, loads.columns());
   });
   result.outer = harmonics_.backward_each(outer);
   return result;
@@ -300,15 +325,19 @@ std::vector<Matrix> CyclicStiffness<dim>::outer_compliance(int farthest) const {
 
 template <int dim>
 Matrix CyclicStiffness<dim>::boundary_displacements(const Matrix& outer,
-                                                    const std::vector<ComplexMatrix>& interface) const {
-  const int n_interface = n_boundary_ - n_outer_;
+                                                    const InterfaceLoads& interface) const {
+  const int n_first = n_interface_of_harmonics();
   std::vector<ComplexMatrix> x = harmonics_.forward_each(outer);
   parallel_for(harmonics_.n_harmonics(), [&](int h) {
-    x[h] = stacked(interface.empty() ? ComplexMatrix(n_interface, x[h].columns()) : interface[h], x[h]);
+    x[h] = stacked(
+        interface.by_harmonic.empty() ? ComplexMatrix(n_first, x[h].columns()) : interface.by_harmonic[h],
+        x[h]);
     harmonic_factors_[h].substitute(x[h]);
-    x[h] = block(x[h], 0, 0, n_interface, x[h].columns());
+    x[h] = block(x[h], 0, 0, n_first, x[h].columns());
   });
-  return stacked(harmonics_.backward_each(x), outer);
+  const Matrix first = harmonics_.backward_each(x);
+  return stacked(modes_ ? modes_->displacements(first, outer, interface.weak_modes, n_sectors()) : first,
+                 outer);
 }
 
 template <int dim>

@@ -7,8 +7,16 @@
 #include "wheelwright/linalg/partial_cholesky.h"
 #include "wheelwright/ring/harmonic_factor.h"
 #include "wheelwright/ring/harmonics.h"
+#include "wheelwright/ring/interface_modes.h"
 
 namespace wheelwright {
+
+/// Which unknowns of the interfaces the harmonics have. Both ways have one result, up to the tolerance of
+/// InterfaceModes.
+enum class InterfaceRoute {
+  all_unknowns,
+  strong_modes,  ///< all of them too where most modes are strong
+};
 
 /// The factored stiffness of the ring's core plus the contribution of the tread on its outer line, by cyclic
 /// symmetry: one real factorization of one sector, condensed onto its boundary (Schur complement), and a
@@ -25,9 +33,10 @@ class CyclicStiffness {
   /// as a tread of equal columns is.
   using OuterStiffness = std::function<ComplexMatrix(int harmonic)>;
 
-  /// Fails with not_positive_definite or not_finite.
+  /// By default the route is the one that takes less time. Fails with not_positive_definite or not_finite.
   static Expected<CyclicStiffness> factor(SectorStiffness<dim> sector, const OuterStiffness& outer_stiffness,
-                                          const SectorHarmonics& harmonics);
+                                          const SectorHarmonics& harmonics,
+                                          std::optional<InterfaceRoute> route = {});
 
   const SectorStiffness<dim>& sector() const { return sector_; }
   int n_sectors() const { return harmonics_.n_sectors(); }
@@ -44,16 +53,25 @@ class CyclicStiffness {
   /// The same in the middle plane of the width. Then the equations of even and odd fields are separate.
   bool is_symmetric_across_width() const { return symmetry_->width.has_value(); }
 
+  /// The unknowns of the interface that the harmonics have.
+  int n_interface_of_harmonics() const { return modes_ ? modes_->n_strong() : n_boundary_ - n_outer_; }
+
   /// Maps loads on a sector's trailing unknowns (one row per load case) to boundary loads of the ring. A node
   /// shared by sectors may carry its load in any of them.
   Matrix boundary_loads(const Matrix& trailing_loads) const;
 
+  /// The loads that elimination leaves on the interface unknowns; only boundary_displacements() reads them.
+  /// They are empty where no loads act on these unknowns.
+  struct InterfaceLoads {
+    std::vector<ComplexMatrix> by_harmonic;
+    Matrix weak_modes;  ///< InterfaceModes::eliminate()
+  };
   /// Boundary loads after elimination of the interface unknowns.
   struct EliminatedInterface {
-    std::vector<ComplexMatrix> interface;  ///< one per harmonic; empty without loads on the interface
-    Matrix outer;                          ///< condensed loads on the outer line, n_outer x load cases
+    InterfaceLoads interface;
+    Matrix outer;  ///< condensed loads on the outer line, n_outer x load cases
   };
-  EliminatedInterface eliminate_interface(const Matrix& boundary_loads) const;
+  EliminatedInterface eliminate_interface(Matrix boundary_loads) const;
 
   /// Displacements of the outer line for condensed loads on it, both n_outer x load cases.
   Matrix outer_displacements(const Matrix& condensed_loads) const;
@@ -65,7 +83,7 @@ class CyclicStiffness {
 
   /// Boundary displacements (n_boundary x load cases) from those of the outer line and the interface loads
   /// returned by eliminate_interface().
-  Matrix boundary_displacements(const Matrix& outer, const std::vector<ComplexMatrix>& interface) const;
+  Matrix boundary_displacements(const Matrix& outer, const InterfaceLoads& interface) const;
 
   /// Displacements of every sector's trailing unknowns, one row per load case.
   Matrix trailing_displacements(const Matrix& boundary) const;
@@ -80,6 +98,7 @@ class CyclicStiffness {
   };
   struct CoupledSectors {
     CoupledSectors(const std::vector<Trailing>& trailing, const Matrix& schur, int n_boundary);
+    explicit CoupledSectors(std::vector<Matrix> by_difference);
     double entry(int difference, int i, int j) const;
     template <class Image>
     bool equals(Image image) const;
@@ -97,6 +116,7 @@ class CyclicStiffness {
   std::vector<Trailing> trailing_;
   int n_boundary_ = 0, n_outer_ = 0;
   std::shared_ptr<const BoundarySymmetry> symmetry_;
+  std::optional<InterfaceModes> modes_;  ///< absent if the harmonics have all unknowns
   std::vector<HarmonicFactor> harmonic_factors_;
 };
 

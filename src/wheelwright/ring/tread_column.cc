@@ -326,14 +326,14 @@ class ColumnAssembly {
   /// on it: without the penalty they grow with lambda.
   void add_pressure_jumps(const ColumnCell<dim>& cell, int layer, int row, int across,
                           const PolarGrid<dim>& fine) {
-    constexpr GhostPenalty penalty{GhostPenaltyKind::paper, 0.1};
+    constexpr double weight = 0.1;
     for (int axis = 1; axis < dim; ++axis) {
       const int next_across = across + (axis == 1 ? 1 : 0), next_axial = cell.axial + (axis == 2 ? 1 : 0);
       const bool at_middle = next_axial == axial_cells_ && is_half(table_.sides());
       if (next_across == 1 << nodes_.all_layers()[layer].level) continue;
       if (next_axial == axial_cells_ && !at_middle) continue;
-      const Matrix jump = ghost_stiffness<dim>(cell.element, cell.element, axis,
-                                               axis == 1 ? fine.cell_size()[1] : 0.0, cell.material, penalty);
+      const Matrix jump = traction_jump_stiffness<dim>(
+          cell.element, cell.element, axis, axis == 1 ? fine.cell_size()[1] : 0.0, cell.material, weight);
       auto nodes = cell.nodes;
       if (at_middle) {
         add_stiffness<dim>(half_of_symmetric_pair(jump, degree_), nodes, column_.stiffness);

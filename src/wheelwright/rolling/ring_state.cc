@@ -113,15 +113,15 @@ Expected<std::shared_ptr<const State<dim>>> RollingProblem<dim>::states(const Cu
     if (!solution) return solution.failure();
     return ring_state(*this, *std::move(solution));
   };
-  if (positions.stand_for_images() || is_mirror_symmetric(shape.psi))
-    return solved(shape, std::move(positions));
-  // Without a mirror plane at azimuth 0 a sector may begin anywhere.
+  const auto columns =
+      possible_first_columns(model_.grid, positions.stand_for_images() || is_mirror_symmetric(shape.psi));
+  if (columns.size() == 1) return solved(shape, std::move(positions));
   Stopwatch watch;
   auto domain = shape.domain ? Expected<CutDomain<dim>>(*shape.domain)
                              : cut_domain(shape.psi, model_.points_in_cut_cells());
   if (!domain) return domain.failure();
   if (auto failure = check_attached(*domain, protected_rim_rows(), protected_tread_rows())) return *failure;
-  const int first = best_first_column(*domain, *elements_, core_rows());
+  const int first = best_first_column(*domain, *elements_, core_rows(), columns);
   if (first == 0) return solved({shape.psi, &*domain}, std::move(positions));
   const auto turned = turned_back(shape.psi, *domain, first);
   std::vector<PhaseTime> phases{{phase::cut, watch.lap()}};

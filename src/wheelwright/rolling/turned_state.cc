@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <numeric>
 #include <optional>
 
 #include "wheelwright/base/periodic.h"
@@ -171,60 +172,73 @@ class TurnedState : public State<dim> {
   mutable StrainPeaks<dim> peaks_;
 };
 
-/// The nodes that a sector shares with its neighbours if it begins at `column`.
+/// The nodes that a sector shares with its neighbours if it begins at `column`: those on its face, and those
+/// of derivatives where a ghost penalty acts on it.
 template <int dim>
 class SharedNodes {
  public:
   SharedNodes(const CutDomain<dim>& domain, const ElementTable<dim>& table, int core_rows)
-      : domain_(domain), table_(table), core_rows_(core_rows), lattice_(domain.grid, table.degree()) {
+      : domain_(domain),
+        core_rows_(core_rows),
+        n_derivatives_(n_compared_derivatives(table.ghost(), table.degree())),
+        lattice_(domain.grid, table.degree()) {
     const PolarGrid<dim>& grid = domain.grid;
-    coupled_.resize(grid.columns());
+    penalized_.resize(grid.columns());
     for (const GhostFace& face : domain.ghost_faces)
-      if (face.axis == 1 && (table.ghost().kind == GhostPenaltyKind::full || face.crossed))
-        coupled_[grid.cell_position(face.plus)[1]].push_back(face.plus);
+      if (face.axis == 1 && table.ghost().xi > 0 &&
+          (table.ghost().kind == GhostPenaltyKind::full || face.crossed))
+        penalized_[grid.cell_position(face.plus)[1]].push_back(face.plus);
   }
 
   int count(int column) const {
     const PolarGrid<dim>& grid = domain_.grid;
-    std::vector<char> shared(lattice_.n_nodes(), 0);
-    const auto mark = [&](int cell, auto counts) {
-      const auto place = grid.cell_position(cell);
-      if (place[0] >= core_rows_) return;
-      for (int a = 0; a < nodes_per_cell<dim>(lattice_.degree()); ++a) {
-        const auto node = lattice_.cell_node(place, a);
-        if (node[0] > 0 && node[0] < lattice_.degree() * core_rows_ && counts(node[1]))
-          shared[lattice_.node_index(node)] = 1;
-      }
-    };
-    const int line = lattice_.degree() * column, after_last = lattice_.nodes()[1];
-    for (int cell = 0; cell < grid.n_cells(); ++cell) {
-      const int place = grid.cell_position(cell)[1];
-      const bool touches = place == column || wrap(place + 1, grid.columns()) == column;
-      if (touches && domain_.active(cell))
-        mark(cell, [&](int azimuthal) { return azimuthal % after_last == line; });
-    }
-    for (const int cell : coupled_[column]) mark(cell, [](int) { return true; });
-    return static_cast<int>(std::ranges::count(shared, 1));
+    std::vector<int> active;
+    for (int cell = 0; cell < grid.n_cells(); ++cell)
+      if (grid.cell_position(cell)[1] == column && domain_.active(cell)) active.push_back(cell);
+    return on_face(active) + n_derivatives_ * on_face(penalized_[column]);
   }
 
  private:
+  /// The nodes on the first azimuth of these cells of the core, all of one column.
+  int on_face(std::span<const int> cells) const {
+    std::vector<char> found(lattice_.n_nodes(), 0);
+    for (const int cell : cells) {
+      const auto place = domain_.grid.cell_position(cell);
+      if (place[0] >= core_rows_) continue;
+      for (int a = 0; a < nodes_per_cell<dim>(lattice_.degree()); ++a)
+        if (local_node_position<dim>(lattice_.degree(), a)[1] == 0)
+          if (const auto node = lattice_.cell_node(place, a); node[0] > 0)
+            found[lattice_.node_index(node)] = 1;
+    }
+    return static_cast<int>(std::ranges::count(found, 1));
+  }
+
   const CutDomain<dim>& domain_;
-  const ElementTable<dim>& table_;
-  int core_rows_;
+  int core_rows_, n_derivatives_;
   Lattice<dim> lattice_;
   std::vector<std::vector<int>>
-      coupled_;  ///< by columns: cells that ghost faces couple with the column before
+      penalized_;  ///< by columns: cells whose face to the column before has a ghost penalty
 };
 
 }  // namespace
 
 template <int dim>
-int best_first_column(const CutDomain<dim>& domain, const ElementTable<dim>& table, int core_rows) {
+std::vector<int> possible_first_columns(const PolarGrid<dim>& grid, bool is_mirror_symmetric) {
+  const int n = grid.columns();
+  if (is_mirror_symmetric) return n % 2 == 0 ? std::vector<int>{0, n / 2} : std::vector<int>{0};
+  std::vector<int> all(n);
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+template <int dim>
+int best_first_column(const CutDomain<dim>& domain, const ElementTable<dim>& table, int core_rows,
+                      std::span<const int> columns) {
   constexpr double worth_turning = 0.95;
   const SharedNodes<dim> nodes(domain, table, core_rows);
   const int here = nodes.count(0);
   int best = 0, fewest = here;
-  for (int column = 1; column < domain.grid.columns(); ++column)
+  for (const int column : columns.subspan(1))
     if (const int n = nodes.count(column); n < fewest && n <= worth_turning * here) {
       fewest = n;
       best = column;
@@ -272,7 +286,9 @@ std::shared_ptr<const State<dim>> turned_state(std::shared_ptr<const State<dim>>
 }
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                             \
-  template int best_first_column(const CutDomain<dim>&, const ElementTable<dim>&, int);          \
+  template std::vector<int> possible_first_columns(const PolarGrid<dim>&, bool);                 \
+  template int best_first_column(const CutDomain<dim>&, const ElementTable<dim>&, int,           \
+                                 std::span<const int>);                                          \
   template TurnedShape<dim> turned_back(const LevelSet<dim>&, const CutDomain<dim>&, int);       \
   template LoadPositions turned_back(LoadPositions, const PolarGrid<dim>&, int);                 \
   template std::shared_ptr<const State<dim>> turned_state(std::shared_ptr<const State<dim>>,     \

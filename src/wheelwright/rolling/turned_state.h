@@ -19,10 +19,17 @@ TurnedShape<dim> turned_back(const LevelSet<dim>& psi, const CutDomain<dim>& dom
 template <int dim>
 LoadPositions turned_back(LoadPositions positions, const PolarGrid<dim>& grid, int columns);
 
-/// The column at whose first azimuth a sector is best cut out of the ring: there it shares the fewest nodes
-/// with its neighbours, with those that ghost faces couple. 0 unless that saves a twentieth of them.
+/// The columns at whose first azimuth a sector may be cut out of the ring: all of them, or those where a
+/// mirror plane of the wheel is, if it has mirror planes at all. Turned back by such a column the wheel is
+/// mirror-symmetric still.
 template <int dim>
-int best_first_column(const CutDomain<dim>& domain, const ElementTable<dim>& table, int core_rows);
+std::vector<int> possible_first_columns(const PolarGrid<dim>& grid, bool is_mirror_symmetric);
+
+/// The one of these columns, of which the first is 0, where a sector shares the fewest nodes with its
+/// neighbours, with those that ghost faces couple. 0 unless that saves a twentieth of them.
+template <int dim>
+int best_first_column(const CutDomain<dim>& domain, const ElementTable<dim>& table, int core_rows,
+                      std::span<const int> columns);
 
 /// The states of a shape, from those of the shape turned back. `domain`: cells of the shape.
 template <int dim>

@@ -45,6 +45,15 @@ std::string contact_report(const Case& c) {
               fmt::format("{:.1f} of {:.4g} mm", cells_per_contact_patch(c), tread_cell_width(c) * 1e3));
 }
 
+std::string time_report(const Case& c) {
+  return line("time", fmt::format("about {:.2g} s for one shape on one core", estimated_seconds_in_3d(c))) +
+         line("with grooves",
+              fmt::format("at most about {:.0f} MB and {:.2g} s, once edges cross all of the faces "
+                          "between sectors",
+                          std::ceil(estimated_memory_of_grooves(c) / 1e6),
+                          estimated_seconds_of_grooves_in_3d(c)));
+}
+
 std::string size_report(const Case& c) {
   const std::string along_axle = c.wheel.dimension == 3 ? fmt::format(" x {}", c.grid.axial_cells) : "";
   return line("sector",
@@ -53,9 +62,7 @@ std::string size_report(const Case& c) {
          line("unknowns", fmt::format("at most {}, {} of them per sector", dof_bound(c),
                                       dof_bound(c) / c.wheel.sectors)) +
          line("memory", fmt::format("about {:.0f} MB", std::ceil(estimated_memory(c) / 1e6))) +
-         (c.wheel.dimension == 3 ? line("time", fmt::format("about {:.2g} s for one shape on one core",
-                                                            estimated_seconds_in_3d(c)))
-                                 : "");
+         (c.wheel.dimension == 3 ? time_report(c) : "");
 }
 
 /// Lengths in millimetres make a wheel of hundreds of metres.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <deque>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -60,8 +61,28 @@ class ThinnedRows {
   std::vector<double> last_;
 };
 
+/// The newest of what happened to the holes.
+class NewestEvents {
+ public:
+  static constexpr std::size_t most = 400;
+
+  void add(HoleEvents event) {
+    newest_.push_back(std::move(event));
+    if (newest_.size() <= most) return;
+    newest_.pop_front();
+    ++left_out_;
+  }
+
+  std::vector<HoleEvents> newest() const { return {newest_.begin(), newest_.end()}; }
+  int left_out() const { return left_out_; }
+
+ private:
+  std::deque<HoleEvents> newest_;
+  int left_out_ = 0;
+};
+
 /// The columns of the accepted shapes that hold numbers, thinned where there are thousands of them, how many
-/// trials there were, why some were rejected, and what happened to the holes.
+/// trials there were, why some were rejected, and what happened to the holes lately.
 template <int dim>
 void read_history(const fs::path& file, ReportRun<dim>& run) {
   std::ifstream stream(file);
@@ -74,6 +95,7 @@ void read_history(const fs::path& file, ReportRun<dim>& run) {
   const auto accepted = index("accepted"), reason = index("reason"), events = index("events"),
              iteration = index("iteration");
   ThinnedRows accepted_rows;
+  NewestEvents newest_events;
   while (std::getline(stream, line)) {
     const auto cells = csv_cells(line);
     if (cells.size() != columns.size()) continue;
@@ -83,12 +105,14 @@ void read_history(const fs::path& file, ReportRun<dim>& run) {
       ++run.rejected[cell(reason)];
       continue;
     }
-    if (!cell(events).empty()) run.events.push_back({cell(iteration), cell(events)});
+    if (!cell(events).empty()) newest_events.add({cell(iteration), cell(events)});
     std::vector<double> row;
     for (std::size_t k = 0; k < columns.size(); ++k)
       if (columns[k] != "reason" && columns[k] != "events") row.push_back(number(cells[k]));
     accepted_rows.add(std::move(row));
   }
+  run.events = newest_events.newest();
+  run.events_left_out = newest_events.left_out();
   for (const auto& row : accepted_rows.rows())
     for (std::size_t k = 0; k < row.size(); ++k) run.history[k].values.push_back(row[k]);
 }

@@ -9,6 +9,7 @@
 #include "wheelwright/run/command_log.h"
 #include "wheelwright/watch/board_observer.h"
 #include "wheelwright/watch/frame.h"
+#include "wheelwright/watch/freed_memory_observer.h"
 #include "wheelwright/watch/products.h"
 
 namespace wheelwright {
@@ -70,6 +71,7 @@ void WatchSession<dim>::watch(Run<dim>& run) {
   run.add(std::make_unique<CommandLog<dim>>());
   run.add(std::make_unique<BoardObserver<dim>>(board_));
   run.add(std::make_unique<PageCommandsObserver<dim>>(commands_));
+  run.add(std::make_unique<FreedMemoryObserver<dim>>());
 }
 
 template <int dim>

@@ -1,0 +1,109 @@
+#include "wheelwright/case/common_keys.h"
+
+namespace wheelwright {
+
+const SectionArray<HoleRing>& ring_sections() {
+  static const SectionArray<HoleRing> sections{
+      .parent = "holes",
+      .name = "ring",
+      .meaning =
+          "holes of the initial shape: equal circles, evenly spaced about the axle; give any number of rings",
+      .in = [](Case& c) -> std::vector<HoleRing>& { return c.holes.rings; },
+      .example = {.count = 16, .center_radius = 0.27, .radius = 0.04, .phase = {}},
+      .keys = {{.name = "count",
+                .unit = "",
+                .field = IntegerField<HoleRing>{&HoleRing::count, between(1, 100000)},
+                .meaning = "number of holes round the full wheel, a multiple of wheel.sectors",
+                .presence = Presence::required},
+               {.name = "center_radius",
+                .unit = "m",
+                .field = NumberField<HoleRing>{&HoleRing::center_radius, length},
+                .meaning = "distance from the axle to the centres",
+                .presence = Presence::required},
+               {.name = "radius",
+                .unit = "m",
+                .field = NumberField<HoleRing>{&HoleRing::radius, length},
+                .meaning = "radius of each hole",
+                .presence = Presence::required},
+               {.name = "phase",
+                .unit = "deg",
+                .field = OptionalNumberField<HoleRing>{&HoleRing::phase, between(-360, 360),
+                                                       "half the spacing, 180 / count", degree_of_arc},
+                .meaning = "azimuth of the first centre; the first sector begins at azimuth 0"}}};
+  return sections;
+}
+
+const SectionArray<HoleCircle>& circle_sections() {
+  static const SectionArray<HoleCircle> sections{
+      .parent = "holes",
+      .name = "circle",
+      .meaning = "holes of the initial shape: a circle, repeated in every sector; give any number of circles",
+      .in = [](Case& c) -> std::vector<HoleCircle>& { return c.holes.circles; },
+      .example = {.center = {0.29, 0.02}, .radius = 0.01},
+      .keys = {
+          {.name = "center",
+           .unit = "m",
+           .field = PointField<HoleCircle>{&HoleCircle::center, between(-1000, 1000)},
+           .meaning = "[x, y] of the centre in one sector; the axle is at [0, 0], and azimuth 0 is along x",
+           .presence = Presence::required},
+          {.name = "radius",
+           .unit = "m",
+           .field = NumberField<HoleCircle>{&HoleCircle::radius, length},
+           .meaning = "radius of the hole",
+           .presence = Presence::required}}};
+  return sections;
+}
+
+const SectionArray<HoleSphere>& sphere_sections() {
+  static const SectionArray<HoleSphere> sections{
+      .parent = "holes",
+      .name = "sphere",
+      .meaning =
+          "in 3D, spherical holes of the initial shape, evenly spaced about the axle; give any number of "
+          "them",
+      .in = [](Case& c) -> std::vector<HoleSphere>& { return c.holes.spheres; },
+      .example = {.count = 16, .center_radius = 0.27, .radius = 0.03, .z = 0, .phase = {}},
+      .keys = {count_key<HoleSphere>(),
+               center_radius_key<HoleSphere>(),
+               length_key(&HoleSphere::radius, "radius", "radius of each hole"),
+               {.name = "z",
+                .unit = "m",
+                .field = NumberField<HoleSphere>{&HoleSphere::z, between(-1000, 1000)},
+                .meaning = "place of the centres along the axle, from the middle of the width"},
+               phase_key<HoleSphere>(phase_of_centre)}};
+  return sections;
+}
+
+namespace {
+
+HoleTapered conical_holes() {
+  HoleTapered holes{.count = 16, .center_radius = 0.27, .profile = {}, .phase = {}};
+  holes.profile = {{-0.06, 0.04}, {0, 0.03}, {0.06, 0.04}};
+  return holes;
+}
+
+}  // namespace
+
+const SectionArray<HoleTapered>& tapered_sections() {
+  static const SectionArray<HoleTapered> sections{
+      .parent = "holes",
+      .name = "tapered",
+      .meaning =
+          "in 3D, round holes of the initial shape whose radius changes along the axle, evenly spaced about "
+          "it; give any number of them",
+      .in = [](Case& c) -> std::vector<HoleTapered>& { return c.holes.tapered; },
+      .example = conical_holes(),
+      .keys = {count_key<HoleTapered>(),
+               center_radius_key<HoleTapered>(),
+               {.name = "profile",
+                .unit = "m",
+                .field = PointsField<HoleTapered>{&HoleTapered::profile, between(-1000, 1000)},
+                .meaning = "[[z, radius], ...]: the radius along the axle, straight from point to point and "
+                           "constant beyond the ends; z is from the middle of the width and grows from point "
+                           "to point; where the radius is negative there is no hole",
+                .presence = Presence::required},
+               phase_key<HoleTapered>(phase_of_centre)}};
+  return sections;
+}
+
+}  // namespace wheelwright

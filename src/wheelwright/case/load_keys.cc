@@ -1,0 +1,139 @@
+#include "wheelwright/case/common_keys.h"
+
+namespace wheelwright {
+
+const Section<Load>& load_section() {
+  static const Section<Load> section{
+      .name = "load",
+      .meaning = "the load on the wheel, the same in all load positions",
+      .in = [](Case& c) -> Load& { return c.load; },
+      .keys = {
+          {.name = "mass",
+           .unit = "kg",
+           .field = NumberField<Load>{&Load::force, between(1e-9, 1e9), standard_gravity},
+           .meaning = "mass carried by the whole width, under 9.81 m/s^2"},
+          {.name = "force",
+           .unit = "N",
+           .field = NumberField<Load>{&Load::force, between(1e-8, 1e10)},
+           .meaning = "force carried by the whole width",
+           .instead_of = "mass"},
+          {.name = "travel",
+           .unit = "m",
+           .field = OptionalNumberField<Load>{&Load::travel, above(0, 1000), "the rim carries the load"},
+           .meaning = "prescribed travel of the rim towards the ground; the force is a result",
+           .instead_of = "mass"},
+          {.name = "horizontal_force",
+           .unit = "N",
+           .field = NumberField<Load>{&Load::horizontal_force, between(-1e10, 1e10)},
+           .meaning = "force on the rim along the ground, towards larger azimuth, on the whole width; "
+                      "if it is 0 the rim does not move along the ground"},
+          {.name = "lateral_force",
+           .unit = "N",
+           .field = NumberField<Load>{&Load::lateral_force, between(-1e10, 1e10)},
+           .meaning = "in 3D, force on the rim along the axle, towards larger z; if it is 0 the rim does "
+                      "not move along the axle"},
+          {.name = "camber",
+           .unit = "deg",
+           .field = NumberField<Load>{&Load::camber, between(-30, 30), degree_of_arc},
+           .meaning = "in 3D, the angle by which the wheel leans: its side at larger z is nearer to the "
+                      "ground"},
+          {.name = "torque",
+           .unit = "N m",
+           .field = NumberField<Load>{&Load::torque, between(-1e10, 1e10)},
+           .meaning = "driving or braking torque on the rim, towards larger azimuth, on the whole "
+                      "width; if it is 0 the rim does not turn"},
+          {.name = "body_force",
+           .unit = "N/m^3",
+           .field = PointField<Load>{&Load::body_force, between(-1e12, 1e12)},
+           .meaning = "[along, down]: force per volume of the structure, along the ground towards "
+                      "larger azimuth, and downwards; [0, 9.81 * density] is its weight"},
+          {.name = "hole_pressure",
+           .unit = "Pa",
+           .field = NumberField<Load>{&Load::hole_pressure, between(-1e12, 1e12)},
+           .meaning = "pressure p on the boundary of the holes: g_N = -p n in (1)"},
+          {.name = "speed",
+           .unit = "m/s",
+           .field = NumberField<Load>{&Load::speed, between(0, 1000)},
+           .meaning = "speed v of the axle along the ground: the material is pulled away from the axle by "
+                      "density (v / R_e)^2 r per volume; needs material.density"},
+          {.name = "positions",
+           .unit = "",
+           .field = IntegerField<Load>{&Load::positions, between(1, 1000)},
+           .meaning = "N_d: number of load positions per sector, any on any grid"}}};
+  return section;
+}
+
+namespace {
+
+CaseLoad example_load_case() {
+  CaseLoad kerb;
+  kerb.name = "kerb";
+  kerb.force = 600 * standard_gravity;
+  return kerb;
+}
+
+}  // namespace
+
+const SectionArray<CaseLoad>& load_case_sections() {
+  static const SectionArray<CaseLoad> sections{
+      .parent = "load",
+      .name = "case",
+      .meaning =
+          "one of several loads under which the wheel is optimized, all of them with one "
+          "factorization; what it does not give is that of [load]; the first one is the load of "
+          "pictures, pressures and numbers without a load case ([several loads](optimization.md))",
+      .in = [](Case& c) -> std::vector<CaseLoad>& { return c.load.cases; },
+      .example = example_load_case(),
+      .keys = {
+          {.name = "name",
+           .unit = "",
+           .field = TextField<CaseLoad>{&CaseLoad::name, ""},
+           .meaning =
+               "a word of letters, digits, - and _, for constraints and for the columns of history.csv",
+           .presence = Presence::required},
+          {.name = "weight",
+           .unit = "",
+           .field = NumberField<CaseLoad>{&CaseLoad::weight, between(0, 1e9)},
+           .meaning = "of what is minimized, under this load; 0: it counts in constraints alone"},
+          {.name = "mass",
+           .unit = "kg",
+           .field = OptionalNumberField<CaseLoad>{&CaseLoad::force, between(1e-9, 1e9), "that of [load]",
+                                                  standard_gravity},
+           .meaning = "mass carried by the whole width, under 9.81 m/s^2"},
+          {.name = "force",
+           .unit = "N",
+           .field = OptionalNumberField<CaseLoad>{&CaseLoad::force, between(1e-8, 1e10), "that of [load]"},
+           .meaning = "force carried by the whole width",
+           .instead_of = "mass"},
+          {.name = "travel",
+           .unit = "m",
+           .field = OptionalNumberField<CaseLoad>{&CaseLoad::travel, above(0, 1000), "that of [load]"},
+           .meaning = "prescribed travel of the rim towards the ground",
+           .instead_of = "mass"},
+          {.name = "horizontal_force",
+           .unit = "N",
+           .field = OptionalNumberField<CaseLoad>{&CaseLoad::horizontal_force, between(-1e10, 1e10),
+                                                  "that of [load]"},
+           .meaning = "force on the rim along the ground"},
+          {.name = "torque",
+           .unit = "N m",
+           .field = OptionalNumberField<CaseLoad>{&CaseLoad::torque, between(-1e10, 1e10), "that of [load]"},
+           .meaning = "driving or braking torque on the rim"},
+          {.name = "body_force",
+           .unit = "N/m^3",
+           .field =
+               OptionalPointField<CaseLoad>{&CaseLoad::body_force, between(-1e12, 1e12), "that of [load]"},
+           .meaning = "[along, down]: force per volume of the structure"},
+          {.name = "hole_pressure",
+           .unit = "Pa",
+           .field = OptionalNumberField<CaseLoad>{&CaseLoad::hole_pressure, between(-1e12, 1e12),
+                                                  "that of [load]"},
+           .meaning = "pressure on the boundary of the holes"},
+          {.name = "speed",
+           .unit = "m/s",
+           .field = OptionalNumberField<CaseLoad>{&CaseLoad::speed, between(0, 1000), "that of [load]"},
+           .meaning = "speed of the axle along the ground"}}};
+  return sections;
+}
+
+}  // namespace wheelwright

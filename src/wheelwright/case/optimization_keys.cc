@@ -1,0 +1,250 @@
+#include "wheelwright/case/keys.h"
+
+namespace wheelwright {
+
+const Section<Objective>& objective_section() {
+  static const Section<Objective> section{
+      .name = "objective",
+      .meaning =
+          "weights of the functionals in the objective J, which is summed over all load positions and "
+          "minimized",
+      .in = [](Case& c) -> Objective& { return c.objective; },
+      .keys = {
+          {.name = "minimize",
+           .unit = "",
+           .field = choice<&Objective::minimize>({quantity_names.begin(), quantity_names.end()}),
+           .meaning = "what is minimized; objective: the weighted sum; any other quantity takes its place, "
+                      "and the weights then only say which functionals history.csv has"},
+          {.name = "over",
+           .unit = "",
+           .field = choice<&Objective::over>({"mean", "worst"}),
+           .meaning = "which load positions `minimize` is about: their mean, or the one with the greatest "
+                      "value; not for the weighted sum"},
+          {.name = "strain_energy",
+           .unit = "",
+           .field = NumberField<Objective>{&Objective::strain_energy, between(0, 1e9)},
+           .meaning = "weight of the strain energy J_e (3)"},
+          {.name = "uniformity_annulus",
+           .unit = "",
+           .field = NumberField<Objective>{&Objective::uniformity_annulus, between(0, 1e9)},
+           .meaning = "weight alpha_1 of J_p1 (60): uniformity of the contact stress over the load "
+                      "positions, in an annulus"},
+          {.name = "uniformity_dual",
+           .unit = "",
+           .field = NumberField<Objective>{&Objective::uniformity_dual, between(0, 1e9)},
+           .meaning = "weight alpha_2 of J_p2 (61): uniformity of the contact stress over the load "
+                      "positions, in H^-1/2"},
+          {.name = "uniformity_l2",
+           .unit = "",
+           .field = NumberField<Objective>{&Objective::uniformity_l2, between(0, 1e9)},
+           .meaning = "weight of J_p (4), the naive uniformity functional; for comparison"},
+          {.name = "annulus_matches_dual",
+           .unit = "",
+           .field = OptionalNumberField<Objective>{&Objective::annulus_matches_dual, above(0, 1e9),
+                                                   "uniformity_annulus is used"},
+           .meaning =
+               "computes uniformity_annulus by (83): weighted J_p1 starts equal to J_p2 with this weight"},
+          {.name = "annulus",
+           .unit = "m",
+           .field = OptionalNumberField<Objective>{&Objective::annulus, above(0, 1000), "one radial cell"},
+           .meaning = "epsilon: thickness of the annulus of J_p1, a whole number of radial cells; it stays "
+                      "material"},
+          {.name = "length",
+           .unit = "m",
+           .field = OptionalNumberField<Objective>{&Objective::length, above(0, 1000), "epsilon"},
+           .meaning = "L: characteristic length of J_p1 and J_p"},
+          {.name = "mean",
+           .unit = "",
+           .field = choice<&Objective::mean>({"exact", "held"}),
+           .meaning = "mean contact stress p_mean (73); exact: of the shape itself; held: of the last "
+                      "accepted shape, as in the paper"},
+          {.name = "dual_norm",
+           .unit = "",
+           .field = choice<&Objective::dual_norm>({"elasticity", "poisson"}),
+           .meaning =
+               "the problem on the ring without holes that defines the H^-1/2 norm of J_p2; elasticity: "
+               "(68), as in the paper; poisson: Poisson's problem of Remark 7, with E in place of the "
+               "elasticity tensor"}}};
+  return section;
+}
+
+namespace {
+
+Constraint example_constraint() {
+  Constraint energy;
+  energy.quantity = Quantity::strain_energy;
+  energy.at_most = 5;
+  return energy;
+}
+
+}  // namespace
+
+const SectionArray<Constraint>& constraint_sections() {
+  static const SectionArray<Constraint> sections{
+      .parent = "",
+      .name = "constraint",
+      .meaning =
+          "a bound that the optimized wheel must keep, with method = \"sequential_quadratic\"; a run that "
+          "does "
+          "not keep it ends with exit code 9; give any number of them, ten bounds in all; the volume is free "
+          "when a bound, or what is minimized, is about volume_fraction or mass",
+      .in = [](Case& c) -> std::vector<Constraint>& { return c.constraints; },
+      .example = example_constraint(),
+      .keys = {
+          {.name = "quantity",
+           .unit = "",
+           .field = choice<&Constraint::quantity>({quantity_names.begin(), quantity_names.end()}),
+           .meaning = "what is bounded, by the names of history.csv and [[expect]]",
+           .presence = Presence::required},
+          {.name = "at_least",
+           .unit = "",
+           .field = OptionalNumberField<Constraint>{&Constraint::at_least, above(0, 1e15), "no such bound"},
+           .meaning = "lower bound, in SI units; of forces, energies, masses and stiffnesses in 2D per metre "
+                      "of width, as in history.csv"},
+          {.name = "at_most",
+           .unit = "",
+           .field = OptionalNumberField<Constraint>{&Constraint::at_most, above(0, 1e15), "no such bound"},
+           .meaning = "upper bound"},
+          {.name = "equals",
+           .unit = "",
+           .field = OptionalNumberField<Constraint>{&Constraint::equals, above(0, 1e15), "no such bound"},
+           .meaning = "the value to keep, in place of bounds"},
+          {.name = "over",
+           .unit = "",
+           .field = choice<&Constraint::over>({"mean", "worst", "each"}),
+           .meaning = "which load positions it is about: their mean, the worst one, or each one with a "
+                      "bound of its own"},
+          {.name = "load_case",
+           .unit = "",
+           .field = TextField<Constraint>{&Constraint::load_case, "every load case"},
+           .meaning = "the name of the [[load.case]] that it is about"}}};
+  return sections;
+}
+
+const Section<Volume>& volume_section() {
+  static const Section<Volume> section{
+      .name = "volume",
+      .meaning = "the volume constraint",
+      .in = [](Case& c) -> Volume& { return c.volume; },
+      .keys = {
+          {.name = "control",
+           .unit = "",
+           .field = choice<&Volume::control>({"exact", "paper"}),
+           .meaning = "exact: every shape has the target volume, once it is reached; paper: the rule "
+                      "lambda_k of section 4.2, "
+                      "which lets the volume drift"},
+          {.name = "target",
+           .unit = "",
+           .field = OptionalNumberField<Volume>{&Volume::target, above(0, 1), "that of the initial shape"},
+           .meaning = "material as a fraction of the ring; the run moves the volume there from that of the "
+                      "initial shape"},
+          {.name = "rate",
+           .unit = "",
+           .field = NumberField<Volume>{&Volume::rate, above(0, 1)},
+           .meaning = "on the way to the target the volume changes by at most this fraction of the ring per "
+                      "shape; only with control = \"exact\""}}};
+  return section;
+}
+
+const Section<Optimizer>& optimizer_section() {
+  static const Section<Optimizer> section{
+      .name = "optimizer",
+      .meaning =
+          "the search for a better shape; the unit \"cell\" is the shortest edge of a grid cell at "
+          "mid-ring",
+      .in = [](Case& c) -> Optimizer& { return c.optimizer; },
+      .keys = {
+          {.name = "method",
+           .unit = "",
+           .field = choice<&Optimizer::method>({"auto", "sequential_quadratic", "descent"}),
+           .meaning = "sequential_quadratic: steps of a quadratic model that learns the curvature from the "
+                      "shapes before; descent: along the gradient; auto: descent with volume.control = "
+                      "\"paper\" and "
+                      "with velocity = \"harmonic\", which need it, else sequential_quadratic"},
+          {.name = "iterations",
+           .unit = "",
+           .field = IntegerField<Optimizer>{&Optimizer::iterations, between(0, 1000000)},
+           .meaning = "maximum number of accepted shapes after the initial one"},
+          {.name = "coarse_levels",
+           .unit = "",
+           .field = IntegerField<Optimizer>{&Optimizer::coarse_levels, between(0, 4)},
+           .meaning =
+               "the descent begins on a grid whose cells are doubled so many times along each axis, and "
+               "moves on to the next finer one when J has fallen by less than 0.5 % over 10 shapes, until "
+               "it is on the case's own grid; 0: on the case's own grid from the beginning"},
+          {.name = "velocity",
+           .unit = "",
+           .field = choice<&Optimizer::velocity>({"h1", "harmonic"}),
+           .meaning = "h1: Riesz representative of the gradient; harmonic: the paper's harmonic extension"},
+          {.name = "velocity_length",
+           .unit = "cells",
+           .field = NumberField<Optimizer>{&Optimizer::velocity_length, between(0, 1000)},
+           .meaning = "length over which h1 smooths the velocity"},
+          {.name = "step",
+           .unit = "cells",
+           .field = OptionalNumberField<Optimizer>{&Optimizer::step, above(0, 10),
+                                                   "1.25; with method = \"descent\" 0.5"},
+           .meaning = "maximum move of the boundary from one shape to the next"},
+          {.name = "max_halvings",
+           .unit = "",
+           .field = IntegerField<Optimizer>{&Optimizer::max_halvings, between(0, 50)},
+           .meaning = "how many times a rejected step is halved before the run stops"},
+          {.name = "accepted_increase",
+           .unit = "",
+           .field = NumberField<Optimizer>{&Optimizer::accepted_increase, between(0, 1)},
+           .meaning = "a shape is accepted if its J exceeds the best J so far by at most this fraction"},
+          {.name = "tolerance",
+           .unit = "",
+           .field = NumberField<Optimizer>{&Optimizer::tolerance, between(0, 1)},
+           .meaning =
+               "the run stops when J has fallen by less than this fraction over 10 shapes; 0 means never"},
+          {.name = "redistance_every",
+           .unit = "shapes",
+           .field = IntegerField<Optimizer>{&Optimizer::redistance_every, between(0, 1000000)},
+           .meaning = "how often the level set is redistanced (made a signed distance again); 0 means never"},
+          {.name = "smoothing",
+           .unit = "cells^2",
+           .field = NumberField<Optimizer>{&Optimizer::smoothing, between(0, 1000)},
+           .meaning = "tau of (76); 0 means no smoothing, and then small holes may fray"},
+          {.name = "smooth_every",
+           .unit = "shapes",
+           .field = IntegerField<Optimizer>{&Optimizer::smooth_every, between(1, 1000000)},
+           .meaning = "how often the level set is smoothed by (76)"},
+          {.name = "rim_band",
+           .unit = "m",
+           .field =
+               OptionalNumberField<Optimizer>{&Optimizer::rim_band, between(0, 1000), "1/14 of the ring"},
+           .meaning = "thickness of the band at the rim that stays material, at least one radial cell; holes "
+                      "end on it, so that the "
+                      "optimum depends on it"},
+          {.name = "tread_band",
+           .unit = "m",
+           .field = OptionalNumberField<Optimizer>{&Optimizer::tread_band, between(0, 1000),
+                                                   "1/14 of the ring, or 1/28 more than the annulus"},
+           .meaning =
+               "thickness of the band at the tread that stays material, at least one radial cell more than "
+               "the annulus"},
+          {.name = "minimum_wall",
+           .unit = "m",
+           .field = OptionalNumberField<Optimizer>{&Optimizer::minimum_wall, between(0, 1000),
+                                                   "any at first, one cell in the last part of a run"},
+           .meaning = "least thickness of the material between two edges: thinner walls are made as thick in "
+                      "every shape; the bands at rim and tread must be as thick; 0 means any to the end"},
+          {.name = "minimum_gap",
+           .unit = "m",
+           .field = OptionalNumberField<Optimizer>{&Optimizer::minimum_gap, between(0, 1000),
+                                                   "any at first, one cell in the last part of a run"},
+           .meaning =
+               "least width of a hole: narrower parts of holes, and smaller holes, are filled in every "
+               "shape; 0 means any to the end"},
+          {.name = "nucleation",
+           .unit = "",
+           .field = choice<&Optimizer::nucleation>({"never", "converged"}),
+           .meaning = "when holes are made where there are none: converged: where the search has converged, "
+                      "small holes are made where the topological derivative says that they lower J most; "
+                      "where J has not fallen when it has converged again, they are taken back and the run "
+                      "ends; in two dimensions"}}};
+  return section;
+}
+
+}  // namespace wheelwright

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "wheelwright/base/process_settings.h"
+#include "wheelwright/base/stopwatch.h"
+#include "wheelwright/run/observer.h"
+
+namespace wheelwright {
+
+/// Gives freed memory back to the system now and then, so that a session of hours does not grow by it.
+template <int dim>
+class FreedMemoryObserver : public Observer<dim> {
+ public:
+  void operator()(const Event<dim>& event, const RunView<dim>&) override {
+    constexpr double seconds_between = 5;
+    if (!std::holds_alternative<TrialDone<dim>>(event) || since_.seconds() < seconds_between) return;
+    give_freed_memory_back();
+    since_.lap();
+  }
+
+ private:
+  Stopwatch since_;
+};
+
+}  // namespace wheelwright
