@@ -49,14 +49,16 @@ class Page:
         self.element(name).send_keys(Keys.CONTROL, "a", Keys.NULL, text, Keys.ENTER)
 
     def pause(self):
+        """Also where the run waits because there is no better shape: it then waits through the next changes too."""
         if self.text("go") == "Pause":
             self.element("go").click()
         self.until(lambda: self.text("go") == "Go on")
 
     def go_on(self):
-        """From a pause, or from the end of a step."""
-        self.until(lambda: self.text("go") == "Go on")
+        """From a pause, or from the end of a step. The page shows afterwards that the run went on."""
+        self.pause()
         self.element("go").click()
+        self.until(lambda: self.text("go") == "Pause")
 
     def stroke(self, tool, radii, azimuth, steps=6):
         """Draws with the mouse along a ray, at these shares of the outer radius."""

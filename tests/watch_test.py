@@ -195,7 +195,8 @@ class Page(PageTest):
 
     def test_pause_step_and_go_on_by_mouse_and_keyboard(self):
         self.settled()
-        self.paused()
+        self.element("go").click()
+        self.until(lambda: self.text("state") == "paused")
         self.element("reset").click()
         self.until(lambda: self.element("undo").is_enabled())
         at = int(self.watched.frame()["shape"])
@@ -679,6 +680,21 @@ class Folder(unittest.TestCase):
         self.assertEqual(len(lines), len(written))
         self.assertLess(sum(a != b for a, b in zip(lines, written)), 3)  # the title
         self.assertIn(b"<!DOCTYPE html>", report)
+
+    def test_a_settled_run_can_be_paused_for_several_changes(self):
+        watched = self.watch(self.folder / "case.toml", "--output", self.folder / "run")
+        settled = watched.wait(lambda f: f["activity"] == "settled")
+        self.assertTrue(watched.give({"do": "pause"})["obeyed"])
+        self.assertEqual(watched.frame()["activity"], "paused")
+        load = {k: v for k, v in settled["settings"]["load"].items() if v is not None}
+        self.assertTrue(watched.give({"do": "load", **load, "force_N": 4000})["obeyed"])
+        paused = watched.wait(lambda f: f["activity"] == "paused" and f["settings"]["load"]["force_N"] == 4000)
+        self.assertEqual(paused["outline"], settled["outline"])
+        self.assertTrue(watched.give({"do": "reset"})["obeyed"])
+        paused = watched.wait(lambda f: f["activity"] == "paused" and f["outline"] != settled["outline"])
+        self.assertEqual(paused["shape"], settled["shape"])
+        self.assertTrue(watched.give({"do": "continue"})["obeyed"])
+        watched.wait(lambda f: f["activity"] == "settled" and f["shape"] > settled["shape"])
 
     def test_a_killed_run_goes_on(self):
         watched = self.watch(self.folder / "case.toml", "--output", self.folder / "run")

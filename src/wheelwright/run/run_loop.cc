@@ -358,8 +358,12 @@ bool RunLoop<dim>::must_yield() {
 }
 
 template <int dim>
+bool RunLoop<dim>::is_paused() const {
+  return !is_stopped_ && pause_at_ && state_->iteration >= *pause_at_;
+}
+
+template <int dim>
 void RunLoop<dim>::wait_while_paused() {
-  const auto is_paused = [this] { return !is_stopped_ && pause_at_ && state_->iteration >= *pause_at_; };
   if (!is_paused()) return;
   elapsed_ += watch_.lap();
   save();
@@ -369,14 +373,19 @@ void RunLoop<dim>::wait_while_paused() {
   watch_.lap();  // the pause does not count
 }
 
-/// Where the loop has a reason to end but is to wait: until a command gives it something to do.
+/// Where the loop has a reason to end but is to wait: until a command gives it something to do. One to pause
+/// keeps it waiting through the next changes.
 template <int dim>
 void RunLoop<dim>::wait_for_more(StopReason reason) {
   elapsed_ += watch_.lap();
   save();
   has_ended_by_itself_ = true;
   notify(RunWaits{reason});
-  while (!is_stopped_ && has_ended_by_itself_) obey(commands_.wait());
+  while (!is_stopped_ && has_ended_by_itself_) {
+    const bool was_paused = is_paused();
+    obey(commands_.wait());
+    if (has_ended_by_itself_ && is_paused() && !was_paused) notify(RunWaits{});
+  }
   has_ended_by_itself_ = false;
   notify(RunProceeds{});
   watch_.lap();

@@ -75,6 +75,7 @@ class RunLoop : private RunControl {
   void observe(const Trial<dim>& trial, const OptimizationState<dim>& state);
   bool must_yield();
   void obey(const Command& command);
+  bool is_paused() const;
   void wait_while_paused();
   void wait_for_more(StopReason reason);
   void notify(const Event<dim>& event);

@@ -461,8 +461,7 @@
 
   function showState() {
     at("state").textContent = states[frame.activity] ?? frame.activity;
-    const goes = frame.activity === "computing" || frame.activity === "starting";
-    at("go").textContent = goes ? "Pause" : "Go on";
+    at("go").textContent = frame.activity === "paused" ? "Go on" : "Pause";
     at("undo").disabled = !frame.can_undo;
     for (const id of ["go", "step", "reset"]) at(id).disabled = frame.activity === "ended";
   }
@@ -584,8 +583,8 @@
 
   // --- The run ----------------------------------------------------------------------------------------
 
-  at("go").addEventListener("click", () =>
-    give({ do: frame && (frame.activity === "computing" || frame.activity === "starting") ? "pause" : "continue" }));
+  // A run that settled can be paused too: it then waits through several changes.
+  at("go").addEventListener("click", () => give({ do: frame?.activity === "paused" ? "continue" : "pause" }));
   at("step").addEventListener("click", () => give({ do: "step" }));
   at("undo").addEventListener("click", () => give({ do: "undo" }));
   at("reset").addEventListener("click", () => give({ do: "reset" }));
