@@ -83,6 +83,26 @@ TEST(ContactPath, LeadsFromAnyStartToNewtonsSolution) {
   EXPECT_GT(follow_path(contact, starts[2]).turns, 64);
 }
 
+// Points that would turn round come to rest instead; else Newton's method cycles near the limit of friction, and the
+// way round by paths takes hundreds of steps.
+TEST(NewtonsMethod, NeedsFewStepsUpToTheLimitOfFriction) {
+  auto model = driven_model();
+  model.tread.levels = 3;
+  for (const double nu : {0.0, 0.3})
+    for (const double load : {2e4, 1e5})
+      for (const double friction : {0.1, 0.3})
+        for (const double share : {0.8, 0.95, 0.99}) {
+          model.materials = Material{30e6, nu};
+          model.load = load;
+          model.contact.friction = friction;
+          model.horizontal_force = share * friction * load;
+          const auto problem = RollingProblem<2>::create(model);
+          const auto s = problem->solve(one_hole(model));
+          ASSERT_TRUE(s) << s.failure().detail;
+          EXPECT_LE(s->states[0].newton_iterations, 25) << nu << " " << load << " " << friction << " " << share;
+        }
+}
+
 TEST(ContactPath, StopsWhenAsked) {
   const auto model = driven_model();
   const auto problem = RollingProblem<2>::create(model);

@@ -169,6 +169,17 @@ TEST(EdgeCases, LargeDeformationIsTold) {
   EXPECT_EQ(deformation_warning(deformation_size(*tram.solver, tram.shape, *tram.state)), "");
 }
 
+// A path of contact problems that stays at a corner of the contact law, where rounding decides where it goes, is
+// left soon.
+TEST(EdgeCases, APathThatStaysAtACornerIsLeft) {
+  Case c = *read("friction_corner").value;
+  const auto solver = make_solver(rolling_model<2>(c));
+  int steps = 0;
+  const Interrupt interrupt([&] { return ++steps > 3000; }, [](const ContactProgress&) {});
+  const auto state = (*solver)->states(initial_shape<2>(c), (*solver)->all_positions(), interrupt);
+  EXPECT_TRUE(state) << state.failure().detail;
+}
+
 TEST(EdgeCases, WideContactWithFrictionTellsItsStepsAndStopsBeforeTheNext) {
   Case c = *read("wide_contact_friction_1").value;
   c.load.positions = 2;

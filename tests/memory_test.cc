@@ -94,6 +94,22 @@ TEST_F(FakeSystem, TheAddressSpaceIsTheSoftLimitLessWhatIsMapped) {
   EXPECT_EQ(address_space_left(root_), 0);
 }
 
+// A hole that is its own mirror image across the width lets half of it be solved.
+TEST(Memory, AnUnevenTaperedHoleTakesThatOfTheWholeWidth) {
+  Case c;
+  c.wheel.dimension = 3;
+  c.grid.axial_cells = 4;
+  const auto with_profile = [&](const std::vector<std::array<double, 2>>& profile) {
+    c.holes.tapered = {{.count = 16, .center_radius = 0.27, .profile = profile, .phase = {}}};
+    return estimated_memory(c);
+  };
+  const double even = with_profile({{-0.06, 0.02}, {-0.01, 0.03}, {0.01, 0.03}, {0.06, 0.02}}),
+               shifted = with_profile({{-0.06, 0.02}, {-0.01, 0.03}, {0.02, 0.03}, {0.06, 0.02}}),
+               cone = with_profile({{-0.06, 0.02}, {-0.01, 0.03}, {0.01, 0.03}, {0.06, 0.04}});
+  EXPECT_LT(even, 0.9 * cone);
+  EXPECT_EQ(shifted, cone);
+}
+
 TEST(Memory, EachThreadTakesAddressSpace) {
   const Case c;
   EXPECT_FALSE(lack_of_address_space(c, 64, {}));

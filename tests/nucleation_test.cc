@@ -7,6 +7,7 @@
 #include "tests/support.h"
 #include "wheelwright/case/conflicts.h"
 #include "wheelwright/case/read.h"
+#include "wheelwright/optimize/constraints.h"
 #include "wheelwright/run/run.h"
 
 namespace wheelwright::testing {
@@ -105,6 +106,49 @@ TEST(HolePlaces, ShapesHaveTheHolesWithTheirAreas) {
       std::ranges::find_if(all, [](const auto& c) { return !c.is_material && c.measure < 5e-4; });
   ASSERT_NE(found, all.end());
   EXPECT_NEAR(found->measure, std::numbers::pi * 0.008 * 0.008, 0.1 * found->measure);
+}
+
+/// The objective and the multipliers times the gaps of all bounds.
+double lagrangian(const Evaluation<2>& evaluation, const std::vector<double>& multipliers) {
+  double sum = evaluation.function("objective").value;
+  const auto constraints = bound_constraints(evaluation);
+  for (size_t i = 0; i < constraints.size(); ++i) sum += multipliers[i] * constraints[i].gap;
+  return sum;
+}
+
+TEST(Nucleation, WeightsAreTheDerivativesOfTheLagrangian) {
+  const auto function = [](const std::string& name, double value, Bounds bounds) {
+    return FunctionValue{.name = name, .value = value, .by_position = {}, .gradient = {}, .bounds = bounds};
+  };
+  OptimizationState<2> state{.shape = solid(paper_model(4, 48).grid),
+                             .evaluation = {},
+                             .measure = 0,
+                             .target_measure = 0,
+                             .iteration = 3,
+                             .step = 1,
+                             .since_redistance = 0,
+                             .since_smoothing = 0,
+                             .memory = {},
+                             .history = {}};
+  state.evaluation.functions = {function("stiffness", 6.5, {.lower = 7}),
+                                function("objective", 40, {}),
+                                function("mass", 21, {.lower = 18, .upper = 20}),
+                                function("run_out", 3, {.lower = 2, .upper = 2})};
+  state.memory.multipliers = {0.4, 0.3, 1.7, -0.8};
+  const OptimizerOptions options;
+  ASSERT_EQ(bound_constraints(state.evaluation).size(), 4u);
+  const auto weights = lagrangian_weights(options, state);
+  for (size_t f = 0; f < weights.size(); ++f) {
+    auto more = state.evaluation;
+    more.functions[f].value += 0.5;
+    const double change = lagrangian(more, state.memory.multipliers) -
+                          lagrangian(state.evaluation, state.memory.multipliers);
+    EXPECT_NEAR(weights[f], change / 0.5, 1e-12) << f;
+  }
+  state.memory.multipliers.clear();  // not known yet: 1 % of a bound costs 1 % of the objective
+  const auto unknown = lagrangian_weights(options, state);
+  EXPECT_NEAR(unknown[0] * 0.01 * 7, -0.01 * 40, 1e-12);
+  EXPECT_NEAR(unknown[3] * 0.01 * 2, 0.01 * 40, 1e-12);
 }
 
 /// A ring without holes, or with some, whose volume is to become 0.66, on a small grid with walls of a cell.

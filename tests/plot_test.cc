@@ -94,6 +94,24 @@ TEST(Plot, PointsAreDrawnToScale) {
   EXPECT_LT(p[2][1], p[0][1]);  // larger is higher
 }
 
+TEST(Plot, CurvesFillTheSameHeightWhereverTheirValuesLie) {
+  const auto extent = [](const std::vector<double>& y) {
+    double low = INFINITY, high = -INFINITY;
+    const auto pieces = drawn_pieces(plot_svg(line({0, 1, 2}, y)));
+    for (const auto& p : pieces[0]) {
+      low = std::min(low, p[1]);
+      high = std::max(high, p[1]);
+    }
+    return std::array{low, high};
+  };
+  const auto at_zero = extent({0, 1, 0.3});
+  for (const double offset : {-1000.0, -7.0, 3.0, 1000.0}) {
+    const auto there = extent({offset, offset + 1, offset + 0.3});
+    EXPECT_NEAR(there[0], at_zero[0], 0.2) << offset;
+    EXPECT_NEAR(there[1], at_zero[1], 0.2) << offset;
+  }
+}
+
 TEST(Plot, MissingValuesInterruptTheLine) {
   const auto pieces = drawn_pieces(plot_svg(line({0, 1, 2, 3, 4}, {1, 2, NAN, 4, 5})));
   ASSERT_EQ(pieces.size(), 2u);
