@@ -83,8 +83,8 @@ TEST(ContactPath, LeadsFromAnyStartToNewtonsSolution) {
   EXPECT_GT(follow_path(contact, starts[2]).turns, 64);
 }
 
-// Points that would turn round come to rest instead; else Newton's method cycles near the limit of friction, and the
-// way round by paths takes hundreds of steps.
+// Points that would turn round come to rest instead; else Newton's method cycles near the limit of friction,
+// and the way round by paths takes hundreds of steps.
 TEST(NewtonsMethod, NeedsFewStepsUpToTheLimitOfFriction) {
   auto model = driven_model();
   model.tread.levels = 3;
@@ -99,7 +99,8 @@ TEST(NewtonsMethod, NeedsFewStepsUpToTheLimitOfFriction) {
           const auto problem = RollingProblem<2>::create(model);
           const auto s = problem->solve(one_hole(model));
           ASSERT_TRUE(s) << s.failure().detail;
-          EXPECT_LE(s->states[0].newton_iterations, 25) << nu << " " << load << " " << friction << " " << share;
+          EXPECT_LE(s->states[0].newton_iterations, 25)
+              << nu << " " << load << " " << friction << " " << share;
         }
 }
 

@@ -169,8 +169,8 @@ TEST(EdgeCases, LargeDeformationIsTold) {
   EXPECT_EQ(deformation_warning(deformation_size(*tram.solver, tram.shape, *tram.state)), "");
 }
 
-// A path of contact problems that stays at a corner of the contact law, where rounding decides where it goes, is
-// left soon.
+// A path of contact problems that stays at a corner of the contact law, where rounding decides where it goes,
+// is left soon.
 TEST(EdgeCases, APathThatStaysAtACornerIsLeft) {
   Case c = *read("friction_corner").value;
   const auto solver = make_solver(rolling_model<2>(c));

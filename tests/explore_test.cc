@@ -1,4 +1,6 @@
 #include <atomic>
+#include <cmath>
+#include <numbers>
 #include <set>
 
 #include "tests/run_support.h"
@@ -14,6 +16,7 @@
 #include "wheelwright/explore/workers.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/run/study.h"
+#include "wheelwright/starts/draft.h"
 #include "wheelwright/starts/random.h"
 #include "wheelwright/starts/start.h"
 
@@ -51,6 +54,28 @@ TEST(Random, IsUniformAndTheSameEverywhere) {
   EXPECT_NEAR(sum / n, 0.5, 0.01);
   EXPECT_NEAR(squares / n, 1. / 3, 0.01);
   EXPECT_NE(other.uniform(0, 1), Random(7, 3).uniform(0, 1));
+}
+
+// At their inner ends neighbours are nearest.
+TEST(Drafts, SlotsKeepTheirWallsUpToTheLargestSize) {
+  const DraftSpace space{.inner = 0.21, .outer = 0.33, .wall = 0.006, .sectors = 1};
+  Random random(4, 1);
+  int n_drawn = 0;
+  for (int k = 0; k < 300; ++k) {
+    const auto draft = draft_slots(space, random);
+    if (!draft) continue;
+    Case c;
+    draft->draw(c, draft->most);
+    ASSERT_EQ(c.shapes.slots.size(), 1u);
+    const SlotShape& slot = c.shapes.slots[0];
+    if (slot.angle != 0) continue;
+    const double foot = slot.center_radius - 0.5 * (slot.length - slot.width);
+    EXPECT_GE(2 * foot * std::sin(std::numbers::pi / slot.count) - slot.width, space.wall * (1 - 1e-9)) << k;
+    EXPECT_GE(slot.center_radius - 0.5 * slot.length, space.inner * (1 - 1e-9));
+    EXPECT_LE(slot.center_radius + 0.5 * slot.length, space.outer * (1 + 1e-9));
+    ++n_drawn;
+  }
+  EXPECT_GT(n_drawn, 100);
 }
 
 /// Starts of random seeds and volumes are valid cases of the volume asked for.

@@ -15,7 +15,8 @@ std::vector<std::array<Vec<2>, 2>> strokes(const std::string& svg) {
   static const std::regex line("d=\"M([0-9.-]+) ([0-9.-]+)L([0-9.-]+) ([0-9.-]+)\"");
   std::vector<std::array<Vec<2>, 2>> found;
   for (std::sregex_iterator p(svg.begin(), svg.end(), line), end; p != end; ++p)
-    found.push_back({Vec<2>{std::stod((*p)[1]), std::stod((*p)[2])}, {std::stod((*p)[3]), std::stod((*p)[4])}});
+    found.push_back(
+        {Vec<2>{std::stod((*p)[1]), std::stod((*p)[2])}, {std::stod((*p)[3]), std::stod((*p)[4])}});
   return found;
 }
 
@@ -25,8 +26,8 @@ TEST(ForceMarks, AreArrowsAlongTheForcesThroughTheAxle) {
   const PictureView view{.centre = {0.02, -0.01}, .half = 0.4, .left = 30, .top = 50, .size = 600};
   const Vec<2> axle{0.07, 0.04}, at = view.pixel(axle);
   for (const double sign : {-1.0, 1.0}) {
-    const auto drawn = strokes(
-        force_marks(view, axle, {.towards_ground = 3000 * sign, .along_ground = 1000 * sign}, grid));
+    const auto drawn =
+        strokes(force_marks(view, axle, {.towards_ground = 3000 * sign, .along_ground = 1000 * sign}, grid));
     ASSERT_EQ(drawn.size(), 2u);
     const auto& [load, along] = std::pair(drawn[0], drawn[1]);
     EXPECT_NEAR(load[0][0], at[0], 0.06);

@@ -130,8 +130,7 @@ TEST(Nucleation, WeightsAreTheDerivativesOfTheLagrangian) {
                              .since_smoothing = 0,
                              .memory = {},
                              .history = {}};
-  state.evaluation.functions = {function("stiffness", 6.5, {.lower = 7}),
-                                function("objective", 40, {}),
+  state.evaluation.functions = {function("stiffness", 6.5, {.lower = 7}), function("objective", 40, {}),
                                 function("mass", 21, {.lower = 18, .upper = 20}),
                                 function("run_out", 3, {.lower = 2, .upper = 2})};
   state.memory.multipliers = {0.4, 0.3, 1.7, -0.8};
@@ -141,8 +140,8 @@ TEST(Nucleation, WeightsAreTheDerivativesOfTheLagrangian) {
   for (size_t f = 0; f < weights.size(); ++f) {
     auto more = state.evaluation;
     more.functions[f].value += 0.5;
-    const double change = lagrangian(more, state.memory.multipliers) -
-                          lagrangian(state.evaluation, state.memory.multipliers);
+    const double change =
+        lagrangian(more, state.memory.multipliers) - lagrangian(state.evaluation, state.memory.multipliers);
     EXPECT_NEAR(weights[f], change / 0.5, 1e-12) << f;
   }
   state.memory.multipliers.clear();  // not known yet: 1 % of a bound costs 1 % of the objective
