@@ -172,7 +172,7 @@ class Path {
   bool turn() {
     if (next_.point < 0) return false;
     if (tangent_.n_changes() >= most_changes) refresh();
-    if (tangent_.n_changes() >= 4 * most_changes) return false;
+    if (tangent_.n_changes() >= most_changes_at_a_corner) return false;
     go(next_.distance);
     Piece& piece = pieces_[next_.point];
     const double ratio = tangent_.change(*contact_, next_.point, next_.border, piece, rate_);
@@ -186,6 +186,8 @@ class Path {
  private:
   /// Changes by which a factored tangent is corrected: a few percent of the unknowns.
   static constexpr int most_changes = 64;
+  /// The same at a corner of the contact law, where the tangent cannot be factored anew.
+  static constexpr int most_changes_at_a_corner = 4 * most_changes;
 
   Path(const ReducedContact<2>& contact, const Unknowns& start, ContactTangent<2> tangent)
       : contact_(&contact),
