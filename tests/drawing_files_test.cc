@@ -736,6 +736,11 @@ std::vector<BadFile> bad_files() {
       {"rational.dxf",
        dxf("0\nSPLINE\n71\n1\n40\n0\n40\n0\n40\n1\n40\n1\n10\n250\n20\n0\n10\n290\n20\n0\n41\n1\n41\n-2\n"),
        15, path, ""},
+      {"weightless.dxf",
+       dxf("0\nSPLINE\n71\n1\n40\n0\n40\n0\n40\n1\n40\n1\n10\n250\n20\n0\n10\n290\n20\n0\n41\n1\n41\n0\n0\nCI"
+           "RCLE\n10\n270\n20\n0\n"
+           "40\n20\n"),
+       15, path, ""},
       {"tilted.dxf", dxf("0\nCIRCLE\n10\n270\n20\n0\n40\n20\n210\n1\n220\n0\n230\n0\n"), 15, path, ""},
       {"in_metres.dxf", dxf("0\nCIRCLE\n10\n270\n20\n0\n40\n20\n", 6), 5, "shape.file[1]", ""},
       {"crossing.dxf", dxf("0\nCIRCLE\n10\n270\n20\n0\n40\n20\n0\nCIRCLE\n10\n290\n20\n0\n40\n20\n"), 15,

@@ -7,6 +7,7 @@
 #include "wheelwright/elasticity/sector_stiffness.h"
 #include "wheelwright/geometry/cell_map.h"
 #include "wheelwright/geometry/mirror.h"
+#include "wheelwright/geometry/section.h"
 #include "wheelwright/geometry/shapes.h"
 
 // Holes that change along the axle.
@@ -186,6 +187,24 @@ TEST(SpatialHoles, ALinearDisplacementIsInEquilibriumWithItsTraction) {
     }
     EXPECT_GT(tested, 50);
   }
+}
+
+// A level set that is linear along the axle has in the middle the mean of its values at the side faces.
+TEST(Section, IsThatOfTheMiddleOfTheWidthOnAnyGrid) {
+  for (const int axial_cells : {1, 2, 3, 4, 5})
+    for (const int degree : {1, 2}) {
+      const PolarGrid<3> grid{0.20, 0.34, 0.12, 12, {4, 5, axial_cells}};
+      LevelSet<3> psi{Lattice<3>(grid, degree), {}};
+      for (int node = 0; node < psi.lattice.n_nodes(); ++node) {
+        const auto p = psi.lattice.polar_point(node);
+        psi.values.push_back(3 * p[0] - 2 + std::cos(12 * p[1]) + (1 + 5 * p[0]) * p[2]);
+      }
+      const auto section = mid_plane_section(psi);
+      for (int node = 0; node < section.lattice.n_nodes(); ++node) {
+        const auto p = section.lattice.polar_point(node);
+        EXPECT_NEAR(section.values[node], 3 * p[0] - 2 + std::cos(12 * p[1]) + (1 + 5 * p[0]) * 0.06, 1e-14);
+      }
+    }
 }
 
 }  // namespace
