@@ -1,7 +1,9 @@
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <thread>
 
 #include "tests/run_support.h"
 #include "wheelwright/app/number_list.h"
@@ -151,6 +153,18 @@ TEST(Pareto, TheOrderHoldsTheBestOfEachCostFirstAndEveryFrontBeforeTheNext) {
       if (costs[i][d] < costs[best][d]) best = i;
     EXPECT_TRUE(order[0] == best || order[1] == best);
   }
+}
+
+// Three calls, each of which waits until all have begun.
+TEST(Workers, CallAsManyAtATimeAsThereAreThreads) {
+  std::atomic<int> begun = 0, together = 0;
+  on_threads(3, 3, [&](int) {
+    ++begun;
+    const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (begun < 3 && std::chrono::steady_clock::now() < until) std::this_thread::yield();
+    together += begun == 3;
+  });
+  EXPECT_EQ(together, 3);
 }
 
 TEST(Workers, CallEachOnceOnAnyNumberOfThreads) {
