@@ -173,12 +173,17 @@ TEST(EdgeCases, LargeDeformationIsTold) {
 // A path of contact problems that stays at a corner of the contact law, where rounding decides where it goes,
 // is left soon.
 TEST(EdgeCases, APathThatStaysAtACornerIsLeft) {
-  Case c = *read("friction_corner").value;
-  const auto solver = make_solver(rolling_model<2>(c));
-  int steps = 0;
-  const Interrupt interrupt([&] { return ++steps > 3000; }, [](const ContactProgress&) {});
-  const auto state = (*solver)->states(initial_shape<2>(c), (*solver)->all_positions(), interrupt);
-  EXPECT_TRUE(state) << state.failure().detail;
+  // Which of these gets to the corner depends on rounding, and so on the build and the processor.
+  for (const int positions : {1, 2, 4}) {
+    Case c = *read("friction_corner").value;
+    c.load.positions = positions;
+    const auto solver = make_solver(rolling_model<2>(c));
+    ASSERT_TRUE(solver);
+    int steps = 0;
+    const Interrupt interrupt([&] { return ++steps > 3000 * positions; }, [](const ContactProgress&) {});
+    const auto state = (*solver)->states(initial_shape<2>(c), (*solver)->all_positions(), interrupt);
+    ASSERT_TRUE(state) << positions << ": " << state.failure().detail;
+  }
 }
 
 TEST(EdgeCases, WideContactWithFrictionTellsItsStepsAndStopsBeforeTheNext) {
