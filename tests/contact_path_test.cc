@@ -134,8 +134,7 @@ double violation(const ContactPatch<2>& patch, double friction) {
   return largest / pressure;
 }
 
-// Of the random wheels these two make Newton's method cycle, and so does the sequence of problems with given
-// friction.
+// This random wheel makes Newton's method cycle, and the sequence of problems with given friction too.
 TEST(ContactPath, SolvesWhereNewtonsMethodCycles) {
   testing::RandomWheels wheels(1);
   for (int k = 0; k <= 51; ++k) {

@@ -30,7 +30,7 @@ struct Quadric {
     return {2, nodal};
   }
 
-  /// Where planes across an axis touch the quadric: m +- s Q^-1 e with s^2 e . Q^-1 e = level.
+  /// Planes across an axis touch the quadric at these points, m +- s Q^-1 e with s^2 e . Q^-1 e = level.
   std::vector<Vec<3>> touching_points(int axis) const {
     const Mat<3> inverted = inverse<3>(form);
     const double square = level / inverted[axis][axis];

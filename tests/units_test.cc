@@ -28,7 +28,7 @@ std::map<std::string, int> exponents(std::string unit) {
   return result;
 }
 
-// What grows with the width is that of one metre of it in 2D.
+// In 2D a quantity that grows with the width is that of one metre of width.
 TEST(Units, In2DAreThoseIn3DPerMetre) {
   using enum UnitKind;
   for (const UnitKind kind : {energy, force, torque, mass, stiffness, torsional_stiffness}) {

@@ -373,7 +373,7 @@ void RunLoop<dim>::wait_while_paused() {
   watch_.lap();  // the pause does not count
 }
 
-/// Where the loop has a reason to end but is to wait: until a command gives it something to do. One to pause
+/// Waits, where the loop has a reason to end, until a command gives it something to do. A command to pause
 /// keeps it waiting through the next changes.
 template <int dim>
 void RunLoop<dim>::wait_for_more(StopReason reason) {
