@@ -122,8 +122,9 @@ TEST(FinalWidths, AreMendedOnceInAShapeOfItsOwn) {
   });
   ASSERT_NE(other, course.trials.end());
   EXPECT_LT(other->halvings, first.halvings);
-  if (other->evaluation)
+  if (other->evaluation) {
     EXPECT_GT(other->evaluation->function("objective").value, first.evaluation->function("objective").value);
+  }
 }
 
 TEST(FinalWidths, ShapesThatHaveThemStayAsTheyAre) {
@@ -131,6 +132,27 @@ TEST(FinalWidths, ShapesThatHaveThemStayAsTheyAre) {
   EXPECT_EQ(course.last.final_widths, FinalWidths::kept);
   EXPECT_EQ(course.last.history_begin, 0);
   for (const auto& trial : course.trials) EXPECT_TRUE(trial.iteration == 0 || trial.step > 0);
+}
+
+/// Holes of two cells become slits that cannot be mended: such shapes keep the widths, if they have them.
+TEST(FinalWidths, AreKeptFromTheBeginningWhereHolesAreSmall) {
+  int n_small = 0;
+  for (const Start& start : starts) {
+    const Course course = course_of(case_text(start, 2));
+    const LevelSet<2>& first = course.trials.front().shape;
+    const double cell = first.lattice.grid().resolution();
+    const bool has_widths = narrowest_places(first, {.wall = 1.05 * cell, .gap = 1.12 * cell}).empty(),
+               has_small_holes = 2 * start.radius < 1.8 * 1.12 * cell;
+    const bool is_expected = has_widths && has_small_holes;
+    EXPECT_EQ(course.last.final_widths == FinalWidths::kept, is_expected) << start.name;
+    if (!is_expected) continue;
+    ++n_small;
+    for (const auto& trial : course.trials)
+      if (trial.verdict == Verdict::accepted) {
+        EXPECT_TRUE(narrowest_places(trial.shape, {.wall = cell, .gap = cell}).empty()) << start.name;
+      }
+  }
+  EXPECT_GE(n_small, 1);
 }
 
 TEST(FinalWidths, AreNotAskedForWhereTheCaseGivesWidths) {

@@ -385,7 +385,7 @@ TEST_F(RunTest, NewWeightsMayAddAFunctional) {
 
 // Also when the run ended between the new columns and the checkpoint behind them.
 TEST_F(RunTest, ARunWithNewColumnsIsResumedWithTheSameBytes) {
-  const Case c = the_case(small_case(6));
+  const Case c = the_case(small_case_of_any_width(6));
   const NewWeights weights{.strain_energy = 2.0, .uniformity_dual = 50.0};
   const auto execute_and_stop = [&](const fs::path& run, int stop) {
     CommandQueue commands;
@@ -409,7 +409,7 @@ TEST_F(RunTest, ARunWithNewColumnsIsResumedWithTheSameBytes) {
     expect_equal_results(changed, stopped);
   }
 
-  straight(small_case(6));
+  straight(small_case_of_any_width(6));
   const fs::path killed = folder() / "killed";
   execute_and_stop(killed, 3);
   fs::remove(CheckpointFolder(killed).files().front());  // that of the new case

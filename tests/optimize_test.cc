@@ -10,6 +10,7 @@
 #include "wheelwright/geometry/shapes.h"
 #include "wheelwright/optimize/constraints.h"
 #include "wheelwright/optimize/optimizer.h"
+#include "wheelwright/optimize/sequential_quadratic.h"
 
 using namespace wheelwright;
 
@@ -158,11 +159,14 @@ TEST(ShapeOptimizer, HandsOnTheCellsOfEveryShape) {
 
 // With a quadratic model of the objective far fewer shapes are tried than by descent.
 TEST(SequentialQuadratic, ConvergesToTheLevelLineInFewTrials) {
-  const auto trials_to = [](Method method, double objective, double step) {
+  const auto trials_to = [](Method method, double objective, double step,
+                            DeformationKind kind = DeformationKind::vector_field) {
     OptimizerOptions options;
     options.method = method;
     options.step = step;
-    const ShapeOptimizer<2> optimizer(lattice, evolution, options,
+    EvolutionOptions motion = evolution;
+    motion.deformation = kind;
+    const ShapeOptimizer<2> optimizer(lattice, motion, options,
                                       wheelwright::testing::objective_of_shape<2>(bowl_objective));
     Record record;
     const auto outcome = optimize<2>(optimizer, displaced_hole(), record.observer(), never);
@@ -186,7 +190,9 @@ TEST(SequentialQuadratic, ConvergesToTheLevelLineInFewTrials) {
   const double initial = evaluate_bowl(displaced_hole()).function("objective").value,
                end = best.state->evaluation.function("objective").value;
   const double near = end + 0.01 * (initial - end);
-  EXPECT_LT(trials_to(Method::sequential_quadratic, near, 1.5), trials_to(Method::descent, near, 0.5));
+  const auto of_descent = trials_to(Method::descent, near, 0.5);
+  for (const auto kind : {DeformationKind::vector_field, DeformationKind::normal_speed})
+    EXPECT_LT(trials_to(Method::sequential_quadratic, near, 1.5, kind), of_descent);
 }
 
 // Over the first shapes, far from the minimum, the objective falls as the method's model foretells.
@@ -220,6 +226,51 @@ auto bowl_with_bounds(Bounds bounds) {
                                     bounds});
     return evaluation;
   };
+}
+
+// Before shapes have the final widths an objective may be as large as one of the last two, though not larger
+// by the noise: objectives would drift upwards. With the widths, or without any, it is compared with the
+// best.
+TEST(SequentialQuadratic, GoesPastAJumpUntilShapesHaveTheFinalWidths) {
+  const Evolver<2> evolver(lattice, evolution);
+  OptimizerOptions options;
+  options.method = Method::sequential_quadratic;
+  Evaluation<2> evaluation = evaluate_bowl(displaced_hole());
+  evaluation.functions.front().value = 1;
+  const auto accepts = [&](const std::vector<double>& history, double objective, FinalWidths widths) {
+    const OptimizationState<2> state{.shape = displaced_hole(),
+                                     .evaluation = evaluation,
+                                     .measure = material_measure(displaced_hole()),
+                                     .target_measure = material_measure(displaced_hole()),
+                                     .iteration = static_cast<int>(history.size()) - 1,
+                                     .step = 1,
+                                     .since_redistance = 0,
+                                     .since_smoothing = 0,
+                                     .memory = {},
+                                     .history = history,
+                                     .final_widths = widths};
+    Evaluation<2> of_trial = evaluation;
+    of_trial.functions.front().value = objective;
+    const SequentialQuadraticProposals<2> proposals(evolver, options, state);
+    return proposals.accepts(*proposals.move(1), of_trial);
+  };
+  const double noise = options.accepted_increase;
+  for (const auto& [history, largest] : {std::pair{std::vector<double>{1.2, 0.9, 1.1, 1.0}, 1.1},
+                                         {{1.2, 0.9, 1.0, 1.1}, 1.1},
+                                         {{1.2, 1.1, 0.9, 1.0}, 1.0},
+                                         {{1.2, 1.1, 1.0}, 1.1},
+                                         {{1.0}, 1 + noise}}) {
+    const double best = *std::ranges::min_element(history) + noise;
+    options.final_widths = {.wall = h, .gap = h};
+    EXPECT_TRUE(accepts(history, largest - 0.1 * noise, FinalWidths::not_yet));
+    EXPECT_FALSE(accepts(history, largest + 0.1 * noise, FinalWidths::not_yet));
+    for (const bool have_widths : {true, false}) {
+      if (!have_widths) options.final_widths = {};
+      const auto widths = have_widths ? FinalWidths::kept : FinalWidths::not_yet;
+      EXPECT_TRUE(accepts(history, best - 0.1 * noise, widths));
+      EXPECT_FALSE(accepts(history, best + 0.1 * noise, widths));
+    }
+  }
 }
 
 // J grows with the measure: the lower bound is active. Where both are stationary, 2 - q is the multiplier all
@@ -454,6 +505,28 @@ TEST(ShapeOptimizer, GivesUpWhereEveryTrialFails) {
   EXPECT_EQ(outcome.state->iteration, 0);
   ASSERT_EQ(record.trials.size(), 5u);
   EXPECT_EQ(record.trials.back().step, options.step / 8);
+}
+
+// Widths are a limit of the search: a run that cannot leave a shape because of them has found its end.
+TEST(ShapeOptimizer, EndsWhereEveryTrialIsTooNarrow) {
+  for (const auto reason : {FailureReason::too_narrow, FailureReason::no_contact}) {
+    auto near_the_first = bowl_near_the_first(0.05 * h);
+    const auto evaluate = [=](const LevelSet<2>& psi) mutable -> Expected<Evaluation<2>> {
+      auto evaluation = near_the_first(psi);
+      if (!evaluation) return Failure{reason, "a wall"};
+      return evaluation;
+    };
+    OptimizerOptions options;
+    options.max_halvings = 3;
+    const ShapeOptimizer<2> optimizer(lattice, evolution, options,
+                                      wheelwright::testing::objective_of_shape<2>(evaluate));
+    Record record;
+    const auto outcome = optimize<2>(optimizer, displaced_hole(), record.observer(), never);
+    EXPECT_EQ(outcome.reason,
+              reason == FailureReason::too_narrow ? StopReason::no_descent : StopReason::gave_up);
+    EXPECT_EQ(outcome.state->iteration, 0);
+    EXPECT_EQ(record.trials.size(), 5u);
+  }
 }
 
 // A failure of the shape that does not move is no matter of the step.

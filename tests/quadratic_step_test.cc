@@ -199,12 +199,15 @@ TEST(ShiftedHessian, MeetsTheSecantEquationOfTheNewestPair) {
   }
 }
 
-/// B by the recursion B+ = B - B s (B s)^T / (s, B s) + y y^T / (y, s), as a matrix that acts on vectors.
+/// B by the recursion B+ = B - B s (B s)^T / (s, B s) + y y^T / (y, s), as a matrix that acts on vectors. It
+/// begins with the least curvature of the pairs.
 Matrix bfgs_matrix(const Sampled& s, int first_move) {
   const int n = static_cast<int>(s.span.front().size());
-  const auto& last = s.span.back();
-  const auto& last_move = s.span[first_move + s.n_pairs - 1];
-  const double scale = s.function.inner(last, last) / s.function.inner(last, last_move);
+  double scale = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < s.n_pairs; ++k) {
+    const auto &move = s.span[first_move + k], &change = s.span[first_move + s.n_pairs + k];
+    scale = std::min(scale, s.function.inner(change, change) / s.function.inner(change, move));
+  }
   Matrix b(n, n);
   for (int i = 0; i < n; ++i) b(i, i) = scale;
   for (int k = 0; k < s.n_pairs; ++k) {

@@ -52,6 +52,7 @@ angular_cells = 189
 tread_levels = 1
 [optimizer]
 iterations = 4
+step = 10  # so long that a trial is rejected
 rim_band = 0.01
 tread_band = 0.02
 """

@@ -199,6 +199,20 @@ TEST_F(Resume, IsRefusedForAnotherCaseOrHistory) {
   EXPECT_EQ(resume(place, 4), exit_checkpoint);
 }
 
+/// A checkpoint that agrees with itself but holds speeds where the case moves the boundary by vectors.
+TEST_F(Resume, IsRefusedWhereMovesAreOfAnotherKind) {
+  const fs::path place = workplace("other-moves");
+  ASSERT_EQ(run(place, small_case_of_any_width(4)), exit_done);
+  for (const fs::path& file : CheckpointFolder(place / "run").files()) {
+    auto checkpoint = *parse_checkpoint_file<2>(content(file));
+    ASSERT_FALSE(checkpoint.state.memory.pairs.empty());
+    for (CurvaturePair& pair : checkpoint.state.memory.pairs)
+      for (auto* values : {&pair.move, &pair.change}) values->resize(checkpoint.state.shape.values.size());
+    std::ofstream(file, std::ios::binary) << checkpoint_file(checkpoint);
+  }
+  EXPECT_EQ(resume(place, 6), exit_checkpoint);
+}
+
 TEST_F(Resume, TheCaseOfARunNamesWhatComputedIt) {
   const fs::path place = workplace("named");
   ASSERT_EQ(run(place, small_case_of_any_width(0)), exit_done);

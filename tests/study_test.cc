@@ -158,6 +158,42 @@ TEST(LoopOfACase, HasItsOptions) {
   EXPECT_EQ(optimizer_options<2>(c).smooth_every, 0);
 }
 
+/// Vector fields by default for sequential quadratic steps for a sum without bounds in 2D, smoothed over less
+/// where the ring has few cells; speeds along the normal otherwise.
+TEST(LoopOfACase, TheVelocityFollowsFromMethodAndDimension) {
+  const auto expect = [](const Case& c, DeformationKind kind, double length) {
+    const EvolutionOptions options = evolution_options(c);
+    EXPECT_EQ(options.deformation, kind);
+    EXPECT_EQ(options.velocity.kind, ExtensionKind::h1);
+    EXPECT_DOUBLE_EQ(options.velocity.length, length);
+  };
+  Case c = uneven_case();
+  c.volume.control = VolumeControl::exact;
+  c.optimizer = {};
+  c.wheel.dimension = 2;
+  c.grid.radial_cells = 28;
+  expect(c, DeformationKind::vector_field, 8);
+  c.grid.radial_cells = 12;
+  expect(c, DeformationKind::vector_field, 3.6);
+  c.optimizer.velocity = VelocityKind::h1;
+  expect(c, DeformationKind::normal_speed, 2);
+  c.optimizer = {};
+  c.optimizer.method = OptimizerMethod::descent;
+  expect(c, DeformationKind::normal_speed, 2);
+  c.optimizer = {};
+  c.constraints.resize(1);
+  expect(c, DeformationKind::normal_speed, 2);
+  c.constraints.clear();
+  c.objective.minimize = Quantity::mass;
+  expect(c, DeformationKind::normal_speed, 2);
+  c.objective.minimize = Quantity::objective;
+  c.wheel.dimension = 3;
+  expect(c, DeformationKind::normal_speed, 2);
+  c.optimizer.velocity = VelocityKind::vector;
+  c.optimizer.velocity_length = 5;
+  expect(c, DeformationKind::vector_field, 5);
+}
+
 /// The hole of the case lies where the case says, and psi is positive in it.
 template <int dim>
 void expect_the_hole(const LevelSet<dim>& psi) {

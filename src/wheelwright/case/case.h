@@ -321,7 +321,12 @@ struct Volume {
   bool operator==(const Volume&) const = default;
 };
 
-enum class VelocityKind { h1, harmonic };
+enum class VelocityKind {
+  automatic,  ///< vector for sequential quadratic steps for a sum without bounds in 2D, else h1
+  vector,
+  h1,
+  harmonic,
+};
 
 enum class OptimizerMethod {
   automatic,  ///< descent where the volume or the velocity needs it, else sequential quadratic
@@ -336,8 +341,8 @@ struct Optimizer {
   OptimizerMethod method = OptimizerMethod::automatic;
   int iterations = 100;
   int coarse_levels = 0;  ///< on how many coarser grids the descent begins, one after the other
-  VelocityKind velocity = VelocityKind::h1;
-  double velocity_length = 2;  ///< [cells]
+  VelocityKind velocity = VelocityKind::automatic;
+  std::optional<double> velocity_length;  ///< [cells]; absent: by the velocity
   std::optional<double> step;  ///< maximum move of the boundary per shape [cells]; absent: by the method
   int max_halvings = 6;
   double accepted_increase = 1e-4;

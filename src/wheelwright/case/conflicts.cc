@@ -702,6 +702,11 @@ void check_volume(const Case& c, Conflicts& found) {
 
 /// The paper's own rules need the descent.
 void check_method(const Case& c, Conflicts& found) {
+  if (c.optimizer.velocity == VelocityKind::vector && optimizer_method(c) == OptimizerMethod::descent)
+    found.push_back({{"optimizer.velocity", "optimizer.method", "volume.control"},
+                     "steepest descent moves the boundary by a speed along its normal",
+                     "take velocity = \"h1\", or method = \"sequential_quadratic\" with volume.control = "
+                     "\"exact\""});
   if (c.optimizer.method != OptimizerMethod::sequential_quadratic) return;
   const auto refuse = [&](const char* key, const char* other) {
     found.push_back({{key, "optimizer.method"},

@@ -96,6 +96,20 @@ OptimizerMethod optimizer_method(const Case& c) {
   return needs_descent ? OptimizerMethod::descent : OptimizerMethod::sequential_quadratic;
 }
 
+VelocityKind velocity_kind(const Case& c) {
+  if (c.optimizer.velocity != VelocityKind::automatic) return c.optimizer.velocity;
+  const bool is_plane = c.wheel.dimension == 2,
+             is_sum_alone = c.objective.minimize == Quantity::objective && c.constraints.empty();
+  const bool is_vector =
+      is_plane && is_sum_alone && optimizer_method(c) == OptimizerMethod::sequential_quadratic;
+  return is_vector ? VelocityKind::vector : VelocityKind::h1;
+}
+
+double velocity_length(const Case& c) {
+  const bool is_vector = velocity_kind(c) == VelocityKind::vector;
+  return c.optimizer.velocity_length.value_or(is_vector ? std::min(8.0, 0.3 * c.grid.radial_cells) : 2);
+}
+
 int level_set_degree(const Case& c) {
   return c.grid.level_set_degree.value_or(c.wheel.dimension == 3 ? 1 : 2);
 }

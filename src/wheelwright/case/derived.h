@@ -41,6 +41,12 @@ double likely_half_width(const Case& c);
 /// The method of the case, or the one that its volume and velocity need; never automatic.
 OptimizerMethod optimizer_method(const Case& c);
 
+/// The kind of the velocity, which is not `automatic`.
+VelocityKind velocity_kind(const Case& c);
+
+/// Over how many cells h1 and vector smooth the motion of the boundary.
+double velocity_length(const Case& c);
+
 /// Degree of the level set: the case's own, or 2, in 3D 1.
 int level_set_degree(const Case& c);
 

@@ -174,12 +174,16 @@ const Section<Optimizer>& optimizer_section() {
                "it is on the case's own grid; 0: on the case's own grid from the beginning"},
           {.name = "velocity",
            .unit = "",
-           .field = choice<&Optimizer::velocity>({"h1", "harmonic"}),
-           .meaning = "h1: Riesz representative of the gradient; harmonic: the paper's harmonic extension"},
+           .field = choice<&Optimizer::velocity>({"auto", "vector", "h1", "harmonic"}),
+           .meaning = "what moves the boundary. vector: a smooth vector field; h1: a smooth speed along the "
+                      "normal; harmonic: the speed of the paper's harmonic extension; auto: vector with "
+                      "sequential quadratic steps for the weighted sum without bounds in 2D, else h1"},
           {.name = "velocity_length",
            .unit = "cells",
-           .field = NumberField<Optimizer>{&Optimizer::velocity_length, between(0, 1000)},
-           .meaning = "length over which h1 smooths the velocity"},
+           .field =
+               OptionalNumberField<Optimizer>{&Optimizer::velocity_length, between(0, 1000),
+                                              "h1: 2; vector: 8, or 0.3 * grid.radial_cells if that is less"},
+           .meaning = "length over which vector and h1 smooth the motion of the boundary"},
           {.name = "step",
            .unit = "cells",
            .field = OptionalNumberField<Optimizer>{&Optimizer::step, above(0, 10),
@@ -192,7 +196,9 @@ const Section<Optimizer>& optimizer_section() {
           {.name = "accepted_increase",
            .unit = "",
            .field = NumberField<Optimizer>{&Optimizer::accepted_increase, between(0, 1)},
-           .meaning = "a shape is accepted if its J exceeds the best J so far by at most this fraction"},
+           .meaning =
+               "a shape is accepted if its J exceeds the best J so far by at most this fraction; before "
+               "walls and gaps are mended also if it is at most the larger J of the last two shapes"},
           {.name = "tolerance",
            .unit = "",
            .field = NumberField<Optimizer>{&Optimizer::tolerance, between(0, 1)},

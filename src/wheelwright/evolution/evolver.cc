@@ -39,7 +39,8 @@ Evolver<dim>::Evolver(const Lattice<dim>& lattice, const EvolutionOptions& optio
     : lattice_(lattice),
       bands_(lattice, options.bands),
       extension_(make_velocity_extension<dim>(lattice, bands_, options.velocity)),
-      velocities_(lattice, bands_.nodes(), options.velocity.length * lattice.grid().resolution()),
+      deformations_(lattice, bands_.nodes(), options.velocity.length * lattice.grid().resolution(),
+                    options.deformation),
       features_(options.features),
       cut_points_(options.cut_points) {
   if (options.smoothing > 0)
@@ -72,23 +73,10 @@ Expected<std::vector<double>> Evolver<dim>::measure_preserving_velocity(
 
 template <int dim>
 std::vector<bool> Evolver<dim>::held_by_bands(std::span<const SurfacePoint<dim>> boundary,
-                                              std::span<const double> velocity) const {
+                                              std::span<const double> speeds) const {
   std::vector<bool> held;
-  for (const auto& point : boundary)
-    held.push_back(bands_.touches(point) &&
-                   interpolate(node_weights<dim>(lattice_, point.cell, point.xi), velocity) < 0);
-  return held;
-}
-
-template <int dim>
-std::vector<bool> Evolver<dim>::held_by_widths(std::span<const SurfacePoint<dim>> boundary,
-                                               std::span<const double> velocity,
-                                               const AtLeastWidth& narrow) const {
-  std::vector<bool> held;
-  for (std::size_t q = 0; q < boundary.size(); ++q) {
-    const double v = interpolate(node_weights<dim>(lattice_, boundary[q].cell, boundary[q].xi), velocity);
-    held.push_back((narrow.wall[q] && v < 0) || (narrow.gap[q] && v > 0));
-  }
+  for (std::size_t q = 0; q < boundary.size(); ++q)
+    held.push_back(speeds[q] < 0 && bands_.touches(boundary[q]));
   return held;
 }
 

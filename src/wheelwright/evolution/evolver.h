@@ -4,11 +4,11 @@
 #include <optional>
 
 #include "wheelwright/base/expected.h"
+#include "wheelwright/evolution/deformation_space.h"
 #include "wheelwright/evolution/feature_size.h"
 #include "wheelwright/evolution/islands.h"
 #include "wheelwright/evolution/smoothing.h"
 #include "wheelwright/evolution/velocity.h"
-#include "wheelwright/evolution/velocity_space.h"
 #include "wheelwright/evolution/volume.h"
 #include "wheelwright/geometry/mirror.h"
 
@@ -20,6 +20,7 @@ struct EvolutionOptions {
   double smoothing = 0;
   Bands bands;                ///< that stay material
   FeatureSize features = {};  ///< the least widths of walls and gaps in every shape
+  DeformationKind deformation = DeformationKind::vector_field;  ///< in the space of deformations()
   int cut_points = 4;  ///< Gauss points per direction in cut cells; those of a solver that uses them again
 };
 
@@ -40,13 +41,13 @@ class Evolver {
   Expected<std::vector<double>> measure_preserving_velocity(
       std::span<const SurfaceSample<dim>> gradient) const;
 
-  /// The velocities that vanish in the bands, with the inner product in which ExtensionKind::h1 is the Riesz
-  /// representative.
-  const VelocitySpace<dim>& velocities() const { return velocities_; }
+  /// The deformations that vanish in the bands, with the inner product of velocity.length.
+  const DeformationSpace<dim>& deformations() const { return deformations_; }
 
-  /// Which points of the boundary lie on the edge of a band and would move into it with this velocity.
+  /// Which points of the boundary lie on the edge of a band and would move into it with these speeds along
+  /// the normal, one per point.
   std::vector<bool> held_by_bands(std::span<const SurfacePoint<dim>> boundary,
-                                  std::span<const double> velocity) const;
+                                  std::span<const double> speeds) const;
 
   /// Keeps these points on the edge: takes away what moves them off it.
   void hold(std::span<const SurfacePoint<dim>> boundary, const std::vector<bool>& held,
@@ -84,10 +85,6 @@ class Evolver {
     return with_measure(psi, target, boundary_measure, features_);
   }
 
-  /// Which points of the boundary would, with this velocity, narrow a wall or a gap that is as narrow as it
-  /// may be already.
-  std::vector<bool> held_by_widths(std::span<const SurfacePoint<dim>> boundary,
-                                   std::span<const double> velocity, const AtLeastWidth& narrow) const;
   Expected<AttachedShape<dim>> without_islands(const LevelSet<dim>& psi, double largest) const;
 
   /// Changes of the holes between two shapes: topology_changes(), and holes that reached a protected band.
@@ -107,7 +104,7 @@ class Evolver {
   Lattice<dim> lattice_;
   ProtectedBands<dim> bands_;
   std::unique_ptr<VelocityExtension<dim>> extension_;
-  VelocitySpace<dim> velocities_;
+  DeformationSpace<dim> deformations_;
   std::optional<Smoother<dim>> smoother_;
   FeatureSize features_;
   int cut_points_;

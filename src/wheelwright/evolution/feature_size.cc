@@ -8,6 +8,7 @@
 #include "wheelwright/evolution/redistance.h"
 #include "wheelwright/evolution/seeds.h"
 #include "wheelwright/geometry/cell_map.h"
+#include "wheelwright/geometry/components.h"
 #include "wheelwright/geometry/nearest_point.h"
 
 namespace wheelwright {
@@ -31,6 +32,10 @@ constexpr int most_passes = 12;
 
 /// Each further pass closes gaps that are wider by this part of the least gap.
 constexpr double growth = 0.1;
+
+/// How far around the samples in a small hole the material that fills it reaches, by the resolution; as far
+/// again in each further pass.
+constexpr double reach = 1;
 
 /// What filling must add at a node to count, by the resolution: redistancing moves the boundary by less.
 constexpr double least_filling = 0.1;
@@ -98,13 +103,19 @@ BoundaryPoints<dim> boundary_points(const CubicInterpolant<dim>& psi, const std:
   return {NearestPoint<dim>(std::move(positions)), std::move(normals)};
 }
 
-/// The distance of nodes to the nearest centre of some balls, whose images in the neighbouring sectors count
-/// too.
 template <int dim>
-class DistanceToCentres {
+std::vector<Vec<dim>> centres_of(const std::vector<MedialBall<dim>>& balls) {
+  std::vector<Vec<dim>> centres;
+  for (const auto& ball : balls) centres.push_back(ball.centre);
+  return centres;
+}
+
+/// The distance of nodes to the nearest of some points, whose images in the neighbouring sectors count too.
+template <int dim>
+class DistanceToPoints {
  public:
-  DistanceToCentres(const Lattice<dim>& lattice, const std::vector<MedialBall<dim>>& balls)
-      : lattice_(lattice), nearest_(images(lattice, balls)) {}
+  DistanceToPoints(const Lattice<dim>& lattice, const std::vector<Vec<dim>>& points)
+      : lattice_(lattice), nearest_(images(lattice, points)) {}
 
   double operator()(int node) const { return from(lattice_.polar_point(node)); }
 
@@ -117,13 +128,12 @@ class DistanceToCentres {
   }
 
  private:
-  static std::vector<Vec<dim>> images(const Lattice<dim>& lattice,
-                                      const std::vector<MedialBall<dim>>& balls) {
-    std::vector<Vec<dim>> centres;
+  static std::vector<Vec<dim>> images(const Lattice<dim>& lattice, const std::vector<Vec<dim>>& points) {
+    std::vector<Vec<dim>> result;
     for (int sector = -1; sector <= 1; ++sector)
-      for (const auto& ball : balls)
-        centres.push_back(rotated<dim>(ball.centre, sector * lattice.grid().sector_angle()));
-    return centres;
+      for (const auto& point : points)
+        result.push_back(rotated<dim>(point, sector * lattice.grid().sector_angle()));
+    return result;
   }
 
   const Lattice<dim>& lattice_;
@@ -145,7 +155,7 @@ std::vector<bool> touched(const LevelSet<dim>& psi, std::span<const SurfacePoint
   std::vector<bool> result(boundary.size(), false);
   if (balls.empty()) return result;
   constexpr double near = 1.05;
-  const DistanceToCentres<dim> distance(psi.lattice, balls);
+  const DistanceToPoints<dim> distance(psi.lattice, centres_of(balls));
   for (std::size_t q = 0; q < boundary.size(); ++q)
     result[q] = distance.from(polar_position(psi.lattice.grid(), boundary[q])) < near * radius;
   return result;
@@ -167,7 +177,7 @@ LevelSet<dim> shifted(LevelSet<dim> psi, double shift) {
 /// The shape closed by a gap near the centres of some balls.
 template <int dim>
 LevelSet<dim> closed_near(const LevelSet<dim>& psi, const std::vector<MedialBall<dim>>& balls, double gap) {
-  const DistanceToCentres<dim> distance(psi.lattice, balls);
+  const DistanceToPoints<dim> distance(psi.lattice, centres_of(balls));
   const auto signed_distance = redistance(psi);
   const auto dilated = shifted(signed_distance, -0.5 * gap);
   const bool fills_all = std::ranges::all_of(dilated.values, [](double x) { return x < 0; });
@@ -178,6 +188,50 @@ LevelSet<dim> closed_near(const LevelSet<dim>& psi, const std::vector<MedialBall
     if (distance(node) < gap && closed.values[node] < signed_distance.values[node] - least)
       result.values[node] = closed.values[node];
   return result;
+}
+
+/// Which components are holes that are smaller than a ball of this diameter.
+template <int dim>
+std::vector<bool> small_holes(const Components<dim>& found, double diameter) {
+  const double r = 0.5 * diameter, pi = std::numbers::pi;
+  const double ball = dim == 2 ? pi * r * r : 4 * pi / 3 * r * r * r;
+  std::vector<bool> result;
+  for (const auto& component : found.all)
+    result.push_back(!component.is_material && component.measure < ball);
+  return result;
+}
+
+/// Fills small holes with the balls of this radius around the samples in them; nodes in other holes stay as
+/// they are.
+template <int dim>
+void fill(const Components<dim>& found, const std::vector<bool>& is_small, double radius,
+          LevelSet<dim>& psi) {
+  const Lattice<dim>& samples = found.samples;
+  std::vector<Vec<dim>> in_small;
+  for (int sample = 0; sample < samples.n_nodes(); ++sample)
+    if (is_small[found.of_sample[sample]])
+      in_small.push_back(cartesian<dim>(samples.polar_point(samples.node_position(sample))));
+  const DistanceToPoints<dim> distance(psi.lattice, in_small);
+  for (int node = 0; node < psi.lattice.n_nodes(); ++node) {
+    auto position = psi.lattice.node_position(node);
+    for (int& coordinate : position) coordinate *= samples.degree() / psi.lattice.degree();
+    double& value = psi.values[node];
+    if (value < 0 || is_small[found.of_sample[samples.node_index(position)]])
+      value = std::min(value, distance(node) - radius);
+  }
+}
+
+/// Without holes that are too small for a ball of this diameter. They lie between the nodes, where
+/// thin_walls() has too few seeds to see them.
+template <int dim>
+LevelSet<dim> without_small_holes(LevelSet<dim> psi, double diameter) {
+  for (int pass = 0; pass < most_passes; ++pass) {
+    const auto found = components(psi);
+    const auto is_small = small_holes(found, diameter);
+    if (std::ranges::none_of(is_small, [](bool small) { return small; })) break;
+    fill(found, is_small, (1 + pass) * reach * psi.lattice.grid().resolution(), psi);
+  }
+  return psi;
 }
 
 }  // namespace
@@ -201,7 +255,7 @@ LevelSet<dim> with_thick_walls(const LevelSet<dim>& psi, double wall) {
   for (int pass = 1; pass <= most_passes; ++pass) {
     const auto balls = thin_walls(result, 0.5 * wall * (1 - rounding));
     if (balls.empty()) break;
-    const DistanceToCentres<dim> distance(psi.lattice, balls);
+    const DistanceToPoints<dim> distance(psi.lattice, centres_of(balls));
     for (int node = 0; node < psi.lattice.n_nodes(); ++node)
       result.values[node] = std::min(result.values[node], distance(node) - 0.5 * (1 + pass * margin) * wall);
   }
@@ -210,13 +264,14 @@ LevelSet<dim> with_thick_walls(const LevelSet<dim>& psi, double wall) {
 
 template <int dim>
 LevelSet<dim> without_narrow_gaps(const LevelSet<dim>& psi, double gap) {
-  LevelSet<dim> result = psi;
+  // Small holes are filled first: closing could leave of them what is too small for the samples.
+  LevelSet<dim> result = without_small_holes(psi, gap);
   for (int pass = 0; pass < most_passes; ++pass) {
     const auto balls = thin_walls(negative(result), 0.5 * gap * (1 - rounding));
     if (balls.empty()) break;
     result = closed_near(result, balls, gap * (1 + pass * growth));
   }
-  return result;
+  return without_small_holes(std::move(result), gap);
 }
 
 template <int dim>
@@ -240,7 +295,15 @@ std::vector<ShapeEvent<dim>> narrowest_places(const LevelSet<dim>& psi, const Fe
     result.push_back({kind, place, dim == 2 ? pi * r * r : 4 * pi / 3 * r * r * r});
   };
   add(ShapeEventKind::thin_wall_mended, psi, size.wall);
+  const std::size_t n_walls = result.size();
   add(ShapeEventKind::narrow_gap_mended, negative(psi), size.gap);
+  if (size.gap > 0 && result.size() == n_walls) {
+    const auto found = components(psi);
+    const auto is_small = small_holes(found, size.gap);
+    for (std::size_t k = 0; k < is_small.size() && result.size() == n_walls; ++k)
+      if (is_small[k])
+        result.push_back({ShapeEventKind::narrow_gap_mended, found.all[k].centre, found.all[k].measure});
+  }
   return result;
 }
 
@@ -254,6 +317,13 @@ AtLeastWidth at_least_width(const LevelSet<dim>& psi, std::span<const SurfacePoi
                       : std::vector<bool>(boundary.size(), false);
   };
   return {.wall = at(psi, wall), .gap = at(negative(psi), gap)};
+}
+
+std::vector<bool> held_by_widths(const AtLeastWidth& narrow, std::span<const double> speeds) {
+  std::vector<bool> held;
+  for (std::size_t q = 0; q < speeds.size(); ++q)
+    held.push_back((narrow.wall[q] && speeds[q] < 0) || (narrow.gap[q] && speeds[q] > 0));
+  return held;
 }
 
 template <int dim>

@@ -46,7 +46,8 @@ LevelSet<dim> with_thick_walls(const LevelSet<dim>& psi, double wall);
 /// Holes, and parts of holes, between whose edges less than `gap` is left are filled: near the middle of such
 /// gaps the material is moved outward by half of it and back, each from the signed distance (closing, Serra
 /// 1982). Where gaps stay narrow, because what fills them lies between the nodes, wider ones are filled too,
-/// by a tenth of `gap` more each time. Elsewhere the shape stays as it is.
+/// by a tenth of `gap` more each time. Holes that are smaller than a ball of that diameter are filled
+/// wherever they are. Elsewhere the shape stays as it is.
 template <int dim>
 LevelSet<dim> without_narrow_gaps(const LevelSet<dim>& psi, double gap);
 
@@ -70,5 +71,9 @@ struct AtLeastWidth {
 template <int dim>
 AtLeastWidth at_least_width(const LevelSet<dim>& psi, std::span<const SurfacePoint<dim>> boundary,
                             const FeatureSize& size);
+
+/// Which points of the boundary would narrow such a wall or gap with these speeds along the outward normal of
+/// the material, one per point.
+std::vector<bool> held_by_widths(const AtLeastWidth& narrow, std::span<const double> speeds);
 
 }  // namespace wheelwright

@@ -1,7 +1,8 @@
 #include "wheelwright/optimize/curvature_memory.h"
 
-#include <cassert>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace wheelwright {
 namespace {
@@ -18,9 +19,12 @@ void remember(CurvaturePair pair, double move_square, double move_change, double
 }
 
 double ShiftedHessian::scale(const Matrix& products, int first_move, int n_pairs) {
-  if (n_pairs == 0) return 0;
-  const int move = first_move + n_pairs - 1, change = move + n_pairs;
-  return products(change, change) / products(move, change);
+  double least = std::numeric_limits<double>::infinity();
+  for (int move = first_move; move < first_move + n_pairs; ++move) {
+    const int change = move + n_pairs;
+    least = std::min(least, products(change, change) / products(move, change));
+  }
+  return n_pairs == 0 ? 0 : least;
 }
 
 // B = scale - W M^-1 W^T with W = (scale S, Y) and M = ((scale S.S, L), (L^T, -D)), where L is the strict

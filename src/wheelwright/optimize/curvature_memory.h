@@ -6,8 +6,8 @@
 
 namespace wheelwright {
 
-/// A move of the boundary, as a velocity, and the change of a derivative along it, as a load: nodal values
-/// (evolution/velocity_space.h).
+/// A move of the boundary, as a deformation, and the change of a derivative along it, as a load
+/// (evolution/deformation_space.h).
 struct CurvaturePair {
   std::vector<double> move, change;
 };
@@ -33,7 +33,8 @@ class ShiftedHessian {
   /// (B + shift)^-1 of a vector.
   std::vector<double> solve(const std::vector<double>& coefficients) const;
 
-  /// The eigenvalue of B on what is orthogonal to all pairs: the curvature along the newest pair.
+  /// The eigenvalue of B on what is orthogonal to all pairs: the least curvature of the pairs, (change,
+  /// change) / (move, change).
   static double scale(const Matrix& products, int first_move, int n_pairs);
 
  private:

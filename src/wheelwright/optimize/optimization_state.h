@@ -48,7 +48,8 @@ struct OptimizerOptions {
   /// sector; only when it is held exactly.
   double measure_rate = 0.01;
   /// The least widths in the last part of a run. Until the descent slows, or two thirds of the shapes are
-  /// done, shapes need not have them; then one is mended, and all that follow have them.
+  /// done, shapes need not have them; then one is mended, and all that follow have them. A first shape whose
+  /// holes are only about two cells wide, and that has these widths, keeps them from the beginning.
   FeatureSize final_widths = {};
 };
 

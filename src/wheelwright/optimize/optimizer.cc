@@ -207,6 +207,7 @@ Expected<OptimizationState<dim>> ShapeOptimizer<dim>::start(const LevelSet<dim>&
                                .since_smoothing = 0,
                                .memory = {},
                                .history = {objective_of(*trial.evaluation)}};
+  state.final_widths = first_widths(state.shape);
   observer(trial, state);
   return state;
 }
@@ -227,7 +228,7 @@ Expected<OptimizationState<dim>> ShapeOptimizer<dim>::restart(const Optimization
   anew.memory = {};
   anew.history = {objective_of(*trial.evaluation)};
   anew.history_begin = state.iteration;
-  anew.final_widths = FinalWidths::not_yet;
+  anew.final_widths = first_widths(anew.shape);
   observer(trial, anew);
   return anew;
 }
@@ -266,6 +267,17 @@ typename ShapeOptimizer<dim>::Mending ShapeOptimizer<dim>::mend(OptimizationStat
   if (is_possible) state = begun_anew(std::move(next), trials.back());
   observer(trials.back(), state);
   return is_possible ? Mending::done : Mending::nothing;
+}
+
+/// A free descent splits holes that are only about two cells wide into slits to which no width can be given:
+/// a shape with such holes keeps the final widths from the beginning, if it has them.
+template <int dim>
+FinalWidths ShapeOptimizer<dim>::first_widths(const LevelSet<dim>& shape) const {
+  constexpr double small = 1.8;  // final widths
+  const FeatureSize& widths = options_.final_widths;
+  const bool has_small_holes =
+      widths.gap > 0 && !narrowest_places(shape, {.wall = 0, .gap = small * widths.gap}).empty();
+  return has_small_holes && has_widths(shape, widths) ? FinalWidths::kept : FinalWidths::not_yet;
 }
 
 template <int dim>
@@ -354,7 +366,10 @@ std::optional<StopReason> ShapeOptimizer<dim>::descend(OptimizationState<dim>& s
     if (trial.verdict == Verdict::accepted) state = successor(state, **proposals, *move, trial);
     observer(trial, state);
     if (trial.verdict == Verdict::accepted) return std::nullopt;
-    all_failed = all_failed && trial.verdict == Verdict::failed;
+    // A shape that cannot have its widths is not allowed, but it is no fault.
+    const bool is_narrow = trial.failure && trial.failure->reason == FailureReason::too_narrow;
+    all_failed =
+        all_failed && trial.verdict == Verdict::failed && (!is_narrow || is_approaching(options_, state));
     if (stop_requested()) return StopReason::stop_requested;
     // What redistancing or smoothing spoilt is tried again without them.
     const bool was_reshaped = halvings == 0 && options_.method == Method::sequential_quadratic &&

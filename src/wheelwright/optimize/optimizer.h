@@ -17,7 +17,7 @@ namespace wheelwright {
 enum class StopReason {
   iterations,      ///< the number asked for is done
   converged,       ///< the objective hardly decreases any more
-  no_descent,      ///< shapes were evaluated, but none, with the step halved max_halvings times, is better
+  no_descent,      ///< no shape, with the step halved max_halvings times, is better and has its widths
   gave_up,         ///< no step, halved max_halvings times, gave a shape that could be evaluated, or not
                    ///< even the step 0 did
   failed_start,    ///< the initial shape could not be evaluated
@@ -97,6 +97,7 @@ class ShapeOptimizer {
   using MadeCells = std::optional<CutDomain<dim>>;  ///< of the trial's shape; empty: not made yet
   enum class Mending { nothing, done, interrupted };
   Mending mend(OptimizationState<dim>& state, const Observer& observer) const;
+  FinalWidths first_widths(const LevelSet<dim>& shape) const;
   bool has_widths(const LevelSet<dim>& shape, const FeatureSize& widths) const;
   std::vector<Trial<dim>> mended(const OptimizationState<dim>& state) const;
   Trial<dim> mended(const OptimizationState<dim>& state, const LevelSet<dim>& shape) const;

@@ -11,11 +11,12 @@ namespace wheelwright {
 /// A motion of a state's boundary that a method wants to try.
 template <int dim>
 struct Move {
-  std::vector<double> velocity;
-  double distance;  ///< how far the fastest node travels [cells]
-  double step;      ///< how far the boundary travels, or the fastest node, as the method counts [cells]
-  double radius;    ///< the most that it was asked for [cells]
-  double measure;   ///< what the measure of the material is to become
+  std::vector<double> velocity;          ///< along the outward normal of the material, at the nodes
+  std::vector<double> deformation = {};  ///< that it comes from, where the method has one
+  double distance;                       ///< how far the fastest node travels [cells]
+  double step;     ///< how far the boundary travels, or the fastest node, as the method counts [cells]
+  double radius;   ///< the most that it was asked for [cells]
+  double measure;  ///< what the measure of the material is to become
   double objective_change;  ///< foretold to first order
   double model_decrease;    ///< of the merit function, foretold by the method's model
   std::vector<double> multipliers = {};

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "wheelwright/evolution/multilinear.h"
-
 namespace wheelwright {
 namespace {
 
@@ -21,65 +19,57 @@ Nodal combination(const std::vector<double>& coefficients, const std::vector<Nod
   return sum;
 }
 
-/// Of a nodal field at the points of the boundary.
-template <int dim>
-std::vector<double> boundary_values(const Lattice<dim>& lattice,
-                                    const std::vector<SurfacePoint<dim>>& boundary, const Nodal& field) {
-  std::vector<double> values;
-  for (const auto& point : boundary)
-    values.push_back(interpolate(node_weights<dim>(lattice, point.cell, point.xi), field));
-  return values;
-}
-
-double product(const Nodal& load, const Nodal& velocity) {
-  return std::inner_product(load.begin(), load.end(), velocity.begin(), 0.0);
+double product(const Nodal& load, const Nodal& deformation) {
+  return std::inner_product(load.begin(), load.end(), deformation.begin(), 0.0);
 }
 
 /// The derivative with this density, as a load.
 template <int dim>
-Nodal load_of(const Lattice<dim>& lattice, const Evaluation<dim>& evaluation,
+Nodal load_of(const DeformationSpace<dim>& space, const Evaluation<dim>& evaluation,
               const std::vector<double>& density, double factor, const std::vector<bool>& held) {
   std::vector<SurfaceSample<dim>> samples;
   for (size_t i = 0; i < density.size(); ++i)
     if (!held[i]) samples.push_back({evaluation.boundary[i], factor * density[i]});
-  return boundary_load<dim>(lattice, samples);
+  return space.normal_load(samples);
 }
 
 /// The derivatives of the objective, of the measure, and of the constraints.
 template <int dim>
-std::vector<Nodal> loads(const Lattice<dim>& lattice, const Evaluation<dim>& evaluation,
+std::vector<Nodal> loads(const DeformationSpace<dim>& space, const Evaluation<dim>& evaluation,
                          const std::string& objective, const std::vector<BoundConstraint>& constraints,
                          const std::vector<bool>& held) {
   std::vector<Nodal> result{
-      load_of(lattice, evaluation, evaluation.function(objective).gradient, 1, held),
-      load_of(lattice, evaluation, std::vector<double>(evaluation.boundary.size(), 1.0), 1, held)};
+      load_of(space, evaluation, evaluation.function(objective).gradient, 1, held),
+      load_of(space, evaluation, std::vector<double>(evaluation.boundary.size(), 1.0), 1, held)};
   for (const auto& c : constraints)
     result.push_back(
-        load_of(lattice, evaluation, evaluation.functions[c.function].gradient, 1 / c.scale, held));
+        load_of(space, evaluation, evaluation.functions[c.function].gradient, 1 / c.scale, held));
   return result;
+}
+
+/// What an objective must not exceed: the best so far by more than noise. Before the final widths, a web that
+/// is thinner than a cell makes the objective jump when it breaks, however small the step: there the worse
+/// one of the last two shapes will do too (the nonmonotone descent of Grippo, Lampariello and Lucidi 1986),
+/// which leads past the jump.
+template <int dim>
+double largest_objective(const OptimizerOptions& options, const OptimizationState<dim>& state, double noise) {
+  const auto& history = state.history;
+  const double largest = *std::ranges::min_element(history) + noise;
+  const bool may_jump = options.final_widths.any() && state.final_widths == FinalWidths::not_yet;
+  if (!may_jump || history.size() < 2) return largest;
+  return std::max({largest, history.back(), history[history.size() - 2]});
 }
 
 }  // namespace
 
-/// What steps are combined from: the representatives of the derivatives, then moves and changes of the pairs;
-/// each as a velocity and as a load.
 template <int dim>
-struct SequentialQuadraticProposals<dim>::Span {
-  std::vector<Nodal> velocities, loads;
-  int first_move, n_pairs;
-
-  Matrix products() const {
-    const int n = static_cast<int>(loads.size());
-    Matrix result(n, n);
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i <= j; ++i) result(i, j) = result(j, i) = product(loads[i], velocities[j]);
-    return result;
-  }
-
-  Nodal velocity(const std::vector<double>& coefficients) const {
-    return combination(coefficients, velocities);
-  }
-};
+Matrix SequentialQuadraticProposals<dim>::Span::products() const {
+  const int n = static_cast<int>(loads.size());
+  Matrix result(n, n);
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i <= j; ++i) result(i, j) = result(j, i) = product(loads[i], deformations[j]);
+  return result;
+}
 
 template <int dim>
 SequentialQuadraticProposals<dim>::SequentialQuadraticProposals(const Evolver<dim>& evolver,
@@ -90,29 +80,28 @@ SequentialQuadraticProposals<dim>::SequentialQuadraticProposals(const Evolver<di
       state_(state),
       constraints_(bound_constraints(state.evaluation)),
       narrow_(at_least_width<dim>(state.shape, state.evaluation.boundary,
-                                  widths_after(evolver.features(), options, state))) {}
+                                  widths_after(evolver.features(), options, state))) {
+  const auto& space = evolver_.deformations();
+  for (const auto& pair : state_.memory.pairs) {
+    pairs_.deformations.push_back(pair.move);
+    pairs_.loads.push_back(space.load(pair.move));
+  }
+  for (const auto& pair : state_.memory.pairs) {
+    pairs_.deformations.push_back(space.representative(pair.change));
+    pairs_.loads.push_back(pair.change);
+  }
+}
 
+/// The derivatives without what these points of the boundary contribute, and the pairs.
 template <int dim>
-typename SequentialQuadraticProposals<dim>::Span SequentialQuadraticProposals<dim>::span_in(
+typename SequentialQuadraticProposals<dim>::Span SequentialQuadraticProposals<dim>::span_without(
     const std::vector<bool>& held) const {
-  const auto& space = evolver_.velocities();
-  Span span{.velocities = {},
-            .loads = loads(state_.shape.lattice, state_.evaluation, options_.objective, constraints_, held),
-            .first_move = 0,
-            .n_pairs = static_cast<int>(state_.memory.pairs.size())};
-  span.first_move = static_cast<int>(span.loads.size());
-  for (auto& load : span.loads) {
-    load = space.restricted(load);
-    span.velocities.push_back(space.representative(load));
-  }
-  for (const auto& pair : state_.memory.pairs) {
-    span.velocities.push_back(space.restricted(pair.move));
-    span.loads.push_back(space.load(pair.move));
-  }
-  for (const auto& pair : state_.memory.pairs) {
-    span.loads.push_back(space.restricted(pair.change));
-    span.velocities.push_back(space.representative(pair.change));
-  }
+  const auto& space = evolver_.deformations();
+  Span span{.deformations = {},
+            .loads = loads(space, state_.evaluation, options_.objective, constraints_, held)};
+  for (const auto& load : span.loads) span.deformations.push_back(space.representative(load));
+  span.loads.insert(span.loads.end(), pairs_.loads.begin(), pairs_.loads.end());
+  span.deformations.insert(span.deformations.end(), pairs_.deformations.begin(), pairs_.deformations.end());
   return span;
 }
 
@@ -122,8 +111,9 @@ template <int dim>
 Expected<Move<dim>> SequentialQuadraticProposals<dim>::move(double step) const {
   const auto& boundary = state_.evaluation.boundary;
   auto move = move_with(std::vector<bool>(boundary.size(), false), step);
-  const auto by_bands = evolver_.held_by_bands(boundary, move.velocity);
-  auto held = evolver_.held_by_widths(boundary, move.velocity, narrow_);
+  const auto speeds = evolver_.deformations().speeds_at(boundary, move.deformation);
+  const auto by_bands = evolver_.held_by_bands(boundary, speeds);
+  auto held = held_by_widths(narrow_, speeds);
   for (std::size_t q = 0; q < held.size(); ++q) held[q] = held[q] || by_bands[q];
   if (std::ranges::any_of(held, [](bool h) { return h; })) {
     move = move_with(held, step);
@@ -136,24 +126,25 @@ Expected<Move<dim>> SequentialQuadraticProposals<dim>::move(double step) const {
 template <int dim>
 Move<dim> SequentialQuadraticProposals<dim>::move_with(const std::vector<bool>& held, double step) const {
   const double measure = next_measure(options_, state_, step);
-  const Span span = span_in(held);
+  const Span span = span_without(held);
   auto penalties = this->penalties();
   const auto found = step_in(span, state_.measure - measure, step, penalties);
-  Move<dim> move{.velocity = span.velocity(found.coefficients),
-                 .distance = 0,
-                 .step = 0,
-                 .radius = step,
-                 .measure = measure,
-                 .objective_change = found.slope,
-                 .model_decrease = found.decrease,
-                 .multipliers = found.multipliers,
-                 .penalties = penalties};
+  const auto& space = evolver_.deformations();
+  auto deformation = combination(found.coefficients, span.deformations);
+  auto velocity = space.speeds(state_.shape, deformation);
   const double resolution = state_.shape.lattice.grid().resolution();
-  move.distance = largest_magnitude(move.velocity) / resolution;
-  move.step =
-      largest_magnitude(boundary_values(state_.shape.lattice, state_.evaluation.boundary, move.velocity)) /
-      resolution;
-  return move;
+  const double distance = largest_magnitude(velocity) / resolution,
+               farthest = largest_magnitude(space.speeds_at(state_.evaluation.boundary, deformation));
+  return {.velocity = std::move(velocity),
+          .deformation = std::move(deformation),
+          .distance = distance,
+          .step = farthest / resolution,
+          .radius = step,
+          .measure = measure,
+          .objective_change = found.slope,
+          .model_decrease = found.decrease,
+          .multipliers = found.multipliers,
+          .penalties = penalties};
 }
 
 /// Raises penalties until the linearized violation falls by at least half of what it could fall by.
@@ -162,8 +153,11 @@ QuadraticStep SequentialQuadraticProposals<dim>::step_in(const Span& span, doubl
                                                          std::vector<double>& penalties) const {
   constexpr double raise = 4, beyond = 1e6, enough = 0.5, small = 1e-9;
   constexpr int most_raises = 10;
-  QuadraticModel model{
-      .products = span.products(), .constraints = {}, .first_move = span.first_move, .n_pairs = span.n_pairs};
+  const int n_pairs = static_cast<int>(state_.memory.pairs.size());
+  QuadraticModel model{.products = span.products(),
+                       .constraints = {},
+                       .first_move = static_cast<int>(span.loads.size()) - 2 * n_pairs,
+                       .n_pairs = n_pairs};
   if (options_.measure_control == MeasureControl::exact && model.products(1, 1) > 0)
     model.constraints.push_back({.vector = 1, .sign = 1, .gap = gap, .is_equality = true});
   const size_t first = model.constraints.size();
@@ -173,8 +167,8 @@ QuadraticStep SequentialQuadraticProposals<dim>::step_in(const Span& span, doubl
                                  .gap = constraints_[i].gap,
                                  .is_equality = constraints_[i].is_equality});
   std::vector<std::vector<double>> at_boundary;
-  for (const auto& velocity : span.velocities)
-    at_boundary.push_back(boundary_values(state_.shape.lattice, state_.evaluation.boundary, velocity));
+  for (const auto& deformation : span.deformations)
+    at_boundary.push_back(evolver_.deformations().speeds_at(state_.evaluation.boundary, deformation));
   const auto with = [&](double factor) {
     for (size_t i = 0; i < penalties.size(); ++i)
       model.constraints[first + i].penalty = factor * penalties[i];
@@ -218,7 +212,7 @@ bool SequentialQuadraticProposals<dim>::accepts(const Move<dim>& move,
                                                 const Evaluation<dim>& evaluation) const {
   if (is_approaching(options_, state_)) return true;
   const double objective = evaluation.function(options_.objective).value;
-  if (constraints_.empty()) return objective <= *std::ranges::min_element(state_.history) + noise();
+  if (constraints_.empty()) return objective <= largest_objective(options_, state_, noise());
   const double before =
       merit(state_.evaluation.function(options_.objective).value, constraints_, move.penalties);
   return merit(objective, bound_constraints(evaluation), move.penalties) <= before + noise();
@@ -250,22 +244,21 @@ StepMemory SequentialQuadraticProposals<dim>::remembered(const Move<dim>& move,
   memory.penalties = move.penalties;
   memory.multipliers.assign(move.multipliers.end() - static_cast<std::ptrdiff_t>(constraints_.size()),
                             move.multipliers.end());
-  const double unit = 1 / largest_magnitude(move.velocity);
-  CurvaturePair pair{move.velocity, Nodal(move.velocity.size(), 0.0)};
+  const auto& space = evolver_.deformations();
+  const double unit = 1 / largest_magnitude(move.deformation);
+  CurvaturePair pair{move.deformation, Nodal(move.deformation.size(), 0.0)};
   for (double& v : pair.move) v *= unit;
   std::vector<double> weights{1.0};
   if (move.multipliers.size() == constraints_.size()) weights.push_back(0);  // the measure is free
   for (const double m : move.multipliers) weights.push_back(m);
   for (size_t i = 0; i < constraints_.size(); ++i) weights[2 + i] *= constraints_[i].sign;
   const auto add_loads = [&](double factor, const Evaluation<dim>& e) {
-    const auto derivatives = loads(state_.shape.lattice, e, options_.objective, constraints_,
-                                   std::vector<bool>(e.boundary.size(), false));
+    const auto derivatives =
+        loads(space, e, options_.objective, constraints_, std::vector<bool>(e.boundary.size(), false));
     for (size_t i = 0; i < derivatives.size(); ++i) add(factor * weights[i], derivatives[i], pair.change);
   };
   add_loads(unit, evaluation);
   add_loads(-unit, state_.evaluation);
-  const auto& space = evolver_.velocities();
-  pair.change = space.restricted(std::move(pair.change));
   const double move_square = product(space.load(pair.move), pair.move),
                move_change = product(pair.change, pair.move),
                change_square = product(pair.change, space.representative(pair.change));

@@ -6,12 +6,12 @@
 
 namespace wheelwright {
 
-/// Sequential quadratic steps with a trust region. A move V minimizes the model DJ(V) + (V, B V) / 2 of the
-/// merit function under the linearized measure and bounds of functions, where B is the L-BFGS matrix of the
-/// Lagrangian in the H1 inner product of velocities, and no point of the boundary moves farther than
-/// the step. The step shrinks
-/// where the model foretells badly, and grows where it foretells well. Bounds that cannot be met within a
-/// step are relaxed; their penalties grow until the step does about as much for them as one can.
+/// Sequential quadratic steps with a trust region. A move is a deformation theta that minimizes the model
+/// DJ(theta) + (theta, B theta) / 2 of the merit function under the linearized measure and bounds of
+/// functions, where B is the L-BFGS matrix of the Lagrangian in the inner product of deformations
+/// (evolution/deformation_space.h), and no point of the boundary moves farther than the step. The step
+/// shrinks where the model foretells badly, and grows where it foretells well. Bounds that cannot be met
+/// within a step are relaxed; their penalties grow until the step does about as much for them as one can.
 template <int dim>
 class SequentialQuadraticProposals final : public Proposals<dim> {
  public:
@@ -24,9 +24,14 @@ class SequentialQuadraticProposals final : public Proposals<dim> {
   StepMemory remembered(const Move<dim>& move, const Evaluation<dim>& evaluation) const override;
 
  private:
-  struct Span;
+  /// Deformations and their loads: the representatives of derivatives, then the moves of the pairs, then
+  /// their changes.
+  struct Span {
+    std::vector<std::vector<double>> deformations, loads;
+    Matrix products() const;
+  };
 
-  Span span_in(const std::vector<bool>& held) const;
+  Span span_without(const std::vector<bool>& held) const;
   Move<dim> move_with(const std::vector<bool>& held, double step) const;
   QuadraticStep step_in(const Span& span, double gap, double step, std::vector<double>& penalties) const;
   std::vector<double> penalties() const;
@@ -37,6 +42,7 @@ class SequentialQuadraticProposals final : public Proposals<dim> {
   const OptimizationState<dim>& state_;
   std::vector<BoundConstraint> constraints_;
   AtLeastWidth narrow_;  ///< of the state's shape
+  Span pairs_;           ///< of the state's memory
 };
 
 }  // namespace wheelwright

@@ -222,8 +222,9 @@ std::string_view misfit(const OptimizationState<dim>& state) {
       return "there is not one value of a gradient for every point of the boundary";
   const size_t n_nodes = state.shape.values.size();
   for (const CurvaturePair& pair : state.memory.pairs)
-    if (pair.move.size() != n_nodes || pair.change.size() != n_nodes)
-      return "a move of the boundary does not have one value for every node";
+    if ((pair.move.size() != n_nodes && pair.move.size() != dim * n_nodes) ||
+        pair.change.size() != pair.move.size())
+      return "a move of the boundary does not have one number, or one vector, for every node";
   if (state.history_begin > state.iteration ||
       state.history.size() != std::size_t(state.iteration) - std::size_t(state.history_begin) + 1)
     return "there is not one objective for every shape";

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
+#include "wheelwright/case/derived.h"
 #include "wheelwright/run/provenance.h"
 
 namespace wheelwright {
@@ -38,6 +40,15 @@ std::string first_difference(const std::string& then, const std::string& now) {
   return "it has other keys";
 }
 
+/// Whether the remembered moves are vectors, or speeds, as this velocity needs.
+template <int dim>
+bool has_moves_of(VelocityKind velocity, const OptimizationState<dim>& state) {
+  const size_t per_node = velocity == VelocityKind::vector ? dim : 1;
+  return std::ranges::all_of(state.memory.pairs, [&](const CurvaturePair& pair) {
+    return pair.move.size() == per_node * state.shape.values.size();
+  });
+}
+
 template <int dim>
 Expected<Checkpoint<dim>, Unusable> read_checkpoint(const fs::path& file, const Case& c,
                                                     const fs::path& history) {
@@ -51,6 +62,8 @@ Expected<Checkpoint<dim>, Unusable> read_checkpoint(const fs::path& file, const 
   if (then != now) return Unusable{fmt::format("written for another case: {}", first_difference(then, now))};
   if (!level_of(c, checkpoint->state.shape) || level_of(c, checkpoint->initial.shape) != 0)
     return Unusable{"its shape stands on another grid than the case's"};
+  if (!has_moves_of(velocity_kind(c), checkpoint->state))
+    return Unusable{"its moves of the boundary are not of the case's kind"};
   if (!History::holds(history, checkpoint->history))
     return Unusable{fmt::format("{} does not hold the rows that were written before it", history.string())};
   return *std::move(checkpoint);

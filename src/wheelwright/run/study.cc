@@ -247,9 +247,11 @@ std::vector<ShapeEvent<dim>> lost_on_the_grid(const Case& c) {
 
 EvolutionOptions evolution_options(const Case& c) {
   EvolutionOptions options;
-  options.velocity.kind =
-      c.optimizer.velocity == VelocityKind::h1 ? ExtensionKind::h1 : ExtensionKind::harmonic;
-  options.velocity.length = c.optimizer.velocity_length;
+  const VelocityKind kind = velocity_kind(c);
+  options.velocity = {.kind = kind == VelocityKind::harmonic ? ExtensionKind::harmonic : ExtensionKind::h1,
+                      .length = velocity_length(c)};
+  options.deformation =
+      kind == VelocityKind::vector ? DeformationKind::vector_field : DeformationKind::normal_speed;
   options.smoothing = c.optimizer.smoothing;
   options.bands = bands(c);
   options.features = {.wall = c.optimizer.minimum_wall.value_or(0),

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "wheelwright/geometry/level_set.h"
+#include "wheelwright/linalg/sparse_spd.h"
+
+namespace wheelwright {
+
+/// What a deformation is, and how it moves the boundary along the outward normal n of the material.
+enum class DeformationKind {
+  vector_field,  ///< theta, in polar directions (radial, azimuthal[, axial]); moves the boundary by theta . n
+  normal_speed,  ///< v; moves the boundary by v
+};
+
+/// Deformations of a sector. They are multilinear between the nodes of the lattice, vanish at some of them,
+/// and have one component after the other, each at all nodes. A load is a linear function of the deformation,
+/// with as many values. The inner product is (t, w) = sum over the components d of int length^2 grad t_d .
+/// grad w_d + t_d w_d over one sector.
+///
+/// The edges of a thin wall have opposite normals. A smooth vector field moves the wall as a whole, which
+/// changes its stiffness little; a smooth speed moves its edges apart. Speeds at the nodes differ from those
+/// of the boundary where it bends sharply and deformations are vectors (docs/optimization.md says what is
+/// better where).
+template <int dim>
+class DeformationSpace {
+ public:
+  /// `fixed`: the nodes where deformations vanish.
+  DeformationSpace(const Lattice<dim>& lattice, std::vector<bool> fixed, double length, DeformationKind kind);
+
+  int n_components() const { return kind_ == DeformationKind::vector_field ? dim : 1; }
+
+  /// The deformation t with (t, w) = load . w for all deformations w.
+  std::vector<double> representative(std::span<const double> load) const;
+
+  /// The load l with l . w = (deformation, w) for all deformations w.
+  std::vector<double> load(std::span<const double> deformation) const;
+
+  /// The load that is the sum of weight * value * speed over the samples: a shape derivative with this
+  /// density.
+  std::vector<double> normal_load(std::span<const SurfaceSample<dim>> density) const;
+
+  /// How fast points of the boundary move along the normal.
+  std::vector<double> speeds_at(std::span<const SurfacePoint<dim>> boundary,
+                                std::span<const double> deformation) const;
+
+  /// The same at the nodes, with the normals of the level set, for transport(). Where it is flat there are
+  /// none.
+  std::vector<double> speeds(const LevelSet<dim>& psi, std::span<const double> deformation) const;
+
+ private:
+  Vec<dim> factors(const Vec<dim>& normal) const;
+  Vec<dim> factors_at(const SurfacePoint<dim>& point) const;
+  std::vector<double> restricted(std::span<const double> component) const;
+  template <class Function>
+  std::vector<double> by_component(std::span<const double> vector, Function function) const;
+
+  Lattice<dim> lattice_;
+  std::vector<bool> fixed_;
+  DeformationKind kind_;
+  std::vector<SparseSpd::Entry> form_;  ///< of one component: lower triangle, without fixed nodes
+  SparseSpd factor_;
+};
+
+}  // namespace wheelwright
