@@ -47,17 +47,16 @@ std::vector<Nodal> loads(const DeformationSpace<dim>& space, const Evaluation<di
   return result;
 }
 
-/// What an objective must not exceed: the best so far by more than noise. Before the final widths, a web that
-/// is thinner than a cell makes the objective jump when it breaks, however small the step: there the worse
-/// one of the last two shapes will do too (the nonmonotone descent of Grippo, Lampariello and Lucidi 1986),
-/// which leads past the jump.
+/// What an objective must not exceed: the best so far by more than noise, or the last one. Before the final
+/// widths, a web that is thinner than a cell makes the objective jump when it breaks, however small the step:
+/// there the one before the last will do too (the nonmonotone descent of Grippo, Lampariello and Lucidi
+/// 1986), which leads past the jump.
 template <int dim>
 double largest_objective(const OptimizerOptions& options, const OptimizationState<dim>& state, double noise) {
   const auto& history = state.history;
-  const double largest = *std::ranges::min_element(history) + noise;
+  const double largest = std::max(*std::ranges::min_element(history) + noise, history.back());
   const bool may_jump = options.final_widths.any() && state.final_widths == FinalWidths::not_yet;
-  if (!may_jump || history.size() < 2) return largest;
-  return std::max({largest, history.back(), history[history.size() - 2]});
+  return may_jump && history.size() >= 2 ? std::max(largest, history[history.size() - 2]) : largest;
 }
 
 }  // namespace
