@@ -50,10 +50,12 @@ std::vector<double> DeformationSpace<dim>::load(std::span<const double> deformat
 
 template <int dim>
 std::vector<double> DeformationSpace<dim>::normal_load(std::span<const SurfaceSample<dim>> density) const {
+  std::vector<Vec<dim>> factors;
+  for (const auto& sample : density) factors.push_back(factors_at(sample));
   std::vector<double> result;
   for (int k = 0; k < n_components(); ++k) {
     std::vector<SurfaceSample<dim>> part(density.begin(), density.end());
-    for (auto& sample : part) sample.value *= factors_at(sample)[k];
+    for (std::size_t q = 0; q < part.size(); ++q) part[q].value *= factors[q][k];
     const auto load = restricted(boundary_load<dim>(lattice_, part));
     result.insert(result.end(), load.begin(), load.end());
   }

@@ -8,7 +8,7 @@
 
 namespace wheelwright {
 
-/// What a deformation is, and how it moves the boundary along the outward normal n of the material.
+/// A deformation is one of these; it moves the boundary along the outward normal n of the material.
 enum class DeformationKind {
   vector_field,  ///< theta, in polar directions (radial, azimuthal[, axial]); moves the boundary by theta . n
   normal_speed,  ///< v; moves the boundary by v

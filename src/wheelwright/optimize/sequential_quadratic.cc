@@ -47,10 +47,10 @@ std::vector<Nodal> loads(const DeformationSpace<dim>& space, const Evaluation<di
   return result;
 }
 
-/// What an objective must not exceed: the best so far by more than noise, or the last one. Before the final
-/// widths, a web that is thinner than a cell makes the objective jump when it breaks, however small the step:
-/// there the one before the last will do too (the nonmonotone descent of Grippo, Lampariello and Lucidi
-/// 1986), which leads past the jump.
+/// The largest objective that is accepted is the best one so far, increased by the noise, or the last one if
+/// that is larger. Before the final widths, a web that is thinner than a cell makes the objective jump when
+/// it breaks, however small the step: there it may also be the one before the last (the nonmonotone descent
+/// of Grippo, Lampariello and Lucidi 1986), which leads past the jump.
 template <int dim>
 double largest_objective(const OptimizerOptions& options, const OptimizationState<dim>& state, double noise) {
   const auto& history = state.history;
