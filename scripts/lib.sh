@@ -1,6 +1,5 @@
 # shellcheck shell=bash
-# What scripts/demo and scripts/test share: packages, configuration, build. To be sourced from the
-# repository's top folder.
+# What the scripts that build share: packages, configuration, build. To be sourced from the repository's top folder.
 
 packages=(
   g++ cmake ninja-build pkg-config
@@ -11,9 +10,14 @@ packages=(
   libjs-chart.js libjs-three
   libgtest-dev libbenchmark-dev
 )
-# For export to STEP and 3MF, and what the tests read exported files with.
+# For export to STEP and 3MF; what the tests read exported files with; what they open pages with; a locale of theirs.
 export_packages=(libocct-data-exchange-dev lib3mf-dev)
-reader_packages=(python3-ezdxf python3-pil admesh librsvg2-bin)
+test_packages=(
+  python3 python3-ezdxf python3-pil admesh librsvg2-bin
+  chromium chromium-driver firefox-esr python3-selenium
+  locales
+)
+style_packages=(clang-format shellcheck universal-ctags)
 build_folder=build/release
 
 fail() {
@@ -36,7 +40,8 @@ as_root() {
   fi
 }
 
-# Installs what dpkg does not know as installed; asks nothing and touches nothing when all is there.
+# Installs what dpkg does not know as installed, and says beforehand how much that is; asks nothing, and touches nothing
+# when all is there.
 install_packages() {
   if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
     fail "This system has no apt-get. Install what these packages of Debian 12 hold:" \
@@ -51,13 +56,18 @@ install_packages() {
   echo "Installing ${missing[*]}"
   as_root apt-get --quiet update ||
     fail "apt-get could not read the package lists: is there a network?"
+  echo
+  as_root env LC_ALL=C apt-get --assume-no --no-install-recommends install "${missing[@]}" 2>/dev/null |
+    grep -E 'newly installed|Need to get|disk space' || true
+  echo
   as_root env DEBIAN_FRONTEND=noninteractive apt-get --quiet --yes --no-install-recommends install \
     "${missing[@]}" ||
     fail "apt-get could not install the packages. Debian 12 (bookworm) has all of them."
 }
 
-# Builds the targets in Release; a build that is up to date is left alone.
+# Configures, which finds libraries that were installed since, and builds the targets in Release. What is up to date is
+# left alone.
 build() {
-  [[ -f $build_folder/build.ninja ]] || cmake --preset release
+  cmake --preset release
   cmake --build --preset release --target "$@"
 }

@@ -17,9 +17,13 @@ import tempfile
 import unittest
 from pathlib import Path
 
-import ezdxf
-import ezdxf.math
-from PIL import Image
+try:
+    import ezdxf
+    import ezdxf.math
+    from PIL import Image
+except ImportError:
+    print("not installed: python3-ezdxf python3-pil")
+    sys.exit(77)
 
 program, read_step, read_3mf, write_sample_outline = sys.argv[1:5]
 del sys.argv[1:5]

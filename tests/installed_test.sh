@@ -89,7 +89,8 @@ accepted_shapes "$folder/run/history.csv" >"$folder/shapes"
 
 cp -r "$documents/examples/optimize_a_wheel" "$folder/source"
 {
-  cmake -S "$folder/source" -B "$folder/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release \
+  generator=$(sed -n 's/^CMAKE_GENERATOR:INTERNAL=//p' "$build/CMakeCache.txt")
+  cmake -G "$generator" -S "$folder/source" -B "$folder/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS="${flags[*]}" &&
     cmake --build "$folder/build"
 } >"$folder/log" 2>&1 || fail "$(cat "$folder/log")"

@@ -342,7 +342,7 @@ TEST_F(HistoryFile, EveryRowIsOnDiskAndHasTheColumnsOfTheHeader) {
 }
 
 TEST(History, FullDiskIsAnOutputError) {
-  if (!fs::exists("/dev/full")) GTEST_SKIP();
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
   try {
     History history("/dev/full", {"J/m", {}, {}, {}});
     FAIL();

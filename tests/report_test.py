@@ -12,16 +12,15 @@ import tempfile
 import unittest
 from pathlib import Path
 
-try:
-    from selenium.webdriver.common.action_chains import ActionChains
-    from selenium.webdriver.common.by import By
-    from selenium.webdriver.common.keys import Keys
-    from selenium.webdriver.support.ui import Select
-except ImportError:
-    print("The tests of report.html were skipped: they need chromium, chromium-driver and python3-selenium.")
-    sys.exit(77)
-
 import support
+
+support.skip_without_browser()
+
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+from selenium.webdriver.support.ui import Select
+
 
 program = sys.argv.pop(1)
 run_program = functools.partial(support.run_program, program)

@@ -1,7 +1,10 @@
 """What several of the Python tests need: the program, and a browser."""
 
+import importlib.util
 import os
+import shutil
 import subprocess
+import sys
 
 
 def one_thread_each():
@@ -15,6 +18,16 @@ def run_program(program, *arguments):
                             check=False, timeout=300)
     assert result.returncode == 0, result.stderr
     return result.stdout
+
+
+def skip_without_browser():
+    """Ends a test, as skipped, where open_browser() cannot work."""
+    missing = [program for program in ("chromium", "chromedriver") if not shutil.which(program)]
+    if not importlib.util.find_spec("selenium"):
+        missing.append("python3-selenium")
+    if missing:
+        print("not installed:", *missing)
+        sys.exit(77)
 
 
 def open_browser(width, height):

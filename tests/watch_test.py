@@ -12,16 +12,15 @@ import time
 import unittest
 from pathlib import Path
 
-try:
-    from selenium.webdriver.common.action_chains import ActionChains
-    from selenium.webdriver.common.by import By
-    from selenium.webdriver.common.keys import Keys
-except ImportError:
-    print("The tests of the page were skipped: they need chromium, chromium-driver and python3-selenium.")
-    sys.exit(77)
+import support
+
+support.skip_without_browser()
+
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
 
 import design_on_page
-import support
 
 program = sys.argv.pop(1)
 

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <iterator>
+
 #include "wheelwright/case/keys.h"
 
 namespace wheelwright {
@@ -146,6 +149,117 @@ const Section<Volume>& volume_section() {
   return section;
 }
 
+namespace {
+
+/// How the next shape is found.
+std::vector<Key<Optimizer>> search_keys() {
+  return {
+      {.name = "method",
+       .unit = "",
+       .field = choice<&Optimizer::method>({"auto", "sequential_quadratic", "descent"}),
+       .meaning = "sequential_quadratic: steps of a quadratic model that learns the curvature from the "
+                  "shapes before; descent: along the gradient; auto: descent with volume.control = "
+                  "\"paper\" and "
+                  "with velocity = \"harmonic\", which need it, else sequential_quadratic"},
+      {.name = "iterations",
+       .unit = "",
+       .field = IntegerField<Optimizer>{&Optimizer::iterations, between(0, 1000000)},
+       .meaning = "maximum number of accepted shapes after the initial one"},
+      {.name = "coarse_levels",
+       .unit = "",
+       .field = IntegerField<Optimizer>{&Optimizer::coarse_levels, between(0, 4)},
+       .meaning = "the descent begins on a grid whose cells are doubled so many times along each axis, and "
+                  "moves on to the next finer one when J has fallen by less than 0.5 % over 10 shapes, until "
+                  "it is on the case's own grid; 0: on the case's own grid from the beginning"},
+      {.name = "velocity",
+       .unit = "",
+       .field = choice<&Optimizer::velocity>({"auto", "vector", "h1", "harmonic"}),
+       .meaning = "what moves the boundary. vector: a smooth vector field; h1: a smooth speed along the "
+                  "normal; harmonic: the speed of the paper's harmonic extension; auto: vector with "
+                  "sequential quadratic steps for the weighted sum without bounds in 2D, else h1"},
+      {.name = "velocity_length",
+       .unit = "cells",
+       .field =
+           OptionalNumberField<Optimizer>{&Optimizer::velocity_length, between(0, 1000),
+                                          "h1: 2; vector: 8, or 0.3 * grid.radial_cells if that is less"},
+       .meaning = "length over which vector and h1 smooth the motion of the boundary"},
+      {.name = "step",
+       .unit = "cells",
+       .field = OptionalNumberField<Optimizer>{&Optimizer::step, above(0, 10),
+                                               "1.25; with method = \"descent\" 0.5"},
+       .meaning = "maximum move of the boundary from one shape to the next"},
+      {.name = "max_halvings",
+       .unit = "",
+       .field = IntegerField<Optimizer>{&Optimizer::max_halvings, between(0, 50)},
+       .meaning = "how many times a rejected step is halved before the run stops"},
+      {.name = "accepted_increase",
+       .unit = "",
+       .field = NumberField<Optimizer>{&Optimizer::accepted_increase, between(0, 1)},
+       .meaning = "a shape is accepted if its J exceeds the best J so far by at most this fraction; before "
+                  "walls and gaps are mended also if it is at most the larger J of the last two shapes"},
+      {.name = "tolerance",
+       .unit = "",
+       .field = NumberField<Optimizer>{&Optimizer::tolerance, between(0, 1)},
+       .meaning = "the run stops when J has fallen by less than this fraction over 10 shapes; 0 means never"},
+      {.name = "redistance_every",
+       .unit = "shapes",
+       .field = IntegerField<Optimizer>{&Optimizer::redistance_every, between(0, 1000000)},
+       .meaning = "how often the level set is redistanced (made a signed distance again); 0 means never"},
+      {.name = "smoothing",
+       .unit = "cells^2",
+       .field = NumberField<Optimizer>{&Optimizer::smoothing, between(0, 1000)},
+       .meaning = "tau of (76); 0 means no smoothing, and then small holes may fray"},
+      {.name = "smooth_every",
+       .unit = "shapes",
+       .field = IntegerField<Optimizer>{&Optimizer::smooth_every, between(1, 1000000)},
+       .meaning = "how often the level set is smoothed by (76)"}};
+}
+
+/// What every shape keeps, and where there may be new holes.
+std::vector<Key<Optimizer>> feature_keys() {
+  return {
+      {.name = "rim_band",
+       .unit = "m",
+       .field = OptionalNumberField<Optimizer>{&Optimizer::rim_band, between(0, 1000), "1/14 of the ring"},
+       .meaning = "thickness of the band at the rim that stays material, at least one radial cell; holes "
+                  "end on it, so that the "
+                  "optimum depends on it"},
+      {.name = "tread_band",
+       .unit = "m",
+       .field = OptionalNumberField<Optimizer>{&Optimizer::tread_band, between(0, 1000),
+                                               "1/14 of the ring, or 1/28 more than the annulus"},
+       .meaning =
+           "thickness of the band at the tread that stays material, at least one radial cell more than "
+           "the annulus"},
+      {.name = "minimum_wall",
+       .unit = "m",
+       .field = OptionalNumberField<Optimizer>{&Optimizer::minimum_wall, between(0, 1000),
+                                               "any at first, one cell in the last part of a run"},
+       .meaning = "least thickness of the material between two edges: thinner walls are made as thick in "
+                  "every shape; the bands at rim and tread must be as thick; 0 means any to the end"},
+      {.name = "minimum_gap",
+       .unit = "m",
+       .field = OptionalNumberField<Optimizer>{&Optimizer::minimum_gap, between(0, 1000),
+                                               "any at first, one cell in the last part of a run"},
+       .meaning = "least width of a hole: narrower parts of holes, and smaller holes, are filled in every "
+                  "shape; 0 means any to the end"},
+      {.name = "nucleation",
+       .unit = "",
+       .field = choice<&Optimizer::nucleation>({"never", "converged"}),
+       .meaning = "when holes are made where there are none: converged: where the search has converged, "
+                  "small holes are made where the topological derivative says that they lower J most; "
+                  "where J has not fallen when it has converged again, they are taken back and the run "
+                  "ends; in two dimensions"}};
+}
+
+std::vector<Key<Optimizer>> optimizer_keys() {
+  auto keys = search_keys();
+  std::ranges::move(feature_keys(), std::back_inserter(keys));
+  return keys;
+}
+
+}  // namespace
+
 const Section<Optimizer>& optimizer_section() {
   static const Section<Optimizer> section{
       .name = "optimizer",
@@ -153,103 +267,7 @@ const Section<Optimizer>& optimizer_section() {
           "the search for a better shape; the unit \"cell\" is the shortest edge of a grid cell at "
           "mid-ring",
       .in = [](Case& c) -> Optimizer& { return c.optimizer; },
-      .keys = {
-          {.name = "method",
-           .unit = "",
-           .field = choice<&Optimizer::method>({"auto", "sequential_quadratic", "descent"}),
-           .meaning = "sequential_quadratic: steps of a quadratic model that learns the curvature from the "
-                      "shapes before; descent: along the gradient; auto: descent with volume.control = "
-                      "\"paper\" and "
-                      "with velocity = \"harmonic\", which need it, else sequential_quadratic"},
-          {.name = "iterations",
-           .unit = "",
-           .field = IntegerField<Optimizer>{&Optimizer::iterations, between(0, 1000000)},
-           .meaning = "maximum number of accepted shapes after the initial one"},
-          {.name = "coarse_levels",
-           .unit = "",
-           .field = IntegerField<Optimizer>{&Optimizer::coarse_levels, between(0, 4)},
-           .meaning =
-               "the descent begins on a grid whose cells are doubled so many times along each axis, and "
-               "moves on to the next finer one when J has fallen by less than 0.5 % over 10 shapes, until "
-               "it is on the case's own grid; 0: on the case's own grid from the beginning"},
-          {.name = "velocity",
-           .unit = "",
-           .field = choice<&Optimizer::velocity>({"auto", "vector", "h1", "harmonic"}),
-           .meaning = "what moves the boundary. vector: a smooth vector field; h1: a smooth speed along the "
-                      "normal; harmonic: the speed of the paper's harmonic extension; auto: vector with "
-                      "sequential quadratic steps for the weighted sum without bounds in 2D, else h1"},
-          {.name = "velocity_length",
-           .unit = "cells",
-           .field =
-               OptionalNumberField<Optimizer>{&Optimizer::velocity_length, between(0, 1000),
-                                              "h1: 2; vector: 8, or 0.3 * grid.radial_cells if that is less"},
-           .meaning = "length over which vector and h1 smooth the motion of the boundary"},
-          {.name = "step",
-           .unit = "cells",
-           .field = OptionalNumberField<Optimizer>{&Optimizer::step, above(0, 10),
-                                                   "1.25; with method = \"descent\" 0.5"},
-           .meaning = "maximum move of the boundary from one shape to the next"},
-          {.name = "max_halvings",
-           .unit = "",
-           .field = IntegerField<Optimizer>{&Optimizer::max_halvings, between(0, 50)},
-           .meaning = "how many times a rejected step is halved before the run stops"},
-          {.name = "accepted_increase",
-           .unit = "",
-           .field = NumberField<Optimizer>{&Optimizer::accepted_increase, between(0, 1)},
-           .meaning =
-               "a shape is accepted if its J exceeds the best J so far by at most this fraction; before "
-               "walls and gaps are mended also if it is at most the larger J of the last two shapes"},
-          {.name = "tolerance",
-           .unit = "",
-           .field = NumberField<Optimizer>{&Optimizer::tolerance, between(0, 1)},
-           .meaning =
-               "the run stops when J has fallen by less than this fraction over 10 shapes; 0 means never"},
-          {.name = "redistance_every",
-           .unit = "shapes",
-           .field = IntegerField<Optimizer>{&Optimizer::redistance_every, between(0, 1000000)},
-           .meaning = "how often the level set is redistanced (made a signed distance again); 0 means never"},
-          {.name = "smoothing",
-           .unit = "cells^2",
-           .field = NumberField<Optimizer>{&Optimizer::smoothing, between(0, 1000)},
-           .meaning = "tau of (76); 0 means no smoothing, and then small holes may fray"},
-          {.name = "smooth_every",
-           .unit = "shapes",
-           .field = IntegerField<Optimizer>{&Optimizer::smooth_every, between(1, 1000000)},
-           .meaning = "how often the level set is smoothed by (76)"},
-          {.name = "rim_band",
-           .unit = "m",
-           .field =
-               OptionalNumberField<Optimizer>{&Optimizer::rim_band, between(0, 1000), "1/14 of the ring"},
-           .meaning = "thickness of the band at the rim that stays material, at least one radial cell; holes "
-                      "end on it, so that the "
-                      "optimum depends on it"},
-          {.name = "tread_band",
-           .unit = "m",
-           .field = OptionalNumberField<Optimizer>{&Optimizer::tread_band, between(0, 1000),
-                                                   "1/14 of the ring, or 1/28 more than the annulus"},
-           .meaning =
-               "thickness of the band at the tread that stays material, at least one radial cell more than "
-               "the annulus"},
-          {.name = "minimum_wall",
-           .unit = "m",
-           .field = OptionalNumberField<Optimizer>{&Optimizer::minimum_wall, between(0, 1000),
-                                                   "any at first, one cell in the last part of a run"},
-           .meaning = "least thickness of the material between two edges: thinner walls are made as thick in "
-                      "every shape; the bands at rim and tread must be as thick; 0 means any to the end"},
-          {.name = "minimum_gap",
-           .unit = "m",
-           .field = OptionalNumberField<Optimizer>{&Optimizer::minimum_gap, between(0, 1000),
-                                                   "any at first, one cell in the last part of a run"},
-           .meaning =
-               "least width of a hole: narrower parts of holes, and smaller holes, are filled in every "
-               "shape; 0 means any to the end"},
-          {.name = "nucleation",
-           .unit = "",
-           .field = choice<&Optimizer::nucleation>({"never", "converged"}),
-           .meaning = "when holes are made where there are none: converged: where the search has converged, "
-                      "small holes are made where the topological derivative says that they lower J most; "
-                      "where J has not fallen when it has converged again, they are taken back and the run "
-                      "ends; in two dimensions"}}};
+      .keys = optimizer_keys()};
   return section;
 }
 

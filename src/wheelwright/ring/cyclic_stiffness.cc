@@ -167,6 +167,16 @@ Expected<CyclicStiffness<dim>> CyclicStiffness<dim>::factor(SectorStiffness<dim>
     coupled = CoupledSectors(ring.modes_->release_stiffness());
     of_harmonics = without_symmetry(ring.modes_->n_strong(), ring.n_outer_);
   }
+  auto factors = factor_harmonics(coupled, of_harmonics, outer_stiffness, harmonics);
+  if (!factors) return factors.failure();
+  ring.harmonic_factors_ = *std::move(factors);
+  return ring;
+}
+
+template <int dim>
+Expected<std::vector<HarmonicFactor>> CyclicStiffness<dim>::factor_harmonics(
+    const CoupledSectors& coupled, const std::shared_ptr<const BoundarySymmetry>& of_harmonics,
+    const OuterStiffness& outer_stiffness, const SectorHarmonics& harmonics) {
   const int n_first = of_harmonics->n_interface;
   std::vector<std::optional<HarmonicFactor>> factors(harmonics.n_harmonics());
   parallel_for(harmonics.n_harmonics(), [&](int h) {
@@ -182,13 +192,14 @@ Expected<CyclicStiffness<dim>> CyclicStiffness<dim>::factor(SectorStiffness<dim>
     factors[h] = HarmonicFactor::factor(of_harmonics, harmonics.phase(h, 1),
                                         h == 0 || 2 * h == harmonics.n_sectors(), entry);
   });
+  std::vector<HarmonicFactor> result;
   for (int h = 0; h < harmonics.n_harmonics(); ++h) {
     if (!factors[h])
       return Failure{FailureReason::not_positive_definite,
                      fmt::format("the ring's stiffness is not positive definite for harmonic {}", h)};
-    ring.harmonic_factors_.push_back(*std::move(factors[h]));
+    result.push_back(*std::move(factors[h]));
   }
-  return ring;
+  return result;
 }
 
 /// The condensed stiffness of a sector, split by the number of sectors that the second unknown is ahead of

@@ -109,6 +109,11 @@ class CyclicStiffness {
     std::vector<Matrix> by_difference;  ///< from -farthest to farthest
   };
 
+  /// The ring's stiffness, with that of the outer line, for every harmonic; it must be positive definite.
+  static Expected<std::vector<HarmonicFactor>> factor_harmonics(
+      const CoupledSectors& coupled, const std::shared_ptr<const BoundarySymmetry>& of_harmonics,
+      const OuterStiffness& outer_stiffness, const SectorHarmonics& harmonics);
+
   SectorStiffness<dim> sector_;
   PartialCholesky sector_factor_;
   SectorHarmonics harmonics_;
