@@ -35,7 +35,8 @@ class ServerTest : public ::testing::Test {
       .connections = 8, .request_bytes = 4096, .request_time = 300ms, .idle_time = 2s, .answer_time = 500ms};
   std::atomic<int> answered = 0;
   LocalServer server{
-      {{Route::Method::get, Route::Access::open, "/", [](const auto&) { return PageAnswer{}; }},
+      {{Route::Method::get, Route::Access::page, "/", [](const auto&) { return PageAnswer{.body = "page"}; }},
+       {Route::Method::get, Route::Access::open, "/script", [](const auto&) { return PageAnswer{}; }},
        {Route::Method::get, Route::Access::token, "/shape",
         [this](const auto&) {
           ++answered;
@@ -144,9 +145,7 @@ TEST_F(ServerTest, AnotherHostOrOriginGetsNothingEvenWithTheToken) {
            "Host: " + host() + "\r\nOrigin: http://evil.example\r\n",
            "Host: " + host() + "\r\nOrigin: null\r\n",
            "Host: " + host() + "\r\nOrigin: https://" + host() + "\r\n",
-           "Host: " + host() + "\r\nOrigin: http://localhost" + port + "\r\n",
-           "Host: " + host() + "\r\nSec-Fetch-Site: cross-site\r\n",
-           "Host: " + host() + "\r\nSec-Fetch-Site: same-site\r\n"})
+           "Host: " + host() + "\r\nOrigin: http://localhost" + port + "\r\n"})
     for (const char* line : {"GET /shape HTTP/1.1\r\n", "GET / HTTP/1.1\r\n"}) {
       const std::string answer = exchange(line + wrong + authorization() + "\r\n");
       EXPECT_EQ(status(answer), 403) << wrong;
@@ -155,6 +154,25 @@ TEST_F(ServerTest, AnotherHostOrOriginGetsNothingEvenWithTheToken) {
   const std::string own = "Host: localhost" + port + "\r\nOrigin: http://localhost" + port + "\r\n";
   EXPECT_EQ(status(exchange("GET /shape HTTP/1.1\r\n" + own + authorization() + "Connection: close\r\n\r\n")),
             200);
+}
+
+// What a browser sends that was handed a file which leads to the page, and what pages elsewhere could make it
+// send.
+TEST_F(ServerTest, FromElsewhereOnlyThePageIsOpenedAndOnlyInATabOfItsOwn) {
+  const std::string navigation = "Sec-Fetch-Mode: navigate\r\nSec-Fetch-Dest: document\r\n";
+  const std::string close = authorization() + "Connection: close\r\n\r\n";
+  for (const char* site : {"cross-site", "same-site"}) {
+    const std::string from = "Sec-Fetch-Site: " + std::string(site) + "\r\n";
+    EXPECT_EQ(status(exchange(head("GET /", from + navigation + close))), 200);
+    EXPECT_EQ(status(exchange(head("GET /", from + close))), 200);
+    for (const char* use : {"Sec-Fetch-Mode: navigate\r\nSec-Fetch-Dest: iframe\r\n",
+                            "Sec-Fetch-Mode: no-cors\r\nSec-Fetch-Dest: script\r\n",
+                            "Sec-Fetch-Mode: cors\r\nSec-Fetch-Dest: empty\r\n"})
+      EXPECT_EQ(status(exchange(head("GET /", from + use + close))), 403) << use;
+    for (const char* line : {"GET /shape", "GET /script", "GET /none", "POST /command?a=1"})
+      EXPECT_EQ(status(exchange(head(line, from + navigation + close))), 403) << line;
+  }
+  EXPECT_EQ(answered, 0);
 }
 
 TEST_F(ServerTest, NoAddressIsAFile) {

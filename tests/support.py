@@ -1,8 +1,10 @@
 """What several of the Python tests need: the program, and a browser."""
 
 import importlib.util
+import json
 import os
 import shutil
+import socket
 import subprocess
 import sys
 
@@ -40,3 +42,42 @@ def open_browser(width, height):
         options.add_argument(argument)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
     return webdriver.Chrome(options=options)
+
+
+def attach_to_chromium(port):
+    """A Chromium that already runs, by its debugging port."""
+    from selenium import webdriver
+
+    options = webdriver.ChromeOptions()
+    options.debugger_address = f"127.0.0.1:{port}"
+    return webdriver.Chrome(options=options)
+
+
+class Marionette:
+    """A Firefox that already runs, by its own protocol: Debian has no geckodriver, which Selenium needs."""
+
+    def __init__(self, port):
+        with socket.create_connection(("127.0.0.1", port), timeout=180) as connection:
+            self.stream = connection.makefile("rwb")  # keeps it open
+        self.sent = 0
+        self.receive()  # it introduces itself
+        self.ask("WebDriver:NewSession")
+
+    def receive(self):
+        size = b""
+        while (byte := self.stream.read(1)) != b":":
+            size += byte
+        return json.loads(self.stream.read(int(size)))
+
+    def ask(self, command, **parameters):
+        self.sent += 1
+        message = json.dumps([0, self.sent, command, parameters]).encode()
+        self.stream.write(b"%d:%s" % (len(message), message))
+        self.stream.flush()
+        _, _, error, result = self.receive()
+        if error:
+            raise RuntimeError(error["message"])
+        return result.get("value")
+
+    def close(self):
+        self.stream.close()

@@ -3,7 +3,9 @@
 import contextlib
 import http.client
 import json
+import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -89,6 +91,13 @@ class Watched:
         return self.process.returncode, *output
 
 
+def command_lines():
+    """Those of all processes."""
+    for file in Path("/proc").glob("[0-9]*/cmdline"):
+        with contextlib.suppress(OSError):
+            yield file.read_bytes().decode(errors="replace")
+
+
 class PageTest(unittest.TestCase):
     """A page of a run in a browser."""
 
@@ -165,11 +174,7 @@ class Page(PageTest):
         self.assertNotEqual(self.browser.title, "broken out")
 
     def test_the_token_is_in_no_process_list_and_no_log(self):
-        for folder in Path("/proc").glob("[0-9]*"):
-            try:
-                command = (folder / "cmdline").read_bytes().decode(errors="replace")
-            except OSError:
-                continue
+        for command in command_lines():
             self.assertNotIn(self.watched.token, command)
         self.watched.give({"do": "pause"})
         code, _, messages = self.watched.end()
@@ -583,6 +588,84 @@ class Design(unittest.TestCase):
             self.assertGreater(len(points(step)), 1000)
 
 
+class OpenedInABrowser:
+    """The page that a desktop opens: a stand-in for xdg-open starts the browser with the file that it is given."""
+
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+        (self.folder / "case.toml").write_text(CASE)
+        self.profile = self.folder / "profile"
+        self.profile.mkdir()
+        if not shutil.which(self.command()[0]):
+            self.skipTest(f"not installed: {self.command()[0]}")
+        stand_in = self.folder / "bin/xdg-open"
+        stand_in.parent.mkdir()
+        stand_in.write_text(f'#!/bin/sh\nsetsid {" ".join(self.command())} "$1" >/dev/null 2>&1 </dev/null &\n'
+                            f"echo $! > {self.folder}/browser\n")
+        stand_in.chmod(0o755)
+
+    def end_browser(self):
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(int((self.folder / "browser").read_text()), signal.SIGKILL)
+
+    def until(self, wanted, seconds=180):
+        end = time.time() + seconds
+        while time.time() < end:
+            if found := wanted():
+                return found
+            time.sleep(0.1)
+        raise TimeoutError
+
+    def test_the_wheel_is_seen(self):
+        desktop = dict(support.one_thread_each(), DISPLAY=":99", PATH=f"{self.folder}/bin:{os.environ['PATH']}")
+        process = subprocess.Popen([program, "watch", self.folder / "case.toml", "--output", self.folder / "run",
+                                    "--threads", "1"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+                                   env=desktop)
+        try:
+            base, token = process.stdout.readline().strip().split("/#")
+            self.until((self.folder / "browser").exists)
+            evaluate = self.until(self.attach)
+            self.until(lambda: evaluate("document.getElementById('wheel')?.dataset.painted ?? ''"))
+            self.assertEqual(evaluate("location.href"), base + "/")
+            self.until(lambda: float(evaluate("document.getElementById('number-shape').textContent")) > 2)
+            self.assertFalse([command for command in command_lines() if token in command])
+        finally:
+            process.send_signal(signal.SIGINT)
+            process.communicate(timeout=180)
+            self.end_browser()
+
+
+class OpenedInChromium(OpenedInABrowser, unittest.TestCase):
+    def command(self):
+        return ["chromium", "--headless=new", "--no-sandbox", "--no-first-run", "--remote-debugging-port=0",
+                f"--user-data-dir={self.profile}"]
+
+    def attach(self):
+        """What evaluates an expression in its tab; None until it has begun."""
+        port = self.profile / "DevToolsActivePort"
+        if not port.exists() or not port.read_text():
+            return None
+        browser = support.attach_to_chromium(int(port.read_text().split()[0]))
+        self.addCleanup(browser.quit)
+        return lambda expression: browser.execute_script(f"return {expression}")
+
+
+class OpenedInFirefox(OpenedInABrowser, unittest.TestCase):
+    def command(self):
+        (self.profile / "user.js").write_text('user_pref("marionette.port", 0);')
+        return ["firefox-esr", "--headless", "--no-remote", "--marionette", "--profile", str(self.profile)]
+
+    def attach(self):
+        port = self.profile / "MarionetteActivePort"
+        if not port.exists() or not port.read_text():
+            return None
+        browser = support.Marionette(int(port.read_text()))
+        self.addCleanup(browser.close)
+        return lambda expression: browser.ask("WebDriver:ExecuteScript", script=f"return {expression}", args=[])
+
+
 class Folder(unittest.TestCase):
     """What a watched run leaves, without a browser."""
 
@@ -713,4 +796,7 @@ class Folder(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    outcome = unittest.main(exit=False).result
+    for _, reason in outcome.skipped:
+        print(reason)
+    sys.exit(77 if outcome.skipped else not outcome.wasSuccessful())

@@ -5,6 +5,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <condition_variable>
 #include <mutex>
 #include <set>
@@ -110,6 +111,8 @@ RequestHeaders headers_of(const httplib::Request& request) {
   return {.host = header(request, "Host"),
           .origin = header(request, "Origin"),
           .fetch_site = header(request, "Sec-Fetch-Site"),
+          .fetch_mode = header(request, "Sec-Fetch-Mode"),
+          .fetch_dest = header(request, "Sec-Fetch-Dest"),
           .authorization = header(request, "Authorization")};
 }
 
@@ -182,12 +185,13 @@ class LocalServer::Http : private httplib::Server {
   /// The status of a request that gets nothing; 0 for one that is to be answered.
   int refusal(const httplib::Request& request) const {
     const RequestHeaders headers = headers_of(request);
-    if (!is_of_own_origin(headers, port_)) return 403;
-    for (const Route& route : routes_)
-      if (request.path == route.path &&
-          request.method == (route.method == Route::Method::get ? "GET" : "POST"))
-        return route.access == Route::Access::token && !has_token(headers, token_) ? 401 : 0;
-    return 404;
+    const auto route = std::ranges::find_if(routes_, [&](const Route& r) {
+      return request.path == r.path && request.method == (r.method == Route::Method::get ? "GET" : "POST");
+    });
+    const bool is_page = route != routes_.end() && route->access == Route::Access::page;
+    if (is_page ? !may_open_page(headers, port_) : !is_of_own_origin(headers, port_)) return 403;
+    if (route == routes_.end()) return 404;
+    return route->access == Route::Access::token && !has_token(headers, token_) ? 401 : 0;
   }
 
   bool process_and_close_socket(socket_t connection) override {

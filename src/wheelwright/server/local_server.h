@@ -27,7 +27,8 @@ struct PageAnswer {
 struct Route {
   enum class Method { get, post };
   enum class Access {
-    open,   ///< the page itself and its scripts, which are the same for everyone
+    page,   ///< the page itself: a link from elsewhere may open it, and it is the same for everyone
+    open,   ///< its scripts and styles, which are the same for everyone
     token,  ///< the request must carry the server's token
   };
   Method method;
@@ -48,7 +49,8 @@ struct ServerLimits {
 
 /// Answers HTTP on the loopback interface, for pages of its own alone: connections of other users of the
 /// machine are closed (where the system says whose they are), the Host must be the server's own address and
-/// so must an Origin, and what is not open needs the token.
+/// so must an Origin; only the page itself may be opened from elsewhere, and what is not open needs the
+/// token.
 class LocalServer {
  public:
   /// Listens at a port of 127.0.0.1, 0 for any that is free. Throws std::system_error where it cannot.

@@ -38,9 +38,8 @@ PageAnswer message(int status, bool was_obeyed, const std::string& text) {
 
 PageAnswer no_shape() { return message(409, false, "there is no shape yet"); }
 
-Route asset(std::string path, std::string type, std::string_view content) {
-  return {Route::Method::get, Route::Access::open, std::move(path),
-          [type = std::move(type), content](const PageRequest&) {
+Route asset(Route::Access access, std::string path, std::string type, std::string_view content) {
+  return {Route::Method::get, access, std::move(path), [type = std::move(type), content](const PageRequest&) {
             return PageAnswer{.type = type, .body = std::string(content)};
           }};
 }
@@ -79,13 +78,13 @@ std::vector<Route> WatchSession<dim>::routes() {
   using enum Route::Method;
   using enum Route::Access;
   const std::string script = "text/javascript; charset=utf-8";
-  return {asset("/", "text/html; charset=utf-8", assets::watch_html),
-          asset("/page.css", "text/css; charset=utf-8", assets::report_css),
-          asset("/watch.css", "text/css; charset=utf-8", assets::watch_css),
-          asset("/chart.js", script, assets::chart_js),
-          asset("/three.js", script, assets::three_js),
-          asset("/parts.js", script, assets::parts_js),
-          asset("/watch.js", script, assets::watch_js),
+  return {asset(page, "/", "text/html; charset=utf-8", assets::watch_html),
+          asset(open, "/page.css", "text/css; charset=utf-8", assets::report_css),
+          asset(open, "/watch.css", "text/css; charset=utf-8", assets::watch_css),
+          asset(open, "/chart.js", script, assets::chart_js),
+          asset(open, "/three.js", script, assets::three_js),
+          asset(open, "/parts.js", script, assets::parts_js),
+          asset(open, "/watch.js", script, assets::watch_js),
           {get, token, "/frame", [this](const PageRequest& request) { return frame(request); }},
           {get, token, "/loaded", [this](const PageRequest&) { return loaded(); }},
           {get, token, "/export", [this](const PageRequest& request) { return exported_file(request); }},
