@@ -12,6 +12,7 @@
 #include "tests/run_support.h"
 #include "wheelwright/case/drawn_shapes.h"
 #include "wheelwright/case/read.h"
+#include "wheelwright/case/shape_symmetry.h"
 #include "wheelwright/drawing/chain.h"
 #include "wheelwright/drawing/composed_level_set.h"
 #include "wheelwright/drawing/drawing.h"
@@ -576,6 +577,29 @@ TEST(Symmetry, SeesWhichSideIsMaterial) {
   EXPECT_FALSE(repeats(quarters, 4, 1e-5));
 }
 
+TEST(Symmetry, IsMissedByTheLargestDistanceAndThere) {
+  // One of twelve circles is 3 mm farther out: turned by any multiple of 30 degrees it is off by that.
+  const double off = 3e-3;
+  const Point odd = polar(0.27 + off, 2 * pi * 5 / 12);
+  Figure figure{Fill::hole, {}};
+  for (int i = 0; i < 12; ++i)
+    figure.outlines.push_back(
+        circle_outline(Affine::shift(polar(0.27 + (i == 5 ? off : 0), 2 * pi * i / 12)), 0.02));
+  const Composition wheel({figure});
+  for (const int n : {2, 3, 12}) {
+    const Asymmetry found = asymmetry(wheel, n, 1);
+    EXPECT_NEAR(found.distance, off, 1e-2 * off);  // four points of each curve are compared
+    // The point is on the odd circle, or comes to it by the turn.
+    double nearest = 1;
+    for (int k = 0; k < n; ++k)
+      nearest = std::min(nearest, distance(Affine::rotation(2 * pi * k / n)(found.at), odd));
+    EXPECT_NEAR(nearest, 0.02, 1.01 * off);
+  }
+  EXPECT_FALSE(repeats(wheel, 12, 0.98 * off));
+  EXPECT_TRUE(repeats(wheel, 12, 1.01 * off));
+  EXPECT_EQ(asymmetry(wheel, 12, 0.5 * off).distance, 0.5 * off);
+}
+
 // --- In a case
 
 class DrawingInACase : public TemporaryFolder {
@@ -623,6 +647,99 @@ TEST_F(DrawingInACase, ThatDoesNotRepeatTellsTheSectorsThatFit) {
   EXPECT_EQ(refused[0].key, "wheel.sectors");
   EXPECT_TRUE(refused[0].remedy.ends_with(": 1, 2, 3, 4, 6, 12")) << refused[0].remedy;
   EXPECT_FALSE(fitting(24).value);
+}
+
+/// A whole wheel with straight spokes as SVG; spoke i is turned by offsets[i] degrees.
+std::string spoked_wheel(const std::vector<double>& offsets) {
+  std::string svg =
+      "<svg width='680mm' height='680mm' viewBox='-340 -340 680 680'>\n<circle r='340'/><circle r='200'/>\n";
+  const double spacing = 360.0 / offsets.size();
+  for (std::size_t i = 0; i < offsets.size(); ++i) {
+    const auto corner = [&](double radius, double degrees) {
+      const Point p = polar(radius, (i * spacing + degrees) * pi / 180);
+      return fmt::format("{},{} ", p[0], -p[1]);
+    };
+    const double from = offsets[i] + 2, to = offsets[i + 1 < offsets.size() ? i + 1 : 0] + spacing - 2;
+    svg += "<polygon points='" + corner(220, from) + corner(220, to) + corner(315, to) + corner(315, from) +
+           "'/>\n";
+  }
+  return svg + "</svg>";
+}
+
+const std::string whole_wheel =
+    "[[shape.annulus]]\n[[shape.file]]\nas = \"material\"\npath = \"wheel.svg\"\n";
+
+TEST_F(DrawingInACase, OfAllMaterialRepeatsAsItsMaterialDoes) {
+  write("wheel.svg", spoked_wheel(std::vector<double>(18, 0)));
+  const auto with_sectors = [&](int sectors) {
+    return read(fmt::format("[wheel]\nsectors = {}\n[grid]\nangular_cells = {}\n", sectors, 24 * sectors) +
+                whole_wheel);
+  };
+  for (const int sectors : {1, 2, 3, 6, 9, 18}) EXPECT_TRUE(with_sectors(sectors).value) << sectors;
+  for (const int sectors : {4, 5, 12, 36}) {
+    const auto refused = with_sectors(sectors).problems;
+    ASSERT_EQ(refused.size(), 1u) << sectors;
+    EXPECT_EQ(refused[0].key, "wheel.sectors");
+    EXPECT_TRUE(refused[0].remedy.ends_with(": 1, 2, 3, 6, 9, 18")) << refused[0].remedy;
+  }
+}
+
+TEST_F(DrawingInACase, OfPixelsThatAreMaterialRepeatsAsItsMaterialDoes) {
+  write("wheel.png", png(300, 300, [&](double column, double row) {
+          const double x = column - 150, y = 150 - row, radius = std::hypot(x, y) / 150 * 0.34;
+          return radius > 0.2 && (radius < 0.22 || radius > 0.315 || std::cos(6 * std::atan2(y, x)) > 0);
+        }));
+  const auto with_sectors = [&](int sectors) {
+    return read(
+        fmt::format("[wheel]\nsectors = {}\n[[shape.annulus]]\n[[shape.picture]]\nas = "
+                    "\"material\"\npath = \"wheel.png\"\nwidth = 0.68\n",
+                    sectors));
+  };
+  for (const int sectors : {1, 2, 3, 6}) EXPECT_TRUE(with_sectors(sectors).value) << sectors;
+  for (const int sectors : {4, 8, 12}) EXPECT_FALSE(with_sectors(sectors).value) << sectors;
+}
+
+TEST_F(DrawingInACase, GivesTheNumberOfSectorsWhereTheCaseDoesNot) {
+  const std::string grid = "[grid]\nangular_cells = 360\n";
+  const auto sectors = [&](const std::string& text) {
+    const CaseResult result = read(grid + text);
+    for (const Diagnostic& problem : result.problems) ADD_FAILURE() << problem.text();
+    return result.value ? result.value->wheel.sectors : 0;
+  };
+  write("wheel.svg", spoked_wheel(std::vector<double>(18, 0)));
+  EXPECT_EQ(sectors(whole_wheel), 18);
+  // Other counts divide it.
+  EXPECT_EQ(sectors(whole_wheel + "[[shape.circle]]\ncount = 12\ncenter_radius = 0.27\nradius = 0.01\n"), 6);
+  write("twelve.svg", spoked_wheel(std::vector<double>(12, 0)));
+  EXPECT_EQ(sectors(whole_wheel + "[[shape.file]]\nas = \"material\"\npath = \"twelve.svg\"\n"), 6);
+  write("hole.svg", one_hole);
+  EXPECT_EQ(sectors("[[shape.file]]\npath = \"hole.svg\"\ncount = 15\n"), 15);
+  // Without repetition the whole ring is one sector.
+  EXPECT_EQ(sectors("[[shape.file]]\npath = \"hole.svg\"\n"), 1);
+  // What is round fits any number, so that the others decide.
+  write("round.svg",
+        "<svg width='680mm' height='680mm' viewBox='-340 -340 680 680'><circle r='300'/>"
+        "<circle r='240'/></svg>");
+  const std::string band = "[[shape.annulus]]\n[[shape.file]]\nas = \"material\"\npath = \"round.svg\"\n",
+                    spokes = "[[shape.spoke]]\ncount = 20\nthickness = 0.01\n";
+  EXPECT_EQ(sectors(band + spokes), 20);
+  EXPECT_FALSE(read(spokes).value);  // without a drawing there are 16 sectors
+}
+
+TEST_F(DrawingInACase, ThatNearlyRepeatsIsTakenWithAWordAndOtherwiseRefused) {
+  const auto spokes = [&](double off) {
+    std::vector<double> offsets(18, 0);
+    offsets[7] = off / 0.315 * 180 / pi;  // at the ends of the spokes
+    write("wheel.svg", spoked_wheel(offsets));
+    return read("[wheel]\nsectors = 18\n[grid]\nangular_cells = 396\n" + whole_wheel);
+  };
+  EXPECT_TRUE(asymmetry_warnings(*spokes(0).value).empty());
+  const CaseResult hand_made = spokes(0.2e-3);
+  ASSERT_TRUE(hand_made.value);
+  const auto told = asymmetry_warnings(*hand_made.value);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_NE(told[0].find("0.2 mm"), std::string::npos) << told[0];
+  EXPECT_FALSE(spokes(3e-3).value);
 }
 
 TEST_F(DrawingInACase, IsCopiedIntoTheRunsFolderWhichResumesWithoutTheOriginal) {

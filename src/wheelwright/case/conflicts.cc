@@ -18,6 +18,7 @@
 #include "wheelwright/case/keys.h"
 #include "wheelwright/case/number_text.h"
 #include "wheelwright/case/shape_conflicts.h"
+#include "wheelwright/case/shape_symmetry.h"
 #include "wheelwright/geometry/values_on.h"
 
 namespace wheelwright {
@@ -126,22 +127,14 @@ std::string circle_key(std::size_t i, std::string_view name) {
   return fmt::format("holes.circle[{}].{}", i + 1, name);
 }
 
-std::vector<int> divisors(int n) {
-  std::vector<int> result;
-  for (int d = 1; d <= n; ++d)
-    if (n % d == 0) result.push_back(d);
-  return result;
-}
-
 /// Finds rings and tables of shapes that are not the same in all sectors.
 void check_counts(const Case& c, const std::vector<DrawnShape>& shapes, Conflicts& found) {
-  const int common = common_count(c, shapes);
   const auto check = [&](std::string key, int count) {
     if (count % c.wheel.sectors == 0) return;
     found.push_back({{std::move(key), "wheel.sectors"},
                      fmt::format("must be a multiple of wheel.sectors = {}", c.wheel.sectors),
                      fmt::format("values of wheel.sectors that fit all rings and shapes: {}",
-                                 fmt::join(divisors(common), ", "))});
+                                 fmt::join(fitting_sectors(c, shapes), ", "))});
   };
   for (std::size_t i = 0; i < c.holes.rings.size(); ++i) check(ring_key(i, "count"), c.holes.rings[i].count);
   for (std::size_t i = 0; i < c.holes.spheres.size(); ++i)

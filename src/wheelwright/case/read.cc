@@ -20,6 +20,7 @@
 #include "wheelwright/case/load_drawings.h"
 #include "wheelwright/case/load_saved_shape.h"
 #include "wheelwright/case/number_text.h"
+#include "wheelwright/case/shape_symmetry.h"
 #include "wheelwright/case/suggest.h"
 #include "wheelwright/case/toml_guard.h"
 #include "wheelwright/case/toml_lines.h"
@@ -530,6 +531,8 @@ CaseResult interpret(const TomlLines& toml, const std::filesystem::path& file) {
   for (const SyntaxError& error : toml.errors) syntax.push_back(diagnostic(error, reading.file));
   Case result = read_root(reading, toml.root);
   const std::vector<Diagnostic> in_drawings = load_drawings(reading, result);
+  if (!reading.entries.contains("wheel.sectors"))
+    result.wheel.sectors = sectors_by_drawings(result).value_or(result.wheel.sectors);
   if (syntax.empty()) check_conflicts(reading, result);
   if (syntax.empty() && toml.root.empty())
     return failed({.kind = Kind::empty,

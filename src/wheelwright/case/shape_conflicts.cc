@@ -5,12 +5,11 @@
 
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/keys.h"
+#include "wheelwright/case/shape_symmetry.h"
 #include "wheelwright/drawing/drawing.h"
-#include "wheelwright/drawing/symmetry.h"
 
 namespace wheelwright {
 
@@ -176,17 +175,30 @@ void check_pictures(const Case& c, Conflicts& found) {
 }
 
 /// Finds drawings and pictures that are not the same in all sectors.
-void check_repetition(const Case& c, const DrawnShape& shape, int common, Conflicts& found) {
-  if (shape.repetition != Repetition::by_curves || shape.count % c.wheel.sectors == 0 || shape.first.empty())
-    return;
-  const Composition drawn({figure_of(shape)});
-  if (repeats(drawn, c.wheel.sectors, shape.accuracy)) return;
-  constexpr int most_sectors = 360;
-  std::vector<int> fitting = repetitions(drawn, most_sectors, shape.accuracy);
-  std::erase_if(fitting, [&](int n) { return common % n != 0 || c.grid.angular_cells % n != 0; });
-  found.push_back({{"wheel.sectors", shape.key + ".path", shape.key},
-                   fmt::format("what {} draws is not the same in {} sectors", shape.key, c.wheel.sectors),
-                   fmt::format("values of wheel.sectors that fit: {}", fmt::join(fitting, ", "))});
+void check_repetition(const Case& c, const std::vector<DrawnShape>& shapes, const DrawnShape& shape,
+                      Conflicts& found) {
+  const int sectors = c.wheel.sectors;
+  if (shape.repetition != Repetition::by_curves || shape.count % sectors == 0 || shape.first.empty()) return;
+  const Composition drawn = outlines_of(c, shape);
+  if (repeats(drawn, sectors, accepted_asymmetry(c, shape))) return;
+  const Asymmetry most = asymmetry(drawn, sectors, c.wheel.outer_radius);
+  const std::vector<int> fitting = fitting_sectors(c, shapes);
+  std::string problem = fmt::format(
+      "what {} draws is not the same in {} sectors: turned by {:.6g} degrees it differs by up to {:.3g} mm, "
+      "at "
+      "{}",
+      shape.key, sectors, 360.0 / sectors, most.distance * 1e3, point_text(most.at));
+  if (most_sectors_of(c, shape) == 1) {
+    if (const auto near = nearly_fitting(c, shape))
+      problem +=
+          fmt::format("; with {} sectors it would differ by {:.3g} mm", near->sectors, near->distance * 1e3);
+    if (shape.count == 1)
+      problem += fmt::format("; if it shows one of {} equal parts, give count = {}", sectors, sectors);
+  }
+  found.push_back(
+      {{"wheel.sectors", shape.key + ".path", shape.key},
+       std::move(problem),
+       fmt::format("values of wheel.sectors that fit all rings and shapes: {}", fmt::join(fitting, ", "))});
 }
 
 void check_number_of_curves(const std::vector<DrawnShape>& shapes, Conflicts& found) {
@@ -210,16 +222,6 @@ std::vector<std::string> with_ring_shape(std::vector<std::string> keys) {
   return keys;
 }
 
-int common_count(const Case& c, const std::vector<DrawnShape>& shapes) {
-  int common = 0;
-  for (const HoleRing& ring : c.holes.rings) common = std::gcd(common, ring.count);
-  for (const HoleSphere& sphere : c.holes.spheres) common = std::gcd(common, sphere.count);
-  for (const HoleTapered& hole : c.holes.tapered) common = std::gcd(common, hole.count);
-  for (const DrawnShape& shape : shapes)
-    if (shape.repetition == Repetition::by_count) common = std::gcd(common, shape.count);
-  return common;
-}
-
 std::vector<Conflict> shape_conflicts(const Case& c, const std::vector<DrawnShape>& shapes) {
   Conflicts found;
   check_slots(c, found);
@@ -228,11 +230,10 @@ std::vector<Conflict> shape_conflicts(const Case& c, const std::vector<DrawnShap
   check_pictures(c, found);
   check_number_of_curves(shapes, found);
   if (!found.empty()) return found;
-  const int common = common_count(c, shapes);
   for (const DrawnShape& shape : shapes) {
     check_extent(c, shape, found);
     if (shape.repetition == Repetition::by_count) check_crossings(shape, found);
-    check_repetition(c, shape, common, found);
+    check_repetition(c, shapes, shape, found);
   }
   return found;
 }

@@ -10,10 +10,6 @@ namespace wheelwright {
 /// drawings that are not the same in all sectors.
 std::vector<Conflict> shape_conflicts(const Case& c, const std::vector<DrawnShape>& shapes);
 
-/// The greatest common divisor of the counts of rings and of shapes that their count alone repeats; 0 without
-/// any.
-int common_count(const Case& c, const std::vector<DrawnShape>& shapes);
-
 /// The keys that decide where holes may be, after `keys`.
 std::vector<std::string> with_ring_shape(std::vector<std::string> keys);
 

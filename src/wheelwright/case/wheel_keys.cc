@@ -19,33 +19,36 @@ const Section<Wheel>& wheel_section() {
       .name = "wheel",
       .meaning = "dimensions of the ring, and its number of equal sectors",
       .in = [](Case& c) -> Wheel& { return c.wheel; },
-      .keys = {{.name = "dimension",
-                .unit = "",
-                .field = IntegerField<Wheel>{&Wheel::dimension, between(2, 3)},
-                .meaning = "2: the plane of the wheel, the same over its whole width; 3: the wheel with its "
-                           "width"},
-               {.name = "inner_radius",
-                .unit = "m",
-                .field = NumberField<Wheel>{&Wheel::inner_radius, length},
-                .meaning = "R_i: radius at which the structure is bonded to the rigid rim"},
-               {.name = "outer_radius",
-                .unit = "m",
-                .field = NumberField<Wheel>{&Wheel::outer_radius, length},
-                .meaning = "R_e: radius of the tread, which rolls on flat ground"},
-               {.name = "width",
-                .unit = "m",
-                .field = NumberField<Wheel>{&Wheel::width, length},
-                .meaning = "w_r: width along the axle"},
-               {.name = "sectors",
-                .unit = "",
-                .field = IntegerField<Wheel>{&Wheel::sectors, between(1, 10000)},
-                .meaning = "N_s: number of equal sectors of the shape; 1 means no cyclic symmetry"},
-               {.name = "side_faces",
-                .unit = "",
-                .field = choice<&Wheel::side_faces>({"free", "symmetric"}),
-                .meaning = "in 3D; free: nothing acts on the side faces; symmetric: they do not move along "
-                           "the axle, as in a slice of a much wider wheel, which is plane strain where the "
-                           "shape does not change along the axle"}}};
+      .keys = {
+          {.name = "dimension",
+           .unit = "",
+           .field = IntegerField<Wheel>{&Wheel::dimension, between(2, 3)},
+           .meaning = "2: the plane of the wheel, the same over its whole width; 3: the wheel with its "
+                      "width"},
+          {.name = "inner_radius",
+           .unit = "m",
+           .field = NumberField<Wheel>{&Wheel::inner_radius, length},
+           .meaning = "R_i: radius at which the structure is bonded to the rigid rim"},
+          {.name = "outer_radius",
+           .unit = "m",
+           .field = NumberField<Wheel>{&Wheel::outer_radius, length},
+           .meaning = "R_e: radius of the tread, which rolls on flat ground"},
+          {.name = "width",
+           .unit = "m",
+           .field = NumberField<Wheel>{&Wheel::width, length},
+           .meaning = "w_r: width along the axle"},
+          {.name = "sectors",
+           .unit = "",
+           .field = IntegerField<Wheel>{&Wheel::sectors, between(1, 10000)},
+           .meaning = "N_s: number of equal sectors of the shape; 1 means no cyclic symmetry; in a case with "
+                      "drawings or pictures the default is the largest number that fits them and all "
+                      "counts"},
+          {.name = "side_faces",
+           .unit = "",
+           .field = choice<&Wheel::side_faces>({"free", "symmetric"}),
+           .meaning = "in 3D; free: nothing acts on the side faces; symmetric: they do not move along "
+                      "the axle, as in a slice of a much wider wheel, which is plane strain where the "
+                      "shape does not change along the axle"}}};
   return section;
 }
 

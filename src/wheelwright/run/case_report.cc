@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/number_text.h"
+#include "wheelwright/case/shape_symmetry.h"
 
 namespace wheelwright {
 
@@ -54,11 +56,18 @@ std::string time_report(const Case& c) {
                           estimated_seconds_of_grooves_in_3d(c)));
 }
 
+std::string drawing_report(const Case& c) {
+  std::string report;
+  for (const auto& [key, text] : drawing_repetitions(c)) report += line(key, text);
+  return report;
+}
+
 std::string size_report(const Case& c) {
   const std::string along_axle = c.wheel.dimension == 3 ? fmt::format(" x {}", c.grid.axial_cells) : "";
-  return line("sector",
-              fmt::format("{:.6g} deg, {} x {}{} cells", sector_angle(c) * 180 / std::numbers::pi,
-                          c.grid.radial_cells, c.grid.angular_cells / c.wheel.sectors, along_axle)) +
+  return drawing_report(c) +
+         line("sector", fmt::format("1 of {}, {:.6g} deg, {} x {}{} cells", c.wheel.sectors,
+                                    sector_angle(c) * 180 / std::numbers::pi, c.grid.radial_cells,
+                                    c.grid.angular_cells / c.wheel.sectors, along_axle)) +
          line("unknowns", fmt::format("at most {}, {} of them per sector", dof_bound(c),
                                       dof_bound(c) / c.wheel.sectors)) +
          line("memory", fmt::format("about {:.0f} MB", std::ceil(estimated_memory(c) / 1e6))) +
@@ -128,6 +137,7 @@ std::string clearance_report(const cad::Clearances& clearances) {
 
 std::vector<std::string> warnings(const Case& c) {
   std::vector<std::string> result = doubtful_lengths(c);
+  std::ranges::move(asymmetry_warnings(c), std::back_inserter(result));
   Case run = c;
   run.grid.tread_levels = tread_levels(c);
   const Case narrowest = std::ranges::min(single_load_cases(run), {}, cells_per_contact_patch);
