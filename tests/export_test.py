@@ -556,6 +556,27 @@ class Command(unittest.TestCase):
         # The walls between holes of radius 40 on a circle of radius 270, and the holes.
         self.assertRegex(told, r"smallest wall +25\.35 mm at azimuth \d*2\.50 deg, radius 264\.8 mm")
         self.assertRegex(told, r"smallest gap +80\.00 mm at azimuth 11\.25 deg, radius 270\.0 mm")
+        self.assertRegex(told, r"roughness +0\.00 turns of an edge below 4\.42 mm")
+        self.assertRegex(told, r"internal corner +radius (39\.9|40\.0)\d mm")
+        self.assertRegex(told, r"external corner +none")
+
+    def test_an_edge_with_teeth_is_warned_of_unless_it_was_drawn(self):
+        # Two teeth of material, 1 cm high and wide, reach into every hole.
+        comb = ("[[shape.polygon]]\ncount = 16\npoints = [[0.24, -0.02], [0.3, -0.02], [0.3, 0.02], [0.28, 0.02], "
+                "[0.275, 0.01], [0.27, 0.02], [0.26, 0.02], [0.255, 0.01], [0.25, 0.02], [0.24, 0.02]]\n")
+        drawn, saved = self.fresh() / "drawn.toml", self.fresh() / "saved.toml"
+        settings = PAPER[PAPER.index("[grid]"):].replace("iterations = 12", "iterations = 1")
+        drawn.write_text(comb + settings)
+        run_folder = self.fresh() / "run"
+        wheelwright("run", drawn, "--output", run_folder, "--threads", 1)
+        saved.write_text(f'[shape]\nfrom = "{run_folder}"\n' + settings)
+        told = wheelwright("export", saved, "--output", self.fresh())
+        turns = float(re.search(r"roughness +([\d.]+) turns", told)[1])
+        self.assertGreater(turns, 1.5)
+        warning = re.search(rf"warning: an edge turns {turns:.2f} times .* at (azimuth .*, radius .* mm): .*level_set_degree", told)
+        self.assertIn(f"a cell, at {warning[1]}\n", told)
+        self.assertNotIn("an edge turns", wheelwright("export", drawn, "--output", self.fresh()))
+        self.assertNotIn("an edge turns", wheelwright("export", run_folder, "--output", self.fresh()))
 
     def test_files_go_to_the_current_folder_unless_told_otherwise(self):
         folder = self.fresh()

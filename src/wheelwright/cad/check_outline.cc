@@ -184,6 +184,18 @@ std::string line(const char* what, const std::optional<Clearance>& clearance) {
       place_of({(clearance->from[0] + clearance->to[0]) / 2, (clearance->from[1] + clearance->to[1]) / 2}));
 }
 
+std::string line(const char* what, const std::optional<Bend>& bend) {
+  if (!bend) return fmt::format("{:<16} none\n", what);
+  return fmt::format("{:<16} radius {:.2f} mm at {}\n", what, bend->radius * 1e3, place_of(bend->place));
+}
+
+std::string text(const Roughness& roughness) {
+  return fmt::format("{:<16} {:.2f} turns of an edge below {:.2f} mm, a cell, at {}\n", "roughness",
+                     roughness.edge.turns, roughness.length * 1e3, place_of(roughness.edge.sharpest.place)) +
+         line("internal corner", roughness.internal_corner) +
+         line("external corner", roughness.external_corner);
+}
+
 }  // namespace
 
 Expected<OutlineReport, std::vector<OutlineFault>> check_outline(const Outline& outline,
@@ -206,7 +218,8 @@ Expected<OutlineReport, std::vector<OutlineFault>> check_outline(const Outline& 
                        .area_error = area_error,
                        .deviation = deviation.distance,
                        .deviation_place = deviation.place,
-                       .clearances = clearances(outline, grid.n_sectors, clearance_step * grid.outer_radius)};
+                       .clearances = clearances(outline, grid.n_sectors, clearance_step * grid.outer_radius),
+                       .roughness = roughness(outline, grid.n_sectors, grid.resolution())};
 }
 
 std::string text(const OutlineReport& report) {
@@ -217,6 +230,7 @@ std::string text(const OutlineReport& report) {
                         place_of(report.deviation_place));
   result += line("smallest wall", report.clearances.wall);
   result += line("smallest gap", report.clearances.gap);
+  if (report.roughness) result += text(*report.roughness);
   return result;
 }
 

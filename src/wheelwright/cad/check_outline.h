@@ -6,6 +6,7 @@
 #include "wheelwright/base/expected.h"
 #include "wheelwright/cad/clearance.h"
 #include "wheelwright/cad/outline_fault.h"
+#include "wheelwright/cad/roughness.h"
 
 namespace wheelwright::cad {
 
@@ -18,6 +19,7 @@ struct OutlineReport {
   double deviation;   ///< largest distance between the curves and the zero contour, either way [m]
   Vec<2> deviation_place;
   Clearances clearances;
+  std::optional<Roughness> roughness;  ///< at a cell of the level set's grid; nothing without holes
 };
 
 /// Measures an outline of {psi < 0} and refuses it, with all faults that were found, unless

@@ -18,6 +18,7 @@
 #include "wheelwright/export/formats.h"
 #include "wheelwright/export/plugin.h"
 #include "wheelwright/files/atomic_file.h"
+#include "wheelwright/run/roughness_warning.h"
 
 namespace wheelwright {
 namespace {
@@ -155,6 +156,8 @@ class ExportCommand : public Subcommand {
                            .tolerance = accuracy};
     fmt::print("{:<16} {}\n{}", "wheel", wheel.title, text(*report));
     warn_of_pieces(report->bodies);
+    if (const auto warning = roughness_warning(input.source, report->roughness); !warning.empty())
+      print_warning(stderr, warning);
     return write(wheel, chosen, input.name);
   }
 
