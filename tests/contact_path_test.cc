@@ -8,6 +8,7 @@
 #include "tests/random_wheels.h"
 #include "tests/support.h"
 #include "wheelwright/contact/contact_solver.h"
+#include "wheelwright/contact/newton_tangent.h"
 #include "wheelwright/run/study.h"
 
 namespace wheelwright {
@@ -161,6 +162,43 @@ TEST(ContactPath, SolvesWhereNewtonsMethodCycles) {
       EXPECT_NEAR(ground.along_ground, -(*solver)->model().horizontal_force, 1e-9 * load);
       EXPECT_LT(violation(patch, c.contact.friction), 1e-9);
     }
+  }
+}
+
+// The correction of a factored tangent is the tangent where other points touch, stick and slide.
+TEST(NewtonTangent, IsTheTangentOfEveryIterate) {
+  const auto model = driven_model();
+  const auto problem = RollingProblem<2>::create(model);
+  ASSERT_TRUE(problem);
+  const auto s = problem->solve(one_hole(model));
+  ASSERT_TRUE(s) << s.failure().detail;
+  const ReducedContact<2>& contact = s->contacts[0];
+  NewtonTangent<2> tangent(contact);
+  const auto expect_equal_steps = [&](const ContactUnknowns<2>& x) {
+    const auto residual = contact.residual(x);
+    const auto corrected = tangent.step(x, residual);
+    const auto factored = contact.tangent(x);
+    ASSERT_TRUE(corrected && factored);
+    const auto expected = factored->solve(residual);
+    double size = 0, difference = 0;
+    for (int i = 0; i < contact.n_points(); ++i)
+      for (int d = 0; d < 2; ++d) {
+        size = std::max(size, std::abs(expected.augmented[i][d]));
+        difference = std::max(difference, std::abs(corrected->augmented[i][d] - expected.augmented[i][d]));
+      }
+    EXPECT_LT(difference, 1e-9 * size);
+    for (size_t k = 0; k < expected.rim.size(); ++k)
+      EXPECT_NEAR(corrected->rim[k], expected.rim[k], 1e-9 * std::abs(expected.rim[k]) + 1e-15);
+  };
+  ContactUnknowns<2> x = contact.start_from(s->states[0]);
+  expect_equal_steps(x);
+  const int n = contact.n_points();
+  for (int changed = 1; changed < n; changed *= 3) {  // few points, and so many that it is factored anew
+    for (int i = 0; i < changed; ++i) {
+      Vec<2>& z = x.augmented[(n / 2 + 7 * i) % n];
+      z = i % 3 == 0 ? Vec<2>{std::abs(z[0]) + 1, 0} : Vec<2>{-std::abs(z[0]) - 1, i % 2 == 0 ? 1e9 : 0.0};
+    }
+    expect_equal_steps(x);
   }
 }
 

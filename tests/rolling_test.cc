@@ -5,6 +5,7 @@
 
 #include "tests/support.h"
 #include "wheelwright/base/parallel.h"
+#include "wheelwright/rolling/position_tree.h"
 #include "wheelwright/sensitivity/taylor_test.h"
 
 namespace wheelwright {
@@ -172,6 +173,39 @@ TEST(Rolling, TheSameBytesOnOneAndOnManyThreads) {
   const auto one = evaluate_on(1), many = evaluate_on(4);
   EXPECT_EQ(one.value, many.value);
   EXPECT_EQ(one.gradient, many.gradient);
+}
+
+TEST(PositionTree, HoldsEveryPositionOnceAfterTheOneItStartsFrom) {
+  for (int n = 1; n < 40; ++n) {
+    std::vector<bool> is_solved(n, false);
+    int n_solved = 0;
+    for (const auto& generation : position_tree(n)) {
+      for (const auto& [position, from] : generation) {
+        EXPECT_FALSE(is_solved[position]);
+        EXPECT_TRUE(from < 0 ? position == 0 : is_solved[from]) << n << ": " << position;
+      }
+      for (const auto& one : generation) is_solved[one.position] = true;
+      n_solved += static_cast<int>(generation.size());
+    }
+    EXPECT_EQ(n_solved, n);
+  }
+}
+
+// A driven wheel without symmetry, on one thread and on several.
+TEST(RollingProblem, ContactsDoNotDependOnTheNumberOfThreads) {
+  auto model = paper_model(7, 96);
+  model.n_positions = 7;
+  model.contact.friction = 0.3;
+  model.horizontal_force = 0.1 * model.load;
+  const auto problem = RollingProblem<2>::create(model);
+  ASSERT_TRUE(problem) << problem.failure().detail;
+  const auto solved = [&](int n_threads) {
+    const ThreadLimit limit(n_threads);
+    auto s = problem->solve(holes(model.grid, 2, {{0.26, 0.3 * model.grid.sector_angle(), 0.03}}));
+    if (!s) throw std::runtime_error(s.failure().detail);
+    return std::move(s->observations);
+  };
+  EXPECT_EQ(solved(1).entries(), solved(4).entries());
 }
 
 }  // namespace

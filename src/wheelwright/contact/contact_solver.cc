@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "wheelwright/contact/contact_path.h"
+#include "wheelwright/contact/newton_tangent.h"
 
 namespace wheelwright {
 namespace {
@@ -199,9 +200,10 @@ NewtonEnd<dim> newton(const ReducedContact<dim>& contact, ContactUnknowns<dim> s
   const ResidualNorm<dim> norm(contact, end.x);
   size_t fewest_changes = end.x.augmented.size() + 1;
   int without_progress = 0;
+  NewtonTangent<dim> tangent(contact);
   while (end.iterations < max_iterations && !interrupt.requested()) {
     interrupt.tell({0, 1, steps_before + end.iterations});
-    const auto step = contact.newton_step(end.x, contact.residual(end.x));
+    const auto step = tangent.step(end.x, contact.residual(end.x));
     if (!step) return end;
     ++end.iterations;
     ContactUnknowns<dim> next = difference(end.x, *step);
@@ -323,8 +325,9 @@ template <int dim>
 Expected<ContactState<dim>> solve_bonded(const ReducedContact<dim>& contact) {
   constexpr int solves = 2;
   ContactUnknowns<dim> x = contact.zero_start();
+  NewtonTangent<dim> tangent(contact);
   for (int k = 0; k < solves; ++k) {
-    const auto step = contact.newton_step(x, contact.residual(x));
+    const auto step = tangent.step(x, contact.residual(x));
     if (!step) return Failure{FailureReason::rim_under_ground, "the rim would leave the rigid ring"};
     x = difference(x, *step);
   }

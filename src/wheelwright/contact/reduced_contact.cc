@@ -305,26 +305,26 @@ RimMotion ReducedContact<dim>::rim_motion(const std::vector<double>& free) const
 
 template <int dim>
 ContactUnknowns<dim> ReducedContact<dim>::residual(const ContactUnknowns<dim>& x) const {
-  const int nc = components(), n = n_points() * nc;
-  std::vector<double> reply(n);
+  const int nc = components();
+  Matrix forces(n_points() * nc, 1);
   ContactUnknowns<dim> result{std::vector<Vec<dim>>(points_.size(), Vec<dim>{}), {}};
   for (const FreeMotion& motion : rim_.free)
     result.rim.push_back(-motion.force - work(preload_resultant_, motion.direction));
   for (int i = 0; i < n_points(); ++i) {
     const Vec<dim> traction = response(i, x.augmented[i]).traction;
     if (!is_active(i, x.augmented[i])) continue;
-    for (int d = 0; d < nc; ++d)
-      add(points_[i].weight * traction[d], flexibility_->column(nc * i + d), n, reply.data(), 1);
+    for (int d = 0; d < nc; ++d) forces(nc * i + d, 0) = points_[i].weight * traction[d];
     for (int k = 0; k < n_free(); ++k)
       result.rim[k] -= points_[i].weight *
                        dot<dim>(traction, displacement<dim>(rim_.free[k].direction, points_[i].position));
   }
+  const Matrix reply = replies(forces);
   const RimMotion rim = rim_motion(x.rim);
   for (int i = 0; i < n_points(); ++i) {
     Vec<dim> approach = displacement<dim>(rim, points_[i].position);
     approach[0] -= points_[i].gap;
     for (int d = 0; d < nc; ++d)
-      result.augmented[i][d] = x.augmented[i][d] - reply[nc * i + d] + points_[i].gamma * approach[d] -
+      result.augmented[i][d] = x.augmented[i][d] - reply(nc * i + d, 0) + points_[i].gamma * approach[d] -
                                (preload_.empty() ? 0.0 : preload_[i][d]);
   }
   return result;
@@ -335,51 +335,64 @@ bool ReducedContact<dim>::is_active(int point, const Vec<dim>& z) const {
   return z[0] < 0 || is_bonded() || (!thresholds_.empty() && thresholds_[point] > 0);
 }
 
-/// The points that carry traction: the columns of all others are unit vectors in the Newton matrix.
+/// F forces, one column per load.
 template <int dim>
-std::vector<int> ReducedContact<dim>::active_rows(const std::vector<Vec<dim>>& z) const {
+Matrix ReducedContact<dim>::replies(const Matrix& forces) const {
+  constexpr int few = 4;  // then passing by the zeros of points without contact pays
+  Matrix result(forces.rows(), forces.columns());
+  if (forces.columns() >= few) {
+    multiply(1, *flexibility_, Op::none, forces, Op::none, 0, result);
+    return result;
+  }
+  for (int j = 0; j < forces.columns(); ++j)
+    for (int i = 0; i < forces.rows(); ++i)
+      if (forces(i, j) != 0) add(forces(i, j), flexibility_->column(i), result.rows(), result.column(j), 1);
+  return result;
+}
+
+template <int dim>
+std::vector<Mat<dim>> ReducedContact<dim>::tangents(const std::vector<Vec<dim>>& z) const {
+  std::vector<Mat<dim>> result(z.size(), Mat<dim>{});
+  for (int i = 0; i < n_points(); ++i)
+    if (is_active(i, z[i])) result[i] = response(i, z[i]).tangent;
+  return result;
+}
+
+/// The components of z on which tractions depend: the columns of all others are unit vectors in the Newton
+/// matrix.
+template <int dim>
+std::vector<int> ReducedContact<dim>::active_rows(const std::vector<Mat<dim>>& tangents) const {
   const int nc = components();
   std::vector<int> rows;
   for (int i = 0; i < n_points(); ++i)
-    if (is_active(i, z[i]))
-      for (int d = 0; d < nc; ++d) rows.push_back(nc * i + d);
-  return rows;
-}
-
-/// d(response)/dz, the columns of the active rows: F W Phi', all rows.
-template <int dim>
-Matrix ReducedContact<dim>::response_tangent(const std::vector<Vec<dim>>& z,
-                                             const std::vector<int>& active) const {
-  const int nc = components(), n = n_points() * nc;
-  Matrix tangent(n, static_cast<int>(active.size()));
-  for (int column = 0; column < tangent.columns(); ++column) {
-    const int point = active[column] / nc, component = active[column] % nc;
-    const auto r = response(point, z[point]);
-    for (int k = 0; k < nc; ++k) {
-      const double weight = points_[point].weight * r.tangent[k][component];
-      if (weight == 0) continue;
-      const double* f = flexibility_->column(nc * point + k);
-      double* t = tangent.column(column);
-      for (int i = 0; i < n; ++i) t[i] += weight * f[i];
+    for (int d = 0; d < nc; ++d) {
+      bool matters = false;
+      for (int k = 0; k < nc; ++k) matters = matters || tangents[i][k][d] != 0;
+      if (matters) rows.push_back(nc * i + d);
     }
-  }
-  return tangent;
+  return rows;
 }
 
 /// The Newton system on the active rows and the rim's free motions.
 template <int dim>
-Matrix ReducedContact<dim>::active_system(const std::vector<Vec<dim>>& z, const std::vector<int>& active,
-                                          const Matrix& tangent) const {
+Matrix ReducedContact<dim>::active_system(const std::vector<Mat<dim>>& tangents,
+                                          const std::vector<int>& active) const {
   const int nc = components(), n = static_cast<int>(active.size());
   Matrix a(n + n_free(), n + n_free());
   for (int j = 0; j < n; ++j) {
-    for (int i = 0; i < n; ++i) a(i, j) = (i == j) - tangent(active[i], j);
-    const int component = active[j] % nc;
-    const Point& point = points_[active[j] / nc];
-    const auto r = response(active[j] / nc, z[active[j] / nc]);
+    const int index = active[j] / nc, component = active[j] % nc;
+    const Point& point = points_[index];
+    for (int k = 0; k < nc; ++k) {
+      const double weight = point.weight * tangents[index][k][component];
+      if (weight == 0) continue;
+      const double* f = flexibility_->column(nc * index + k);
+      double* column = a.column(j);
+      for (int i = 0; i < n; ++i) column[i] -= weight * f[active[i]];
+    }
+    a(j, j) += 1;
     for (int k = 0; k < n_free(); ++k) {
       const Vec<dim> motion = displacement<dim>(rim_.free[k].direction, point.position);
-      for (int d = 0; d < nc; ++d) a(n + k, j) -= point.weight * r.tangent[d][component] * motion[d];
+      for (int d = 0; d < nc; ++d) a(n + k, j) -= point.weight * tangents[index][d][component] * motion[d];
       a(j, n + k) = point.gamma * motion[component];
     }
   }
@@ -390,9 +403,9 @@ template <int dim>
 std::optional<ContactTangent<dim>> ReducedContact<dim>::tangent(const ContactUnknowns<dim>& x) const {
   ContactTangent<dim> result;
   result.contact_ = this;
-  result.active_ = active_rows(x.augmented);
-  result.response_tangent_ = response_tangent(x.augmented, result.active_);
-  auto factor = LuFactor::factor(active_system(x.augmented, result.active_, result.response_tangent_));
+  result.tangents_ = tangents(x.augmented);
+  result.active_ = active_rows(result.tangents_);
+  auto factor = LuFactor::factor(active_system(result.tangents_, result.active_));
   if (!factor) return {};
   result.factor_ = *std::move(factor);
   return result;
@@ -400,29 +413,46 @@ std::optional<ContactTangent<dim>> ReducedContact<dim>::tangent(const ContactUnk
 
 template <int dim>
 ContactUnknowns<dim> ContactTangent<dim>::solve(const ContactUnknowns<dim>& residual) const {
+  return std::move(solve(std::vector{residual}).front());
+}
+
+template <int dim>
+std::vector<ContactUnknowns<dim>> ContactTangent<dim>::solve(
+    std::vector<ContactUnknowns<dim>> residuals) const {
   const ReducedContact<dim>& contact = *contact_;
   const int nc = contact.components(), n_active = static_cast<int>(active_.size()), n_free = contact.n_free();
-  Matrix solution(n_active + n_free, 1);
-  for (int i = 0; i < n_active; ++i) solution(i, 0) = residual.augmented[active_[i] / nc][active_[i] % nc];
-  for (int k = 0; k < n_free; ++k) solution(n_active + k, 0) = residual.rim[k];
-  solution = factor_.solve(std::move(solution));
-
-  // Points without contact follow from the other points: their columns are unit vectors.
-  ContactUnknowns<dim> step = residual;
-  for (int k = 0; k < n_free; ++k) step.rim[k] = solution(n_active + k, 0);
-  std::vector<double> reply(size_t(nc) * contact.n_points());
-  for (int j = 0; j < n_active; ++j)
-    add(solution(j, 0), response_tangent_.column(j), static_cast<int>(reply.size()), reply.data(), 1);
-  for (int i = 0; i < contact.n_points(); ++i) {
-    const auto& point = contact.points()[i];
-    for (int k = 0; k < n_free; ++k) {
-      const Vec<dim> motion = displacement<dim>(contact.rim().free[k].direction, point.position);
-      for (int d = 0; d < nc; ++d) step.augmented[i][d] -= point.gamma * motion[d] * step.rim[k];
-    }
-    for (int d = 0; d < nc; ++d) step.augmented[i][d] += reply[nc * i + d];
+  auto solutions = Matrix::unfilled(n_active + n_free, static_cast<int>(residuals.size()));
+  for (int j = 0; j < solutions.columns(); ++j) {
+    for (int i = 0; i < n_active; ++i)
+      solutions(i, j) = residuals[j].augmented[active_[i] / nc][active_[i] % nc];
+    for (int k = 0; k < n_free; ++k) solutions(n_active + k, j) = residuals[j].rim[k];
   }
-  for (int i = 0; i < n_active; ++i) step.augmented[active_[i] / nc][active_[i] % nc] = solution(i, 0);
-  return step;
+  solutions = factor_.solve(std::move(solutions));
+
+  // The other rows follow from the active ones: their columns are unit vectors.
+  Matrix forces(contact.n_points() * nc, solutions.columns());
+  for (int j = 0; j < solutions.columns(); ++j)
+    for (int i = 0; i < n_active; ++i) {
+      const int point = active_[i] / nc;
+      for (int k = 0; k < nc; ++k)
+        forces(nc * point + k, j) +=
+            contact.points()[point].weight * tangents_[point][k][active_[i] % nc] * solutions(i, j);
+    }
+  const Matrix replies = contact.replies(forces);
+  for (int j = 0; j < solutions.columns(); ++j) {
+    ContactUnknowns<dim>& step = residuals[j];
+    for (int k = 0; k < n_free; ++k) step.rim[k] = solutions(n_active + k, j);
+    for (int i = 0; i < contact.n_points(); ++i) {
+      const auto& point = contact.points()[i];
+      for (int k = 0; k < n_free; ++k) {
+        const Vec<dim> motion = displacement<dim>(contact.rim().free[k].direction, point.position);
+        for (int d = 0; d < nc; ++d) step.augmented[i][d] -= point.gamma * motion[d] * step.rim[k];
+      }
+      for (int d = 0; d < nc; ++d) step.augmented[i][d] += replies(nc * i + d, j);
+    }
+    for (int i = 0; i < n_active; ++i) step.augmented[active_[i] / nc][active_[i] % nc] = solutions(i, j);
+  }
+  return residuals;
 }
 
 template <int dim>
@@ -442,15 +472,11 @@ ContactUnknowns<dim> ReducedContact<dim>::residual_of(int point, const Vec<dim>&
 }
 
 template <int dim>
-std::optional<ContactUnknowns<dim>> ReducedContact<dim>::newton_step(
-    const ContactUnknowns<dim>& x, const ContactUnknowns<dim>& residual) const {
-  const auto factored = tangent(x);
-  if (!factored) return {};
-  auto step = factored->solve(residual);
+bool ReducedContact<dim>::keeps_rim_near(const ContactUnknowns<dim>& step) const {
   const double longest = norm<dim>(points_.front().position);
   for (int k = 0; k < n_free(); ++k)
-    if (!(std::abs(step.rim[k]) * amplitude(rim_.free[k].direction) < longest)) return {};
-  return step;
+    if (!(std::abs(step.rim[k]) * amplitude(rim_.free[k].direction) < longest)) return false;
+  return true;
 }
 
 template <int dim>
@@ -503,19 +529,19 @@ Expected<std::vector<ContactAdjoint>> ReducedContact<dim>::adjoints(
     const ContactState<dim>& state, std::span<const ContactAdjointLoads<dim>> functions) const {
   // With Te p = h + F^T m: m - W Phi'^T F^T m + sum_k beta_k W Phi'^T m_k = Phi'^T (W h + dJ/dPhi) and, for
   // every free motion, sum gamma m.m_k = dJ/d(motion k). m vanishes off the active points; on them the matrix
-  // is newton_step()'s, transposed.
+  // is the tangent's, transposed.
   const int nc = components(), n_functions = static_cast<int>(functions.size());
   const ObservationRows<dim> rows = observation_rows();
-  const auto active = active_rows(state.augmented);
+  const auto of_law = tangents(state.augmented);
+  const auto active = active_rows(of_law);
   const int n_active = static_cast<int>(active.size());
-  const Matrix forward = active_system(state.augmented, active, response_tangent(state.augmented, active));
+  const Matrix forward = active_system(of_law, active);
   Matrix a(forward.rows(), forward.rows()), m(forward.rows(), n_functions);
   for (int j = 0; j < a.columns(); ++j)
     for (int i = 0; i < a.rows(); ++i) a(i, j) = forward(j, i);
   for (int k = 0; k < n_active; ++k) {
     const int i = active[k] / nc, component = active[k] % nc, q = point_of_column(i);
     const Point& point = points_[i];
-    const auto r = response(i, state.augmented[i]);
     for (int f = 0; f < n_functions; ++f) {
       const double* observed = functions[f].observations.column(zone_column(i));
       Vec<dim> tested;
@@ -525,7 +551,7 @@ Expected<std::vector<ContactAdjoint>> ReducedContact<dim>::adjoints(
       tested = point.frame.template to_ground<dim>(tested);
       const auto& tractions = functions[f].tractions;
       for (int d = 0; d < nc; ++d)
-        m(k, f) += r.tangent[d][component] *
+        m(k, f) += of_law[i][d][component] *
                    (point.weight * tested[d] + (tractions.empty() ? 0.0 : tractions[i][d]));
     }
   }

@@ -67,11 +67,20 @@ class ContactTangent {
   /// Returns the change of the unknowns that changes the residual by `residual`.
   ContactUnknowns<dim> solve(const ContactUnknowns<dim>& residual) const;
 
+  /// The same for several residuals at once.
+  std::vector<ContactUnknowns<dim>> solve(std::vector<ContactUnknowns<dim>> residuals) const;
+
+  /// The derivative of the contact law at every point.
+  const std::vector<Mat<dim>>& tangents() const { return tangents_; }
+
+  /// The number of unknowns that were factored.
+  int n_unknowns() const { return static_cast<int>(active_.size()) + contact_->n_free(); }
+
  private:
   friend class ReducedContact<dim>;
   const ReducedContact<dim>* contact_;
+  std::vector<Mat<dim>> tangents_;  ///< of the contact law at every point
   std::vector<int> active_;
-  Matrix response_tangent_;
   LuFactor factor_;
 };
 
@@ -135,13 +144,17 @@ class ReducedContact {
   /// The residual's derivative at x, which refers to this object. Empty if it is singular.
   std::optional<ContactTangent<dim>> tangent(const ContactUnknowns<dim>& x) const;
 
+  /// The derivative of the contact law at every point.
+  std::vector<Mat<dim>> tangents(const std::vector<Vec<dim>>& z) const;
+
+  /// The number of components of z that contact meets: the others of every tangent are not used.
+  int components() const { return friction_ > 0 || is_bonded() ? dim : 1; }
+
   /// The change of the residual, beyond that of z itself, when a point's traction changes by `traction`.
   ContactUnknowns<dim> residual_of(int point, const Vec<dim>& traction) const;
 
-  /// Newton's step, to be subtracted. Empty if the tangent is singular or the rim would move farther than the
-  /// tread's radius.
-  std::optional<ContactUnknowns<dim>> newton_step(const ContactUnknowns<dim>& x,
-                                                  const ContactUnknowns<dim>& residual) const;
+  /// Whether the rim moves less than the tread's radius in each of its free motions.
+  bool keeps_rim_near(const ContactUnknowns<dim>& step) const;
 
   /// The contact state for a solution x under the full loads.
   ContactState<dim> state(const ContactUnknowns<dim>& x, int newton_iterations) const;
@@ -168,7 +181,6 @@ class ReducedContact {
 
  private:
   friend class ContactTangent<dim>;
-  int components() const { return friction_ > 0 || is_bonded() ? dim : 1; }
   /// The contact points of a column, and the column and the point in it of one of the zone's points.
   int per_column() const { return n_points() / zone_.n_columns; }
   int zone_column(int point) const { return point / per_column(); }
@@ -192,10 +204,9 @@ class ReducedContact {
   RimMotion rim_motion(const std::vector<double>& free) const;
   /// Whether a point may carry traction.
   bool is_active(int point, const Vec<dim>& z) const;
-  std::vector<int> active_rows(const std::vector<Vec<dim>>& z) const;
-  Matrix response_tangent(const std::vector<Vec<dim>>& z, const std::vector<int>& active) const;
-  Matrix active_system(const std::vector<Vec<dim>>& z, const std::vector<int>& active,
-                       const Matrix& tangent) const;
+  Matrix replies(const Matrix& forces) const;
+  std::vector<int> active_rows(const std::vector<Mat<dim>>& tangents) const;
+  Matrix active_system(const std::vector<Mat<dim>>& tangents, const std::vector<int>& active) const;
 
   ContactZone zone_;
   int ring_columns_;

@@ -2,6 +2,7 @@
 
 #include <mutex>
 
+#include "wheelwright/base/parallel.h"
 #include "wheelwright/base/stopwatch.h"
 #include "wheelwright/geometry/mirror.h"
 #include "wheelwright/rolling/neumann_to_dirichlet.h"
@@ -66,14 +67,19 @@ class RingState : public State<dim> {
       rolled.push_back({solution_.contacts[i], solution_.states[i]});
     std::vector<std::vector<ContactPatch<dim>>> result;
     for (const RollingModel<dim>& model : models) {
-      result.emplace_back();
-      for (size_t i = 0; i < rolled.size(); ++i) {
+      std::vector<std::optional<Failure>> failures(rolled.size());
+      parallel_for(static_cast<int>(rolled.size()), [&](int i) {
         auto next = reload(model, problem_.tread(), solution_.ring, *solution_.surface,
                            solution_.positions.grounds[i], solution_.preloads[i], rolled[i]);
-        if (!next) return next.failure();
-        rolled[i] = *std::move(next);
-        result.back().push_back(rolled[i].contact.patch(rolled[i].state));
-      }
+        if (next)
+          rolled[i] = *std::move(next);
+        else
+          failures[i] = next.failure();
+      });
+      for (const auto& failure : failures)
+        if (failure) return *failure;
+      result.emplace_back();
+      for (const RolledContact<dim>& one : rolled) result.back().push_back(one.contact.patch(one.state));
     }
     return result;
   }

@@ -7,10 +7,13 @@
 #include <numbers>
 #include <numeric>
 
+#include "wheelwright/base/parallel.h"
 #include "wheelwright/base/periodic.h"
+#include "wheelwright/base/shared_interrupt.h"
 #include "wheelwright/base/stopwatch.h"
 #include "wheelwright/contact/contact_solver.h"
 #include "wheelwright/geometry/mirror.h"
+#include "wheelwright/rolling/position_tree.h"
 
 namespace wheelwright {
 
@@ -242,6 +245,45 @@ Expected<RolledContact<dim>> reload(const RollingModel<dim>& model, const Tread<
   return RolledContact<dim>{std::move(contact), *std::move(state)};
 }
 
+namespace {
+
+/// The contacts of all of a solution's positions (position_tree.h), with its model, surface and preloads.
+/// Widens the surface to the widest contact zone.
+template <int dim>
+Expected<std::vector<RolledContact<dim>>> roll_to_all(RollingSolution<dim>& s, const Tread<dim>& tread,
+                                                      const Interrupt& interrupt) {
+  const int n = s.positions.size();
+  const Interrupt shared = shared_by_threads(interrupt);
+  const auto roll = [&](int i, const std::optional<ContactState<dim>>& neighbour) {
+    auto rolled = roll_to(s.model, tread, s.ring, *s.surface, s.positions.grounds[i], s.preloads[i],
+                          neighbour, shared.at_position(i, n));
+    std::optional<Failure> failure;
+    if (rolled) failure = rim_under_ground(s.model.grid, rolled->state.rim);
+    if (rolled && !failure) failure = no_contact(*rolled);
+    return failure ? Expected<RolledContact<dim>>(*std::move(failure)) : rolled;
+  };
+  std::vector<std::optional<Expected<RolledContact<dim>>>> all(n);
+  for (const auto& generation : position_tree(n)) {
+    parallel_for(static_cast<int>(generation.size()), [&](int k) {
+      const auto [position, from] = generation[k];
+      all[position] = roll(position, from < 0 ? std::nullopt : std::optional((**all[from]).state));
+    });
+    int widest = 0;
+    for (const auto& [position, from] : generation) {
+      if (!*all[position]) return all[position]->failure();
+      widest = std::max(widest, (**all[position]).contact.zone().n_columns);
+    }
+    if (widest > s.surface->width() + 1 && !is_bonded(tread))
+      s.surface = std::make_shared<const SurfaceCompliance<dim>>(
+          surface_compliance(s.ring, tread, s.model.grid, s.positions, widest / 2));
+  }
+  std::vector<RolledContact<dim>> result;
+  for (auto& rolled : all) result.push_back(**std::move(rolled));
+  return result;
+}
+
+}  // namespace
+
 template <int dim>
 std::vector<double> RollingProblem<dim>::nitsche_factors() const {
   std::vector<double> factors(tread_.n_observations(), 0.0);
@@ -341,13 +383,11 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::roll(
   const bool between_columns =
       std::ranges::any_of(positions.grounds, [](const GroundPosition& ground) { return ground.offset > 0; });
   const int likely_half = std::min(columns_in_contact(model, between_columns), (n_columns - 1) / 2);
-  const auto surface_of_width = [&](const LoadPositions& at, int half) {
-    return std::make_shared<const SurfaceCompliance<dim>>(
-        surface_compliance(shape->ring, tread_, model.grid, at, half));
-  };
   if (!surface && is_bonded(tread_))
     surface = std::make_shared<const SurfaceCompliance<dim>>(shape->ring, tread_, n_columns / 2);
-  if (!surface || surface->width() < 2 * likely_half - 1) surface = surface_of_width(positions, likely_half);
+  if (!surface || surface->width() < 2 * likely_half - 1)
+    surface = std::make_shared<const SurfaceCompliance<dim>>(
+        surface_compliance(shape->ring, tread_, model.grid, positions, likely_half));
   RollingSolution<dim> s{.shape = shape,
                          .domain = shape->domain,
                          .ring = shape->ring,
@@ -368,23 +408,17 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::roll(
                          .phases = {}};
   s.tread_loads = Matrix(tread_.n_observations(), n_positions * n_columns);
   const CondensedLoads preloaded = preload(s);
-  std::optional<ContactState<dim>> neighbour;
+  auto rolled = roll_to_all(s, tread_, interrupt);
+  if (!rolled) return rolled.failure();
   for (int i = 0; i < n_positions; ++i) {
-    auto rolled = roll_to(model, tread_, s.ring, *s.surface, s.positions.grounds[i], s.preloads[i], neighbour,
-                          interrupt.at_position(i, n_positions));
-    if (!rolled) return rolled.failure();
-    if (auto failure = rim_under_ground(model.grid, rolled->state.rim)) return *failure;
-    if (auto failure = no_contact(*rolled)) return *failure;
-    neighbour = rolled->state;
-    const ContactZone& zone = rolled->contact.zone();
-    if (zone.n_columns > s.surface->width() + 1 && !is_bonded(tread_))
-      s.surface = surface_of_width(s.positions, zone.n_columns / 2);
-    const Matrix loads = rolled->contact.contact_loads(rolled->state);
+    auto& [contact, state] = (*rolled)[i];
+    const ContactZone& zone = contact.zone();
+    const Matrix loads = contact.contact_loads(state);
     for (int c = 0; c < zone.n_columns; ++c)
       std::copy_n(loads.column(c), loads.rows(),
                   s.tread_loads.column(i * n_columns + wrap(zone.first_column + c, n_columns)));
-    s.contacts.push_back(std::move(rolled->contact));
-    s.states.push_back(std::move(rolled->state));
+    s.contacts.push_back(std::move(contact));
+    s.states.push_back(std::move(state));
   }
   phases.push_back({phase::contact, watch.lap()});
 
