@@ -76,7 +76,7 @@ Expected<Course> course(const Case& c, bool tells) {
   if (!state) return state.failure();
   result.reason = optimizer.run(*state, observe, [] { return false; });
   result.end = optimizer.objective_of(state->evaluation);
-  result.clearances = outline_clearances(state->shape);
+  if (const auto clearances = outline_clearances(state->shape)) result.clearances = *clearances;
   result.cell = state->shape.lattice.grid().resolution();
   return result;
 }

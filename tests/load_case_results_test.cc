@@ -102,7 +102,7 @@ iteration = 0
   const auto rows = compared_rows<2>({&result.summary->before.wheel, &result.summary->after.wheel});
   const auto row = std::ranges::find(rows, "stiffness in kerb [N/mm]", &ComparedRow::label);
   ASSERT_NE(row, rows.end());
-  EXPECT_NEAR(*row->values[1], 1e-3 * kerb["stiffness_N_per_m"].get<double>(), 1e-9);
+  EXPECT_NEAR(**row->values[1], 1e-3 * kerb["stiffness_N_per_m"].get<double>(), 1e-9);
   EXPECT_EQ(std::ranges::find(rows, "volume of the ring in kerb [%]", &ComparedRow::label), rows.end());
 
   for (const char* picture : {"kerb_stress.svg", "kerb_stress_contact.svg", "kerb_displacement.svg"})

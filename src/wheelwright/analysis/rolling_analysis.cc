@@ -28,19 +28,25 @@ std::vector<ContactSummary> summaries(const std::vector<ContactPatch<dim>>& cont
 }
 
 template <int dim>
-Expected<std::vector<std::vector<ContactSummary>>> under(const State<dim>& state,
-                                                         std::span<const RollingModel<dim>> models) {
-  const auto contacts = state.contacts_under(models);
+Expected<std::vector<ContactSummary>> under(const State<dim>& state, const RollingModel<dim>& model) {
+  const auto contacts = state.contacts_under(std::span(&model, 1));
   if (!contacts) return contacts.failure();
-  std::vector<std::vector<ContactSummary>> result;
-  for (const auto& of_model : *contacts) result.push_back(summaries(of_model));
-  return result;
+  return summaries(contacts->front());
 }
 
 std::vector<double> values(const std::vector<ContactSummary>& positions, double ContactSummary::*member) {
   std::vector<double> result;
   for (const ContactSummary& position : positions) result.push_back(position.*member);
   return result;
+}
+
+/// At the solved positions under another model.
+template <int dim>
+Expected<std::vector<double>> values_under(const State<dim>& state, const RollingModel<dim>& model,
+                                           double ContactSummary::*member) {
+  const auto positions = under(state, model);
+  if (!positions) return positions.failure();
+  return values(*positions, member);
 }
 
 /// From the positions that were solved to all positions of a sector.
@@ -56,9 +62,10 @@ RollingAnalysis of_all_positions(RollingAnalysis a, const LoadPositions& solved,
   a.azimuths.clear();
   for (size_t i = 0; i < sources.size(); ++i)
     a.azimuths.push_back(i * model.grid.sector_angle() / static_cast<double>(sources.size()));
-  for (auto* values :
-       {&a.strain_energy, &a.peak_von_mises, &a.peak_strain, &a.travel_at_load, &a.force_at_travel})
+  for (auto* values : {&a.strain_energy, &a.peak_von_mises, &a.peak_strain})
     *values = of_all(solved, *values);
+  for (auto* values : {&a.travel_at_load, &a.force_at_travel})
+    if (*values) **values = of_all(solved, **values);
   return a;
 }
 
@@ -70,53 +77,50 @@ double mean(const LoadPositions& solved, const std::vector<double>& values) {
 }  // namespace
 
 template <int dim>
-Expected<RollingAnalysis> rolling_analysis(const StateSolver<dim>& solver, const State<dim>& state) {
+RollingAnalysis rolling_analysis(const StateSolver<dim>& solver, const State<dim>& state) {
   const RollingModel<dim>& model = state.model();
-  RollingAnalysis analysis{};
-  analysis.held = model.travel ? Held::travel : Held::load;
-  for (const GroundPosition& ground : state.positions().grounds)
-    analysis.azimuths.push_back(ground.azimuth(model.grid));
-  analysis.positions = summaries(state.contacts());
-  analysis.strain_energy = state.strain_energy();
   const StrainPeaks<dim>& peaks = state.strain_peaks();
-  analysis.peak_von_mises = peaks.von_mises;
-  analysis.peak_strain = peaks.principal;
-  analysis.most_stressed =
-      std::ranges::max_element(analysis.peak_von_mises) - analysis.peak_von_mises.begin();
-  analysis.peak_radius = peaks.von_mises_places[analysis.most_stressed][0];
-  analysis.peak_azimuth = peaks.von_mises_places[analysis.most_stressed][1];
-
-  if (analysis.held == Held::travel) {
-    analysis.force_at_travel = values(analysis.positions, &ContactSummary::radial_force);
-    analysis.travel = *model.travel;
-    analysis.load = mean(state.positions(), analysis.force_at_travel);
-  } else {
-    analysis.travel_at_load = values(analysis.positions, &ContactSummary::travel);
-    analysis.load = model.load;
-    analysis.travel = mean(state.positions(), analysis.travel_at_load);
-  }
-  const RollingModel<dim> other =
-      analysis.held == Held::travel ? at_load(model, analysis.load) : at_travel(model, analysis.travel);
-  const auto held_otherwise = under<dim>(state, std::span(&other, 1));
-  if (!held_otherwise) return held_otherwise.failure();
-  if (analysis.held == Held::travel)
-    analysis.travel_at_load = values(held_otherwise->front(), &ContactSummary::travel);
+  const auto worst = std::ranges::max_element(peaks.von_mises) - peaks.von_mises.begin();
+  const std::vector<ContactSummary> positions = summaries(state.contacts());
+  const Held held = model.travel ? Held::travel : Held::load;
+  const std::vector<double> travels = values(positions, &ContactSummary::travel),
+                            forces = values(positions, &ContactSummary::radial_force);
+  RollingAnalysis analysis{
+      .held = held,
+      .azimuths = {},
+      .positions = positions,
+      .strain_energy = state.strain_energy(),
+      .peak_von_mises = peaks.von_mises,
+      .peak_strain = peaks.principal,
+      .most_stressed = static_cast<size_t>(worst),
+      .peak_radius = peaks.von_mises_places[worst][0],
+      .peak_azimuth = peaks.von_mises_places[worst][1],
+      .load = held == Held::load ? model.load : mean(state.positions(), forces),
+      .travel = held == Held::travel ? *model.travel : mean(state.positions(), travels),
+      .travel_at_load = travels,
+      .force_at_travel = forces,
+  };
+  for (const GroundPosition& ground : state.positions().grounds)
+    analysis.azimuths.push_back(ground.azimuth(solver.model().grid));
+  if (held == Held::load)
+    analysis.force_at_travel =
+        values_under(state, at_travel(model, analysis.travel), &ContactSummary::radial_force);
   else
-    analysis.force_at_travel = values(held_otherwise->front(), &ContactSummary::radial_force);
+    analysis.travel_at_load = values_under(state, at_load(model, analysis.load), &ContactSummary::travel);
   return of_all_positions(std::move(analysis), state.positions(), model);
 }
 
 template <int dim>
-Expected<std::vector<std::vector<ContactSummary>>> under_loads(const State<dim>& state,
+std::vector<Expected<std::vector<ContactSummary>>> under_loads(const State<dim>& state,
                                                                std::span<const double> loads) {
-  std::vector<RollingModel<dim>> models;
-  for (const double load : loads) models.push_back(at_load(state.model(), load));
-  return under<dim>(state, models);
+  std::vector<Expected<std::vector<ContactSummary>>> result;
+  for (const double load : loads) result.push_back(under(state, at_load(state.model(), load)));
+  return result;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                               \
-  template Expected<RollingAnalysis> rolling_analysis(const StateSolver<dim>&, const State<dim>&); \
-  template Expected<std::vector<std::vector<ContactSummary>>> under_loads(const State<dim>&,       \
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                         \
+  template RollingAnalysis rolling_analysis(const StateSolver<dim>&, const State<dim>&);     \
+  template std::vector<Expected<std::vector<ContactSummary>>> under_loads(const State<dim>&, \
                                                                           std::span<const double>);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)

@@ -21,19 +21,21 @@ struct RollingAnalysis {
   size_t most_stressed;                   ///< index of the position with the largest von Mises stress
   double peak_radius, peak_azimuth;       ///< where it is, in polar coordinates of the body [m, rad]
 
-  double load;                          ///< the model's, or the mean of the forces at its travel
-  double travel;                        ///< the model's, or the mean of the travels under its load
-  std::vector<double> travel_at_load;   ///< its variation is the run-out of the loaded radius
-  std::vector<double> force_at_travel;  ///< radial force
+  double load;    ///< the model's, or the mean of the forces at its travel
+  double travel;  ///< the model's, or the mean of the travels under its load
+
+  // What the model does not hold takes further solves, which fail as the contact problem does.
+  Expected<std::vector<double>> travel_at_load;   ///< its variation is the run-out of the loaded radius
+  Expected<std::vector<double>> force_at_travel;  ///< radial force
 };
 
-/// Fails as the contact problem does.
 template <int dim>
-Expected<RollingAnalysis> rolling_analysis(const StateSolver<dim>& solver, const State<dim>& state);
+RollingAnalysis rolling_analysis(const StateSolver<dim>& solver, const State<dim>& state);
 
-/// All positions under other loads, each started from the load before: [load][position].
+/// All positions under other loads, each started from the state: [load][position]. A load fails on its own,
+/// as the contact problem does.
 template <int dim>
-Expected<std::vector<std::vector<ContactSummary>>> under_loads(const State<dim>& state,
+std::vector<Expected<std::vector<ContactSummary>>> under_loads(const State<dim>& state,
                                                                std::span<const double> loads);
 
 }  // namespace wheelwright

@@ -29,12 +29,16 @@ double centre_of_pressure(std::span<const GroundPoint> points) {
   return moment / sum;
 }
 
-/// The end of the contact behind the last of the points that touches. The square of Hertz's pressure is a
-/// straight line over the square of the distance to the centre: here the one through the outer points with
-/// 0.1 to 0.6 of the peak, because the discrete pressure is smeared in the last cell.
-double end_of_contact(std::span<const GroundPoint> points) {
+/// The end of a lobe behind the last of its points that touches. The square of Hertz's pressure is a straight
+/// line over the square of the distance to the centre: here the one through the outer points with 0.1 to 0.6
+/// of the peak, because the discrete pressure is smeared in the last cell. Where this line ends more than a
+/// cell from the last point, the pressure is not Hertz's, and the end is halfway to the next point.
+double end_of_lobe(std::span<const GroundPoint> points) {
+  constexpr std::ptrdiff_t points_of_cell = 5;  // as many as a contact face has by default
   const auto last = std::find_if(points.rbegin(), points.rend(), touches).base() - 1;
   if (last + 1 == points.end()) return last->along;
+  const double halfway = 0.5 * (last->along + (last + 1)->along);
+  const double cell = last->along - (last - std::min(points_of_cell, last - points.begin()))->along;
   const double peak = -std::ranges::min(points, {}, &GroundPoint::augmented).augmented;
   const double centre = centre_of_pressure(points);
   double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
@@ -48,8 +52,9 @@ double end_of_contact(std::span<const GroundPoint> points) {
     sxy += x * y;
   }
   const double spread = n * sxx - sx * sx, slope = (n * sxy - sx * sy) / spread;
-  if (!(n >= 2 && slope < 0)) return 0.5 * (last->along + (last + 1)->along);
-  return centre + std::sqrt((sx - sy / slope) / n);
+  if (!(n >= 2 && slope < 0)) return halfway;
+  const double end = centre + std::sqrt((sx - sy / slope) / n);
+  return std::abs(end - halfway) <= cell ? end : halfway;
 }
 
 /// Of the points across the ground at each place along it, the one that is pressed most.
@@ -66,13 +71,37 @@ std::vector<GroundPoint> most_pressed(std::vector<GroundPoint> points) {
   return result;
 }
 
-double patch_length(std::vector<GroundPoint> points) {
-  if (std::ranges::none_of(points, touches)) return 0;
-  points = most_pressed(std::move(points));
-  const double end = end_of_contact(points);
+/// The places where contact begins and ends.
+struct Lobe {
+  double begin, end;  ///< along the ground [m]
+};
+
+/// Of the points of a lobe, in their order along the ground, and the one on either side that does not touch.
+Lobe lobe_of(std::vector<GroundPoint> points) {
+  const double end = end_of_lobe(points);
   for (GroundPoint& p : points) p.along = -p.along;
   std::ranges::reverse(points);
-  return end + end_of_contact(points);
+  return {-end_of_lobe(points), end};
+}
+
+/// The lobes of the patch in their order along the ground. An end that faces another lobe lies no farther
+/// than the first point that does not touch.
+std::vector<Lobe> lobes(std::vector<GroundPoint> points) {
+  std::vector<Lobe> result;
+  if (std::ranges::none_of(points, touches)) return result;
+  points = most_pressed(std::move(points));
+  const auto all_begin = points.begin(), all_end = points.end();
+  for (auto first = std::find_if(all_begin, all_end, touches); first != all_end;) {
+    const auto behind = std::find_if_not(first, all_end, touches);
+    const auto from = first == all_begin ? first : first - 1, to = behind == all_end ? behind : behind + 1;
+    const auto next = std::find_if(behind, all_end, touches);
+    Lobe lobe = lobe_of({from, to});
+    if (!result.empty()) lobe.begin = std::max(lobe.begin, from->along);
+    if (next != all_end) lobe.end = std::min(lobe.end, behind->along);
+    result.push_back(lobe);
+    first = next;
+  }
+  return result;
 }
 
 double mean(std::span<const double> values) {
@@ -87,6 +116,7 @@ ContactSummary contact_summary(const ContactPatch<dim>& contact) {
                          .radial_force = 0,
                          .peak_pressure = 0,
                          .patch_length = 0,
+                         .patch_extent = 0,
                          .travel_along_ground = contact.rim.along_ground,
                          .wind_up = contact.rim.rotation};
   std::vector<GroundPoint> points;
@@ -98,7 +128,9 @@ ContactSummary contact_summary(const ContactPatch<dim>& contact) {
     summary.peak_friction = std::max(summary.peak_friction, std::abs(point.traction[1]));
     points.push_back({point.position[1], point.augmented[0]});
   }
-  summary.patch_length = patch_length(std::move(points));
+  const auto patch = lobes(std::move(points));
+  for (const Lobe& lobe : patch) summary.patch_length += lobe.end - lobe.begin;
+  if (!patch.empty()) summary.patch_extent = patch.back().end - patch.front().begin;
   return summary;
 }
 

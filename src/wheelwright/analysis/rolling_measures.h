@@ -16,14 +16,16 @@ struct ContactSummary {
   double travel;                   ///< of the rim towards the ground [m]
   double radial_force;             ///< of the ground on the tread [N/m]
   double peak_pressure;            ///< largest contact pressure at the quadrature points [Pa]
-  double patch_length;             ///< from the first to the last point in contact, along the ground [m]
+  double patch_length;             ///< of all that touches, along the ground, without gaps between [m]
+  double patch_extent;             ///< from the first to the last contact, with the gaps [m]
   double friction_force = 0;       ///< of the ground on the tread, along the ground [N/m]
   double peak_friction = 0;        ///< largest size of its traction along the ground [Pa]
   double travel_along_ground = 0;  ///< of the rim [m]
   double wind_up = 0;              ///< the angle by which the rim turns [rad]
 };
 
-/// The patch ends where the square of the pressure, extrapolated from the outer points in contact, is zero.
+/// Each lobe of the patch, a part without gaps, ends where the square of the pressure, extrapolated from its
+/// outer points, is zero. Across the width, a place along the ground touches where any of its points does.
 template <int dim>
 ContactSummary contact_summary(const ContactPatch<dim>& contact);
 

@@ -40,9 +40,10 @@ void TerminalObserver<dim>::operator()(const Event<dim>& event, const RunView<di
   if (const auto* ended = std::get_if<RunEnded<dim>>(&event)) {
     if (ended->summary) {
       const DescribedWheel<dim>& wheel = ended->summary->after.wheel;
-      warn(wheel.summary.deformation);
-      for (const std::string& warning : feature_warnings(run.study.source, wheel.clearances))
-        progress_.note("warning: " + warning);
+      if (wheel.loaded) warn(wheel.loaded->summary.deformation);
+      if (wheel.clearances)
+        for (const std::string& warning : feature_warnings(run.study.source, *wheel.clearances))
+          progress_.note("warning: " + warning);
     }
     progress_.end();
   }

@@ -34,15 +34,20 @@ class SplineSpace {
         knots_.push_back(breaks_[std::clamp(i, 0, n)]);
       }
     }
+    for (int interval = 0; interval < n; ++interval) reciprocals_.push_back(reciprocals(interval + degree));
   }
 
   const std::vector<double>& breaks() const { return breaks_; }
   bool closed() const { return closed_; }
   int n_intervals() const { return static_cast<int>(breaks_.size()) - 1; }
   int n_points() const { return closed_ ? n_intervals() : n_intervals() + degree; }
-  int point_of(int function) const { return closed_ ? function % n_intervals() : function; }
+  int point_of(int function) const {
+    return closed_ && function >= n_intervals() ? function - n_intervals() : function;
+  }
 
-  int interval(double u) const {
+  /// The interval of a parameter; the search begins at a guess.
+  int interval(double u, int guess) const {
+    if (breaks_[guess] <= u && u < breaks_[guess + 1]) return guess;
     const auto above = std::upper_bound(breaks_.begin() + 1, breaks_.end() - 1, u);
     return static_cast<int>(above - breaks_.begin()) - 1;
   }
@@ -50,17 +55,17 @@ class SplineSpace {
   /// Of the functions interval, ..., interval + 3.
   Basis basis(int interval, double u) const {
     const int k = interval + degree;
+    const Reciprocals& by_width = reciprocals_[interval];
     Basis result{};
     auto& n = result.value;
     n[0] = 1;
     for (int p = 1; p <= degree; ++p) {
-      if (p == degree) result.derivative = derivatives(k, n);
+      if (p == degree) result.derivative = derivatives(by_width[p - 1], n);
       double saved = 0;
       for (int r = 0; r < p; ++r) {
-        const double right = knots_[k + r + 1], left = knots_[k + 1 - p + r];
-        const double part = n[r] / (right - left);
-        n[r] = saved + (right - u) * part;
-        saved = (u - left) * part;
+        const double part = n[r] * by_width[p - 1][r];
+        n[r] = saved + (knots_[k + r + 1] - u) * part;
+        saved = (u - knots_[k + 1 - p + r]) * part;
       }
       n[p] = saved;
     }
@@ -88,11 +93,23 @@ class SplineSpace {
   }
 
  private:
+  /// One over the widths of the functions of degree p - 1 that are not zero in an interval: [p - 1][r], r <
+  /// p.
+  using Reciprocals = std::array<std::array<double, degree>, degree>;
+
+  Reciprocals reciprocals(int k) const {
+    Reciprocals result{};
+    for (int p = 1; p <= degree; ++p)
+      for (int r = 0; r < p; ++r) result[p - 1][r] = 1 / (knots_[k + r + 1] - knots_[k + 1 - p + r]);
+    return result;
+  }
+
   /// Derivatives of the cubics from the values of the quadratics.
-  std::array<double, degree + 1> derivatives(int k, const std::array<double, degree + 1>& quadratic) const {
+  static std::array<double, degree + 1> derivatives(const std::array<double, degree>& by_width,
+                                                    const std::array<double, degree + 1>& quadratic) {
     std::array<double, degree + 1> result{};
     for (int r = 0; r < degree; ++r) {
-      const double part = degree * quadratic[r] / (knots_[k + r + 1] - knots_[k + 1 - degree + r]);
+      const double part = degree * quadratic[r] * by_width[r];
       result[r] -= part;
       result[r + 1] += part;
     }
@@ -114,6 +131,7 @@ class SplineSpace {
   }
 
   std::vector<double> breaks_, knots_;
+  std::vector<Reciprocals> reciprocals_;  ///< of every interval
   bool closed_;
 };
 
@@ -145,50 +163,110 @@ struct Fit {
   int where;  ///< the point with the largest deviation
 };
 
-/// The control points with the least sum of squared distances; ends of open curves are the end points. Empty
-/// if an interval holds too few points.
-std::optional<std::vector<Vec<2>>> least_squares(const SplineSpace& space, const Samples& samples) {
-  const int n = space.n_points(), fixed = space.closed() ? 0 : 1, n_free = n - 2 * fixed;
-  std::vector<Vec<2>> control(n);
-  if (fixed) {
-    control.front() = samples.points.front();
-    control.back() = samples.points.back();
+/// A parameter in its interval.
+struct Located {
+  int interval;
+  Basis basis;
+};
+
+std::vector<Located> located(const SplineSpace& space, std::span<const double> parameters) {
+  std::vector<Located> result;
+  result.reserve(parameters.size());
+  int interval = 0;  // of the sample before, which is near
+  for (const double u : parameters) {
+    interval = space.interval(u, interval);
+    result.push_back({interval, space.basis(interval, u)});
   }
-  Matrix normal(n_free, n_free), right(n_free, 2);
-  const auto is_free = [&](int point) { return point >= fixed && point < n - fixed; };
-  for (std::size_t s = 0; s < samples.points.size(); ++s) {
-    const int interval = space.interval(samples.parameters[s]);
-    const Basis basis = space.basis(interval, samples.parameters[s]);
-    Vec<2> target = samples.points[s];
-    for (int i = 0; i <= degree; ++i)
-      if (const int a = space.point_of(interval + i); !is_free(a))
-        for (int d = 0; d < 2; ++d) target[d] -= basis.value[i] * control[a][d];
+  return result;
+}
+
+/// The normal equations of least squares. Samples of one interval are summed before they are added.
+class NormalEquations {
+ public:
+  explicit NormalEquations(const SplineSpace& space)
+      : space_(space),
+        n_(space.n_points()),
+        fixed_(space.closed() ? 0 : 1),
+        matrix_(n_free(), n_free()),
+        right_(n_free(), 2) {}
+
+  int n_free() const { return n_ - 2 * fixed_; }
+  bool is_free(int point) const { return point >= fixed_ && point < n_ - fixed_; }
+
+  void add(const Located& place, const Vec<2>& target) {
+    if (place.interval != interval_) add_interval();
+    interval_ = place.interval;
+    const auto& value = place.basis.value;
     for (int i = 0; i <= degree; ++i) {
-      const int a = space.point_of(interval + i);
-      if (!is_free(a)) continue;
-      for (int d = 0; d < 2; ++d) right(a - fixed, d) += basis.value[i] * target[d];
-      for (int j = 0; j <= degree; ++j)
-        if (const int b = space.point_of(interval + j); is_free(b))
-          normal(a - fixed, b - fixed) += basis.value[i] * basis.value[j];
+      for (int j = 0; j <= i; ++j) products_[i][j] += value[i] * value[j];
+      for (int d = 0; d < 2; ++d) targets_[i][d] += value[i] * target[d];
     }
   }
-  if (n_free == 0) return control;
-  if (!cholesky(normal)) return {};
-  cholesky_solve(normal, right);
-  for (int a = 0; a < n_free; ++a) control[a + fixed] = {right(a, 0), right(a, 1)};
+
+  /// The free control points, one per row; empty if they are not determined.
+  std::optional<Matrix> solution() {
+    add_interval();
+    if (n_free() > 0) {
+      if (!cholesky(matrix_)) return {};
+      cholesky_solve(matrix_, right_);
+    }
+    return right_;
+  }
+
+ private:
+  void add_interval() {
+    if (interval_ < 0) return;
+    for (int i = 0; i <= degree; ++i) {
+      const int a = space_.point_of(interval_ + i);
+      if (!is_free(a)) continue;
+      for (int d = 0; d < 2; ++d) right_(a - fixed_, d) += targets_[i][d];
+      for (int j = 0; j <= degree; ++j)
+        if (const int b = space_.point_of(interval_ + j); is_free(b))
+          matrix_(a - fixed_, b - fixed_) += products_[std::max(i, j)][std::min(i, j)];
+    }
+    products_ = {};
+    targets_ = {};
+  }
+
+  const SplineSpace& space_;
+  int n_, fixed_, interval_ = -1;
+  std::array<std::array<double, degree + 1>, degree + 1> products_{};  ///< of the interval, lower triangle
+  std::array<Vec<2>, degree + 1> targets_{};                           ///< of the interval
+  Matrix matrix_, right_;
+};
+
+/// The control points with the least sum of squared distances; ends of open curves are the end points. Empty
+/// if an interval holds too few points.
+std::optional<std::vector<Vec<2>>> least_squares(const SplineSpace& space, std::span<const Vec<2>> points,
+                                                 const std::vector<Located>& places) {
+  std::vector<Vec<2>> control(space.n_points());
+  if (!space.closed()) {
+    control.front() = points.front();
+    control.back() = points.back();
+  }
+  NormalEquations equations(space);
+  for (std::size_t s = 0; s < points.size(); ++s) {
+    Vec<2> target = points[s];
+    for (int i = 0; i <= degree; ++i)
+      if (const int a = space.point_of(places[s].interval + i); !equations.is_free(a))
+        for (int d = 0; d < 2; ++d) target[d] -= places[s].basis.value[i] * control[a][d];
+    equations.add(places[s], target);
+  }
+  const auto free = equations.solution();
+  if (!free) return {};
+  const int first = space.closed() ? 0 : 1;
+  for (int a = 0; a < free->rows(); ++a) control[a + first] = {(*free)(a, 0), (*free)(a, 1)};
   return control;
 }
 
 /// Moves the parameters towards the points of the spline that are nearest to the samples, and measures the
 /// distances that are left.
-void correct(Fit& fit, std::span<const Vec<2>> points) {
+void correct(Fit& fit, std::span<const Vec<2>> points, const std::vector<Located>& places) {
   const bool closed = fit.space.closed();
   fit.deviation.assign(fit.space.n_intervals(), 0);
   fit.largest = 0;
   for (std::size_t s = 0; s < points.size(); ++s) {
-    double& u = fit.parameters[s];
-    const int interval = fit.space.interval(u);
-    const Basis basis = fit.space.basis(interval, u);
+    const auto& [interval, basis] = places[s];
     Vec<2> miss = points[s], velocity{};
     for (int i = 0; i <= degree; ++i) {
       const Vec<2>& p = fit.control[fit.space.point_of(interval + i)];
@@ -199,6 +277,7 @@ void correct(Fit& fit, std::span<const Vec<2>> points) {
     }
     const double speed2 = dot<2>(velocity, velocity), along = dot<2>(miss, velocity) / speed2;
     const bool at_end = !closed && (s == 0 || s + 1 == points.size());
+    double& u = fit.parameters[s];
     if (!at_end) u = std::clamp(u + along, 0.0, 1.0);
     const double across = std::abs(miss[0] * velocity[1] - miss[1] * velocity[0]) / std::sqrt(speed2);
     fit.deviation[interval] = std::max(fit.deviation[interval], across);
@@ -212,10 +291,11 @@ void correct(Fit& fit, std::span<const Vec<2>> points) {
 std::optional<Fit> fit_in(const SplineSpace& space, const Samples& samples) {
   Fit fit{space, {}, samples.parameters, {}, 0, 0};
   for (int k = 0; k < n_corrections; ++k) {
-    auto control = least_squares(space, {samples.points, fit.parameters});
+    const auto places = located(space, fit.parameters);
+    auto control = least_squares(space, samples.points, places);
     if (!control) return {};
     fit.control = *std::move(control);
-    correct(fit, samples.points);
+    correct(fit, samples.points, places);
   }
   if (!std::isfinite(fit.largest)) return {};
   return fit;

@@ -131,21 +131,32 @@ Json fields_json(const LevelSet<2>& shape, std::span<const PositionFields<2>> al
 
 Json fields_json(const ReportRun<2>& run) { return fields_json(*run.shape, run.positions); }
 
+/// null where it could not be computed.
+Json curve_json(const Expected<std::vector<double>>& values, double factor) {
+  if (!values) return {};
+  Json json = Json::array();
+  for (const double value : *values) json.push_back(value * factor);
+  return json;
+}
+
+Json harmonics_json(const Expected<std::vector<double>>& values, double factor) {
+  return values ? curve_json(rolling_variation(*values).harmonics, factor) : Json();
+}
+
+/// The curves over the load positions; null where the wheel has no solution.
 template <int dim>
 Json rolling_json(const DescribedWheel<dim>& wheel) {
-  const RollingAnalysis& a = wheel.rolling;
+  if (!wheel.loaded) return {};
+  const RollingAnalysis& a = wheel.loaded->rolling;
   const double width = whole_width(dim, wheel.grid.width);
   Json json{{"azimuths_rad", a.azimuths},
-            {"travel_at_load_m", a.travel_at_load},
-            {"force_at_travel_N", Json::array()},
+            {"travel_at_load_m", curve_json(a.travel_at_load, 1)},
+            {"force_at_travel_N", curve_json(a.force_at_travel, width)},
             {"peak_von_mises_Pa", a.peak_von_mises},
             {"peak_pressure_Pa", Json::array()},
-            {"travel_harmonics_m", rolling_variation(a.travel_at_load).harmonics},
-            {"force_harmonics_N", Json::array()}};
-  for (const double force : a.force_at_travel) json["force_at_travel_N"].push_back(force * width);
+            {"travel_harmonics_m", harmonics_json(a.travel_at_load, 1)},
+            {"force_harmonics_N", harmonics_json(a.force_at_travel, width)}};
   for (const ContactSummary& contact : a.positions) json["peak_pressure_Pa"].push_back(contact.peak_pressure);
-  for (const double amplitude : rolling_variation(a.force_at_travel).harmonics)
-    json["force_harmonics_N"].push_back(amplitude * width);
   return json;
 }
 
@@ -251,6 +262,7 @@ Json run_json(const ReportRun<dim>& run) {
             {"history", std::move(history)},
             {"outline_units", outline_units},
             {"outlines", std::move(outlines)}};
+  if (run.given) json["given_contours"] = run.given->contours;
   if (run.summary) {
     json["summary"] = Json::parse(summary_json(*run.summary));
     json["rolling"] = {{"before", rolling_json(run.summary->before.wheel)},

@@ -66,6 +66,7 @@ struct ReportRun {
   int events_left_out = 0;              ///< older ones
   std::vector<HistoryCurve> history;
   std::vector<ShapeOutline> outlines;
+  std::optional<ShapeOutline> given = {};  ///< the wheel of the case, where the first shape is another one
   std::vector<std::string> flags;          ///< what deserves attention, in sentences
   std::vector<std::string> limits;         ///< what was not checked or computed, in sentences
   std::optional<RunSummary<dim>> summary;  ///< absent while the run goes on

@@ -25,11 +25,17 @@ double rounded_up(double value) {
   return 10 * decade;
 }
 
-std::vector<double> sorted(std::span<const double> values) {
+std::vector<double> finite(std::span<const double> values) {
   std::vector<double> result;
   std::ranges::copy_if(values, std::back_inserter(result), [](double v) { return std::isfinite(v); });
-  std::ranges::sort(result);
   return result;
+}
+
+/// The value that has so many smaller ones. Reorders them.
+double with_smaller(std::vector<double>& values, std::size_t n) {
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(n);
+  std::ranges::nth_element(values, place);
+  return *place;
 }
 
 /// Round numbers in the unit with its prefix; the value itself where there is only one.
@@ -64,11 +70,12 @@ std::string value_text(double value, const std::string& unit) {
 }
 
 ColourScale colour_scale(std::span<const double> values, double outliers) {
-  const std::vector<double> all = sorted(values);
+  std::vector<double> all = finite(values);
   if (all.empty()) return {0, 0};
+  const auto [least, greatest] = std::ranges::minmax(all);
   const auto out = static_cast<std::size_t>(outliers * static_cast<double>(all.size()));
-  const double lower = all[out], upper = all[all.size() - 1 - out];
-  return {lower, upper, all.front() < lower, all.back() > upper};
+  const double lower = with_smaller(all, out), upper = with_smaller(all, all.size() - 1 - out);
+  return {lower, upper, least<lower, greatest> upper};
 }
 
 ColourScale colour_scale_from_zero(std::span<const double> values, double outliers) {

@@ -10,11 +10,17 @@ namespace {
 
 constexpr int value_width = 12, change_width = 12;
 
+using Value = std::optional<KnownNumber>;
+
+bool is_known(const Value& value) { return value && *value; }
+bool is_missing(const Value& value) { return value && !*value; }
+
 /// Empty where the first value is next to nothing compared with the other.
-std::string change(std::optional<double> first, std::optional<double> value) {
+std::string change(const Value& first_value, const Value& other) {
   constexpr double most_percents = 1e5;
-  if (!first || !value) return "";
-  const double percents = 100 * (*value / *first - 1);
+  if (!is_known(first_value) || !is_known(other)) return "";
+  const double first = **first_value, value = **other;
+  const double percents = 100 * (value / first - 1);
   if (!(std::abs(percents) < most_percents)) return "";
   if (std::abs(percents) < 0.005) return "0 %";
   return fmt::format("{:+.2f} %", percents);
@@ -24,9 +30,51 @@ std::string shortened(const std::string& name) {
   return name.size() < value_width ? name : name.substr(0, value_width - 3) + "..";
 }
 
-}  // namespace
+/// The numbers that are missing of some wheels for one reason.
+struct MissingNumbers {
+  std::string wheels, reason;
+  std::vector<std::string> labels;
+};
 
-namespace {
+std::string without_leading_spaces(const std::string& text) {
+  return text.substr(text.find_first_not_of(' '));
+}
+
+std::vector<MissingNumbers> missing_numbers(const std::vector<std::string>& wheels,
+                                            const std::vector<ComparedRow>& rows) {
+  std::vector<MissingNumbers> result;
+  for (const ComparedRow& row : rows) {
+    std::vector<std::pair<std::string, std::string>> of_reason;  // the reason, the wheels
+    for (std::size_t k = 0; k < row.values.size(); ++k) {
+      if (!is_missing(row.values[k])) continue;
+      const std::string& reason = row.values[k]->failure();
+      if (const auto known =
+              std::ranges::find(of_reason, reason, &std::pair<std::string, std::string>::first);
+          known != of_reason.end())
+        known->second += ", " + wheels[k];
+      else
+        of_reason.emplace_back(reason, wheels[k]);
+    }
+    for (const auto& [reason, names] : of_reason) {
+      const auto same = std::ranges::find_if(
+          result, [&](const MissingNumbers& one) { return one.reason == reason && one.wheels == names; });
+      MissingNumbers& group =
+          same != result.end() ? *same : result.emplace_back(MissingNumbers{names, reason, {}});
+      group.labels.push_back(without_leading_spaces(row.label));
+    }
+  }
+  return result;
+}
+
+std::string text(const MissingNumbers& missing) {
+  constexpr std::size_t most_named = 4;
+  const auto& labels = missing.labels;
+  std::string names;
+  for (std::size_t k = 0; k < std::min(labels.size(), most_named); ++k)
+    names += (k > 0 ? ", " : "") + labels[k];
+  if (labels.size() > most_named) names += fmt::format(" and {} more", labels.size() - most_named);
+  return fmt::format("not computed ({}): {}: {}", missing.wheels, names, missing.reason);
+}
 
 /// Null wheels have no value.
 template <int dim>
@@ -35,7 +83,7 @@ void add_row(const WheelNumber<dim>& number, const std::string& in_case,
   ComparedRow row{fmt::format("{}{} [{}]", number.label, in_case, number.unit), {}};
   for (const DescribedWheel<dim>* wheel : wheels) {
     const auto value = wheel ? number.value(*wheel) : std::nullopt;
-    row.values.push_back(value ? std::optional(*value * number.factor) : std::nullopt);
+    row.values.push_back(is_known(value) ? Value(**value * number.factor) : value);
   }
   if (std::ranges::any_of(row.values, [](const auto& value) { return value.has_value(); }))
     rows.push_back(std::move(row));
@@ -69,6 +117,13 @@ std::vector<ComparedRow> compared_rows(const std::vector<const DescribedWheel<di
 template std::vector<ComparedRow> compared_rows(const std::vector<const DescribedWheel<2>*>&);
 template std::vector<ComparedRow> compared_rows(const std::vector<const DescribedWheel<3>*>&);
 
+std::vector<std::string> missing_lines(const std::vector<std::string>& wheels,
+                                       const std::vector<ComparedRow>& rows) {
+  std::vector<std::string> lines;
+  for (const MissingNumbers& missing : missing_numbers(wheels, rows)) lines.push_back(text(missing));
+  return lines;
+}
+
 std::string comparison_table(const std::vector<std::string>& wheels, const std::vector<ComparedRow>& rows) {
   std::size_t label_width = 0;
   for (const ComparedRow& row : rows) label_width = std::max(label_width, row.label.size());
@@ -80,12 +135,14 @@ std::string comparison_table(const std::vector<std::string>& wheels, const std::
   for (std::size_t k = 0; k < wheels.size(); ++k) table += cells(k > 0, shortened(wheels[k]), "change");
   table += '\n';
   for (const ComparedRow& row : rows) {
+    if (std::ranges::none_of(row.values, is_known)) continue;
     table += fmt::format("{:<{}}", row.label, label_width);
     for (std::size_t k = 0; k < row.values.size(); ++k)
-      table += cells(k > 0, row.values[k] ? fmt::format("{:.6g}", *row.values[k]) : "-",
+      table += cells(k > 0, is_known(row.values[k]) ? fmt::format("{:.6g}", **row.values[k]) : "-",
                      change(row.values[0], row.values[k]));
     table += '\n';
   }
+  for (const std::string& line : missing_lines(wheels, rows)) table += line + '\n';
   return table;
 }
 

@@ -1,5 +1,7 @@
 #include "wheelwright/report/described_wheel.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numbers>
 #include <numeric>
@@ -17,7 +19,7 @@ double mean(const std::vector<double>& values) {
 }
 
 template <int dim>
-std::vector<double> of_positions(const DescribedWheel<dim>& wheel, double ContactSummary::*member) {
+std::vector<double> of_positions(const LoadedWheel<dim>& wheel, double ContactSummary::*member) {
   std::vector<double> values;
   for (const ContactSummary& position : wheel.rolling.positions) values.push_back(position.*member);
   return values;
@@ -43,53 +45,94 @@ std::optional<double> mass(const StateSolver<dim>& solver, double volume_fractio
 /// How far the curves may be from the edge, by the tread's radius: as exported outlines are.
 constexpr double curve_tolerance = 3e-5;
 
-std::optional<double> width(const std::optional<cad::Clearance>& clearance) {
-  return clearance ? std::optional(clearance->width) : std::nullopt;
+/// What a wheel may have a value of; nothing where it has none by its nature.
+using Number = std::optional<KnownNumber>;
+
+std::string reason(const Failure& failure) {
+  return fmt::format("{}: {}", to_string(failure.reason), failure.detail);
+}
+
+/// A value of the wheel under its load.
+template <int dim, class Value>
+Number under_load(const DescribedWheel<dim>& wheel, const Value& value) {
+  if (!wheel.loaded) return reason(wheel.loaded.failure());
+  return value(*wheel.loaded);
+}
+
+/// A value of a curve over the load positions, by a factor.
+template <int dim, class Value>
+Number of_curve(const DescribedWheel<dim>& wheel, Expected<std::vector<double>> RollingAnalysis::*curve,
+                double factor, const Value& value) {
+  return under_load(wheel, [&](const LoadedWheel<dim>& loaded) -> Number {
+    const auto& values = loaded.rolling.*curve;
+    if (!values) return reason(values.failure());
+    return factor * value(*values);
+  });
+}
+
+double peak_to_peak(const std::vector<double>& values) { return rolling_variation(values).peak_to_peak(); }
+
+template <int dim>
+double width(const DescribedWheel<dim>& wheel) {
+  return whole_width(dim, wheel.grid.width);
+}
+
+template <int dim>
+Number width_of(const DescribedWheel<dim>& wheel, std::optional<cad::Clearance> cad::Clearances::*which) {
+  if (!wheel.clearances) return wheel.clearances.failure().what;
+  const auto& clearance = (*wheel.clearances).*which;
+  return clearance ? Number(clearance->width) : std::nullopt;
+}
+
+template <int dim>
+Number patch_extent(const DescribedWheel<dim>& wheel) {
+  return under_load(wheel, [](const LoadedWheel<dim>& w) -> Number {
+    const double length = mean(of_positions(w, &ContactSummary::patch_length)),
+                 extent = mean(of_positions(w, &ContactSummary::patch_extent));
+    return extent > length ? Number(extent) : std::nullopt;
+  });
+}
+
+template <int dim>
+Expected<LoadedWheel<dim>> loaded_wheel(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
+                                        const SolvedStates<dim>& states) {
+  if (!states) return states.failure();
+  return LoadedWheel<dim>{shape_summary(solver, psi, **states), rolling_analysis(solver, **states)};
 }
 
 }  // namespace
 
 template <int dim>
-cad::Clearances outline_clearances(const LevelSet<dim>& psi) {
+Expected<cad::Clearances, cad::OutlineFault> outline_clearances(const LevelSet<dim>& psi) {
   if constexpr (dim == 2) {
     const PolarGrid<2>& grid = psi.lattice.grid();
     const auto outline = cad::fit_outline(psi, curve_tolerance * grid.outer_radius);
-    if (outline) return cad::clearances(*outline, grid.n_sectors, cad::clearance_step * grid.outer_radius);
+    if (!outline) return outline.failure();
+    return cad::clearances(*outline, grid.n_sectors, cad::clearance_step * grid.outer_radius);
   }
-  return {};
+  return cad::Clearances{};
 }
 
 template <int dim>
-Expected<DescribedWheel<dim>> described_wheel(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
-                                              double volume_fraction, const State<dim>& state) {
-  auto rolling = rolling_analysis(solver, state);
-  if (!rolling) return rolling.failure();
-  return DescribedWheel<dim>{.name = {},
-                             .which = {},
-                             .grid = solver.model().grid,
-                             .volume_fraction = volume_fraction,
-                             .mass = mass(solver, volume_fraction),
-                             .clearances = outline_clearances(psi),
-                             .summary = shape_summary(solver, psi, state),
-                             .rolling = *std::move(rolling)};
-}
-
-template <int dim>
-Expected<DescribedWheel<dim>> described_wheel(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
-                                              double volume_fraction, const State<dim>& state,
-                                              const LoadCases<dim>& cases) {
-  auto wheel = described_wheel(solver, psi, volume_fraction, state);
-  for (std::size_t k = 0; k < cases.size() && wheel; ++k) {
-    if (k == 0) {
-      wheel->load_case = cases[k].name;
-      continue;
-    }
-    const auto other_state = state.under(with_loads_of(state.model(), cases[k].model), Interrupt());
-    if (!other_state) return other_state.failure();
-    auto other = described_wheel(solver, psi, volume_fraction, **other_state);
-    if (!other) return other.failure();
-    other->load_case = cases[k].name;
-    wheel->others.push_back(*std::move(other));
+DescribedWheel<dim> described_wheel(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
+                                    double volume_fraction, const SolvedStates<dim>& states,
+                                    const LoadCases<dim>& cases) {
+  DescribedWheel<dim> wheel{.name = {},
+                            .which = {},
+                            .grid = solver.model().grid,
+                            .volume_fraction = volume_fraction,
+                            .mass = mass(solver, volume_fraction),
+                            .clearances = outline_clearances(psi),
+                            .loaded = loaded_wheel(solver, psi, states)};
+  if (!cases.empty()) wheel.load_case = cases.front().name;
+  for (std::size_t k = 1; k < cases.size(); ++k) {
+    DescribedWheel<dim> other = wheel;
+    other.others.clear();
+    other.load_case = cases[k].name;
+    other.loaded = loaded_wheel(
+        solver, psi,
+        states ? (*states)->under(with_loads_of((*states)->model(), cases[k].model), Interrupt()) : states);
+    wheel.others.push_back(std::move(other));
   }
   return wheel;
 }
@@ -101,61 +144,77 @@ const DescribedWheel<dim>* under_load_case(const DescribedWheel<dim>& wheel, con
 }
 
 template <int dim>
+std::optional<double> known_value(const WheelNumber<dim>& number, const DescribedWheel<dim>& wheel) {
+  const auto value = number.value(wheel);
+  return value && *value ? std::optional(**value) : std::nullopt;
+}
+
+template <int dim>
 const std::vector<WheelNumber<dim>>& wheel_numbers() {
   using Wheel = DescribedWheel<dim>;
-  using Number = std::optional<double>;
+  using Loaded = LoadedWheel<dim>;
   static const std::vector<WheelNumber<dim>> numbers{
       {"volume of the ring", "%", percent, "volume_fraction",
        [](const Wheel& w) -> Number { return w.volume_fraction; }, true},
       {"mass", "kg", 1, "mass_kg",
-       [](const Wheel& w) -> Number {
-         return w.mass ? Number(*w.mass * whole_width(dim, w.grid.width)) : std::nullopt;
-       },
-       true},
+       [](const Wheel& w) -> Number { return w.mass ? Number(*w.mass * width(w)) : std::nullopt; }, true},
       {"load", "N", 1, "load_N",
-       [](const Wheel& w) -> Number { return w.rolling.load * whole_width(dim, w.grid.width); }},
-      {"mean travel", "mm", mm, "mean_travel_m",
-       [](const Wheel& w) -> Number { return mean(of_positions(w, &ContactSummary::travel)); }},
-      {"stiffness", "N/mm", N_per_mm, "stiffness_N_per_m",
-       [](const Wheel& w) -> Number { return w.summary.stiffness * whole_width(dim, w.grid.width); }},
-      {"run-out at fixed load", "mm", mm, "run_out_m",
-       [](const Wheel& w) -> Number { return rolling_variation(w.rolling.travel_at_load).peak_to_peak(); }},
-      {"  its first sector harmonic", "mm", mm, "run_out_first_harmonic_m",
-       [](const Wheel& w) -> Number { return first_harmonic(w.rolling.travel_at_load); }},
-      {"radial force variation at fixed travel", "N", 1, "force_variation_N",
-       [](const Wheel& w) -> Number {
-         return rolling_variation(w.rolling.force_at_travel).peak_to_peak() * whole_width(dim, w.grid.width);
+       [](const Wheel& w) {
+         return under_load(w, [&](const Loaded& l) { return l.rolling.load * width(w); });
        }},
+      {"mean travel", "mm", mm, "mean_travel_m",
+       [](const Wheel& w) {
+         return under_load(w, [](const Loaded& l) { return mean(of_positions(l, &ContactSummary::travel)); });
+       }},
+      {"stiffness", "N/mm", N_per_mm, "stiffness_N_per_m",
+       [](const Wheel& w) {
+         return under_load(w, [&](const Loaded& l) { return l.summary.stiffness * width(w); });
+       }},
+      {"run-out at fixed load", "mm", mm, "run_out_m",
+       [](const Wheel& w) { return of_curve(w, &RollingAnalysis::travel_at_load, 1, peak_to_peak); }},
+      {"  its first sector harmonic", "mm", mm, "run_out_first_harmonic_m",
+       [](const Wheel& w) { return of_curve(w, &RollingAnalysis::travel_at_load, 1, first_harmonic); }},
+      {"radial force variation at fixed travel", "N", 1, "force_variation_N",
+       [](const Wheel& w) { return of_curve(w, &RollingAnalysis::force_at_travel, width(w), peak_to_peak); }},
       {"  its first sector harmonic", "N", 1, "force_first_harmonic_N",
-       [](const Wheel& w) -> Number {
-         return first_harmonic(w.rolling.force_at_travel) * whole_width(dim, w.grid.width);
+       [](const Wheel& w) {
+         return of_curve(w, &RollingAnalysis::force_at_travel, width(w), first_harmonic);
        }},
       {"peak contact pressure", "MPa", MPa, "peak_pressure_Pa",
-       [](const Wheel& w) -> Number { return w.summary.rolling.peak_pressure; }},
+       [](const Wheel& w) {
+         return under_load(w, [](const Loaded& l) { return l.summary.rolling.peak_pressure; });
+       }},
       {"mean length of the contact patch", "mm", mm, "patch_length_m",
-       [](const Wheel& w) -> Number { return mean(of_positions(w, &ContactSummary::patch_length)); }},
+       [](const Wheel& w) {
+         return under_load(
+             w, [](const Loaded& l) { return mean(of_positions(l, &ContactSummary::patch_length)); });
+       }},
+      {"  with its gaps", "mm", mm, "patch_extent_m", [](const Wheel& w) { return patch_extent(w); }},
       {"peak von Mises stress", "MPa", MPa, "peak_von_mises_Pa",
-       [](const Wheel& w) -> Number { return w.summary.von_mises.value; }},
+       [](const Wheel& w) {
+         return under_load(w, [](const Loaded& l) { return l.summary.von_mises.value; });
+       }},
       {"largest strain", "%", percent, "largest_strain",
-       [](const Wheel& w) -> Number { return w.summary.deformation.strain; }},
+       [](const Wheel& w) {
+         return under_load(w, [](const Loaded& l) { return l.summary.deformation.strain; });
+       }},
       {"strain energy per position", unit<dim>(UnitKind::energy), 1,
        dim == 2 ? "strain_energy_J_per_m" : "strain_energy_J",
-       [](const Wheel& w) -> Number { return w.summary.strain_energy; }},
+       [](const Wheel& w) { return under_load(w, [](const Loaded& l) { return l.summary.strain_energy; }); }},
       {"thinnest wall", "mm", mm, "minimum_wall_m",
-       [](const Wheel& w) -> Number { return width(w.clearances.wall); }, true},
+       [](const Wheel& w) { return width_of(w, &cad::Clearances::wall); }, true},
       {"narrowest gap", "mm", mm, "minimum_gap_m",
-       [](const Wheel& w) -> Number { return width(w.clearances.gap); }, true},
+       [](const Wheel& w) { return width_of(w, &cad::Clearances::gap); }, true},
   };
   return numbers;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                        \
-  template Expected<DescribedWheel<dim>> described_wheel(const StateSolver<dim>&, const LevelSet<dim>&,     \
-                                                         double, const State<dim>&);                        \
-  template Expected<DescribedWheel<dim>> described_wheel(const StateSolver<dim>&, const LevelSet<dim>&,     \
-                                                         double, const State<dim>&, const LoadCases<dim>&); \
-  template const DescribedWheel<dim>* under_load_case(const DescribedWheel<dim>&, const std::string&);      \
-  template cad::Clearances outline_clearances(const LevelSet<dim>&);                                        \
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                                   \
+  template DescribedWheel<dim> described_wheel(const StateSolver<dim>&, const LevelSet<dim>&, double,  \
+                                               const SolvedStates<dim>&, const LoadCases<dim>&);       \
+  template const DescribedWheel<dim>* under_load_case(const DescribedWheel<dim>&, const std::string&); \
+  template Expected<cad::Clearances, cad::OutlineFault> outline_clearances(const LevelSet<dim>&);      \
+  template std::optional<double> known_value(const WheelNumber<dim>&, const DescribedWheel<dim>&);     \
   template const std::vector<WheelNumber<dim>>& wheel_numbers();
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)

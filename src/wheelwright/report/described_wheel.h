@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -7,11 +8,19 @@
 #include "wheelwright/analysis/rolling_analysis.h"
 #include "wheelwright/analysis/shape_summary.h"
 #include "wheelwright/cad/clearance.h"
+#include "wheelwright/cad/outline_fault.h"
 #include "wheelwright/state/load_case.h"
 
 namespace wheelwright {
 
-/// A wheel in numbers. Forces of the analysis are per metre of width when dim = 2.
+/// What a load does to a wheel, in numbers. Forces of the analysis are per metre of width when dim = 2.
+template <int dim>
+struct LoadedWheel {
+  ShapeSummary<dim> summary;
+  RollingAnalysis rolling;
+};
+
+/// A wheel in numbers.
 template <int dim>
 struct DescribedWheel {
   std::string name;   ///< e.g. of its case file or run, or "before"
@@ -19,35 +28,35 @@ struct DescribedWheel {
   PolarGrid<dim> grid;
   double volume_fraction;      ///< material area over the area of the full ring
   std::optional<double> mass;  ///< [kg, per metre of width when dim = 2], if the material has a density
-  /// The thinnest wall and the narrowest gap of the outline, measured on its fitted curves. Nothing when dim
-  /// = 3, where there are no holes, and where no curves can be fitted.
-  cad::Clearances clearances;
-  ShapeSummary<dim> summary;
-  RollingAnalysis rolling;
+  /// The thinnest wall and the narrowest gap of the outline; fails where no curves can be fitted.
+  Expected<cad::Clearances, cad::OutlineFault> clearances;
+  Expected<LoadedWheel<dim>> loaded;        ///< fails as the contact problem does
   std::string load_case = {};               ///< under which; empty: the wheel has one load alone
   std::vector<DescribedWheel> others = {};  ///< the same wheel under its other load cases
 };
 
-/// Describes a shape by its states. Fails as the contact problem does, which is solved at a fixed travel too.
+/// States of a shape, or why there are none.
 template <int dim>
-Expected<DescribedWheel<dim>> described_wheel(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
-                                              double volume_fraction, const State<dim>& state);
+using SolvedStates = Expected<std::shared_ptr<const State<dim>>>;
 
-/// The same under several load cases; the state is that of the first, the others are solved on the same
+/// Describes a shape by its states under the first of its load cases; the others are solved on the same
 /// factor.
 template <int dim>
-Expected<DescribedWheel<dim>> described_wheel(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
-                                              double volume_fraction, const State<dim>& state,
-                                              const LoadCases<dim>& cases);
+DescribedWheel<dim> described_wheel(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
+                                    double volume_fraction, const SolvedStates<dim>& states,
+                                    const LoadCases<dim>& cases);
 
 /// The wheel under the load case of that name; null if it has none.
 template <int dim>
 const DescribedWheel<dim>* under_load_case(const DescribedWheel<dim>& wheel, const std::string& load_case);
 
-/// The thinnest wall and the narrowest gap of a shape, measured on the curves that follow its edges. Nothing
-/// when dim = 3 and where no curves can be fitted.
+/// The thinnest wall and the narrowest gap of a shape, measured on the curves that follow its edges: none
+/// when dim = 3. Fails where no curves can be fitted.
 template <int dim>
-cad::Clearances outline_clearances(const LevelSet<dim>& psi);
+Expected<cad::Clearances, cad::OutlineFault> outline_clearances(const LevelSet<dim>& psi);
+
+/// A number about a wheel, or in one line why it could not be computed, e.g. "newton_stalled: ...".
+using KnownNumber = Expected<double, std::string>;
 
 /// One number about a wheel.
 template <int dim>
@@ -56,13 +65,18 @@ struct WheelNumber {
   const char* unit;  ///< for people
   double factor;     ///< from SI to that unit
   const char* key;   ///< for programs, with the SI unit
-  /// In SI units, on the whole width; nothing where a wheel has no such number.
-  std::optional<double> (*value)(const DescribedWheel<dim>&);
+  /// In SI units, on the whole width: nothing where a wheel has no such number, such as a mass without a
+  /// density; the reason where it could not be computed.
+  std::optional<KnownNumber> (*value)(const DescribedWheel<dim>&);
   bool is_of_shape = false;  ///< the same under every load
 };
 
 /// The numbers by which wheels are judged and compared, in the order in which they are told.
 template <int dim>
 const std::vector<WheelNumber<dim>>& wheel_numbers();
+
+/// In SI units, on the whole width; nothing where the wheel has no such number, whatever the reason.
+template <int dim>
+std::optional<double> known_value(const WheelNumber<dim>& number, const DescribedWheel<dim>& wheel);
 
 }  // namespace wheelwright

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <tuple>
@@ -54,16 +55,44 @@ PicturePoint unpacked(std::uint64_t p) {
   return {int(std::uint32_t(p >> 32) ^ sign), int(std::uint32_t(p) ^ sign)};
 }
 
-struct UndirectedSide {
-  std::uint64_t lower, upper;
-  int direction;  ///< 1 from the lower point to the upper one, -1 back
-  auto operator<=>(const UndirectedSide&) const = default;
+struct CountedSide {
+  std::uint64_t lower = 0, upper = 0;  ///< packed; the same for a place without a side
+  int surplus = 0;                     ///< of the sides from the lower point to the upper one
+  auto operator<=>(const CountedSide&) const = default;
 };
 
-UndirectedSide without_direction(const PictureSide& side) {
-  const std::uint64_t from = packed(side.from), to = packed(side.to);
-  return from < to ? UndirectedSide{from, to, 1} : UndirectedSide{to, from, -1};
-}
+/// Counts sides by their points: a table with open addressing, which has room for a number of sides.
+class SideCounts {
+ public:
+  explicit SideCounts(std::size_t most) : sides_(std::bit_ceil(2 * most + 1)) {}
+
+  void add(const PictureSide& side) {
+    const std::uint64_t from = packed(side.from), to = packed(side.to);
+    if (from == to) return;
+    CountedSide& counted = at(std::min(from, to), std::max(from, to));
+    counted.surplus += from < to ? 1 : -1;
+  }
+
+  /// Those that have a surplus, in the order of their points.
+  std::vector<CountedSide> left() && {
+    std::erase_if(sides_, [](const CountedSide& side) { return side.surplus == 0; });
+    std::ranges::sort(sides_);
+    return std::move(sides_);
+  }
+
+ private:
+  CountedSide& at(std::uint64_t lower, std::uint64_t upper) {
+    constexpr std::uint64_t odd = 0x9e3779b97f4a7c15u;
+    std::uint64_t place = (lower * odd ^ upper) * odd;
+    for (place ^= place >> 32;; ++place) {
+      CountedSide& side = sides_[place & (sides_.size() - 1)];
+      if (side.lower == side.upper) side = {lower, upper, 0};
+      if (side.lower == lower && side.upper == upper) return side;
+    }
+  }
+
+  std::vector<CountedSide> sides_;
+};
 
 auto by_beginning(const PictureSide& side) { return std::tie(side.from, side.to); }
 
@@ -80,22 +109,12 @@ void add_sides(const PicturePolygon& polygon, std::vector<PictureSide>& sides) {
 }
 
 std::vector<PictureSide> without_opposites(const std::vector<PictureSide>& sides) {
-  std::vector<UndirectedSide> undirected;
-  undirected.reserve(sides.size());
-  for (const PictureSide& side : sides)
-    if (side.from != side.to) undirected.push_back(without_direction(side));
-  std::ranges::sort(undirected);
+  SideCounts counts(sides.size());
+  for (const PictureSide& side : sides) counts.add(side);
   std::vector<PictureSide> result;
-  for (std::size_t k = 0; k < undirected.size();) {
-    const std::size_t first = k;
-    int surplus = 0;  // of the sides from the lower point to the upper one
-    for (; k < undirected.size() && undirected[k].lower == undirected[first].lower &&
-           undirected[k].upper == undirected[first].upper;
-         ++k)
-      surplus += undirected[k].direction;
-    const PicturePoint lower = unpacked(undirected[first].lower), upper = unpacked(undirected[first].upper);
-    result.insert(result.end(), std::abs(surplus),
-                  surplus > 0 ? PictureSide{lower, upper} : PictureSide{upper, lower});
+  for (const auto& [lower, upper, surplus] : std::move(counts).left()) {
+    const PictureSide side{unpacked(lower), unpacked(upper)};
+    result.insert(result.end(), std::abs(surplus), surplus > 0 ? side : PictureSide{side.to, side.from});
   }
   return result;
 }

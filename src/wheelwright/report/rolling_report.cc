@@ -20,8 +20,17 @@ struct ShownQuantity {
   std::string name;
   std::string unit;  ///< for people
   double factor;     ///< from SI to that unit
-  RollingVariation variation;
+  Expected<RollingVariation> variation;
 };
+
+Expected<RollingVariation> variation(const Expected<std::vector<double>>& values) {
+  if (!values) return values.failure();
+  return rolling_variation(*values);
+}
+
+std::string reason(const Failure& failure) {
+  return fmt::format("{}: {}", to_string(failure.reason), failure.detail);
+}
 
 std::vector<double> peak_pressures(const std::vector<ContactSummary>& positions) {
   std::vector<double> result;
@@ -37,8 +46,8 @@ RollingVariation travel_variation(const std::vector<ContactSummary>& positions) 
 
 std::vector<ShownQuantity> quantities(const RollingReport& report) {
   const RollingAnalysis& a = report.analysis;
-  return {{"rim travel at fixed load", "mm", mm, rolling_variation(a.travel_at_load)},
-          {"radial force at fixed travel", "N", forces(report), rolling_variation(a.force_at_travel)},
+  return {{"rim travel at fixed load", "mm", mm, variation(a.travel_at_load)},
+          {"radial force at fixed travel", "N", forces(report), variation(a.force_at_travel)},
           {"peak of the contact pressure", "MPa", MPa, rolling_variation(peak_pressures(a.positions))}};
 }
 
@@ -48,6 +57,13 @@ std::string load_text(const RollingReport& report) {
 
 std::string travel_text(const RollingReport& report) {
   return fmt::format("{:.4g} mm", report.analysis.travel * mm);
+}
+
+/// A cell of the table of positions; a dash where the values could not be computed.
+std::string cell(const Expected<std::vector<double>>& values, size_t i, double factor, int digits) {
+  constexpr int width = 13;
+  return values ? fmt::format("{:{}.{}f}", (*values)[i] * factor, width, digits)
+                : fmt::format("{:>{}}", "-", width);
 }
 
 std::string position_lines(const RollingReport& report) {
@@ -65,10 +81,10 @@ std::string position_lines(const RollingReport& report) {
   for (size_t i = 0; i < a.positions.size(); ++i) {
     const ContactSummary& p = a.positions[i];
     const double force = p.radial_force * forces(report);
-    table += fmt::format("{:9.3f}{:11.2f}{:11.4f}{:9.3f}{:11.4f}{:11.5f}{:13.6f}{:13.2f}\n",
-                         a.azimuths[i] * degree, force / p.travel * N_per_mm, p.peak_pressure * MPa,
-                         p.patch_length * mm, a.peak_von_mises[i] * MPa, a.strain_energy[i],
-                         a.travel_at_load[i] * mm, a.force_at_travel[i] * forces(report));
+    table += fmt::format("{:9.3f}{:11.2f}{:11.4f}{:9.3f}{:11.4f}{:11.5f}{}{}\n", a.azimuths[i] * degree,
+                         force / p.travel * N_per_mm, p.peak_pressure * MPa, p.patch_length * mm,
+                         a.peak_von_mises[i] * MPa, a.strain_energy[i], cell(a.travel_at_load, i, mm, 6),
+                         cell(a.force_at_travel, i, forces(report), 2));
   }
   return table;
 }
@@ -94,22 +110,47 @@ std::string friction_lines(const RollingReport& report) {
   return table;
 }
 
+bool has_gaps(const ContactSummary& p) { return p.patch_extent > p.patch_length; }
+
+/// The positions whose contact patch has gaps.
+std::string gap_lines(const RollingReport& report) {
+  std::string table = fmt::format("{:>9}{:>13}{:>13}\n{:>9}{:>13}{:>13}\n{:>9}{:>13}{:>13}\n", "azimuth",
+                                  "patch", "patch", "", "length", "with gaps", "[deg]", "[mm]", "[mm]");
+  for (size_t i = 0; i < report.analysis.positions.size(); ++i)
+    if (const ContactSummary& p = report.analysis.positions[i]; has_gaps(p))
+      table += fmt::format("{:9.3f}{:13.3f}{:13.3f}\n", report.analysis.azimuths[i] * degree,
+                           p.patch_length * mm, p.patch_extent * mm);
+  return table;
+}
+
 std::string variation_lines(const RollingReport& report) {
   std::string waves;
   const auto all = quantities(report);
-  const size_t shown = std::min(most_harmonics_shown, all[0].variation.harmonics.size());
+  const size_t shown = std::min(most_harmonics_shown, (report.analysis.positions.size() - 1) / 2);
   for (size_t k = 0; k < shown; ++k)
     waves += fmt::format("{:>11}", fmt::format("{} waves", (k + 1) * report.n_sectors));
   std::string table =
       fmt::format("{:<36}{:>11}{:>11}{:>13}{}\n", "in rolling", "mean", "pk to pk", "of the mean", waves);
   for (const ShownQuantity& q : all) {
-    const RollingVariation& v = q.variation;
+    if (!q.variation) continue;
+    const RollingVariation& v = *q.variation;
     table += fmt::format("{:<36}{:>11.5g}{:>11.4g}{:>11.3g} %", fmt::format("{} [{}]", q.name, q.unit),
                          v.mean * q.factor, v.peak_to_peak() * q.factor, 100 * v.peak_to_peak() / v.mean);
     for (size_t k = 0; k < shown; ++k) table += fmt::format("{:>11.3g}", v.harmonics[k] * q.factor);
     table += '\n';
   }
   return table;
+}
+
+std::string missing_lines(const RollingReport& report) {
+  std::string lines;
+  for (const ShownQuantity& q : quantities(report))
+    if (!q.variation) lines += fmt::format("not computed: {}: {}\n", q.name, reason(q.variation.failure()));
+  for (size_t k = 0; k < report.loads.size(); ++k)
+    if (!report.under_loads[k])
+      lines += fmt::format("not computed: load {:.6g} N: {}\n", report.loads[k] * forces(report),
+                           reason(report.under_loads[k].failure()));
+  return lines;
 }
 
 std::string stress_line(const RollingReport& report) {
@@ -127,7 +168,8 @@ std::string load_lines(const RollingReport& report) {
       fmt::format("{:>11}{:>12}{:>12}{:>12}{:>12}\n{:>11}{:>12}{:>12}{:>12}{:>12}\n", "load", "mean travel",
                   "least", "greatest", "stiffness", "[N]", "[mm]", "[mm]", "[mm]", "[N/mm]");
   for (size_t k = 0; k < report.loads.size(); ++k) {
-    const RollingVariation travel = travel_variation(report.under_loads[k]);
+    if (!report.under_loads[k]) continue;
+    const RollingVariation travel = travel_variation(*report.under_loads[k]);
     const double load = report.loads[k] * forces(report);
     table += fmt::format("{:11.2f}{:12.6f}{:12.6f}{:12.6f}{:12.2f}\n", load, travel.mean * mm,
                          travel.least * mm, travel.greatest * mm, load / travel.mean * N_per_mm);
@@ -137,7 +179,13 @@ std::string load_lines(const RollingReport& report) {
 
 using Json = nlohmann::ordered_json;
 
-Json variation_json(const RollingVariation& v, double factor, int n_sectors) {
+Json value_json(const Expected<std::vector<double>>& values, size_t i, double factor) {
+  return values ? Json((*values)[i] * factor) : Json();
+}
+
+Json variation_json(const Expected<RollingVariation>& variation, double factor, int n_sectors) {
+  if (!variation) return {};
+  const RollingVariation& v = *variation;
   Json harmonics = Json::array();
   for (size_t k = 0; k < v.harmonics.size(); ++k)
     harmonics.push_back(
@@ -161,6 +209,7 @@ Json positions_json(const RollingReport& report) {
          {"stiffness_N_per_m", p.radial_force * forces(report) / p.travel},
          {"peak_pressure_Pa", p.peak_pressure},
          {"patch_length_m", p.patch_length},
+         {"patch_extent_m", p.patch_extent},
          {"friction_force_N", p.friction_force * forces(report)},
          {"peak_friction_Pa", p.peak_friction},
          {"travel_along_ground_m", p.travel_along_ground},
@@ -168,8 +217,8 @@ Json positions_json(const RollingReport& report) {
          {"peak_von_mises_Pa", a.peak_von_mises[i]},
          {"peak_strain", a.peak_strain[i]},
          {report.dimension == 2 ? "strain_energy_J_per_m" : "strain_energy_J", a.strain_energy[i]},
-         {"travel_at_load_m", a.travel_at_load[i]},
-         {"force_at_travel_N", a.force_at_travel[i] * forces(report)}});
+         {"travel_at_load_m", value_json(a.travel_at_load, i, 1)},
+         {"force_at_travel_N", value_json(a.force_at_travel, i, forces(report))}});
   }
   return positions;
 }
@@ -178,12 +227,17 @@ Json loads_json(const RollingReport& report) {
   Json loads = Json::array();
   for (size_t k = 0; k < report.loads.size(); ++k) {
     const double load = report.loads[k] * forces(report);
+    if (!report.under_loads[k]) {
+      loads.push_back({{"load_N", load}, {"missing", reason(report.under_loads[k].failure())}});
+      continue;
+    }
     Json positions = Json::array();
-    for (const ContactSummary& p : report.under_loads[k])
+    for (const ContactSummary& p : *report.under_loads[k])
       positions.push_back({{"travel_m", p.travel},
                            {"peak_pressure_Pa", p.peak_pressure},
-                           {"patch_length_m", p.patch_length}});
-    const double mean_travel = travel_variation(report.under_loads[k]).mean;
+                           {"patch_length_m", p.patch_length},
+                           {"patch_extent_m", p.patch_extent}});
+    const double mean_travel = travel_variation(*report.under_loads[k]).mean;
     loads.push_back({{"load_N", load},
                      {"mean_travel_m", mean_travel},
                      {"stiffness_N_per_m", load / mean_travel},
@@ -210,8 +264,10 @@ LinePlot sector_plot(const RollingReport& report, const std::string& title, Plot
 std::string rolling_table(const RollingReport& report) {
   std::string table = position_lines(report) + '\n';
   if (has_friction(report)) table += friction_lines(report) + '\n';
+  if (std::ranges::any_of(report.analysis.positions, has_gaps)) table += gap_lines(report) + '\n';
   table += variation_lines(report) + '\n' + stress_line(report);
   if (!report.loads.empty()) table += '\n' + load_lines(report);
+  if (const std::string lines = missing_lines(report); !lines.empty()) table += '\n' + lines;
   return table;
 }
 
@@ -235,18 +291,20 @@ std::string rolling_json(const RollingReport& report) {
             {"travel_at_load_m", variation(all[0], 1)},
             {"force_at_travel_N", variation(all[1], forces(report))},
             {"peak_pressure_Pa", variation(all[2], 1)}};
+  if (!a.travel_at_load) json["missing"]["travel_at_load_m"] = reason(a.travel_at_load.failure());
+  if (!a.force_at_travel) json["missing"]["force_at_travel_N"] = reason(a.force_at_travel.failure());
   if (!report.loads.empty()) json["loads"] = loads_json(report);
   return json.dump(2) + '\n';
 }
 
 LinePlot travel_plot(const RollingReport& report) {
   return sector_plot(report, "Rim travel under " + load_text(report), {"rim travel", "mm"},
-                     report.analysis.travel_at_load, mm);
+                     *report.analysis.travel_at_load, mm);
 }
 
 LinePlot force_plot(const RollingReport& report) {
   return sector_plot(report, "Radial force at a rim travel of " + travel_text(report), {"radial force", "N"},
-                     report.analysis.force_at_travel, forces(report));
+                     *report.analysis.force_at_travel, forces(report));
 }
 
 LinePlot peak_pressure_plot(const RollingReport& report) {
@@ -260,7 +318,8 @@ LinePlot load_plot(const RollingReport& report) {
                 {"rim travel", "mm"},
                 {{"softest", {0}, {0}}, {"mean", {0}, {0}}, {"stiffest", {0}, {0}}}};
   for (size_t k = 0; k < report.loads.size(); ++k) {
-    const RollingVariation travel = travel_variation(report.under_loads[k]);
+    if (!report.under_loads[k]) continue;
+    const RollingVariation travel = travel_variation(*report.under_loads[k]);
     const double travels[] = {travel.greatest, travel.mean, travel.least};
     for (size_t i = 0; i < plot.curves.size(); ++i) {
       plot.curves[i].x.push_back(report.loads[k] * forces(report));

@@ -15,20 +15,20 @@ struct RollingReport {
   int n_sectors;
   RollingAnalysis analysis;
   std::vector<double> loads;  ///< as in the analysis, ascending; empty: none were asked for
-  std::vector<std::vector<ContactSummary>> under_loads;  ///< [load][position]
-  int dimension = 2;                                     ///< of the analysis
+  std::vector<Expected<std::vector<ContactSummary>>> under_loads;  ///< [load][position]
+  int dimension = 2;                                               ///< of the analysis
 };
 
 /// For people: one line per load position, another one where there is friction or torque, what varies in
-/// rolling, and one line per load.
+/// rolling, one line per load, and what could not be computed and why.
 std::string rolling_table(const RollingReport& report);
 
 /// For programs: the same in SI units, which the names of the keys end in. Numbers read back to the same
-/// double.
+/// double; what could not be computed is null, and `missing` has its name with the reason.
 std::string rolling_json(const RollingReport& report);
 
 /// One turn of the wheel by one sector, closed: travel of the rim at fixed load, force of the ground at fixed
-/// travel, and the peak of the contact pressure.
+/// travel, and the peak of the contact pressure. Not to be called where the values could not be computed.
 LinePlot travel_plot(const RollingReport& report);
 LinePlot force_plot(const RollingReport& report);
 LinePlot peak_pressure_plot(const RollingReport& report);

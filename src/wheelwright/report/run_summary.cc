@@ -7,30 +7,17 @@
 
 #include "wheelwright/base/units.h"
 #include "wheelwright/report/comparison_table.h"
+#include "wheelwright/report/numbers_json.h"
 
 namespace wheelwright {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The numbers that depend on the load, under every other load case.
+/// What numbers alone do not tell of the load.
 template <int dim>
-Json load_cases_json(const DescribedWheel<dim>& wheel) {
-  Json json = Json::object();
-  for (const DescribedWheel<dim>& other : wheel.others)
-    for (const WheelNumber<dim>& number : wheel_numbers<dim>())
-      if (const auto value = number.value(other); value && !number.is_of_shape)
-        json[other.load_case][number.key] = *value;
-  return json;
-}
-
-template <int dim>
-Json shape_json(const SummarizedShape<dim>& shape, const std::string& minimized) {
-  Json json{{"shape", shape.iteration}};
-  json[!minimized.empty() ? "objective" : dim == 2 ? "objective_J_per_m" : "objective_J"] = shape.objective;
-  for (const WheelNumber<dim>& number : wheel_numbers<dim>())
-    if (const auto value = number.value(shape.wheel)) json[number.key] = *value;
-  const ShapeSummary<dim>& summary = shape.wheel.summary;
+void add_details(const LoadedWheel<dim>& loaded, Json& json) {
+  const ShapeSummary<dim>& summary = loaded.summary;
   json["pressure_spread"] = summary.rolling.pressure_spread;
   json["peak_von_mises_place"] = {{"radius_m", summary.von_mises.place[0]},
                                   {"azimuth_rad", summary.von_mises.place[1]},
@@ -39,27 +26,54 @@ Json shape_json(const SummarizedShape<dim>& shape, const std::string& minimized)
   json["largest_rotation_rad"] = summary.deformation.rotation;
   json["travel_by_ring_thickness"] = summary.deformation.travel;
   json["edges_overlap"] = summary.deformation.edges_overlap;
-  if (!shape.wheel.load_case.empty()) json["load_case"] = shape.wheel.load_case;
-  if (!shape.wheel.others.empty()) json["load_cases"] = load_cases_json(shape.wheel);
+}
+
+template <int dim>
+Json shape_json(const SummarizedShape<dim>& shape, const std::string& minimized) {
+  Json json{{"shape", shape.iteration}};
+  const char* objective = !minimized.empty() ? "objective" : dim == 2 ? "objective_J_per_m" : "objective_J";
+  json[objective] = shape.objective ? Json(*shape.objective) : Json();
+  add_numbers(shape.wheel, json);
+  if (!shape.objective) json["missing"][objective] = shape.objective.failure();
+  if (shape.wheel.loaded) add_details(*shape.wheel.loaded, json);
   return json;
+}
+
+/// Where the stress of the last shape is largest; empty where it is not known.
+template <int dim>
+std::string stress_line(const DescribedWheel<dim>& wheel) {
+  if (!wheel.loaded) return "";
+  constexpr double mm = 1e3, degree = 180 / std::numbers::pi;
+  const StressPeak<dim>& peak = wheel.loaded->summary.von_mises;
+  return fmt::format(
+      "the stress is largest at radius {:.1f} mm, azimuth {:.2f} deg, with the ground at {:.2f} deg\n",
+      peak.place[0] * mm, peak.place[1] * degree, peak.ground_azimuth * degree);
+}
+
+template <int dim>
+std::vector<ComparedRow> rows(const RunSummary<dim>& summary) {
+  std::vector<ComparedRow> result{{summary.minimized.empty()
+                                       ? fmt::format("objective [{}]", unit<dim>(UnitKind::energy))
+                                       : "objective: " + summary.minimized,
+                                   {summary.before.objective, summary.after.objective}}};
+  for (ComparedRow& row : compared_rows<dim>({&summary.before.wheel, &summary.after.wheel}))
+    result.push_back(std::move(row));
+  return result;
 }
 
 }  // namespace
 
 template <int dim>
+std::vector<std::string> missing_lines(const RunSummary<dim>& summary) {
+  return missing_lines({"before", "after"}, rows(summary));
+}
+
+template <int dim>
 std::string summary_table(const RunSummary<dim>& summary) {
-  constexpr double mm = 1e3, degree = 180 / std::numbers::pi;
-  std::vector<ComparedRow> rows{{summary.minimized.empty()
-                                     ? fmt::format("objective [{}]", unit<dim>(UnitKind::energy))
-                                     : "objective: " + summary.minimized,
-                                 {summary.before.objective, summary.after.objective}}};
-  for (ComparedRow& row : compared_rows<dim>({&summary.before.wheel, &summary.after.wheel}))
-    rows.push_back(std::move(row));
-  const StressPeak<dim>& peak = summary.after.wheel.summary.von_mises;
-  return comparison_table({"before", "after"}, rows) +
-         fmt::format(
-             "the stress is largest at radius {:.1f} mm, azimuth {:.2f} deg, with the ground at {:.2f} deg\n",
-             peak.place[0] * mm, peak.place[1] * degree, peak.ground_azimuth * degree);
+  const std::string remarks = remarks_text(summary.remarks);
+  return comparison_table({"before", "after"}, rows(summary)) + stress_line(summary.after.wheel) +
+         (remarks.empty() ? "" : "\nworse than before:\n" + remarks) +
+         (summary.changed_start.empty() ? "" : "\n" + summary.changed_start + "\n");
 }
 
 template <int dim>
@@ -75,9 +89,20 @@ std::string summary_json(const RunSummary<dim>& summary) {
                               {"bound", bound.bound},
                               {"multiplier", bound.multiplier},
                               {"is_kept", bound.is_kept}});
+  json["remarks"] = Json::array();
+  for (const Remark& remark : summary.remarks)
+    json["remarks"].push_back({{"key", remark.key},
+                               {"load_case", remark.load_case},
+                               {"before", remark.before},
+                               {"after", remark.after},
+                               {"text", remark.text},
+                               {"constraint", remark.constraint}});
+  if (!summary.changed_start.empty()) json["changed_start"] = summary.changed_start;
   return json.dump(2) + '\n';
 }
 
+template std::vector<std::string> missing_lines(const RunSummary<2>&);
+template std::vector<std::string> missing_lines(const RunSummary<3>&);
 template std::string summary_table(const RunSummary<2>&);
 template std::string summary_table(const RunSummary<3>&);
 template std::string summary_json(const RunSummary<2>&);

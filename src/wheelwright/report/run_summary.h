@@ -4,14 +4,15 @@
 #include <vector>
 
 #include "wheelwright/report/described_wheel.h"
+#include "wheelwright/report/remark.h"
 
 namespace wheelwright {
 
 /// A shape of a run, in numbers.
 template <int dim>
 struct SummarizedShape {
-  int iteration;     ///< 0: the initial shape
-  double objective;  ///< sum over the load positions of a sector
+  int iteration;          ///< 0: the initial shape
+  KnownNumber objective;  ///< sum over the load positions of a sector
   DescribedWheel<dim> wheel;
 };
 
@@ -25,7 +26,8 @@ struct SummarizedBound {
   bool is_kept;
 };
 
-/// What a run made of the initial shape. Both shapes are solved alike: on a tread of the same resolution.
+/// What a run made of the wheel that its case gives. Both shapes are solved alike: on a tread of the same
+/// resolution.
 template <int dim>
 struct RunSummary {
   std::string title;
@@ -33,15 +35,22 @@ struct RunSummary {
   std::vector<SummarizedBound> bounds = {};
   /// What is minimized in place of the weighted sum, with its unit; empty for the sum.
   std::string minimized = {};
+  std::vector<Remark> remarks = {};  ///< what got clearly worse
+  std::string changed_start = {};    ///< how the run's first shape differs from the given wheel, if it does
 };
 
-/// For people: one line per quantity with both values and the change, and the place of the peak stress.
-/// Forces are shown on the whole width.
+/// What could not be computed of the two shapes, and why: one line per reason.
+template <int dim>
+std::vector<std::string> missing_lines(const RunSummary<dim>& summary);
+
+/// For people: one line per quantity with both values and the change, what could not be computed and why, the
+/// place of the peak stress, what got clearly worse, and how the run's first shape differs from the given
+/// wheel. Forces are shown on the whole width.
 template <int dim>
 std::string summary_table(const RunSummary<dim>& summary);
 
 /// For programs: the same in SI units, which the names of the keys end in. Numbers read back to the same
-/// double.
+/// double; one that could not be computed is null.
 template <int dim>
 std::string summary_json(const RunSummary<dim>& summary);
 

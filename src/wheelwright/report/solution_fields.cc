@@ -67,15 +67,20 @@ std::vector<double> polar_values(const Lattice<dim>& lattice, const RingField& f
 
 namespace {
 
-/// A stress, given in a frame whose first axis lies at this azimuth, as components in the body frame.
-std::array<double, 4> in_body_frame(const Voigt<2>& s, double azimuth, double axial_stress_ratio) {
-  const double c = std::cos(azimuth), d = std::sin(azimuth);
+/// An azimuth by its cosine and sine.
+struct Direction {
+  double cosine, sine;
+};
+
+/// A stress, given in a frame whose first axis points in this direction, as components in the body frame.
+std::array<double, 4> in_body_frame(const Voigt<2>& s, const Direction& axis, double axial_stress_ratio) {
+  const auto [c, d] = axis;
   return {c * c * s[0] + d * d * s[1] - 2 * c * d * s[2], d * d * s[0] + c * c * s[1] + 2 * c * d * s[2],
           axial_stress_ratio * (s[0] + s[1]), c * d * (s[0] - s[1]) + (c * c - d * d) * s[2]};
 }
 
-std::array<double, 6> in_body_frame(const Voigt<3>& s, double azimuth, double) {
-  const double c = std::cos(azimuth), d = std::sin(azimuth);
+std::array<double, 6> in_body_frame(const Voigt<3>& s, const Direction& axis, double) {
+  const auto [c, d] = axis;
   return {c * c * s[0] + d * d * s[1] - 2 * c * d * s[5],
           d * d * s[0] + c * c * s[1] + 2 * c * d * s[5],
           s[2],
@@ -126,6 +131,11 @@ RingField stress_field(const RollingModel<dim>& model, const CutDomain<dim>& dom
   const std::vector<double> polar = polar_values(lattice, displacement);
   std::vector<std::array<double, components>> sum(polar.size() / dim, std::array<double, components>{});
   std::vector<int> count(sum.size(), 0);
+  std::vector<Direction> of_column;
+  for (int column = 0; column < grid.ring_columns(); ++column) {
+    const double azimuth = column * grid.cell_size()[1];
+    of_column.push_back({std::cos(azimuth), std::sin(azimuth)});
+  }
   for (int row = 0; row < grid.cells[0]; ++row) {
     const Material& material = model.materials.in_row(row);
     const ElasticElement<dim> element(grid, model.degree, {row}, material);
@@ -140,9 +150,8 @@ RingField stress_field(const RollingModel<dim>& model, const CutDomain<dim>& dom
       for (const size_t node : std::span(cells[c].nodes).first(element.n_nodes())) {
         Voigt<dim> at_point;
         std::copy_n(strain, n_strains<dim>, at_point.begin());
-        const auto at_node =
-            in_body_frame(stress<dim>(material, at_point), cells[c].column * grid.cell_size()[1],
-                          material.axial_stress_ratio());
+        const auto at_node = in_body_frame(stress<dim>(material, at_point), of_column[cells[c].column],
+                                           material.axial_stress_ratio());
         for (int k = 0; k < components; ++k) sum[node][k] += at_node[k];
         ++count[node];
         strain += n_strains<dim>;

@@ -25,6 +25,9 @@ std::int64_t signed_double_area(const PictureScalar::Corners& t) {
 PictureScalar::PictureScalar(const std::vector<Triangle>& triangles) {
   std::unordered_map<PicturePoint, double, Hash> values;
   std::vector<PictureSide> sides;
+  values.reserve(triangles.size());
+  sides.reserve(3 * triangles.size());
+  triangles_.reserve(triangles.size());
   for (auto [corners, given] : triangles) {
     for (int k = 0; k < 3; ++k) given[k] = values.try_emplace(corners[k], given[k]).first->second;
     std::array<Corner, 3> triangle;

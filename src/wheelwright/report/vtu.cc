@@ -181,7 +181,7 @@ std::string VtuMesh<dim>::file(std::span<const NamedField> fields) const {
   std::string tags;
   for (const NamedField& field : fields)
     tags += add_field(vtu_name(field.name, field.unit), points_.values(field), arrays);
-  return beginning_ + tags + vtu_end(arrays_ + arrays.bytes());
+  return vtu_file(beginning_ + tags, {arrays_, arrays.bytes()});
 }
 
 template <int dim>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -70,8 +71,9 @@ std::string add_surface(const std::vector<float>& points, const std::vector<std:
 std::string vtp_beginning(std::size_t n_points, std::size_t n_polygons, std::string_view mesh_tags);
 std::string vtp_end(std::string_view polygon_fields, const std::string& arrays);
 
-/// The XML of a VTU file before the fields, and what follows them.
+/// The XML of a VTU file before the tags of the fields.
 std::string vtu_beginning(std::size_t n_points, std::size_t n_cells, std::string_view mesh_tags);
-std::string vtu_end(const std::string& arrays);
+/// The file, from its XML with these tags, and its arrays one after the other.
+std::string vtu_file(std::string beginning, std::initializer_list<std::string_view> arrays);
 
 }  // namespace wheelwright

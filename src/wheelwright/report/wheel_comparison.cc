@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "wheelwright/report/comparison_table.h"
+#include "wheelwright/report/numbers_json.h"
 #include "wheelwright/report/svg.h"
 
 namespace wheelwright {
@@ -35,13 +36,7 @@ std::string wheels_json(const std::vector<ComparedWheel>& wheels) {
   for (const ComparedWheel& wheel : wheels) {
     nlohmann::ordered_json entry{
         {"name", wheel.numbers.name}, {"shape", wheel.numbers.which}, {"width_m", wheel.numbers.grid.width}};
-    for (const WheelNumber<2>& number : wheel_numbers<2>())
-      if (const auto value = number.value(wheel.numbers)) entry[number.key] = *value;
-    if (!wheel.numbers.load_case.empty()) entry["load_case"] = wheel.numbers.load_case;
-    for (const DescribedWheel<2>& other : wheel.numbers.others)
-      for (const WheelNumber<2>& number : wheel_numbers<2>())
-        if (const auto value = number.value(other); value && !number.is_of_shape)
-          entry["load_cases"][other.load_case][number.key] = *value;
+    add_numbers(wheel.numbers, entry);
     json.push_back(std::move(entry));
   }
   return nlohmann::ordered_json{{"wheels", std::move(json)}}.dump(2) + '\n';

@@ -20,8 +20,9 @@ std::optional<double> named_value(const std::vector<NamedValue>& values, std::st
 
 template <int dim>
 std::optional<double> clearance(Quantity quantity, const LevelSet<dim>& shape) {
-  const cad::Clearances clearances = outline_clearances(shape);
-  const auto& clearance = quantity == Quantity::minimum_wall ? clearances.wall : clearances.gap;
+  const auto clearances = outline_clearances(shape);
+  if (!clearances) return {};
+  const auto& clearance = quantity == Quantity::minimum_wall ? clearances->wall : clearances->gap;
   return clearance ? std::optional(clearance->width) : std::nullopt;
 }
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "wheelwright/cad/outline_fault.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/dimension.h"
 #include "wheelwright/geometry/section.h"
@@ -57,7 +56,7 @@ std::vector<std::string> feature_warnings(const Case& c, const cad::Clearances& 
   return result;
 }
 
-cad::Clearances initial_clearances(const Case& c) {
+Expected<cad::Clearances, cad::OutlineFault> initial_clearances(const Case& c) {
   return outline_clearances(
       in_dimension_of(c, [&](auto dim) { return mid_plane_section(initial_shape<dim>(c)); }));
 }

@@ -3,7 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "wheelwright/base/expected.h"
 #include "wheelwright/cad/clearance.h"
+#include "wheelwright/cad/outline_fault.h"
 #include "wheelwright/case/case.h"
 
 namespace wheelwright {
@@ -16,7 +18,7 @@ inline constexpr double least_cells_per_wall = 3;
 std::vector<std::string> feature_warnings(const Case& c, const cad::Clearances& measured);
 
 /// The thinnest wall and the narrowest gap of the initial shape; in 3D of its section in the middle of the
-/// width.
-cad::Clearances initial_clearances(const Case& c);
+/// width. Fails where no curves can be fitted.
+Expected<cad::Clearances, cad::OutlineFault> initial_clearances(const Case& c);
 
 }  // namespace wheelwright

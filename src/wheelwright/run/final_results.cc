@@ -1,6 +1,7 @@
 #include "wheelwright/run/final_results.h"
 
 #include "wheelwright/cut/measure.h"
+#include "wheelwright/run/given_wheel.h"
 #include "wheelwright/run/summarized_run.h"
 
 namespace wheelwright {
@@ -12,12 +13,10 @@ class Solutions {
  public:
   Solutions(const LoadCases<dim>& cases, const Interrupt& interrupt) : cases_(cases), interrupt_(interrupt) {}
 
-  /// Null where there is none.
-  std::shared_ptr<const State<dim>> of(const StateSolver<dim>& solver, const LevelSet<dim>& shape) {
+  SolvedStates<dim> of(const StateSolver<dim>& solver, const LevelSet<dim>& shape) {
     auto states = solver.states(shape, distinct_positions(solver, cases_, shape), interrupt_);
-    if (states) return *std::move(states);
-    is_interrupted_ = is_interrupted_ || states.failure().reason == FailureReason::interrupted;
-    return nullptr;
+    if (!states) is_interrupted_ = is_interrupted_ || states.failure().reason == FailureReason::interrupted;
+    return states;
   }
   bool is_interrupted() const { return is_interrupted_; }
 
@@ -36,64 +35,50 @@ std::shared_ptr<const StateSolver<dim>> finer_solver(const Study<dim>& study) {
   return finer ? *std::move(finer) : nullptr;
 }
 
-/// The initial shape as the solver of the results sees it; for a run that was stopped on a coarser grid, on
-/// that.
-template <int dim>
-std::optional<DescribedWheel<dim>> initial_wheel(const Study<dim>& study, const InitialShape<dim>& initial,
-                                                 const StateSolver<dim>& solver, Solutions<dim>& solutions) {
-  const bool is_coarser = study.level > 0;
-  const LevelSet<dim>& shape = is_coarser ? study.initial : initial.shape;
-  const auto state = solutions.of(solver, shape);
-  if (!state) return {};
-  return described(solver, study.load_cases, shape, is_coarser ? material_measure(shape) : initial.measure,
-                   *state);
-}
-
 }  // namespace
 
 template <int dim>
-std::optional<DescribedWheel<dim>> described(const StateSolver<dim>& solver, const LoadCases<dim>& cases,
-                                             const LevelSet<dim>& shape, double measure,
-                                             const State<dim>& state) {
-  auto wheel = described_wheel(solver, shape, volume_fraction(solver.model().grid, measure), state, cases);
-  if (!wheel) return {};
-  return *std::move(wheel);
+DescribedWheel<dim> described(const StateSolver<dim>& solver, const LoadCases<dim>& cases,
+                              const LevelSet<dim>& shape, double measure, const SolvedStates<dim>& states) {
+  return described_wheel(solver, shape, volume_fraction(solver.model().grid, measure), states, cases);
 }
 
 template <int dim>
 FinalResults<dim> final_results(const Study<dim>& study, const InitialShape<dim>& initial,
                                 const OptimizationState<dim>& state, const SolvedShapes<dim>& solved,
                                 const Interrupt& interrupt) {
-  FinalResults<dim> results;
   Solutions<dim> solutions(study.load_cases, interrupt);
-  results.own = solved.last ? solved.last : solutions.of(*study.solver, state.shape);
-  results.shown = results.own;
-  results.solver = study.solver;
-  if (const auto finer = results.own ? finer_solver(study) : nullptr)
+  const SolvedStates<dim> own =
+      solved.last ? SolvedStates<dim>(solved.last) : solutions.of(*study.solver, state.shape);
+  SolvedStates<dim> shown = own;
+  std::shared_ptr<const StateSolver<dim>> solver = study.solver;
+  if (const auto finer = own ? finer_solver(study) : nullptr)
     if (auto states = solutions.of(*finer, state.shape)) {
-      results.shown = std::move(states);
-      results.solver = finer;
+      shown = std::move(states);
+      solver = finer;
     }
-  if (results.shown) {
-    const auto after =
-        described(*results.solver, study.load_cases, state.shape, state.measure, *results.shown);
-    const bool is_seen = solved.initial && results.solver == study.solver;
-    const auto before = state.iteration == 0 ? after
-                        : is_seen            ? solved.initial
-                                             : initial_wheel(study, initial, *results.solver, solutions);
-    if (before && after) results.summary = summarized_run(study.source, initial, *before, state, *after);
-  }
-  results.is_interrupted = solutions.is_interrupted();
-  return results;
+  const auto after = described(*solver, study.load_cases, state.shape, state.measure, shown);
+  const auto before = [&] {
+    if (study.initial.values == state.shape.values) return after;
+    if (solved.initial && solver == study.solver && begins_as_given(study, initial)) return *solved.initial;
+    return described(*solver, study.load_cases, study.initial, material_measure(study.initial),
+                     solutions.of(*solver, study.initial));
+  }();
+  auto summary = summarized_run(study, initial, before, state, after, interrupt);
+  return {.own = own ? *own : nullptr,
+          .solver = solver,
+          .shown = shown ? *shown : nullptr,
+          .summary = std::move(summary),
+          .is_interrupted = solutions.is_interrupted()};
 }
 
 template FinalResults<2> final_results(const Study<2>&, const InitialShape<2>&, const OptimizationState<2>&,
                                        const SolvedShapes<2>&, const Interrupt&);
 template FinalResults<3> final_results(const Study<3>&, const InitialShape<3>&, const OptimizationState<3>&,
                                        const SolvedShapes<3>&, const Interrupt&);
-template std::optional<DescribedWheel<2>> described(const StateSolver<2>&, const LoadCases<2>&,
-                                                    const LevelSet<2>&, double, const State<2>&);
-template std::optional<DescribedWheel<3>> described(const StateSolver<3>&, const LoadCases<3>&,
-                                                    const LevelSet<3>&, double, const State<3>&);
+template DescribedWheel<2> described(const StateSolver<2>&, const LoadCases<2>&, const LevelSet<2>&, double,
+                                     const SolvedStates<2>&);
+template DescribedWheel<3> described(const StateSolver<3>&, const LoadCases<3>&, const LevelSet<3>&, double,
+                                     const SolvedStates<3>&);
 
 }  // namespace wheelwright

@@ -14,7 +14,7 @@ namespace wheelwright {
 /// again.
 template <int dim>
 struct SolvedShapes {
-  std::optional<DescribedWheel<dim>> initial;  ///< by the study's solver
+  std::optional<DescribedWheel<dim>> initial;  ///< the shape that the run began with, by the study's solver
   std::shared_ptr<const State<dim>> last;      ///< by the study's solver, of the last accepted shape
 };
 
@@ -25,8 +25,8 @@ struct FinalResults {
   std::shared_ptr<const StateSolver<dim>> solver;  ///< of `shown`
   /// On the tread of the results, which is finer where the case lets the program choose it; else `own`.
   std::shared_ptr<const State<dim>> shown;
-  /// Both shapes by `solver`; empty where one of them has no solution.
-  std::optional<RunSummary<dim>> summary;
+  RunSummary<dim>
+      summary;  ///< of the given wheel and the last shape by `solver`; without what has no solution
   bool is_interrupted = false;  ///< and therefore without some of this
 };
 
@@ -36,10 +36,9 @@ FinalResults<dim> final_results(const Study<dim>& study, const InitialShape<dim>
                                 const OptimizationState<dim>& state, const SolvedShapes<dim>& solved,
                                 const Interrupt& interrupt);
 
-/// A shape with this measure of one sector, described; empty where its contact curve has no description.
+/// A shape with this measure of one sector, described.
 template <int dim>
-std::optional<DescribedWheel<dim>> described(const StateSolver<dim>& solver, const LoadCases<dim>& cases,
-                                             const LevelSet<dim>& shape, double measure,
-                                             const State<dim>& state);
+DescribedWheel<dim> described(const StateSolver<dim>& solver, const LoadCases<dim>& cases,
+                              const LevelSet<dim>& shape, double measure, const SolvedStates<dim>& states);
 
 }  // namespace wheelwright

@@ -84,7 +84,7 @@ struct RunEnded {
   const OptimizationState<dim>* state;        ///< the last accepted shape; null after a failed start
   const State<dim>* solution;                 ///< its solution, for the results; null if there is none
   const StateSolver<dim>* solver;             ///< of that solution; its tread may be finer than the study's
-  const RunSummary<dim>* summary;             ///< null where there is no solution
+  const RunSummary<dim>* summary;             ///< null after a failed start
   std::span<const Trial<dim>> failed_trials;  ///< after the last accepted shape
 };
 

@@ -34,7 +34,7 @@ void add_outline(const std::filesystem::path& folder, const ShapeOutline& outlin
 
 template <int dim>
 ReportRun<dim> report_of_end(const RunEnded<dim>& ended, const RunView<dim>& run) {
-  if (!ended.summary) return report_without_results<dim>(run.folder, run.study.source, ended.reason);
+  if (!ended.solution) return report_without_results<dim>(run.folder, run.study.source, ended.reason);
   return report_of_results<dim>(run.folder, run.study.source, *ended.summary,
                                 {&ended.state->shape, ended.solver, ended.solution}, ended.reason);
 }

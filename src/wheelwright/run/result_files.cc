@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 
+#include "wheelwright/cut/measure.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/report/shape_boundary.h"
 #include "wheelwright/report/solid_mesh.h"
@@ -40,9 +42,12 @@ void write_for_workshop(const RunView<3>& run, const SurfaceMesh& surface) {
 }
 
 template <int dim>
-void write_shapes(const RunView<dim>& run, const OptimizationState<dim>& last) {
-  const InitialShape<dim>& initial = *run.initial;
-  const auto before = wheel_state(run, "initial", initial.shape, initial.objective, initial.measure);
+void write_shapes(const RunView<dim>& run, const OptimizationState<dim>& last,
+                  const KnownNumber& before_objective) {
+  constexpr double not_computed = std::numeric_limits<double>::quiet_NaN();
+  const LevelSet<dim>& given = run.study.initial;
+  const auto before = wheel_state(run, "initial", given, before_objective ? *before_objective : not_computed,
+                                  material_measure(given));
   const auto after = wheel_state(run, fmt::format("after {} shapes", last.iteration), last.shape,
                                  last.evaluation.function("objective").value, last.measure);
   write_for_workshop(run, after.boundary);
@@ -129,7 +134,7 @@ void ResultFiles<dim>::operator()(const Event<dim>& event, const RunView<dim>& r
   if (!ended || !ended->solution) return;
   const LevelSet<dim>& shape = ended->state->shape;
   const State<dim>& solution = *ended->solution;
-  write_shapes(run, *ended->state);
+  write_shapes(run, *ended->state, ended->summary->before.objective);
   RollingFiles<dim> rolling(run, shape, all_tread_contacts(*ended->solver, solution));
   const int worst = worst_position(solution.strain_energy());
   for_each_position<dim>(*ended->solver, solution, [&](int position, const PositionFields<dim>& fields) {

@@ -60,7 +60,7 @@ struct RunResult {
   std::optional<InitialShape<dim>> initial;
   std::vector<Trial<dim>> failed_trials;   ///< after the last accepted shape
   std::vector<Finding> findings;           ///< for what the case expects; of a run that ended by itself
-  std::optional<RunSummary<dim>> summary;  ///< of a run with results
+  std::optional<RunSummary<dim>> summary;  ///< empty after a failed start
   double elapsed_seconds;
   bool is_approaching = false;  ///< whether the volume has not reached its target yet
 };

@@ -242,8 +242,8 @@ RunResult<dim> RunLoop<dim>::end(StopReason reason) {
   const auto results = final_results(work_->study, *initial_, *state_, solved_, interrupt);
   if (results.is_interrupted && reason != StopReason::gave_up)
     reason = StopReason::stop_requested;  // a resumed run completes them
-  notify(RunEnded<dim>{reason, &*state_, results.shown.get(), results.solver.get(),
-                       results.summary ? &*results.summary : nullptr, failed_trials_});
+  notify(RunEnded<dim>{reason, &*state_, results.shown.get(), results.solver.get(), &results.summary,
+                       failed_trials_});
   RunResult<dim> ended = result(reason);
   ended.summary = results.summary;
   if (reason != StopReason::stop_requested) ended.findings = findings_at_the_end(results.own.get());
@@ -313,7 +313,7 @@ void RunLoop<dim>::observe(const Trial<dim>& trial, const OptimizationState<dim>
         state.iteration == 0 && work_->study.level == 0 && state.shape.values == initial_->shape.values;
     if (is_initial && trial.solution && tread_levels_of_results(c) == tread_levels(c))
       solved_.initial = described(*work_->study.solver, work_->study.load_cases, state.shape, state.measure,
-                                  *trial.solution);
+                                  SolvedStates<dim>(trial.solution));
     solved_.last = reason_to_stop(work_->study.optimizer, state) ? trial.solution : nullptr;
   } else if (trial.verdict == Verdict::failed) {
     failed_trials_.push_back(trial);

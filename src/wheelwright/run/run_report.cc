@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <fstream>
 #include <iterator>
@@ -11,6 +12,7 @@
 
 #include "wheelwright/case/derived.h"
 #include "wheelwright/files/csv.h"
+#include "wheelwright/geometry/section.h"
 #include "wheelwright/report/shape_boundary.h"
 #include "wheelwright/report/surface_vtp.h"
 #include "wheelwright/report/wheel_pictures.h"
@@ -164,10 +166,15 @@ std::vector<std::string> flags(const Case& c, const RunSummary<dim>& summary,
     if (!bound.is_kept)
       result.push_back(fmt::format("The bound {} {} {:.6g} is not kept: the value is {:.6g}.", bound.name,
                                    bound.relation, bound.bound, bound.value));
-  if (const auto warning = deformation_warning(wheel.summary.deformation); !warning.empty())
-    result.push_back(warning);
-  for (const std::string& warning : feature_warnings(c, wheel.clearances)) result.push_back(warning);
+  if (wheel.loaded)
+    if (const auto warning = deformation_warning(wheel.loaded->summary.deformation); !warning.empty())
+      result.push_back(warning);
+  if (wheel.clearances)
+    for (const std::string& warning : feature_warnings(c, *wheel.clearances)) result.push_back(warning);
   for (const std::string& warning : warnings(with_levels_of_results(c))) result.push_back(warning);
+  for (const std::string& line : missing_lines(summary)) result.push_back(line);
+  for (const Remark& remark : summary.remarks) result.push_back(text(remark));
+  if (!summary.changed_start.empty()) result.push_back(summary.changed_start);
   if (reason == StopReason::iterations && c.optimizer.tolerance > 0)
     result.push_back(
         "The run ended by its number of shapes before it converged: more shapes may improve the wheel.");
@@ -201,9 +208,9 @@ std::vector<std::string> limits(const Case& c, const DescribedWheel<dim>& wheel)
       fmt::format("It was computed on {} x {} cells", c.grid.radial_cells, c.grid.angular_cells);
   if (!c.load.travel)
     cells += fmt::format("; the contact patch is {:.1f} cells wide", cells_per_contact_patch(shown));
-  if (wheel.clearances.wall)
+  if (wheel.clearances && wheel.clearances->wall)
     cells += fmt::format("; the thinnest wall is {:.1f} cells thick",
-                         wheel.clearances.wall->width / polar_grid<2>(c).resolution());
+                         wheel.clearances->wall->width / polar_grid<2>(c).resolution());
   result.push_back(cells + ". A finer grid shows how much that matters.");
   return result;
 }
@@ -302,6 +309,9 @@ ReportRun<dim> report_of_results(const fs::path& folder, const Case& c, const Ru
   run.flags = flags(c, summary, reason);
   run.limits = limits(c, summary.after.wheel);
   run.summary = summary;
+  if (!summary.changed_start.empty())
+    run.given = shape_outline(0, summary.before.objective ? *summary.before.objective : NAN,
+                              mid_plane_section(initial_shape<dim>(c)));
   run.shape = last.shape;
   add_fields(last, run);
   run.contact_points = contact_points(*last.solver, *last.solution);

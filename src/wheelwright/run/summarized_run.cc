@@ -4,6 +4,8 @@
 
 #include "wheelwright/base/quantity.h"
 #include "wheelwright/optimize/constraints.h"
+#include "wheelwright/run/given_wheel.h"
+#include "wheelwright/run/remarks.h"
 #include "wheelwright/run/run_title.h"
 
 namespace wheelwright {
@@ -26,18 +28,22 @@ std::vector<SummarizedBound> summarized_bounds(const OptimizationState<dim>& sta
 }  // namespace
 
 template <int dim>
-RunSummary<dim> summarized_run(const Case& c, const InitialShape<dim>& initial, DescribedWheel<dim> before,
-                               const OptimizationState<dim>& last, DescribedWheel<dim> after) {
-  return {.title = run_title(c),
-          .before = {0, initial.objective, std::move(before)},
+RunSummary<dim> summarized_run(const Study<dim>& study, const InitialShape<dim>& start,
+                               DescribedWheel<dim> before, const OptimizationState<dim>& last,
+                               DescribedWheel<dim> after, const Interrupt& interrupt) {
+  auto worse = remarks(study.source, before, after);
+  return {.title = run_title(study.source),
+          .before = {0, objective_as_given(study, start, interrupt), std::move(before)},
           .after = {last.iteration, last.evaluation.function("objective").value, std::move(after)},
           .bounds = summarized_bounds(last),
-          .minimized = minimized_text<dim>(c.objective.minimize)};
+          .minimized = minimized_text<dim>(study.source.objective.minimize),
+          .remarks = std::move(worse),
+          .changed_start = changed_start(study, start)};
 }
 
-template RunSummary<2> summarized_run(const Case&, const InitialShape<2>&, DescribedWheel<2>,
-                                      const OptimizationState<2>&, DescribedWheel<2>);
-template RunSummary<3> summarized_run(const Case&, const InitialShape<3>&, DescribedWheel<3>,
-                                      const OptimizationState<3>&, DescribedWheel<3>);
+template RunSummary<2> summarized_run(const Study<2>&, const InitialShape<2>&, DescribedWheel<2>,
+                                      const OptimizationState<2>&, DescribedWheel<2>, const Interrupt&);
+template RunSummary<3> summarized_run(const Study<3>&, const InitialShape<3>&, DescribedWheel<3>,
+                                      const OptimizationState<3>&, DescribedWheel<3>, const Interrupt&);
 
 }  // namespace wheelwright

@@ -1,15 +1,17 @@
 #pragma once
 
-#include "wheelwright/case/case.h"
+#include "wheelwright/base/interrupt.h"
 #include "wheelwright/report/run_summary.h"
 #include "wheelwright/run/checkpoint.h"
+#include "wheelwright/run/study.h"
 
 namespace wheelwright {
 
-/// What a run of a case made of its initial shape. `before` and `after` describe the initial shape and that
-/// of the state, solved alike.
+/// What a run that began with `start` made of the wheel that its case gives. `before` and `after` describe
+/// that wheel and the one of the state, solved alike.
 template <int dim>
-RunSummary<dim> summarized_run(const Case& c, const InitialShape<dim>& initial, DescribedWheel<dim> before,
-                               const OptimizationState<dim>& last, DescribedWheel<dim> after);
+RunSummary<dim> summarized_run(const Study<dim>& study, const InitialShape<dim>& start,
+                               DescribedWheel<dim> before, const OptimizationState<dim>& last,
+                               DescribedWheel<dim> after, const Interrupt& interrupt);
 
 }  // namespace wheelwright

@@ -103,7 +103,8 @@ Json pressure_json(const WatchedShape<dim>& shape, int position) {
   return {{"position", position}, {"x_m", std::move(x)}, {"pressure_Pa", std::move(pressure)}};
 }
 
-/// The mean travel of the rim under forces up to one and a half times the present one.
+/// The mean travel of the rim under forces up to one and a half times the present one; without those under
+/// which it cannot be computed.
 template <int dim>
 Json force_curve_json(const WatchedShape<dim>& shape) {
   double force = 0;
@@ -112,11 +113,11 @@ Json force_curve_json(const WatchedShape<dim>& shape) {
   std::vector<double> loads;
   for (const double factor : {0.25, 0.5, 0.75, 1.0, 1.25, 1.5}) loads.push_back(factor * force);
   const auto under = under_loads<dim>(*shape.solution, loads);
-  if (!under) return Json();
   Json forces{0.0}, travels{0.0};
   for (std::size_t k = 0; k < loads.size(); ++k) {
+    if (!under[k]) continue;
     std::vector<double> travel;
-    for (const ContactSummary& summary : (*under)[k]) travel.push_back(summary.travel);
+    for (const ContactSummary& summary : *under[k]) travel.push_back(summary.travel);
     forces.push_back(loads[k] * whole_width(dim, shape.source->wheel.width));
     travels.push_back(rolling_variation(of_all(shape.solution->positions(), travel)).mean);
   }

@@ -19,7 +19,9 @@
 #include "wheelwright/page/report_run.h"
 #include "wheelwright/report/described_wheel.h"
 #include "wheelwright/report/solution_fields.h"
+#include "wheelwright/run/final_results.h"
 #include "wheelwright/run/provenance.h"
+#include "wheelwright/run/remarks.h"
 #include "wheelwright/run/run_files.h"
 #include "wheelwright/run/run_title.h"
 
@@ -92,19 +94,17 @@ template <int dim>
 Expected<std::string, NoProduct> design_report(const std::filesystem::path& folder,
                                                const LevelSet<dim>& initial, const WatchedShape<dim>& shape) {
   const StateSolver<dim>& solver = *shape.solver;
-  const auto first = solver.states(initial, solver.distinct_positions(initial), Interrupt());
+  const LoadCases<dim> cases = load_cases<dim>(*shape.source);
+  const auto first = solver.states(initial, distinct_positions(solver, cases, initial), Interrupt());
   if (!first) return no_product(first.failure());
-  const double measure = material_measure(initial);
-  const auto before = described_wheel(solver, initial, volume_share(initial, measure), **first),
-             after =
-                 described_wheel(solver, shape.psi, volume_share(shape.psi, shape.measure), *shape.solution);
-  if (!before) return no_product(before.failure());
-  if (!after) return no_product(after.failure());
   double energy = 0;
   for (const double value : of_all((*first)->positions(), (*first)->strain_energy())) energy += value;
+  const auto before = described(solver, cases, initial, material_measure(initial), first),
+             after = described(solver, cases, shape.psi, shape.measure, SolvedStates<dim>(shape.solution));
   const RunSummary<dim> summary{.title = run_title(*shape.source),
-                                .before = {0, energy, *before},
-                                .after = {shape.number, shape.objective, *after}};
+                                .before = {0, energy, before},
+                                .after = {shape.number, shape.objective, after},
+                                .remarks = remarks(*shape.source, before, after)};
   return report_page({page_run(report_of_results<dim>(folder, *shape.source, summary, solved(shape), {}))});
 }
 

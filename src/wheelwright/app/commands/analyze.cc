@@ -33,23 +33,19 @@ constexpr std::string_view names_in_folder[] = {
 
 /// Loads on the whole width [N]. The wheel's name stands for a title that is missing.
 template <int dim>
-Expected<RollingReport> rolling_report(const WheelInput<dim>& wheel, const std::vector<double>& loads,
-                                       const StateSolver<dim>& solver, const State<dim>& solution) {
+RollingReport rolling_report(const WheelInput<dim>& wheel, const std::vector<double>& loads,
+                             const StateSolver<dim>& solver, const State<dim>& solution) {
   const Case& c = wheel.source;
-  auto analysis = rolling_analysis(solver, solution);
-  if (!analysis) return analysis.failure();
   const std::string title = c.title.empty() ? wheel.name : c.title;
   RollingReport report{.title = fmt::format("{}, {}", title, wheel.which),
                        .width = c.wheel.width,
                        .n_sectors = c.wheel.sectors,
-                       .analysis = *std::move(analysis),
+                       .analysis = rolling_analysis(solver, solution),
                        .loads = {},
                        .under_loads = {},
                        .dimension = dim};
   for (const double load : loads) report.loads.push_back(load / whole_width(dim, c.wheel.width));
-  auto under = under_loads<dim>(solution, report.loads);
-  if (!under) return under.failure();
-  report.under_loads = *std::move(under);
+  report.under_loads = under_loads<dim>(solution, report.loads);
   return report;
 }
 
@@ -57,8 +53,8 @@ void write_plots(const std::filesystem::path& folder, const RollingReport& repor
   const auto plot = [&](const char* file, const LinePlot& picture) {
     write_atomically(folder / file, plot_svg(picture));
   };
-  plot("travel.svg", travel_plot(report));
-  plot("force.svg", force_plot(report));
+  if (report.analysis.travel_at_load) plot("travel.svg", travel_plot(report));
+  if (report.analysis.force_at_travel) plot("force.svg", force_plot(report));
   plot("peak_pressure.svg", peak_pressure_plot(report));
   if (!report.loads.empty()) plot("loads.svg", load_plot(report));
 }
@@ -143,12 +139,11 @@ class AnalyzeCommand : public Subcommand {
     if (const auto failure = material_overlaps(solver, shape, **solved))
       return tell_failure(name(), *failure);
     const auto report = rolling_report(wheel, loads(), solver, **solved);
-    if (!report) return tell_failure(name(), report.failure());
-    print_report(*report);
+    print_report(report);
     const auto size = deformation_size(solver, shape, **solved);
     if (const std::string warning = deformation_warning(size); !warning.empty())
       tell("warning: {}\n", warning);
-    if (output_) write(*report, shape, solver, **solved);
+    if (output_) write(report, shape, solver, **solved);
     return exit_done;
   }
 

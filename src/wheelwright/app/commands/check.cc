@@ -39,12 +39,14 @@ class CheckCommand : public Subcommand {
     }
     const auto change = in_dimension_of(*c, [&](auto dim) { return volume_change_of_saved_shape<dim>(*c); });
     if (change) print("{}\n", text(*change));
-    const cad::Clearances clearances = initial_clearances(*c);
-    print_lines(stdout, clearance_report(clearances));
+    const auto clearances = initial_clearances(*c);
+    if (clearances) print_lines(stdout, clearance_report(*clearances));
     print_warnings(stdout, *c);
     if (const auto warning = predicted_deformation(*c)) print_warning(stdout, *warning);
     for (const std::string& warning : bound_warnings(*c)) print_warning(stdout, warning);
-    for (const std::string& warning : feature_warnings(*c, clearances)) print_warning(stdout, warning);
+    if (!clearances) print_warning(stdout, "walls and gaps were not measured: " + clearances.failure().what);
+    if (clearances)
+      for (const std::string& warning : feature_warnings(*c, *clearances)) print_warning(stdout, warning);
     return exit_done;
   }
 

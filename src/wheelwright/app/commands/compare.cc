@@ -26,12 +26,11 @@ Expected<ComparedWheel> compared(const WheelInput<2>& wheel) {
   const auto states = (*solver)->states(shape, (*solver)->all_positions(), tell_contact_progress());
   if (!states) return states.failure();
   const PolarGrid<2>& grid = shape.lattice.grid();
-  auto numbers = described_wheel(**solver, shape, volume_fraction(grid, material_measure(shape)), **states,
+  auto numbers = described_wheel(**solver, shape, volume_fraction(grid, material_measure(shape)), states,
                                  load_cases<2>(c));
-  if (!numbers) return numbers.failure();
-  numbers->name = wheel.name;
-  numbers->which = wheel.which;
-  return ComparedWheel{*std::move(numbers),
+  numbers.name = wheel.name;
+  numbers.which = wheel.which;
+  return ComparedWheel{std::move(numbers),
                        material_contours(shape, contour_subdivisions(shape.lattice.degree()))};
 }
 

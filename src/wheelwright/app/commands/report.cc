@@ -7,38 +7,35 @@
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/app/wheel_input.h"
 #include "wheelwright/case/derived.h"
+#include "wheelwright/cut/measure.h"
 #include "wheelwright/files/atomic_file.h"
+#include "wheelwright/run/final_results.h"
 #include "wheelwright/run/run_report.h"
 #include "wheelwright/run/summarized_run.h"
 
 namespace wheelwright {
 namespace {
 
-template <int dim>
-Expected<DescribedWheel<dim>> described(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
-                                        double measure, const State<dim>& states) {
-  return described_wheel(solver, psi, volume_fraction(solver.model().grid, measure), states);
-}
-
-/// Solves the first and the last shape of a run again, for what its folder does not keep.
+/// Solves the given wheel and the last shape of a run again, for what its folder does not keep.
 template <int dim>
 Expected<PageRun> report_of_run(const RunInput<dim>& run) {
+  const auto study = make_study<dim>(run.source);
+  if (!study) return study.failure();
   const auto made = make_solver(rolling_model<dim>(with_levels_of_results(run.source)));
   if (!made) return made.failure();
   const StateSolver<dim>& solver = **made;
-  const InitialShape<dim>& initial = run.checkpoint.initial;
+  const auto solved = [&](const LevelSet<dim>& shape) {
+    return solver.states(shape, distinct_positions(solver, study->load_cases, shape),
+                         tell_contact_progress());
+  };
+  const LevelSet<dim>& given = study->initial;
   const OptimizationState<dim>& last = run.checkpoint.state;
-  const auto first_states =
-      solver.states(initial.shape, solver.distinct_positions(initial.shape), tell_contact_progress());
-  if (!first_states) return first_states.failure();
-  const auto last_states =
-      solver.states(last.shape, solver.distinct_positions(last.shape), tell_contact_progress());
+  const auto last_states = solved(last.shape);
   if (!last_states) return last_states.failure();
-  const auto before = described(solver, initial.shape, initial.measure, **first_states),
-             after = described(solver, last.shape, last.measure, **last_states);
-  if (!before) return before.failure();
-  if (!after) return after.failure();
-  const auto summary = summarized_run(run.source, initial, *before, last, *after);
+  const auto summary = summarized_run(
+      *study, run.checkpoint.initial,
+      described(solver, study->load_cases, given, material_measure(given), solved(given)), last,
+      described(solver, study->load_cases, last.shape, last.measure, last_states), tell_contact_progress());
   return page_run(report_of_results<dim>(
       run.folder, run.source, summary, {&last.shape, &solver, last_states->get()}, run.checkpoint.finished));
 }

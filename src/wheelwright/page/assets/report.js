@@ -5,6 +5,10 @@
   const { colour, curveColours, degree, element, shown, change, minutes, gradient, wheelPainter,
     surfacePainter, drawGround, roundMagnification, chart, wheelPath, paintWheel } = parts;
 
+  // What could not be computed is null in the data and NaN in sums; it is shown as a dash.
+  for (const { summary } of data.runs) for (const numbers of summary ? [summary.before, summary.after] : [])
+    for (const key of Object.keys(numbers)) numbers[key] ??= NaN;
+
   // --- Numbers ----------------------------------------------------------------------------------------
 
   function table(wheels) {
@@ -15,10 +19,10 @@
     });
     const body = element("tbody");
     for (const { key, label, unit, factor } of wheels[0].units) {
-      if (wheels.every(({ numbers }) => numbers[key] === undefined)) continue;
+      if (!wheels.some(({ numbers }) => Number.isFinite(numbers[key]))) continue;
       const row = element("tr", {}, element("th", { scope: "row" }, `${label} [${unit}]`));
       wheels.forEach(({ numbers }, k) => {
-        row.append(element("td", { "data-key": key }, key in numbers ? shown(numbers[key] * factor) : "\u2013"));
+        row.append(element("td", { "data-key": key }, Number.isFinite(numbers[key]) ? shown(numbers[key] * factor) : "\u2013"));
         if (k > 0) row.append(element("td", {}, change(wheels[0].numbers[key], numbers[key])));
       });
       body.append(row);
@@ -45,7 +49,7 @@
       `${shown(after.force_variation_N)} N`);
     answer("volume", "How heavy?", `${"mass_kg" in after ? `${shown(after.mass_kg)} kg, ` : ""}` +
       `${shown(volume * 1e6)} cm\u00b3, ${shown(100 * after.volume_fraction)} % of the ring`);
-    if ("minimum_wall_m" in after)
+    if (Number.isFinite(after.minimum_wall_m))
       answer("wall", "How thick is the thinnest wall?", `${shown(after.minimum_wall_m * 1e3)} mm`);
     answer("stress", "What peak stress, and where?", `${shown(after.peak_von_mises_Pa * 1e-6)} MPa at radius ` +
       `${shown(place.radius_m * 1e3)} mm, azimuth ${shown(place.azimuth_rad * degree)}\u00b0`);
@@ -120,7 +124,7 @@
       if (!is_surface) drawGround(ground, run);
       const at = run.rolling.after, shown_azimuth = run.fields.positions[i].azimuth_rad;
       const k = at.azimuths_rad.findIndex((azimuth) => Math.abs(azimuth - shown_azimuth) < 1e-9);
-      const numbers = k < 0 ? "" : `: travel ${shown(at.travel_at_load_m[k] * 1e3)} mm, peak pressure ` +
+      const numbers = k < 0 ? "" : `: travel ${shown((at.travel_at_load_m?.[k] ?? NaN) * 1e3)} mm, peak pressure ` +
         `${shown(at.peak_pressure_Pa[k] * 1e-6)} MPa, peak stress ${shown(at.peak_von_mises_Pa[k] * 1e-6)} MPa`;
       caption.textContent = `Ground at azimuth ${shown(shown_azimuth * degree)}\u00b0${numbers}. Displacements are drawn ` +
         `${magnified} times as large.${is_surface ? " Drag the wheel to turn it." : ""}`;
@@ -167,7 +171,7 @@
       paintWheel(context, edges(run.outlines[i]), inner, outer);
       context.setLineDash([6, 4]);
       context.strokeStyle = colour("--bad");
-      context.stroke(edges(run.outlines[0]));
+      context.stroke(edges({ contours: run.given_contours ?? run.outlines[0].contours }));
       context.setLineDash([]);
       const value = run.outlines[i].objective;
       caption.textContent = `Shape ${run.outlines[i].shape} of ${run.outlines[last].shape}: ${column} ${shown(value)}; ` +
@@ -196,25 +200,25 @@
     course("Mean travel and run-out", ["mean_travel", "run_out"], 1e3, "[mm]");
     course("Peaks of pressure and stress", ["peak_pressure", "peak_von_mises ["], 1e-6, "[MPa]");
     course("Volume", ["volume fraction"], 100, "[% of the ring]", { grace: 0.05 });
-    if (run.rolling) {
+    if (run.rolling?.after) {
       const turn = ({ azimuths_rad }, values, factor) => {  // one sector, closed
         const x = azimuths_rad.map((a) => a * degree), sector = 360 / run.sectors;
         return { x: [...x, x[0] + sector], y: [...values, values[0]].map((v) => v * factor) };
       };
-      const both = (key, factor) => Object.entries(run.rolling).map(([name, of]) =>
-        ({ name, ...turn(of, of[key], factor) }));
-      charts.push(chart("Travel at fixed load, round one sector", "azimuth [\u00b0]", "[mm]", both("travel_at_load_m", 1e3)));
-      charts.push(chart("Radial force at fixed travel, round one sector", "azimuth [\u00b0]", "[N]",
-        both("force_at_travel_N", 1)));
-      const harmonics = run.rolling.after.travel_harmonics_m.map((_, k) => `${(k + 1) * run.sectors}`);
-      if (harmonics.length) {
-        const spectrum = (key, factor) => Object.entries(run.rolling).map(([name, of]) =>
-          ({ name, y: of[key].map((v) => v * factor) }));
-        charts.push(chart("Spectrum of the travel", "waves per turn", "[\u00b5m]", spectrum("travel_harmonics_m", 1e6),
-          { bars: true, labels: harmonics }));
-        charts.push(chart("Spectrum of the radial force", "waves per turn", "[N]", spectrum("force_harmonics_N", 1),
-          { bars: true, labels: harmonics }));
-      }
+      const known = (key) => Object.entries(run.rolling).filter(([, of]) => of?.[key]?.length);
+      const both = (title, key, factor, unit) => {
+        const found = known(key).map(([name, of]) => ({ name, ...turn(of, of[key], factor) }));
+        if (found.length) charts.push(chart(title, "azimuth [\u00b0]", unit, found));
+      };
+      both("Travel at fixed load, round one sector", "travel_at_load_m", 1e3, "[mm]");
+      both("Radial force at fixed travel, round one sector", "force_at_travel_N", 1, "[N]");
+      const spectrum = (title, key, factor, unit) => {
+        const found = known(key).map(([name, of]) => ({ name, y: of[key].map((v) => v * factor) }));
+        if (found.length) charts.push(chart(title, "waves per turn", unit, found,
+          { bars: true, labels: found[0].y.map((_, k) => `${(k + 1) * run.sectors}`) }));
+      };
+      spectrum("Spectrum of the travel", "travel_harmonics_m", 1e6, "[\u00b5m]");
+      spectrum("Spectrum of the radial force", "force_harmonics_N", 1, "[N]");
       const stress = run.rolling.after.peak_von_mises_Pa, most = Math.max(...stress);
       charts.push(chart("Peak von Mises stress by load position; the largest is marked", "azimuth [\u00b0]", "[MPa]",
         [{ name: "after", y: stress.map((v) => v * 1e-6) }], { bars: true,

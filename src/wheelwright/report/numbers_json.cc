@@ -1,0 +1,36 @@
+#include "wheelwright/report/numbers_json.h"
+
+namespace wheelwright {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <int dim>
+void add_number(const WheelNumber<dim>& number, const DescribedWheel<dim>& wheel, Json& json, Json& missing) {
+  const auto value = number.value(wheel);
+  if (!value) return;
+  json[number.key] = *value ? Json(**value) : Json();
+  if (!*value) missing[number.key] = value->failure();
+}
+
+}  // namespace
+
+template <int dim>
+void add_numbers(const DescribedWheel<dim>& wheel, Json& json) {
+  Json missing;
+  for (const WheelNumber<dim>& number : wheel_numbers<dim>()) add_number(number, wheel, json, missing);
+  if (!missing.empty()) json["missing"] = std::move(missing);
+  if (!wheel.load_case.empty()) json["load_case"] = wheel.load_case;
+  for (const DescribedWheel<dim>& other : wheel.others) {
+    Json& of_case = json["load_cases"][other.load_case];
+    Json missing_of_case;
+    for (const WheelNumber<dim>& number : wheel_numbers<dim>())
+      if (!number.is_of_shape) add_number(number, other, of_case, missing_of_case);
+    if (!missing_of_case.empty()) of_case["missing"] = std::move(missing_of_case);
+  }
+}
+
+template void add_numbers(const DescribedWheel<2>&, Json&);
+template void add_numbers(const DescribedWheel<3>&, Json&);
+
+}  // namespace wheelwright

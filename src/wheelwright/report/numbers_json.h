@@ -1,0 +1,15 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "wheelwright/report/described_wheel.h"
+
+namespace wheelwright {
+
+/// Adds the numbers of a wheel (wheel_numbers) by their keys, and under `load_cases` those that depend on the
+/// load under every other load case. A number that could not be computed is null; `missing` beside it has its
+/// key with the reason.
+template <int dim>
+void add_numbers(const DescribedWheel<dim>& wheel, nlohmann::ordered_json& json);
+
+}  // namespace wheelwright

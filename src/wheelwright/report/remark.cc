@@ -1,0 +1,37 @@
+#include "wheelwright/report/remark.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace wheelwright {
+namespace {
+
+/// Every line after some spaces.
+std::string indented(const std::string& lines) {
+  std::string result = "    ";
+  for (const char c : lines) result += c == '\n' ? "\n    " : std::string(1, c);
+  return result;
+}
+
+}  // namespace
+
+std::string text(const Remark& remark) {
+  if (remark.constraint.empty()) return remark.text;
+  std::string line = remark.constraint;
+  std::ranges::replace(line, '\n', ' ');
+  return fmt::format("{} To bound it, add to the case: {}", remark.text, line);
+}
+
+std::string remarks_text(const std::vector<Remark>& remarks) {
+  std::string result;
+  for (const Remark& remark : remarks) {
+    result += remark.text;
+    if (!remark.constraint.empty())
+      result += " To bound it, add to the case:\n" + indented(remark.constraint);
+    result += '\n';
+  }
+  return result;
+}
+
+}  // namespace wheelwright

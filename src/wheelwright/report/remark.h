@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace wheelwright {
+
+/// A number of a wheel that got clearly worse.
+struct Remark {
+  std::string key;        ///< of the number, as in summary.json
+  std::string load_case;  ///< under which, where there are several
+  double before, after;   ///< in SI units, on the whole width
+  std::string text;       ///< one sentence for people
+  /// The lines for a case file that keep the number from getting worse; empty where no bound can.
+  std::string constraint;
+};
+
+/// One line for people: the sentence, and what would bound the number.
+std::string text(const Remark& remark);
+
+/// Several lines for people, the lines for the case file indented below each remark; empty without remarks.
+std::string remarks_text(const std::vector<Remark>& remarks);
+
+}  // namespace wheelwright

@@ -1,0 +1,66 @@
+#include "wheelwright/run/given_wheel.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "wheelwright/cut/measure.h"
+
+namespace wheelwright {
+namespace {
+
+/// A number that changed; empty where it did not, by what people would tell.
+std::string change(const char* label, double factor, const char* unit, double from, double to) {
+  constexpr double told = 1e-3;
+  if (std::abs(to - from) <= told * std::abs(from)) return "";
+  return fmt::format(", {} {:.4g} instead of {:.4g} {}", label, to * factor, from * factor, unit);
+}
+
+std::string change(const char* label, const std::optional<cad::Clearance>& from,
+                   const std::optional<cad::Clearance>& to) {
+  constexpr double mm = 1e3;
+  return from && to ? change(label, mm, "mm", from->width, to->width) : "";
+}
+
+}  // namespace
+
+template <int dim>
+bool begins_as_given(const Study<dim>& study, const InitialShape<dim>& start) {
+  return study.level > 0 || study.initial.values == start.shape.values;
+}
+
+template <int dim>
+KnownNumber objective_as_given(const Study<dim>& study, const InitialShape<dim>& start,
+                               const Interrupt& interrupt) {
+  if (begins_as_given(study, start)) return start.objective;
+  const auto evaluated = evaluate_of(study, interrupt)({study.initial, nullptr}, nullptr);
+  if (!evaluated)
+    return fmt::format("{}: {}", to_string(evaluated.failure().reason), evaluated.failure().detail);
+  return evaluated->evaluation.function("objective").value;
+}
+
+template <int dim>
+std::string changed_start(const Study<dim>& study, const InitialShape<dim>& start) {
+  if (begins_as_given(study, start)) return "";
+  constexpr double percent = 100;
+  std::string changes = change("volume", percent, "% of the ring",
+                               volume_fraction(study.grid(), material_measure(study.initial)),
+                               volume_fraction(study.grid(), start.measure));
+  const auto from = outline_clearances(study.initial), to = outline_clearances(start.shape);
+  if (from && to)
+    changes += change("thinnest wall", from->wall, to->wall) + change("narrowest gap", from->gap, to->gap);
+  return "\"before\" is the wheel as the case gives it. The run began with a changed one, which has the "
+         "volume "
+         "and the widths that the case asks for and no loose pieces" +
+         changes + ".";
+}
+
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                                      \
+  template bool begins_as_given(const Study<dim>&, const InitialShape<dim>&);                             \
+  template KnownNumber objective_as_given(const Study<dim>&, const InitialShape<dim>&, const Interrupt&); \
+  template std::string changed_start(const Study<dim>&, const InitialShape<dim>&);
+WHEELWRIGHT_INSTANTIATE(2)
+WHEELWRIGHT_INSTANTIATE(3)
+#undef WHEELWRIGHT_INSTANTIATE
+
+}  // namespace wheelwright

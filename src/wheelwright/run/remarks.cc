@@ -1,0 +1,228 @@
+#include "wheelwright/run/remarks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "wheelwright/base/units.h"
+#include "wheelwright/case/conflicts.h"
+#include "wheelwright/case/number_text.h"
+
+namespace wheelwright {
+namespace {
+
+using Value = std::optional<double> JudgedWheel::*;
+
+/// Changes below a tenth are no remark, nor are variations that grew by less than a hundredth of what varies.
+constexpr double clearly = 0.1, least_variation = 0.01;
+
+/// A number by which wheels are judged, and how it is bounded.
+struct Measure {
+  Value value;
+  std::string_view key, label, unit;
+  double factor;  ///< from SI to the unit
+  bool is_larger_better;
+  Value varies_about;                  ///< what a variation is compared with; null for others
+  std::string_view meaning;            ///< of the change
+  std::array<Quantity, 2> bounded_by;  ///< the first one that the case may bound; the same twice if one only
+  OverPositions over;
+  std::vector<Quantity> bounded_as;  ///< quantities whose bounds hold this one too
+};
+
+const std::vector<Measure>& measures() {
+  static const std::vector<Measure> all{
+      {&JudgedWheel::stiffness,
+       "stiffness_N_per_m",
+       "stiffness",
+       "N/mm",
+       1e-3,
+       true,
+       nullptr,
+       "the wheel gives way more",
+       {Quantity::stiffness, Quantity::stiffness},
+       OverPositions::mean,
+       {Quantity::stiffness, Quantity::mean_travel, Quantity::travel, Quantity::strain_energy}},
+      {&JudgedWheel::run_out,
+       "run_out_m",
+       "run-out at fixed load",
+       "mm",
+       1e3,
+       false,
+       &JudgedWheel::mean_travel,
+       "the axle moves up and down more while the wheel rolls",
+       {Quantity::run_out, Quantity::run_out},
+       OverPositions::mean,
+       {Quantity::run_out, Quantity::run_out_harmonic}},
+      {&JudgedWheel::force_variation,
+       "force_variation_N",
+       "radial force variation at fixed travel",
+       "N",
+       1,
+       false,
+       &JudgedWheel::load,
+       "the force on the axle varies more while the wheel rolls",
+       {Quantity::force_variation, Quantity::run_out},
+       OverPositions::mean,
+       {Quantity::force_variation, Quantity::force_variation_harmonic}},
+      {&JudgedWheel::peak_pressure,
+       "peak_pressure_Pa",
+       "peak contact pressure",
+       "MPa",
+       1e-6,
+       false,
+       nullptr,
+       "tread and floor are pressed harder",
+       {Quantity::peak_pressure, Quantity::peak_pressure},
+       OverPositions::worst,
+       {Quantity::peak_pressure}},
+      {&JudgedWheel::peak_von_mises,
+       "peak_von_mises_Pa",
+       "peak von Mises stress",
+       "MPa",
+       1e-6,
+       false,
+       nullptr,
+       "the material is loaded more",
+       {Quantity::peak_von_mises, Quantity::peak_von_mises},
+       OverPositions::worst,
+       {Quantity::peak_von_mises, Quantity::peak_von_mises_inside}},
+      {&JudgedWheel::largest_strain,
+       "largest_strain",
+       "largest strain",
+       "%",
+       100,
+       false,
+       nullptr,
+       "the material is strained more",
+       {Quantity::peak_von_mises, Quantity::peak_von_mises},
+       OverPositions::worst,
+       {Quantity::peak_von_mises, Quantity::peak_von_mises_inside}}};
+  return all;
+}
+
+bool is_clearly_worse(const Measure& m, const JudgedWheel& before, const JudgedWheel& after) {
+  if (!(before.*m.value && after.*m.value)) return false;
+  const double from = *(before.*m.value), to = *(after.*m.value);
+  if (m.is_larger_better) return to < (1 - clearly) * from;
+  const double varies_about = m.varies_about ? (before.*m.varies_about).value_or(0) : 0;
+  return to > (1 + clearly) * from && to - from > least_variation * varies_about;
+}
+
+/// Whether the case bounds one of the quantities to that side, under that load case.
+bool is_bounded(const Case& c, const Measure& m, const std::string& load_case) {
+  return std::ranges::any_of(c.constraints, [&](const Constraint& bound) {
+    const bool is_this = std::ranges::find(m.bounded_as, bound.quantity) != m.bounded_as.end() &&
+                         (bound.load_case.empty() || bound.load_case == load_case);
+    const bool is_stiffness = m.is_larger_better && bound.quantity == m.bounded_as.front();
+    return is_this && (bound.equals || (is_stiffness ? bound.at_least : bound.at_most));
+  });
+}
+
+/// Rounded to three digits, away from what it bounds.
+double rounded(double value, bool is_upper) {
+  const double digit = std::pow(10.0, std::floor(std::log10(value)) - 2);
+  const double multiple = is_upper ? std::ceil(value / digit) : std::floor(value / digit);
+  return std::stod(fmt::format("{:.2e}", multiple * digit));
+}
+
+/// The measure that has this quantity as its first one.
+const Measure& measure_of(Quantity quantity) {
+  return *std::ranges::find_if(measures(), [&](const Measure& m) { return m.bounded_by[0] == quantity; });
+}
+
+/// A bound that keeps the quantity at its value from before; empty where the case may not bound it, or where
+/// there is no such value.
+std::optional<Constraint> bound(const Case& c, const Measure& m, const std::string& load_case,
+                                const JudgedWheel& before) {
+  for (const Quantity quantity : m.bounded_by) {
+    const Measure& bounded = measure_of(quantity);
+    if (!(before.*bounded.value && *(before.*bounded.value) > 0)) continue;
+    const bool is_of_width = kind(quantity) == UnitKind::stiffness || kind(quantity) == UnitKind::force;
+    const double value =
+        *(before.*bounded.value) / (is_of_width ? whole_width(c.wheel.dimension, c.wheel.width) : 1);
+    Constraint result{.quantity = quantity, .over = bounded.over, .load_case = load_case};
+    (bounded.is_larger_better ? result.at_least : result.at_most) = rounded(value, !bounded.is_larger_better);
+    Case with_bound = c;
+    with_bound.constraints.push_back(result);
+    if (conflicts(with_bound).empty()) return result;
+  }
+  return {};
+}
+
+/// As it stands in a case file.
+std::string lines(const Constraint& constraint, int dimension, const JudgedWheel& before) {
+  const Measure& m = measure_of(constraint.quantity);
+  std::string text = fmt::format("[[constraint]]\nquantity = \"{}\"\n", name(constraint.quantity));
+  if (constraint.over == OverPositions::worst) text += "over = \"worst\"\n";
+  if (!constraint.load_case.empty()) text += fmt::format("load_case = \"{}\"\n", constraint.load_case);
+  text += fmt::format("{} = {}  # {}, as before: {:.4g} {}", constraint.at_least ? "at_least" : "at_most",
+                      number_text(constraint.at_least ? *constraint.at_least : *constraint.at_most),
+                      unit(kind(constraint.quantity), dimension), *(before.*m.value) * m.factor, m.unit);
+  return text;
+}
+
+std::string sentence(const Measure& m, const std::string& load_case, double before, double after) {
+  constexpr double most_percents = 1e5;
+  const double percents = 100 * (after / before - 1);
+  return fmt::format(
+      "{}{} {} from {:.4g} to {:.4g} {}{}: {}.", m.label, load_case.empty() ? "" : " in " + load_case,
+      m.is_larger_better ? "fell" : "grew", before * m.factor, after * m.factor, m.unit,
+      std::abs(percents) < most_percents ? fmt::format(" ({:+.0f} %)", percents) : "", m.meaning);
+}
+
+}  // namespace
+
+template <int dim>
+JudgedWheel judged(const DescribedWheel<dim>& wheel) {
+  const auto value = [&](std::string_view key) {
+    const auto number = std::ranges::find(wheel_numbers<dim>(), key, &WheelNumber<dim>::key);
+    return known_value(*number, wheel);
+  };
+  JudgedWheel result{.load = value("load_N"), .mean_travel = value("mean_travel_m")};
+  for (const Measure& m : measures()) result.*m.value = value(m.key);
+  return result;
+}
+
+std::vector<Remark> remarks(const Case& c, const std::string& load_case, const JudgedWheel& before,
+                            const JudgedWheel& after) {
+  std::vector<Remark> result;
+  for (const Measure& m : measures()) {
+    if (!is_clearly_worse(m, before, after) || is_bounded(c, m, load_case)) continue;
+    const double from = *(before.*m.value), to = *(after.*m.value);
+    Remark remark{std::string(m.key), load_case, from, to, sentence(m, load_case, from, to), ""};
+    if (const auto constraint = bound(c, m, load_case, before))
+      remark.constraint = lines(*constraint, c.wheel.dimension, before);
+    const auto same = std::ranges::find_if(result, [&](const Remark& other) {
+      return !remark.constraint.empty() && other.constraint == remark.constraint;
+    });
+    if (same != result.end()) {
+      remark.constraint.clear();
+      remark.text.pop_back();
+      remark.text += "; the bound above holds it too.";
+    }
+    result.push_back(std::move(remark));
+  }
+  return result;
+}
+
+template <int dim>
+std::vector<Remark> remarks(const Case& c, const DescribedWheel<dim>& before,
+                            const DescribedWheel<dim>& after) {
+  auto result = remarks(c, before.load_case, judged(before), judged(after));
+  for (const DescribedWheel<dim>& other : after.others)
+    if (const DescribedWheel<dim>* same = under_load_case(before, other.load_case))
+      for (Remark& remark : remarks(c, other.load_case, judged(*same), judged(other)))
+        result.push_back(std::move(remark));
+  return result;
+}
+
+#define WHEELWRIGHT_INSTANTIATE(dim)                       \
+  template JudgedWheel judged(const DescribedWheel<dim>&); \
+  template std::vector<Remark> remarks(const Case&, const DescribedWheel<dim>&, const DescribedWheel<dim>&);
+WHEELWRIGHT_INSTANTIATE(2)
+WHEELWRIGHT_INSTANTIATE(3)
+#undef WHEELWRIGHT_INSTANTIATE
+
+}  // namespace wheelwright

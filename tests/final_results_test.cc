@@ -1,0 +1,178 @@
+#include "wheelwright/run/final_results.h"
+
+#include <nlohmann/json.hpp>
+
+#include "tests/run_support.h"
+#include "wheelwright/case/read.h"
+#include "wheelwright/report/comparison_table.h"
+#include "wheelwright/run/run_report.h"
+
+namespace wheelwright::testing {
+namespace {
+
+const Failure on_purpose{FailureReason::newton_stalled, "on purpose"};
+const std::string told = "newton_stalled: on purpose";
+
+/// A solved state that has no solution under other loads.
+class StateOfOneLoad : public State<2> {
+ public:
+  explicit StateOfOneLoad(std::shared_ptr<const State<2>> state) : state_(std::move(state)) {}
+
+  const RollingModel<2>& model() const override { return state_->model(); }
+  const CutDomain<2>& domain() const override { return state_->domain(); }
+  const LoadPositions& positions() const override { return state_->positions(); }
+  const std::vector<ContactPatch<2>>& contacts() const override { return state_->contacts(); }
+  const std::vector<double>& strain_energy() const override { return state_->strain_energy(); }
+  const Matrix& observations() const override { return state_->observations(); }
+  const std::vector<PhaseTime>& phases() const override { return state_->phases(); }
+  const Displacement<2>& displacement() const override { return state_->displacement(); }
+  const StrainPeaks<2>& strain_peaks() const override { return state_->strain_peaks(); }
+  const std::vector<SurfacePoint<2>>& boundary() const override { return state_->boundary(); }
+  Expected<ShapeGradients> shape_gradients(
+      std::span<const FunctionalDerivative<2>> functions) const override {
+    return state_->shape_gradients(functions);
+  }
+  Expected<std::vector<std::vector<double>>> topological_derivatives(
+      std::span<const FunctionalDerivative<2>> functions,
+      std::span<const MaterialPoint<2>> points) const override {
+    return state_->topological_derivatives(functions, points);
+  }
+  Expected<std::vector<std::vector<ContactPatch<2>>>> contacts_under(
+      std::span<const RollingModel<2>>) const override {
+    return on_purpose;
+  }
+  Expected<std::shared_ptr<const State<2>>> under(const RollingModel<2>&, const Interrupt&) const override {
+    return on_purpose;
+  }
+
+ private:
+  std::shared_ptr<const State<2>> state_;
+};
+
+/// Solves shapes under one load, up to a number of them.
+class SolverOfOneLoad : public StateSolver<2> {
+ public:
+  SolverOfOneLoad(std::shared_ptr<const StateSolver<2>> solver, int most)
+      : solver_(std::move(solver)), most_(most) {}
+
+  const RollingModel<2>& model() const override { return solver_->model(); }
+  const TreadSurface<2>& tread_surface() const override { return solver_->tread_surface(); }
+  Expected<std::shared_ptr<const State<2>>> states(const CutShape<2>& shape, LoadPositions positions,
+                                                   const Interrupt& interrupt) const override {
+    if (n_solved_ == most_) return on_purpose;
+    ++n_solved_;
+    auto state = solver_->states(shape, std::move(positions), interrupt);
+    if (!state) return state;
+    return std::shared_ptr<const State<2>>(std::make_shared<StateOfOneLoad>(*state));
+  }
+  Expected<TractionMap> neumann_to_dirichlet(DualNorm norm) const override {
+    return solver_->neumann_to_dirichlet(norm);
+  }
+
+ private:
+  std::shared_ptr<const StateSolver<2>> solver_;
+  int most_;
+  mutable int n_solved_ = 0;
+};
+
+/// The results of a run of one shape that ends where it begins.
+class ResultsOfARun : public TemporaryFolder {
+ protected:
+  static Study<2> study(const std::string& more) {
+    return *make_study<2>(*parse_case(small_wheel + more, "case.toml").value);
+  }
+
+  FinalResults<2> results(Study<2> study, std::optional<int> most_solves) {
+    auto state =
+        optimizer_of(study).start(study.initial, [](const Trial<2>&, const OptimizationState<2>&) {});
+    EXPECT_TRUE(state);
+    const InitialShape<2> initial{state->shape, state->evaluation.function("objective").value,
+                                  state->measure};
+    state->iteration = 1;
+    state_ = *state;
+    if (most_solves) study.solver = std::make_shared<SolverOfOneLoad>(study.solver, *most_solves);
+    return final_results<2>(study, initial, *state, {}, Interrupt());
+  }
+
+  std::optional<OptimizationState<2>> state_;
+};
+
+TEST_F(ResultsOfARun, AreToldWithoutWhatOtherSolvesWouldGive) {
+  const std::string two_loads =
+      "[[load.case]]\nname = \"straight\"\n[[load.case]]\nname = \"kerb\"\nmass = 400\n";
+  const Study<2> study = this->study(two_loads);
+  const auto all = nlohmann::json::parse(summary_json(results(study, {}).summary));
+  const FinalResults<2> some_results = results(study, 2);
+  const auto some = nlohmann::json::parse(summary_json(some_results.summary));
+  for (const char* shape : {"before", "after"}) {
+    for (const auto& [key, value] : all[shape].items()) {
+      const bool is_missing = key == "force_variation_N" || key == "force_first_harmonic_N";
+      EXPECT_TRUE(some[shape].contains(key)) << key;
+      if (key == "load_cases") continue;
+      EXPECT_EQ(some[shape][key], is_missing ? nlohmann::json() : value) << key;
+    }
+    EXPECT_EQ(some[shape]["missing"]["force_variation_N"], told);
+    EXPECT_EQ(some[shape]["missing"].size(), 2u);
+    EXPECT_TRUE(some[shape]["load_cases"]["kerb"]["stiffness_N_per_m"].is_null());
+    EXPECT_EQ(some[shape]["load_cases"]["kerb"]["missing"]["stiffness_N_per_m"], told);
+  }
+  const auto lines = missing_lines(some_results.summary);
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_TRUE(lines[0].ends_with(told)) << lines[0];
+  EXPECT_NE(summary_table(some_results.summary).find(lines[0]), std::string::npos);
+  EXPECT_TRUE(missing_lines(results(study, {}).summary).empty());
+}
+
+TEST_F(ResultsOfARun, AreThoseOfTheLastShapeWhereTheFirstHasNoSolution) {
+  const auto all = nlohmann::json::parse(summary_json(results(study("minimum_wall = 0.05\n"), {}).summary));
+  Study<2> widened = this->study("minimum_wall = 0.05\n");  // the given wheel is another one
+  const FinalResults<2> some_results = results(std::move(widened), 1);
+  const auto some = nlohmann::json::parse(summary_json(some_results.summary));
+  EXPECT_EQ(some["after"]["stiffness_N_per_m"], all["after"]["stiffness_N_per_m"]);
+  EXPECT_TRUE(some["before"]["stiffness_N_per_m"].is_null());
+  EXPECT_EQ(some["before"]["missing"]["stiffness_N_per_m"], told);
+  EXPECT_EQ(some["before"]["volume_fraction"], all["before"]["volume_fraction"]);
+  EXPECT_EQ(some["before"]["minimum_wall_m"], all["before"]["minimum_wall_m"]);
+}
+
+// A run begins with the widths that are asked for; it is compared with the wheel that was drawn.
+TEST_F(ResultsOfARun, CompareWithTheGivenWheel) {
+  const FinalResults<2> as_given = results(study(""), {});
+  const Study<2> study = this->study("minimum_wall = 0.05\n");
+  const FinalResults<2> widened = results(study, {});
+  EXPECT_NE(state_->shape.values, study.initial.values);
+  EXPECT_EQ(as_given.summary.changed_start, "");
+  EXPECT_NE(widened.summary.changed_start, "");
+  const auto expected = nlohmann::json::parse(summary_json(as_given.summary));
+  const auto found = nlohmann::json::parse(summary_json(widened.summary));
+  EXPECT_EQ(found["before"], expected["before"]);
+  EXPECT_LT(found["before"]["minimum_wall_m"], 0.046);
+  EXPECT_GT(found["after"]["minimum_wall_m"], 0.048);
+  const ReportRun<2> run = report_of_results<2>(folder(), study.source, widened.summary,
+                                                {&state_->shape, widened.solver.get(), widened.shown.get()},
+                                                StopReason::converged);
+  ASSERT_TRUE(run.given);
+  EXPECT_EQ(run.given->contours, shape_outline(0, 0, study.initial).contours);
+}
+
+TEST_F(ResultsOfARun, HaveAPageThatTellsWhatIsMissing) {
+  const Study<2> study = this->study("");
+  const FinalResults<2> some = results(study, 2);
+  const ReportRun<2> run =
+      report_of_results<2>(folder(), study.source, some.summary,
+                           {&state_->shape, some.solver.get(), some.shown.get()}, StopReason::converged);
+  EXPECT_TRUE(std::ranges::any_of(run.flags, [](const std::string& flag) { return flag.ends_with(told); }));
+  const std::string json = page_run(run).json;
+  EXPECT_NE(json.find("\"force_at_travel_N\":null"), std::string::npos);
+}
+
+TEST_F(ResultsOfARun, AreASummaryWithoutAnySolution) {
+  const auto none = results(study(""), 0);
+  EXPECT_FALSE(none.shown);
+  const auto json = nlohmann::json::parse(summary_json(none.summary));
+  EXPECT_TRUE(json["after"]["objective_J_per_m"].is_number());
+  EXPECT_EQ(json["after"]["missing"]["run_out_m"], told);
+}
+
+}  // namespace
+}  // namespace wheelwright::testing
