@@ -9,7 +9,6 @@ find_package(PNG REQUIRED)
 find_package(pugixml REQUIRED)
 find_package(TBB REQUIRED)
 pkg_check_modules(TOMLPP REQUIRED IMPORTED_TARGET tomlplusplus)
-pkg_check_modules(HTTPLIB REQUIRED IMPORTED_TARGET cpp-httplib)
 # Drawn into the page that explains a run.
 find_file(CHART_JS chart.min.js PATHS /usr/share/javascript/chart.js /usr/share/javascript REQUIRED)
 find_file(THREE_JS three.min.js PATHS /usr/share/javascript/three /usr/share/javascript REQUIRED)
@@ -38,6 +37,9 @@ find_library(GMP_LIBRARY gmp REQUIRED)
 add_library(wheelwright_cgal INTERFACE)
 target_include_directories(wheelwright_cgal SYSTEM INTERFACE ${CGAL_INCLUDE_DIR})
 target_link_libraries(wheelwright_cgal INTERFACE ${GMP_LIBRARY})
+
+# Beast and Asio are headers too, of the package that CGAL needs.
+find_package(Boost 1.74 REQUIRED)
 
 # AGG draws pictures and becomes part of the library.
 find_path(AGG_INCLUDE_DIR agg2/agg_path_storage.h REQUIRED)

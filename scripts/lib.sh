@@ -6,7 +6,7 @@ packages=(
   libsuitesparse-dev libopenblas-dev liblapacke-dev libnanoflann-dev libtbb-dev
   libcgal-dev libagg-dev
   libtomlplusplus-dev libcli11-dev libfmt-dev nlohmann-json3-dev zlib1g-dev
-  libpugixml-dev libpng-dev libcpp-httplib-dev
+  libpugixml-dev libpng-dev libboost-dev
   libjs-chart.js libjs-three
   libgtest-dev libbenchmark-dev
 )

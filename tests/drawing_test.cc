@@ -287,6 +287,18 @@ TEST(Composition, MaterialOverTheSameHoleLeavesNoEdge) {
   EXPECT_TRUE(Composition({{Fill::hole, {disc}}, {Fill::material, {disc}}}).boundary().empty());
 }
 
+// Where rounding is as large as the curves, dividing them must end all the same.
+TEST(Composition, OutlinesAsSmallAsRoundingAreComposedToo) {
+  for (const double radius : {1e-9, 1e-13, 1e-17}) {
+    const Point from{0.3, 0.3}, to{-0.3, -0.3};
+    const Composition line(
+        {{Fill::hole,
+          {circle_outline(Affine::shift(from), radius), strip_outline(from, to, 2 * radius, 0),
+           circle_outline(Affine::shift(to), radius)}}});
+    EXPECT_FALSE(line.is_hole({0.3, -0.3}));
+  }
+}
+
 TEST(Composition, IsTheExactDistanceOfRandomUnionsAndDifferences) {
   Random random;
   for (int k = 0; k < 10; ++k) {

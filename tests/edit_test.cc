@@ -11,6 +11,7 @@
 #include "wheelwright/run/command_json.h"
 #include "wheelwright/run/command_log.h"
 #include "wheelwright/run/command_queue.h"
+#include "wheelwright/run/edit_bounds.h"
 #include "wheelwright/run/run.h"
 
 // Commands that change the shape of a run, by exact areas and centres, and what is written of commands.
@@ -225,6 +226,31 @@ TEST_F(EditTest, WhatCannotBeIsRefusedAndChangesNothing) {
                            MoveHole{.at = hole_centre, .by = {}, .scale = -1}, Paint{}, cut});
   EXPECT_EQ(seen.refused.size(), 6U);
   EXPECT_EQ(seen.shapes.size(), 1U);
+}
+
+// What is so far off or so large that drawing it would not end.
+TEST_F(EditTest, WhatIsDrawnFitsTheWheel) {
+  const double far = 1e5, outer = the_case().wheel.outer_radius;
+  const Point beside = polar(1.2 * outer, 1), opposite = polar(1.2 * outer, 3), on = polar(0.262, 0.95);
+  const Seen seen = after(
+      {Paint{.path = {on}, .radius = far}, Paint{.path = {{far, 0}}, .radius = 0.01},
+       Paint{.path = {on, {0, -far}}, .radius = 0.01}, Paint{.path = {on}, .radius = 1.01 * outer},
+       Paint{.path = {beside}, .radius = 0.19 * outer}, Paint{.path = {{0.01, 0}, {0, 0.02}}, .radius = 0.01},
+       MoveHole{.at = hole_centre, .by = {far, 0}}, MoveHole{.at = {far, far}, .by = {}},
+       MoveHole{.at = hole_centre, .by = {}, .scale = far},
+       MoveHole{.at = hole_centre, .by = {}, .scale = 1 / far}, FillHole{.at = {far, 0}}});
+  EXPECT_EQ(seen.refused.size(), 11U);
+  EXPECT_EQ(seen.shapes.size(), 1U);
+  EXPECT_FALSE(refused_line(the_case().wheel, std::vector<Point>{beside, opposite}, 0.001));  // goes across
+}
+
+TEST(EditBounds, NoNumberIsDrawn) {
+  const double nan = std::nan(""), infinite = HUGE_VAL;
+  for (const double bad : {nan, infinite, -infinite}) {
+    EXPECT_TRUE(refused_line({}, std::vector<Point>{{0.26, 0}}, bad));
+    EXPECT_TRUE(refused_line({}, std::vector<Point>{{0.26, 0}, {bad, 0}}, 0.01));
+    EXPECT_TRUE(refused_hole({}, std::vector<Point>{{0.26, 0}, {0, bad}}));
+  }
 }
 
 TEST_F(EditTest, UndoBringsTheCaseBackToo) {

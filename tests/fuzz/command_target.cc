@@ -1,4 +1,8 @@
+#include <algorithm>
+#include <cmath>
+
 #include "tests/fuzz/target.h"
+#include "wheelwright/drawing/parts.h"
 #include "wheelwright/run/command_json.h"
 #include "wheelwright/run/command_log.h"
 
@@ -15,6 +19,48 @@ void try_command(std::string_view text) {
   require(written.find('\n') == std::string::npos, "a command is one line");
   const auto again = parse_command(written);
   require(again && command_json(*again) == written, "what is written is read as the same command");
+}
+
+/// A run of which commands see and change nothing but a shape that is never solved.
+class ShapeOnly : public RunControl {
+ public:
+  const Case& current_case() const override { return case_; }
+  int iteration() const override { return 0; }
+  void save() override {}
+  void stop() override {}
+  void pause(int) override {}
+  void go_on() override {}
+  std::optional<Refusal> change_case(const Case&, const std::string&) override { return {}; }
+  std::vector<Point> hole_at(const Point& point) const override { return hole_contour(shape_, point); }
+  std::optional<Refusal> draw(std::span<const Stroke> strokes, const std::string&) override {
+    for (const Stroke& stroke : strokes) shape_ = with_stroke(shape_, stroke);
+    require(std::ranges::all_of(shape_.values, [](double v) { return std::isfinite(v); }),
+            "what is drawn leaves a shape");
+    return {};
+  }
+  std::optional<Refusal> take_shape(const std::filesystem::path&, const std::string&) override { return {}; }
+  std::optional<Refusal> reset() override { return {}; }
+  std::optional<Refusal> undo() override { return {}; }
+
+ private:
+  static LevelSet<2> ring_with_holes(const Wheel& wheel) {
+    const PolarGrid<2> grid{wheel.inner_radius, wheel.outer_radius, wheel.width, wheel.sectors, {7, 6}};
+    const Lattice<2> lattice(grid, 1);
+    const LevelSet<2> ring{lattice, std::vector<double>(lattice.n_nodes(), -1)};
+    return with_stroke(ring, {{Fill::hole, {circle_outline(Affine::shift({0.265, 0}), 0.03)}}, 0});
+  }
+
+  Case case_;
+  LevelSet<2> shape_ = ring_with_holes(case_.wheel);
+};
+
+/// What a run makes of it.
+void try_edit(std::string_view text) {
+  const auto command = parse_command(text);
+  if (!command) return;
+  ShapeOnly run;
+  const auto obeyed = std::visit([&](const auto& c) { return c.obey(run); }, *command);
+  require(obeyed || !obeyed.failure().reason.empty(), "a refusal has a reason");
 }
 
 /// What a replay reads.
@@ -43,6 +89,11 @@ std::vector<std::string> wheelwright::testing::seeds() {
                                          Paint{.path = {{0.26, 0}, {0.27, 0.01}}, .radius = 0.01},
                                          MoveHole{.at = {0.26, 0}, .by = {0, 0.01}, .scale = 1.1},
                                          FillHole{.at = {0.26, 0}},
+                                         Paint{.path = {{0.26, 0}, {1e5, 0}}, .radius = 0.01},
+                                         Paint{.path = {{0.26, 0}}, .radius = 1e5},
+                                         Paint{.path = {{0.3, 0.3}, {-0.3, -0.3}}, .radius = 1e-9},
+                                         MoveHole{.at = {0.265, 0}, .by = {1e5, 0}, .scale = 1.1},
+                                         MoveHole{.at = {0.265, 0}, .by = {0.01, 0}, .scale = 1e-2},
                                          TakeShape{"designs/003/shape.levelset"},
                                          Reset{},
                                          Undo{}};
@@ -59,6 +110,7 @@ std::vector<std::string> wheelwright::testing::seeds() {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   try_command(text);
+  try_edit(text);
   try_log(text);
   return 0;
 }

@@ -390,6 +390,9 @@ int ray_crossings(const Curve& curve, const Point& x, int splits_left) {
     const bool is_left_of_it = along[1] > 0 ? side > 0 : side < 0;
     return is_left_of_it ? ends_above - starts_above : 0;
   }
+  // So does what rounding no longer splits: without an end here, both halves would hold x again and again.
+  const bool has_size = box.low[0] < box.high[0] && box.low[1] < box.high[1];
+  if (!has_size) return ends_above - starts_above;
   const auto [first, second] = curve.split(0.5);
   return ray_crossings(first, x, splits_left - 1) + ray_crossings(second, x, splits_left - 1);
 }

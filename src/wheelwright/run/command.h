@@ -118,7 +118,7 @@ struct NewBound {
 };
 
 /// Draws a line with a round tip, as with a brush, in every sector: a hole or material. A single point is a
-/// disc.
+/// disc. What is larger than the wheel or misses it is refused (edit_bounds.h).
 struct Paint {
   Fill as = Fill::hole;
   std::vector<std::array<double, 2>> path;  ///< Cartesian, body frame [m]
@@ -127,7 +127,7 @@ struct Paint {
   Obeyed obey(RunControl& run) const;
 };
 
-/// Moves a hole, and its images in the other sectors, and multiplies its size about its centre.
+/// Moves a hole, and its images in the other sectors, and multiplies its size about its centre, by 0.01 to 100.
 struct MoveHole {
   std::array<double, 2> at{};  ///< a point in the hole: Cartesian, body frame [m]
   std::array<double, 2> by{};  ///< [m]

@@ -2,6 +2,7 @@
 
 #include "wheelwright/drawing/parts.h"
 #include "wheelwright/run/command.h"
+#include "wheelwright/run/edit_bounds.h"
 
 namespace wheelwright {
 namespace {
@@ -12,10 +13,6 @@ constexpr double overlap = 5e-4;
 Obeyed drawn(RunControl& run, std::span<const Stroke> strokes, const std::string& what) {
   if (auto refusal = run.draw(strokes, what)) return *std::move(refusal);
   return what;
-}
-
-std::string place_text(const std::array<double, 2>& at) {
-  return fmt::format("({:.1f}, {:.1f}) mm", 1e3 * at[0], 1e3 * at[1]);
 }
 
 Refusal no_hole(const std::array<double, 2>& at) {
@@ -42,7 +39,8 @@ std::vector<Outline> brush_outlines(const Paint& paint) {
 }  // namespace
 
 Obeyed Paint::obey(RunControl& run) const {
-  if (path.empty() || !(radius > 0)) return Refusal{"a brush needs a path and a radius above 0"};
+  if (auto refused = refused_line(run.current_case().wheel, path, radius))
+    return Refusal{*std::move(refused)};
   const Stroke stroke{{as, brush_outlines(*this)}, 0};
   return drawn(
       run, std::span(&stroke, 1),
@@ -50,12 +48,16 @@ Obeyed Paint::obey(RunControl& run) const {
 }
 
 Obeyed MoveHole::obey(RunControl& run) const {
+  constexpr double most = 100;
+  if (!(scale >= 1 / most && scale <= most))
+    return Refusal{fmt::format("a hole can be made {:.6g} to {:.6g} times as wide, not {:.6g} times",
+                               1 / most, most, scale)};
   const std::vector<Point> edge = run.hole_at(at);
   if (edge.empty()) return no_hole(at);
-  if (!(scale > 0)) return Refusal{"a hole's size can only be multiplied by a number above 0"};
   const Point centre = centroid(edge);
   std::vector<Point> moved;
   for (const Point& p : edge) moved.push_back(centre + Point(by) + scale * (p - centre));
+  if (auto refused = refused_hole(run.current_case().wheel, moved)) return Refusal{*std::move(refused)};
   const std::array<Stroke, 2> strokes{filling(edge), Stroke{{Fill::hole, {polygon_outline(moved)}}, 0}};
   const std::string size = scale == 1 ? "" : fmt::format(" and made {:.3g} times as wide", scale);
   return drawn(run, strokes,

@@ -20,7 +20,7 @@ struct PageRequest {
 struct PageAnswer {
   int status = 200;
   std::string type = "application/json";
-  std::string body;
+  std::string body = {};
 };
 
 /// One address that a server answers. There are no others: no part of an address is ever a file's name.
@@ -38,13 +38,13 @@ struct Route {
   std::function<PageAnswer(const PageRequest&)> answer;
 };
 
-/// What one client can make the server hold or wait for. A connection that goes beyond is closed.
+/// What clients can make the server hold or wait for. A connection that goes beyond is closed.
 struct ServerLimits {
-  int connections = 32;                          ///< at a time
-  std::size_t request_bytes = 1 << 18;           ///< first line, headers and body
-  std::chrono::milliseconds request_time{5000};  ///< from a request's first byte to its last
-  std::chrono::milliseconds idle_time{30000};    ///< between two requests
-  std::chrono::milliseconds answer_time{30000};  ///< for the client to take an answer
+  int connections = 128;                ///< at a time; one more closes the oldest that waits for a request
+  int answers = 32;                     ///< that are made at a time; the next ones wait
+  std::size_t request_bytes = 1 << 16;  ///< of first line and headers, and of the body
+  std::chrono::milliseconds request_time{10000};  ///< for a whole request to come, and between two of them
+  std::chrono::milliseconds answer_time{30000};   ///< for the client to take an answer
 };
 
 /// Answers HTTP on the loopback interface, for pages of its own alone: connections of other users of the

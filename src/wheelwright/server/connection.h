@@ -1,0 +1,60 @@
+#pragma once
+
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/thread_pool.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "wheelwright/server/local_server.h"
+#include "wheelwright/server/request_rules.h"
+
+namespace wheelwright {
+
+/// What connections need of their server, which outlives them.
+struct Service {
+  ServerLimits limits;
+  /// The status of a request that gets nothing; 0 for one that is to be answered.
+  std::function<int(const RequestHead&)> refusal;
+  /// Called on a thread of `pool`.
+  std::function<PageAnswer(const RequestHead&, const std::string& body)> answer;
+  boost::asio::thread_pool& pool;
+};
+
+/// A connection of a client, which reads requests and writes their answers, one after the other. It lives as
+/// long as one of them is under way. All of it is for the thread of its socket; only the answers are made
+/// elsewhere.
+class Connection : public std::enable_shared_from_this<Connection> {
+ public:
+  Connection(boost::asio::ip::tcp::socket socket, Service& service)
+      : service_(service), stream_(std::move(socket)), buffer_(2 * service.limits.request_bytes) {}
+
+  /// Waits for a request and answers it, and so on.
+  void read();
+
+  /// Whether no complete request has come since the last answer.
+  bool is_waiting() const { return is_waiting_; }
+
+  void close();
+  /// Closes it at once, or after the answer that is under way.
+  void end();
+
+ private:
+  using Error = boost::beast::error_code;
+
+  void on_head(Error error);
+  void on_request(Error error);
+  void refuse(int status);  ///< 0: without an answer
+  void write(PageAnswer answer);
+
+  Service& service_;
+  boost::beast::tcp_stream stream_;
+  boost::beast::flat_buffer buffer_;
+  std::optional<boost::beast::http::request_parser<boost::beast::http::string_body>> parser_;
+  boost::beast::http::response<boost::beast::http::string_body> response_;
+  bool is_waiting_ = true, is_last_ = false;
+};
+
+}  // namespace wheelwright
