@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -21,6 +22,7 @@
 #include "wheelwright/case/read.h"
 #include "wheelwright/files/level_set_file.h"
 #include "wheelwright/geometry/topology.h"
+#include "wheelwright/run/folder_lock.h"
 
 namespace wheelwright::testing {
 namespace {
@@ -357,6 +359,47 @@ TEST_F(CommandLine, VerifyTestsTheGradientOfTheCasesShape) {
        ++found, ++orders)
     EXPECT_NEAR(std::stod((*found)[1]), 2, 0.1);
   EXPECT_GE(orders, 3);
+}
+
+// Exploring the least mass once drew starts without end, and neither time nor a signal ended it.
+TEST_F(CommandLine, ExploreEndsWhileItDraws) {
+  std::ofstream(folder() / "mass.toml") << R"([[holes.ring]]
+count = 16
+center_radius = 0.27
+radius = 0.04
+[material]
+density = 1100
+[objective]
+minimize = "mass"
+[[constraint]]
+quantity = "stiffness"
+at_least = 40e6
+)";
+  const Outcome in_time = wheelwright("explore mass.toml --starts 999 --seconds 1 --output timed", folder());
+  EXPECT_EQ(in_time.code, exit_no_solution) << in_time.output;
+  EXPECT_NE(in_time.output.find("of 999"), std::string::npos) << in_time.output;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "wheelwright";
+  const int status =
+      std::system(fmt::format("cd '{}' && timeout --preserve-status --kill-after=120 2 '{}' explore "
+                              "mass.toml --starts 999 --output stopped >/dev/null 2>&1",
+                              folder().string(), program.string())
+                      .c_str());
+  EXPECT_EQ(WEXITSTATUS(status), exit_nothing_saved);
+}
+
+TEST_F(CommandLine, AFolderInWhichDesignsAreRunIsRefusedWithItsHolder) {
+  const auto held = FolderLock::acquire(folder() / "designs");
+  ASSERT_TRUE(held);
+  for (const char* command : {"explore", "sweep"}) {
+    const Outcome outcome =
+        wheelwright(fmt::format("{} {} {} --output designs", command, path_of_case("cases/holes16.toml"),
+                                command == std::string("sweep") ? "load.mass=100,200" : "--starts 2"),
+                    folder());
+    EXPECT_EQ(outcome.code, exit_refused) << outcome.output;
+    EXPECT_NE(outcome.output.find(fmt::format("process {}", ::getpid())), std::string::npos)
+        << outcome.output;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder() / "designs" / "settings.txt"));
 }
 
 // 14 x 192 cells have 12 columns per sector: 8 positions stand between them. check warns where that matters.

@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -9,6 +11,7 @@
 #include "wheelwright/app/number_list.h"
 #include "wheelwright/base/parallel.h"
 #include "wheelwright/case/coarse_grid.h"
+#include "wheelwright/case/derived.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/set_number.h"
 #include "wheelwright/case/write.h"
@@ -17,6 +20,7 @@
 #include "wheelwright/explore/sweep.h"
 #include "wheelwright/explore/workers.h"
 #include "wheelwright/files/atomic_file.h"
+#include "wheelwright/run/folder_lock.h"
 #include "wheelwright/run/study.h"
 #include "wheelwright/starts/draft.h"
 #include "wheelwright/starts/random.h"
@@ -84,19 +88,20 @@ TEST(Drafts, SlotsKeepTheirWallsUpToTheLargestSize) {
 void expect_valid_starts(const Case& c, const StartRange& range, std::uint64_t seed, int n) {
   std::set<std::string> kinds;
   for (int number = 0; number < n; ++number) {
-    const auto start = draw_start(c, range, seed, number);
+    const auto start = draw_start(c, range, seed, number).start;
     ASSERT_TRUE(start) << number << ", seed " << seed << ", volume " << range.volume;
     SCOPED_TRACE(start->text);
     const CaseResult again = parse_case(to_toml(start->source), "start.toml");
     ASSERT_TRUE(again.value);
     EXPECT_TRUE(lost_on_the_grid<2>(start->source).empty());
     EXPECT_NEAR(initial_volume(start->source), range.volume, 0.01);
-    EXPECT_EQ(start->source.volume.target, range.volume);
+    EXPECT_EQ(start->source.volume.target,
+              holds_volume(c) ? std::optional(range.volume) : std::optional<double>());
     if (range.keeps_sectors) {
       EXPECT_EQ(start->source.wheel.sectors % c.wheel.sectors, 0);
     }
     kinds.insert(start->text.substr(start->text.find(' ') + 1));
-    const auto same = draw_start(c, range, seed, number);
+    const auto same = draw_start(c, range, seed, number).start;
     EXPECT_EQ(same->source, start->source);
   }
   EXPECT_GT(kinds.size(), 4u);
@@ -116,6 +121,48 @@ TEST(Starts, OfOtherRingsAreValid) {
                       {0.7}, 5, 10);
 }
 
+const std::string least_mass = R"(
+[material]
+density = 1100
+[objective]
+minimize = "mass"
+[[constraint]]
+quantity = "stiffness"
+at_least = 40e6
+)";
+
+TEST(Starts, OfACaseWhoseVolumeIsFreeAreValid) {
+  expect_valid_starts(case_of(usual_wheel + least_mass), {0.66}, 1, 10);
+}
+
+TEST(Starts, CanBeHalvedAsOftenAsTheCoarseGridsNeed) {
+  expect_valid_starts(case_of(usual_wheel + "[optimizer]\ncoarse_levels = 2\n"), {0.66}, 1, 10);
+}
+
+TEST(Starts, AttemptsThatFailAreBoundedAndCounted) {
+  Case refused = case_of(usual_wheel + least_mass);
+  refused.material.density.reset();
+  const Drawing none = draw_start(refused, {0.66}, 1, 2);
+  EXPECT_FALSE(none.start);
+  EXPECT_GT(none.failed.refused, 0);
+  EXPECT_LT(none.failed.refused, 50);
+  EXPECT_FALSE(none.failed.refusal.empty());
+  const Drawing full = draw_start(case_of(usual_wheel), {0.9999}, 1, 2);
+  EXPECT_FALSE(full.start);
+  EXPECT_GT(full.failed.off_volume, 0);
+  int n_asked = 0;
+  const Drawing ended = draw_start(case_of(usual_wheel), {0.9999}, 1, 2, [&] { return ++n_asked > 3; });
+  EXPECT_FALSE(ended.start);
+  EXPECT_EQ(ended.failed.total(), 3);
+}
+
+/// Points that keep their bounds.
+std::vector<RatedPoint> points(const std::vector<std::vector<double>>& costs) {
+  std::vector<RatedPoint> result;
+  for (const auto& of_point : costs) result.push_back({of_point});
+  return result;
+}
+
 /// By the definition: a front is what only earlier fronts dominate.
 TEST(Pareto, FrontsAreThoseOfTheDefinition) {
   Random random(11, 0);
@@ -124,7 +171,7 @@ TEST(Pareto, FrontsAreThoseOfTheDefinition) {
     costs.push_back(
         {std::floor(random.uniform(0, 8)), std::floor(random.uniform(0, 8)), random.uniform(0, 1)});
   costs[17][1] = std::nan("");
-  const std::vector<int> front = fronts(costs);
+  const std::vector<int> front = fronts(points(costs));
   EXPECT_EQ(front[17], 0);
   for (std::size_t i = 0; i < costs.size(); ++i) {
     if (i == 17) continue;
@@ -143,7 +190,7 @@ TEST(Pareto, TheOrderHoldsTheBestOfEachCostFirstAndEveryFrontBeforeTheNext) {
   std::vector<std::vector<double>> costs;
   for (int i = 0; i < 40; ++i) costs.push_back({random.uniform(0, 1), random.uniform(0, 1000)});
   costs.push_back({0.5, std::nan("")});
-  const std::vector<int> order = spread_order(costs), front = fronts(costs);
+  const std::vector<int> order = spread_order(points(costs)), front = fronts(points(costs));
   EXPECT_EQ(order.size(), 40u);
   EXPECT_EQ(std::set<int>(order.begin(), order.end()).size(), 40u);
   for (std::size_t k = 1; k < order.size(); ++k) EXPECT_LE(front[order[k - 1]], front[order[k]]);
@@ -153,6 +200,12 @@ TEST(Pareto, TheOrderHoldsTheBestOfEachCostFirstAndEveryFrontBeforeTheNext) {
       if (costs[i][d] < costs[best][d]) best = i;
     EXPECT_TRUE(order[0] == best || order[1] == best);
   }
+}
+
+TEST(Pareto, WhatMissesItsBoundsIsWorseThanWhatKeepsThem) {
+  const std::vector<RatedPoint> designs{{{1, 1}, 0.02}, {{5, 5}}, {{0, 0}, 0.01}, {{6, 4}}, {{7, 7}}};
+  EXPECT_EQ(fronts(designs), (std::vector<int>{4, 1, 3, 1, 2}));
+  EXPECT_EQ(spread_order(designs), (std::vector<int>{1, 3, 4, 2, 0}));
 }
 
 // Three calls, each of which waits until all have begun.
@@ -291,6 +344,85 @@ TEST_F(Exploration, IsTheSameForAnyNumberOfThreadsAndAfterAStop) {
   for (const auto& entry : fs::directory_iterator(folder() / "one" / "designs"))
     if (entry.is_directory())
       expect_equal_results(entry.path(), folder() / "stopped" / "designs" / entry.path().filename());
+}
+
+TEST_F(Exploration, OfTheLeastMassEndsAndRanksWhatKeepsItsBoundFirst) {
+  Case lightest = small;
+  lightest.material.density = 1100;
+  lightest.objective.minimize = Quantity::mass;
+  lightest.constraints = {{.quantity = Quantity::stiffness, .at_least = 40e6}};
+  lightest.optimizer.iterations = 20;
+  const std::vector<RankedQuantity> asked{*find_quantity("mass"), *find_quantity("run_out")};
+  const auto designs =
+      planned_designs(lightest, {.starts = 4, .seed = 3, .keeps_sectors = false, .quantities = asked});
+  ASSERT_TRUE(designs) << designs.failure().detail;
+  EXPECT_EQ(designs->size(), 4u);
+  make_folder(folder() / "mass");
+  const auto order = ranked(explore(folder() / "mass", *designs, asked, {.threads = 1}), asked);
+  ASSERT_EQ(order.size(), 4u);
+  const double initial = initial_volume(small);
+  bool was_kept = true;
+  for (const RankedDesign& one : order) {
+    const bool is_kept = one.result.value("stiffness_N_per_m") / small.wheel.width > 40e6 * (1 - 1e-3);
+    EXPECT_EQ(one.front > 0, is_kept) << one.design.text << " misses its bound by " << one.result.violation;
+    EXPECT_TRUE(was_kept || !is_kept);
+    was_kept = is_kept;
+  }
+  EXPECT_GT(order.front().front, 0);
+  EXPECT_LT(order.front().result.numbers.at("volume_fraction"), initial);
+}
+
+TEST_F(Exploration, DrawsAsManyStartsAsThereIsTimeFor) {
+  DrawingSettings settings;
+  int n_starts = 0;
+  bool has_ended = false;
+  settings.must_end = [&] { return n_starts == 3; };
+  settings.told = [&](const DrawingProgress& progress) {
+    n_starts = progress.n_starts;
+    has_ended = progress.has_ended;
+  };
+  const ExplorationPlan plan{.starts = 999, .seed = 3, .keeps_sectors = false, .quantities = quantities};
+  const auto some = planned_designs(small, plan, settings);
+  ASSERT_TRUE(some);
+  EXPECT_TRUE(has_ended);
+  ASSERT_EQ(some->size(), 3u);
+  const auto four =
+      planned_designs(small, {.starts = 4, .seed = 3, .keeps_sectors = false, .quantities = quantities});
+  ASSERT_TRUE(four);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ((*some)[i].source, (*four)[i].source);
+}
+
+TEST_F(Exploration, WithoutAnyStartTellsWhatFailed) {
+  Case refused = small;
+  refused.holes = {};
+  refused.volume.target = 0.66;
+  refused.grid.degree = 7;
+  const auto designs =
+      planned_designs(refused, {.starts = 60, .seed = 3, .keeps_sectors = false, .quantities = quantities});
+  ASSERT_FALSE(designs);
+  EXPECT_NE(designs.failure().detail.find("grid.degree"), std::string::npos) << designs.failure().detail;
+}
+
+TEST_F(Exploration, ADesignWhoseFolderIsInUseIsNoResult) {
+  const auto designs =
+      planned_designs(small, {.starts = 2, .seed = 3, .keeps_sectors = false, .quantities = quantities});
+  ASSERT_TRUE(designs);
+  make_folder(folder() / "all");
+  make_subfolder(folder() / "all" / "designs");
+  make_subfolder(folder() / "all" / "designs" / "002");
+  const auto held = FolderLock::acquire(folder() / "all" / "designs" / "002");
+  ASSERT_TRUE(held);
+  std::vector<std::string> left_out;
+  RunSettings settings{.threads = 1};
+  settings.left_out = [&](const Design& design, const std::string& why) {
+    left_out.push_back(design.name);
+    EXPECT_NE(why.find(std::to_string(::getpid())), std::string::npos) << why;
+  };
+  const auto rated = run_all(folder() / "all", *designs, settings);
+  ASSERT_EQ(rated.size(), 1u);
+  EXPECT_EQ(rated[0].design.name, "001");
+  EXPECT_EQ(left_out, std::vector<std::string>{"002"});
+  EXPECT_FALSE(fs::exists(folder() / "all" / "designs" / "002.full.json"));
 }
 
 TEST_F(Exploration, WhatIsKnownIsNotRunAgain) {

@@ -25,7 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* settings_file = "settings.txt";
-constexpr const char* usual_quantities = "stiffness,run_out";
 constexpr int printed_rows = 12;
 
 std::vector<std::string> words(const std::string& text) {
@@ -51,25 +50,43 @@ std::string content(const fs::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
+/// The ranked quantity that tells how well a minimized one was minimized.
+std::string_view word_of_minimized(Quantity minimized) {
+  switch (minimized) {
+    case Quantity::volume_fraction:
+      return "mass";
+    case Quantity::peak_von_mises:
+    case Quantity::peak_von_mises_inside:
+      return "peak_stress";
+    default:
+      return find_quantity(name(minimized)) ? name(minimized) : "stiffness";
+  }
+}
+
 }  // namespace
 
 void DesignOptions::declare(Options& options) {
   add_output(options, output, "Folder of the results, instead of the case's output.folder with an ending");
   options.text(
       "--for", "QUANTITY,...", quantities, check_quantities,
-      fmt::format("By what designs are ranked and drawn, without it {}; known: stiffness, strain_energy, "
-                  "mass, run_out, force_variation, peak_pressure, peak_stress, strain",
-                  usual_quantities));
+      "By what designs are ranked and drawn, without it what the case minimizes, or stiffness, and run_out; "
+      "known: stiffness, strain_energy, mass, run_out, force_variation, peak_pressure, peak_stress, strain");
   constexpr int most_seconds = 10'000'000;
   options.number("--seconds", seconds, {1, most_seconds},
                  "Begin no further design after so much time; without it the number of designs decides");
   add_threads(options, threads);
 }
 
-std::vector<RankedQuantity> DesignOptions::chosen_quantities() const {
+std::vector<RankedQuantity> DesignOptions::chosen_quantities(const Case& c) const {
   std::vector<RankedQuantity> chosen;
-  for (const std::string& word : words(quantities.value_or(usual_quantities)))
-    chosen.push_back(*find_quantity(word));
+  if (quantities) {
+    for (const std::string& word : words(*quantities)) chosen.push_back(*find_quantity(word));
+    return chosen;
+  }
+  const RankedQuantity* first = find_quantity(word_of_minimized(c.objective.minimize));
+  chosen.push_back(*first);
+  const std::string_view evenness = c.load.travel ? "force_variation" : "run_out";
+  if (first->word != evenness) chosen.push_back(*find_quantity(evenness));
   return chosen;
 }
 
@@ -77,17 +94,30 @@ int DesignOptions::n_threads() const {
   return threads.value_or(static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
 }
 
-DesignSession::DesignSession(std::string name, fs::path folder, const DesignOptions& options,
-                             std::string settings)
-    : name_(std::move(name)), folder_(std::move(folder)), options_(options), settings_(std::move(settings)) {}
+DesignSession::DesignSession(std::string name, fs::path folder, const DesignOptions& options, const Case& c,
+                             const Signals& signals, std::string settings)
+    : name_(std::move(name)),
+      folder_(std::move(folder)),
+      options_(options),
+      case_(c),
+      signals_(signals),
+      settings_(std::move(settings)),
+      quantities_(options.chosen_quantities(c)) {}
 
 bool DesignSession::may_begin() {
   const std::string csv = name_ + ".csv", json = name_ + ".json", html = name_ + ".html";
-  const std::string_view names[] = {csv, json, html, pareto_picture, settings_file, folder_of_designs};
+  const std::string_view names[] = {csv,      json, html, pareto_picture, settings_file, folder_of_designs,
+                                    lock_file};
   const auto foreign = WrittenFiles(folder_).foreign(names);
   if (!foreign.empty()) {
     tell("{}: {}: already there, and not written by this program; choose another folder with --output\n",
          folder_.string(), fmt::format("{}", fmt::join(foreign, ", ")));
+    return false;
+  }
+  auto lock = FolderLock::acquire(folder_);
+  if (!lock) {
+    tell("{}: {} is writing to this folder; wait for it, or choose another folder with --output\n",
+         folder_.string(), to_string(lock.failure()));
     return false;
   }
   if (fs::exists(folder_ / settings_file) && content(folder_ / settings_file) != settings_) {
@@ -97,55 +127,73 @@ bool DesignSession::may_begin() {
         folder_.string(), settings_file);
     return false;
   }
-  make_folder(folder_);
+  lock_.emplace(*std::move(lock));
   write_atomically(folder_ / settings_file, settings_);
   return true;
 }
 
-RunSettings DesignSession::run_settings(const Case& c, std::size_t n_designs, Signals& signals) const {
+bool DesignSession::is_time_over() const { return options_.seconds && watch_.seconds() >= *options_.seconds; }
+
+DrawingSettings DesignSession::drawing_settings(int n_starts) const {
+  constexpr double seconds_between = 2;
+  DrawingSettings settings;
+  settings.must_end = [this] { return signals_.stop() || is_time_over(); };
+  settings.told = [n_starts, last = Stopwatch()](const DrawingProgress& progress) mutable {
+    const bool is_complete = progress.n_starts == n_starts;
+    if (progress.has_ended ? is_complete : last.seconds() < seconds_between) return;
+    last.lap();
+    const std::string failed = to_string(progress.failed);
+    tell("starts drawn: {} of {}{}{}\n", progress.n_starts, n_starts, failed.empty() ? "" : "; ", failed);
+  };
+  return settings;
+}
+
+RunSettings DesignSession::run_settings(std::size_t n_designs) const {
   RunSettings settings;
   settings.threads = options_.n_threads();
   if (const auto available = available_memory())
-    settings.threads = std::clamp(static_cast<int>(*available / estimated_memory(c)), 1, settings.threads);
-  settings.stop_requested = [&signals] { return signals.stop().has_value(); };
-  if (options_.seconds)
-    settings.may_begin = [watch = Stopwatch(), seconds = *options_.seconds] {
-      return watch.seconds() < seconds;
-    };
+    settings.threads =
+        std::clamp(static_cast<int>(*available / estimated_memory(case_)), 1, settings.threads);
+  settings.stop_requested = [this] { return signals_.stop().has_value(); };
+  settings.may_begin = [this] { return !is_time_over(); };
   settings.done = [this, n_designs, n_done = 0](const Design& design, const DesignResult& result) mutable {
     tell("{:>3}/{}  ", ++n_done, n_designs);
     show(design, result);
+  };
+  settings.left_out = [](const Design& design, const std::string& why) {
+    tell("{} {}: left out: {}\n", design.name, design.text, why);
   };
   return settings;
 }
 
 void DesignSession::show(const Design& design, const DesignResult& result) const {
   std::string numbers;
-  for (const RankedQuantity& quantity : options_.chosen_quantities())
+  for (const RankedQuantity& quantity : quantities_)
     if (!result.numbers.empty())
       numbers += fmt::format(", {} {:.5g} {}", quantity.word, result.value(quantity) * quantity.factor,
                              quantity.unit);
   tell("{} {}: {} after {} shapes{}\n", design.name, design.text, result.status, result.shapes, numbers);
 }
 
-int DesignSession::run(const Case& c, std::size_t n_designs, Signals& signals, const Work& work) const {
+int DesignSession::run(std::size_t n_designs, const Work& work) const {
   const ThreadLimit one_thread_each(1);
-  const auto quantities = options_.chosen_quantities();
-  const std::vector<RatedDesign> designs = work(run_settings(c, n_designs, signals));
-  if (const auto signal = signals.stop()) {
+  const std::vector<RatedDesign> designs = work(run_settings(n_designs));
+  if (const auto signal = signals_.stop()) {
     tell("stopped, saved; to go on, give the same command again\n");
     return designs.empty() ? exit_nothing_saved : 128 + *signal;
   }
-  const auto order = write_designs(folder_, name_, designs, quantities, run_title(c));
-  print_lines(stdout, designs_table(order, quantities, printed_rows));
+  const auto order = write_designs(folder_, name_, designs, quantities_, run_title(case_));
+  print_lines(stdout, designs_table(order, quantities_, printed_rows));
   print("\n{} designs, * worse than no other one\n", order.size());
   for (const auto& [file, meaning] : {std::pair{name_ + ".html", "all of them, for a browser"},
                                       {std::string(pareto_picture), "the picture"},
                                       {name_ + ".csv", "the numbers; .json too"},
                                       {std::string(folder_of_designs), "one run per design"}})
     print("  {:<36} {}\n", (folder_ / file).string(), meaning);
-  const bool any = std::ranges::any_of(order, [](const RankedDesign& one) { return one.front > 0; });
-  return any ? exit_done : exit_no_solution;
+  if (std::ranges::any_of(order, [](const RankedDesign& one) { return one.front > 0; })) return exit_done;
+  const bool any_result =
+      std::ranges::any_of(order, [](const RankedDesign& one) { return !one.result.numbers.empty(); });
+  return any_result ? exit_infeasible : exit_no_solution;
 }
 
 bool is_plane_or_tell(const std::string& command, const Case& c, const std::string& file) {

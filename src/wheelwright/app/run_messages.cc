@@ -45,8 +45,8 @@ template <int dim>
 struct NotBegunReport {
   const fs::path& folder;
 
-  int operator()(const FolderInUse&) const {
-    tell("{}: another run is writing to this folder\n", folder.string());
+  int operator()(const FolderInUse& in_use) const {
+    tell("{}: {} is writing to this folder\n", folder.string(), to_string(in_use));
     return exit_refused;
   }
   int operator()(const FolderHoldsARun&) const {

@@ -10,6 +10,7 @@
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <optional>
 
 #include "wheelwright/case/coarse_grid.h"
 #include "wheelwright/case/derived.h"
@@ -777,6 +778,27 @@ std::vector<Need> unmet_needs(const Case& c, Quantity quantity) {
   return needs;
 }
 
+/// Why a quantity is the same for every wheel, so that it can neither be minimized nor be bounded.
+struct Constancy {
+  std::string key, problem, remedy;
+};
+
+std::optional<Constancy> constancy(const Case& c, Quantity quantity) {
+  const auto is_one_of = [quantity](std::initializer_list<Quantity> list) {
+    return std::ranges::find(list, quantity) != list.end();
+  };
+  if (c.load.positions == 1 && is_one_of({Quantity::run_out, Quantity::run_out_harmonic,
+                                          Quantity::force_variation, Quantity::force_variation_harmonic}))
+    return Constancy{"load.positions", "with one load position it is 0 for every wheel",
+                     "take load.positions = 2 or more"};
+  if (c.load.travel && is_one_of({Quantity::travel, Quantity::mean_travel}))
+    return Constancy{"load.travel", "it is the prescribed travel for every wheel",
+                     "give a load in place of load.travel"};
+  if (!c.load.travel && quantity == Quantity::radial_force)
+    return Constancy{"load.force", "it is the load for every wheel", "give load.travel in place of a load"};
+  return {};
+}
+
 /// What the optimizer has no derivative of, with what to do; empty for the others.
 std::string_view without_derivative(Quantity quantity) {
   switch (quantity) {
@@ -813,11 +835,60 @@ void check_minimized(const Case& c, Conflicts& found) {
     for (const Need& need : unmet_needs(single, o.minimize))
       of_case.push_back(
           {{"objective.minimize", need.key}, need.problem, "change that key, or minimize another"});
+    if (const auto constant = constancy(single, o.minimize))
+      of_case.push_back({{"objective.minimize", constant->key},
+                         constant->problem,
+                         constant->remedy + ", or minimize another quantity"});
   });
   if ((o.minimize == Quantity::volume_fraction || o.minimize == Quantity::mass) && c.constraints.empty())
     found.push_back({{"objective.minimize"},
                      "nothing keeps the wheel from vanishing",
                      "add a [[constraint]], for example on stiffness"});
+}
+
+/// A bound of a constraint: whichever positions it is about, one from below that exceeds one from above
+/// cannot be kept beside it.
+struct OneBound {
+  std::string key;
+  double value;
+};
+
+std::optional<OneBound> lower_bound(const Case& c, std::size_t i) {
+  const Constraint& constraint = c.constraints[i];
+  const auto& value = constraint.equals ? constraint.equals : constraint.at_least;
+  if (!value) return {};
+  return OneBound{fmt::format("constraint[{}].{}", i + 1, constraint.equals ? "equals" : "at_least"), *value};
+}
+
+std::optional<OneBound> upper_bound(const Case& c, std::size_t i) {
+  const Constraint& constraint = c.constraints[i];
+  const auto& value = constraint.equals ? constraint.equals : constraint.at_most;
+  if (!value) return {};
+  return OneBound{fmt::format("constraint[{}].{}", i + 1, constraint.equals ? "equals" : "at_most"), *value};
+}
+
+/// Finds bounds of one quantity in two tables that no wheel can keep both.
+void check_bounds_together(const Case& c, Conflicts& found) {
+  const auto meet = [&](const Constraint& a, const Constraint& b) {
+    return a.quantity == b.quantity &&
+           (a.load_case.empty() || b.load_case.empty() || a.load_case == b.load_case);
+  };
+  const auto check = [&](const std::optional<OneBound>& lower, const std::optional<OneBound>& upper,
+                         bool lower_is_later) {
+    if (!lower || !upper || lower->value <= upper->value) return;
+    const OneBound &later = lower_is_later ? *lower : *upper, &earlier = lower_is_later ? *upper : *lower;
+    found.push_back(
+        {.keys = {later.key, earlier.key},
+         .problem = fmt::format("no wheel keeps this and {} = {:.6g} too", earlier.key, earlier.value),
+         .remedy = "change one of them, or remove it",
+         .other_place = earlier.key});
+  };
+  for (std::size_t i = 0; i < c.constraints.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      if (!meet(c.constraints[i], c.constraints[k])) continue;
+      check(lower_bound(c, i), upper_bound(c, k), true);
+      check(lower_bound(c, k), upper_bound(c, i), false);
+    }
 }
 
 /// Bounds that no wheel can keep, or that the run cannot see.
@@ -851,6 +922,10 @@ void check_constraints(const Case& c, Conflicts& found) {
       for (const Need& need : unmet_needs(single, constraint.quantity))
         of_case.push_back(
             {{key("quantity"), need.key}, need.problem, "change that key, or bound another quantity"});
+      if (const auto constant = constancy(single, constraint.quantity))
+        of_case.push_back({{key("quantity"), constant->key},
+                           constant->problem,
+                           constant->remedy + ", or bound another quantity"});
     });
     for (const auto& [name, bound] : {std::pair{"at_least", constraint.at_least},
                                       {"at_most", constraint.at_most},
@@ -927,6 +1002,7 @@ std::vector<Conflict> conflicts(const Case& c) {
   check_nucleation(c, found);
   check_minimized(c, found);
   check_constraints(c, found);
+  check_bounds_together(c, found);
   check_expectations(c, found);
   if (!found.empty()) check_load_cases(c, all_load_cases(c), found, check_walls);
   return found;

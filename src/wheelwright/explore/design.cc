@@ -22,17 +22,17 @@ std::vector<std::string> other_load_cases(const Case& c) {
   return names;
 }
 
-std::vector<double> costs(const DesignResult& result, const std::vector<RankedQuantity>& quantities) {
-  std::vector<double> all;
+RatedPoint rated_point(const DesignResult& result, const std::vector<RankedQuantity>& quantities) {
+  RatedPoint point{{}, result.violation};
   for (const RankedQuantity& quantity : quantities)
-    all.push_back((quantity.is_larger_better ? -1 : 1) * result.value(quantity));
-  return all;
+    point.costs.push_back((quantity.is_larger_better ? -1 : 1) * result.value(quantity));
+  return point;
 }
 
-std::vector<std::vector<double>> costs(const std::vector<RatedDesign>& designs,
-                                       const std::vector<RankedQuantity>& quantities) {
-  std::vector<std::vector<double>> all;
-  for (const RatedDesign& one : designs) all.push_back(costs(one.result, quantities));
+std::vector<RatedPoint> rated_points(const std::vector<RatedDesign>& designs,
+                                     const std::vector<RankedQuantity>& quantities) {
+  std::vector<RatedPoint> all;
+  for (const RatedDesign& one : designs) all.push_back(rated_point(one.result, quantities));
   return all;
 }
 
@@ -40,6 +40,7 @@ std::string to_json(const DesignResult& result) {
   nlohmann::ordered_json json{{"progression", result.progression == Progression::full ? "full" : "preview"},
                               {"status", result.status},
                               {"shapes", result.shapes},
+                              {"bound_violation", result.violation},
                               {"numbers", nlohmann::ordered_json::object()}};
   for (const auto& [key, value] : result.numbers) json["numbers"][key] = value;
   return json.dump(2) + '\n';
@@ -49,6 +50,7 @@ DesignResult design_result(const std::string& text) {
   const auto json = nlohmann::json::parse(text);
   DesignResult result{json.at("progression") == "full" ? Progression::full : Progression::preview,
                       json.at("status"), json.at("shapes")};
+  result.violation = json.at("bound_violation");
   for (const auto& [key, value] : json.at("numbers").items()) result.numbers[key] = value.get<double>();
   return result;
 }

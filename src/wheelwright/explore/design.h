@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "wheelwright/case/case.h"
+#include "wheelwright/explore/pareto.h"
 #include "wheelwright/explore/quantity.h"
 
 namespace wheelwright {
@@ -32,6 +33,7 @@ struct DesignResult {
   /// By their keys in summary.json, and by key_in_case() under other load cases; empty if the run has no
   /// results.
   std::map<std::string, double> numbers = {};
+  double violation = 0;  ///< the largest one of a bound, as a fraction of the bound; 0: all are kept
 
   /// In SI units; NaN if it is not known.
   double value(const RankedQuantity& quantity) const;
@@ -50,10 +52,10 @@ struct RatedDesign {
   DesignResult result;
 };
 
-/// What is small for good designs, in the order of the quantities.
-std::vector<double> costs(const DesignResult& result, const std::vector<RankedQuantity>& quantities);
-std::vector<std::vector<double>> costs(const std::vector<RatedDesign>& designs,
-                                       const std::vector<RankedQuantity>& quantities);
+/// By what designs are ranked; the costs are small for good designs, in the order of the quantities.
+RatedPoint rated_point(const DesignResult& result, const std::vector<RankedQuantity>& quantities);
+std::vector<RatedPoint> rated_points(const std::vector<RatedDesign>& designs,
+                                     const std::vector<RankedQuantity>& quantities);
 
 /// As a file of its own, and back; throws std::exception on a text that is none.
 std::string to_json(const DesignResult& result);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -83,12 +85,26 @@ class EndOfPreview : public Observer<2> {
   bool has_changed_grid_ = false, is_over_ = false;
 };
 
-/// The numbers of the last shape that a run wrote to its folder.
-std::map<std::string, double> numbers_of(const fs::path& folder, int& shapes) {
-  std::map<std::string, double> numbers;
-  if (!fs::exists(folder / "summary.json")) return numbers;
-  const auto after = nlohmann::json::parse(content(folder / "summary.json")).at("after");
-  shapes = after.at("shape");
+/// Of a summary's bounds, as a fraction of the bound.
+double largest_violation(const nlohmann::json& bounds) {
+  double largest = 0;
+  for (const auto& bound : bounds) {
+    if (bound.at("is_kept")) continue;
+    const double limit = bound.at("bound");
+    largest = std::max(
+        largest, std::abs(bound.at("value").get<double>() - limit) / (limit == 0 ? 1 : std::abs(limit)));
+  }
+  return largest;
+}
+
+/// Reads the numbers of the last shape that a run wrote to its folder.
+void read_summary(const fs::path& folder, DesignResult& result) {
+  if (!fs::exists(folder / "summary.json")) return;
+  const auto summary = nlohmann::json::parse(content(folder / "summary.json"));
+  if (summary.contains("bounds")) result.violation = largest_violation(summary["bounds"]);
+  const auto& after = summary.at("after");
+  auto& numbers = result.numbers;
+  result.shapes = after.at("shape");
   for (const WheelNumber<2>& number : wheel_numbers<2>())  // some are told of some wheels only
     if (after.contains(number.key) && after[number.key].is_number())
       numbers[number.key] = after[number.key].get<double>();
@@ -96,23 +112,29 @@ std::map<std::string, double> numbers_of(const fs::path& folder, int& shapes) {
     for (const auto& [load_case, of_case] : after["load_cases"].items())
       for (const auto& [key, value] : of_case.items())
         if (value.is_number()) numbers[key_in_case(key, load_case)] = value.template get<double>();
-  return numbers;
 }
 
-std::string failure_text(const NotBegun<2>& reason) {
-  if (const auto* failure = std::get_if<Failure>(&reason)) return to_string(failure->reason);
-  if (std::holds_alternative<FolderInUse>(reason)) return "folder_in_use";
-  return "folder_not_usable";
+/// Why a design's folder cannot be used.
+std::string fault_of_folder(const NotBegun<2>& reason, const fs::path& folder) {
+  if (const auto* in_use = std::get_if<FolderInUse>(&reason))
+    return fmt::format("{} is writing to {}", to_string(*in_use), folder.string());
+  return fmt::format("{} cannot be used: the files in it are not those of this design, or are damaged",
+                     folder.string());
 }
+
+/// What became of a design's run: a result, or why its folder cannot be used; neither if it was stopped.
+struct DesignRun {
+  std::optional<DesignResult> result;
+  std::string fault;
+};
 
 Expected<Run<2>, NotBegun<2>> begun_or_resumed(const Design& design, const fs::path& folder) {
   if (fs::exists(folder / "case.toml")) return Run<2>::resume(with_own_drawings(design.source), folder);
   return Run<2>::begin(design.source, folder);
 }
 
-/// Empty for a run that was stopped.
-std::optional<DesignResult> run_design(const Design& design, const fs::path& folder, Progression progression,
-                                       const std::function<bool()>& stop_requested) {
+DesignRun run_design(const Design& design, const fs::path& folder, Progression progression,
+                     const std::function<bool()>& stop_requested) {
   DesignResult result{progression, ""};
   auto run = begun_or_resumed(design, folder);
   if (run) {
@@ -130,12 +152,14 @@ std::optional<DesignResult> run_design(const Design& design, const fs::path& fol
     result.status = is_end_of_preview ? "preview" : to_string(ended.reason);
   } else if (const auto* finished = std::get_if<AlreadyFinished<2>>(&run.failure())) {
     result.status = to_string(*finished->end.finished);
+  } else if (const auto* failure = std::get_if<Failure>(&run.failure())) {
+    result.status = to_string(failure->reason);
+    return {result, ""};
   } else {
-    result.status = failure_text(run.failure());
-    return result;
+    return {{}, fault_of_folder(run.failure(), folder)};
   }
-  result.numbers = numbers_of(folder, result.shapes);
-  return result;
+  read_summary(folder, result);
+  return {result, ""};
 }
 
 }  // namespace
@@ -157,7 +181,12 @@ std::vector<std::optional<DesignResult>> run_designs(const fs::path& folder,
         const std::scoped_lock lock(mutex);
         make_subfolder(place / design.name);
       }
-      result = run_design(design, place / design.name, progression, settings.stop_requested);
+      DesignRun run = run_design(design, place / design.name, progression, settings.stop_requested);
+      result = std::move(run.result);
+      if (!run.fault.empty()) {
+        const std::scoped_lock lock(mutex);
+        settings.left_out(design, run.fault);
+      }
       if (!result) return;
     }
     const std::scoped_lock lock(mutex);

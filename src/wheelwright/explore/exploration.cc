@@ -13,7 +13,6 @@
 #include "wheelwright/files/level_set_file.h"
 #include "wheelwright/report/svg.h"
 #include "wheelwright/run/study.h"
-#include "wheelwright/starts/start.h"
 
 namespace wheelwright {
 namespace {
@@ -68,34 +67,71 @@ std::vector<RatedDesign> rated(const std::vector<Design>& designs,
 
 }  // namespace
 
-Expected<std::vector<Design>> planned_designs(const Case& c, const ExplorationPlan& plan) {
-  if (!c.volume.target && !has_holes(c))
-    return Failure{
-        FailureReason::empty_shape,
-        "the case has neither holes nor volume.target, so that no volume is given for the designs"};
-  const StartRange range{c.volume.target ? *c.volume.target : initial_volume(c), plan.keeps_sectors};
+namespace {
+
+/// The volume that a case gives its designs, as a fraction of the ring: by its target, by a bound or by its
+/// own shape.
+std::optional<double> volume_of_designs(const Case& c) {
+  if (c.volume.target) return c.volume.target;
+  const auto bound = std::ranges::find(c.constraints, Quantity::volume_fraction, &Constraint::quantity);
+  if (bound != c.constraints.end() && bound->equals) return bound->equals;
+  if (has_holes(c)) return initial_volume(c);
+  if (bound == c.constraints.end()) return {};
+  return bound->at_most ? bound->at_most : bound->at_least;
+}
+
+/// The case's own shape and those that are drawn, as far as there is time for them.
+Expected<std::vector<Start>> planned_starts(const Case& c, const ExplorationPlan& plan,
+                                            const DrawingSettings& settings) {
+  const auto volume = volume_of_designs(c);
+  if (!volume)
+    return Failure{FailureReason::empty_shape,
+                   fmt::format("no volume is given for the designs; give the case holes{}",
+                               holds_volume(c) ? " or volume.target" : "")};
   std::vector<Start> starts;
   if (has_holes(c)) starts.push_back({"the case's own shape", c});
-  for (int number = 0; static_cast<int>(starts.size()) < plan.starts && number < 4 * plan.starts; ++number)
-    if (auto start = draw_start(c, range, plan.seed, number)) starts.push_back(*std::move(start));
-  if (starts.empty())
-    return Failure{
-        FailureReason::empty_shape,
-        fmt::format("no shape of the volume {:.6g} was found that this grid resolves", range.volume)};
+  FailedAttempts failed;
+  int without_start = 0;
+  for (int number = 0; static_cast<int>(starts.size()) < plan.starts && without_start < n_kinds_of_starts;
+       ++number) {
+    if (settings.must_end()) break;
+    Drawing drawing = draw_start(c, {*volume, plan.keeps_sectors}, plan.seed, number, settings.must_end);
+    without_start = drawing.start ? 0 : without_start + 1;
+    failed += drawing.failed;
+    if (drawing.start) starts.push_back(*std::move(drawing.start));
+    settings.told({static_cast<int>(starts.size()), failed, false});
+  }
+  settings.told({static_cast<int>(starts.size()), failed, true});
+  if (starts.empty() && !settings.must_end())
+    return Failure{FailureReason::empty_shape,
+                   fmt::format("no start of the volume {:.6g} was found; {}", *volume, to_string(failed))};
+  return starts;
+}
+
+/// Whether a weight of evenness changes what a case minimizes.
+bool minimizes_weighted_sum(const Case& c) { return c.objective.minimize == Quantity::objective; }
+
+}  // namespace
+
+Expected<std::vector<Design>> planned_designs(const Case& c, const ExplorationPlan& plan,
+                                              const DrawingSettings& settings) {
+  auto starts = planned_starts(c, plan, settings);
+  if (!starts) return starts.failure();
   double weight = 0;
-  if (std::ranges::any_of(plan.quantities, &RankedQuantity::is_of_evenness)) {
-    const auto found = weight_of_evenness(starts.front().source);
+  if (!starts->empty() && minimizes_weighted_sum(c) &&
+      std::ranges::any_of(plan.quantities, &RankedQuantity::is_of_evenness)) {
+    const auto found = weight_of_evenness(starts->front().source);
     if (!found) return found.failure();
     weight = *found;
   }
   std::vector<Design> designs;
-  for (std::size_t i = 0; i < starts.size(); ++i) {
+  for (std::size_t i = 0; i < starts->size(); ++i) {
     const double relative =
         relative_weights_of_evenness[(i + i / 10) % std::size(relative_weights_of_evenness)];
-    Case source = as_design(std::move(starts[i].source));
+    Case source = as_design(std::move((*starts)[i].source));
     if (i > 0 && weight * relative > 0) source.objective.uniformity_dual += weight * relative;
     designs.push_back({design_name(i),
-                       starts[i].text,
+                       (*starts)[i].text,
                        std::move(source),
                        {{"weight_of_evenness", designs.empty() ? 0 : weight * relative}}});
   }
@@ -104,7 +140,7 @@ Expected<std::vector<Design>> planned_designs(const Case& c, const ExplorationPl
 
 std::vector<int> chosen_designs(const std::vector<RatedDesign>& previews,
                                 const std::vector<RankedQuantity>& quantities) {
-  std::vector<int> order = spread_order(costs(previews, quantities));
+  std::vector<int> order = spread_order(rated_points(previews, quantities));
   order.resize(std::min(order.size(), (previews.size() + 2) / 3));
   std::ranges::sort(order);
   return order;

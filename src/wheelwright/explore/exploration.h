@@ -2,12 +2,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "wheelwright/base/expected.h"
 #include "wheelwright/explore/design_runs.h"
 #include "wheelwright/explore/report_designs.h"
+#include "wheelwright/starts/start.h"
 
 namespace wheelwright {
 
@@ -23,9 +25,27 @@ struct ExplorationPlan {
 /// the ratio of J_e and J_p2 of the case's own wheel: so they do not depend on load, material or size.
 inline constexpr double relative_weights_of_evenness[] = {0, 0.3, 3};
 
-/// The designs that an exploration tries: the same for the same case and plan. Fails if the case's own shape
-/// cannot be solved, and with empty_shape if the case says no volume for its designs.
-Expected<std::vector<Design>> planned_designs(const Case& c, const ExplorationPlan& plan);
+/// How far the starts of an exploration are drawn.
+struct DrawingProgress {
+  int n_starts;
+  FailedAttempts failed;
+  bool has_ended;
+};
+
+/// Drawing starts takes seconds to minutes. This is asked and told meanwhile.
+struct DrawingSettings {
+  /// Asked before every attempt: whether the starts drawn so far must do.
+  std::function<bool()> must_end = [] { return false; };
+  /// Told after every start, drawn or not, and at the end.
+  std::function<void(const DrawingProgress&)> told = [](const DrawingProgress&) {};
+};
+
+/// The designs that an exploration tries: the same for the same case and plan; the first ones of them if
+/// drawing had to end. There are fewer than planned if all kinds of starts fail in turn. Fails if the case's
+/// own shape cannot be solved, and with empty_shape if the case says no volume for its designs or none could
+/// be drawn.
+Expected<std::vector<Design>> planned_designs(const Case& c, const ExplorationPlan& plan,
+                                              const DrawingSettings& settings = {});
 
 /// Which of the previewed designs are optimized to the end: about a third of them, in spread_order().
 std::vector<int> chosen_designs(const std::vector<RatedDesign>& previews,

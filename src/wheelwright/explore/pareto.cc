@@ -6,14 +6,16 @@
 namespace wheelwright {
 namespace {
 
-using Points = std::vector<std::vector<double>>;
+using Costs = std::vector<std::vector<double>>;
 
 bool is_known(const std::vector<double>& costs) {
   return std::ranges::none_of(costs, [](double cost) { return std::isnan(cost); });
 }
 
 /// The costs between 0 and 1 over all known points.
-Points scaled(Points costs) {
+Costs scaled(const std::vector<RatedPoint>& points) {
+  Costs costs;
+  for (const RatedPoint& point : points) costs.push_back(point.costs);
   const std::size_t n = costs.empty() ? 0 : costs.front().size();
   for (std::size_t d = 0; d < n; ++d) {
     double low = HUGE_VAL, high = -HUGE_VAL;
@@ -31,7 +33,7 @@ double squared_distance(const std::vector<double>& a, const std::vector<double>&
 }
 
 /// The point of the list that is farthest from all chosen ones.
-std::size_t farthest(const Points& points, const std::vector<int>& list, const std::vector<int>& chosen) {
+std::size_t farthest(const Costs& points, const std::vector<int>& list, const std::vector<int>& chosen) {
   std::size_t best = 0;
   double best_distance = -1;
   for (std::size_t k = 0; k < list.size(); ++k) {
@@ -54,15 +56,20 @@ bool dominates(const std::vector<double>& a, const std::vector<double>& b) {
   return is_smaller;
 }
 
-std::vector<int> fronts(const Points& costs) {
-  std::vector<int> front(costs.size(), 0);
+bool is_better(const RatedPoint& a, const RatedPoint& b) {
+  if (a.violation > 0 || b.violation > 0) return a.violation < b.violation;
+  return dominates(a.costs, b.costs);
+}
+
+std::vector<int> fronts(const std::vector<RatedPoint>& points) {
+  std::vector<int> front(points.size(), 0);
   std::vector<int> left;
-  for (std::size_t i = 0; i < costs.size(); ++i)
-    if (is_known(costs[i])) left.push_back(static_cast<int>(i));
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (is_known(points[i].costs)) left.push_back(static_cast<int>(i));
   for (int number = 1; !left.empty(); ++number) {
     std::vector<int> dominated;
     for (const int i : left)
-      if (std::ranges::any_of(left, [&](int other) { return dominates(costs[other], costs[i]); }))
+      if (std::ranges::any_of(left, [&](int other) { return is_better(points[other], points[i]); }))
         dominated.push_back(i);
       else
         front[i] = number;
@@ -71,9 +78,9 @@ std::vector<int> fronts(const Points& costs) {
   return front;
 }
 
-std::vector<int> spread_order(const Points& costs) {
-  const Points points = scaled(costs);
-  const std::vector<int> front = fronts(costs);
+std::vector<int> spread_order(const std::vector<RatedPoint>& points) {
+  const Costs costs = scaled(points);
+  const std::vector<int> front = fronts(points);
   std::vector<int> order;
   const int last = costs.empty() ? 0 : std::ranges::max(front);
   for (int number = 1; number <= last; ++number) {
@@ -86,7 +93,7 @@ std::vector<int> spread_order(const Points& costs) {
     };
     for (std::size_t d = 0; d < costs.front().size() && !members.empty(); ++d)
       choose(std::ranges::min_element(members, {}, [&](int i) { return costs[i][d]; }) - members.begin());
-    while (!members.empty()) choose(farthest(points, members, order));
+    while (!members.empty()) choose(farthest(costs, members, order));
   }
   return order;
 }

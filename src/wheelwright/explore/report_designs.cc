@@ -72,37 +72,49 @@ double parameter(const Design& design, const std::string& name) {
   return found == design.parameters.end() ? std::nan("") : found->second;
 }
 
+/// How a design's run ended, and by how much it misses its bounds.
+std::string status(const DesignResult& result) {
+  if (result.violation == 0) return result.status;
+  return fmt::format("{}, misses a bound by {:.2g} %", result.status, 100 * result.violation);
+}
+
 }  // namespace
 
 std::vector<RankedDesign> ranked(const std::vector<RatedDesign>& designs,
                                  const std::vector<RankedQuantity>& quantities) {
-  const auto all = costs(designs, quantities);
+  const auto all = rated_points(designs, quantities);
   const auto front = fronts(all);
   std::vector<int> order(designs.size());
   std::iota(order.begin(), order.end(), 0);
   const auto place = [&](int i) {
-    return std::pair(front[i] == 0 ? HUGE_VAL : front[i], front[i] == 0 ? 0 : all[i].front());
+    return std::pair(front[i] == 0 ? HUGE_VAL : front[i], front[i] == 0 ? 0 : all[i].costs.front());
   };
   std::ranges::stable_sort(order, {}, place);
   std::vector<RankedDesign> result;
-  for (const int i : order) result.push_back({designs[i], front[i], {}});
+  for (const int i : order)
+    result.push_back({designs[i], designs[i].result.violation > 0 ? 0 : front[i], {}});
   return result;
 }
 
 std::string designs_csv(const std::vector<RankedDesign>& designs) {
   const auto names = parameter_names(designs);
-  std::vector<std::string> header{"rank", "design", "front", "run", "ended", "shapes", "start", "sectors"};
+  std::vector<std::string> header{"rank",   "design", "front",  "run", "ended", "bound_violation",
+                                  "shapes", "start",  "sectors"};
   header.insert(header.end(), names.begin(), names.end());
   const auto keys = number_keys(designs);
   header.insert(header.end(), keys.begin(), keys.end());
   std::string text = csv_line(header);
   int rank = 0;
   for (const RankedDesign& one : designs) {
-    std::vector<std::string> cells{
-        std::to_string(++rank),    one.design.name,
-        std::to_string(one.front), word(one.result.progression),
-        one.result.status,         std::to_string(one.result.shapes),
-        one.design.text,           std::to_string(one.design.source.wheel.sectors)};
+    std::vector<std::string> cells{std::to_string(++rank),
+                                   one.design.name,
+                                   std::to_string(one.front),
+                                   word(one.result.progression),
+                                   one.result.status,
+                                   csv_number(one.result.violation),
+                                   std::to_string(one.result.shapes),
+                                   one.design.text,
+                                   std::to_string(one.design.source.wheel.sectors)};
     for (const std::string& name : names) cells.push_back(csv_number(parameter(one.design, name)));
     for (const std::string& key : keys) cells.push_back(csv_number(one.result.value(key)));
     text += csv_line(cells);
@@ -126,6 +138,7 @@ std::string designs_json(const std::vector<RankedDesign>& designs,
                {"front", one.front},
                {"run", word(one.result.progression)},
                {"ended", one.result.status},
+               {"bound_violation", one.result.violation},
                {"shapes", one.result.shapes},
                {"numbers", Json::object()}};
     for (const auto& [name, value] : one.design.parameters) entry["parameters"][name] = value;
@@ -152,7 +165,9 @@ std::string designs_table(const std::vector<RankedDesign>& designs,
   for (int i = 0; i < std::min(most_rows, static_cast<int>(designs.size())); ++i) {
     const RankedDesign& one = designs[i];
     std::vector<std::string> row{fmt::format("{}{}", i + 1, one.front == 1 ? "*" : ""), one.design.name,
-                                 one.design.text};
+                                 one.result.violation == 0
+                                     ? one.design.text
+                                     : fmt::format("{} ({})", one.design.text, status(one.result))};
     for (const auto& [heading, key, factor] : shown) {
       const double value = one.result.value(key);
       row.push_back(std::isnan(value) ? one.result.status : fmt::format("{:.5g}", value * factor));
@@ -201,7 +216,7 @@ std::string designs_page(const std::vector<RankedDesign>& designs,
                                {"text", one.design.text},
                                {"front", one.front},
                                {"progression", word(one.result.progression)},
-                               {"status", one.result.status},
+                               {"status", status(one.result)},
                                {"shapes", one.result.shapes},
                                {"values", std::move(values)},
                                {"outline", one.outline}});

@@ -11,13 +11,13 @@ namespace wheelwright {
 
 /// A design with its place among all of them.
 struct RankedDesign : RatedDesign {
-  int front;  ///< in the quantities asked for (explore/pareto.h); 0: no result
+  int front;  ///< in the quantities asked for (explore/pareto.h); 0: no result, or a bound is missed
   std::string
       outline;  ///< the `d` of an SVG path of the wheel, 100 units wide about the origin; may be empty
 };
 
-/// Designs in the order of their fronts, and within a front of the first quantity; those without results
-/// last.
+/// Designs in the order of their fronts, and within a front of the first quantity; then those that miss a
+/// bound, those without results last.
 std::vector<RankedDesign> ranked(const std::vector<RatedDesign>& designs,
                                  const std::vector<RankedQuantity>& quantities);
 

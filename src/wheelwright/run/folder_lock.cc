@@ -1,10 +1,12 @@
 #include "wheelwright/run/folder_lock.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <fstream>
 #include <utility>
 
 #include "wheelwright/files/atomic_file.h"
@@ -18,21 +20,40 @@ namespace {
 /// 0, or the errno.
 int lock(int file) { return ::flock(file, LOCK_EX | LOCK_NB) == 0 ? 0 : errno; }
 
+/// What the holder of a lock wrote to its file.
+FolderInUse holder(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  long process = 0;
+  if (file >> process && process > 0) return {process};
+  return {};
+}
+
+/// Writes the id of this process to the file. What cannot be written is lost: the lock holds all the same.
+void sign(int file) {
+  const std::string text = fmt::format("{}\n", ::getpid());
+  if (::ftruncate(file, 0) == 0 && ::pwrite(file, text.data(), text.size(), 0) < 0) return;
+}
+
 }  // namespace
 
-std::optional<FolderLock> FolderLock::acquire(const std::filesystem::path& folder) {
+std::string to_string(const FolderInUse& in_use) {
+  return in_use.process ? fmt::format("process {}", *in_use.process) : "another process";
+}
+
+Expected<FolderLock, FolderInUse> FolderLock::acquire(const std::filesystem::path& folder) {
   make_folder(folder);
-  const auto path = folder / "run.lock";
+  const auto path = folder / lock_file;
   claim_file(path);
   FolderLock held;
   held.folder_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (held.folder_ < 0) throw OutputError(folder, errno);
-  if (lock(held.folder_) == EWOULDBLOCK) return {};
+  if (lock(held.folder_) == EWOULDBLOCK) return holder(path);
   held.file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (held.file_ < 0) throw OutputError(path, errno);
   const int error = lock(held.file_);
-  if (error == EWOULDBLOCK) return {};
+  if (error == EWOULDBLOCK) return holder(path);
   if (error != 0) throw OutputError(path, error);
+  sign(held.file_);
   return held;
 }
 

@@ -2,17 +2,31 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
+
+#include "wheelwright/base/expected.h"
 
 namespace wheelwright {
+
+/// The file in a locked folder.
+inline constexpr const char* lock_file = "run.lock";
+
+/// Another process writes to the folder.
+struct FolderInUse {
+  std::optional<long> process = {};  ///< its id, if it could be read
+};
+
+/// "process 1234", or "another process".
+std::string to_string(const FolderInUse& in_use);
 
 /// The right of one process to write to a folder. It ends with this object or with the process, however that
 /// ends, so that no dead process blocks a folder.
 class FolderLock {
  public:
   /// Creates the folder, if it does not exist, and the file run.lock in it. Locks both: somebody may remove
-  /// the file, and on some file systems of networks a folder cannot be locked. Empty if another process holds
-  /// either lock. Throws OutputError.
-  static std::optional<FolderLock> acquire(const std::filesystem::path& folder);
+  /// the file, and on some file systems of networks a folder cannot be locked. The file tells the id of this
+  /// process. Fails if another process holds either lock. Throws OutputError.
+  static Expected<FolderLock, FolderInUse> acquire(const std::filesystem::path& folder);
 
   FolderLock(FolderLock&& other) noexcept;
   FolderLock& operator=(FolderLock&&) = delete;

@@ -93,7 +93,7 @@ Expected<Run<dim>, NotBegun<dim>> Run<dim>::begin(const Case& c, const fs::path&
     foreign.emplace_back("analysis.json");  // its pictures are in the way
   if (!foreign.empty()) return NotBegun<dim>(ForeignFiles{std::move(foreign)});
   auto lock = FolderLock::acquire(folder);
-  if (!lock) return NotBegun<dim>(FolderInUse{});
+  if (!lock) return NotBegun<dim>(lock.failure());
   const CheckpointFolder checkpoints(folder);
   if (fs::exists(folder / history_file) || checkpoints.exists()) return NotBegun<dim>(FolderHoldsARun{});
   auto study = make_study<dim>(with_own_drawings(c));
@@ -107,7 +107,7 @@ Expected<Run<dim>, NotBegun<dim>> Run<dim>::resume(const Case& c, const fs::path
   if (auto foreign = foreign_files(folder); !foreign.empty())
     return NotBegun<dim>(ForeignFiles{std::move(foreign)});
   auto lock = FolderLock::acquire(folder);
-  if (!lock) return NotBegun<dim>(FolderInUse{});
+  if (!lock) return NotBegun<dim>(lock.failure());
   auto [checkpoints, checkpoint, unusable] = resume_point<dim>(folder, c);
   if (!checkpoint && !unusable.empty()) return NotBegun<dim>(NoUsableCheckpoint{std::move(unusable)});
   if (!checkpoint && has_trials(folder / history_file)) return NotBegun<dim>(CheckpointsGone{});

@@ -16,7 +16,6 @@
 namespace wheelwright {
 
 // Why a run did not begin or resume.
-struct FolderInUse {};  ///< another process writes to the folder
 struct FolderHoldsARun {};
 /// The run would replace files that no run wrote.
 struct ForeignFiles {

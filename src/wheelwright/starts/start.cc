@@ -1,7 +1,11 @@
 #include "wheelwright/starts/start.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "wheelwright/case/coarse_grid.h"
 #include "wheelwright/case/derived.h"
@@ -15,11 +19,13 @@ namespace wheelwright {
 namespace {
 
 constexpr int most_attempts = 200;
+/// Cases that are refused have mostly the same fault, which no other holes mend.
+constexpr int most_refused = 10;
 constexpr double volume_tolerance = 1e-3;
 
 /// One of the kinds, in turn, so that even few starts hold several; rings come most often.
 std::optional<Draft> draft(const DraftSpace& space, Random& random, int number) {
-  switch (number % 10) {
+  switch (number % n_kinds_of_starts) {
     case 0:
     case 5:
       return draft_rings(space, random, 2, true);
@@ -50,11 +56,11 @@ DraftSpace draft_space(const Case& c, const StartRange& range) {
   return {inner, outer, wall, range.keeps_sectors ? c.wheel.sectors : 1};
 }
 
-/// About as many cells as the case has, a multiple of the sectors and, where the case's can be halved, of
-/// twice as many.
+/// About as many cells as the case has, a multiple of the sectors that can be halved as often as its coarse
+/// grids need, and once where the case's can.
 int angular_cells(const Case& c, int sectors) {
-  int unit = sectors;
-  if (can_be_halved(c, 1)) unit *= 2;
+  const int halvings = std::max(c.optimizer.coarse_levels, can_be_halved(c, 1) ? 1 : 0);
+  const int unit = sectors << halvings;
   return unit * std::max(1, static_cast<int>(std::lround(double(c.grid.angular_cells) / unit)));
 }
 
@@ -65,7 +71,7 @@ Case drawn(const Case& c, const StartRange& range, const Draft& draft, double si
   result.shapes = {};
   result.saved_shape = {};
   result.expectations = {};
-  result.volume.target = range.volume;
+  if (holds_volume(c)) result.volume.target = range.volume;
   result.wheel.sectors = draft.sectors;
   result.grid.angular_cells = angular_cells(c, draft.sectors);
   draft.draw(result, size);
@@ -90,8 +96,25 @@ std::optional<double> matching_size(const Case& c, const StartRange& range, cons
   return {};
 }
 
-bool is_valid(const Case& c) {
-  return parse_case(to_toml(c), "start.toml").value && lost_on_the_grid<2>(c).empty();
+/// What is wrong with a case, first of all; empty if nothing is.
+std::string refusal(const Case& c) {
+  const CaseResult checked = parse_case(to_toml(c), "start.toml");
+  if (checked.value) return "";
+  const Diagnostic& first = checked.problems.front();
+  return fmt::format("{}: {}", first.key, first.problem);
+}
+
+/// One attempt at a start.
+Drawing attempt(const Case& c, const StartRange& range, const std::optional<Draft>& draft) {
+  if (!draft) return {{}, {.without_room = 1}};
+  const auto size = matching_size(c, range, *draft);
+  if (!size) return {{}, {.off_volume = 1}};
+  Case result = drawn(c, range, *draft, *size);
+  if (std::string problem = refusal(result); !problem.empty())
+    return {{}, {.refused = 1, .refusal = std::move(problem)}};
+  if (!lost_on_the_grid<2>(result).empty()) return {{}, {.unresolved = 1}};
+  result.title = draft->text;
+  return {Start{draft->text, std::move(result)}, {}};
 }
 
 }  // namespace
@@ -101,21 +124,40 @@ double initial_volume(const Case& c) {
   return volume_fraction<2>(shape.lattice.grid(), material_measure(shape));
 }
 
-std::optional<Start> draw_start(const Case& c, const StartRange& range, std::uint64_t seed, int number) {
+FailedAttempts& FailedAttempts::operator+=(const FailedAttempts& other) {
+  without_room += other.without_room;
+  off_volume += other.off_volume;
+  refused += other.refused;
+  unresolved += other.unresolved;
+  if (refusal.empty()) refusal = other.refusal;
+  return *this;
+}
+
+std::string to_string(const FailedAttempts& attempts) {
+  if (attempts.total() == 0) return "";
+  std::vector<std::string> reasons;
+  const auto add = [&](std::string_view reason, int n) {
+    if (n > 0) reasons.push_back(fmt::format("{} {}", n, reason));
+  };
+  add("left no room for walls and gaps", attempts.without_room);
+  add("could not have the volume", attempts.off_volume);
+  add("lost walls or holes on the grid", attempts.unresolved);
+  if (attempts.refused > 0) add(fmt::format("were refused ({})", attempts.refusal), attempts.refused);
+  return fmt::format("{} attempts failed: {}", attempts.total(), fmt::join(reasons, ", "));
+}
+
+Drawing draw_start(const Case& c, const StartRange& range, std::uint64_t seed, int number,
+                   const std::function<bool()>& must_end) {
   Random random(seed, static_cast<std::uint64_t>(number));
   const DraftSpace space = draft_space(c, range);
-  for (int attempt = 0; attempt < most_attempts; ++attempt) {
+  FailedAttempts failed;
+  while (failed.total() < most_attempts && failed.refused < most_refused && !must_end()) {
     // A kind that finds no room gives way to the next one.
-    const auto chosen = draft(space, random, number + attempt / 20);
-    if (!chosen) continue;
-    const auto size = matching_size(c, range, *chosen);
-    if (!size) continue;
-    Case result = drawn(c, range, *chosen, *size);
-    if (!is_valid(result)) continue;
-    result.title = chosen->text;
-    return Start{chosen->text, std::move(result)};
+    Drawing drawing = attempt(c, range, draft(space, random, number + failed.total() / 20));
+    failed += drawing.failed;
+    if (drawing.start) return {std::move(drawing.start), std::move(failed)};
   }
-  return {};
+  return {{}, std::move(failed)};
 }
 
 }  // namespace wheelwright

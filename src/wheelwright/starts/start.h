@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -18,16 +19,42 @@ struct StartRange {
 };
 
 /// A drawn start: the case with other holes or shapes and, where they ask for it, another number of sectors
-/// on a grid of about as many cells. Its volume.target is that of the range.
+/// on a grid of about as many cells. Its volume.target is that of the range if the case holds its volume.
 struct Start {
   std::string text;  ///< e.g. "2 rings of 16 holes, staggered"
   Case source;
 };
 
+/// What became of attempts that gave no start.
+struct FailedAttempts {
+  int without_room = 0;   ///< the numbers drawn leave no room for walls and gaps
+  int off_volume = 0;     ///< no size has the volume of the range
+  int refused = 0;        ///< the case is not valid
+  int unresolved = 0;     ///< the grid loses walls or holes
+  std::string refusal{};  ///< what is wrong with the first case that was refused
+
+  int total() const { return without_room + off_volume + refused + unresolved; }
+  FailedAttempts& operator+=(const FailedAttempts& other);
+};
+
+/// E.g. "41 attempts failed: no room 30, off the volume 11". Empty if none failed.
+std::string to_string(const FailedAttempts& attempts);
+
+struct Drawing {
+  std::optional<Start> start;
+  FailedAttempts failed;
+};
+
+/// The kinds of starts, such as slots, that consecutive numbers have in turn.
+inline constexpr int n_kinds_of_starts = 10;
+
 /// The start of a number, which no other start depends on. Its shape is valid on the grid of the case: no
 /// wall and no hole is lost there, and its volume is that of the range to within a hundredth of the ring.
-/// Nothing if no such shape was found.
-std::optional<Start> draw_start(const Case& c, const StartRange& range, std::uint64_t seed, int number);
+/// There is none if a bounded number of attempts failed, or if `must_end`, which is asked before each of
+/// them, says so.
+Drawing draw_start(
+    const Case& c, const StartRange& range, std::uint64_t seed, int number,
+    const std::function<bool()>& must_end = [] { return false; });
 
 /// Material of a case's initial shape as a fraction of the ring.
 double initial_volume(const Case& c);

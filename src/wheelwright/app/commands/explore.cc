@@ -34,14 +34,19 @@ class ExploreCommand : public Subcommand {
     if (!is_plane_or_tell(name(), *c, case_file_)) return exit_refused;
     if (!may_compute(name(), *c, case_file_, options_.threads)) return exit_refused;
     plan_.seed = static_cast<std::uint64_t>(seed_);
-    plan_.quantities = options_.chosen_quantities();
-    DesignSession session(name(), folder_for(options_, *c, "-explore"), options_, settings(*c));
+    plan_.quantities = options_.chosen_quantities(*c);
+    const auto folder = folder_for(options_, *c, "-explore");
+    DesignSession session(name(), folder, options_, *c, signals, settings(*c));
     if (!session.may_begin()) return exit_refused;
-    const auto designs = planned_designs(*c, plan_);
+    const auto designs = planned_designs(*c, plan_, session.drawing_settings(plan_.starts));
+    if (const auto signal = signals.stop()) {
+      tell("stopped while starts were drawn; nothing was saved\n");
+      return exit_nothing_saved;
+    }
     if (!designs) return tell_failure(name(), designs.failure());
     const std::size_t n_runs = designs->size() + (designs->size() + 2) / 3;
-    return session.run(*c, n_runs, signals, [&](const RunSettings& settings) {
-      return wheelwright::explore(folder_for(options_, *c, "-explore"), *designs, plan_.quantities, settings);
+    return session.run(n_runs, [&](const RunSettings& settings) {
+      return wheelwright::explore(folder, *designs, plan_.quantities, settings);
     });
   }
 

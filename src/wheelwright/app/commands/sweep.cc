@@ -61,13 +61,12 @@ class SweepCommand : public Subcommand {
   }
 
  private:
-  int run_designs(const Case& c, const std::vector<Design>& designs, Signals& signals) const {
+  int run_designs(const Case& c, const std::vector<Design>& designs, const Signals& signals) const {
     const auto folder = folder_for(options_, c, "-sweep");
     std::string settings = fmt::format("{}\n\n", fmt::join(texts_, "\n")) + to_toml(c);
-    DesignSession session(name(), folder, options_, std::move(settings));
+    DesignSession session(name(), folder, options_, c, signals, std::move(settings));
     if (!session.may_begin()) return exit_refused;
-    return session.run(c, designs.size(), signals,
-                       [&](const RunSettings& how) { return run_all(folder, designs, how); });
+    return session.run(designs.size(), [&](const RunSettings& how) { return run_all(folder, designs, how); });
   }
 
   std::string case_file_;
