@@ -98,6 +98,21 @@ TYPED_TEST(ContactLaw, GivenFrictionAgreesWithCoulombsAtItsThreshold) {
     }
 }
 
+// What slides everywhere is Coulomb's law where the tangential part is far beyond the threshold.
+TYPED_TEST(ContactLaw, SlidingEverywhereIsCoulombsLawFarBeyondItsThreshold) {
+  constexpr int dim = TypeParam::value;
+  Tractions<dim> tractions;
+  for (const Regime regime : {Regime::separated, Regime::sliding}) {
+    Vec<dim> z = tractions.draw(regime), along{};
+    for (int d = 1; d < dim; ++d) along[d] = z[d] / tangential_norm<dim>(z);
+    const auto response = sliding_response<dim>(z, friction, along);
+    for (int d = 0; d < dim; ++d)
+      EXPECT_NEAR(response.traction[d], contact_response<dim>(z, friction).traction[d], 1e-14);
+    expect_tangent_is_the_derivative<dim>(
+        z, [&](const Vec<dim>& at) { return sliding_response<dim>(at, friction, along); });
+  }
+}
+
 TYPED_TEST(ContactLaw, NormalTractionIsTheNegativePart) {
   constexpr int dim = TypeParam::value;
   Tractions<dim> tractions;

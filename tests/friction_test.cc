@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <string>
 
 #include "tests/support.h"
+#include "wheelwright/cut/measure.h"
 #include "wheelwright/rolling/adjoint.h"
 #include "wheelwright/sensitivity/taylor_test.h"
 
@@ -96,6 +98,86 @@ TEST(Friction, ForcesAndMomentsBalance) {
         EXPECT_NE(state.rim.rotation, 0);
       }
     }
+  }
+}
+
+/// A wheel without symmetry, whose patch is not centred below the axle.
+RollingModel<2> lopsided_model() {
+  auto model = with_friction(paper_model(14, 192));
+  model.tread.levels = 2;
+  return model;
+}
+
+// Up to 99 % of what friction holds, by forces and torques in both directions.
+TEST(Friction, HoldsTheWheelUpToItsLimit) {
+  for (const double friction : {0.05, 0.3, 1.0})
+    for (const double part : {-0.99, -0.82, 0.9, 0.99})
+      for (const bool is_torque : {false, true}) {
+        auto model = lopsided_model();
+        model.contact.friction = friction;
+        const double held = part * friction * model.load;
+        (is_torque ? model.torque : model.horizontal_force) =
+            held * (is_torque ? model.grid.outer_radius : 1);
+        const auto problem = RollingProblem<2>::create(model);
+        ASSERT_TRUE(problem);
+        const auto s = problem->solve(testing::generic_hole(model.grid));
+        // Where the patch lies off the axle, the pressure takes a part of the torque, or adds to it.
+        if (!s && is_torque && std::abs(part) == 0.99) {
+          EXPECT_EQ(s.failure().reason, FailureReason::sliding) << friction << part << s.failure().detail;
+          continue;
+        }
+        ASSERT_TRUE(s) << friction << part << is_torque << s.failure().detail;
+        for (const auto& state : s->states) {
+          if (is_torque)
+            EXPECT_NEAR(state.rim_force.torque, model.torque, 1e-9 * std::abs(model.torque));
+          else
+            EXPECT_NEAR(state.rim_force.along_ground, held, 1e-9 * std::abs(held));
+        }
+      }
+}
+
+// The limit is what a contact holds that slides everywhere: the friction of the load, to the last newton.
+TEST(Friction, BeyondItsLimitTheWheelSlides) {
+  for (const double part : {0.9999, 1.0001}) {
+    auto model = lopsided_model();
+    model.horizontal_force = part * 0.3 * model.load;
+    const auto s = RollingProblem<2>::create(model)->solve(testing::generic_hole(model.grid));
+    if (s) {
+      EXPECT_LT(part, 1);
+      continue;
+    }
+    EXPECT_EQ(s.failure().reason, FailureReason::sliding) << s.failure().detail;
+  }
+  auto model = lopsided_model();
+  model.distributed.body_force[1] =
+      0.4 * model.load / material_measure(testing::generic_hole(model.grid)) / 16;
+  model.horizontal_force = 1e-3 * model.load;
+  const auto pushed = RollingProblem<2>::create(model)->solve(testing::generic_hole(model.grid));
+  ASSERT_FALSE(pushed);
+  EXPECT_EQ(pushed.failure().reason, FailureReason::sliding) << pushed.failure().detail;
+  EXPECT_NE(pushed.failure().detail.find("load.body_force"), std::string::npos);
+}
+
+// At a prescribed travel the force of the ground is a result, and what friction holds follows from it.
+TEST(Friction, AWheelAtAPrescribedTravelSlidesWhereItsForceIsTooSmall) {
+  auto model = lopsided_model();
+  model.travel = 2e-4;
+  const auto psi = testing::generic_hole(model.grid);
+  const auto free = RollingProblem<2>::create(model)->solve(psi);
+  ASSERT_TRUE(free) << free.failure().detail;
+  double least = 1e300;
+  for (const auto& state : free->states) least = std::min(least, state.rim_force.towards_ground);
+  for (const double part : {0.9, 1.1}) {
+    model.torque = part * 0.3 * least * model.grid.outer_radius;
+    const auto driven = RollingProblem<2>::create(model)->solve(psi);
+    if (part < 1) {
+      EXPECT_TRUE(driven) << driven.failure().detail;
+      continue;
+    }
+    ASSERT_FALSE(driven);
+    EXPECT_EQ(driven.failure().reason, FailureReason::sliding) << driven.failure().detail;
+    EXPECT_NE(driven.failure().detail.find("load.torque"), std::string::npos);
+    EXPECT_NE(driven.failure().detail.find("load.travel"), std::string::npos);
   }
 }
 

@@ -5,7 +5,10 @@
 #include <random>
 
 #include "tests/support.h"
+#include "wheelwright/analysis/rolling_analysis.h"
+#include "wheelwright/analysis/shape_summary.h"
 #include "wheelwright/cut/measure.h"
+#include "wheelwright/functionals/quantity_functional.h"
 #include "wheelwright/sensitivity/taylor_test.h"
 
 namespace wheelwright {
@@ -144,6 +147,59 @@ TEST(Loads, ARotatingRingGrowsAsThickWalledTheorySays) {
       const double radial = at[0] * std::cos(azimuth) + at[1] * std::sin(azimuth);
       const double rim = (*state)->contacts()[0].rim.towards_ground * std::cos(azimuth);
       EXPECT_NEAR(radial - rim, A * r + B / r - k * r * r * r, 1e-5 * k * b * b * b) << r;
+    }
+  }
+}
+
+// The rotating wheel stands on the ground before it carries anything: the travel begins there.
+TEST(Loads, TravelAndStiffnessOfARotatingWheelBeginWhereItStandsWithoutLoad) {
+  auto model = rotating_model(150);
+  model.n_positions = 4;
+  const auto psi = testing::generic_hole(model.grid);
+  std::vector<double> stiffness;
+  for (const double load : {1e-2, 1.0, 100.0, 1e4}) {
+    model.load = load;
+    const auto problem = RollingProblem<2>::create(model);
+    ASSERT_TRUE(problem);
+    const auto state = testing::all_states<2>(*problem, psi);
+    ASSERT_TRUE(state) << state.failure().detail;
+    for (const auto& contact : (*state)->contacts()) {
+      EXPECT_GT(contact.growth, 1e-5);
+      EXPECT_GT(contact.travel(), 0);
+      EXPECT_LT(contact.travel(), 1e-6 + 1e-6 * load);
+    }
+    stiffness.push_back(shape_summary<2>(*problem, psi, **state).stiffness);
+    EXPECT_GT(stiffness.back(), 0);
+  }
+  // A held travel begins there too, and gives the load back that caused it.
+  const auto loaded = testing::all_states<2>(*RollingProblem<2>::create(model), psi);
+  const auto analysis = rolling_analysis<2>(*RollingProblem<2>::create(model), **loaded);
+  ASSERT_TRUE(analysis.force_at_travel) << analysis.force_at_travel.failure().detail;
+  double mean_force = 0;
+  for (const double force : *analysis.force_at_travel) mean_force += force / 4;
+  EXPECT_NEAR(mean_force, model.load, 0.02 * model.load);
+  model.n_positions = 1;
+  const auto one = testing::all_states<2>(*RollingProblem<2>::create(model), psi);
+  model.travel = (*one)->contacts()[0].travel();
+  const auto held = testing::all_states<2>(*RollingProblem<2>::create(model), psi);
+  ASSERT_TRUE(held) << held.failure().detail;
+  EXPECT_NEAR((*held)->contacts()[0].rim_force.towards_ground, 1e4, 1e-6 * 1e4);
+}
+
+TEST(Loads, TravelAndForceOfARotatingWheelPassTheTaylorTest) {
+  for (const bool held : {false, true}) {
+    auto model = paper_model(14, 192);
+    model.n_positions = 4;
+    model.distributed.angular_speed = 120;
+    model.materials = with_density(model.materials.at_tread());
+    if (held) model.travel = 4e-4;
+    const auto problem = RollingProblem<2>::create(model);
+    ASSERT_TRUE(problem);
+    for (const Quantity quantity : {held ? Quantity::radial_force : Quantity::travel, Quantity::stiffness}) {
+      const auto test =
+          generic_taylor_test(*problem, {{1, quantity_functional<2>(quantity, Over::mean, {})}});
+      ASSERT_TRUE(test) << test.failure().detail;
+      for (double order : test->orders) EXPECT_GT(order, 1.9) << held << name(quantity);
     }
   }
 }

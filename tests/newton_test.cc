@@ -154,7 +154,7 @@ TEST(Newton, NamesWhatIsImpossible) {
   model.horizontal_force = 0.4 * model.load;
   const auto sliding = RollingProblem<2>::create(model)->solve(psi);
   ASSERT_FALSE(sliding);
-  EXPECT_EQ(sliding.failure().reason, FailureReason::newton_stalled);
+  EXPECT_EQ(sliding.failure().reason, FailureReason::sliding);
 }
 
 // The patch of so light a wheel lies between the points of the contact: the nearest one carries the load.

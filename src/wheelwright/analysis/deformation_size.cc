@@ -165,7 +165,7 @@ template <int dim>
 double travel_by_thickness(const StateSolver<dim>& solver, const State<dim>& state) {
   double largest = 0;
   for (const ContactPatch<dim>& contact : state.contacts())
-    largest = std::max(largest, std::abs(contact.rim.towards_ground));
+    largest = std::max(largest, std::abs(contact.travel()));
   const PolarGrid<dim>& grid = solver.model().grid;
   return largest / (grid.outer_radius - grid.inner_radius);
 }

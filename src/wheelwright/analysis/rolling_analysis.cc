@@ -40,13 +40,18 @@ std::vector<double> values(const std::vector<ContactSummary>& positions, double 
   return result;
 }
 
-/// At the solved positions under another model.
-template <int dim>
-Expected<std::vector<double>> values_under(const State<dim>& state, const RollingModel<dim>& model,
-                                           double ContactSummary::*member) {
-  const auto positions = under(state, model);
-  if (!positions) return positions.failure();
-  return values(*positions, member);
+/// Equal weights for all positions of a sector, also where one of them stands for two.
+double mean(const LoadPositions& solved, const std::vector<double>& values) {
+  return rolling_variation(of_all(solved, values)).mean;
+}
+
+/// By how far the axle descends at each position, from the mean height at which the wheel touches the ground
+/// without load: all descents, moved to the mean of the travels.
+std::vector<double> axle_travel(const LoadPositions& solved, const std::vector<ContactSummary>& positions) {
+  std::vector<double> result = values(positions, &ContactSummary::descent);
+  const double growth = mean(solved, values(positions, &ContactSummary::travel)) - mean(solved, result);
+  for (double& descent : result) descent += growth;
+  return result;
 }
 
 /// From the positions that were solved to all positions of a sector.
@@ -69,11 +74,6 @@ RollingAnalysis of_all_positions(RollingAnalysis a, const LoadPositions& solved,
   return a;
 }
 
-/// Equal weights for all positions of a sector, also where one of them stands for two.
-double mean(const LoadPositions& solved, const std::vector<double>& values) {
-  return rolling_variation(of_all(solved, values)).mean;
-}
-
 }  // namespace
 
 template <int dim>
@@ -83,7 +83,7 @@ RollingAnalysis rolling_analysis(const StateSolver<dim>& solver, const State<dim
   const auto worst = std::ranges::max_element(peaks.von_mises) - peaks.von_mises.begin();
   const std::vector<ContactSummary> positions = summaries(state.contacts());
   const Held held = model.travel ? Held::travel : Held::load;
-  const std::vector<double> travels = values(positions, &ContactSummary::travel),
+  const std::vector<double> travels = axle_travel(state.positions(), positions),
                             forces = values(positions, &ContactSummary::radial_force);
   RollingAnalysis analysis{
       .held = held,
@@ -102,11 +102,15 @@ RollingAnalysis rolling_analysis(const StateSolver<dim>& solver, const State<dim
   };
   for (const GroundPosition& ground : state.positions().grounds)
     analysis.azimuths.push_back(ground.azimuth(solver.model().grid));
-  if (held == Held::load)
-    analysis.force_at_travel =
-        values_under(state, at_travel(model, analysis.travel), &ContactSummary::radial_force);
+  const auto held_otherwise =
+      under(state, held == Held::load ? at_travel(model, analysis.travel) : at_load(model, analysis.load));
+  auto& unknown = held == Held::load ? analysis.force_at_travel : analysis.travel_at_load;
+  if (!held_otherwise)
+    unknown = held_otherwise.failure();
+  else if (held == Held::load)
+    unknown = values(*held_otherwise, &ContactSummary::radial_force);
   else
-    analysis.travel_at_load = values_under(state, at_load(model, analysis.load), &ContactSummary::travel);
+    unknown = axle_travel(state.positions(), *held_otherwise);
   return of_all_positions(std::move(analysis), state.positions(), model);
 }
 

@@ -25,7 +25,9 @@ struct RollingAnalysis {
   double travel;  ///< the model's, or the mean of the travels under its load
 
   // What the model does not hold takes further solves, which fail as the contact problem does.
-  Expected<std::vector<double>> travel_at_load;   ///< its variation is the run-out of the loaded radius
+  /// By how far the axle descends at each position, from the mean height at which the wheel touches the
+  /// ground without load; its variation is the run-out of the loaded radius.
+  Expected<std::vector<double>> travel_at_load;
   Expected<std::vector<double>> force_at_travel;  ///< radial force
 };
 

@@ -112,13 +112,14 @@ double mean(std::span<const double> values) {
 
 template <int dim>
 ContactSummary contact_summary(const ContactPatch<dim>& contact) {
-  ContactSummary summary{.travel = contact.rim.towards_ground,
+  ContactSummary summary{.travel = contact.travel(),
                          .radial_force = 0,
                          .peak_pressure = 0,
                          .patch_length = 0,
                          .patch_extent = 0,
                          .travel_along_ground = contact.rim.along_ground,
-                         .wind_up = contact.rim.rotation};
+                         .wind_up = contact.rim.rotation,
+                         .descent = contact.rim.towards_ground};
   std::vector<GroundPoint> points;
   for (const auto& point : contact.points) {
     const double pressure = -point.traction[0];
@@ -154,15 +155,15 @@ RollingVariation rolling_variation(std::span<const double> values) {
 }
 
 RollingMeasures rolling_measures(std::span<const ContactSummary> positions) {
-  std::vector<double> travel, peak;
+  std::vector<double> travel, descent, peak;
   for (const ContactSummary& position : positions) {
     travel.push_back(position.travel);
+    descent.push_back(position.descent);
     peak.push_back(position.peak_pressure);
   }
-  const auto [least_travel, greatest_travel] = std::ranges::minmax(travel);
+  const auto [highest, lowest] = std::ranges::minmax(descent);
   const auto [least_peak, greatest_peak] = std::ranges::minmax(peak);
-  return {mean(travel), greatest_travel - least_travel, greatest_peak,
-          (greatest_peak - least_peak) / mean(peak)};
+  return {mean(travel), lowest - highest, greatest_peak, (greatest_peak - least_peak) / mean(peak)};
 }
 
 template ContactSummary contact_summary(const ContactPatch<2>&);

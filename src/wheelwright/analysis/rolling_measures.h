@@ -13,7 +13,7 @@ namespace wheelwright {
 /// One load position as seen from the rim and the ground. Forces are per metre of width when dim = 2. What
 /// acts or moves along the ground, and what turns, is positive towards larger azimuth.
 struct ContactSummary {
-  double travel;                   ///< of the rim towards the ground [m]
+  double travel;                   ///< of the rim towards the ground (ContactPatch::travel) [m]
   double radial_force;             ///< of the ground on the tread [N/m]
   double peak_pressure;            ///< largest contact pressure at the quadrature points [Pa]
   double patch_length;             ///< of all that touches, along the ground, without gaps between [m]
@@ -22,6 +22,7 @@ struct ContactSummary {
   double peak_friction = 0;        ///< largest size of its traction along the ground [Pa]
   double travel_along_ground = 0;  ///< of the rim [m]
   double wind_up = 0;              ///< the angle by which the rim turns [rad]
+  double descent = 0;              ///< of the axle, from where the wheel at rest without load has it [m]
 };
 
 /// Each lobe of the patch, a part without gaps, ends where the square of the pressure, extrapolated from its
@@ -48,7 +49,7 @@ RollingVariation rolling_variation(std::span<const double> values);
 /// The evenness of rolling in single numbers.
 struct RollingMeasures {
   double mean_travel;      ///< [m]
-  double run_out;          ///< peak to peak of the travel at fixed load [m]
+  double run_out;          ///< peak to peak of the axle's height at fixed load [m]
   double peak_pressure;    ///< greatest over the positions [Pa]
   double pressure_spread;  ///< of the positions' peaks: (greatest - least) / mean
 };

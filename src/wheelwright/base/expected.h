@@ -26,6 +26,8 @@ enum class FailureReason {
   too_narrow,             ///< walls or gaps stay narrower than the least width
   unsupported_model,      ///< the solver has no equations for this model
   interrupted,            ///< the caller asked the computation to end early (base/interrupt.h)
+  sliding,                ///< friction cannot hold the rim
+  overload,               ///< the loads deform the wheel far beyond linear elasticity
 };
 
 /// The reason as a word for logs and history files, e.g. "newton_stalled".
@@ -65,6 +67,10 @@ constexpr const char* to_string(FailureReason reason) {
       return "unsupported_model";
     case FailureReason::interrupted:
       return "interrupted";
+    case FailureReason::sliding:
+      return "sliding";
+    case FailureReason::overload:
+      return "overload";
   }
   return "unknown";
 }

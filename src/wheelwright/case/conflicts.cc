@@ -538,12 +538,33 @@ void check_bonded(const Case& c, Conflicts& found) {
                      "take another objective, or contact.with = \"ground\""});
 }
 
-/// The pull of rotation is that of a mass.
+/// The strain by which the rim holds a ring that rotates, if nothing else holds it: the pull of all its mass
+/// by the area at the rim, by the modulus.
+double rotation_strain(const Case& c) {
+  const double ratio = c.wheel.inner_radius / c.wheel.outer_radius;
+  return 0.5 * *c.material.density * c.load.speed * c.load.speed * (1 - ratio * ratio) /
+         c.material.contact_modulus();
+}
+
+/// The pull of rotation is that of a mass, and strains the wheel by less than a quarter.
 void check_speed(const Case& c, Conflicts& found) {
-  if (c.load.speed == 0 || c.material.density) return;
-  found.push_back({{"load.speed", "material.density"},
-                   "a wheel without mass is not pulled away from the axle",
-                   "give material.density"});
+  if (c.load.speed == 0) return;
+  if (!c.material.density) {
+    found.push_back({{"load.speed", "material.density"},
+                     "a wheel without mass is not pulled away from the axle",
+                     "give material.density"});
+    return;
+  }
+  constexpr double largest = 0.25, advised = 0.05;
+  const double strain = rotation_strain(c);
+  if (strain <= largest) return;
+  found.push_back({{"load.speed", "material.density", "material.youngs_modulus", "wheel.outer_radius",
+                    "wheel.inner_radius", "material.poissons_ratio", "material.plane"},
+                   fmt::format("too large: the pull of rotation would strain the ring by about {:.0f} %, far "
+                               "beyond linear elasticity",
+                               100 * strain),
+                   fmt::format("take at most {:.3g} m/s, or a stiffer material",
+                               c.load.speed * std::sqrt(advised / strain))});
 }
 
 /// Whether a load case replaces the key of that name in [load].

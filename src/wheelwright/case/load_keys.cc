@@ -54,8 +54,10 @@ const Section<Load>& load_section() {
           {.name = "speed",
            .unit = "m/s",
            .field = NumberField<Load>{&Load::speed, between(0, 1000)},
-           .meaning = "speed v of the axle along the ground: the material is pulled away from the axle by "
-                      "density (v / R_e)^2 r per volume; needs material.density"},
+           .meaning =
+               "speed v of the axle along the ground: the material is pulled away from the axle by "
+               "density (v / R_e)^2 r per volume; travel and stiffness are measured from where the rotating "
+               "wheel stands without load; needs material.density"},
           {.name = "positions",
            .unit = "",
            .field = IntegerField<Load>{&Load::positions, between(1, 1000)},

@@ -77,6 +77,21 @@ ContactResponse<dim> given_friction_response(const Vec<dim>& z, double threshold
   return r;
 }
 
+/// Contact that slides everywhere, whatever z_t: the ground's friction on the body is friction [z_n]_- times
+/// `along`, a vector along the ground of length 1 at most.
+template <int dim>
+ContactResponse<dim> sliding_response(const Vec<dim>& z, double friction, const Vec<dim>& along) {
+  ContactResponse<dim> r{};
+  if (z[0] >= 0) return r;
+  r.traction[0] = z[0];
+  r.tangent[0][0] = 1;
+  for (int i = 1; i < dim; ++i) {
+    r.traction[i] = -friction * z[0] * along[i];
+    r.tangent[i][0] = -friction * along[i];
+  }
+  return r;
+}
+
 /// A bonded tread: Phi(z) = z.
 template <int dim>
 ContactResponse<dim> bonded_response(const Vec<dim>& z) {

@@ -63,7 +63,8 @@ ReducedContact<dim>::ReducedContact(const SurfaceCompliance<dim>& surface, const
       tau_(tread.form().tau()),
       theta_(tread.form().theta()),
       ground_(ground.column + ground.offset - zone.first_column),
-      preload_resultant_(preload.resultant) {
+      preload_resultant_(preload.resultant),
+      growth_(preload.growth) {
   const double column_angle = grid.cell_size()[1], height = undeformed_height(grid, ground.camber);
   for (const auto& point : tread.points()) {
     const auto& x = point.position;
@@ -189,8 +190,16 @@ ReducedContact<dim> ReducedContact<dim>::with_given_friction(std::vector<double>
 }
 
 template <int dim>
+ReducedContact<dim> ReducedContact<dim>::sliding_along(const Vec<dim>& direction) const {
+  ReducedContact contact = *this;
+  contact.sliding_ = direction;
+  return contact;
+}
+
+template <int dim>
 ContactResponse<dim> ReducedContact<dim>::response(int point, const Vec<dim>& z) const {
   if (is_bonded()) return bonded_response<dim>(z);
+  if (sliding_) return sliding_response<dim>(z, friction_, *sliding_);
   return thresholds_.empty() ? contact_response<dim>(z, friction_)
                              : given_friction_response<dim>(z, thresholds_[point]);
 }
@@ -198,6 +207,7 @@ ContactResponse<dim> ReducedContact<dim>::response(int point, const Vec<dim>& z)
 template <int dim>
 ContactStatus ReducedContact<dim>::status(int point, const Vec<dim>& z) const {
   if (is_bonded()) return {.touches = true, .slides = false};
+  if (sliding_) return {.touches = z[0] < 0, .slides = false};
   if (thresholds_.empty()) return contact_status<dim>(z, friction_);
   return {z[0]<0, thresholds_[point]> 0 && tangential_norm<dim>(z) > thresholds_[point]};
 }
@@ -563,9 +573,10 @@ Expected<std::vector<ContactAdjoint>> ReducedContact<dim>::adjoints(
   for (int f = 0; f < n_functions; ++f) {
     std::vector<Vec<dim>> multiplier(n_points(), Vec<dim>{});
     for (int k = 0; k < n_active; ++k) multiplier[active[k] / nc][active[k] % nc] = m(k, f);
-    ContactAdjoint adjoint{Matrix(rows.n_contact(), zone_.n_columns), {}};
+    ContactAdjoint adjoint{Matrix(rows.n_contact(), zone_.n_columns), {}, functions[f].rim.towards_ground};
     for (int i = 0; i < n_points(); ++i) {
       const Point& point = points_[i];
+      adjoint.by_travel -= point.gamma * multiplier[i][0];
       const Vec<dim> value = point.frame.template to_body<dim>(multiplier[i]);
       double* load = adjoint.loads.column(zone_column(i));
       const int q = point_of_column(i);
@@ -586,7 +597,8 @@ ContactPatch<dim> ReducedContact<dim>::patch(const ContactState<dim>& state) con
   ContactPatch<dim> patch{.points = {},
                           .rim = state.rim,
                           .rim_force = state.rim_force,
-                          .newton_iterations = state.newton_iterations};
+                          .newton_iterations = state.newton_iterations,
+                          .growth = growth_};
   for (int i = 0; i < n_points(); ++i)
     patch.points.push_back({.column = wrap(zone_.first_column + zone_column(i), ring_columns_),
                             .point = point_of_column(i),

@@ -22,6 +22,8 @@ struct ContactZone {
 struct Preload {
   Matrix observations;  ///< of v on the tread, one column per ring column; empty: zero
   RimForce resultant;
+  double growth = 0;       ///< of this position (ContactPatch) [m]
+  double mean_growth = 0;  ///< of all positions [m]
 };
 
 /// The unknowns of one load position's contact problem; also used for their changes and the residual.
@@ -53,8 +55,9 @@ struct ContactAdjointLoads {
 
 /// The contact part of the adjoint problem (79) at one load position.
 struct ContactAdjoint {
-  Matrix loads;   ///< -S^T m on the zone's observations, m the multiplier
-  RimMotion rim;  ///< of the adjoint
+  Matrix loads;          ///< -S^T m on the zone's observations, m the multiplier
+  RimMotion rim;         ///< of the adjoint
+  double by_travel = 0;  ///< the function's derivative with respect to a prescribed motion towards the ground
 };
 
 template <int dim>
@@ -103,6 +106,10 @@ class ReducedContact {
   /// The same problem with given friction (Tresca's law): one threshold per point [Pa].
   ReducedContact with_given_friction(std::vector<double> thresholds) const;
 
+  /// The same problem where all that touches slides, whatever the rim does along the ground: friction acts on
+  /// the wheel along `direction`, a vector of length 1 along the ground.
+  ReducedContact sliding_along(const Vec<dim>& direction) const;
+
   /// Whether the tread is bonded to a rigid ring: then the problem is linear, and the zone is the whole
   /// tread.
   bool is_bonded() const { return counterpart_ == Counterpart::ring; }
@@ -113,7 +120,10 @@ class ReducedContact {
 
   const ContactZone& zone() const { return zone_; }
   const RimControl& rim() const { return rim_; }
+  const RimForce& preload_resultant() const { return preload_resultant_; }
   double friction() const { return friction_; }
+  /// Whether friction may stick or slide, by Coulomb's law.
+  bool has_friction() const { return friction_ > 0 && thresholds_.empty() && !sliding_; }
   int n_points() const { return static_cast<int>(points_.size()); }
 
   /// A contact quadrature point in the ground frame.
@@ -213,13 +223,15 @@ class ReducedContact {
   RimControl rim_;
   Counterpart counterpart_;
   double friction_, tau_, theta_;
-  double ground_;                   ///< the ground position, in columns from the zone's first azimuth
-  std::vector<Place> places_;       ///< of the points of a column
-  std::vector<double> thresholds_;  ///< of given friction; empty: Coulomb's law
+  double ground_;                    ///< the ground position, in columns from the zone's first azimuth
+  std::vector<Place> places_;        ///< of the points of a column
+  std::vector<double> thresholds_;   ///< of given friction; empty: Coulomb's law
+  std::optional<Vec<dim>> sliding_;  ///< the direction of friction where all that touches slides
   std::vector<Point> points_;
   std::shared_ptr<const Matrix> flexibility_;
   std::vector<Vec<dim>> preload_;  ///< z_0; empty: zero
   RimForce preload_resultant_;
+  double growth_;  ///< (ContactPatch)
 };
 
 }  // namespace wheelwright

@@ -25,7 +25,8 @@ Pointer<dim> over_positions(std::string name, Pointer<dim> functional, Over over
 template <int dim>
 Pointer<dim> stiffness(std::string name, RimWay way, Over over) {
   const auto force = std::make_shared<GroundForce<dim>>(way);
-  const auto travel = std::make_shared<RimTravel<dim>>(way);
+  Pointer<dim> travel = std::make_shared<RimTravel<dim>>(way);
+  if (way == RimWay::towards_ground) travel = std::make_shared<Travel<dim>>();
   if (over == Over::mean) return std::make_shared<RatioOfMeans<dim>>(std::move(name), force, travel);
   return over_positions<dim>(name, std::make_shared<Quotient<dim>>(name, force, travel), over);
 }
@@ -43,7 +44,8 @@ template <int dim>
 std::shared_ptr<const Functional<dim>> quantity_functional(Quantity quantity, Over over,
                                                            const QuantityParameters& parameters) {
   const std::string name(wheelwright::name(quantity));
-  const auto travel = std::make_shared<RimTravel<dim>>(RimWay::towards_ground);
+  const auto travel = std::make_shared<Travel<dim>>();
+  const auto axle = std::make_shared<RimTravel<dim>>(RimWay::towards_ground);
   const auto force = std::make_shared<GroundForce<dim>>(RimWay::towards_ground);
   switch (quantity) {
     case Quantity::mass:
@@ -70,9 +72,9 @@ std::shared_ptr<const Functional<dim>> quantity_functional(Quantity quantity, Ov
     case Quantity::peak_von_mises_inside:
       return over_positions<dim>(name, std::make_shared<PeakVonMises<dim>>(parameters.from_tread), over);
     case Quantity::run_out:
-      return std::make_shared<FunctionOfPositions<dim>>(name, travel, peak_to_peak_of);
+      return std::make_shared<FunctionOfPositions<dim>>(name, axle, peak_to_peak_of);
     case Quantity::run_out_harmonic:
-      return harmonic<dim>(name, travel, parameters.harmonic);
+      return harmonic<dim>(name, axle, parameters.harmonic);
     case Quantity::force_variation:
       return std::make_shared<FunctionOfPositions<dim>>(name, force, peak_to_peak_of);
     case Quantity::force_variation_harmonic:

@@ -40,6 +40,18 @@ FunctionalValue<dim> RimTravel<dim>::evaluate(const StateSolver<dim>&, const Lev
 }
 
 template <int dim>
+FunctionalValue<dim> Travel<dim>::evaluate(const StateSolver<dim>&, const LevelSet<dim>&,
+                                           const State<dim>& state, const Matrix&) const {
+  FunctionalValue<dim> value;
+  for (const ContactPatch<dim>& contact : state.contacts()) {
+    value.by_position.push_back(contact.travel());
+    value.derivative.rim.push_back(unit_force(RimWay::towards_ground));
+    value.derivative.growth.push_back(1);
+  }
+  return value;
+}
+
+template <int dim>
 std::string GroundForce<dim>::name() const {
   return way_ == RimWay::towards_ground ? "radial_force"
          : way_ == RimWay::along_ground ? "tangential_force"
@@ -67,6 +79,8 @@ FunctionalValue<dim> GroundForce<dim>::evaluate(const StateSolver<dim>&, const L
 
 template class RimTravel<2>;
 template class RimTravel<3>;
+template class Travel<2>;
+template class Travel<3>;
 template class GroundForce<2>;
 template class GroundForce<3>;
 

@@ -7,7 +7,8 @@ namespace wheelwright {
 /// The rim's ways to move (RimMotion), and what does work on each of them.
 enum class RimWay { towards_ground, along_ground, rotation };
 
-/// How far the rim moves in one of its ways at every load position [m, or rad].
+/// How far the rim moves in one of its ways at every load position, from where it is without any load
+/// [m, or rad].
 template <int dim>
 class RimTravel : public Functional<dim> {
  public:
@@ -20,6 +21,16 @@ class RimTravel : public Functional<dim> {
 
  private:
   RimWay way_;
+};
+
+/// How far the rim moves towards the ground at every load position, from where the rotating wheel without
+/// load touches it [m]: ContactPatch::travel().
+template <int dim>
+class Travel : public Functional<dim> {
+ public:
+  std::string name() const override { return "travel"; }
+  FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
+                                const State<dim>& state, const Matrix& mean) const override;
 };
 
 /// What the wheel exerts on the ground in one of the rim's ways at every load position: the force towards it,

@@ -38,10 +38,16 @@ std::vector<double> peak_pressures(const std::vector<ContactSummary>& positions)
   return result;
 }
 
+/// Of the axle's height, about the mean travel.
 RollingVariation travel_variation(const std::vector<ContactSummary>& positions) {
-  std::vector<double> travel;
-  for (const ContactSummary& position : positions) travel.push_back(position.travel);
-  return rolling_variation(travel);
+  std::vector<double> descent;
+  double growth = 0;
+  for (const ContactSummary& position : positions) {
+    descent.push_back(position.descent);
+    growth += (position.travel - position.descent) / static_cast<double>(positions.size());
+  }
+  for (double& travel : descent) travel += growth;
+  return rolling_variation(descent);
 }
 
 std::vector<ShownQuantity> quantities(const RollingReport& report) {

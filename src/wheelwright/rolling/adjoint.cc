@@ -165,15 +165,22 @@ std::vector<int> zone_columns(const RollingSolution<dim>& s, int n_functions, in
   return columns;
 }
 
-/// The multiplier loads -S^T m of all functions and positions, all round, and the rim's motions [function],
-/// from what is observed of p without them in `columns`, those of zone_columns().
+/// The contact's part of the adjoints of all functions at all positions.
+struct ContactParts {
+  Matrix loads;                                ///< -S^T m, all round
+  std::vector<std::vector<RimMotion>> rim;     ///< [function]
+  std::vector<std::vector<double>> by_travel;  ///< [function]
+};
+
+/// From what is observed of p without them in `columns`, those of zone_columns().
 template <int dim>
-Expected<std::pair<Matrix, std::vector<std::vector<RimMotion>>>> contact_adjoints(
-    const RollingSolution<dim>& s, std::span<const FunctionalDerivative<dim>> functions,
-    const Matrix& observed, std::span<const int> columns) {
+Expected<ContactParts> contact_adjoints(const RollingSolution<dim>& s,
+                                        std::span<const FunctionalDerivative<dim>> functions,
+                                        const Matrix& observed, std::span<const int> columns) {
   const int n_functions = static_cast<int>(functions.size());
-  Matrix loads(s.observations.rows(), n_functions * s.observations.columns());
-  std::vector<std::vector<RimMotion>> rim(n_functions);
+  ContactParts parts{Matrix(s.observations.rows(), n_functions * s.observations.columns()),
+                     std::vector<std::vector<RimMotion>>(n_functions),
+                     std::vector<std::vector<double>>(n_functions)};
   const int per_function = static_cast<int>(columns.size()) / n_functions;
   int first = 0;
   for (size_t i = 0; i < s.contacts.size(); ++i) {
@@ -188,14 +195,15 @@ Expected<std::pair<Matrix, std::vector<std::vector<RimMotion>>>> contact_adjoint
     if (!adjoints) return adjoints.failure();
     for (int f = 0; f < n_functions; ++f) {
       const ContactAdjoint& adjoint = (*adjoints)[f];
-      rim[f].push_back(adjoint.rim);
+      parts.rim[f].push_back(adjoint.rim);
+      parts.by_travel[f].push_back(adjoint.by_travel);
       for (int c = 0; c < n; ++c)
         std::copy_n(adjoint.loads.column(c), adjoint.loads.rows(),
-                    loads.column(columns[f * per_function + first + c]));
+                    parts.loads.column(columns[f * per_function + first + c]));
     }
     first += n;
   }
-  return std::pair{std::move(loads), std::move(rim)};
+  return parts;
 }
 
 /// Takes the states' share off what is observed of q in `columns`: p = q - energy v.
@@ -262,7 +270,7 @@ Expected<std::vector<Adjoint>> solve_adjoints(const RollingProblem<dim>& problem
   if (!contact) return contact.failure();
 
   const Matrix outer =
-      sum(without_contact, ring.outer_displacements(base_loads(tread, tread_loads(tread, contact->first))));
+      sum(without_contact, ring.outer_displacements(base_loads(tread, tread_loads(tread, contact->loads))));
   const auto of_cases =
       unstacked(ring.trailing_displacements(ring.boundary_displacements(outer, interface)), n_functions);
   std::vector<Matrix> of_functions = std::move(loads).core();
@@ -277,7 +285,7 @@ Expected<std::vector<Adjoint>> solve_adjoints(const RollingProblem<dim>& problem
   std::vector<Adjoint> adjoints;
   for (int f = 0; f < n_functions; ++f) {
     subtract_energy_weighted(s, functions[f].energy, displacement.modes, of_functions[f]);
-    adjoints.push_back({std::move(of_functions[f]), contact->second[f]});
+    adjoints.push_back({std::move(of_functions[f]), contact->rim[f], contact->by_travel[f]});
   }
   return adjoints;
 }

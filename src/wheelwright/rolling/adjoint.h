@@ -12,6 +12,9 @@ struct Adjoint {
   /// asked for.
   Matrix modes;
   std::vector<RimMotion> rim;  ///< of every position
+  /// The function's derivative with respect to the prescribed motion of the rim towards the ground, at every
+  /// position; zero where a load is given.
+  std::vector<double> by_travel;
 };
 
 /// The displacement's modes v_k weighted by a function's energy factors e_i: row k is sum_j m_j e_j w_jk v_j,

@@ -5,6 +5,7 @@
 #include "wheelwright/base/parallel.h"
 #include "wheelwright/base/stopwatch.h"
 #include "wheelwright/geometry/mirror.h"
+#include "wheelwright/rolling/growth_gradient.h"
 #include "wheelwright/rolling/neumann_to_dirichlet.h"
 #include "wheelwright/rolling/ring_displacement.h"
 #include "wheelwright/rolling/shape_gradient.h"
@@ -50,6 +51,7 @@ class RingState : public State<dim> {
     if (!adjoints) return adjoints.failure();
     const double adjoint_seconds = watch.lap();
     auto densities = wheelwright::shape_gradients<dim>(problem_, solution_, functions, *adjoints);
+    if (auto failure = add_growth<dim>(problem_, solution_, functions, *adjoints, densities)) return *failure;
     return ShapeGradients{std::move(densities),
                           {{phase::adjoint, adjoint_seconds}, {phase::gradient, watch.lap()}}};
   }
@@ -57,7 +59,13 @@ class RingState : public State<dim> {
   Expected<std::vector<std::vector<double>>> topological_derivatives(
       std::span<const FunctionalDerivative<dim>> functions,
       std::span<const MaterialPoint<dim>> points) const override {
-    return wheelwright::topological_derivatives<dim>(problem_, solution_, functions, points);
+    auto derivatives = wheelwright::topological_derivatives<dim>(problem_, solution_, functions, points);
+    if (!derivatives || solution_.standing.empty()) return derivatives;
+    const auto adjoints = solve_adjoints(problem_, solution_, functions);
+    if (!adjoints) return adjoints.failure();
+    if (auto failure = add_growth<dim>(problem_, solution_, functions, *adjoints, points, *derivatives))
+      return *failure;
+    return derivatives;
   }
 
   Expected<std::vector<std::vector<ContactPatch<dim>>>> contacts_under(

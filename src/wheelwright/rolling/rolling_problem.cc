@@ -13,6 +13,7 @@
 #include "wheelwright/base/stopwatch.h"
 #include "wheelwright/contact/contact_solver.h"
 #include "wheelwright/geometry/mirror.h"
+#include "wheelwright/rolling/contact_failure.h"
 #include "wheelwright/rolling/position_tree.h"
 
 namespace wheelwright {
@@ -125,26 +126,6 @@ SurfaceCompliance<dim> surface_compliance(const CyclicStiffness<dim>& ring, cons
   return {ring, tread, 2 * half - 1, columns_in_zones(grid, positions, half)};
 }
 
-/// A travel may be too small to reach the ground, or to be seen by the quadrature points.
-template <int dim>
-std::optional<Failure> no_contact(const RolledContact<dim>& rolled) {
-  const auto touches = [](const Vec<dim>& z) { return z[0] < 0; };
-  if (std::ranges::any_of(rolled.state.augmented, touches)) return {};
-  return Failure{FailureReason::no_contact,
-                 fmt::format("no point touches the ground: the smallest gap is {:.4g} m",
-                             rolled.contact.smallest_gap(rolled.state))};
-}
-
-template <int dim>
-std::optional<Failure> rim_under_ground(const PolarGrid<dim>& grid, const RimMotion& rim) {
-  const double thickness = grid.outer_radius - grid.inner_radius;
-  if (rim.towards_ground < thickness) return {};
-  return Failure{FailureReason::rim_under_ground,
-                 fmt::format("the rim would travel {:.4g} m, but the ring is {:.4g} m thick: the load is too "
-                             "large for this material and shape",
-                             rim.towards_ground, thickness)};
-}
-
 bool all_finite(const Matrix& a) {
   return std::all_of(a.entries().begin(), a.entries().end(), [](double x) { return std::isfinite(x); });
 }
@@ -182,6 +163,15 @@ Expected<RollingProblem<dim>> RollingProblem<dim>::create(const RollingModel<dim
 
 namespace {
 
+/// What a model does to its rim at a load position. A prescribed travel begins where the rotating wheel
+/// touches the ground without load, in the mean of all positions.
+template <int dim>
+RimControl rim_control(const RollingModel<dim>& model, const Preload& preload) {
+  RimControl rim = rim_control(model);
+  if (model.travel) rim.prescribed.towards_ground -= preload.mean_growth;
+  return rim;
+}
+
 template <int dim>
 Expected<ContactState<dim>> solve_in_zone(const RollingModel<dim>& model, const ReducedContact<dim>& contact,
                                           const std::optional<ContactState<dim>>& known,
@@ -191,7 +181,9 @@ Expected<ContactState<dim>> solve_in_zone(const RollingModel<dim>& model, const 
   starts.push_back(model.travel ? contact.undeformed_start()
                                 : contact.hertz_start(line_load(model), model.grid.outer_radius,
                                                       model.materials.at_tread().contact_modulus()));
-  return solve_contact<dim>(contact, starts, interrupt);
+  auto state = solve_contact<dim>(contact, starts, interrupt);
+  if (!state) return contact_failure(state.failure(), model, contact);
+  return *std::move(state);
 }
 
 }  // namespace
@@ -205,8 +197,8 @@ Expected<RolledContact<dim>> roll_to(const RollingModel<dim>& model, const Tread
   const PolarGrid<dim>& grid = model.grid;
   if (is_bonded(tread)) {
     const int n = grid.ring_columns();
-    ReducedContact<dim> contact(surface, tread, grid, ground, {ground.column - n / 2, n}, rim_control(model),
-                                preload);
+    ReducedContact<dim> contact(surface, tread, grid, ground, {ground.column - n / 2, n},
+                                rim_control(model, preload), preload);
     auto state = solve_in_zone<dim>(model, contact, {}, interrupt);
     if (!state) return state.failure();
     return RolledContact<dim>{std::move(contact), *std::move(state)};
@@ -222,13 +214,13 @@ Expected<RolledContact<dim>> roll_to(const RollingModel<dim>& model, const Tread
     if (width > (wider ? *wider : surface).width())
       wider = surface_compliance<dim>(ring, tread, grid, {{ground}, {1}}, half);
     ReducedContact<dim> contact(wider ? *wider : surface, tread, grid, ground,
-                                {ground.column - half, 2 * half}, rim_control(model), preload);
+                                {ground.column - half, 2 * half}, rim_control(model, preload), preload);
     auto state = solve_in_zone(model, contact, known, interrupt);
     if (!state) return state.failure();
     if (!touches_edge(*state) || half >= largest_half)
       return RolledContact<dim>{std::move(contact), *std::move(state)};
     known = *std::move(state);
-    half += 2;
+    half += std::max(2, half / 4);
   }
 }
 
@@ -237,7 +229,7 @@ Expected<RolledContact<dim>> reload(const RollingModel<dim>& model, const Tread<
                                     const CyclicStiffness<dim>& ring, const SurfaceCompliance<dim>& surface,
                                     GroundPosition ground, const Preload& preload,
                                     const RolledContact<dim>& before) {
-  ReducedContact<dim> contact = before.contact.under(rim_control(model));
+  ReducedContact<dim> contact = before.contact.under(rim_control(model, preload));
   auto state = solve_in_zone<dim>(model, contact, before.state, Interrupt());
   if (!state) return state.failure();
   if (touches_edge(*state) && !is_bonded(tread))
@@ -258,8 +250,7 @@ Expected<std::vector<RolledContact<dim>>> roll_to_all(RollingSolution<dim>& s, c
     auto rolled = roll_to(s.model, tread, s.ring, *s.surface, s.positions.grounds[i], s.preloads[i],
                           neighbour, shared.at_position(i, n));
     std::optional<Failure> failure;
-    if (rolled) failure = rim_under_ground(s.model.grid, rolled->state.rim);
-    if (rolled && !failure) failure = no_contact(*rolled);
+    if (rolled) failure = rim_under_ground(s.model, rolled->state.rim);
     return failure ? Expected<RolledContact<dim>>(*std::move(failure)) : rolled;
   };
   std::vector<std::optional<Expected<RolledContact<dim>>>> all(n);
@@ -306,29 +297,56 @@ Matrix RollingProblem<dim>::nitsche_loads(const Matrix& observations) const {
   return loads;
 }
 
-/// Applies the loads that are not the ground's: fills the solution's core_loads, tread_loads and preloads.
+template <int dim>
+typename RollingProblem<dim>::WithoutGround RollingProblem<dim>::without_ground(
+    const RollingSolution<dim>& s, const DistributedLoads<dim>& loads,
+    const std::vector<GroundPosition>& grounds) const {
+  WithoutGround result{applied_loads<dim>(loads, s.domain, *elements_, s.ring, tread_, grounds), {}, {}};
+  CondensedLoads& condensed = result.condensed;
+  condensed.core = result.applied.core;
+  condensed.boundary =
+      s.ring.eliminate_interface(condense<dim>(s.ring, s.ring.sector_factor().full_sweep(), condensed.core));
+  const TreadLoads on_tread = tread_loads(tread_, result.applied.tread);
+  const Matrix outer =
+      s.ring.outer_displacements(sum(condensed.boundary.outer, base_loads(tread_, on_tread)));
+  result.observed = observations(tread_, tread_field(tread_, outer, on_tread), on_tread);
+  return result;
+}
+
+/// From what the tread observes of rotation alone, at any one position.
+template <int dim>
+void RollingProblem<dim>::find_standing_points(const Matrix& observed, RollingSolution<dim>& s) const {
+  double sum = 0, count = 0;
+  for (int i = 0; i < s.positions.size(); ++i) {
+    s.standing.push_back(standing_point(tread_, s.model.grid, s.positions.grounds[i], observed));
+    s.preloads[i].growth = s.standing[i].growth;
+    sum += s.positions.multiplicities[i] * s.standing[i].growth;
+    count += s.positions.multiplicities[i];
+  }
+  for (Preload& preload : s.preloads) preload.mean_growth = sum / count;
+}
+
+/// Applies the loads that are not the ground's: fills the solution's core_loads, tread_loads, preloads and
+/// standing points.
 template <int dim>
 typename RollingProblem<dim>::CondensedLoads RollingProblem<dim>::preload(RollingSolution<dim>& s) const {
   const int n_positions = s.positions.size(), n_columns = tread_.n_columns();
+  const DistributedLoads<dim>& loads = s.model.distributed;
   s.preloads.resize(n_positions);
-  if (!s.model.distributed.any())
-    return {{}, {{}, Matrix(s.ring.n_outer(), n_positions * s.ring.n_sectors())}};
-  auto applied =
-      applied_loads<dim>(s.model.distributed, s.domain, *elements_, s.ring, tread_, s.positions.grounds);
-  s.core_loads = std::move(applied.core);
-  s.tread_loads = std::move(applied.tread);
-  CondensedLoads condensed{s.core_loads, {}};
-  condensed.boundary =
-      s.ring.eliminate_interface(condense<dim>(s.ring, s.ring.sector_factor().full_sweep(), condensed.core));
-  const TreadLoads loads = tread_loads(tread_, s.tread_loads);
-  const Matrix outer = s.ring.outer_displacements(sum(condensed.boundary.outer, base_loads(tread_, loads)));
-  const Matrix observed = observations(tread_, tread_field(tread_, outer, loads), loads);
+  if (!loads.any()) return {{}, {{}, Matrix(s.ring.n_outer(), n_positions * s.ring.n_sectors())}};
+  WithoutGround free = without_ground(s, loads, s.positions.grounds);
+  s.core_loads = std::move(free.applied.core);
+  s.tread_loads = std::move(free.applied.tread);
   for (int i = 0; i < n_positions; ++i) {
-    s.preloads[i] = {Matrix(observed.rows(), n_columns), applied.on_the_rim[i]};
-    std::copy_n(observed.column(i * n_columns), s.preloads[i].observations.entries().size(),
+    s.preloads[i] = {Matrix(free.observed.rows(), n_columns), free.applied.on_the_rim[i]};
+    std::copy_n(free.observed.column(i * n_columns), s.preloads[i].observations.entries().size(),
                 s.preloads[i].observations.data());
   }
-  return condensed;
+  if (loads.angular_speed != 0 && !is_bonded(tread_)) {
+    const DistributedLoads<dim> rotation{.angular_speed = loads.angular_speed};
+    find_standing_points(without_ground(s, rotation, {s.positions.grounds.front()}).observed, s);
+  }
+  return std::move(free.condensed);
 }
 
 template <int dim>
@@ -357,7 +375,7 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::solve(const CutShape<dim>& s
                                                           const Interrupt& interrupt) const {
   auto factored = factor(shape);
   if (!factored) return factored.failure();
-  auto solution = roll(model_, *factored, nullptr, std::move(positions), interrupt);
+  auto solution = roll(model_, *factored, nullptr, std::move(positions), Ground::touched, interrupt);
   if (!solution) return solution.failure();
   const auto& phases = (*factored)->phases;
   solution->phases.insert(solution->phases.begin(), phases.begin(), phases.end());
@@ -368,14 +386,25 @@ template <int dim>
 Expected<RollingSolution<dim>> RollingProblem<dim>::solve_under(const RollingModel<dim>& model,
                                                                 const RollingSolution<dim>& solution,
                                                                 const Interrupt& interrupt) const {
-  return roll(model, solution.shape, solution.surface, solution.positions, interrupt);
+  return roll(model, solution.shape, solution.surface, solution.positions, Ground::touched, interrupt);
+}
+
+template <int dim>
+Expected<RollingSolution<dim>> RollingProblem<dim>::without_load(const RollingSolution<dim>& solution) const {
+  RollingModel<dim> model = solution.model;
+  model.horizontal_force = model.lateral_force = model.torque = 0;
+  model.distributed = {.angular_speed = model.distributed.angular_speed};
+  double highest = 0;
+  for (const StandingPoint<dim>& at : solution.standing) highest = std::max(highest, std::abs(at.growth));
+  model.travel = -2 * highest - (model.grid.outer_radius - model.grid.inner_radius);
+  return roll(model, solution.shape, solution.surface, solution.positions, Ground::out_of_reach, {});
 }
 
 /// `surface`: of the ring for these positions, or null.
 template <int dim>
 Expected<RollingSolution<dim>> RollingProblem<dim>::roll(
     const RollingModel<dim>& model, std::shared_ptr<const FactoredShape<dim>> shape,
-    std::shared_ptr<const SurfaceCompliance<dim>> surface, LoadPositions positions,
+    std::shared_ptr<const SurfaceCompliance<dim>> surface, LoadPositions positions, Ground reach,
     const Interrupt& interrupt) const {
   const int n_positions = positions.size(), n_columns = model.grid.ring_columns();
   std::vector<PhaseTime> phases;
@@ -402,6 +431,7 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::roll(
                          .core_loads = {},
                          .tread_loads = {},
                          .preloads = {},
+                         .standing = {},
                          .observations = {},
                          .ghost_loads = {},
                          .strain_energy = {},
@@ -412,6 +442,8 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::roll(
   if (!rolled) return rolled.failure();
   for (int i = 0; i < n_positions; ++i) {
     auto& [contact, state] = (*rolled)[i];
+    if (reach == Ground::touched)
+      if (auto failure = no_contact(model, contact, state)) return *failure;
     const ContactZone& zone = contact.zone();
     const Matrix loads = contact.contact_loads(state);
     for (int c = 0; c < zone.n_columns; ++c)

@@ -2,6 +2,7 @@
 
 #include "wheelwright/ring/tread_ring.h"
 #include "wheelwright/rolling/distributed_loads.h"
+#include "wheelwright/rolling/standing_point.h"
 #include "wheelwright/state/state.h"
 
 namespace wheelwright {
@@ -30,15 +31,16 @@ struct RollingSolution {
   LoadPositions positions;
   std::vector<ReducedContact<dim>> contacts;
   std::vector<ContactState<dim>> states;
-  PartialCholesky::Sweep sweep;       ///< through the unknowns of the core that the gradient needs
-  SectorFields displacement;          ///< v in those unknowns; complete_displacement() finds the others
-  Matrix outer_line;                  ///< v on the core's outer line (CyclicStiffness)
-  SectorFields core_loads;            ///< of body force and pressure, in the core; empty: none
-  Matrix tread_loads;                 ///< of ground and body force, on the tread's observations
-  std::vector<Preload> preloads;      ///< of every position
-  Matrix observations;                ///< of v on the tread
-  Matrix ghost_loads;                 ///< ghost penalty applied to the modes of v
-  std::vector<double> strain_energy;  ///< J_e (3) of every position
+  PartialCholesky::Sweep sweep;   ///< through the unknowns of the core that the gradient needs
+  SectorFields displacement;      ///< v in those unknowns; complete_displacement() finds the others
+  Matrix outer_line;              ///< v on the core's outer line (CyclicStiffness)
+  SectorFields core_loads;        ///< of body force and pressure, in the core; empty: none
+  Matrix tread_loads;             ///< of ground and body force, on the tread's observations
+  std::vector<Preload> preloads;  ///< of every position
+  std::vector<StandingPoint<dim>> standing;  ///< of every position if the wheel rotates; else empty
+  Matrix observations;                       ///< of v on the tread
+  Matrix ghost_loads;                        ///< ghost penalty applied to the modes of v
+  std::vector<double> strain_energy;         ///< J_e (3) of every position
   std::vector<PhaseTime> phases;
 };
 
@@ -86,6 +88,10 @@ class RollingProblem : public StateSolver<dim> {
                                              const RollingSolution<dim>& solution,
                                              const Interrupt& interrupt = {}) const;
 
+  /// The same shape and positions of the wheel that rotates as `solution`'s, off the ground and without any
+  /// other load. Fails as solve() does.
+  Expected<RollingSolution<dim>> without_load(const RollingSolution<dim>& solution) const;
+
   /// Nitsche's symmetric term of the tread applied to what is observed: loads on the tractions.
   Matrix nitsche_loads(const Matrix& observations) const;
 
@@ -101,12 +107,24 @@ class RollingProblem : public StateSolver<dim> {
     SectorFields core;
     typename CyclicStiffness<dim>::EliminatedInterface boundary;
   };
+  /// Distributed loads at some load positions, and what the tread observes of them without the ground.
+  struct WithoutGround {
+    AppliedLoads applied;
+    CondensedLoads condensed;
+    Matrix observed;
+  };
+  WithoutGround without_ground(const RollingSolution<dim>& s, const DistributedLoads<dim>& loads,
+                               const std::vector<GroundPosition>& grounds) const;
   CondensedLoads preload(RollingSolution<dim>& s) const;
+  void find_standing_points(const Matrix& observed, RollingSolution<dim>& s) const;
   Expected<std::shared_ptr<const FactoredShape<dim>>> factor(const CutShape<dim>& shape) const;
+  /// Whether the wheel must touch the ground at every position.
+  enum class Ground { touched, out_of_reach };
   Expected<RollingSolution<dim>> roll(const RollingModel<dim>& model,
                                       std::shared_ptr<const FactoredShape<dim>> shape,
                                       std::shared_ptr<const SurfaceCompliance<dim>> surface,
-                                      LoadPositions positions, const Interrupt& interrupt) const;
+                                      LoadPositions positions, Ground reach,
+                                      const Interrupt& interrupt) const;
 
   RollingModel<dim> model_;
   std::unique_ptr<ElementTable<dim>> elements_;

@@ -163,7 +163,8 @@ ContactPatch<3> WidthHalves::patch(const ContactPatch<3>& of_half) const {
   ContactPatch<3> patch{.points = {},
                         .rim = of_half.rim,
                         .rim_force = scaled(2, of_half.rim_force),
-                        .newton_iterations = of_half.newton_iterations};
+                        .newton_iterations = of_half.newton_iterations,
+                        .growth = of_half.growth};
   patch.rim_force.along_axle = 0;
   for (size_t first = 0; first < of_half.points.size(); first += n_half)
     for (int q = 0; q < n_points; ++q) {
@@ -202,6 +203,7 @@ FunctionalDerivative<3> WidthHalves::derivative_of_half(const FunctionalDerivati
     half.rim.push_back(scaled(0.5, force));
     half.rim.back().along_axle = 0;
   }
+  for (const double factor : whole.growth) half.growth.push_back(0.5 * factor);
   for (const auto& of_position : whole.tractions) half.tractions.push_back(tractions(of_position));
   return half;
 }

@@ -32,7 +32,8 @@ Case in_the_plane(Case c) {
 }
 
 bool is_physical(FailureReason reason) {
-  return reason == FailureReason::rim_under_ground || reason == FailureReason::material_overlaps;
+  return reason == FailureReason::rim_under_ground || reason == FailureReason::material_overlaps ||
+         reason == FailureReason::overload || reason == FailureReason::sliding;
 }
 
 Expected<DeformationSize> deformation_of(const Case& c) {

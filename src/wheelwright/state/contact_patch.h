@@ -27,6 +27,12 @@ struct ContactPatch {
   RimMotion rim;
   RimForce rim_force;     ///< on the rim: its load, and the reaction in motions that are not free
   int newton_iterations;  ///< of all attempts
+  /// By how much rotation alone lifts the rim: the rotating wheel without load touches the ground where the
+  /// rim has moved towards it by -growth [m].
+  double growth = 0;
+
+  /// Of the rim towards the ground, from where the rotating wheel without load touches it [m].
+  double travel() const { return rim.towards_ground + growth; }
 };
 
 }  // namespace wheelwright

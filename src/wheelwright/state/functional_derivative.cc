@@ -55,6 +55,7 @@ void add(const FunctionalDerivative<dim>& term, const std::vector<double>& facto
   }
   accumulate(factors, term.rim, sum.rim);
   accumulate<dim>(factors, term.tractions, sum.tractions);
+  accumulate(factors, term.growth, sum.growth);
 }
 
 template void add(const FunctionalDerivative<2>&, const std::vector<double>&, FunctionalDerivative<2>&);

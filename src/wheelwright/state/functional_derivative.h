@@ -30,6 +30,7 @@ class MaterialDensity {
 /// all that an adjoint problem (79) and a shape derivative (42) need to know about the function.
 ///   dJ_i = energy_i dJ_e,i - tread_loads . d(observations) + density_i d(int M(u_i) dx)
 ///          + rim_i . d(motion of the rim) + tractions_i . d(traction of the ground)
+///          + growth_i d(growth)
 template <int dim>
 struct FunctionalDerivative {
   /// dJ_i / dJ_e,i with J_e the strain energy (3), one per position; empty: zero.
@@ -55,10 +56,13 @@ struct FunctionalDerivative {
   /// the ground frame (ContactPatch::Point::traction); empty: zero.
   std::vector<std::vector<Vec<dim>>> tractions = {};
 
+  /// The derivative with respect to ContactPatch::growth, one per position; empty: zero.
+  std::vector<double> growth = {};
+
   /// Whether it is zero because the function does not depend on the states.
   bool empty() const {
     return energy.empty() && tread_loads.columns() == 0 && integrals.empty() && rim.empty() &&
-           tractions.empty();
+           tractions.empty() && growth.empty();
   }
 };
 

@@ -88,7 +88,7 @@ Json outline_json(const LevelSet<2>& psi) {
 template <int dim>
 Json travel_json(const WatchedShape<dim>& shape) {
   std::vector<double> travel;
-  for (const auto& contact : shape.solution->contacts()) travel.push_back(contact.rim.towards_ground);
+  for (const auto& contact : shape.solution->contacts()) travel.push_back(contact.travel());
   return of_all(shape.solution->positions(), travel);
 }
 

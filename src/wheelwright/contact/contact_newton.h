@@ -1,0 +1,33 @@
+#pragma once
+
+#include "wheelwright/base/interrupt.h"
+#include "wheelwright/contact/reduced_contact.h"
+
+namespace wheelwright {
+
+/// The last iterate of Newton's method.
+template <int dim>
+struct NewtonEnd {
+  ContactUnknowns<dim> x;
+  int iterations = 0;
+  double residual = 0;  ///< [Pa]
+  bool converged = false;
+};
+
+/// What Newton's method does when full steps no longer lower the number of points that change.
+enum class Cycling { give_up, change_fewer };
+
+template <int dim>
+bool touches(const ContactUnknowns<dim>& x);
+
+/// A semi-smooth Newton method. Its start touches the ground, or the rim is held. `interrupt` is polled and
+/// told of before every step, of which `steps_before` were taken by others.
+template <int dim>
+NewtonEnd<dim> newton(const ReducedContact<dim>& contact, ContactUnknowns<dim> start, Cycling when_cycling,
+                      const Interrupt& interrupt, int steps_before = 0);
+
+/// A bonded tread: one linear solve, and another one that lowers its rounding errors.
+template <int dim>
+Expected<ContactState<dim>> solve_bonded(const ReducedContact<dim>& contact);
+
+}  // namespace wheelwright

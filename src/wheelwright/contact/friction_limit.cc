@@ -1,0 +1,89 @@
+#include "wheelwright/contact/friction_limit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "wheelwright/contact/contact_newton.h"
+
+namespace wheelwright {
+namespace {
+
+/// The motion in which the loads push the rim along the ground: one by which the tread moves by 1 there.
+struct Push {
+  RimMotion motion;
+  double force;  ///< that does work on it, at least 0
+};
+
+Push push_along_ground(const RimControl& rim, const RimForce& preload, double tread_radius) {
+  Push push{{}, 0};
+  for (const FreeMotion& free : rim.free) {
+    if (!is_along_ground(free)) continue;
+    const double arm = free.direction.rotation != 0 ? tread_radius : 1;
+    const double force = (free.force + work(preload, free.direction)) / arm;
+    push.motion = combined(push.motion, force / arm, free.direction);
+    push.force = std::hypot(push.force, force);
+  }
+  if (push.force > 0) push.motion = combined({}, 1 / push.force, push.motion);
+  return push;
+}
+
+/// The unknowns without those of the motions along the ground.
+template <int dim>
+ContactUnknowns<dim> held(ContactUnknowns<dim> x, const RimControl& rim) {
+  std::vector<double> kept;
+  for (std::size_t k = 0; k < rim.free.size(); ++k)
+    if (!is_along_ground(rim.free[k])) kept.push_back(x.rim[k]);
+  x.rim = std::move(kept);
+  return x;
+}
+
+}  // namespace
+
+bool is_along_ground(const FreeMotion& motion) {
+  const RimMotion& d = motion.direction;
+  return d.along_ground != 0 || d.rotation != 0 || d.along_axle != 0;
+}
+
+template <int dim>
+ReducedContact<dim> held_along_ground(const ReducedContact<dim>& contact) {
+  RimControl rim = contact.rim();
+  std::erase_if(rim.free, is_along_ground);
+  return contact.under(rim);
+}
+
+template <int dim>
+std::optional<FrictionLimit> friction_limit(const ReducedContact<dim>& contact,
+                                            const ContactUnknowns<dim>& start, const Interrupt& interrupt) {
+  const double tread_radius = norm<dim>(contact.points().front().position);
+  const Push push = push_along_ground(contact.rim(), contact.preload_resultant(), tread_radius);
+  if (push.force == 0) return {};
+  // The ground pushes against the motion of the lowest point of the tread.
+  Vec<dim> lowest{};
+  lowest[0] = tread_radius;
+  Vec<dim> direction = displacement<dim>(push.motion, lowest);
+  direction[0] = 0;
+  const double length = norm<dim>(direction);
+  for (double& component : direction) component /= -length;
+  const ReducedContact<dim> sliding = held_along_ground(contact.sliding_along(direction));
+  const auto end = newton(sliding, sliding.touching(held(contact.touching(start), contact.rim())),
+                          Cycling::change_fewer, interrupt);
+  if (!end.converged) return {};
+  FrictionLimit limit{push.force, 0, 0};
+  for (int i = 0; i < contact.n_points(); ++i) {
+    const auto& point = contact.points()[i];
+    const Vec<dim> traction = sliding.response(i, end.x.augmented[i]).traction;
+    limit.available -= point.weight * dot<dim>(traction, displacement<dim>(push.motion, point.position));
+    limit.normal_force -= point.weight * traction[0];
+  }
+  return limit;
+}
+
+#define WHEELWRIGHT_INSTANTIATE(dim)                                               \
+  template ReducedContact<dim> held_along_ground(const ReducedContact<dim>&);      \
+  template std::optional<FrictionLimit> friction_limit(const ReducedContact<dim>&, \
+                                                       const ContactUnknowns<dim>&, const Interrupt&);
+WHEELWRIGHT_INSTANTIATE(2)
+WHEELWRIGHT_INSTANTIATE(3)
+#undef WHEELWRIGHT_INSTANTIATE
+
+}  // namespace wheelwright

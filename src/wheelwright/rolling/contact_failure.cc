@@ -1,0 +1,141 @@
+#include "wheelwright/rolling/contact_failure.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "wheelwright/contact/friction_limit.h"
+
+namespace wheelwright {
+namespace {
+
+/// From the solver's forces to those of the whole wheel, as a case gives them.
+template <int dim>
+double whole_width(const RollingModel<dim>& model) {
+  return dim == 2 ? model.grid.width : 1;
+}
+
+/// The keys of the loads along the ground.
+template <int dim>
+std::vector<std::string> keys_along_ground(const RollingModel<dim>& model) {
+  std::vector<std::string> keys;
+  if (model.horizontal_force != 0) keys.emplace_back("load.horizontal_force");
+  if (model.lateral_force != 0) keys.emplace_back("load.lateral_force");
+  if (model.torque != 0) keys.emplace_back("load.torque");
+  if (tangential_norm<dim>(model.distributed.body_force) > 0) keys.emplace_back("load.body_force");
+  return keys;
+}
+
+template <int dim>
+Failure sliding(const FrictionLimit& limit, const RollingModel<dim>& model) {
+  const bool is_torque = model.torque != 0 && model.lateral_force == 0;
+  const double width = whole_width(model), scale = width * (is_torque ? model.grid.outer_radius : 1);
+  const std::string unit = is_torque ? "N m" : "N";
+  return {
+      FailureReason::sliding,
+      fmt::format("the wheel slides: friction must hold {:.4g} {} at this position and can hold {:.4g} {} "
+                  "under the ground's normal force of {:.4g} N{}: take less {}, or more contact.friction or "
+                  "{}",
+                  scale * limit.needed, unit, scale * std::max(limit.available, 0.0), unit,
+                  width * limit.normal_force,
+                  model.travel ? fmt::format(" at the travel of {:.4g} m", *model.travel) : "",
+                  fmt::join(keys_along_ground(model), ", "), model.travel ? "load.travel" : "load.force")};
+}
+
+template <int dim>
+Failure lifted(const RollingModel<dim>& model) {
+  if (model.travel)
+    return {
+        FailureReason::no_contact,
+        fmt::format("the wheel does not touch the ground at the travel of {:.4g} m: take more load.travel",
+                    *model.travel)};
+  return {
+      FailureReason::no_contact,
+      fmt::format("the loads on the structure itself lift the wheel off the ground, on which load.force = "
+                  "{:.4g} N presses it: take more load.force, or less load.body_force",
+                  whole_width(model) * model.load)};
+}
+
+template <int dim>
+Failure overload(const RollingModel<dim>& model, const std::string& what) {
+  std::vector<std::string> keys{model.travel ? "load.travel" : "load.force"};
+  if (model.distributed.angular_speed != 0) keys.emplace_back("load.speed");
+  if (norm<dim>(model.distributed.body_force) > 0) keys.emplace_back("load.body_force");
+  if (model.distributed.hole_pressure != 0) keys.emplace_back("load.hole_pressure");
+  return {FailureReason::overload,
+          fmt::format("{}, far beyond linear elasticity: take less {}, or a larger material.youngs_modulus",
+                      what, fmt::join(keys, ", "))};
+}
+
+/// The same contact without friction, the rim held along the ground.
+template <int dim>
+Expected<ContactState<dim>, ContactFailure> without_friction(const ReducedContact<dim>& contact) {
+  const ReducedContact<dim> smooth = held_along_ground(contact.sliding_along({}));
+  const ContactUnknowns<dim> start = smooth.undeformed_start();
+  return solve_contact<dim>(smooth, std::span(&start, 1));
+}
+
+/// Why there is no solution, from the contact without friction.
+template <int dim>
+Failure unexplained(const ContactFailure& failure, const RollingModel<dim>& model,
+                    const ReducedContact<dim>& contact) {
+  constexpr double largest_strain = 0.25;
+  const auto smooth = without_friction(contact);
+  if (!smooth) return overload(model, "even without friction the contact has no state of equilibrium");
+  if (auto under = rim_under_ground(model, smooth->rim)) return *under;
+  double peak = 0;
+  for (const Vec<dim>& traction : smooth->traction) peak = std::max(peak, -traction[0]);
+  const double strain = peak / model.materials.at_tread().contact_modulus();
+  if (strain > largest_strain)
+    return overload(model, fmt::format("even without friction the pressure on the ground is {:.0f} % of the "
+                                       "material's modulus",
+                                       100 * strain));
+  return {failure.reason,
+          failure.detail + ": take another contact.gamma_0, less contact.friction, or another grid"};
+}
+
+}  // namespace
+
+template <int dim>
+std::optional<Failure> rim_under_ground(const RollingModel<dim>& model, const RimMotion& rim) {
+  const double thickness = model.grid.outer_radius - model.grid.inner_radius;
+  if (rim.towards_ground < thickness) return {};
+  return Failure{FailureReason::rim_under_ground,
+                 fmt::format("the rim would travel {:.4g} m, but the ring is {:.4g} m thick: the load is too "
+                             "large for this material and shape",
+                             rim.towards_ground, thickness)};
+}
+
+template <int dim>
+std::optional<Failure> no_contact(const RollingModel<dim>& model, const ReducedContact<dim>& contact,
+                                  const ContactState<dim>& state) {
+  if (std::ranges::any_of(state.augmented, [](const Vec<dim>& z) { return z[0] < 0; })) return {};
+  Failure failure = lifted(model);
+  failure.detail += fmt::format(
+      ", or more grid.tread_levels: the nearest of the contact's points is {:.4g} m above "
+      "the ground",
+      contact.smallest_gap(state));
+  return failure;
+}
+
+template <int dim>
+Failure contact_failure(const ContactFailure& failure, const RollingModel<dim>& model,
+                        const ReducedContact<dim>& contact) {
+  if (failure.limit && failure.reason == FailureReason::sliding) return sliding(*failure.limit, model);
+  if (failure.reason == FailureReason::no_contact) return lifted(model);
+  if (failure.reason == FailureReason::newton_stalled) return unexplained(failure, model, contact);
+  return failure;
+}
+
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                               \
+  template Failure contact_failure(const ContactFailure&, const RollingModel<dim>&,                \
+                                   const ReducedContact<dim>&);                                    \
+  template std::optional<Failure> rim_under_ground(const RollingModel<dim>&, const RimMotion&);    \
+  template std::optional<Failure> no_contact(const RollingModel<dim>&, const ReducedContact<dim>&, \
+                                             const ContactState<dim>&);
+WHEELWRIGHT_INSTANTIATE(2)
+WHEELWRIGHT_INSTANTIATE(3)
+#undef WHEELWRIGHT_INSTANTIATE
+
+}  // namespace wheelwright

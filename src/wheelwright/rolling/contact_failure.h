@@ -1,0 +1,25 @@
+#pragma once
+
+#include "wheelwright/contact/contact_solver.h"
+#include "wheelwright/state/rolling_model.h"
+
+namespace wheelwright {
+
+/// The failure of a load position's contact problem in the words of the case: which load cannot be carried
+/// and why, with the keys that would help. Where the contact found no reason, one is looked for: whether the
+/// load deforms the wheel without friction too far for linear elasticity.
+template <int dim>
+Failure contact_failure(const ContactFailure& failure, const RollingModel<dim>& model,
+                        const ReducedContact<dim>& contact);
+
+/// The rim would travel farther than the ring is thick: it would be below the ground.
+template <int dim>
+std::optional<Failure> rim_under_ground(const RollingModel<dim>& model, const RimMotion& rim);
+
+/// A solution whose contact touches nowhere: a prescribed travel may be too small to reach the ground, or to
+/// be seen by the contact's quadrature points.
+template <int dim>
+std::optional<Failure> no_contact(const RollingModel<dim>& model, const ReducedContact<dim>& contact,
+                                  const ContactState<dim>& state);
+
+}  // namespace wheelwright
