@@ -150,6 +150,44 @@ tread_band = 0.028
 """
 
 
+# Two loads and two bounds, of which one is active.
+LOADS_CASE = """
+[wheel]
+sectors = 7
+[material]
+density = 1100
+[load]
+positions = 2
+mass = 200
+[[load.case]]
+name = "straight"
+[[load.case]]
+name = "kerb"
+mass = 400
+[[holes.ring]]
+count = 7
+center_radius = 0.266
+radius = 0.03
+phase = 0.2
+[objective]
+minimize = "mass"
+[[constraint]]
+quantity = "stiffness"
+at_least = 85e6
+[[constraint]]
+quantity = "run_out"
+at_most = 0.01
+[grid]
+radial_cells = 14
+angular_cells = 189
+tread_levels = 0
+[optimizer]
+iterations = 10
+rim_band = 0.01
+tread_band = 0.02
+"""
+
+
 class Browser:
     """A page opened in a browser, for the classes below."""
 
@@ -355,6 +393,21 @@ class Page(Browser, unittest.TestCase):
         button.send_keys(Keys.ENTER)
         self.assertEqual(button.get_attribute("aria-pressed"), "false")
 
+    def test_the_loaded_wheel_is_seen_first_and_whole(self):
+        bottom = "const of = (e) => e.getBoundingClientRect().bottom + scrollY; return of(arguments[0])"
+        try:
+            for width, height in ((1440, 900), (1280, 720)):
+                self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                                             {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False})
+                self.open(self.page)
+                picture = self.browser.find_element(By.CSS_SELECTOR, "figure canvas")
+                self.assertLess(self.browser.execute_script(bottom, picture), height)
+                table = self.browser.find_element(By.TAG_NAME, "table")
+                for before_it in self.browser.find_elements(By.CSS_SELECTOR, "figure canvas"):
+                    self.assertLess(before_it.location["y"], table.location["y"])
+        finally:
+            self.browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+
     def test_shapes_go_from_the_first_to_the_last(self):
         self.open(self.folder / "run/report.html")
         slider = self.browser.find_element(By.ID, "run0-shape")
@@ -415,9 +468,67 @@ class Page(Browser, unittest.TestCase):
         self.assertEqual(len(self.browser.find_elements(By.TAG_NAME, "article")), 2)
         told = json.loads((other / "summary.json").read_text())["after"]["stiffness_N_per_m"] * 1e-3
         self.assertIn(shown(told), self.text("run1-stiffness"))
+        first = self.browser.find_element(By.CSS_SELECTOR, "main > figure")
+        self.assertLess(first.location["y"], self.browser.find_element(By.TAG_NAME, "table").location["y"])
+        self.assertEqual([item.text for item in first.find_elements(By.CSS_SELECTOR, ".legend li")], ["run", "other"])
+        inks = self.browser.execute_script("""
+            const canvas = document.querySelector("main > figure canvas"), context = canvas.getContext("2d");
+            const { data } = context.getImageData(0, 0, canvas.width, canvas.height), seen = {};
+            for (let k = 0; k < data.length; k += 4) if (data[k + 3] === 255) {
+              const key = `rgb(${data[k]}, ${data[k + 1]}, ${data[k + 2]})`;
+              seen[key] = (seen[key] ?? 0) + 1;
+            }
+            return [...document.querySelectorAll(".legend span")].map((e) => seen[getComputedStyle(e).backgroundColor] ?? 0);""")
+        self.assertTrue(all(count > 100 for count in inks), inks)
         again = subprocess.run([program, "report", self.folder / "run", "--output", page], check=False,
                                capture_output=True)
         self.assertEqual(again.returncode, 4)
+
+
+class LoadsPage(Browser, unittest.TestCase):
+    """The page of a wheel with several loads and bounds."""
+
+    case = LOADS_CASE
+
+    def test_each_bound_has_its_limit_values_margin_and_multiplier(self):
+        self.open(self.page)
+        with open(self.folder / "run/history.csv", newline="") as file:
+            first = next(csv.DictReader(file))
+        bounds = self.summary["bounds"]
+        self.assertEqual(len(bounds), 4)
+        self.assertGreater(max(bound["multiplier"] for bound in bounds), 0)
+        for bound in bounds:
+            row = self.browser.find_element(By.CSS_SELECTOR, f"tr[data-bound='{bound['name']}']")
+            limit, before, after, margin, percent, state, multiplier = (cell.text for cell in
+                                                                       row.find_elements(By.TAG_NAME, "td"))
+            (column,) = [name for name in first if name.startswith(f"bounded {bound['name']} [")]
+            sign = 1 if bound["relation"] == ">" else -1
+            for text, value in ((limit.split()[-1], bound["bound"]), (before, float(first[column])), (after, bound["value"]),
+                                (margin, sign * (bound["value"] - bound["bound"])),
+                                (percent, sign * 100 * (bound["value"] / bound["bound"] - 1)),
+                                (multiplier.split()[0], bound["multiplier"])):
+                self.assertAlmostEqual(float(text.replace("\u2212", "-")), value, delta=1e-3 * abs(value), msg=bound["name"])
+            self.assertEqual(state, "active" if bound["multiplier"] else "not active")
+        self.assertIn("4 bounds are kept", self.text("run0-verdict"))
+
+    def test_each_load_has_its_numbers_and_its_picture(self):
+        self.open(self.page)
+        after = self.summary["after"]
+        travels = [float(cell.text) for cell in
+                   self.browser.find_elements(By.CSS_SELECTOR, "td[data-key=mean_travel_m]")]
+        told = [wheel["mean_travel_m"] * 1e3 for numbers in (
+            [self.summary["before"], after],
+            [self.summary[when]["load_cases"]["kerb"] for when in ("before", "after")]) for wheel in numbers]
+        self.assertEqual(len(travels), 4)
+        for shown_one, told_one in zip(travels, told):
+            self.assertAlmostEqual(shown_one, told_one, delta=1e-4 * told_one)
+        self.assertIn("straight", self.text("run0-position-text"))
+        self.assertIn("kerb", self.text("run0-load1-position-text"))
+        self.assertNotEqual(self.pixels("run0-position"), self.pixels("run0-load1-position"))
+        slider = self.browser.find_element(By.ID, "run0-load1-position")
+        seen = self.pixels("run0-load1-position")
+        slider.send_keys(Keys.ARROW_RIGHT)
+        self.assertNotEqual(self.pixels("run0-load1-position"), seen)
 
 
 class SolidPage(Browser, unittest.TestCase):

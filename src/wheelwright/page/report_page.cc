@@ -129,7 +129,9 @@ Json fields_json(const LevelSet<2>& shape, std::span<const PositionFields<2>> al
           {"positions", std::move(positions)}};
 }
 
-Json fields_json(const ReportRun<2>& run) { return fields_json(*run.shape, run.positions); }
+Json fields_json(const ReportRun<2>& run, std::span<const PositionFields<2>> positions) {
+  return fields_json(*run.shape, positions);
+}
 
 /// null where it could not be computed.
 Json curve_json(const Expected<std::vector<double>>& values, double factor) {
@@ -198,7 +200,21 @@ Json fields_json(const SurfaceMesh& mesh, std::span<const SurfacePosition> all) 
           {"positions", std::move(positions)}};
 }
 
-Json fields_json(const ReportRun<3>& run) { return fields_json(run.surface, run.positions); }
+Json fields_json(const ReportRun<3>& run, std::span<const SurfacePosition> positions) {
+  return fields_json(run.surface, positions);
+}
+
+/// The fields under the load cases after the first one, on its mesh.
+template <int dim>
+Json other_fields_json(const ReportRun<dim>& run) {
+  Json all = Json::array();
+  for (const LoadedPositions<dim>& load : run.other_loads) {
+    Json fields = fields_json(run, load.positions);
+    for (const char* of_mesh : {"points", "triangles", "parts"}) fields.erase(of_mesh);
+    all.push_back({{"load_case", load.load_case}, {"fields", std::move(fields)}});
+  }
+  return all;
+}
 
 /// The contact pressures of every position along the ground.
 Json pressures_json(const std::vector<ContactPoint>& points) {
@@ -268,7 +284,10 @@ Json run_json(const ReportRun<dim>& run) {
     json["rolling"] = {{"before", rolling_json(run.summary->before.wheel)},
                        {"after", rolling_json(run.summary->after.wheel)}};
   }
-  if (run.shape) json["fields"] = fields_json(run);
+  if (run.shape) {
+    json["fields"] = fields_json(run, run.positions);
+    json["other_fields"] = other_fields_json(run);
+  }
   if (!run.contact_points.empty()) json["pressures"] = pressures_json(curve_points<dim>(run.contact_points));
   return json;
 }

@@ -48,6 +48,13 @@ struct SurfacePosition {
   std::vector<float> von_mises;                  ///< [Pa]
 };
 
+/// The last shape under a load case after the first one.
+template <int dim>
+struct LoadedPositions {
+  std::string load_case;
+  std::vector<std::conditional_t<dim == 2, PositionFields<2>, SurfacePosition>> positions;
+};
+
 /// What the page tells about one run. In 2D its wheel is drawn in the plane, in 3D as a lit surface.
 template <int dim>
 struct ReportRun {
@@ -73,6 +80,7 @@ struct ReportRun {
   const LevelSet<dim>* shape = nullptr;    ///< the last one, with the fields of all positions
   SurfaceMesh surface;                     ///< of it; in 3D
   std::vector<std::conditional_t<dim == 2, PositionFields<2>, SurfacePosition>> positions;
+  std::vector<LoadedPositions<dim>> other_loads = {};
   std::vector<ContactPoint> contact_points;
 };
 

@@ -215,9 +215,24 @@ std::vector<std::string> limits(const Case& c, const DescribedWheel<dim>& wheel)
   return result;
 }
 
-void add_fields(const SolvedShape<2>& last, ReportRun<2>& run) {
-  run.positions = all_position_fields(*last.solver, *last.solution);
+/// Calls show(name, state) for each load case after the first one that is solved.
+template <int dim>
+void for_other_loads(const Case& c, const State<dim>& first, const auto& show) {
+  const LoadCases<dim> cases = load_cases<dim>(c);
+  for (std::size_t k = 1; k < cases.size(); ++k)
+    if (const auto state = first.under(with_loads_of(first.model(), cases[k].model), Interrupt()))
+      show(cases[k].name, **state);
 }
+
+void add_fields(const Case& c, const SolvedShape<2>& last, ReportRun<2>& run) {
+  run.positions = all_position_fields(*last.solver, *last.solution);
+  for_other_loads<2>(c, *last.solution, [&](const std::string& name, const State<2>& state) {
+    run.other_loads.push_back({name, all_position_fields(*last.solver, state)});
+  });
+}
+
+/// The page holds no more fields of one load.
+constexpr double most_page_bytes = 8e6;
 
 /// Bytes that the fields of so many positions take in the page.
 double page_bytes(const SurfaceMesh& surface, int positions) {
@@ -230,30 +245,39 @@ struct LitWheel {
   std::vector<SurfacePosition> positions;
 };
 
-/// The surface, as fine as the page holds it with all positions; where it is too large even with one cube per
-/// cell, only the worst position is shown.
+/// The fields of all positions at the vertices of a surface; where they are too many for the page, those of
+/// the worst position.
+std::vector<SurfacePosition> lit_positions(const SurfaceMesh& surface, const StateSolver<3>& solver,
+                                           const State<3>& solution) {
+  const bool all = page_bytes(surface, solver.model().n_positions) <= most_page_bytes;
+  const int worst = worst_position(solution.strain_energy());
+  const auto points = field_points(surface, displacement_lattice(solver.model()));
+  std::vector<SurfacePosition> positions;
+  for_each_position<3>(solver, solution, [&](int position, const PositionFields<3>& fields) {
+    if (!all && position != worst) return;
+    positions.push_back({fields.ground_azimuth, points.values({"displacement", "m", fields.displacement}),
+                         points.values(von_mises_field(fields.stress))[0]});
+  });
+  return positions;
+}
+
+/// The surface, as fine as the page holds it with all positions, or else with one cube per cell.
 LitWheel lit_wheel(const SolvedShape<3>& last) {
-  constexpr double most_bytes = 8e6;
   const int degree = last.solver->model().degree, n_positions = last.solver->model().n_positions;
   LitWheel wheel{shape_boundary(*last.shape, degree), {}};
-  if (page_bytes(wheel.surface, n_positions) > most_bytes)
+  if (page_bytes(wheel.surface, n_positions) > most_page_bytes)
     wheel.surface = material_surface(*last.shape, 1, degree);
-  const bool all = page_bytes(wheel.surface, n_positions) <= most_bytes;
-  const int worst = worst_position(last.solution->strain_energy());
-  const auto points = field_points(wheel.surface, displacement_lattice(last.solver->model()));
-  for_each_position<3>(*last.solver, *last.solution, [&](int position, const PositionFields<3>& fields) {
-    if (!all && position != worst) return;
-    wheel.positions.push_back({fields.ground_azimuth,
-                               points.values({"displacement", "m", fields.displacement}),
-                               points.values(von_mises_field(fields.stress))[0]});
-  });
+  wheel.positions = lit_positions(wheel.surface, *last.solver, *last.solution);
   return wheel;
 }
 
-void add_fields(const SolvedShape<3>& last, ReportRun<3>& run) {
+void add_fields(const Case& c, const SolvedShape<3>& last, ReportRun<3>& run) {
   LitWheel wheel = lit_wheel(last);
   run.surface = std::move(wheel.surface);
   run.positions = std::move(wheel.positions);
+  for_other_loads<3>(c, *last.solution, [&](const std::string& name, const State<3>& state) {
+    run.other_loads.push_back({name, lit_positions(run.surface, *last.solver, state)});
+  });
 }
 
 }  // namespace
@@ -313,7 +337,7 @@ ReportRun<dim> report_of_results(const fs::path& folder, const Case& c, const Ru
     run.given = shape_outline(0, summary.before.objective ? *summary.before.objective : NAN,
                               mid_plane_section(initial_shape<dim>(c)));
   run.shape = last.shape;
-  add_fields(last, run);
+  add_fields(c, last, run);
   run.contact_points = contact_points(*last.solver, *last.solution);
   return run;
 }

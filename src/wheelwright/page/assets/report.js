@@ -11,23 +11,87 @@
 
   // --- Numbers ----------------------------------------------------------------------------------------
 
-  function table(wheels) {
-    const head = element("tr", {}, element("th", { scope: "col" }, "quantity"));
-    wheels.forEach(({ name }, k) => {
-      head.append(element("th", { scope: "col" }, name));
-      if (k > 0) head.append(element("th", { scope: "col" }, "change"));
-    });
-    const body = element("tbody");
-    for (const { key, label, unit, factor } of wheels[0].units) {
-      if (!wheels.some(({ numbers }) => Number.isFinite(numbers[key]))) continue;
-      const row = element("tr", {}, element("th", { scope: "row" }, `${label} [${unit}]`));
-      wheels.forEach(({ numbers }, k) => {
-        row.append(element("td", { "data-key": key }, Number.isFinite(numbers[key]) ? shown(numbers[key] * factor) : "\u2013"));
-        if (k > 0) row.append(element("td", {}, change(wheels[0].numbers[key], numbers[key])));
+  // Columns of wheels with their change against the first one, in groups that may have a name.
+  function table(groups) {
+    const names = element("tr", {}, element("th", { scope: "col" }, "quantity")), above = element("tr", {}, element("td"));
+    for (const { name, wheels } of groups) {
+      above.append(element("th", { scope: "colgroup", colspan: 2 * wheels.length - 1 }, name));
+      wheels.forEach((wheel, k) => {
+        names.append(element("th", { scope: "col" }, wheel.name));
+        if (k > 0) names.append(element("th", { scope: "col" }, "change"));
       });
+    }
+    const body = element("tbody");
+    for (const { key, label, unit, factor } of groups[0].units) {
+      if (!groups.some(({ wheels }) => wheels.some(({ numbers }) => Number.isFinite(numbers[key])))) continue;
+      const row = element("tr", {}, element("th", { scope: "row" }, `${label} [${unit}]`));
+      for (const { wheels } of groups) {
+        const isOfShape = !wheels.some(({ numbers }) => key in numbers);  // and stands in the first group
+        wheels.forEach(({ numbers }, k) => {
+          row.append(element("td", { "data-key": key }, Number.isFinite(numbers[key]) ? shown(numbers[key] * factor) :
+            isOfShape ? "" : "\u2013"));
+          const both = [wheels[0].numbers[key], numbers[key]];
+          if (k > 0) row.append(element("td", {}, both.every(Number.isFinite) ? change(...both) : isOfShape ? "" : "\u2013"));
+        });
+      }
       body.append(row);
     }
-    return element("div", { class: "wide" }, element("table", {}, element("thead", {}, head), body));
+    const head = element("thead", {}, ...(groups.length > 1 ? [above] : []), names);
+    return element("div", { class: "wide" }, element("table", {}, head, body));
+  }
+
+  // Before and after, under each load case.
+  function beforeAndAfter(run) {
+    const { before, after } = run.summary;
+    const group = (name, first, last) => ({ name, units: run.numbers,
+      wheels: [{ name: "before", numbers: first ?? {} }, { name: "after", numbers: last }] });
+    return table([group(after.load_case ?? "", before, after), ...Object.entries(after.load_cases ?? {})
+      .map(([name, numbers]) => group(name, before.load_cases?.[name], numbers))]);
+  }
+
+  // The bounds at the last shape that the run computed, by the units of history.csv.
+  function bounds(run) {
+    const course = (words) => {
+      const name = Object.keys(run.history).find((column) => column.startsWith(`${words} [`));
+      const values = (run.history[name] ?? []).filter((value) => value !== null);
+      return { unit: name?.match(/\[(.*)\]$/)[1] ?? "", first: values[0] };
+    };
+    const words = { "<": "at most", ">": "at least", "=": "equal to" };
+    const titles = ["bound", "limit", "before", "after", "margin", "margin [%]", "state", "multiplier"];
+    const head = element("tr", {}, ...titles.map((title) => element("th", { scope: "col" }, title)));
+    const body = element("tbody");
+    for (const { name, value, bound, relation, multiplier, is_kept } of run.summary.bounds) {
+      const { unit, first } = course(`bounded ${name}`), price = course(`multiplier of ${name}`).unit;
+      const margin = relation === "<" ? bound - value : relation === ">" ? value - bound : -Math.abs(value - bound);
+      const state = !is_kept ? "not kept" : relation === "=" || multiplier !== 0 ? "active" : "not active";
+      body.append(element("tr", { "data-bound": name, ...(is_kept ? {} : { class: "broken" }) },
+        element("th", { scope: "row" }, `${name.replaceAll("_", " ")} [${unit}]`),
+        ...[`${words[relation]} ${shown(bound)}`, first === undefined ? "\u2013" : shown(first), shown(value), shown(margin),
+          bound ? shown(100 * margin / Math.abs(bound)) : "\u2013", state,
+          `${shown(multiplier)}${multiplier && price ? ` ${price}` : ""}`].map((text) => element("td", {}, text))));
+    }
+    return element("div", {}, element("div", { class: "wide" }, element("table", { id: `${run.id}-bounds` },
+      element("thead", {}, head), body)), element("p", { class: "quiet" }, "The margin is what is left to the limit; a " +
+      "negative one is beyond it. The multiplier of an active bound is by how much the objective falls per unit by which " +
+      "the bound is relaxed."));
+  }
+
+  // One sentence: what came out.
+  function verdict(run) {
+    const { before, after, bounds: all = [] } = run.summary;
+    const key = ["objective", "objective_J_per_m", "objective_J"].find((name) => Number.isFinite(after[name]));
+    const parts_of_it = [];
+    if (key && Number.isFinite(before[key])) parts_of_it.push(`the objective changed by ${change(before[key], after[key])}`);
+    if (Number.isFinite(before.stiffness_N_per_m) && Number.isFinite(after.stiffness_N_per_m))
+      parts_of_it.push(`the stiffness by ${change(before.stiffness_N_per_m, after.stiffness_N_per_m)}`);
+    const broken = all.filter(({ is_kept }) => !is_kept).length;
+    if (all.length) parts_of_it.push(broken ? `${broken} of ${all.length} bounds ${broken > 1 ? "are" : "is"} not kept` :
+      all.length > 1 ? `all ${all.length} bounds are kept` : "the bound is kept");
+    parts_of_it.push(run.flags.length === 0 ? "there are no remarks" :
+      `there ${run.flags.length > 1 ? `are ${run.flags.length} remarks` : "is a remark"} below`);
+    const text = `${parts_of_it.slice(0, -1).join(", ")}${parts_of_it.length > 1 ? "; " : ""}${parts_of_it.at(-1)}.`;
+    return element("p", { class: broken ? "verdict broken" : "verdict", id: `${run.id}-verdict` },
+      text[0].toUpperCase() + text.slice(1));
   }
 
   function rejectedText(run) {
@@ -88,22 +152,24 @@
 
   // --- The wheel rolling ------------------------------------------------------------------------------
 
-  function rolling(run) {
+  // Under one of its loads, whose controls have names that begin with `id`.
+  function rolling(run, { id, loadCase, fields, numbersOfPositions }) {
+    run = { ...run, fields };
     const is_surface = run.dimension === 3;
     const picture = element("canvas", { role: "img", "aria-label": is_surface ?
       "The loaded wheel as a lit surface; arrow keys turn it, plus and minus change its size" :
       "The loaded wheel, coloured by von Mises stress" });
     const ground = element("canvas", { "aria-hidden": "true", style: "position:absolute;inset:0" });
     const n = run.fields.positions.length;
-    const slider = element("input", { type: "range", min: 0, max: n - 1, value: 0, id: `${run.id}-position` });
-    const button = element("button", { type: "button", id: `${run.id}-roll` }, "Roll");
+    const slider = element("input", { type: "range", min: 0, max: n - 1, value: 0, id: `${id}-position` });
+    const button = element("button", { type: "button", id: `${id}-roll` }, "Roll");
     const best = roundMagnification(0.03 * run.outer_radius_m / run.fields.full_displacement_m);
-    const choice = element("select", { id: `${run.id}-magnified`, "aria-label": "Displacement" });
+    const choice = element("select", { id: `${id}-magnified`, "aria-label": "Displacement" });
     for (const m of [...new Set([1, best / 5, best / 2, best, 2 * best].filter((m) => m >= 1))])
       choice.append(element("option", { value: m, ...(m === best ? { selected: "" } : {}) }, `displacement \u00d7 ${m}`));
-    const kind = element("select", { id: `${run.id}-colours`, "aria-label": "Colours" },
+    const kind = element("select", { id: `${id}-colours`, "aria-label": "Colours" },
       element("option", { value: "stress" }, "stress"), element("option", { value: "displacement" }, "displacement"));
-    const caption = element("figcaption", { id: `${run.id}-position-text`, "aria-live": "polite" });
+    const caption = element("figcaption", { id: `${id}-position-text`, "aria-live": "polite" });
     const labels = element("div", { class: "scale-labels" }), scaleName = element("p", { class: "quiet" });
     const frame = element("div", { class: "picture", style: "position:relative" }, picture,
       ...(is_surface ? [] : [ground]));
@@ -122,11 +188,11 @@
       scale(paint?.kinds?.[kind.value] ?? { name: "von Mises stress, on a scale of square roots",
         end: run.fields.full_stress_Pa * 1e-6, unit: "MPa", power: 2 });
       if (!is_surface) drawGround(ground, run);
-      const at = run.rolling.after, shown_azimuth = run.fields.positions[i].azimuth_rad;
-      const k = at.azimuths_rad.findIndex((azimuth) => Math.abs(azimuth - shown_azimuth) < 1e-9);
+      const at = numbersOfPositions, shown_azimuth = run.fields.positions[i].azimuth_rad;
+      const k = (at?.azimuths_rad ?? []).findIndex((azimuth) => Math.abs(azimuth - shown_azimuth) < 1e-9);
       const numbers = k < 0 ? "" : `: travel ${shown((at.travel_at_load_m?.[k] ?? NaN) * 1e3)} mm, peak pressure ` +
         `${shown(at.peak_pressure_Pa[k] * 1e-6)} MPa, peak stress ${shown(at.peak_von_mises_Pa[k] * 1e-6)} MPa`;
-      caption.textContent = `Ground at azimuth ${shown(shown_azimuth * degree)}\u00b0${numbers}. Displacements are drawn ` +
+      caption.textContent = `${loadCase ? `Load case ${loadCase}. ` : ""}Ground at azimuth ${shown(shown_azimuth * degree)}\u00b0${numbers}. Displacements are drawn ` +
         `${magnified} times as large.${is_surface ? " Drag the wheel to turn it." : ""}`;
     };
     const roll = (on) => {
@@ -180,6 +246,35 @@
     slider.addEventListener("input", draw);
     const figure = element("figure", {}, element("div", { class: "picture" }, canvas),
       element("div", { class: "controls" }, element("label", {}, "shape", slider)), caption);
+    return { figure, start: draw, draw };
+  }
+
+  // The last shapes of several runs over each other, to scale.
+  function overlay(runs) {
+    const drawn = runs.filter((run) => run.outlines.length);
+    const canvas = element("canvas", { role: "img", "aria-label": `The outlines of ${drawn.map(({ name }) => name).join(", ")}` });
+    const ink = (k) => curveColours[k % curveColours.length];
+    const legend = element("ul", { class: "legend" }, ...drawn.map(({ name }, k) =>
+      element("li", {}, element("span", { style: `background:${ink(k)}`, "aria-hidden": "true" }), name)));
+    const draw = () => {
+      const size = canvas.width = canvas.height = Math.round(canvas.clientWidth * (window.devicePixelRatio || 1)) || 600;
+      const context = canvas.getContext("2d"), largest = Math.max(...drawn.map((run) => run.outer_radius_m));
+      context.setTransform(1, 0, 0, 1, 0.5 * size, 0.5 * size);
+      context.clearRect(-size, -size, 2 * size, 2 * size);
+      drawn.forEach((run, k) => {
+        const radius = 0.48 * size * run.outer_radius_m / largest, unit = radius / run.outline_units;
+        context.strokeStyle = ink(k);
+        context.lineWidth = Math.max(1.5, size / 400);
+        context.stroke(wheelPath(run.outlines.at(-1).contours.map((contour) => contour.flat()), 1, unit));
+        for (const r of [radius, radius * run.inner_radius_m / run.outer_radius_m]) {
+          context.beginPath();
+          context.arc(0, 0, r, 0, 2 * Math.PI);
+          context.stroke();
+        }
+      });
+    };
+    const figure = element("figure", { class: "overlay" }, element("div", { class: "picture" }, canvas), legend,
+      element("figcaption", {}, "The last shapes of the runs, drawn over each other to scale."));
     return { figure, start: draw, draw };
   }
 
@@ -248,26 +343,30 @@
   function article(run, later) {
     const section = (title, ...children) => element("section", {}, element("h2", {}, title), ...children);
     const made = element("article", { id: run.id }, element("h1", {}, run.title),
-      element("p", { class: "quiet", id: `${run.id}-status` }, `${run.status}; load ${run.load}`));
-    if (run.summary) made.append(answers(run));
-    made.append(flags(run));
-    if (run.limits.length) made.append(section("What was not checked", limits(run)));
-    if (run.summary) made.append(section("Before and after",
-      table([["before", run.summary.before], ["after", run.summary.after]].map(([name, numbers]) =>
-        ({ name, numbers, units: run.numbers })))));
+      element("p", { class: "quiet", id: `${run.id}-status` }, `${data.runs.length > 1 ? `run ${run.name}; ` : ""}${run.status}; load ${run.load}`));
+    if (run.summary) made.append(verdict(run));
     const pictures = element("div", { class: "pictures" });
-    if (run.fields) later.push(rolling(run));
-    if (run.fields) pictures.append(later.at(-1).figure);
-    if (run.outlines.length) {
-      later.push(shapes(run));
-      pictures.append(later.at(-1).figure);
-    }
-    if (pictures.childElementCount) made.append(section("The wheel", pictures));
-    if (run.events.length) made.append(events(run));
+    const picture = (part) => {
+      later.push(part);
+      pictures.append(part.figure);
+    };
+    if (run.fields)
+      picture(rolling(run, { id: run.id, loadCase: run.summary?.after.load_case, fields: run.fields,
+        numbersOfPositions: run.rolling?.after }));
+    if (run.outlines.length) picture(shapes(run));
+    for (const [k, { load_case, fields }] of (run.other_fields ?? []).entries())
+      picture(rolling(run, { id: `${run.id}-load${k + 1}`, loadCase: load_case, fields: { ...run.fields, ...fields } }));
+    if (pictures.childElementCount) made.append(section("The wheel under load, and its shapes", pictures));
+    made.append(flags(run));
+    if (run.summary) made.append(section("Before and after, in short", answers(run)));
+    if (run.summary?.bounds?.length) made.append(section("Bounds", bounds(run)));
     const charts = curves(run);
     later.push(...charts);
     if (charts.length)
       made.append(section("Curves", element("div", { class: "pictures" }, ...charts.map(({ figure }) => figure))));
+    if (run.summary) made.append(section("All numbers", beforeAndAfter(run)));
+    if (run.events.length) made.append(events(run));
+    if (run.limits.length) made.append(section("What was not checked", limits(run)));
     made.append(provenance(run));
     return made;
   }
@@ -277,8 +376,14 @@
   // Energies in the plane belong to a metre of width: wheels are compared with those of the same dimension.
   const compared = [2, 3].map((dimension) => data.runs.filter((run) => run.summary && run.dimension === dimension))
     .filter((runs) => runs.length > 1);
-  if (compared.length) page.append(element("h1", {}, "Wheels compared"), ...compared.map((runs) => table(runs.map((run) =>
-    ({ name: run.name, numbers: run.summary.after, units: run.numbers })))));
+  if (compared.length) page.append(element("h1", {}, "Wheels compared"), ...compared.flatMap((runs) => {
+    later.push(overlay(runs));
+    const others = [...new Set(runs.flatMap((run) => Object.keys(run.summary.after.load_cases ?? {})))];
+    const group = (name, numbersOf) => ({ name, units: runs[0].numbers, wheels: runs.map((run) =>
+      ({ name: run.name, numbers: numbersOf(run.summary.after) ?? {} })) });
+    return [later.at(-1).figure, table([group(runs[0].summary.after.load_case ?? "", (numbers) => numbers),
+      ...others.map((name) => group(name, (numbers) => numbers.load_cases?.[name]))])];
+  }));
   page.append(element("div", { class: "runs" }, ...data.runs.map((run) => article(run, later))));
   for (const part of later) part.start();
   const redraw = () => later.forEach((part) => part.draw?.());
