@@ -79,7 +79,13 @@ class SolverOfOneLoad : public StateSolver<2> {
 class ResultsOfARun : public TemporaryFolder {
  protected:
   static Study<2> study(const std::string& more) {
-    return *make_study<2>(*parse_case(small_wheel + more, "case.toml").value);
+    std::string text = small_wheel + more;
+    const std::string holes = "center_radius = 0.27\nradius = 0.03\n";
+    text.replace(text.find(holes), holes.size(),
+                 "center_radius = 0.26\nradius = 0.043\n");  // walls of 15.4 mm
+    const CaseResult result = parse_case(text, "case.toml");
+    if (!result.value) throw std::runtime_error(result.problems.front().text());
+    return *make_study<2>(*result.value);
   }
 
   FinalResults<2> results(Study<2> study, std::optional<int> most_solves) {
@@ -124,8 +130,8 @@ TEST_F(ResultsOfARun, AreToldWithoutWhatOtherSolvesWouldGive) {
 }
 
 TEST_F(ResultsOfARun, AreThoseOfTheLastShapeWhereTheFirstHasNoSolution) {
-  const auto all = nlohmann::json::parse(summary_json(results(study("minimum_wall = 0.05\n"), {}).summary));
-  Study<2> widened = this->study("minimum_wall = 0.05\n");  // the given wheel is another one
+  const auto all = nlohmann::json::parse(summary_json(results(study("minimum_wall = 0.0175\n"), {}).summary));
+  Study<2> widened = this->study("minimum_wall = 0.0175\n");  // the given wheel is another one
   const FinalResults<2> some_results = results(std::move(widened), 1);
   const auto some = nlohmann::json::parse(summary_json(some_results.summary));
   EXPECT_EQ(some["after"]["stiffness_N_per_m"], all["after"]["stiffness_N_per_m"]);
@@ -138,7 +144,7 @@ TEST_F(ResultsOfARun, AreThoseOfTheLastShapeWhereTheFirstHasNoSolution) {
 // A run begins with the widths that are asked for; it is compared with the wheel that was drawn.
 TEST_F(ResultsOfARun, CompareWithTheGivenWheel) {
   const FinalResults<2> as_given = results(study(""), {});
-  const Study<2> study = this->study("minimum_wall = 0.05\n");
+  const Study<2> study = this->study("minimum_wall = 0.0175\n");
   const FinalResults<2> widened = results(study, {});
   EXPECT_NE(state_->shape.values, study.initial.values);
   EXPECT_EQ(as_given.summary.changed_start, "");
@@ -146,8 +152,8 @@ TEST_F(ResultsOfARun, CompareWithTheGivenWheel) {
   const auto expected = nlohmann::json::parse(summary_json(as_given.summary));
   const auto found = nlohmann::json::parse(summary_json(widened.summary));
   EXPECT_EQ(found["before"], expected["before"]);
-  EXPECT_LT(found["before"]["minimum_wall_m"], 0.046);
-  EXPECT_GT(found["after"]["minimum_wall_m"], 0.048);
+  EXPECT_LT(found["before"]["minimum_wall_m"], 0.016);
+  EXPECT_GT(found["after"]["minimum_wall_m"], 0.0165);
   const ReportRun<2> run = report_of_results<2>(folder(), study.source, widened.summary,
                                                 {&state_->shape, widened.solver.get(), widened.shown.get()},
                                                 StopReason::converged);

@@ -21,13 +21,13 @@ using Json = nlohmann::ordered_json;
 /// Points of the material of sector 0 with what it takes to interpolate a field there, and triangles of them.
 struct SectorMesh {
   std::vector<Vec<2>> points;             ///< Cartesian [m]
-  std::vector<std::array<int, 2>> cells;  ///< of every point
+  std::vector<RingCellNodes<2>> nodes;    ///< of the cell of every point
   std::vector<ShapeFunctions<2>> shapes;  ///< of the fields there, in its cell
   std::vector<std::uint32_t> triangles;   ///< corners, counter-clockwise
 };
 
 /// Corners that polygons share are one point.
-SectorMesh sector_mesh(const LevelSet<2>& psi, int field_degree) {
+SectorMesh sector_mesh(const LevelSet<2>& psi, const Lattice<2>& field_lattice) {
   constexpr int cut_subdivisions = 2;
   constexpr double resolution = 1e7;  // [1/m]
   const PolarGrid<2>& grid = psi.lattice.grid();
@@ -45,8 +45,8 @@ SectorMesh sector_mesh(const LevelSet<2>& psi, int field_degree) {
         const auto [entry, is_new] = known.try_emplace(key, static_cast<std::uint32_t>(mesh.points.size()));
         if (is_new) {
           mesh.points.push_back(x);
-          mesh.cells.push_back(grid.cell_position(cell));
-          mesh.shapes.emplace_back(field_degree, xi);
+          mesh.nodes.push_back(ring_cell_nodes<2>(field_lattice, grid.cell_position(cell)));
+          mesh.shapes.emplace_back(field_lattice.degree(), xi);
         }
         corners.push_back(entry->second);
       }
@@ -62,21 +62,25 @@ std::string encoded(const std::vector<T>& values) {
   return base64({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
 }
 
-/// A scalar of a field's components at the points of a mesh in all sectors: value[point + n_points * sector].
-template <class Scalar>
-std::vector<double> at_points(const SectorMesh& mesh, const Lattice<2>& lattice, const RingField& field,
-                              const Scalar& scalar) {
-  std::vector<double> values, components(field.components);
-  for (int sector = 0; sector < lattice.grid().n_sectors; ++sector)
+/// Visits a field's components at the points of a mesh in all sectors, in the order point + n_points *
+/// sector.
+template <class Visit>
+void for_each_point(const SectorMesh& mesh, const Lattice<2>& lattice, const RingField& field,
+                    const Visit& visit) {
+  std::vector<double> components(field.components);
+  const int n_nodes = nodes_per_cell<2>(lattice.degree()), n_sectors = lattice.grid().n_sectors;
+  const std::size_t sector_nodes = lattice.n_nodes(), ring_nodes = sector_nodes * n_sectors;
+  for (int sector = 0; sector < n_sectors; ++sector)
     for (std::size_t k = 0; k < mesh.points.size(); ++k) {
-      auto cell = mesh.cells[k];
-      cell[1] += sector * lattice.grid().columns();
-      const auto nodes = ring_cell_nodes<2>(lattice, cell);
-      const std::span shape(mesh.shapes[k].value.data(), nodes_per_cell<2>(lattice.degree()));
+      RingCellNodes<2> nodes = mesh.nodes[k];
+      for (int a = 0; a < n_nodes; ++a) {
+        nodes[a] += sector * sector_nodes;
+        if (nodes[a] >= ring_nodes) nodes[a] -= ring_nodes;
+      }
+      const std::span shape(mesh.shapes[k].value.data(), n_nodes);
       for (int c = 0; c < field.components; ++c) components[c] = interpolate(field, nodes, shape, c);
-      values.push_back(scalar(std::span<const double>(components)));
+      visit(std::span<const double>(components));
     }
-  return values;
 }
 
 double largest(const std::vector<std::vector<double>>& all) {
@@ -105,15 +109,19 @@ std::vector<std::uint8_t> as_bytes_of_roots(const std::vector<double>& values, d
 
 /// The deformed wheel in its load positions. Displacements are Cartesian, in the body frame.
 Json fields_json(const LevelSet<2>& shape, std::span<const PositionFields<2>> all) {
-  const SectorMesh mesh = sector_mesh(shape, all.front().lattice.degree());
+  const SectorMesh mesh = sector_mesh(shape, all.front().lattice);
   std::vector<float> points;
   for (const Vec<2>& x : mesh.points) points.insert(points.end(), {float(x[0]), float(x[1])});
   std::vector<std::vector<double>> x, y, stress;
   for (const PositionFields<2>& position : all) {
     const NamedField von_mises = von_mises_field(position.stress);
-    x.push_back(at_points(mesh, position.lattice, position.displacement, [](auto u) { return u[0]; }));
-    y.push_back(at_points(mesh, position.lattice, position.displacement, [](auto u) { return u[1]; }));
-    stress.push_back(at_points(mesh, position.lattice, von_mises.field, von_mises.scalar));
+    auto &at_x = x.emplace_back(), &at_y = y.emplace_back(), &at_stress = stress.emplace_back();
+    for_each_point(mesh, position.lattice, position.displacement, [&](auto u) {
+      at_x.push_back(u[0]);
+      at_y.push_back(u[1]);
+    });
+    for_each_point(mesh, position.lattice, von_mises.field,
+                   [&](auto components) { at_stress.push_back(von_mises.scalar(components)); });
   }
   const double full_displacement = std::max(largest(x), largest(y)), full_stress = largest(stress);
   Json positions = Json::array();
