@@ -40,8 +40,8 @@ as_root() {
   fi
 }
 
-# Installs what dpkg does not know as installed, and says beforehand how much that is; asks nothing, and touches nothing
-# when all is there.
+# Installs what dpkg does not know as installed, and says beforehand how much that is, as apt does; asks nothing, and
+# touches nothing when all is there.
 install_packages() {
   if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
     fail "This system has no apt-get. Install what these packages of Debian 12 hold:" \
@@ -56,10 +56,6 @@ install_packages() {
   echo "Installing ${missing[*]}"
   as_root apt-get --quiet update ||
     fail "apt-get could not read the package lists: is there a network?"
-  echo
-  as_root env LC_ALL=C apt-get --assume-no --no-install-recommends install "${missing[@]}" 2>/dev/null |
-    grep -E 'newly installed|Need to get|disk space' || true
-  echo
   as_root env DEBIAN_FRONTEND=noninteractive apt-get --quiet --yes --no-install-recommends install \
     "${missing[@]}" ||
     fail "apt-get could not install the packages. Debian 12 (bookworm) has all of them."
