@@ -45,6 +45,10 @@ std::optional<Case> read_or_tell(const std::filesystem::path& file) {
   return {};
 }
 
+void tell_warning(const std::string& wheel, const std::string& text) {
+  print_warning(stderr, fmt::format("{}: {}", wheel, text));
+}
+
 void print_warning(std::FILE* stream, const std::string& text) {
   print_to(stream, "{} {}\n", styled(stream, Style::yellow, "warning:"), text);
 }
@@ -55,7 +59,7 @@ void print_warnings(std::FILE* stream, const Case& c) {
 
 bool may_compute(const std::string& command, const Case& c, const std::filesystem::path& file,
                  std::optional<int> threads) {
-  print_warnings(stderr, c);
+  for (const std::string& text : warnings(c)) tell_warning(file.string(), text);
   const int n_threads = threads.value_or(static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
   for (const auto& lack :
        {lack_of_memory(c, available_memory()), lack_of_address_space(c, n_threads, address_space_left())}) {

@@ -19,6 +19,9 @@ std::optional<Case> read_or_tell(const std::filesystem::path& file);
 void print_warnings(std::FILE* stream, const Case& c);
 void print_warning(std::FILE* stream, const std::string& text);
 
+/// Tells what is doubtful about a wheel, which it names.
+void tell_warning(const std::string& wheel, const std::string& text);
+
 /// To be called by a command that computes, before it writes anything: tells the warnings of the case and
 /// whether the available memory is too small for it. If so, false: the command ends with exit_refused.
 /// Otherwise limits the threads for the rest of the program.

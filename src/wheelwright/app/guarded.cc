@@ -1,6 +1,7 @@
 #include "wheelwright/app/guarded.h"
 
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <system_error>
 
@@ -16,8 +17,12 @@ int guarded(const std::string& who, const std::function<int()>& work) {
   } catch (const OutputError& error) {
     tell("{}: {}\n", who, error.what());
     return exit_input_output;
+  } catch (const std::filesystem::filesystem_error& error) {
+    tell("{}: {}: {}; check the name and the permissions\n", who, error.path1().string(),
+         error.code().message());
+    return exit_input_output;
   } catch (const std::system_error& error) {
-    tell("{}: {}\n", who, error.what());
+    tell("{}: the system refuses: {}\n", who, error.code().message());
     return exit_input_output;
   } catch (const std::bad_alloc&) {
     tell("{}: the memory is used up; take fewer cells or load positions\n", who);

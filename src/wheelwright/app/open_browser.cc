@@ -11,6 +11,8 @@
 #include <cstdlib>
 #include <system_error>
 
+#include "wheelwright/files/path_queries.h"
+
 extern char** environ;
 
 namespace wheelwright {
@@ -29,9 +31,8 @@ bool is_set(const char* variable) {
 
 AddressFile::AddressFile(const std::string& address) {
   const char* of_user = std::getenv("XDG_RUNTIME_DIR");
-  const std::filesystem::path base = of_user && std::filesystem::is_directory(of_user)
-                                         ? std::filesystem::path(of_user)
-                                         : std::filesystem::temp_directory_path();
+  const std::filesystem::path base =
+      of_user && is_folder(of_user) ? std::filesystem::path(of_user) : std::filesystem::temp_directory_path();
   std::string name = (base / "wheelwright-XXXXXX").string();
   if (!::mkdtemp(name.data())) fail(name);  // with mode 700
   folder_ = name;

@@ -49,6 +49,7 @@ void print_to(std::FILE* stream, fmt::format_string<Printable<Arguments>...> for
               const Arguments&... arguments) {
   fmt::memory_buffer text;  // needs no memory of the heap for a line
   fmt::format_to(std::back_inserter(text), format, printable(arguments)...);
+  if (stream != stdout) std::fflush(stdout);  // what was printed before stands before it, also in a pipe
   std::fwrite(text.data(), 1, text.size(), stream);
 }
 

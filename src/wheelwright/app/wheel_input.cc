@@ -8,6 +8,7 @@
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/base/text.h"
 #include "wheelwright/cut/measure.h"
+#include "wheelwright/files/path_queries.h"
 #include "wheelwright/run/resume_point.h"
 
 namespace wheelwright {
@@ -27,8 +28,8 @@ Case with_positions(Case c, const Computation& computation) {
 
 /// The case of a file or of a run's folder, if the memory suffices for it.
 Expected<Case, ExitCode> affordable_case(const fs::path& input, const Computation& computation) {
-  const fs::path file = fs::is_directory(input) ? input / "case.toml" : input;
-  if (fs::is_directory(input) && !fs::exists(file)) {
+  const fs::path file = is_folder(input) ? input / "case.toml" : input;
+  if (is_folder(input) && !is_there(file)) {
     tell("{}: this folder holds no run: there is no case.toml\n", input.string());
     return exit_usage;
   }
@@ -72,7 +73,7 @@ Expected<RunInput<dim>, ExitCode> run_in(const fs::path& folder, Case c) {
 /// The wheel of a file or folder, which has this case.
 template <int dim>
 Expected<WheelInput<dim>, ExitCode> wheel_of(Case c, const fs::path& input, const Computation& computation) {
-  if (!fs::is_directory(input)) return initial_wheel<dim>(std::move(c), input, computation);
+  if (!is_folder(input)) return initial_wheel<dim>(std::move(c), input, computation);
   auto run = run_in<dim>(input, std::move(c));
   if (!run) return run.failure();
   OptimizationState<dim>& state = run->checkpoint.state;
@@ -117,7 +118,7 @@ Expected<WheelInput<2>, ExitCode> read_plane_wheel_or_tell(const fs::path& input
 }
 
 Expected<AnyRun, ExitCode> read_run_or_tell(const fs::path& folder, const Computation& computation) {
-  if (!fs::is_directory(folder)) {
+  if (!is_folder(folder)) {
     tell("{}: this folder holds no run: there is no case.toml\n", folder.string());
     return exit_usage;
   }

@@ -43,6 +43,13 @@ bool can_be_halved(const Case& c, int times) {
   return c.grid.radial_cells % parts == 0 && c.grid.angular_cells % (parts * c.wheel.sectors) == 0;
 }
 
+bool has_room_between_bands(const Case& c, int level) {
+  const Case coarse = on_coarser_grid(c, level);
+  const double ring = c.wheel.outer_radius - c.wheel.inner_radius, cell = ring / coarse.grid.radial_cells;
+  const auto [rim, tread] = bands(coarse);
+  return rim.thickness + tread.thickness < ring - cell;
+}
+
 std::string grid_text(const Case& c) {
   const std::string along_axle = c.wheel.dimension == 3 ? fmt::format(" x {}", c.grid.axial_cells) : "";
   return fmt::format("grid {} x {}{}", c.grid.radial_cells, c.grid.angular_cells, along_axle);

@@ -18,6 +18,9 @@ Case on_coarser_grid(Case c, int level);
 /// Whether the case's grid can be halved so many times in whole cells of each sector.
 bool can_be_halved(const Case& c, int times);
 
+/// Whether the bands at rim and tread leave a row of cells between them on the grid of that level.
+bool has_room_between_bands(const Case& c, int level);
+
 /// The grid for people, e.g. "grid 14 x 192".
 std::string grid_text(const Case& c);
 

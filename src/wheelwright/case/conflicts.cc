@@ -15,6 +15,7 @@
 #include "wheelwright/case/coarse_grid.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/drawn_shapes.h"
+#include "wheelwright/case/fitting_grid.h"
 #include "wheelwright/case/hole_rings.h"
 #include "wheelwright/case/keys.h"
 #include "wheelwright/case/number_text.h"
@@ -114,11 +115,9 @@ void check_travel(const Case& c, Conflicts& found) {
 void check_angular_cells(const Case& c, Conflicts& found) {
   const int cells = c.grid.angular_cells, sectors = c.wheel.sectors;
   if (cells % sectors == 0) return;
-  const int below = cells / sectors * sectors, above = below + sectors;
-  const std::string fitting = below > 0 ? fmt::format("{} or {}", below, above) : fmt::format("{}", above);
   found.push_back({{"grid.angular_cells", "wheel.sectors"},
                    fmt::format("must be a multiple of wheel.sectors = {}", sectors),
-                   fmt::format("nearest valid: {}", fitting)});
+                   fmt::format("nearest valid: {}", nearest_multiples(cells, sectors))});
 }
 
 std::string ring_key(std::size_t i, std::string_view name) {
@@ -311,6 +310,19 @@ void check_saved_shape(const Case& c, Conflicts& found) {
     check_saved_grid<2>(c, std::get<LevelSet<2>>(*shape).lattice.grid(), found);
 }
 
+/// The nearest sizes that can be halved, of those that cannot.
+std::string halvable_cells(const Case& c, int times) {
+  const int parts = 1 << times;
+  std::vector<std::string> sizes;
+  const auto add = [&](const char* key, int cells, int unit) {
+    if (cells % unit != 0) sizes.push_back(fmt::format("grid.{} = {}", key, nearest_multiples(cells, unit)));
+  };
+  add("radial_cells", c.grid.radial_cells, parts);
+  add("angular_cells", c.grid.angular_cells, parts * c.wheel.sectors);
+  if (c.wheel.dimension == 3) add("axial_cells", c.grid.axial_cells, parts);
+  return fmt::format("{}", fmt::join(sizes, ", "));
+}
+
 /// The coarser grids must have whole cells in each sector, room between their wider bands, and rows of cells
 /// that make up the annulus.
 void check_coarse_levels(const Case& c, Conflicts& found) {
@@ -328,8 +340,7 @@ void check_coarse_levels(const Case& c, Conflicts& found) {
     refuse({"grid.radial_cells", "grid.angular_cells", "wheel.sectors"},
            fmt::format("{} x {} cells of each sector cannot be doubled {} times", c.grid.radial_cells,
                        c.grid.angular_cells / c.wheel.sectors, levels),
-           fmt::format("take {}, or multiples of {} cells along the radius and in each sector", possible,
-                       1 << levels));
+           fmt::format("take {}, or grids that can be: {}", possible, halvable_cells(c, levels)));
     return;
   }
   const Case coarse = on_coarser_grid(c, levels);
@@ -339,8 +350,7 @@ void check_coarse_levels(const Case& c, Conflicts& found) {
            fmt::format("the annulus of {:.6g} m is no whole number of the coarse cells of {:.6g} m",
                        annulus_thickness(c), cell),
            fmt::format("take fewer coarse_levels, or objective.annulus = {:.6g}", tread_rows(coarse) * cell));
-  if (coarse.optimizer.rim_band.value() + coarse.optimizer.tread_band.value() >=
-      c.wheel.outer_radius - c.wheel.inner_radius - cell)
+  if (!has_room_between_bands(c, levels))
     refuse(with_ring_shape({}), "on the coarse grid the bands at rim and tread leave no room for holes",
            "take fewer coarse_levels, or a finer grid");
 }
@@ -358,13 +368,28 @@ void check_nitsche(const Case& c, Conflicts& found) {
        fmt::format("take gamma_0 >= {:.6g}, or theta = -1", rounded_up(least))});
 }
 
-/// Under such a load a solid disc would be strained by a quarter and more.
-void check_load(const Case& c, Conflicts& found) {
+/// Whether a solid disc would be strained by a quarter and more.
+bool is_overloaded(const Case& c) {
   if (c.load.travel || c.contact.with == Counterpart::ring || c.wheel.inner_radius >= c.wheel.outer_radius)
-    return;
-  const double largest = 0.5 * c.wheel.outer_radius, half_width = hertz_half_width(c);
-  if (half_width <= largest) return;
+    return false;
+  return hertz_half_width(c) > 0.5 * c.wheel.outer_radius;
+}
+
+/// Whether that may be so because the modulus was given in MPa.
+bool is_overloaded_in_pascals(const Case& c) {
+  return may_be_in_megapascals(c.material.youngs_modulus) && is_overloaded(c);
+}
+
+void check_load(const Case& c, Conflicts& found) {
+  if (!is_overloaded(c)) return;
+  const double half_width = hertz_half_width(c);
   const double advised = 0.1 * c.wheel.outer_radius, factor = advised / half_width;  // strains of 5 %
+  if (is_overloaded_in_pascals(c)) {
+    found.push_back({{"material.youngs_modulus", "load.force", "load.mass"},
+                     "so small that the load would flatten a solid disc",
+                     question_of_megapascals(c.material.youngs_modulus)});
+    return;
+  }
   found.push_back(
       {{"load.force", "load.mass", "material.youngs_modulus", "wheel.width", "wheel.outer_radius",
         "material.poissons_ratio", "material.plane"},
@@ -386,7 +411,7 @@ double wall_strain(const Case& c, const HoleRing& ring) {
 /// problem is solved, which shows whether they are crushed.
 void check_walls(const Case& c, Conflicts& found) {
   constexpr double largest = 0.25, advised = 0.05;
-  if (c.load.travel || c.contact.with == Counterpart::ring) return;
+  if (c.load.travel || c.contact.with == Counterpart::ring || is_overloaded_in_pascals(c)) return;
   double strain = 0;
   for (const HoleRing& ring : c.holes.rings) strain = std::max(strain, wall_strain(c, ring));
   if (strain <= largest) return;
@@ -402,6 +427,7 @@ void check_walls(const Case& c, Conflicts& found) {
 /// The contact of one position is a dense problem.
 void check_contact_points(const Case& c, Conflicts& found) {
   constexpr double most = 2500;
+  if (is_overloaded_in_pascals(c)) return;
   const auto unknowns = [](const Case& shown) {
     return cells_per_contact_patch(shown) * shown.contact.quadrature_points *
            (shown.contact.friction > 0 || shown.contact.with == Counterpart::ring ? 2 : 1);
@@ -989,6 +1015,15 @@ void check_expectations(const Case& c, Conflicts& found) {
 }
 
 }  // namespace
+
+bool may_be_in_megapascals(double modulus) {
+  constexpr double softest = 1e5;  // [Pa]; soft foams and gels have more
+  return modulus < softest;
+}
+
+std::string question_of_megapascals(double modulus) {
+  return fmt::format("moduli are in Pa; if that is in MPa, write {}e6", number_text(modulus));
+}
 
 std::vector<Conflict> conflicts(const Case& c) {
   Conflicts found;

@@ -18,4 +18,8 @@ struct Conflict {
 /// All conflicts of a case.
 std::vector<Conflict> conflicts(const Case& c);
 
+/// Whether a modulus [Pa] is smaller than that of any solid wheel, and the question whether MPa were meant.
+bool may_be_in_megapascals(double modulus);
+std::string question_of_megapascals(double modulus);
+
 }  // namespace wheelwright

@@ -55,6 +55,7 @@ template <class Struct>
 struct IntegerField {
   int Struct::*member;
   Range range;
+  std::string_view default_text = {};  ///< if an absent key does not simply have the member's default
 };
 
 /// A whole number whose default is described by a text, or has a word of its own.

@@ -48,15 +48,20 @@ const Section<Grid>& grid_section() {
       .keys = {
           {.name = "radial_cells",
            .unit = "",
-           .field = IntegerField<Grid>{&Grid::radial_cells, cell_count},
-           .meaning = "number of cells from rim to tread"},
+           .field =
+               IntegerField<Grid>{&Grid::radial_cells, cell_count, "28, or the nearest number that fits"},
+           .meaning = "number of cells from rim to tread; it fits if it can be halved "
+                      "optimizer.coarse_levels times, "
+                      "and the annulus and the given bands are whole rows"},
           {.name = "angular_cells",
            .unit = "",
-           .field = IntegerField<Grid>{&Grid::angular_cells, cell_count},
-           .meaning = "number of cells round the full ring, a multiple of wheel.sectors"},
+           .field =
+               IntegerField<Grid>{&Grid::angular_cells, cell_count, "384, or the nearest number that fits"},
+           .meaning = "number of cells round the full ring, a multiple of wheel.sectors that can be halved "
+                      "optimizer.coarse_levels times in each sector"},
           {.name = "axial_cells",
            .unit = "",
-           .field = IntegerField<Grid>{&Grid::axial_cells, cell_count},
+           .field = IntegerField<Grid>{&Grid::axial_cells, cell_count, "4, or the nearest number that fits"},
            .meaning = "number of cells along the axle; in 3D; if it is even, a wheel that is its own mirror "
                       "image across the width is solved on half of it"},
           {.name = "degree",

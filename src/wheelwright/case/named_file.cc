@@ -23,7 +23,12 @@ std::optional<std::string> read_named_file(const fs::path& file, const std::stri
     return std::nullopt;
   };
   std::error_code error;
-  if (file.string().find('\0') != std::string::npos || !fs::is_regular_file(file, error))
+  const bool is_usual = file.string().find('\0') == std::string::npos && fs::is_regular_file(file, error);
+  const bool is_missing =
+      !error || error == std::errc::no_such_file_or_directory || error == std::errc::not_a_directory;
+  if (!is_usual && !is_missing)
+    return refuse(fmt::format("{} cannot be read", file.string()), "check its name and permissions");
+  if (!is_usual)
     return refuse(fmt::format("there is no file {}", file.string()),
                   "paths are relative to the folder of the case file");
   const auto size = fs::file_size(file, error);

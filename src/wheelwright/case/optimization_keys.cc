@@ -2,6 +2,7 @@
 #include <iterator>
 
 #include "wheelwright/case/keys.h"
+#include "wheelwright/case/unlimited.h"
 
 namespace wheelwright {
 
@@ -163,7 +164,7 @@ std::vector<Key<Optimizer>> search_keys() {
                   "with velocity = \"harmonic\", which need it, else sequential_quadratic"},
       {.name = "iterations",
        .unit = "",
-       .field = IntegerField<Optimizer>{&Optimizer::iterations, between(0, 1000000)},
+       .field = IntegerField<Optimizer>{&Optimizer::iterations, between(0, unlimited_iterations)},
        .meaning = "maximum number of accepted shapes after the initial one"},
       {.name = "coarse_levels",
        .unit = "",

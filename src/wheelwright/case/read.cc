@@ -16,6 +16,7 @@
 
 #include "wheelwright/base/text.h"
 #include "wheelwright/case/conflicts.h"
+#include "wheelwright/case/fitting_grid.h"
 #include "wheelwright/case/keys.h"
 #include "wheelwright/case/load_drawings.h"
 #include "wheelwright/case/load_saved_shape.h"
@@ -24,6 +25,7 @@
 #include "wheelwright/case/suggest.h"
 #include "wheelwright/case/toml_guard.h"
 #include "wheelwright/case/toml_lines.h"
+#include "wheelwright/files/path_queries.h"
 
 namespace wheelwright {
 
@@ -533,6 +535,10 @@ CaseResult interpret(const TomlLines& toml, const std::filesystem::path& file) {
   const std::vector<Diagnostic> in_drawings = load_drawings(reading, result);
   if (!reading.entries.contains("wheel.sectors"))
     result.wheel.sectors = sectors_by_drawings(result).value_or(result.wheel.sectors);
+  const auto is_given = [&](const char* key) { return reading.entries.contains(key); };
+  result = with_fitting_grid(std::move(result), {.radial = is_given("grid.radial_cells"),
+                                                 .angular = is_given("grid.angular_cells"),
+                                                 .axial = is_given("grid.axial_cells")});
   if (syntax.empty()) check_conflicts(reading, result);
   if (syntax.empty() && toml.root.empty())
     return failed({.kind = Kind::empty,
@@ -581,7 +587,7 @@ CaseResult read_case(const std::filesystem::path& file) {
   std::string text(most_case_bytes + 1, '\0');  // one byte too many tells that there is more
   std::ifstream in(file, std::ios::binary);
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (in.bad() || (in.fail() && !in.eof()) || std::filesystem::is_directory(file))
+  if (in.bad() || (in.fail() && !in.eof()) || is_folder(file))
     return failed({.kind = Kind::unreadable,
                    .file = file.string(),
                    .line = 0,

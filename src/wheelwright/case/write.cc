@@ -122,7 +122,7 @@ std::string accepted_text(const Key<Struct>& key) {
       key.field);
 }
 
-/// The meaning of an absent key, if that is not a value; empty otherwise.
+/// The meaning of an absent key, if that is not simply a value; empty otherwise.
 template <class Struct>
 std::string default_text(const Key<Struct>& key) {
   return std::visit(
@@ -133,6 +133,12 @@ std::string default_text(const Key<Struct>& key) {
           return "";
       },
       key.field);
+}
+
+/// Whether an absent key has a number that is fitted to other keys.
+template <class Struct>
+bool is_fitted(const Key<Struct>& key) {
+  return std::holds_alternative<IntegerField<Struct>>(key.field) && !default_text(key).empty();
 }
 
 /// Whether the resolved case leaves the key out because a later one of its alternatives has a value.
@@ -170,7 +176,7 @@ std::string template_lines(const std::vector<Key<Struct>>& keys, const Struct& s
   std::string result;
   for (const auto& key : keys) {
     const std::string value = value_text(key, s);
-    const bool off = value.empty() || !key.instead_of.empty();
+    const bool off = value.empty() || !key.instead_of.empty() || is_fitted(key);
     const std::string right_side = value.empty() ? "" : " " + value;
     result += fmt::format("# {}\n{}{} ={}\n", comment(key), off ? "#" : "", key.name, right_side);
   }

@@ -81,6 +81,18 @@ class DxfReader {
         {record.line, fmt::format("{}: {}", shown(record.type), problem), std::move(remedy)});
   }
 
+  /// Complains of each that is none.
+  bool has_numbers(const DxfRecord& record) {
+    bool has_all = true;
+    for (const DxfGroup& group : record.groups) {
+      if (!group.is_malformed()) continue;
+      has_all = false;
+      complain(record, fmt::format("\"{}\" in line {} is no number", shown(group.value), group.line + 1),
+               "correct it, or save the drawing again");
+    }
+    return has_all;
+  }
+
   static std::string place(const DxfRecord& record) {
     return fmt::format("line {}, {}", record.line, shown(record.type));
   }
@@ -124,7 +136,7 @@ class DxfReader {
 
   void find_blocks(const Range& section) {
     for (std::size_t i = section.begin; i < section.end; ++i) {
-      if (records_[i].type != "BLOCK") continue;
+      if (records_[i].type != "BLOCK" || !has_numbers(records_[i])) continue;
       std::size_t end = i + 1;
       while (end < section.end && records_[end].type != "ENDBLK") ++end;
       blocks_[records_[i].text(2)] = {{i + 1, end}, records_[i].point(10)};
@@ -157,7 +169,7 @@ class DxfReader {
   }
 
   void read_entity(const DxfRecord& record, const Affine& map, int depth) {
-    if (!is_in_plane(record)) return;
+    if (!has_numbers(record) || !is_in_plane(record)) return;
     const std::string_view type = record.type;
     if (type == "LINE")
       add_loose({Curve::line(record.point(10), record.point(11))}, record, map);
@@ -181,8 +193,6 @@ class DxfReader {
     const double radius = record.number(40, 0), from = record.number(50, 0) * degree_of_arc;
     double to = record.number(51, 360) * degree_of_arc;
     if (!(radius > 0)) return complain(record, "its radius must be above 0", "remove it");
-    if (!std::isfinite(from) || !std::isfinite(to))
-      return complain(record, "its angles are no numbers", "remove it");
     to -= 2 * pi * std::floor((to - from) / (2 * pi));  // counterclockwise, by at most a turn
     if (to <= from) to += 2 * pi;
     add_loose({Curve::circle_arc(record.point(10), radius, from, to)}, record, map);
@@ -205,8 +215,6 @@ class DxfReader {
     double to = record.number(42, 2 * pi);
     if (!(norm<2>(a) > 0) || !(ratio > 0))
       return complain(record, "its axes must be longer than 0", "remove it");
-    if (!std::isfinite(from) || !std::isfinite(to))
-      return complain(record, "its angles are no numbers", "remove it");
     constexpr double rounding = 1e-9;
     to -= 2 * pi * std::floor((to - from) / (2 * pi));
     if (to - from <= rounding) to = from + 2 * pi;
@@ -234,9 +242,10 @@ class DxfReader {
     const int flags = record.integer(70, 0);
     constexpr int meshes = 16 | 64, curve_or_spline = 2 | 4, is_control_point = 16;
     if (flags & meshes) return complain(record, "this is a mesh, not an outline", "remove it");
-    if (!is_in_plane(record)) return;
+    if (!has_numbers(record) || !is_in_plane(record)) return;
     std::vector<Vertex> vertices;
     for (std::size_t i = index + 1; i < end && records_[i].type == "VERTEX"; ++i) {
+      if (!has_numbers(records_[i])) return;
       const bool is_control = (flags & curve_or_spline) && (records_[i].integer(70, 0) & is_control_point);
       if (!is_control) vertices.push_back({records_[i].point(10), records_[i].number(42, 0)});
     }
@@ -267,15 +276,13 @@ class DxfReader {
                       "convert it to degree 3, or to arcs");
     const bool fits = x.size() == y.size() && x.size() > static_cast<std::size_t>(degree) &&
                       knots.size() == x.size() + degree + 1;
-    const bool is_finite = std::ranges::all_of(knots, [](double k) { return std::isfinite(k); });
-    if (!fits || !is_finite || !std::ranges::is_sorted(knots))
+    if (!fits || !std::ranges::is_sorted(knots))
       return complain(record,
                       fmt::format("{} control points and {} knots that do not fit or do not increase",
                                   x.size(), knots.size()),
                       "save it again");
-    if (!weights.empty() && (weights.size() != x.size() || !std::ranges::all_of(weights, [](double w) {
-                               return w > 0 && std::isfinite(w);
-                             })))
+    if (!weights.empty() &&
+        (weights.size() != x.size() || !std::ranges::all_of(weights, [](double w) { return w > 0; })))
       return complain(record,
                       fmt::format("{} weights for {} control points, or weights that are not above 0",
                                   weights.size(), x.size()),

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <type_traits>
 
 namespace wheelwright {
 
@@ -22,6 +23,8 @@ std::optional<Number> parsed(std::string_view text) {
   Number value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return {};
+  if constexpr (std::is_floating_point_v<Number>)
+    if (!std::isfinite(value)) return {};  // "nan" and "inf"
   return value;
 }
 
@@ -37,6 +40,11 @@ std::string_view next_line(std::string_view& rest) {
 
 double DxfGroup::number() const {
   return parsed<double>(value).value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
+bool DxfGroup::is_malformed() const {
+  const bool is_number = (code >= 10 && code < 60) || (code >= 210 && code < 240);
+  return is_number && !parsed<double>(value);
 }
 
 int DxfGroup::integer() const { return parsed<int>(value).value_or(0); }

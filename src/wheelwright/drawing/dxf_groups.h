@@ -14,8 +14,10 @@ struct DxfGroup {
   int code;
   std::string_view value;  ///< without the spaces about it; of the file's bytes
 
-  double number() const;  ///< NaN if it is none
-  int integer() const;    ///< 0 if it is none
+  double number() const;  ///< NaN if it is none; "nan" and "inf" are none
+  bool is_malformed()
+      const;            ///< whether a number belongs there by its code (10 to 59, 210 to 239), and is not
+  int integer() const;  ///< 0 if it is none
 };
 
 /// A group with code 0 and those after it up to the next one: an entity, or a part of the file's structure.

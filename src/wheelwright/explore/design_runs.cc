@@ -11,6 +11,7 @@
 
 #include "wheelwright/explore/workers.h"
 #include "wheelwright/files/atomic_file.h"
+#include "wheelwright/files/path_queries.h"
 #include "wheelwright/report/described_wheel.h"
 #include "wheelwright/run/own_drawings.h"
 #include "wheelwright/run/run.h"
@@ -34,7 +35,7 @@ fs::path result_file(const fs::path& designs, const Design& design, Progression 
 }
 
 std::optional<DesignResult> known_result(const fs::path& file) {
-  if (!fs::exists(file)) return {};
+  if (!is_there(file)) return {};
   try {
     return design_result(content(file));
   } catch (const nlohmann::json::exception&) {
@@ -99,7 +100,7 @@ double largest_violation(const nlohmann::json& bounds) {
 
 /// Reads the numbers of the last shape that a run wrote to its folder.
 void read_summary(const fs::path& folder, DesignResult& result) {
-  if (!fs::exists(folder / "summary.json")) return;
+  if (!is_there(folder / "summary.json")) return;
   const auto summary = nlohmann::json::parse(content(folder / "summary.json"));
   if (summary.contains("bounds")) result.violation = largest_violation(summary["bounds"]);
   const auto& after = summary.at("after");
@@ -129,7 +130,7 @@ struct DesignRun {
 };
 
 Expected<Run<2>, NotBegun<2>> begun_or_resumed(const Design& design, const fs::path& folder) {
-  if (fs::exists(folder / "case.toml")) return Run<2>::resume(with_own_drawings(design.source), folder);
+  if (is_there(folder / "case.toml")) return Run<2>::resume(with_own_drawings(design.source), folder);
   return Run<2>::begin(design.source, folder);
 }
 
@@ -190,7 +191,7 @@ std::vector<std::optional<DesignResult>> run_designs(const fs::path& folder,
       if (!result) return;
     }
     const std::scoped_lock lock(mutex);
-    if (!fs::exists(file)) write_atomically(file, to_json(*result));
+    if (!is_there(file)) write_atomically(file, to_json(*result));
     settings.done(design, *result);
     results[i] = std::move(result);
   });

@@ -24,9 +24,9 @@ std::string stl_of(const Model& wheel) {
 }
 template <class Model>
 std::string three_mf(const Model& wheel) {
-  return plugin_file("3mf", solid(wheel));
+  return plugin_file("3mf", "lib3mf-dev", solid(wheel));
 }
-std::string step(const WheelModel& wheel) { return plugin_file("step", wheel); }
+std::string step(const WheelModel& wheel) { return plugin_file("step", "libocct-data-exchange-dev", wheel); }
 
 constexpr ExportFormat formats[] = {
     {"dxf", "outline, curves in layers", dxf, nullptr},

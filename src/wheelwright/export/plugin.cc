@@ -17,11 +17,20 @@ std::filesystem::path library_folder() {
 
 }  // namespace
 
-void* plugin_writer(const std::string& name) {
+void* plugin_writer(const std::string& name, const std::string& development_package) {
   const std::filesystem::path file = library_folder() / "wheelwright-plugins" / (name + ".so");
   // Never closed: the libraries of a plugin may have started what ends with the program.
   void* plugin = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (plugin == nullptr) throw MissingPlugin(fmt::format("the writer cannot be loaded: {}", dlerror()));
+  std::error_code ignored;
+  if (plugin == nullptr && !std::filesystem::exists(file, ignored))
+    throw MissingPlugin(fmt::format(
+        "its writer is not installed: install the package wheelwright-cad; where the program was built from "
+        "its sources, install {} and build again",
+        development_package));
+  if (plugin == nullptr)
+    throw MissingPlugin(
+        fmt::format("its writer lacks a library: install the package wheelwright-cad, or {}: {}",
+                    development_package, dlerror()));
   void* writer = dlsym(plugin, plugin_symbol);
   if (writer == nullptr) throw MissingPlugin(fmt::format("{} is no writer", file.string()));
   return writer;

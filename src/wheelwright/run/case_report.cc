@@ -7,6 +7,7 @@
 #include <iterator>
 #include <numbers>
 
+#include "wheelwright/case/conflicts.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/number_text.h"
 #include "wheelwright/case/shape_symmetry.h"
@@ -89,6 +90,13 @@ std::vector<std::string> doubtful_lengths(const Case& c) {
   return result;
 }
 
+/// Moduli in megapascals make a wheel of jelly.
+std::vector<std::string> doubtful_modulus(const Case& c) {
+  if (!may_be_in_megapascals(c.material.youngs_modulus)) return {};
+  return {fmt::format("material.youngs_modulus = {} Pa: {}", number_text(c.material.youngs_modulus),
+                      question_of_megapascals(c.material.youngs_modulus))};
+}
+
 /// Says what a patch of too few cells means and what would help. Below the grid, the contact is a line load
 /// on a cell, whose indentation has the logarithm of the cell's width where the true one has that of the
 /// patch.
@@ -138,6 +146,7 @@ std::string clearance_report(const cad::Clearances& clearances) {
 std::vector<std::string> warnings(const Case& c) {
   std::vector<std::string> result = doubtful_lengths(c);
   std::ranges::move(asymmetry_warnings(c), std::back_inserter(result));
+  std::ranges::move(doubtful_modulus(c), std::back_inserter(result));
   Case run = c;
   run.grid.tread_levels = tread_levels(c);
   const Case narrowest = std::ranges::min(single_load_cases(run), {}, cells_per_contact_patch);

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "wheelwright/files/path_queries.h"
 #include "wheelwright/run/observers.h"
 #include "wheelwright/run/own_drawings.h"
 #include "wheelwright/run/provenance.h"
@@ -64,7 +65,7 @@ bool fits(const OptimizationState<dim>& state, const StateSolver<dim>& solver) {
 /// case, the history and the checkpoints.
 template <int dim>
 void restore_list(const Case& c, const fs::path& folder) {
-  if (fs::exists(fs::symlink_status(folder / list_of_written_files))) return;
+  if (has_entry(folder / list_of_written_files)) return;
   const ResumePoint<dim> point = resume_point<dim>(folder, c);
   if (!point.newest) return;
   WrittenFiles written(folder);
@@ -89,13 +90,13 @@ template <int dim>
 Expected<Run<dim>, NotBegun<dim>> Run<dim>::begin(const Case& c, const fs::path& folder) {
   auto foreign = foreign_files(folder);
   if (StopFile(folder).exists()) foreign.emplace_back(stop_file);  // it would be obeyed and removed
-  if (fs::exists(folder / "analysis.json"))
+  if (is_there(folder / "analysis.json"))
     foreign.emplace_back("analysis.json");  // its pictures are in the way
   if (!foreign.empty()) return NotBegun<dim>(ForeignFiles{std::move(foreign)});
   auto lock = FolderLock::acquire(folder);
   if (!lock) return NotBegun<dim>(lock.failure());
   const CheckpointFolder checkpoints(folder);
-  if (fs::exists(folder / history_file) || checkpoints.exists()) return NotBegun<dim>(FolderHoldsARun{});
+  if (is_there(folder / history_file) || checkpoints.exists()) return NotBegun<dim>(FolderHoldsARun{});
   auto study = make_study<dim>(with_own_drawings(c));
   if (!study) return NotBegun<dim>(study.failure());
   return Run(*std::move(lock), folder, *std::move(study), {}, checkpoints, {});

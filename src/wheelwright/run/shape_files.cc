@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "wheelwright/files/atomic_file.h"
+#include "wheelwright/files/path_queries.h"
 #include "wheelwright/report/solution_fields.h"
 #include "wheelwright/report/wheel_pictures.h"
 #include "wheelwright/run/run_title.h"
@@ -42,7 +43,7 @@ void ShapeFiles<dim>::operator()(const Event<dim>& event, const RunView<dim>& ru
 template <int dim>
 void ShapeFiles<dim>::list_shapes(const std::filesystem::path& folder, int last_iteration) {
   for (int iteration = 0; iteration <= last_iteration; ++iteration)
-    if (std::filesystem::exists(folder / shape_file(iteration)))
+    if (is_there(folder / shape_file(iteration)))
       shapes_.push_back({static_cast<double>(iteration), shape_file(iteration)});
   if (!shapes_.empty()) write_pvd(folder / "shapes.pvd", shapes_);
 }

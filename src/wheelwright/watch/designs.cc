@@ -8,6 +8,7 @@
 
 #include "wheelwright/case/load_saved_shape.h"
 #include "wheelwright/explore/design_runs.h"
+#include "wheelwright/files/path_queries.h"
 
 namespace wheelwright {
 namespace {
@@ -47,7 +48,7 @@ Expected<OfferedDesigns, NoProduct> offered_designs(const fs::path& folder) {
     if (!design.is_object() || !design.contains("name") || !design["name"].is_string()) continue;
     const std::string name = design["name"];
     const fs::path shape = folder / folder_of_designs / name / saved_shape_file;
-    if (!is_design_name(name) || !fs::is_regular_file(shape)) continue;
+    if (!is_design_name(name) || !is_file(shape)) continue;
     designs.push_back(shown(design));
     offered.shapes.emplace(name, fs::absolute(shape));
   }

@@ -16,6 +16,7 @@
 #include "wheelwright/export/formats.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/files/level_set_file.h"
+#include "wheelwright/files/path_queries.h"
 #include "wheelwright/page/report_run.h"
 #include "wheelwright/report/described_wheel.h"
 #include "wheelwright/report/solution_fields.h"
@@ -122,7 +123,7 @@ Expected<std::filesystem::path, NoProduct> save_design(const std::filesystem::pa
   if (!is_design_name(name)) return NoProduct{"a name has 1 to 40 letters, digits, - and _"};
   const std::filesystem::path designs = folder / designs_folder, file = designs / (name + ".toml"),
                               level_set = designs / (name + ".levelset");
-  if (std::filesystem::exists(file) || std::filesystem::exists(level_set))
+  if (is_there(file) || is_there(level_set))
     return NoProduct{fmt::format("{} is there already: choose another name", file.string())};
   Case c = *shape.source;
   c.holes = {};

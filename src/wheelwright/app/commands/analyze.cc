@@ -142,7 +142,7 @@ class AnalyzeCommand : public Subcommand {
     print_report(report);
     const auto size = deformation_size(solver, shape, **solved);
     if (const std::string warning = deformation_warning(size); !warning.empty())
-      tell("warning: {}\n", warning);
+      tell_warning(wheel.name, warning);
     if (output_) write(report, shape, solver, **solved);
     return exit_done;
   }

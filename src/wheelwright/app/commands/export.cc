@@ -18,6 +18,7 @@
 #include "wheelwright/export/formats.h"
 #include "wheelwright/export/plugin.h"
 #include "wheelwright/files/atomic_file.h"
+#include "wheelwright/files/path_queries.h"
 #include "wheelwright/run/roughness_warning.h"
 
 namespace wheelwright {
@@ -202,7 +203,7 @@ class ExportCommand : public Subcommand {
     std::vector<std::pair<fs::path, std::string>> files;
     for (const ExportFormat* format : formats) {
       const fs::path path = folder / fmt::format("{}.{}", stem, format->name);
-      if (!force_ && fs::exists(fs::symlink_status(path))) {
+      if (!force_ && has_entry(path)) {
         tell("{}: exists already; choose another folder, or overwrite it with --force\n", path.string());
         return exit_refused;
       }
@@ -213,7 +214,7 @@ class ExportCommand : public Subcommand {
         return exit_refused;
       }
     }
-    if (!fs::exists(folder)) make_folder(folder);
+    if (!is_there(folder)) make_folder(folder);
     for (const auto& [path, bytes] : files) {
       write_atomically(path, bytes);
       fmt::print("{:<16} {}\n", "written", path.string());

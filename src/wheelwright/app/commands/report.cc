@@ -9,6 +9,7 @@
 #include "wheelwright/case/derived.h"
 #include "wheelwright/cut/measure.h"
 #include "wheelwright/files/atomic_file.h"
+#include "wheelwright/files/path_queries.h"
 #include "wheelwright/run/final_results.h"
 #include "wheelwright/run/run_report.h"
 #include "wheelwright/run/summarized_run.h"
@@ -43,7 +44,7 @@ Expected<PageRun> report_of_run(const RunInput<dim>& run) {
 /// The page of an exploration or a sweep, whose points open the reports of its designs.
 std::optional<std::filesystem::path> page_of_designs(const std::filesystem::path& folder) {
   for (const char* name : {"explore.html", "sweep.html"})
-    if (std::filesystem::exists(folder / name)) return folder / name;
+    if (is_there(folder / name)) return folder / name;
   return {};
 }
 
@@ -65,7 +66,7 @@ class ReportCommand : public Subcommand {
       return exit_done;
     }
     const std::string file = output_.value_or("report.html");
-    if (std::filesystem::exists(file)) {
+    if (is_there(file)) {
       tell("{}: exists already; choose another file with --output, or remove it\n", file);
       return exit_refused;
     }
