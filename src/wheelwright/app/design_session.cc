@@ -16,8 +16,10 @@
 #include "wheelwright/base/stopwatch.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/files/atomic_file.h"
+#include "wheelwright/files/path_queries.h"
 #include "wheelwright/files/written_files.h"
 #include "wheelwright/run/run_title.h"
+#include "wheelwright/run/stop_text.h"
 
 namespace wheelwright {
 namespace {
@@ -120,7 +122,7 @@ bool DesignSession::may_begin() {
          folder_.string(), to_string(lock.failure()));
     return false;
   }
-  if (fs::exists(folder_ / settings_file) && content(folder_ / settings_file) != settings_) {
+  if (is_there(folder_ / settings_file) && content(folder_ / settings_file) != settings_) {
     tell(
         "{}: holds designs of another case or of other options, as its {} tells; choose another folder with "
         "--output, or remove this one\n",
@@ -172,7 +174,8 @@ void DesignSession::show(const Design& design, const DesignResult& result) const
     if (!result.numbers.empty())
       numbers += fmt::format(", {} {:.5g} {}", quantity.word, result.value(quantity) * quantity.factor,
                              quantity.unit);
-  tell("{} {}: {} after {} shapes{}\n", design.name, design.text, result.status, result.shapes, numbers);
+  tell("{} {}: {} shapes, {}{}\n", design.name, design.text, result.shapes, text_of_stop(result.status),
+       numbers);
 }
 
 int DesignSession::run(std::size_t n_designs, const Work& work) const {

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "wheelwright/app/signals.h"
+#include "wheelwright/app/terminal_observer.h"
 #include "wheelwright/case/case.h"
 
 namespace wheelwright {
@@ -11,10 +12,12 @@ namespace wheelwright {
 // OutputError.
 
 /// Optimizes the case and writes the folder.
-int begin_run(const Case& c, const std::filesystem::path& folder, Signals& signals);
+int begin_run(const Case& c, const std::filesystem::path& folder, Signals& signals,
+              Detail detail = Detail::progress);
 
 /// Continues the run in a folder from its newest checkpoint that can be used, or from the beginning if it was
 /// stopped before its first; `c` is that folder's case.
-int resume_run(const Case& c, const std::filesystem::path& folder, Signals& signals);
+int resume_run(const Case& c, const std::filesystem::path& folder, Signals& signals,
+               Detail detail = Detail::progress);
 
 }  // namespace wheelwright

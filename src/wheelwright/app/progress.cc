@@ -33,11 +33,17 @@ std::string change_text(const ProgressState& s) {
 }
 
 std::string left_text(double seconds_left) {
-  return seconds_left < 0 ? "time left unknown" : clock_text(seconds_left) + " left";
+  return seconds_left < 0 ? "time left unknown" : "at most " + clock_text(seconds_left) + " left";
 }
 
 double completed_fraction(const ProgressState& s) {
-  return s.n_shapes > 0 ? std::clamp(double(s.shape) / s.n_shapes, 0.0, 1.0) : 1.0;
+  return *s.n_shapes > 0 ? std::clamp(double(s.shape) / *s.n_shapes, 0.0, 1.0) : 1.0;
+}
+
+bool is_last(const ProgressState& s) { return s.n_shapes && s.shape >= *s.n_shapes; }
+
+std::string shape_text(const ProgressState& s) {
+  return s.n_shapes ? fmt::format("{}/{}", s.shape, *s.n_shapes) : fmt::format("{}", s.shape);
 }
 
 /// Fills the finished part of a bar "[###...]" with colour.
@@ -63,22 +69,25 @@ std::string clock_text(double seconds) {
 }
 
 std::string progress_line(const ProgressState& s, double seconds_left) {
-  return fmt::format("shape {}/{}  objective {:.6g} ({})  volume {:.3f} %  step {:.3g} mm  elapsed {}  {}",
-                     s.shape, s.n_shapes, s.objective, change_text(s), 100 * s.volume_fraction, 1000 * s.step,
-                     clock_text(s.elapsed_seconds), left_text(seconds_left));
+  return fmt::format("shape {}  objective {:.6g} ({})  volume {:.3f} %  step {:.3g} mm  elapsed {}{}",
+                     shape_text(s), s.objective, change_text(s), 100 * s.volume_fraction, 1000 * s.step,
+                     clock_text(s.elapsed_seconds),
+                     s.n_shapes && !is_last(s) ? "  " + left_text(seconds_left) : "");
 }
 
 std::string progress_bar(const ProgressState& s, double seconds_left, int width) {
-  constexpr int shortest_bar = 10, longest_bar = 40;
-  const std::vector<std::string> parts{
-      fmt::format(" {}/{}", s.shape, s.n_shapes), fmt::format("  J {:.5g} ({})", s.objective, change_text(s)),
-      fmt::format("  {}", left_text(seconds_left)), fmt::format("  volume {:.2f} %", 100 * s.volume_fraction),
-      fmt::format("  step {:.2g} mm", 1000 * s.step)};
+  constexpr int shortest_bar = 20, longest_bar = 40;
+  const std::vector<std::string> parts{fmt::format("{}{}", s.n_shapes ? " " : "shape ", shape_text(s)),
+                                       fmt::format("  J {:.5g} ({})", s.objective, change_text(s)),
+                                       s.n_shapes && !is_last(s) ? "  " + left_text(seconds_left) : "",
+                                       fmt::format("  volume {:.2f} %", 100 * s.volume_fraction),
+                                       fmt::format("  step {:.2g} mm", 1000 * s.step)};
   std::string numbers;
   for (const std::string& part : parts) {
     if (static_cast<int>(numbers.size() + part.size()) + shortest_bar + 2 > width) break;
     numbers += part;
   }
+  if (!s.n_shapes) return numbers.substr(0, std::max(width, 0));
   const int length = std::clamp(width - 2 - static_cast<int>(numbers.size()), 0, longest_bar);
   const int done = std::lround(completed_fraction(s) * length);
   const std::string bar = fmt::format("[{:.<{}}]{}", std::string(done, '#'), length, numbers);
@@ -90,22 +99,54 @@ void Progress::end() {
   bar_.clear();
 }
 
+void Progress::complete() {
+  if (!last_) return;
+  if (style_ == ProgressStyle::lines) {
+    if (!last_has_line_) write_line(*last_, 0);
+  } else if (last_->n_shapes) {
+    last_->n_shapes = last_->shape;
+    bar_ = progress_bar(*last_, 0, terminal_width(stream_) - 1);
+    paint_bar();
+  }
+}
+
 double Progress::seconds_left(const ProgressState& state) {
   recent_.push_back(state.elapsed_seconds);
   if (recent_.size() > recent_shapes + 1) recent_.pop_front();
-  if (recent_.size() < 2) return -1;
+  if (recent_.size() < 2 || !state.n_shapes) return -1;
   const double mean = (recent_.back() - recent_.front()) / (recent_.size() - 1);
-  return mean * std::max(0, state.n_shapes - state.shape);
+  return mean * std::max(0, *state.n_shapes - state.shape);
+}
+
+bool Progress::is_time_for_a_line(double elapsed_seconds) const {
+  return !last_line_ || elapsed_seconds - *last_line_ >= seconds_between_lines_;
+}
+
+void Progress::write_line(const ProgressState& state, double left) {
+  last_line_ = state.elapsed_seconds;
+  last_has_line_ = true;
+  note(progress_line(state, left));
 }
 
 void Progress::show(const ProgressState& state) {
   const double left = seconds_left(state);
+  last_ = state;
+  last_has_line_ = false;
   if (style_ != ProgressStyle::lines) {
     bar_ = progress_bar(state, left, terminal_width(stream_) - 1);
     paint_bar();
-  } else if (state.elapsed_seconds - last_line_ >= 1 || state.shape >= state.n_shapes) {
-    last_line_ = state.elapsed_seconds;
-    note(progress_line(state, left));
+  } else if (is_time_for_a_line(state.elapsed_seconds) || is_last(state)) {
+    write_line(state, left);
+  }
+}
+
+void Progress::show_step(const std::string& text, double elapsed_seconds) {
+  if (style_ != ProgressStyle::lines) {
+    bar_ = without_control_characters(text).substr(0, std::max(terminal_width(stream_) - 1, 0));
+    paint_bar();
+  } else if (is_time_for_a_line(elapsed_seconds)) {
+    last_line_ = elapsed_seconds;
+    note(text);
   }
 }
 

@@ -7,7 +7,10 @@
 #include <csignal>
 
 #include "wheelwright/app/terminal.h"
+#include "wheelwright/files/path_queries.h"
+#include "wheelwright/report/gains.h"
 #include "wheelwright/run/failure_report.h"
+#include "wheelwright/run/stop_text.h"
 
 namespace wheelwright {
 namespace {
@@ -80,7 +83,7 @@ struct NotBegunReport {
   int operator()(const AlreadyFinished<dim>& finished) const {
     report_unusable(finished.unusable);
     const Checkpoint<dim>& end = finished.end;
-    print("{}: finished: {} shapes ({})\n", folder.string(), end.state.iteration, to_string(*end.finished));
+    print("{}: finished: {} shapes ({})\n", folder.string(), end.state.iteration, text(*end.finished));
     if (end.finished == StopReason::iterations)
       print("to go further: wheelwright resume {} --iterations N\n", folder.string());
     const int bounds = report_bounds(end.state);
@@ -93,31 +96,21 @@ struct NotBegunReport {
   }
 };
 
-/// What make_observers() writes there.
+/// Where to look first.
 void print_files(const fs::path& folder) {
   for (const auto& [file, meaning] : {std::pair{"report.html", "all of it on one page, for a browser"},
                                       {"comparison.svg", "before and after"},
                                       {"shape.svg", "the shape in true scale, for cutting"},
-                                      {"shape.stl", "the shape as a closed surface, in millimetres"},
-                                      {"stress.svg", "the loaded wheel, coloured by stress"},
-                                      {"stress_contact.svg", "the same about the contact"},
-                                      {"pressure.svg", "the contact pressure, from above"},
-                                      {"displacement.svg", "the loaded wheel, how far its points come down"},
-                                      {"mesh.svg", "the grid and the cells that the boundary cuts"},
-                                      {"summary.json", "the numbers above, for programs"},
-                                      {"history.csv", "every trial shape"},
-                                      {"shapes.pvd", "all shapes, for ParaView"},
-                                      {"rolling.pvd", "all load positions, for ParaView"},
-                                      {"surface.vtp", "the surface with its stress, for ParaView"}})
-    if (fs::exists(folder / file)) print("  {:<36} {}\n", (folder / file).string(), meaning);
+                                      {"shape.stl", "the shape as a closed surface, in millimetres"}})
+    if (is_there(folder / file)) print("  {:<36} {}\n", (folder / file).string(), meaning);
 }
 
 template <int dim>
 void print_summary(const RunResult<dim>& result, const fs::path& folder) {
   const PolarGrid<dim>& grid = result.state->shape.lattice.grid();
-  print("{} shapes in {:.1f} s ({})\n", result.state->iteration, result.elapsed_seconds,
-        to_string(result.reason));
-  if (result.summary) print_lines(stdout, fmt::format("\n{}\n", summary_table(*result.summary)));
+  print("{} shapes in {:.1f} s: {}\n", result.state->iteration, result.elapsed_seconds, text(result.reason));
+  if (result.summary)
+    print_lines(stdout, fmt::format("\n{}\n{}\n\n", summary_table(*result.summary), gains(*result.summary)));
   if (result.is_approaching && result.reason != StopReason::gave_up)
     print("volume.target = {:.6g} is not reached: it takes more shapes, or a larger volume.rate\n",
           volume_fraction(grid, result.state->target_measure));
@@ -132,7 +125,7 @@ int report_failure(const RunResult<dim>& result, const fs::path& folder) {
     if (const std::string hint = volume_hint(*result.initial, *result.state); !hint.empty())
       tell("wheelwright: {}\n", hint);
   const auto line = [&](const char* file, const char* meaning) {
-    if (fs::exists(folder / file)) tell("  {:<36} {}\n", (folder / file).string(), meaning);
+    if (is_there(folder / file)) tell("  {:<36} {}\n", (folder / file).string(), meaning);
   };
   line(failure_report_file, "every failed trial, and what is in this folder");
   line(rejected_picture_file, "the shape that failed");

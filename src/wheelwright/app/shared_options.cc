@@ -33,6 +33,10 @@ void add_output(Options& options, std::optional<std::string>& folder, const std:
   options.text("--output", "DIR", folder, not_empty, meaning);
 }
 
+void add_verbose(Options& options, bool& verbose) {
+  options.flag("--verbose", verbose, "Tell every trial shape, and why rejected ones were rejected");
+}
+
 std::string not_empty(const std::string& text) { return text.empty() ? "must not be empty" : ""; }
 
 }  // namespace wheelwright

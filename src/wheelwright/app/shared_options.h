@@ -21,6 +21,9 @@ void add_iterations(Options& options, std::optional<int>& iterations);
 /// --output, a folder; `meaning` is what the command writes there.
 void add_output(Options& options, std::optional<std::string>& folder, const std::string& meaning);
 
+/// --verbose
+void add_verbose(Options& options, bool& verbose);
+
 /// A check for names: what is wrong with an empty one.
 std::string not_empty(const std::string& text);
 

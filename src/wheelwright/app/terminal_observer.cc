@@ -2,104 +2,95 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "wheelwright/analysis/deformation_size.h"
 #include "wheelwright/app/contact_progress.h"
-#include "wheelwright/app/terminal.h"
+#include "wheelwright/app/trial_log.h"
+#include "wheelwright/case/unlimited.h"
 #include "wheelwright/run/feature_warnings.h"
 
 namespace wheelwright {
 namespace {
 
+/// Shows the progress, and tells what the user should know of the wheel.
 template <int dim>
-std::string reason(const Trial<dim>& trial) {
-  return trial.failure ? fmt::format("{} ({})", to_string(trial.failure->reason), trial.failure->detail)
-                       : to_string(trial.verdict);
-}
+class TerminalObserver : public Observer<dim> {
+ public:
+  explicit TerminalObserver(std::shared_ptr<Progress> progress) : progress_(std::move(progress)) {}
 
-template <int dim>
-void print_weights(const Study<dim>& study) {
-  const WeightedSum<dim>& terms = study.objective().terms;
-  for (const auto& [weight, functional, load_case] : terms)
-    if (terms.size() > 1)
-      tell("objective: {:.6g} * {}\n", weight, name_in_case(functional->name(), study.load_cases, load_case));
-}
+  void operator()(const Event<dim>& event, const RunView<dim>& run) override {
+    if (const auto* started = std::get_if<RunStarted>(&event)) begin(*started, run);
+    if (const auto* done = std::get_if<TrialDone<dim>>(&event)) show(*done, run);
+    if (const auto* advanced = std::get_if<ContactAdvanced>(&event))
+      progress_->show_step(text(advanced->progress), run.elapsed_seconds);
+    if (const auto* command = std::get_if<CommandDone>(&event); command && !command->text.empty())
+      progress_->note((command->was_obeyed ? "" : "refused: ") + command->text);
+    if (const auto* ended = std::get_if<RunEnded<dim>>(&event)) end(*ended, run);
+  }
+
+ private:
+  void begin(const RunStarted& started, const RunView<dim>& run) {
+    if (started.resumed_after) return;
+    if (const auto change = volume_change_of_saved_shape<dim>(run.study.source))
+      progress_->note(text(*change));
+    for (const auto& event : lost_on_the_grid<dim>(run.study.source))
+      warn(run, "initial shape", "the grid is too coarse for the case's holes: " + text(event));
+  }
+
+  void show(const TrialDone<dim>& done, const RunView<dim>& run) {
+    const auto& [trial, state, seconds] = done;
+    if (trial.verdict != Verdict::accepted) return;
+    if (state.iteration == 0 && trial.solution)
+      warn(run, "initial shape",
+           deformation_warning(deformation_size(*run.study.solver, trial.shape, *trial.solution)));
+    const PolarGrid<dim>& grid = run.study.grid();
+    const int asked = run.study.optimizer.iterations;
+    progress_->show({.shape = state.iteration,
+                     .n_shapes = asked < unlimited_iterations ? std::optional(asked) : std::nullopt,
+                     .objective = state.evaluation.function("objective").value,
+                     .initial_objective = run.initial->objective,
+                     .volume_fraction = volume_fraction(grid, state.measure),
+                     .step = trial.step * grid.resolution(),
+                     .elapsed_seconds = run.elapsed_seconds});
+  }
+
+  void end(const RunEnded<dim>& ended, const RunView<dim>& run) {
+    if (is_normal_end(ended.reason)) progress_->complete();
+    if (ended.summary) {
+      const DescribedWheel<dim>& wheel = ended.summary->after.wheel;
+      if (wheel.loaded) warn(run, "last shape", deformation_warning(wheel.loaded->summary.deformation));
+      if (wheel.clearances)
+        for (const std::string& warning : feature_warnings(run.study.source, *wheel.clearances))
+          warn(run, "last shape", warning);
+    }
+    progress_->end();
+  }
+
+  /// Nothing if the text is empty.
+  void warn(const RunView<dim>& run, const char* which, const std::string& text) {
+    if (!text.empty()) progress_->note(fmt::format("warning: {}, {}: {}", run.folder.string(), which, text));
+  }
+
+  static bool is_normal_end(StopReason reason) {
+    return reason == StopReason::converged || reason == StopReason::no_descent ||
+           reason == StopReason::iterations;
+  }
+
+  std::shared_ptr<Progress> progress_;
+};
 
 }  // namespace
 
 template <int dim>
-void TerminalObserver<dim>::operator()(const Event<dim>& event, const RunView<dim>& run) {
-  if (const auto* started = std::get_if<RunStarted>(&event)) begin(*started, run);
-  if (const auto* done = std::get_if<TrialDone<dim>>(&event)) show(*done, run);
-  if (const auto* advanced = std::get_if<ContactAdvanced>(&event)) progress_.note(text(advanced->progress));
-  if (const auto* changed = std::get_if<GridChanged>(&event))
-    progress_.note("going on with the " + changed->text);
-  if (const auto* command = std::get_if<CommandDone>(&event); command && !command->text.empty())
-    progress_.note((command->was_obeyed ? "" : "refused: ") + command->text);
-  if (const auto* ended = std::get_if<RunEnded<dim>>(&event)) {
-    if (ended->summary) {
-      const DescribedWheel<dim>& wheel = ended->summary->after.wheel;
-      if (wheel.loaded) warn(wheel.loaded->summary.deformation);
-      if (wheel.clearances)
-        for (const std::string& warning : feature_warnings(run.study.source, *wheel.clearances))
-          progress_.note("warning: " + warning);
-    }
-    progress_.end();
-  }
+void tell_on_terminal(Run<dim>& run, Detail detail) {
+  constexpr double seconds_between_lines = 10, of_every_trial = 0;
+  const bool tells_all = detail == Detail::every_trial;
+  const auto progress = std::make_shared<Progress>(stderr, progress_style(stderr),
+                                                   tells_all ? of_every_trial : seconds_between_lines);
+  if (tells_all) run.add(std::make_unique<TrialLog<dim>>(progress));
+  run.add(std::make_unique<TerminalObserver<dim>>(progress));
 }
 
-template <int dim>
-void TerminalObserver<dim>::begin(const RunStarted& started, const RunView<dim>& run) {
-  print_weights(run.study);
-  if (started.resumed_after) return;
-  if (const auto change = volume_change_of_saved_shape<dim>(run.study.source)) progress_.note(text(*change));
-  for (const auto& event : lost_on_the_grid<dim>(run.study.source))
-    progress_.note("warning: the grid is too coarse for the case's holes: " + text(event));
-}
-
-template <int dim>
-void TerminalObserver<dim>::warn(const DeformationSize& size) {
-  const auto warning = deformation_warning(size);
-  if (!warning.empty()) progress_.note("warning: " + warning);
-}
-
-/// Tells of bounds that the first shape violates, and when all are kept for the first time.
-template <int dim>
-void TerminalObserver<dim>::note_bounds(const OptimizationState<dim>& state) {
-  const auto bounds = bound_states(state.evaluation, {});
-  const bool are_kept = std::ranges::all_of(bounds, &BoundState::is_kept);
-  if (state.iteration == 0)
-    for (const BoundState& bound : bounds)
-      if (!bound.is_kept()) progress_.note("the initial shape does not keep a bound: " + bound.text());
-  if (are_kept && !were_kept_) progress_.note(fmt::format("shape {}: all bounds are kept", state.iteration));
-  were_kept_ = are_kept;
-}
-
-template <int dim>
-void TerminalObserver<dim>::show(const TrialDone<dim>& done, const RunView<dim>& run) {
-  const auto& [trial, state, seconds] = done;
-  if (trial.verdict != Verdict::accepted) {
-    const std::string halved = trial.step > 0 ? fmt::format(", step {:.3g} cells halved", trial.step) : "";
-    progress_.note(fmt::format("shape {}: {}{}", trial.iteration, reason(trial), halved));
-    return;
-  }
-  for (const auto& event : trial.events)
-    progress_.note(fmt::format("shape {}: {}", trial.iteration, text(event)));
-  if (state.iteration == 0 && trial.solution)
-    warn(deformation_size(*run.study.solver, trial.shape, *trial.solution));
-  note_bounds(state);
-  const PolarGrid<dim>& grid = run.study.grid();
-  progress_.show({.shape = state.iteration,
-                  .n_shapes = run.study.optimizer.iterations,
-                  .objective = state.evaluation.function("objective").value,
-                  .initial_objective = run.initial->objective,
-                  .volume_fraction = volume_fraction(grid, state.measure),
-                  .step = trial.step * grid.resolution(),
-                  .elapsed_seconds = run.elapsed_seconds});
-}
-
-template class TerminalObserver<2>;
-template class TerminalObserver<3>;
+template void tell_on_terminal(Run<2>&, Detail);
+template void tell_on_terminal(Run<3>&, Detail);
 
 }  // namespace wheelwright

@@ -1,28 +1,20 @@
 #pragma once
 
+#include <memory>
+
 #include "wheelwright/app/progress.h"
-#include "wheelwright/run/observer.h"
+#include "wheelwright/run/run.h"
 
 namespace wheelwright {
 
-/// Tells on the terminal what happens in a run: progress, rejected trials, commands.
-template <int dim>
-class TerminalObserver : public Observer<dim> {
- public:
-  TerminalObserver() : progress_(stderr, progress_style(stderr)) {}
-
-  void operator()(const Event<dim>& event, const RunView<dim>& run) override;
-
- private:
-  void begin(const RunStarted& started, const RunView<dim>& run);
-  void show(const TrialDone<dim>& done, const RunView<dim>& run);
-  void note_bounds(const OptimizationState<dim>& state);
-
-  /// Tells when a solution is beyond what linear elasticity describes.
-  void warn(const DeformationSize& size);
-
-  Progress progress_;
-  bool were_kept_ = true;  ///< the bounds, by the last shape seen
+/// How much of a run is told on standard error.
+enum class Detail {
+  progress,     ///< a bar, warnings, and what commands do
+  every_trial,  ///< besides, every rejected trial and why, holes that merge or vanish, bounds, grids
 };
+
+/// Tells on the terminal what happens in the run. To be called once, before it is executed.
+template <int dim>
+void tell_on_terminal(Run<dim>& run, Detail detail);
 
 }  // namespace wheelwright

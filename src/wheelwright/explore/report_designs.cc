@@ -15,6 +15,7 @@
 #include "wheelwright/page/html_template.h"
 #include "wheelwright/report/described_wheel.h"
 #include "wheelwright/report/svg.h"
+#include "wheelwright/run/stop_text.h"
 
 namespace wheelwright {
 namespace {
@@ -74,8 +75,8 @@ double parameter(const Design& design, const std::string& name) {
 
 /// How a design's run ended, and by how much it misses its bounds.
 std::string status(const DesignResult& result) {
-  if (result.violation == 0) return result.status;
-  return fmt::format("{}, misses a bound by {:.2g} %", result.status, 100 * result.violation);
+  if (result.violation == 0) return text_of_stop(result.status);
+  return fmt::format("{}, misses a bound by {:.2g} %", text_of_stop(result.status), 100 * result.violation);
 }
 
 }  // namespace

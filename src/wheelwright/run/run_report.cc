@@ -22,6 +22,7 @@
 #include "wheelwright/run/history.h"
 #include "wheelwright/run/provenance.h"
 #include "wheelwright/run/run_title.h"
+#include "wheelwright/run/stop_text.h"
 #include "wheelwright/run/study.h"
 
 namespace wheelwright {
@@ -138,24 +139,7 @@ double last_elapsed(const ReportRun<dim>& run) {
   return 0;
 }
 
-std::string status_text(std::optional<StopReason> reason) {
-  if (!reason) return "not ended";
-  switch (*reason) {
-    case StopReason::converged:
-      return "converged";
-    case StopReason::iterations:
-      return "ended after the given number of shapes";
-    case StopReason::no_descent:
-      return "ended: no step makes the shape better";
-    case StopReason::gave_up:
-      return "gave up: no trial shape could be computed";
-    case StopReason::failed_start:
-      return "the initial shape could not be computed";
-    case StopReason::stop_requested:
-      return "stopped";
-  }
-  return "";
-}
+std::string status_text(std::optional<StopReason> reason) { return reason ? text(*reason) : "not ended"; }
 
 template <int dim>
 std::vector<std::string> flags(const Case& c, const RunSummary<dim>& summary,

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <nlohmann/json.hpp>
 
+#include "wheelwright/case/unlimited.h"
 #include "wheelwright/page/assets.h"
 #include "wheelwright/run/command_json.h"
 #include "wheelwright/run/command_log.h"
@@ -47,9 +48,8 @@ Route asset(Route::Access access, std::string path, std::string type, std::strin
 }  // namespace
 
 Case watched_case(Case c) {
-  constexpr int no_end = 1'000'000;
   constexpr double seconds_between_checkpoints = 5;
-  c.optimizer.iterations = no_end;
+  c.optimizer.iterations = unlimited_iterations;
   c.output.vtu_every = 0;
   c.output.pictures_every = 0;
   c.output.checkpoint_every = 0;

@@ -5,6 +5,7 @@
 #include "wheelwright/app/shared_options.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/case/shorten.h"
+#include "wheelwright/files/path_queries.h"
 
 namespace wheelwright {
 namespace {
@@ -17,25 +18,28 @@ class ResumeCommand : public Subcommand {
     options.argument("DIR", folder_, not_empty, "folder of the run");
     add_iterations(options, iterations_);
     add_threads(options, threads_);
+    add_verbose(options, verbose_);
   }
 
   int run() override {
     Signals signals;
     const std::filesystem::path case_file = std::filesystem::path(folder_) / "case.toml";
-    if (!std::filesystem::exists(case_file)) {
-      tell("{}: this folder holds no run; there is no {}\n", folder_, case_file.string());
+    if (!is_there(case_file)) {
+      tell("{}: this folder holds no run: there is no {}, or it may not be read\n", folder_,
+           case_file.string());
       return exit_usage;
     }
     auto c = read_or_tell(case_file);
     if (!c) return exit_usage;
     if (iterations_) c = with_iterations(*std::move(c), *iterations_);
     if (!may_compute(name(), *c, case_file, threads_)) return exit_refused;
-    return resume_run(*c, folder_, signals);
+    return resume_run(*c, folder_, signals, verbose_ ? Detail::every_trial : Detail::progress);
   }
 
  private:
   std::string folder_;
   std::optional<int> iterations_, threads_;
+  bool verbose_ = false;
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/case/load_saved_shape.h"
 #include "wheelwright/case/shorten.h"
+#include "wheelwright/files/path_queries.h"
 
 namespace wheelwright {
 namespace {
@@ -35,11 +36,12 @@ class RunCommand : public Subcommand {
     add_output(options, output_, "Folder for the results, instead of the case's output.folder");
     add_iterations(options, iterations_);
     add_threads(options, threads_);
+    add_verbose(options, verbose_);
   }
 
   int run() override {
     Signals signals;
-    const bool from_run = std::filesystem::is_directory(case_file_);
+    const bool from_run = is_folder(case_file_);
     if (from_run && !output_) {
       tell("{}: give the new run's folder by --output; `wheelwright resume` goes on with this one\n",
            case_file_);
@@ -49,13 +51,15 @@ class RunCommand : public Subcommand {
     if (!c) return exit_usage;
     if (iterations_) c = with_iterations(*std::move(c), *iterations_);
     if (!may_compute(name(), *c, case_file_, threads_)) return exit_refused;
-    return begin_run(*c, output_.value_or(c->output.folder), signals);
+    return begin_run(*c, output_.value_or(c->output.folder), signals,
+                     verbose_ ? Detail::every_trial : Detail::progress);
   }
 
  private:
   std::string case_file_;
   std::optional<std::string> output_;
   std::optional<int> iterations_, threads_;
+  bool verbose_ = false;
 };
 
 }  // namespace

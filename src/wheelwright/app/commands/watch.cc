@@ -13,6 +13,7 @@
 #include "wheelwright/app/shared_options.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/app/terminal_observer.h"
+#include "wheelwright/files/path_queries.h"
 #include "wheelwright/run/command_log.h"
 #include "wheelwright/server/local_server.h"
 #include "wheelwright/watch/session.h"
@@ -28,9 +29,11 @@ bool is_kept(int descriptor) {
   return ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
 }
 
-std::string content(const fs::path& file) {
+/// Nothing if the file cannot be read.
+std::optional<std::string> content(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
+  if (!stream || !is_file(file)) return {};
+  return std::string(std::istreambuf_iterator<char>(stream), {});
 }
 
 class WatchCommand : public Subcommand {
@@ -54,7 +57,7 @@ class WatchCommand : public Subcommand {
 
   int run() override {
     Signals signals;
-    const bool is_run = fs::is_directory(input_);
+    const bool is_run = is_folder(input_);
     const fs::path case_file = is_run ? fs::path(input_) / "case.toml" : fs::path(input_);
     auto c = read_or_tell(case_file);
     if (!c || !find_designs()) return exit_usage;
@@ -64,7 +67,7 @@ class WatchCommand : public Subcommand {
       auto run = is_run ? Run<dim>::resume(*c, folder) : Run<dim>::begin(watched_case(*c), folder);
       if (!run) return report_not_begun<dim>(run.failure(), folder);
       if (is_run) report_resumption(run->resumption(), folder);
-      run->add(std::make_unique<TerminalObserver<dim>>());
+      tell_on_terminal(*run, Detail::progress);
       commands_.add_source([&signals] { return signals.next_command(); });
       return replay_ ? replay(*run, signals) : serve(*run, signals);
     });
@@ -105,7 +108,12 @@ class WatchCommand : public Subcommand {
 
   template <int dim>
   int replay(Run<dim>& run, const Signals& signals) {
-    auto log = parse_command_log(content(*replay_));
+    const auto text = content(*replay_);
+    if (!text) {
+      tell("{}: cannot be read; check its name and permissions\n", *replay_);
+      return exit_usage;
+    }
+    auto log = parse_command_log(*text);
     if (!log) {
       tell("{}: {}\n", *replay_, log.failure().reason);
       return exit_usage;

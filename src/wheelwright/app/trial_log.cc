@@ -1,0 +1,65 @@
+#include "wheelwright/app/trial_log.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "wheelwright/base/text.h"
+
+namespace wheelwright {
+namespace {
+
+template <int dim>
+std::string reason(const Trial<dim>& trial) {
+  return trial.failure ? fmt::format("{} ({})", to_string(trial.failure->reason), trial.failure->detail)
+                       : to_string(trial.verdict);
+}
+
+}  // namespace
+
+template <int dim>
+void TrialLog<dim>::operator()(const Event<dim>& event, const RunView<dim>& run) {
+  if (std::holds_alternative<RunStarted>(event)) begin(run.study);
+  if (const auto* done = std::get_if<TrialDone<dim>>(&event)) tell_trial(*done);
+  if (const auto* changed = std::get_if<GridChanged>(&event))
+    progress_->note("going on with the " + changed->text);
+}
+
+template <int dim>
+void TrialLog<dim>::begin(const Study<dim>& study) {
+  const WeightedSum<dim>& terms = study.objective().terms;
+  for (const auto& [weight, functional, load_case] : terms)
+    if (terms.size() > 1)
+      progress_->note(fmt::format("objective: {:.6g} * {}", weight,
+                                  name_in_case(functional->name(), study.load_cases, load_case)));
+}
+
+template <int dim>
+void TrialLog<dim>::tell_trial(const TrialDone<dim>& done) {
+  const Trial<dim>& trial = done.trial;
+  if (trial.verdict != Verdict::accepted) {
+    const std::string halved = trial.step > 0 ? fmt::format(", step {:.3g} cells halved", trial.step) : "";
+    progress_->note(fmt::format("shape {}: {}{}", trial.iteration, reason(trial), halved));
+    return;
+  }
+  for (const auto& event : trial.events)
+    progress_->note(fmt::format("shape {}: {}", trial.iteration, text(event)));
+  tell_bounds(done.state);
+}
+
+/// Tells of bounds that the first shape violates, and when all are kept for the first time.
+template <int dim>
+void TrialLog<dim>::tell_bounds(const OptimizationState<dim>& state) {
+  const auto bounds = bound_states(state.evaluation, {});
+  const bool are_kept = std::ranges::all_of(bounds, &BoundState::is_kept);
+  if (state.iteration == 0)
+    for (const BoundState& bound : bounds)
+      if (!bound.is_kept()) progress_->note("the initial shape does not keep a bound: " + bound.text());
+  if (are_kept && !were_kept_) progress_->note(fmt::format("shape {}: all bounds are kept", state.iteration));
+  were_kept_ = are_kept;
+}
+
+template class TrialLog<2>;
+template class TrialLog<3>;
+
+}  // namespace wheelwright

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <memory>
+
+#include "wheelwright/app/progress.h"
+#include "wheelwright/run/observer.h"
+
+namespace wheelwright {
+
+/// Tells how the search goes: rejected trials and why, changes of topology, bounds and grids.
+template <int dim>
+class TrialLog : public Observer<dim> {
+ public:
+  explicit TrialLog(std::shared_ptr<Progress> progress) : progress_(std::move(progress)) {}
+
+  void operator()(const Event<dim>& event, const RunView<dim>& run) override;
+
+ private:
+  void begin(const Study<dim>& study);
+  void tell_trial(const TrialDone<dim>& done);
+  void tell_bounds(const OptimizationState<dim>& state);
+
+  std::shared_ptr<Progress> progress_;
+  bool were_kept_ = true;  ///< the bounds, by the last shape seen
+};
+
+}  // namespace wheelwright
