@@ -127,7 +127,8 @@ struct Paint {
   Obeyed obey(RunControl& run) const;
 };
 
-/// Moves a hole, and its images in the other sectors, and multiplies its size about its centre, by 0.01 to 100.
+/// Moves a hole, and its images in the other sectors, and multiplies its size about its centre, by 0.01 to
+/// 100.
 struct MoveHole {
   std::array<double, 2> at{};  ///< a point in the hole: Cartesian, body frame [m]
   std::array<double, 2> by{};  ///< [m]
