@@ -10,6 +10,8 @@
 #include "wheelwright/cad/clearance.h"
 #include "wheelwright/cad/fit_outline.h"
 #include "wheelwright/cut/measure.h"
+#include "wheelwright/drawing/chain.h"
+#include "wheelwright/drawing/composed_level_set.h"
 #include "wheelwright/evolution/evolver.h"
 #include "wheelwright/geometry/components.h"
 #include "wheelwright/geometry/mirror.h"
@@ -279,6 +281,49 @@ TEST(FeatureSize, MovesThatNarrowTheLeastWidthsAreHeld) {
   EXPECT_GT(count(holes_with_slit(grid, 0.0102), 1), 0);
   EXPECT_EQ(count(holes_with_slit(grid, 0.0102), -1), 0);
   EXPECT_EQ(count(two_holes(grid, 0.0110), -1), 0);
+}
+
+/// A window like a slice of a disc, whose corners have this angle [degrees] at the tip and 90 degrees.
+LevelSet<2> slice(const PolarGrid<2>& grid, double angle, double direction, const Vec<2>& tip) {
+  const double radius = 0.06, half = angle * M_PI / 360;
+  const auto corner = [&](double turn) {
+    return tip + radius * Vec<2>{std::cos(direction + turn), std::sin(direction + turn)};
+  };
+  const Outline window{{closed_loop(
+      {Curve::line(tip, corner(-half)), Curve::circle_arc(tip, radius, direction - half, direction + half),
+       Curve::line(corner(half), tip)},
+      "")}};
+  Figure figure{Fill::hole, {}};
+  for (int sector = 0; sector < grid.n_sectors; ++sector)
+    figure.outlines.push_back(window.mapped(Affine::rotation(sector * grid.sector_angle())));
+  return make_level_set(Lattice<2>(grid, 2), Composition({figure}));
+}
+
+/// However they lie between the nodes.
+TEST(FeatureSize, CornersAreNoNarrowPlaces) {
+  std::mt19937 random(5);
+  const auto between = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  for (const int rows : {14, 28, 42}) {
+    const PolarGrid<2> grid{0.20, 0.34, 0.12, 8, {rows, 14 * rows / 8}};
+    const double cell = grid.resolution();
+    for (const double angle : {75.0, 90.0, 120.0})
+      for (int k = 0; k < 6; ++k) {
+        const double direction = between(0, 2 * M_PI);
+        const Vec<2> middle = cartesian<2>({0.27 + between(-1, 1) * cell, 0.5 * grid.sector_angle()}),
+                     tip = middle - 0.036 * Vec<2>{std::cos(direction), std::sin(direction)};
+        const auto psi = slice(grid, angle, direction, tip);
+        for (const double width : {1.12, 3.0}) {
+          EXPECT_TRUE(narrowest_places(psi, {.wall = 0, .gap = width * cell}).empty())
+              << rows << " rows, " << angle << " degrees, " << k;
+          LevelSet<2> material = psi;
+          for (double& value : material.values) value = -value;
+          EXPECT_TRUE(narrowest_places(material, {.wall = width * cell, .gap = 0}).empty())
+              << rows << " rows, " << angle << " degrees, " << k;
+        }
+      }
+  }
 }
 
 TEST(FeatureSize, TheNarrowestPlacesAreNamed) {

@@ -131,6 +131,10 @@ auto choice(std::vector<std::string_view> words) {
                              [](Struct& s, int i) { s.*member = static_cast<Enum>(i); }};
 }
 
+/// The unit of a key that is a value of its section's `quantity`: a plain number is in SI units, in 2D per
+/// metre of width, and one with a unit that of the whole wheel.
+inline constexpr std::string_view unit_of_quantity = "SI";
+
 enum class Presence { has_default, required };
 
 template <class Struct>

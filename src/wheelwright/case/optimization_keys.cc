@@ -101,16 +101,17 @@ const SectionArray<Constraint>& constraint_sections() {
            .meaning = "what is bounded, by the names of history.csv and [[expect]]",
            .presence = Presence::required},
           {.name = "at_least",
-           .unit = "",
+           .unit = unit_of_quantity,
            .field = OptionalNumberField<Constraint>{&Constraint::at_least, above(0, 1e15), "no such bound"},
-           .meaning = "lower bound, in SI units; of forces, energies, masses and stiffnesses in 2D per metre "
-                      "of width, as in history.csv"},
+           .meaning = "lower bound. A plain number is in SI units; of forces, energies, masses and "
+                      "stiffnesses in 2D per metre of width, as in history.csv. With a unit, as in "
+                      "\"6000 N/mm\", it is that of the whole wheel, as in tables"},
           {.name = "at_most",
-           .unit = "",
+           .unit = unit_of_quantity,
            .field = OptionalNumberField<Constraint>{&Constraint::at_most, above(0, 1e15), "no such bound"},
            .meaning = "upper bound"},
           {.name = "equals",
-           .unit = "",
+           .unit = unit_of_quantity,
            .field = OptionalNumberField<Constraint>{&Constraint::equals, above(0, 1e15), "no such bound"},
            .meaning = "the value to keep, in place of bounds"},
           {.name = "over",

@@ -62,7 +62,7 @@ const SectionArray<Expectation>& expectation_sections() {
                 .meaning = "a column of history.csv",
                 .presence = Presence::required},
                {.name = "value",
-                .unit = "",
+                .unit = unit_of_quantity,
                 .field = NumberField<Expectation>{&Expectation::value, above(0, 1e15)},
                 .meaning = "expected value, in the unit of history.csv; stresses in Pa",
                 .presence = Presence::required},

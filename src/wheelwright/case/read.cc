@@ -26,6 +26,7 @@
 #include "wheelwright/case/toml_guard.h"
 #include "wheelwright/case/toml_lines.h"
 #include "wheelwright/files/path_queries.h"
+#include "wheelwright/case/unit_text.h"
 
 namespace wheelwright {
 
@@ -134,12 +135,22 @@ Complaint wrong_type(std::string_view wanted, std::string_view remedy) {
   return {Kind::wrong_type, fmt::format("must be {}", wanted), std::string(remedy)};
 }
 
+Complaint unknown_unit(const ValueWithUnit& given, const std::vector<std::string_view>& fitting) {
+  return {Kind::wrong_type, fmt::format("{} is no unit of it", printable(given.unit)),
+          fmt::format("units that fit: {}", fmt::join(fitting, ", "))};
+}
+
 // One function a field type: the value is stored, or the complaint returned.
 
 std::optional<Complaint> read_number(const toml::node& node, std::string_view unit, const Range& range,
                                      double& out) {
   std::optional<double> value = node.value_exact<double>();
   if (const auto integer = node.value_exact<std::int64_t>()) value = static_cast<double>(*integer);
+  const auto text = node.value_exact<std::string>();
+  if (const auto given = text ? value_with_unit(*text) : std::nullopt; given && !units_like(unit).empty()) {
+    value = converted(*given, unit);
+    if (!value) return unknown_unit(*given, units_like(unit));
+  }
   if (!value) {
     const std::string in_unit = unit.empty() ? "" : fmt::format(", in {}", unit);
     return wrong_type("a number", fmt::format("write it without quotes or unit{}", in_unit));
@@ -289,6 +300,7 @@ template <class Struct>
 void read_value(Reading& reading, const std::string& path, const toml::node& node, const Key<Struct>& key,
                 Struct& out) {
   note(reading, path, node);
+  if (key.unit == unit_of_quantity && node.is_string()) return;  // see read_quantities()
   const auto read = [&](const auto& field) { return read_field(node, key, field, out); };
   if (auto complaint = std::visit(read, key.field)) complain(reading, path, std::move(*complaint));
 }
@@ -405,6 +417,50 @@ void read_parent(Reading& reading, const toml::table& root, std::string_view nam
     read_table(reading, std::string(name), *table, std::vector<Key<Struct>>{}, out);
 }
 
+/// Whether numbers of this kind are those of one metre of width in 2D.
+constexpr bool is_per_width(UnitKind kind) {
+  return kind != UnitKind::length && kind != UnitKind::stress && kind != UnitKind::ratio;
+}
+
+/// A value of a quantity with a unit, in SI units and in 2D per metre of width.
+std::optional<double> in_file_unit(const ValueWithUnit& value, UnitKind kind, const Wheel& wheel) {
+  const double width = whole_width(wheel.dimension, wheel.width);
+  if (const auto whole = converted(value, unit<3>(kind))) return *whole / (is_per_width(kind) ? width : 1);
+  return converted(value, unit(kind, wheel.dimension));
+}
+
+/// Values in quotes of what a section's `quantity` names, whose units depend on other keys.
+template <class Struct>
+void read_quantities(Reading& reading, const toml::table& root, const SectionArray<Struct>& section,
+                     Case& c) {
+  const toml::array* array = root[section.name].as_array();
+  auto& list = section.in(c);
+  for (std::size_t i = 0; array && i < list.size(); ++i)
+    for (const auto& key : section.keys) {
+      const toml::table& table = *(*array)[i].as_table();
+      const auto text =
+          key.unit == unit_of_quantity ? table[key.name].template value_exact<std::string>() : std::nullopt;
+      if (!text) continue;
+      const std::string path = fmt::format("{}[{}].{}", section.path(), i + 1, key.name);
+      const auto given = value_with_unit(*text);
+      const UnitKind kind = wheelwright::kind(list[i].quantity);
+      const auto value = given ? in_file_unit(*given, kind, c.wheel) : std::nullopt;
+      if (!given) {
+        complain(reading, path,
+                 wrong_type("a number", fmt::format("write it without quotes, or with a unit: {}",
+                                                    fmt::join(units_like(unit<3>(kind)), ", "))));
+      } else if (!value) {
+        complain(reading, path, unknown_unit(*given, units_like(unit<3>(kind))));
+      } else if (auto complaint = std::visit(
+                     [&](const auto& field) {
+                       return read_field(toml::value<double>(*value), key, field, list[i]);
+                     },
+                     key.field)) {
+        complain(reading, path, std::move(*complaint));
+      }
+    }
+}
+
 /// Numbers the shapes, which hold their places in the list so far, in the order of the file.
 void put_shapes_in_order(const std::vector<std::pair<int, int>>& places, Case& c) {
   std::vector<std::pair<int, int>> sorted = places;
@@ -421,6 +477,8 @@ Case read_root(Reading& reading, const toml::table& root) {
   Case result;
   read_parent(reading, root, ring_sections().parent, result.holes);
   for_each_section([&](const auto& section) { read_section(reading, root, section, result); });
+  read_quantities(reading, root, constraint_sections(), result);
+  read_quantities(reading, root, expectation_sections(), result);
   put_shapes_in_order(reading.shape_places, result);
   return result;
 }

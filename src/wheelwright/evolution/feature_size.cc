@@ -14,9 +14,13 @@
 namespace wheelwright {
 namespace {
 
-/// The cosine between the normals of places that face each other, and between their directions from the
-/// centre of a ball that lie opposite.
-constexpr double facing = -0.5, opposite = -0.8;
+/// The cosine between the normals of places that face each other, 130 degrees apart: the sides of a corner of
+/// 60 degrees are none. And that between their directions from the centre of a ball that lie opposite.
+constexpr double facing = -0.64, opposite = -0.8;
+
+/// How far beyond such a ball there is material if it lies in a neck and not in the tip of a corner: by its
+/// radius, and by the resolution.
+constexpr double beyond_ball = 3, beyond_tip = 1.5;
 
 /// How much smaller than the wanted radius a ball must be to count, relative: less than the curves of an
 /// outline may deviate.
@@ -56,11 +60,34 @@ Vec<dim> normal_at(const CubicInterpolant<dim>& psi, const Vec<dim>& point) {
   return rotated<dim>(normal, point[1] * psi.lattice().spacing()[1]);
 }
 
+/// Whether there is material at some distance where a ball's neighbours become smaller: beyond a neck, but
+/// not beyond the tip of a corner.
+template <int dim>
+bool opens_beyond(const BoundaryPoints<dim>& boundary, const Vec<dim>& centre, int point, int touched,
+                  double distance) {
+  const auto& points = boundary.points.points();
+  Vec<dim> across, closing;
+  for (int d = 0; d < dim; ++d) {
+    across[d] = points[touched][d] - points[point][d];
+    closing[d] = boundary.normals[point][d] + boundary.normals[touched][d];
+  }
+  const double along = dot<dim>(closing, across) / dot<dim>(across, across);
+  for (int d = 0; d < dim; ++d) closing[d] -= along * across[d];
+  const double length = norm<dim>(closing);
+  if (length == 0) return true;
+  Vec<dim> there;
+  for (int d = 0; d < dim; ++d) there[d] = centre[d] + distance / length * closing[d];
+  const int nearest = boundary.points.index_of_nearest(there);
+  for (int d = 0; d < dim; ++d) there[d] -= points[nearest][d];
+  return dot<dim>(there, boundary.normals[nearest]) < 0;
+}
+
 /// The ball of less than `radius` inside the boundary that touches it at a point and holds no other, if it
 /// lies between places that face each other: when it was hardly larger it touched a point that faces the
 /// first. (In a small round hole such a ball touches everywhere at last.)
 template <int dim>
-std::optional<MedialBall<dim>> ball_between(const BoundaryPoints<dim>& boundary, int point, double radius) {
+std::optional<MedialBall<dim>> ball_between(const BoundaryPoints<dim>& boundary, int point, double radius,
+                                            double resolution) {
   constexpr int most_steps = 30;
   constexpr double hardly_larger = 1.1;
   const Vec<dim>& p = boundary.points.points()[point];
@@ -70,7 +97,8 @@ std::optional<MedialBall<dim>> ball_between(const BoundaryPoints<dim>& boundary,
     for (int d = 0; d < dim; ++d) centre[d] = p[d] - r * normal[d];
     return centre;
   };
-  double facing_radius = 0;
+  double facing_radius = 0, opposite_radius = 0;
+  int touched = point;
   for (int step = 0; step < most_steps; ++step) {
     const Vec<dim> centre = centre_of(radius);
     const int nearest = boundary.points.index_of_nearest(centre);
@@ -83,14 +111,20 @@ std::optional<MedialBall<dim>> ball_between(const BoundaryPoints<dim>& boundary,
     const double smaller = -dot<dim>(apart, apart) / (2 * dot<dim>(apart, normal));
     if (!(smaller > 0 && smaller < radius)) break;
     radius = smaller;
+    touched = nearest;
     // At the tip of a sharp neck the boundary's own normal says nothing, but the direction from the centre.
     Vec<dim> towards;
     for (int d = 0; d < dim; ++d) towards[d] = apart[d] / radius + normal[d];
-    if (dot<dim>(normal, boundary.normals[nearest]) < facing || dot<dim>(normal, towards) < opposite)
-      facing_radius = radius;
+    if (dot<dim>(normal, boundary.normals[nearest]) < facing) facing_radius = radius;
+    if (dot<dim>(normal, towards) < opposite) opposite_radius = radius;
   }
-  if (facing_radius == 0 || facing_radius > hardly_larger * radius) return {};
-  return MedialBall<dim>{centre_of(radius), radius};
+  const auto was_hardly_larger = [&](double r) { return r > 0 && r <= hardly_larger * radius; };
+  const MedialBall<dim> ball{centre_of(radius), radius};
+  const double beyond = std::max(beyond_ball * radius, beyond_tip * resolution);
+  if (was_hardly_larger(facing_radius) || (was_hardly_larger(opposite_radius) &&
+                                           opens_beyond<dim>(boundary, ball.centre, point, touched, beyond)))
+    return ball;
+  return {};
 }
 
 template <int dim>
@@ -243,9 +277,10 @@ std::vector<MedialBall<dim>> thin_walls(const LevelSet<dim>& psi, double radius)
   if (seeds.empty()) return {};
   const auto boundary = boundary_points<dim>(interpolant, seeds);
   const int n = static_cast<int>(seeds.size());
+  const double resolution = psi.lattice.grid().resolution();
   std::vector<MedialBall<dim>> balls;
   for (int point = n; point < 2 * n; ++point)
-    if (const auto ball = ball_between<dim>(boundary, point, radius)) balls.push_back(*ball);
+    if (const auto ball = ball_between<dim>(boundary, point, radius, resolution)) balls.push_back(*ball);
   return balls;
 }
 

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace wheelwright {
+
+// Values with a unit, as a case file may give them in quotes: "300 mm", "25 MPa", "50 N/mm".
+
+struct ValueWithUnit {
+  double value;
+  std::string unit;
+};
+
+/// A number and what follows it, without the spaces around; nothing if the text begins with no number or ends
+/// with it.
+std::optional<ValueWithUnit> value_with_unit(std::string_view text);
+
+/// The value in another unit of the same kind; nothing if the two are not known as units of one kind.
+std::optional<double> converted(const ValueWithUnit& value, std::string_view unit);
+
+/// The units of the kind of this one, itself included; empty if none is known.
+std::vector<std::string_view> units_like(std::string_view unit);
+
+}  // namespace wheelwright
