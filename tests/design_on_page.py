@@ -1,6 +1,8 @@
 """Designs a wheel on the page of `wheelwright watch` alone, from a preset to a STEP file, by mouse and keyboard: the steps of
 docs/watch.md. The test of the page looks at what each of them changes, and scripts/draw-watch draws them."""
 
+import json
+import math
 import time
 
 from selenium.webdriver.common.action_chains import ActionChains
@@ -8,6 +10,15 @@ from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
 PRESET = "curved-spokes"
+
+
+def offset(page, point):
+    """Where a point of the wheel (body frame, metres) is seen, from the middle of the canvas, in pixels."""
+    view, size = json.loads(page.wheel("view")), page.element("wheel").size
+    c, s = math.cos(view["turn"]), math.sin(view["turn"])
+    x, y = c * point[0] - s * point[1], s * point[0] + c * point[1]
+    return (round(view["x"] + view["scale"] * x - size["width"] / 2),
+            round(view["y"] - view["scale"] * y - size["height"] / 2))
 
 
 class Page:
@@ -52,7 +63,7 @@ class Page:
         """Also where the run waits because there is no better shape: it then waits through the next changes too."""
         if self.text("go") == "Pause":
             self.element("go").click()
-        self.until(lambda: self.text("go") == "Go on")
+        self.until(lambda: self.text("go") == "Continue")
 
     def go_on(self):
         """From a pause, or from the end of a step. The page shows afterwards that the run went on."""
@@ -63,12 +74,14 @@ class Page:
     def stroke(self, tool, radii, azimuth, steps=6):
         """Draws with the mouse along a ray, at these shares of the outer radius."""
         self.element(f"tool-{tool}").click()
-        self.browser.execute_script("arguments[0].scrollIntoView({block: 'center'})", self.element("wheel"))
-        half = 0.47 * self.element("wheel").size["width"]
-        at = lambda r: (round(half * r * azimuth[0]), round(-half * r * azimuth[1]))
+        wheel = self.element("wheel")
+        ActionChains(self.browser).move_to_element(wheel).perform()  # it stands still under the mouse
+        outer = self.browser.execute_script("return arguments[0].dataset.ground - JSON.parse(arguments[0].dataset.view).y", wheel)
+        outer /= json.loads(self.wheel("view"))["scale"]
+        at = lambda r: offset(self, (outer * r * azimuth[0], outer * r * azimuth[1]))
         places = [at(radii[0] + (radii[1] - radii[0]) * k / steps) for k in range(steps + 1)]
         actions = ActionChains(self.browser, duration=30)
-        actions.move_to_element_with_offset(self.element("wheel"), *places[0]).click_and_hold()
+        actions.move_to_element_with_offset(wheel, *places[0]).click_and_hold()
         for (x, y), (nx, ny) in zip(places, places[1:]):
             actions.move_by_offset(nx - x, ny - y)
         actions.release().perform()
@@ -104,7 +117,7 @@ def steps(page):
 
     def undo():
         page.element("undo").click()
-        page.obeyed("the last change is undone")
+        page.obeyed("undid: material painted")
 
     def even():
         page.type("even-number", "5")
@@ -113,18 +126,17 @@ def steps(page):
         page.more_shapes(8)
         page.pause()
 
-    def loaded():
-        page.element("load").click()
-        page.until(lambda: page.element("roll").is_enabled())
-        page.browser.execute_script("arguments[0].scrollIntoView({block: 'center'})", page.element("loaded-wheel"))
-        page.element("roll").send_keys(Keys.ENTER)
-        first = page.element("loaded-wheel").get_attribute("data-position")
-        page.until(lambda: page.element("loaded-wheel").get_attribute("data-position") != first)
+    def contact():
+        page.element("tool-look").click()
+        for _ in range(4):
+            page.element("zoom-in").click()
+            page.look()
         for _ in range(12):
             page.look()
-        page.element("roll").click()
+            time.sleep(0.1)
 
     def take_away():
+        page.element("fit").click()
         page.type("name", "my-spokes")
         page.element("save").click()
         page.obeyed("saved")
@@ -132,7 +144,7 @@ def steps(page):
         page.element("export").click()
         page.obeyed("my-spokes.step is downloaded")
 
-    return [("begin", begin), ("load", load), ("paint", paint), ("undo", undo), ("even", even), ("loaded", loaded),
+    return [("begin", begin), ("load", load), ("paint", paint), ("undo", undo), ("even", even), ("contact", contact),
             ("take_away", take_away)]
 
 

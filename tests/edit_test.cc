@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "tests/run_support.h"
+#include "wheelwright/case/derived.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/cut/measure.h"
 #include "wheelwright/drawing/parts.h"
@@ -97,15 +98,15 @@ class EditTest : public TemporaryFolder {
   struct Seen {
     std::vector<LevelSet<2>> shapes, proposed;
     std::vector<double> measures, objectives;
-    std::vector<std::string> refused;
+    std::vector<std::string> obeyed, refused;
   };
 
   class Watcher : public Observer<2> {
    public:
     explicit Watcher(Seen& seen) : seen_(seen) {}
     void operator()(const Event<2>& event, const RunView<2>&) override {
-      if (const auto* command = std::get_if<CommandDone>(&event); command && !command->was_obeyed)
-        seen_.refused.push_back(command->text);
+      if (const auto* command = std::get_if<CommandDone>(&event))
+        (command->was_obeyed ? seen_.obeyed : seen_.refused).push_back(command->text);
       if (const auto* proposed = std::get_if<ShapeProposed<2>>(&event))
         seen_.proposed.push_back(proposed->shape);
       const auto* done = std::get_if<TrialDone<2>>(&event);
@@ -263,10 +264,113 @@ TEST_F(EditTest, UndoBringsTheCaseBackToo) {
   EXPECT_EQ(seen.objectives[4], seen.objectives[0]);
 }
 
-TEST(CommandJson, EveryCommandReadsBackTheSame) {
-  Load load = the_case().load;
+TEST_F(EditTest, UndoTellsWhatItUndid) {
+  Load heavier = the_case().load;
+  heavier.force *= 1.5;
+  const Paint patch{.as = Fill::material, .path = {{hole_centre[0], hole_centre[1]}}, .radius = 0.01};
+  const Seen seen = after({NewLoad{heavier}, patch, Reset{}, Undo{}, Undo{}, Undo{}});
+  ASSERT_EQ(seen.obeyed.size(), 8U);  // the first pauses, the last stops
+  for (int k = 1; k <= 3; ++k)
+    EXPECT_TRUE(seen.obeyed[7 - k].ends_with(": " + seen.obeyed[k])) << seen.obeyed[7 - k];
+}
+
+/// A load of a wheel in 3D of which nothing is as by default.
+Load load_with_everything() {
+  Load load;
+  load.force = 1234.5;
   load.travel = 0.1 + 0.2;
+  load.horizontal_force = -12;
+  load.lateral_force = 350;
+  load.camber = 0.02;
+  load.torque = 7;
   load.body_force = {1e-300, -1.0 / 3};
+  load.hole_pressure = 900;
+  load.speed = 11;
+  load.positions = 5;
+  return load;
+}
+
+/// A run that takes every case.
+class TakesAnyCase : public RunControl {
+ public:
+  explicit TakesAnyCase(Case c) : case_(std::move(c)) {}
+  const Case& current_case() const override { return case_; }
+  int iteration() const override { return 0; }
+  void save() override {}
+  void stop() override {}
+  void pause(int) override {}
+  void go_on() override {}
+  std::optional<Refusal> change_case(const Case& changed, const std::string&) override {
+    case_ = changed;
+    return {};
+  }
+  std::vector<Point> hole_at(const Point&) const override { return {}; }
+  std::optional<Refusal> draw(std::span<const Stroke>, const std::string&) override { return {}; }
+  std::optional<Refusal> take_shape(const std::filesystem::path&, const std::string&) override { return {}; }
+  std::optional<Refusal> reset() override { return {}; }
+  Expected<std::string, Refusal> undo() override { return Refusal{""}; }
+
+ private:
+  Case case_;
+};
+
+/// What becomes of a case by a command that comes as JSON.
+Expected<Case, Refusal> case_after(const Case& c, const std::string& json) {
+  TakesAnyCase run(c);
+  const auto command = parse_command(json);
+  if (!command) return command.failure();
+  const Obeyed obeyed = std::visit([&](const auto& known) { return known.obey(run); }, *command);
+  if (!obeyed) return obeyed.failure();
+  return run.current_case();
+}
+
+TEST(NewLoad, KeepsEveryKeyOfALoadIn3DThatItDoesNotChange) {
+  Case c = the_case();
+  c.wheel.dimension = 3;
+  c.load = load_with_everything();
+  Load heavier = c.load;
+  heavier.force *= 1.1;
+  const auto after = case_after(c, command_json(NewLoad{heavier}));
+  ASSERT_TRUE(after);
+  EXPECT_EQ(after->load, heavier);
+  heavier.speed = 3;
+  EXPECT_EQ(case_after(c, command_json(NewLoad{heavier}))->load, heavier);
+  EXPECT_EQ(load_json(heavier), load_json(case_after(c, command_json(NewLoad{heavier}))->load));
+}
+
+TEST(NewLoad, ChangesTheLoadCaseOfItsName) {
+  Case c = the_case();
+  c.load.torque = 3;
+  c.load.cases = {{.name = "straight", .speed = 2}, {.name = "kerb", .travel = 0.001}};
+  const auto loads = [](const Case& of) {
+    std::vector<Load> result;
+    for (const Case& single : single_load_cases(of)) result.push_back(single.load);
+    return result;
+  };
+  const std::vector<Load> before = loads(c);
+  Load load = load_with_everything();
+  load.lateral_force = load.camber = 0;
+  load.positions = c.load.positions;
+  for (const bool has_travel : {true, false}) {
+    if (!has_travel) load.travel.reset();
+    for (const std::size_t k : {0, 1}) {
+      const auto after = case_after(c, command_json(NewLoad{load, c.load.cases[k].name}));
+      ASSERT_TRUE(after) << after.failure().reason;
+      Load expected = load;
+      if (has_travel) expected.force = before[k].force;  // is a result
+      EXPECT_EQ(loads(*after)[k], expected);
+      EXPECT_EQ(loads(*after)[1 - k], before[1 - k]);
+    }
+  }
+  EXPECT_FALSE(case_after(c, command_json(NewLoad{load})));
+  EXPECT_FALSE(case_after(c, command_json(NewLoad{load, "elsewhere"})));
+  ++load.positions;
+  EXPECT_FALSE(case_after(c, command_json(NewLoad{load, "kerb"})));
+  EXPECT_FALSE(case_after(the_case(), command_json(NewLoad{load, "kerb"})));
+}
+
+TEST(CommandJson, EveryCommandReadsBackTheSame) {
+  const Load load = load_with_everything();
   const std::vector<Command> commands{
       Save{},
       Stop{},
@@ -276,7 +380,7 @@ TEST(CommandJson, EveryCommandReadsBackTheSame) {
       Reset{},
       Undo{},
       NewWeights{.strain_energy = 0.1, .uniformity_dual = 1e5},
-      NewLoad{load},
+      NewLoad{load, "kerb"},
       NewVolume{2.0 / 3},
       NewWidths{.minimum_wall = 0.1 + 0.2, .minimum_gap = 0},
       NewBound{.constraint = 2, .at_least = -1.0 / 3, .at_most = 1e-300},
@@ -292,7 +396,9 @@ TEST(CommandJson, EveryCommandReadsBackTheSame) {
     EXPECT_EQ(back->index(), command.index());
     EXPECT_EQ(command_json(*back), json);
   }
-  EXPECT_EQ(std::get<NewLoad>(*parse_command(command_json(NewLoad{load}))).load, load);
+  const auto back = std::get<NewLoad>(*parse_command(command_json(NewLoad{load, "kerb"})));
+  EXPECT_EQ(back.load, load);
+  EXPECT_EQ(back.load_case, "kerb");
 }
 
 TEST(CommandJson, WhatIsNoCommandIsRefused) {

@@ -124,6 +124,7 @@ struct Trial {
            ///< the shape before: the given one for the initial shape
   /// What the evaluation was computed from; null when there was none.
   std::shared_ptr<const State<dim>> solution = {};
+  StatesOfCases<dim> other_solutions = {};  ///< under the load cases that follow the first
 };
 
 /// The least widths of the shapes that follow a state, where all shapes have those given.

@@ -519,6 +519,7 @@ void ShapeOptimizer<dim>::evaluate(Trial<dim>& trial, MadeCells cells, const Eva
     return;
   }
   trial.solution = std::move(evaluated->state);
+  trial.other_solutions = std::move(evaluated->others);
   if (is_finite(evaluated->evaluation))
     trial.evaluation = std::move(evaluated->evaluation);
   else

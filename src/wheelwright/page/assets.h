@@ -7,6 +7,6 @@
 namespace wheelwright::assets {
 
 extern const std::string_view report_html, report_css, report_js, parts_js, watch_html, watch_css, watch_js,
-    designs_html, designs_css, designs_js, chart_js, three_js;
+    stage_js, designs_html, designs_css, designs_js, chart_js, three_js;
 
 }  // namespace wheelwright::assets

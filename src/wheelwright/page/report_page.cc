@@ -26,35 +26,79 @@ struct SectorMesh {
   std::vector<std::uint32_t> triangles;   ///< corners, counter-clockwise
 };
 
-/// Corners that polygons share are one point.
+/// Collects the points of a sector's polygons; those that polygons share are one.
+class SectorMeshBuilder {
+ public:
+  SectorMeshBuilder(const LevelSet<2>& psi, const Lattice<2>& field_lattice)
+      : psi_(psi), field_lattice_(field_lattice) {}
+
+  std::uint32_t add(int cell, const Vec<2>& xi) {
+    const Vec<2> x = position(cell, xi);
+    const auto [entry, is_new] = known_.try_emplace(key(x), static_cast<std::uint32_t>(mesh_.points.size()));
+    if (is_new) {
+      mesh_.points.push_back(x);
+      mesh_.nodes.push_back(ring_cell_nodes<2>(field_lattice_, grid().cell_position(cell)));
+      mesh_.shapes.emplace_back(field_lattice_.degree(), xi);
+    }
+    return entry->second;
+  }
+
+  /// Whether there is a point here, or in a sector beside it where that shares its edge.
+  bool has(int cell, const Vec<2>& xi) const {
+    const Vec<2> x = position(cell, xi);
+    for (const int sector : {0, 1, -1})
+      if (known_.contains(key(rotated<2>(x, sector * grid().sector_angle())))) return true;
+    return false;
+  }
+
+  void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    mesh_.triangles.insert(mesh_.triangles.end(), {a, b, c});
+  }
+
+  SectorMesh mesh() && { return std::move(mesh_); }
+
+ private:
+  const PolarGrid<2>& grid() const { return psi_.lattice.grid(); }
+  Vec<2> position(int cell, const Vec<2>& xi) const {
+    const auto place = grid().cell_position(cell);
+    const CellMap<2> map(grid(), psi_.lattice.degree(), place);
+    return rotated<2>(map.position(ShapeFunctions<2>(psi_.lattice.degree(), xi)),
+                      place[1] * grid().cell_size()[1]);
+  }
+  static std::array<long, 2> key(const Vec<2>& x) {
+    constexpr double resolution = 1e7;  // [1/m]
+    return {std::lround(x[0] * resolution), std::lround(x[1] * resolution)};
+  }
+
+  const LevelSet<2>& psi_;
+  const Lattice<2>& field_lattice_;
+  std::map<std::array<long, 2>, std::uint32_t> known_;
+  SectorMesh mesh_;
+};
+
+/// Polygons beside halved ones have the middles of their sides too, so that no gaps open where the mesh is
+/// deformed.
 SectorMesh sector_mesh(const LevelSet<2>& psi, const Lattice<2>& field_lattice) {
   constexpr int cut_subdivisions = 2;
-  constexpr double resolution = 1e7;  // [1/m]
-  const PolarGrid<2>& grid = psi.lattice.grid();
   const auto polygons = material_polygons(psi, cut_subdivisions);
-  SectorMesh mesh;
-  std::map<std::array<long, 2>, std::uint32_t> known;
-  for (int cell = 0; cell < grid.n_cells(); ++cell) {
-    const CellMap<2> map(grid, psi.lattice.degree(), grid.cell_position(cell));
+  SectorMeshBuilder builder(psi, field_lattice);
+  const int n_cells = psi.lattice.grid().n_cells();
+  for (int cell = 0; cell < n_cells; ++cell)
+    for (const MaterialPolygon& polygon : polygons[cell])
+      for (const Vec<2>& xi : polygon) builder.add(cell, xi);
+  for (int cell = 0; cell < n_cells; ++cell)
     for (const MaterialPolygon& polygon : polygons[cell]) {
       std::vector<std::uint32_t> corners;
-      for (const Vec<2>& xi : polygon) {
-        const Vec<2> x = rotated<2>(map.position(ShapeFunctions<2>(psi.lattice.degree(), xi)),
-                                    grid.cell_position(cell)[1] * grid.cell_size()[1]);
-        const std::array<long, 2> key{std::lround(x[0] * resolution), std::lround(x[1] * resolution)};
-        const auto [entry, is_new] = known.try_emplace(key, static_cast<std::uint32_t>(mesh.points.size()));
-        if (is_new) {
-          mesh.points.push_back(x);
-          mesh.nodes.push_back(ring_cell_nodes<2>(field_lattice, grid.cell_position(cell)));
-          mesh.shapes.emplace_back(field_lattice.degree(), xi);
-        }
-        corners.push_back(entry->second);
+      for (std::size_t k = 0; k < polygon.size(); ++k) {
+        const Vec<2>&a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
+        const Vec<2> middle{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
+        corners.push_back(builder.add(cell, a));
+        if (builder.has(cell, middle)) corners.push_back(builder.add(cell, middle));
       }
       for (std::size_t k = 2; k < corners.size(); ++k)
-        mesh.triangles.insert(mesh.triangles.end(), {corners[0], corners[k - 1], corners[k]});
+        builder.add_triangle(corners[0], corners[k - 1], corners[k]);
     }
-  }
-  return mesh;
+  return std::move(builder).mesh();
 }
 
 template <class T>

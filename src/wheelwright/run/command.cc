@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <numbers>
 #include <vector>
+
+#include "wheelwright/case/load_case_change.h"
 
 namespace wheelwright {
 namespace {
@@ -17,10 +21,13 @@ std::string load_text(const Load& load) {
   std::string text = load.travel ? fmt::format("rim travel {:.6g} m", *load.travel)
                                  : fmt::format("force {:.6g} N", load.force);
   if (load.horizontal_force != 0) text += fmt::format(", horizontal force {:.6g} N", load.horizontal_force);
+  if (load.lateral_force != 0) text += fmt::format(", lateral force {:.6g} N", load.lateral_force);
+  if (load.camber != 0) text += fmt::format(", camber {:.6g} deg", load.camber * 180 / std::numbers::pi);
   if (load.torque != 0) text += fmt::format(", torque {:.6g} N m", load.torque);
   if (load.hole_pressure != 0) text += fmt::format(", hole pressure {:.6g} Pa", load.hole_pressure);
   if (load.body_force != Load{}.body_force)
     text += fmt::format(", body force {:.6g} N/m^3", fmt::join(load.body_force, " and "));
+  if (load.speed != 0) text += fmt::format(", speed {:.6g} m/s", load.speed);
   return text + fmt::format(", {} positions", load.positions);
 }
 
@@ -68,12 +75,18 @@ Obeyed NewWeights::obey(RunControl& run) const {
 
 Obeyed NewLoad::obey(RunControl& run) const {
   Case c = run.current_case();
-  if (!c.load.cases.empty())
-    return Refusal{"the case has several load cases: change them in its file, and begin another run"};
-  const double speed = c.load.speed;
-  c.load = load;
-  c.load.speed = speed;
-  return changed(run, c, "new load: " + load_text(load));
+  if (!load_case) {
+    if (!c.load.cases.empty()) return Refusal{"the case has several loads: say which load case changes"};
+    c.load = load;
+    c.load.cases.clear();
+    return changed(run, c, "new load: " + load_text(load));
+  }
+  const auto found = std::ranges::find(c.load.cases, *load_case, &CaseLoad::name);
+  if (found == c.load.cases.end()) return Refusal{fmt::format("there is no load case {}", *load_case)};
+  if (!is_load_of_a_case(c.load, load))
+    return Refusal{"lateral force, camber and load positions are the same in all load cases"};
+  *found = changed_load_case(*found, c.load, load);
+  return changed(run, c, fmt::format("new load in {}: {}", *load_case, load_text(load)));
 }
 
 Obeyed NewWidths::obey(RunControl& run) const {
@@ -125,8 +138,9 @@ Obeyed Reset::obey(RunControl& run) const {
 }
 
 Obeyed Undo::obey(RunControl& run) const {
-  if (auto refusal = run.undo()) return *std::move(refusal);
-  return std::string("the last change is undone");
+  auto undone = run.undo();
+  if (!undone) return undone.failure();
+  return "undid: " + *undone;
 }
 
 }  // namespace wheelwright

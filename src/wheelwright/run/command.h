@@ -50,8 +50,9 @@ class RunControl {
   virtual std::optional<Refusal> take_shape(const std::filesystem::path& file, const std::string& what) = 0;
   /// Back to the initial shape, under the case as it is.
   virtual std::optional<Refusal> reset() = 0;
-  /// Back to the case and the shape before the last change_case(), draw() or reset() that is not undone.
-  virtual std::optional<Refusal> undo() = 0;
+  /// Back to the case and the shape before the last change_case(), draw(), take_shape() or reset() that is
+  /// not undone. Returns what that change was, as it was told.
+  virtual Expected<std::string, Refusal> undo() = 0;
 };
 
 /// What was done, one line; empty where there is nothing to say.
@@ -88,9 +89,11 @@ struct NewWeights {
   Obeyed obey(RunControl& run) const;
 };
 
-/// Another section `load` of the case.
+/// Another load: the section `load` of a case with one load, or that of a load case. Load cases share the
+/// lateral force, the camber and the load positions, which it must not change there.
 struct NewLoad {
-  Load load;
+  Load load;                                  ///< complete; without load cases of its own
+  std::optional<std::string> load_case = {};  ///< its name
 
   Obeyed obey(RunControl& run) const;
 };

@@ -29,15 +29,25 @@ void fields(Is<NewWeights> auto& c, Visit&& visit) {
   visit("uniformity_l2", c.uniformity_l2);
 }
 
+/// All of a load but its load cases.
+template <class Visit>
+void load_fields(Is<Load> auto& load, Visit&& visit) {
+  visit("force_N", load.force);
+  visit("travel_m", load.travel);
+  visit("horizontal_force_N", load.horizontal_force);
+  visit("lateral_force_N", load.lateral_force);
+  visit("camber_rad", load.camber);
+  visit("torque_N_m", load.torque);
+  visit("body_force_N_per_m3", load.body_force);
+  visit("hole_pressure_Pa", load.hole_pressure);
+  visit("speed_m_per_s", load.speed);
+  visit("positions", load.positions);
+}
+
 template <class Visit>
 void fields(Is<NewLoad> auto& c, Visit&& visit) {
-  visit("force_N", c.load.force);
-  visit("travel_m", c.load.travel);
-  visit("horizontal_force_N", c.load.horizontal_force);
-  visit("torque_N_m", c.load.torque);
-  visit("body_force_N_per_m3", c.load.body_force);
-  visit("hole_pressure_Pa", c.load.hole_pressure);
-  visit("positions", c.load.positions);
+  visit("load_case", c.load_case);
+  load_fields(c.load, visit);
 }
 
 template <class Visit>
@@ -122,7 +132,8 @@ struct Writer {
   Json& json;
 
   void operator()(const char* key, const auto& value) { json[key] = value; }
-  void operator()(const char* key, const std::optional<double>& value) {
+  template <class T>
+  void operator()(const char* key, const std::optional<T>& value) {
     if (value) json[key] = *value;
   }
   void operator()(const char* key, Fill fill) { json[key] = fill == Fill::hole ? "hole" : "material"; }
@@ -138,7 +149,8 @@ struct Reader {
     if (!read(json[key], value)) complain("{}: is not what belongs there", key);
     json.erase(key);
   }
-  void operator()(const char* key, std::optional<double>& value) {
+  template <class T>
+  void operator()(const char* key, std::optional<T>& value) {
     if (json.contains(key)) (*this)(key, value.emplace());
   }
 
@@ -201,6 +213,12 @@ Expected<Command, Refusal> parsed(const std::string& name, Json& json) {
 }
 
 }  // namespace
+
+std::string load_json(const Load& load) {
+  Json json = Json::object();
+  load_fields(load, Writer{json});
+  return json.dump();
+}
 
 std::string command_json(const Command& command) {
   Json json;

@@ -10,6 +10,9 @@ namespace wheelwright {
 /// A command as one line of JSON, which reads back to the same command. A Custom command is only named.
 std::string command_json(const Command& command);
 
+/// The members of a NewLoad that are its load, as an object.
+std::string load_json(const Load& load);
+
 /// A command from JSON, or what is wrong with the text. Numbers must be finite, a path has at most
 /// most_path_points points, and no other keys are taken. Whether a run obeys is another question.
 Expected<Command, Refusal> parse_command(std::string_view json);

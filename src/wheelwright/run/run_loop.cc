@@ -318,6 +318,7 @@ void RunLoop<dim>::observe(const Trial<dim>& trial, const OptimizationState<dim>
   } else if (trial.verdict == Verdict::failed) {
     failed_trials_.push_back(trial);
     failed_trials_.back().solution.reset();
+    failed_trials_.back().other_solutions.clear();
   }
   notify(TrialDone<dim>{trial, state, seconds});
   elapsed_ += watch_.lap();
@@ -422,9 +423,9 @@ void RunLoop<dim>::search_anew() {
 
 template <int dim>
 std::optional<Refusal> RunLoop<dim>::change_case(const Case& changed, const std::string& what) {
-  Past before = present();
+  Past past = before(what);
   if (auto refusal = work_on(changed, state_->shape, what)) return refusal;
-  remember(std::move(before));
+  remember(std::move(past));
   return {};
 }
 
@@ -442,9 +443,9 @@ std::optional<Refusal> RunLoop<dim>::draw(std::span<const Stroke> strokes, const
       drawn_over(state_->shape, strokes, work_->optimizer.evolver(),
                  work_->study.optimizer.largest_island * sector_measure<dim>(work_->study.grid()));
   if (!shape) return shape.failure();
-  Past before = present();
+  Past past = before(what);
   if (auto refusal = replace_shape(*shape, what)) return refusal;
-  remember(std::move(before));
+  remember(std::move(past));
   return {};
 }
 
@@ -452,29 +453,32 @@ template <int dim>
 std::optional<Refusal> RunLoop<dim>::take_shape(const std::filesystem::path& file, const std::string& what) {
   const auto shape = shape_of_file(file, state_->shape.lattice, work_->optimizer.evolver());
   if (!shape) return shape.failure();
-  Past before = present();
+  Past past = before(what);
   if (auto refusal = replace_shape(*shape, what)) return refusal;
-  remember(std::move(before));
+  remember(std::move(past));
   return {};
 }
 
 template <int dim>
 std::optional<Refusal> RunLoop<dim>::reset() {
-  Past before = present();
-  if (auto refusal = replace_shape(initial_->shape, "back to the initial shape")) return refusal;
-  remember(std::move(before));
+  const std::string what = "back to the initial shape";
+  Past past = before(what);
+  if (auto refusal = replace_shape(initial_->shape, what)) return refusal;
+  remember(std::move(past));
   return {};
 }
 
 template <int dim>
-std::optional<Refusal> RunLoop<dim>::undo() {
+Expected<std::string, Refusal> RunLoop<dim>::undo() {
   if (past_.empty()) return Refusal{"there is nothing to undo"};
   const Past& last = past_.back();
   const std::string what = "undo";
-  auto refusal = last.source == work_->study.source ? replace_shape(last.shape, what)
-                                                    : work_on(last.source, last.shape, what);
-  if (!refusal) past_.pop_back();
-  return refusal;
+  if (auto refusal = last.source == work_->study.source ? replace_shape(last.shape, what)
+                                                        : work_on(last.source, last.shape, what))
+    return *std::move(refusal);
+  std::string change = std::move(past_.back().change);
+  past_.pop_back();
+  return change;
 }
 
 template <int dim>

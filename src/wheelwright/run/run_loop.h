@@ -43,14 +43,15 @@ class RunLoop : private RunControl {
   std::optional<Refusal> draw(std::span<const Stroke> strokes, const std::string& what) override;
   std::optional<Refusal> take_shape(const std::filesystem::path& file, const std::string& what) override;
   std::optional<Refusal> reset() override;
-  std::optional<Refusal> undo() override;
+  Expected<std::string, Refusal> undo() override;
 
   /// What a command to undo brings back.
   struct Past {
     Case source;
     LevelSet<dim> shape;
+    std::string change;  ///< that it is before, for people
   };
-  Past present() const { return {work_->study.source, state_->shape}; }
+  Past before(const std::string& change) const { return {work_->study.source, state_->shape, change}; }
   void remember(Past past);
   void search_anew();
   std::optional<Refusal> work_on(const Case& changed, const LevelSet<dim>& shape, const std::string& what);

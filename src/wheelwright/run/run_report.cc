@@ -215,7 +215,7 @@ void add_fields(const Case& c, const SolvedShape<2>& last, ReportRun<2>& run) {
   });
 }
 
-/// The page holds no more fields of one load.
+/// The page holds no more fields of one load of a wheel in 3D.
 constexpr double most_page_bytes = 8e6;
 
 /// Bytes that the fields of so many positions take in the page.
@@ -229,6 +229,20 @@ struct LitWheel {
   std::vector<SurfacePosition> positions;
 };
 
+/// The surface, as fine as the page holds it with so many positions, but at least with one cube per cell.
+SurfaceMesh page_surface(const SolvedShape<3>& last, int positions) {
+  const int degree = last.solver->model().degree;
+  SurfaceMesh surface = shape_boundary(*last.shape, degree);
+  return page_bytes(surface, positions) > most_page_bytes ? material_surface(*last.shape, 1, degree)
+                                                          : surface;
+}
+
+template <class Points>
+SurfacePosition on_points(const PositionFields<3>& fields, const Points& points) {
+  return {fields.ground_azimuth, points.values({"displacement", "m", fields.displacement}),
+          points.values(von_mises_field(fields.stress))[0]};
+}
+
 /// The fields of all positions at the vertices of a surface; where they are too many for the page, those of
 /// the worst position.
 std::vector<SurfacePosition> lit_positions(const SurfaceMesh& surface, const StateSolver<3>& solver,
@@ -238,19 +252,14 @@ std::vector<SurfacePosition> lit_positions(const SurfaceMesh& surface, const Sta
   const auto points = field_points(surface, displacement_lattice(solver.model()));
   std::vector<SurfacePosition> positions;
   for_each_position<3>(solver, solution, [&](int position, const PositionFields<3>& fields) {
-    if (!all && position != worst) return;
-    positions.push_back({fields.ground_azimuth, points.values({"displacement", "m", fields.displacement}),
-                         points.values(von_mises_field(fields.stress))[0]});
+    if (all || position == worst) positions.push_back(on_points(fields, points));
   });
   return positions;
 }
 
-/// The surface, as fine as the page holds it with all positions, or else with one cube per cell.
+/// With all positions where the page holds them, else with the worst one.
 LitWheel lit_wheel(const SolvedShape<3>& last) {
-  const int degree = last.solver->model().degree, n_positions = last.solver->model().n_positions;
-  LitWheel wheel{shape_boundary(*last.shape, degree), {}};
-  if (page_bytes(wheel.surface, n_positions) > most_page_bytes)
-    wheel.surface = material_surface(*last.shape, 1, degree);
+  LitWheel wheel{page_surface(last, last.solver->model().n_positions), {}};
   wheel.positions = lit_positions(wheel.surface, *last.solver, *last.solution);
   return wheel;
 }
@@ -339,19 +348,22 @@ ReportRun<dim> report_without_results(const fs::path& folder, const Case& c, Sto
 }
 
 template <int dim>
-std::string loaded_wheel(const SolvedShape<dim>& solved) {
+std::string loaded_wheel(const SolvedShape<dim>& solved, int position) {
+  const PositionFields<dim> fields = position_fields(*solved.solver, *solved.solution, position);
   if constexpr (dim == 2) {
-    return loaded_wheel_json(*solved.shape, all_position_fields(*solved.solver, *solved.solution));
+    return loaded_wheel_json(*solved.shape, std::span(&fields, 1));
   } else {
-    const LitWheel wheel = lit_wheel(solved);
-    return loaded_wheel_json(wheel.surface, wheel.positions);
+    const SurfaceMesh surface = page_surface(solved, 1);
+    const SurfacePosition on_surface =
+        on_points(fields, field_points(surface, displacement_lattice(solved.solver->model())));
+    return loaded_wheel_json(surface, std::span(&on_surface, 1));
   }
 }
 
 template ReportRun<2> report_without_results(const fs::path&, const Case&, StopReason);
 template ReportRun<3> report_without_results(const fs::path&, const Case&, StopReason);
-template std::string loaded_wheel(const SolvedShape<2>&);
-template std::string loaded_wheel(const SolvedShape<3>&);
+template std::string loaded_wheel(const SolvedShape<2>&, int);
+template std::string loaded_wheel(const SolvedShape<3>&, int);
 template ReportRun<2> report_of_folder(const fs::path&, const Case&);
 template ReportRun<3> report_of_folder(const fs::path&, const Case&);
 template ReportRun<2> report_of_results(const fs::path&, const Case&, const RunSummary<2>&,

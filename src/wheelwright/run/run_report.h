@@ -30,9 +30,9 @@ struct SolvedShape {
   const State<dim>* solution;
 };
 
-/// The loaded wheel in its load positions, as the page holds it.
+/// The loaded wheel in one of its load positions, as the page holds it.
 template <int dim>
-std::string loaded_wheel(const SolvedShape<dim>& solved);
+std::string loaded_wheel(const SolvedShape<dim>& solved, int position);
 
 /// What is known of a run that ended, with its last shape. `reason` is absent where it is not known to have
 /// ended.

@@ -31,7 +31,7 @@ void Board<dim>::show(std::shared_ptr<const WatchedShape<dim>> shape) {
     view.proposed.reset();
     if (!view.first) view.first = shape;
     view.shape = std::move(shape);
-    point.version = view.version + 1;
+    point.version = view.shape_version = view.version + 1;
     curve_.push_back(point);
     if (curve_.size() > most_points) curve_.pop_front();
   });

@@ -10,22 +10,26 @@
 #include <vector>
 
 #include "wheelwright/case/case.h"
+#include "wheelwright/optimize/constraints.h"
 #include "wheelwright/optimize/optimizer.h"
-#include "wheelwright/state/state.h"
+#include "wheelwright/state/load_case.h"
 
 namespace wheelwright {
 
-/// A shape of a run with its solution, for those who show it. Immutable.
+/// A shape of a run with its solutions, for those who show it. Immutable.
 template <int dim>
 struct WatchedShape {
   std::shared_ptr<const Case> source;
-  std::shared_ptr<const StateSolver<dim>> solver;  ///< which the solution needs
-  std::shared_ptr<const State<dim>> solution;
+  std::shared_ptr<const StateSolver<dim>> solver;  ///< which the solutions need
+  std::shared_ptr<const LoadCases<dim>> load_cases;
+  StatesOfCases<dim> solutions;  ///< one for each load case, and at least one
   LevelSet<dim> psi;
   int number;  ///< of the accepted shape
   double objective;
   std::vector<TermValue> terms;
   std::vector<MeasureValue> measures;
+  std::vector<BoundState> bounds;
+  double initial_objective;        ///< of the initial shape under the same case
   double measure, target_measure;  ///< of one sector [m^2], or [m^3] when dim = 3
 };
 
@@ -45,7 +49,8 @@ constexpr const char* to_string(Activity activity) {
 /// What a run looks like now.
 template <int dim>
 struct BoardView {
-  long version = 0;  ///< grows with every change
+  long version = 0;        ///< grows with every change
+  long shape_version = 0;  ///< with which the shape came
   std::shared_ptr<const WatchedShape<dim>> shape, first;
   std::shared_ptr<const LevelSet<dim>> proposed;  ///< drawn by a command, and not solved yet; mostly null
   Activity activity = Activity::starting;

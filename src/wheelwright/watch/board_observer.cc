@@ -4,7 +4,8 @@ namespace wheelwright {
 
 template <int dim>
 void BoardObserver<dim>::operator()(const Event<dim>& event, const RunView<dim>& run) {
-  if (std::holds_alternative<CaseChanged>(event)) source_.reset();
+  if (std::holds_alternative<CaseChanged>(event) || std::holds_alternative<GridChanged>(event))
+    source_.reset();
   if (const auto* done = std::get_if<TrialDone<dim>>(&event))
     if (done->trial.verdict == Verdict::accepted && done->trial.solution) show(*done, run);
   if (const auto* proposed = std::get_if<ShapeProposed<dim>>(&event))
@@ -37,17 +38,25 @@ void BoardObserver<dim>::operator()(const Event<dim>& event, const RunView<dim>&
 
 template <int dim>
 void BoardObserver<dim>::show(const TrialDone<dim>& done, const RunView<dim>& run) {
-  if (!source_) source_ = std::make_shared<const Case>(run.study.source);
+  if (!source_) {
+    source_ = std::make_shared<const Case>(run.study.source);
+    load_cases_ = std::make_shared<const LoadCases<dim>>(run.study.load_cases);
+  }
   const OptimizationState<dim>& state = done.state;
+  StatesOfCases<dim> solutions{done.trial.solution};
+  solutions.insert(solutions.end(), done.trial.other_solutions.begin(), done.trial.other_solutions.end());
   auto shape = std::make_shared<WatchedShape<dim>>(
       WatchedShape<dim>{.source = source_,
                         .solver = run.study.solver,
-                        .solution = done.trial.solution,
+                        .load_cases = load_cases_,
+                        .solutions = std::move(solutions),
                         .psi = state.shape,
                         .number = state.iteration,
                         .objective = state.evaluation.function("objective").value,
                         .terms = state.evaluation.terms,
                         .measures = state.evaluation.measures,
+                        .bounds = bound_states(state.evaluation, {}),
+                        .initial_objective = run.initial->objective,
                         .measure = state.measure,
                         .target_measure = state.target_measure});
   if (board_->view().activity == Activity::starting)

@@ -20,6 +20,7 @@ class BoardObserver : public Observer<dim> {
 
   std::shared_ptr<Board<dim>> board_;
   std::shared_ptr<const Case> source_;  ///< as long as it does not change
+  std::shared_ptr<const LoadCases<dim>> load_cases_;
 };
 
 }  // namespace wheelwright

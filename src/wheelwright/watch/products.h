@@ -17,10 +17,10 @@ struct NoProduct {
   std::string reason;
 };
 
-/// The shape with its solution, for reports.
+/// The shape with its solution under a load case, for reports.
 template <int dim>
-SolvedShape<dim> solved(const WatchedShape<dim>& shape) {
-  return {&shape.psi, shape.solver.get(), shape.solution.get()};
+SolvedShape<dim> solved(const WatchedShape<dim>& shape, int load_case = 0) {
+  return {&shape.psi, shape.solver.get(), shape.solutions[load_case].get()};
 }
 
 /// The shape in a format of the command `export`, with its default tolerance, after the same checks.

@@ -37,6 +37,13 @@ PageAnswer message(int status, bool was_obeyed, const std::string& text) {
           .body = json.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace)};
 }
 
+/// The load case that a page asks for, the first where there is no such one.
+template <int dim>
+int asked_load_case(const PageRequest& request, const WatchedShape<dim>& shape) {
+  const long load_case = parameter(request, "case");
+  return load_case < static_cast<long>(shape.solutions.size()) ? static_cast<int>(load_case) : 0;
+}
+
 PageAnswer no_shape() { return message(409, false, "there is no shape yet"); }
 
 Route asset(Route::Access access, std::string path, std::string type, std::string_view content) {
@@ -62,6 +69,7 @@ template <int dim>
 WatchSession<dim>::WatchSession(CommandQueue& commands, OfferedDesigns designs)
     : designs_(std::move(designs)),
       board_(std::make_shared<Board<dim>>()),
+      numbers_(std::make_shared<WatchedNumbers<dim>>()),
       commands_(std::make_shared<PageCommands>(commands)) {}
 
 template <int dim>
@@ -84,9 +92,11 @@ std::vector<Route> WatchSession<dim>::routes() {
           asset(open, "/chart.js", script, assets::chart_js),
           asset(open, "/three.js", script, assets::three_js),
           asset(open, "/parts.js", script, assets::parts_js),
+          asset(open, "/stage.js", script, assets::stage_js),
           asset(open, "/watch.js", script, assets::watch_js),
           {get, token, "/frame", [this](const PageRequest& request) { return frame(request); }},
-          {get, token, "/loaded", [this](const PageRequest&) { return loaded(); }},
+          {get, token, "/loaded", [this](const PageRequest& request) { return loaded(request); }},
+          {get, token, "/numbers", [this](const PageRequest& request) { return numbers(request); }},
           {get, token, "/export", [this](const PageRequest& request) { return exported_file(request); }},
           {get, token, "/report", [this](const PageRequest&) { return report(); }},
           {post, token, "/save", [this](const PageRequest& request) { return save(request); }},
@@ -104,7 +114,9 @@ void WatchSession<dim>::close() {
 template <int dim>
 PageAnswer WatchSession<dim>::frame(const PageRequest& request) const {
   const FrameQuery query{.position = static_cast<int>(std::min(parameter(request, "position"), 1000L)),
-                         .wants_force_curve = parameter(request, "force_curve") > 0};
+                         .load_case = static_cast<int>(std::min(parameter(request, "case"), 1000L)),
+                         .wants_force_curve = parameter(request, "force_curve") > 0,
+                         .wants_initial_outline = parameter(request, "curve") == 0};
   const BoardView<dim> view = board_->view_after(parameter(request, "after"), patience);
   return {.body = frame_json(view, board_->curve_after(parameter(request, "curve")), query)};
 }
@@ -136,10 +148,19 @@ PageAnswer WatchSession<dim>::obeyed(Command command) {
 }
 
 template <int dim>
-PageAnswer WatchSession<dim>::loaded() const {
+PageAnswer WatchSession<dim>::loaded(const PageRequest& request) const {
   const BoardView<dim> view = board_->view();
   if (!view.shape) return no_shape();
-  return {.body = loaded_wheel(solved(*view.shape))};
+  const int load_case = asked_load_case(request, *view.shape), n = view.shape->solver->model().n_positions,
+            position = static_cast<int>(parameter(request, "position") % n);
+  return {.body = loaded_json(view, load_case, position)};
+}
+
+template <int dim>
+PageAnswer WatchSession<dim>::numbers(const PageRequest& request) const {
+  const BoardView<dim> view = board_->view();
+  if (!view.shape) return no_shape();
+  return {.body = numbers_->json(view, asked_load_case(request, *view.shape))};
 }
 
 template <int dim>

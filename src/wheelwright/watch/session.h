@@ -8,6 +8,7 @@
 #include "wheelwright/server/local_server.h"
 #include "wheelwright/watch/board.h"
 #include "wheelwright/watch/designs.h"
+#include "wheelwright/watch/numbers.h"
 #include "wheelwright/watch/page_commands.h"
 
 namespace wheelwright {
@@ -36,7 +37,8 @@ class WatchSession {
  private:
   PageAnswer frame(const PageRequest& request) const;
   PageAnswer command(const PageRequest& request);
-  PageAnswer loaded() const;
+  PageAnswer loaded(const PageRequest& request) const;
+  PageAnswer numbers(const PageRequest& request) const;
   PageAnswer exported_file(const PageRequest& request) const;
   PageAnswer report() const;
   PageAnswer save(const PageRequest& request) const;
@@ -46,6 +48,7 @@ class WatchSession {
   std::filesystem::path folder_;  ///< of the run
   OfferedDesigns designs_;
   std::shared_ptr<Board<dim>> board_;
+  std::shared_ptr<WatchedNumbers<dim>> numbers_;
   std::shared_ptr<PageCommands> commands_;
 };
 

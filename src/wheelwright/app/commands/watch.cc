@@ -12,7 +12,7 @@
 #include "wheelwright/app/run_messages.h"
 #include "wheelwright/app/shared_options.h"
 #include "wheelwright/app/terminal.h"
-#include "wheelwright/app/terminal_observer.h"
+#include "wheelwright/app/watch_status.h"
 #include "wheelwright/files/path_queries.h"
 #include "wheelwright/run/command_log.h"
 #include "wheelwright/server/local_server.h"
@@ -67,7 +67,7 @@ class WatchCommand : public Subcommand {
       auto run = is_run ? Run<dim>::resume(*c, folder) : Run<dim>::begin(watched_case(*c), folder);
       if (!run) return report_not_begun<dim>(run.failure(), folder);
       if (is_run) report_resumption(run->resumption(), folder);
-      tell_on_terminal(*run, Detail::progress);
+      run->add(std::make_unique<WatchStatus<dim>>(stderr));
       commands_.add_source([&signals] { return signals.next_command(); });
       return replay_ ? replay(*run, signals) : serve(*run, signals);
     });

@@ -65,12 +65,13 @@ const parts = (() => {
 
   const vertexShader = `
     attribute vec2 place; attribute float dx, dy, stress;
-    uniform float magnified, scale; uniform vec2 turn;
+    uniform float magnified, ground, share; uniform vec2 scale, middle, turn;
     varying float value;
     void main() {
       vec2 p = place + magnified * vec2(dx, dy);
-      gl_Position = vec4(scale * vec2(turn.x * p.x - turn.y * p.y, turn.y * p.x + turn.x * p.y), 0.0, 1.0);
-      value = stress;
+      vec2 q = vec2(turn.x * p.x - turn.y * p.y, max(turn.y * p.x + turn.x * p.y, ground));
+      gl_Position = vec4(scale * (q - middle), 0.0, 1.0);
+      value = min(1.0, share * stress);
     }`;
   const fragmentShader = `
     precision mediump float; varying float value; uniform sampler2D colours;
@@ -95,25 +96,42 @@ const parts = (() => {
     return made;
   }
 
-  // Draws the wheel with the ground below: a function of the position and the magnification.
+  // Draws the wheel with the ground below: a function of the position, the magnification, the colouring (always the stress)
+  // and the view: `width` and
+  // `height` of the canvas, pixels per metre (`scale`), what is in its middle (`x`, `y`), how low the ground lies, and the
+  // stress at the end of the colours (`brightest`). Without a view the whole wheel is seen in a square.
   function wheelPainter(canvas, run) {
     const gl = canvas.getContext("webgl", { antialias: true, preserveDrawingBuffer: true });
     if (!gl || !gl.getExtension("OES_element_index_uint")) return null;
-    const mesh = wheelMesh(run), p = program(gl);
+    const p = program(gl);
     gl.useProgram(p);
+    let mesh = null, corners = null, places = null, fields = [], full = 0, full_stress = 0, buffers = [];
+    const filled = (target, content) => {
+      buffers.push(buffer(gl, target, content));
+      return buffers.at(-1);
+    };
     const attribute = (name, content, size, type, normalized) => {
-      const place = gl.getAttribLocation(p, name), made = buffer(gl, gl.ARRAY_BUFFER, content);
+      const place = gl.getAttribLocation(p, name), made = filled(gl.ARRAY_BUFFER, content);
       return () => {
         gl.bindBuffer(gl.ARRAY_BUFFER, made);
         gl.enableVertexAttribArray(place);
         gl.vertexAttribPointer(place, size, type, normalized, 0, 0);
       };
     };
-    const corners = buffer(gl, gl.ELEMENT_ARRAY_BUFFER, mesh.corners);
-    const places = attribute("place", mesh.places, 2, gl.FLOAT, false);
-    const fields = mesh.positions.map((position) => [
-      attribute("dx", position.x, 1, gl.SHORT, true), attribute("dy", position.y, 1, gl.SHORT, true),
-      attribute("stress", position.stress, 1, gl.UNSIGNED_BYTE, true)]);
+    // Takes another shape of the same wheel; it is seen when it is painted.
+    const take = (of) => {
+      for (const old of buffers) gl.deleteBuffer(old);
+      buffers = [];
+      mesh = wheelMesh({ ...run, fields: of });
+      full = of.full_displacement_m;
+      full_stress = of.full_stress_Pa;
+      corners = filled(gl.ELEMENT_ARRAY_BUFFER, mesh.corners);
+      places = attribute("place", mesh.places, 2, gl.FLOAT, false);
+      fields = mesh.positions.map((position) => [
+        attribute("dx", position.x, 1, gl.SHORT, true), attribute("dy", position.y, 1, gl.SHORT, true),
+        attribute("stress", position.stress, 1, gl.UNSIGNED_BYTE, true)]);
+    };
+    take(run.fields);
     const texture = gl.createTexture(), ramp = new Uint8Array(4 * 256);
     for (let k = 0; k < 256; ++k) {
       const at = k / 255 * (viridis.length - 1), low = Math.min(Math.floor(at), viridis.length - 2);
@@ -126,11 +144,15 @@ const parts = (() => {
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE);
     const uniform = (name) => gl.getUniformLocation(p, name);
-    const full = run.fields.full_displacement_m;
-    return (index, magnified) => {
+    const square = () => {
       const size = Math.min(1200, Math.round(canvas.clientWidth * (window.devicePixelRatio || 1))) || 600;
-      if (canvas.width !== size) canvas.width = canvas.height = size;
-      gl.viewport(0, 0, size, size);
+      return { width: size, height: size, scale: 0.45 * size / run.outer_radius_m, x: 0, y: 0, ground: -1e9 };
+    };
+    const paint = (index, magnified, colouring, view = square()) => {
+      const { width, height } = view;
+      if (canvas.width !== width) canvas.width = width;
+      if (canvas.height !== height) canvas.height = height;
+      gl.viewport(0, 0, width, height);
       gl.clearColor(0, 0, 0, 0);
       gl.clear(gl.COLOR_BUFFER_BIT);
       places();
@@ -138,10 +160,14 @@ const parts = (() => {
       const turn = -Math.PI / 2 - mesh.positions[index].azimuth;  // the ground's azimuth points down
       gl.uniform2f(uniform("turn"), Math.cos(turn), Math.sin(turn));
       gl.uniform1f(uniform("magnified"), magnified * full);
-      gl.uniform1f(uniform("scale"), 0.9 / run.outer_radius_m);
+      gl.uniform2f(uniform("scale"), 2 * view.scale / width, 2 * view.scale / height);
+      gl.uniform2f(uniform("middle"), view.x, view.y);
+      gl.uniform1f(uniform("ground"), view.ground);
+      gl.uniform1f(uniform("share"), view.brightest ? Math.sqrt(full_stress / view.brightest) : 1);
       gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, corners);
       gl.drawElements(gl.TRIANGLES, mesh.corners.length, gl.UNSIGNED_INT, 0);
     };
+    return Object.assign(paint, { take });
   }
 
   // --- The lit surface of a wheel in 3D ---------------------------------------------------------------
@@ -170,12 +196,13 @@ const parts = (() => {
         }
         corners[s * triangles.length + k] = known.get(key);
       }
-    const positions = fields.positions.map((p) => ({
-      azimuth: p.azimuth_rad, stress: bytes(p.root_of_stress),
-      displacement: [p.x, p.y, p.z].map((text) => new Int16Array(bytes(text).buffer)),
-    }));
-    return { places, sources, corners, positions };
+    return { places, sources, corners, positions: surfacePositions(fields) };
   }
+
+  const surfacePositions = (fields) => fields.positions.map((p) => ({
+    azimuth: p.azimuth_rad, stress: bytes(p.root_of_stress),
+    displacement: [p.x, p.y, p.z].map((text) => new Int16Array(bytes(text).buffer)),
+  }));
 
   // What the colours can stand for: a share in [0, 1] at a vertex, and the value at the scale's end.
   function colourings(run, surface) {
@@ -208,11 +235,15 @@ const parts = (() => {
       { vertexColors: THREE.VertexColors, shininess: 25, specular: 0x222222 }));
     let surface = null, full = 0, places = null, colours = null;
     const kinds = {};
-    // Takes another shape of the same wheel; it is seen when it is painted.
+    // Takes another shape of the same wheel, or other load positions of the shape; they are seen when they are painted.
+    let taken = {};
     const take = (fields) => {
-      surface = wheelSurface({ ...run, fields });
+      const isSame = fields.points === taken.points && fields.triangles === taken.triangles;
+      taken = fields;
+      surface = isSame ? { ...surface, positions: surfacePositions(fields) } : wheelSurface({ ...run, fields });
       full = fields.full_displacement_m / 32767;
       Object.assign(kinds, colourings({ fields }, surface));
+      if (isSame) return;
       places = new Float32Array(3 * surface.sources.length);
       colours = new Float32Array(3 * surface.sources.length);
       wheel.geometry.dispose();
@@ -236,24 +267,25 @@ const parts = (() => {
     camera.position.z = 5;
     const view = { yaw: -0.6, pitch: 0.25, size: 1 };
     const draw = () => {
-      const pixels = Math.min(1200, Math.round(canvas.clientWidth * (window.devicePixelRatio || 1))) || 600;
-      renderer.setSize(pixels, pixels, false);
-      const half = 1.2 / view.size;
-      Object.assign(camera, { left: -half, right: half, top: half, bottom: -half });
+      const ratio = window.devicePixelRatio || 1, width = Math.min(1600, Math.round(canvas.clientWidth * ratio)) || 600,
+            height = Math.round(width * (canvas.clientHeight / canvas.clientWidth || 1));
+      renderer.setSize(width, height, false);
+      const half = 1.2 / view.size / Math.min(width, height);
+      Object.assign(camera, { left: -half * width, right: half * width, top: half * height, bottom: -half * height });
       camera.updateProjectionMatrix();
       turned.rotation.set(view.pitch, view.yaw, 0);
       turned.scale.setScalar(1 / radius);
       ground.material.color.set(colour("--quiet"));
       renderer.render(scene, camera);
     };
-    const paint = (index, magnified, kind) => {
+    const paint = (index, magnified, kind, brightened = 1) => {
       const position = surface.positions[index], { share } = kinds[kind], factor = magnified * full;
       const [dx, dy, dz] = position.displacement;
       surface.sources.forEach((v, k) => {
         places[3 * k] = surface.places[3 * v] + factor * dx[v];
         places[3 * k + 1] = surface.places[3 * v + 1] + factor * dy[v];
         places[3 * k + 2] = surface.places[3 * v + 2] + factor * dz[v];
-        const at = share(position, v) * (viridis.length - 1), low = Math.min(Math.floor(at), viridis.length - 2);
+        const at = Math.min(1, brightened * share(position, v)) * (viridis.length - 1), low = Math.min(Math.floor(at), viridis.length - 2);
         for (let c = 0; c < 3; ++c)
           colours[3 * k + c] = (viridis[low][c] + (at - low) * (viridis[low + 1][c] - viridis[low][c])) / 255;
       });
@@ -268,7 +300,11 @@ const parts = (() => {
       draw();
     };
     const resize = (factor) => {
-      view.size = Math.max(0.5, Math.min(20, view.size * factor));
+      view.size = Math.max(0.5, Math.min(40, view.size * factor));
+      draw();
+    };
+    const fit = () => {
+      Object.assign(view, { yaw: -0.6, pitch: 0.25, size: 1 });
       draw();
     };
     canvas.tabIndex = 0;
@@ -298,7 +334,7 @@ const parts = (() => {
       if (step) turn(...step);
       else resize(factor);
     });
-    return Object.assign(paint, { kinds, take });
+    return Object.assign(paint, { kinds, take, draw, resize, fit });
   }
 
   // The ground, flat and solid. Near the contact, magnified displacements take the tread a little below it.
@@ -362,12 +398,13 @@ const parts = (() => {
     const data = (of) => of.map(({ name, x, y }, k) => ({
       label: name, data: x ? x.map((value, i) => ({ x: value, y: y[i] })) : y,
       borderColor: curveColours[k % curveColours.length], backgroundColor: options.colours ??
-        curveColours[k % curveColours.length], borderWidth: options.bars ? 0 : 2,
-      pointRadius: y.length > 30 ? 0 : 2.5, pointHitRadius: 8 }));
+        curveColours[k % curveColours.length], borderWidth: options.bars ? 0 : options.compact ? 1.5 : 2,
+      pointRadius: options.compact || y.length > 30 ? 0 : 2.5, pointHitRadius: 8 }));
     let drawn = null;
     const start = () => {
-      const axis = (text) => ({ title: { display: true, text, color: colour("--quiet") },
-        ticks: { color: colour("--quiet") }, grid: { color: colour("--line") } });
+      const small = options.compact ? { font: { size: 10 }, maxTicksLimit: 4, maxRotation: 0, includeBounds: false } : {};
+      const axis = (text) => ({ title: { display: !options.compact, text, color: colour("--quiet") },
+        ticks: { color: colour("--quiet"), ...small }, grid: { color: colour("--line") } });
       drawn = new Chart(canvas, {
         type: options.bars ? "bar" : "line",
         data: { labels: options.labels, datasets: data(curves) },
@@ -383,6 +420,10 @@ const parts = (() => {
         else drawn.data.datasets.push(dataset);
       });
       drawn.data.datasets.length = of.length;
+      if (options.compact) {
+        const x = of.flatMap((one) => one.x);
+        Object.assign(drawn.options.scales.x, { min: Math.min(...x), max: Math.max(...x) });
+      }
       drawn.update("none");
     };
     // In the colours that hold now.
@@ -393,6 +434,6 @@ const parts = (() => {
     return { figure, start, update, recolour };
   }
 
-  return { colour, curveColours, degree, element, shown, change, minutes, viridis, gradient, wheelPainter,
+  return { bytes, colour, curveColours, degree, element, shown, change, minutes, viridis, gradient, wheelPainter,
     surfacePainter, drawGround, roundMagnification, wheelPath, paintWheel, chart };
 })();

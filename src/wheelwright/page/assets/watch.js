@@ -1,8 +1,7 @@
 "use strict";
 (() => {
-  const { colour, degree, element, shown, wheelPath, paintWheel, chart } = parts;
+  const { colour, element, shown, change, chart, gradient } = parts;
   const at = (id) => document.getElementById(id);
-  const micrometre = 1e-6;
 
   // --- The server -------------------------------------------------------------------------------------
 
@@ -44,56 +43,244 @@
   let frame = null;   // the newest view of the run
   const curve = [];   // [shape, objective, mean travel, run-out, volume fraction] of the shapes so far
   const mostPoints = 4000;
-
-  const states = { starting: "computing the first shape", computing: "optimizing", paused: "paused",
-    settled: "no better shape is near; any change goes on from here", ended: "the run has ended" };
-
   const wheel = at("wheel");
+  const isSolid = () => frame?.wheel?.dimension === 3;
+  const pause = (milliseconds) => new Promise((done) => setTimeout(done, milliseconds));
+  const pressed = (id) => at(id).getAttribute("aria-pressed") === "true";
+  const press = (id, on) => at(id).setAttribute("aria-pressed", String(on));
 
-  function scale() {
-    const { outer_radius_m } = frame.wheel;
-    return 0.47 * wheel.width / outer_radius_m;  // pixels per metre
+  const icons = {
+    go: "M7 5v14M17 5v14", continue: "M7 4l12 8-12 8z", step: "M6 5l9 7-9 7zM18 5v14",
+    undo: "M9 7L4 12l5 5M4 12h10a6 6 0 0 1 0 8", reset: "M5 12a7 7 0 1 0 2-5M5 3v5h5",
+    load: "M12 3v11M7 10l5 5 5-5M4 20h16", roll: "M12 5a8 8 0 1 1-7 4M5 4v5h5", ghost: "M12 4a8 8 0 1 0 0 16a8 8 0 1 0 0-16",
+    fit: "M4 9V4h5M15 4h5v5M20 15v5h-5M9 20H4v-5",
+    look: "M2 12s4-7 10-7 10 7 10 7-4 7-10 7S2 12 2 12zM12 9a3 3 0 1 0 0 6a3 3 0 1 0 0-6",
+    move: "M12 3v18M3 12h18M9 6l3-3 3 3M9 18l3 3 3-3M6 9l-3 3 3 3M18 9l3 3-3 3",
+    resize: "M14 4h6v6M20 4l-7 7M10 20H4v-6M4 20l7-7", add: "M12 3a9 9 0 1 0 0 18a9 9 0 1 0 0-18M12 8v8M8 12h8",
+    fill: "M12 3a9 9 0 1 0 0 18a9 9 0 1 0 0-18M9 9l6 6M15 9l-6 6",
+    paint: "M4 20c4 0 5-2 5-4M9 16L19 4l2 2L11 17z", erase: "M5 15l9-10 6 6-8 9H8zM9 10l6 6",
+  };
+  function icon(name) {
+    const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+    svg.setAttribute("viewBox", "0 0 24 24");
+    svg.setAttribute("aria-hidden", "true");
+    const path = document.createElementNS(svg.namespaceURI, "path");
+    path.setAttribute("d", icons[name]);
+    svg.append(path);
+    return svg;
   }
+  function label(id, iconName, text) {
+    if (at(id).dataset.icon === iconName) return;
+    at(id).dataset.icon = iconName;
+    at(id).replaceChildren(icon(iconName), element("span", {}, text));
+  }
+  for (const [id, text] of [["step", "Step"], ["undo", "Undo"], ["reset", "Reset"], ["load", "Load"], ["roll", "Roll"],
+    ["ghost", "Before"], ["fit", "Fit"]]) label(id, id, text);
+
+  // --- The wheel --------------------------------------------------------------------------------------
+
+  // The loaded wheel is asked for at the pace at which the page can show it, at most ten times a second: the newest shape,
+  // at the next load position while it rolls. Edges are painted with every shape.
+  const betweenPictures = 100;  // ms
+  let scene = null;      // the stage of a plane wheel
+  let solid = null;      // the painter of a wheel in 3D
+  let picture = null;    // the loaded wheel that is shown, as the server answered it
+  let pictures = new Map();  // the load positions of the shape that is shown
+  let first = null;      // the edges of the initial shape
+  let picturesPainted = 0;
+  let held = false;      // whether the wheel stands still, because the user points at it
+  let loadCase = 0;
+  const peaks = [];      // the stress peaks of the last load positions, for a scale that does not flicker
+
+  const position = () => Number(at("position").value);
+  const brightest = () => Math.max(...peaks, 1e-9);
+
+  async function nextPicture() {
+    if (!frame?.wheel || document.hidden || frame.activity === "ended") return;
+    const n = frame.travel_m.length;
+    at("position").max = n - 1;
+    if (picture && pressed("roll") && !held && !edit) at("position").value = (position() + 1) % n;
+    const key = `${frame.shape_version} ${loadCase} ${position()}`;
+    if (picture?.key === key) return;
+    if (!pictures.has(key)) {
+      const loaded = await (await ask(`/loaded?position=${position()}&case=${loadCase}`)).json();
+      if (!loaded.fields) return;
+      loaded.key = `${loaded.shape_version} ${loaded.load_case} ${loaded.position}`;
+      if (pictures.size > 0 && !loaded.key.startsWith(`${picture.shape_version} ${picture.load_case} `)) pictures = new Map();
+      pictures.set(loaded.key, loaded);
+      if (held && picture && loaded.position !== picture.position) at("position").value = picture.position;
+      else await showPicture(loaded);
+    } else {
+      await showPicture(pictures.get(key));
+    }
+  }
+
+  async function showPicture(loaded) {
+    picture = loaded;
+    peaks.push(loaded.fields.full_stress_Pa);
+    if (peaks.length > loaded.n_positions) peaks.splice(0, peaks.length - loaded.n_positions);
+    if (isSolid()) await takeSolid(loaded);
+    else scene.take(loaded);
+    paint();
+    const azimuth = loaded.position * 360 / frame.wheel.sectors / loaded.n_positions;
+    at("position-text").textContent = `ground at ${azimuth.toFixed(1)}\u00b0`;
+    at("loaded-wheel").dataset.pictures = String(++picturesPainted);
+    at("loaded-wheel").dataset.position = String(loaded.position);
+    at("loaded-wheel").dataset.shape = String(loaded.shape);
+    at("loaded-wheel").dataset.case = String(loaded.load_case);
+    showLegend();
+  }
+
+  function showLegend() {
+    at("legend").hidden = false;
+    const end = brightest() * 1e-6;
+    at("scale-labels").replaceChildren(...[0, 0.25, 1].map((share) =>
+      element("span", {}, `${Number((share * end).toPrecision(3))}${share === 1 ? " MPa" : ""}`)));
+    const magnified = isSolid() ? solid?.magnified : scene.magnified;
+    at("loaded-text").textContent = `von Mises stress${magnified ? `; displacements \u00d7 ${magnified}` : "; not deformed"}`;
+  }
+  document.querySelector(".legend .scale").style.background = gradient;
+
+  const sameOutline = (a, b) => a === b || JSON.stringify(a) === JSON.stringify(b);
 
   function paint() {
-    if (!frame.outline) return;
-    const size = Math.round(wheel.clientWidth * (devicePixelRatio || 1)) || 600;
-    if (wheel.width !== size) wheel.width = wheel.height = size;
-    const context = wheel.getContext("2d"), unit = scale();
-    context.setTransform(1, 0, 0, 1, size / 2, size / 2);
-    context.clearRect(-size, -size, 2 * size, 2 * size);
-    const edges = new Path2D();
-    for (const { in_every_sector, points_um } of frame.outline)
-      edges.addPath(wheelPath([points_um], in_every_sector ? frame.wheel.sectors : 1, unit * micrometre));
-    context.lineWidth = size / 900;
-    paintWheel(context, edges, frame.wheel.inner_radius_m * unit, frame.wheel.outer_radius_m * unit);
-    paintEdit(context, unit);
+    if (isSolid()) return solid?.draw?.();
+    if (!scene || !frame.outline) return null;
+    const coloured = picture?.outline && !sameOutline(picture.outline, frame.outline) ? picture.outline : null;
+    const ghost = pressed("ghost") && first && !sameOutline(first, frame.outline) ? first : null;
+    const context = scene.paint({ outline: frame.outline, coloured, ghost, brightest: brightest() });
+    paintEdit(context);
+    at("zoom-text").textContent = `${Math.round(100 * scene.zoomed)} %`;
+    return null;
   }
+
+  async function animate() {
+    for (;;) {
+      const start = performance.now();
+      try {
+        await nextPicture();
+      } catch (error) {
+        if (error instanceof NotAllowed || frame?.activity === "ended") return;
+      }
+      const spent = performance.now() - start;
+      await pause(Math.max(betweenPictures - spent, spent, 20));
+    }
+  }
+
+  // --- A wheel in 3D ----------------------------------------------------------------------------------
+
+  const drawnWith = (address) => new Promise((done, failed) => {
+    const script = element("script", { src: address });
+    script.addEventListener("load", done);
+    script.addEventListener("error", failed);
+    document.body.append(script);
+  });
+
+  async function takeSolid(loaded) {
+    const { outer_radius_m, width_m, sectors } = frame.wheel, { fields } = loaded;
+    if (!solid) {
+      solid = { paint: null };
+      await drawnWith("/three.js");
+      const canvas = element("canvas", { id: "solid", role: "img", "aria-label":
+        "The loaded wheel as a lit surface, coloured by von Mises stress; arrow keys turn it, plus and minus change its size" });
+      at("stage").prepend(canvas);
+      at("wheel-help").textContent = "Drag the wheel to turn it; with the keys: arrows, plus and minus.";
+      solid.paint = parts.surfacePainter(canvas, { fields, outer_radius_m, width_m, sectors });
+      solid.draw = () => solid.paint?.draw();
+      if (!solid.paint) tell("this browser cannot draw in three dimensions", true);
+    } else {
+      solid.paint?.take(fields);
+    }
+    paintSolid(loaded);
+    at("stage").dataset.solid = String(loaded.shape);
+  }
+
+  function paintSolid({ fields, travel_m: travel }) {
+    const wanted = 0.03 * frame.wheel.outer_radius_m / Math.max(travel, 1e-12), before = solid.factor;
+    solid.factor = before > 0.4 * wanted && before < 1.25 * wanted ? before : parts.roundMagnification(wanted);
+    solid.magnified = pressed("load") ? solid.factor : 0;
+    solid.paint?.(0, solid.magnified, "stress", Math.sqrt(fields.full_stress_Pa / brightest()));
+  }
+
+  // --- The view ---------------------------------------------------------------------------------------
+
+  function zoom(factor, x, y) {
+    if (isSolid()) solid?.paint?.resize(factor);
+    else scene?.zoom(factor, x, y);
+    paint();
+  }
+  function fit() {
+    if (isSolid()) solid?.paint?.fit();
+    else scene?.fit();
+    paint();
+  }
+  at("zoom-in").addEventListener("click", () => zoom(1.5));
+  at("zoom-out").addEventListener("click", () => zoom(1 / 1.5));
+  at("fit").addEventListener("click", fit);
+  at("ghost").addEventListener("click", () => {
+    press("ghost", !pressed("ghost"));
+    paint();
+  });
+  at("roll").addEventListener("click", () => press("roll", !pressed("roll")));
+  at("load").addEventListener("click", () => {
+    press("load", !pressed("load"));
+    scene?.load(pressed("load"));
+    if (isSolid() && picture) paintSolid(picture);
+    paint();
+    showLegend();
+  });
+  at("position").addEventListener("input", () => {
+    press("roll", false);
+    look();
+  });
 
   // --- Editing ----------------------------------------------------------------------------------------
 
-  const tools = [["look", "look", "Choose what to do with the holes. All sectors change alike."],
-    ["move", "move", "Drag a hole. With the keys: arrows, Enter to take it, arrows, Enter to drop it."],
-    ["resize", "resize", "Drag away from a hole's centre or towards it. With the keys: arrows, Enter, arrows, Enter."],
-    ["add", "add", "Drag from the centre of the new hole outwards, or click. With the keys: arrows, Enter, Enter."],
-    ["fill", "delete", "Click into a hole to fill it. With the keys: arrows, Enter, or Delete with any tool."],
-    ["paint", "paint material", "Draw with the mouse. With the keys: arrows, Enter, arrows, Enter."],
-    ["erase", "erase material", "Draw with the mouse. With the keys: arrows, Enter, arrows, Enter."]];
-  const brushes = { paint: "material", erase: "hole" };
-  for (const [id, label] of tools)
-    at("tools").append(element("label", {}, element("input",
-      { type: "radio", name: "tool", value: id, id: `tool-${id}`, ...(id === "look" ? { checked: "" } : {}) }), label));
+  const tools = [["look", "Look", "Drag to move the picture, turn the mouse's wheel to enlarge it. With the keys: arrows, plus, minus, 0."],
+    ["move", "Move", "Drag a hole. With the keys: arrows, Enter to take it, arrows, Enter to drop it."],
+    ["resize", "Resize", "Drag away from a hole's centre or towards it. With the keys: arrows, Enter, arrows, Enter."],
+    ["add", "Add", "Drag from the centre of the new hole outwards, or click. With the keys: arrows, Enter, Enter."],
+    ["fill", "Delete", "Click into a hole to fill it. With the keys: arrows, Enter, or Delete with any tool."],
+    ["paint", "Paint", "Draw material with the mouse. With the keys: arrows, Enter, arrows, Enter."],
+    ["erase", "Erase", "Erase material with the mouse. With the keys: arrows, Enter, arrows, Enter."]];
+  const brushes = { paint: "material", erase: "hole" }, usingTip = ["add", "paint", "erase"];
+  for (const [id, text, title] of tools) {
+    const button = element("button", { type: "button", id: `tool-${id}`, "aria-pressed": String(id === "look"), title },
+      icon(id), element("span", {}, text));
+    button.addEventListener("click", () => choose(id));
+    at("tools").append(button);
+  }
   const tip = element("input", { type: "range", id: "tip", min: 2, max: 40, value: 10 });
-  at("tools").append(element("label", { class: "size" }, "tip", tip));
-  const tool = () => document.querySelector("input[name=tool]:checked").value;
-  const help = () => { at("wheel-help").textContent = tools.find(([id]) => id === tool())[2]; };
-  at("tools").addEventListener("change", help);
-  help();
+  const tipText = element("output", { for: "tip" });
+  at("tools").append(element("label", { class: "tip", id: "tip-label" }, tipText, tip));
+  const tool = () => tools.find(([id]) => pressed(`tool-${id}`))[0];
+  function choose(chosen) {
+    for (const [id] of tools) press(`tool-${id}`, id === chosen);
+    showTool();
+  }
+  function showTool() {
+    at("wheel-help").textContent = tools.find(([id]) => id === tool())[2];
+    at("tip-label").hidden = !usingTip.includes(tool());
+    tipText.textContent = `tip ${tip.value} mm`;
+    wheel.style.cursor = tool() === "look" ? "grab" : "crosshair";
+  }
+  // The arrows choose another tool.
+  at("tools").addEventListener("keydown", (event) => {
+    const by = { ArrowUp: -1, ArrowLeft: -1, ArrowDown: 1, ArrowRight: 1 }[event.key];
+    const k = tools.findIndex(([id]) => `tool-${id}` === event.target.id);
+    if (!by || k < 0) return;
+    event.preventDefault();
+    const [id] = tools[(k + by + tools.length) % tools.length];
+    at(`tool-${id}`).focus();
+    choose(id);
+  });
+  tip.addEventListener("input", showTool);
+  showTool();
 
-  let edit = null;    // { tool, from, to, path, hole } while the user draws, in metres
+  let edit = null;    // { tool, from, to, path, hole } while the user draws, in metres of the body
   let cursor = null;  // where the keys point
 
-  const turned = ([x, y], angle) => [Math.cos(angle) * x - Math.sin(angle) * y, Math.sin(angle) * x + Math.cos(angle) * y];
+  const { turned } = stage;
   const distance = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1]);
 
   function isInside(points, [x, y]) {
@@ -111,8 +298,7 @@
       const n = in_every_sector ? frame.wheel.sectors : 1;
       for (let s = 0; s < n; ++s) {
         const angle = 2 * Math.PI * s / n, edge = [];
-        for (let k = 0; k < points_um.length; k += 2)
-          edge.push(turned([points_um[k] * micrometre, points_um[k + 1] * micrometre], angle));
+        for (let k = 0; k < points_um.length; k += 2) edge.push(turned([points_um[k] * 1e-6, points_um[k + 1] * 1e-6], angle));
         if (!isInside(edge, point) || isInside(edge, [0, 0])) continue;
         const sum = edge.reduce(([a, b], [x, y]) => [a + x, b + y], [0, 0]);
         return { edge, centre: sum.map((v) => v / edge.length) };
@@ -166,85 +352,107 @@
     paint();
   }
 
-  function editPath({ tool: kind, from, to, hole }, unit) {
-    const pixels = ([x, y]) => [x * unit, -y * unit], path = new Path2D();
-    const loop = (points) => {
-      points.map(pixels).forEach(([x, y], k) => k ? path.lineTo(x, y) : path.moveTo(x, y));
-      path.closePath();
-    };
-    if (kind === "move") loop(hole.edge.map(([x, y]) => [x + to[0] - from[0], y + to[1] - from[1]]));
+  // The edge that a tool draws, in one sector.
+  function editedEdge({ tool: kind, from, to, hole }) {
+    if (kind === "move") return hole.edge.map(([x, y]) => [x + to[0] - from[0], y + to[1] - from[1]]);
     if (kind === "resize") {
       const f = factorOf(edit), [cx, cy] = hole.centre;
-      loop(hole.edge.map(([x, y]) => [cx + f * (x - cx), cy + f * (y - cy)]));
+      return hole.edge.map(([x, y]) => [cx + f * (x - cx), cy + f * (y - cy)]);
     }
-    if (kind === "add") path.arc(...pixels(from), addedRadius(edit) * unit, 0, 2 * Math.PI);
-    return path;
+    const radius = addedRadius(edit);
+    return Array.from({ length: 48 }, (_, k) => [from[0] + radius * Math.cos(k * Math.PI / 24), from[1] + radius * Math.sin(k * Math.PI / 24)]);
   }
 
-  function paintEdit(context, unit) {
-    const { sectors } = frame.wheel;
+  function paintEdit(context) {
+    const { sectors } = frame.wheel, ratio = Math.min(2, devicePixelRatio || 1);
     context.save();
-    context.strokeStyle = colour("--bad");
-    context.lineWidth = wheel.width / 400;
-    if (edit) {
-      const isBrush = edit.tool in brushes, path = isBrush ? new Path2D() : editPath(edit, unit);
-      if (isBrush) {
-        edit.path.forEach(([x, y], k) => k ? path.lineTo(x * unit, -y * unit) : path.moveTo(x * unit, -y * unit));
-        path.lineTo(edit.path[0][0] * unit + (edit.path.length === 1 ? 0.01 : 0), -edit.path[0][1] * unit);
-        context.lineWidth = 2 * tipRadius() * unit;
-        context.lineCap = context.lineJoin = "round";
-        context.strokeStyle = colour(edit.tool === "paint" ? "--accent" : "--bad");
-        context.globalAlpha = 0.5;
-      } else {
-        context.setLineDash([6, 4]);
+    context.lineCap = context.lineJoin = "round";
+    if (edit && edit.tool in brushes) {
+      const points = edit.path.length > 1 ? edit.path : [edit.path[0], [edit.path[0][0] + 1e-6, edit.path[0][1]]];
+      context.lineWidth = 2 * scene.pixels(tipRadius());
+      context.strokeStyle = colour(edit.tool === "paint" ? "--material" : "--paper");
+      context.globalAlpha = 0.8;
+      context.stroke(scene.addStroke(new Path2D(), points, sectors));
+    } else if (edit && edit.tool !== "fill") {
+      // The hole where it will be, and material where it was.
+      if (edit.hole) {
+        context.fillStyle = colour("--material");
+        context.fill(scene.addLine(new Path2D(), edit.hole.edge, sectors));
       }
-      for (let s = 0; s < sectors; ++s) {
-        context.stroke(path);
-        context.rotate(2 * Math.PI / sectors);
-      }
+      const path = scene.addLoose(new Path2D(), editedEdge(edit), sectors);
+      context.fillStyle = colour("--paper");
+      context.fill(path);
+      context.strokeStyle = colour("--accent");
+      context.lineWidth = 2 * ratio;
+      context.stroke(path);
     }
     context.restore();
     if (!cursor || document.activeElement !== wheel) return;
-    context.save();
+    const [x, y] = scene.drawn(cursor), size = 10 * ratio;
     context.strokeStyle = colour("--ink");
-    context.lineWidth = wheel.width / 300;
-    const [x, y] = [cursor[0] * unit, -cursor[1] * unit], size = wheel.width / 60;
+    context.lineWidth = 2 * ratio;
     context.stroke(new Path2D(`M${x - size} ${y}H${x + size}M${x} ${y - size}V${y + size}`));
-    context.restore();
   }
 
-  function pointOf(event) {
-    const box = wheel.getBoundingClientRect(), unit = scale() * box.width / wheel.width;
-    return [(event.clientX - box.left - box.width / 2) / unit, -(event.clientY - box.top - box.height / 2) / unit];
-  }
-
+  const pointers = new Map();  // on the wheel: [x, y] of the page
+  const span = () => {
+    const [[a, b], [c, d]] = [...pointers.values()];
+    return { size: Math.hypot(a - c, b - d), x: (a + c) / 2, y: (b + d) / 2 };
+  };
   wheel.addEventListener("pointerdown", (event) => {
     if (!frame?.outline || edit) return;
     wheel.setPointerCapture(event.pointerId);
+    pointers.set(event.pointerId, [event.clientX, event.clientY]);
     cursor = null;
-    begin(pointOf(event));
+    if (tool() !== "look" && event.button === 0 && pointers.size === 1) begin(scene.bodyPoint(event.clientX, event.clientY));
+    else wheel.style.cursor = "grabbing";
   });
   wheel.addEventListener("pointermove", (event) => {
-    if (edit && event.buttons) go(pointOf(event));
+    if (edit && event.buttons) return go(scene.bodyPoint(event.clientX, event.clientY));
+    const last = pointers.get(event.pointerId);
+    if (!last) return null;
+    const before = pointers.size === 2 ? span() : null;
+    pointers.set(event.pointerId, [event.clientX, event.clientY]);
+    if (before) zoom(span().size / Math.max(1, before.size), span().x, span().y);
+    if (pointers.size === 1) scene.pan(event.clientX - last[0], event.clientY - last[1]);
+    return paint();
   });
   wheel.addEventListener("pointerup", (event) => {
+    pointers.delete(event.pointerId);
+    showTool();
     if (!edit || edit.isGiven) return;
-    go(pointOf(event));
+    go(scene.bodyPoint(event.clientX, event.clientY));
     finish();
   });
-  wheel.addEventListener("pointercancel", () => { edit = null; });
+  wheel.addEventListener("pointercancel", (event) => {
+    pointers.delete(event.pointerId);
+    edit = null;
+  });
+  // What is to be drawn on stands still.
+  wheel.addEventListener("pointerenter", () => { held = tool() !== "look"; });
+  wheel.addEventListener("pointerleave", () => { held = false; });
+  wheel.addEventListener("wheel", (event) => {
+    event.preventDefault();
+    zoom(Math.exp(-0.0015 * event.deltaY), event.clientX, event.clientY);
+  }, { passive: false });
 
+  function pointByKeys([dx, dy], isLarge) {
+    const step = isLarge ? 0.01 : 0.002, { inner_radius_m, outer_radius_m } = frame.wheel;
+    const middle = (inner_radius_m + outer_radius_m) / 2, angle = Math.PI / frame.wheel.sectors;
+    cursor = cursor ? [cursor[0] + step * dx, cursor[1] + step * dy] : [middle * Math.cos(angle), middle * Math.sin(angle)];
+    held = true;
+    if (edit) go(cursor);
+  }
+  wheel.addEventListener("blur", () => { held = false; });
   wheel.addEventListener("keydown", (event) => {
     if (!frame?.outline) return;
-    const step = event.shiftKey ? 0.01 : 0.002;
-    const moves = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, step], ArrowDown: [0, -step] };
-    const { inner_radius_m, outer_radius_m } = frame.wheel;
-    if (event.key in moves) {
-      const middle = (inner_radius_m + outer_radius_m) / 2, first = Math.PI / frame.wheel.sectors;
-      cursor = cursor ? [cursor[0] + moves[event.key][0], cursor[1] + moves[event.key][1]]
-        : [middle * Math.cos(first), middle * Math.sin(first)];
-      if (edit) go(cursor);
-    } else if (event.key === "Enter" || event.key === " ") {
+    const moves = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+    if (event.key in moves && tool() === "look") scene.pan(-40 * moves[event.key][0], 40 * moves[event.key][1]);
+    else if (event.key in moves) pointByKeys(moves[event.key], event.shiftKey);
+    else if (event.key === "+" || event.key === "=") zoom(1.25);
+    else if (event.key === "-") zoom(1 / 1.25);
+    else if (event.key === "0") fit();
+    else if (event.key === "Enter" || event.key === " ") {
       if (edit && !edit.isGiven) finish();
       else if (!edit && cursor) begin(cursor);
     } else if (event.key === "Escape") {
@@ -257,122 +465,6 @@
     event.preventDefault();
     paint();
   });
-
-  // --- The loaded wheel -------------------------------------------------------------------------------
-
-  let loaded = null;  // { version, paint, drawGround, lose, positions }
-  let rolling = null, isLoading = false;
-  const loadedEvery = 1500;  // ms
-
-  async function loadWheel() {
-    if (isLoading || !frame?.wheel) return;
-    isLoading = true;
-    const version = frame.version;
-    try {
-      const fields = await (await ask("/loaded")).json();
-      const picture = element("canvas", { role: "img", "aria-label": "The loaded wheel, coloured by von Mises stress" });
-      const ground = element("canvas", { "aria-hidden": "true" });
-      const run = { fields, sectors: frame.wheel.sectors, outer_radius_m: frame.wheel.outer_radius_m };
-      at("loaded").hidden = false;
-      const old = loaded;
-      at("loaded-wheel").replaceChildren(picture, ground);
-      const paint = parts.wheelPainter(picture, run);
-      old?.lose();
-      const magnified = parts.roundMagnification(0.03 * run.outer_radius_m / fields.full_displacement_m);
-      loaded = { version, run, ground, paint, magnified, n: fields.positions.length, at: performance.now(),
-        lose: () => picture.getContext("webgl")?.getExtension("WEBGL_lose_context")?.loseContext(), picture };
-      at("roll").disabled = false;
-      showLoaded();
-    } catch {
-      tell("the loaded wheel cannot be shown", true);
-    }
-    isLoading = false;
-  }
-
-  function showLoaded() {
-    const i = Number(at("position").value) % loaded.n;
-    loaded.paint?.(i, loaded.magnified);
-    parts.drawGround(loaded.ground, loaded.run);
-    at("loaded-wheel").dataset.position = String(i);
-    at("loaded-text").textContent = `Von Mises stress up to ${shown(loaded.run.fields.full_stress_Pa * 1e-6)} MPa; ` +
-      `displacements are drawn ${loaded.magnified} times as large.`;
-  }
-
-  // --- A wheel in 3D ----------------------------------------------------------------------------------
-
-  let solid = null;  // { paint, fields, isLoaded }: the lit surface, in place of the plane wheel
-  const isSolid = () => frame?.wheel?.dimension === 3;
-
-  const drawnWith = (address) => new Promise((done, failed) => {
-    const script = element("script", { src: address });
-    script.addEventListener("load", done);
-    script.addEventListener("error", failed);
-    document.body.append(script);
-  });
-
-  // Shows the surface of the newest shape.
-  async function showSolid() {
-    const shape = frame.shape, fields = await (await ask("/loaded")).json();
-    if (solid) {
-      solid.paint?.take(fields);
-      solid.fields = fields;
-    } else {
-      await drawnWith("/three.js");
-      const canvas = element("canvas", { id: "solid", role: "img", "aria-label":
-        "The wheel as a lit surface, coloured by von Mises stress; arrow keys turn it, plus and minus change its size" });
-      wheel.hidden = at("tools").hidden = true;
-      at("stage").append(canvas);
-      at("wheel-help").textContent = "Drag the wheel to turn it. With the keys: arrows, plus and minus.";
-      const { outer_radius_m, width_m, sectors } = frame.wheel;
-      solid = { paint: parts.surfacePainter(canvas, { fields, outer_radius_m, width_m, sectors }), fields, isLoaded: false };
-      if (!solid.paint) tell("this browser cannot draw in three dimensions", true);
-      at("roll").disabled = fields.positions.length < 2;
-    }
-    drawSolid();
-    at("stage").dataset.solid = String(shape);
-  }
-
-  function drawSolid() {
-    const { fields, paint: paintSolid, isLoaded } = solid;
-    const magnified = parts.roundMagnification(0.03 * frame.wheel.outer_radius_m / fields.full_displacement_m);
-    paintSolid?.(Number(at("position").value) % fields.positions.length, isLoaded ? magnified : 0, "stress");
-    at("loaded").hidden = false;
-    at("loaded-text").textContent = `Von Mises stress up to ${shown(fields.full_stress_Pa * 1e-6)} MPa` +
-      (isLoaded ? `; displacements are drawn ${magnified} times as large.` : ".");
-  }
-
-  function loadOrUnload() {
-    if (!isSolid()) return loadWheel();
-    if (!solid) return null;
-    solid.isLoaded = !solid.isLoaded;
-    at("load").setAttribute("aria-pressed", String(solid.isLoaded));
-    return drawSolid();
-  }
-
-  // --- Rolling ----------------------------------------------------------------------------------------
-
-  const showPosition = () => solid ? drawSolid() : loaded && showLoaded();
-
-  // One position after the other. Where painting takes long, it leaves as much time for everything else.
-  function roll(on) {
-    const betweenPositions = 150;
-    clearTimeout(rolling);
-    const advance = () => {
-      const start = performance.now(), n = solid ? solid.fields.positions.length : loaded.n;
-      at("position").value = (Number(at("position").value) + 1) % n;
-      showPosition();
-      if (start - curvesDrawn > 4 * betweenCurves) look();
-      const painting = performance.now() - start;
-      rolling = setTimeout(advance, Math.max(betweenPositions - painting, painting));
-    };
-    rolling = on ? setTimeout(advance, betweenPositions) : null;
-    at("roll").textContent = on ? "Stop" : "Roll";
-    at("roll").setAttribute("aria-pressed", String(on));
-  }
-
-  at("load").addEventListener("click", loadOrUnload);
-  at("roll").addEventListener("click", () => roll(rolling === null));
-  setInterval(() => { if (loaded && frame && loaded.version !== frame.version) loadWheel(); }, loadedEvery);
 
   // --- To take away -----------------------------------------------------------------------------------
 
@@ -445,34 +537,144 @@
 
   // --- Numbers ----------------------------------------------------------------------------------------
 
-  // The numbers: id, label, unit, factor from SI, key of the frame's numbers.
-  const numbers = [["objective", "objective", "J/m", 1, "objective_J_per_m"], ["objective", "objective", "J", 1, "objective_J"],
-    ["volume", "volume", "% of the ring", 100, "volume_fraction"],
-    ["travel", "mean travel", "mm", 1e3, "mean_travel"], ["run-out", "run-out", "mm", 1e3, "run_out"],
-    ["pressure", "peak pressure", "MPa", 1e-6, "peak_pressure"]];
-  for (const [id, label] of new Map([...numbers, ["shape", "shape"]].map((number) => [number[0], number])).values())
-    at("numbers").append(element("div", {}, element("dt", {}, label), element("dd", { id: `number-${id}` }, "-")));
+  // What takes longer than a shape is asked for at the page's pace: the whole table, of the newest shape, a few times a
+  // second. What the contact tells comes with every shape.
+  const betweenNumbers = 400;  // ms
+  const labels = { volume_fraction: "material", mass_kg: "mass", mean_travel_m: "travel", stiffness_N_per_m: "stiffness",
+    run_out_m: "run-out", force_variation_N: "force variation", peak_pressure_Pa: "peak pressure",
+    patch_length_m: "patch length", peak_von_mises_Pa: "peak stress", largest_strain: "largest strain",
+    minimum_wall_m: "thinnest wall", minimum_gap_m: "narrowest gap" };
+  const ids = { volume_fraction: "volume", mean_travel_m: "travel", run_out_m: "run-out", peak_pressure_Pa: "pressure" };
+  let numbers = null, numbersOf = "", numbersAsked = 0;
+
+  const short = (value) => Number.isFinite(value) ? shown(Number(value.toPrecision(4))) : "\u2013";
+
+  function numberRow(id, name, unit, before, now, text = short) {
+    let row = at(`row-${id}`);
+    if (!row) {
+      row = element("tr", { id: `row-${id}` }, element("th", { scope: "row" }, `${name} `, element("span", { class: "unit" }, unit)),
+        element("td"), element("td", { class: "now", id: `number-${id}` }), element("td"));
+      at("numbers").tBodies[0].append(row);
+    }
+    const [, first, last, difference] = row.children;
+    first.textContent = text(before);
+    last.textContent = text(now);
+    difference.textContent = change(before, now).replace(/(\.\d)\d* %/, "$1\u2009%");
+  }
 
   function showNumbers() {
-    for (const [id, , unit, factor, key] of numbers.filter((number) => number[4] in frame.numbers))
-      at(`number-${id}`).textContent = `${shown(frame.numbers[key] * factor)} ${unit}`;
-    at("number-shape").textContent = String(frame.shape);
+    const objective = frame.numbers.objective_J_per_m ?? frame.numbers.objective_J;
+    numberRow("objective", "objective", isSolid() ? "J" : "J/m", frame.numbers.initial_objective, objective, shown);
+    at("numbers-of").replaceChildren("of shape ", element("span", { id: "number-shape" }, String(frame.shape)),
+      frame.settings.load_cases.length > 0 ? ` in ${frame.settings.load_cases[loadCase].name}` : "");
+    if (!numbers || numbers.load_case !== loadCase) return;
+    const now = { ...numbers.now, volume_fraction: frame.numbers.volume_fraction,
+      ...(frame.load_case === loadCase ? frame.contact_numbers : {}) };
+    for (const { key, unit, factor } of numbers.rows) {
+      if (!(key in labels) || (numbers.now[key] === undefined && numbers.before[key] === undefined)) continue;
+      numberRow(ids[key] ?? key, labels[key], unit, numbers.before[key] * factor, now[key] * factor);
+    }
   }
+
+  // Stiffness and force per metre of width are those per millimetre.
+  const scales = { Pa: ["MPa", 1e-6], m: ["mm", 1e3], "-": ["", 1], "N/m^2": ["N/mm\u00b2", 1e-6], "N/m": ["N/mm", 1e-3] };
+  function showBounds() {
+    at("bounds").hidden = frame.bounds.length === 0;
+    at("bound-rows").replaceChildren(...frame.bounds.map(({ name, unit, value, relation, limit, is_kept: isKept }) => {
+      const [told, factor] = scales[unit] ?? [unit, 1], sign = { "<": "\u2264", ">": "\u2265", "=": "=" }[relation];
+      return element("tr", {}, element("th", { scope: "row" }, `${name.replaceAll("_", " ")} `, element("span", { class: "unit" }, told)),
+        element("td", { class: "now" }, short(value * factor)), element("td", {}, `${sign} ${short(limit * factor)}`),
+        element("td", { class: isKept ? "good" : "bad" }, isKept ? "met" : "not met"));
+    }));
+  }
+
+  function showWarnings() {
+    at("warnings").hidden = numbers.warnings.length === 0;
+    at("warnings").replaceChildren(...numbers.warnings.map((text) => {
+      // What follows the first clause is there on demand.
+      const told = text[0].toUpperCase() + text.slice(1), end = told.search(/[.;] /) + 1;
+      return element("li", {}, ...(end === 0 ? [told] : [element("details", {}, element("summary", {}, told.slice(0, end)), told.slice(end))]));
+    }));
+  }
+
+  async function followNumbers() {
+    for (;;) {
+      const start = performance.now(), key = frame?.wheel && !frame.is_proposed ? `${frame.shape_version} ${loadCase}` : "";
+      if (key && key !== numbersOf && !document.hidden) {
+        try {
+          const response = await ask(`/numbers?case=${loadCase}`);
+          if (response.ok) {
+            numbers = await response.json();
+            numbersOf = `${numbers.shape_version} ${numbers.load_case}`;
+            at("numbers").dataset.version = String(numbers.shape_version);
+            showNumbers();
+            showWarnings();
+          } else {
+            numbersOf = key;
+          }
+        } catch (error) {
+          if (error instanceof NotAllowed || frame?.activity === "ended") return;
+        }
+      }
+      const spent = performance.now() - start, asked = numbersAsked;
+      for (let waited = 0; waited < Math.max(betweenNumbers, 3 * spent) && asked === numbersAsked; waited += 25) await pause(25);
+    }
+  }
+
+  // --- Load cases -------------------------------------------------------------------------------------
+
+  function showLoadCases() {
+    const names = frame.settings.load_cases.map(({ name }) => name);
+    at("loads").hidden = names.length < 2;
+    if (at("loads").children.length === names.length) return;
+    at("loads").replaceChildren(...names.map((name, k) => {
+      const tab = element("button", { type: "button", role: "tab", id: `case-${k}`, "aria-selected": String(k === loadCase) }, name);
+      tab.addEventListener("click", () => chooseLoadCase(k));
+      return tab;
+    }));
+  }
+
+  function chooseLoadCase(chosen) {
+    loadCase = chosen;
+    [...at("loads").children].forEach((tab, k) => tab.setAttribute("aria-selected", String(k === chosen)));
+    for (const follow of settings) follow();
+    ++numbersAsked;
+    look();
+  }
+
+  const loadOf = () => frame.settings.load_cases[loadCase]?.load ?? frame.settings.load;
+  const newLoad = (changes) => ({ do: "load", ...loadOf(), ...changes,
+    ...(frame.settings.load_cases.length > 0 ? { load_case: frame.settings.load_cases[loadCase].name } : {}) });
+
+  // --- The run ----------------------------------------------------------------------------------------
+
+  const states = { starting: "computing the first shape", computing: "optimizing", paused: "paused",
+    settled: "no better shape is near: change anything to continue", ended: "the run has ended" };
 
   function showState() {
     at("state").textContent = states[frame.activity] ?? frame.activity;
-    at("go").textContent = frame.activity === "paused" ? "Go on" : "Pause";
+    at("state").dataset.activity = frame.activity;
+    if (frame.title) at("title").textContent = frame.title;
+    if (frame.activity === "paused") label("go", "continue", "Continue");
+    else label("go", "go", "Pause");
     at("undo").disabled = !frame.can_undo;
     for (const id of ["go", "step", "reset"]) at(id).disabled = frame.activity === "ended";
   }
 
+  // A run that settled can be paused too: it then waits through several changes.
+  at("go").addEventListener("click", () => give({ do: frame?.activity === "paused" ? "continue" : "pause" }));
+  at("step").addEventListener("click", () => give({ do: "step" }));
+  at("undo").addEventListener("click", () => give({ do: "undo" }));
+  at("reset").addEventListener("click", () => give({ do: "reset" }));
+
   // --- Curves -----------------------------------------------------------------------------------------
 
+  const compact = { compact: true };
   const charts = {
-    objective: chart("Objective, shape by shape", "shape", "[J/m, in 3D J]", [{ name: "objective", x: [], y: [] }]),
-    travel: chart("Travel at this load, round one sector", "azimuth [\u00b0]", "[mm]", [{ name: "travel", x: [], y: [] }]),
-    pressure: chart("Contact pressure", "along the ground [mm]", "[MPa]", [{ name: "pressure", x: [], y: [] }]),
-    force: chart("Force and travel", "mean travel [mm]", "[N]", [{ name: "force", x: [], y: [] }]),
+    objective: chart("Objective by shape", "", "", [{ name: "objective", x: [], y: [] }], compact),
+    travel: chart("Travel [mm] round one sector [\u00b0]", "", "", [{ name: "travel", x: [], y: [] }], compact),
+    pressure: chart("Pressure [MPa] along ground [mm]", "", "", [{ name: "pressure", x: [], y: [] }], compact),
+    force: chart("Force [N] by travel [mm]", "", "", [{ name: "force", x: [], y: [] }], compact),
   };
   for (const { figure, start } of Object.values(charts)) {
     at("charts").append(figure);
@@ -492,9 +694,6 @@
     if (frame.force_curve)
       charts.force.update([{ name: "force", x: frame.force_curve.travel_m.map((t) => t * 1e3),
         y: frame.force_curve.force_N }]);
-    const position = at("position");
-    position.max = n - 1;
-    at("position-text").textContent = `ground at ${shown(Number(position.value) * 360 / sectors / n)}\u00b0`;
     curvesDrawn = performance.now();
     curvesOf = frame.version;
   }
@@ -523,10 +722,10 @@
       wanted = v;
       send();
     };
-    const rounded = (v) => Number(v.toPrecision(digits));
+    const rounded = (v) => Number(v.toPrecision(digits)), told = (v) => Math.abs(v) >= 1e5 ? v.toExponential().replace("e+", "e") : String(v);
     slider.addEventListener("input", () => {
       const v = rounded(fromSlider(Number(slider.value)));
-      number.value = v;
+      number.value = told(v);
       want(v);
     });
     number.addEventListener("change", () => {
@@ -538,7 +737,7 @@
     return () => {
       if (isSending || document.activeElement === number) return;
       const v = value();
-      number.value = rounded(v);
+      number.value = told(rounded(v));
       slider.value = toSlider(v);
     };
   }
@@ -551,15 +750,28 @@
     fromSlider: (s) => s === 0 ? 0 : low * (high / low) ** (s / 1000) });
 
   let settings = null;
+  // The load of the chosen load case: what carries the wheel, and what else it has.
+  function loadSettings() {
+    const one = (id, text, key, factor, first) => setting(id, text, {
+      ...(first > 0 ? linear(0.1 * first * factor, 3 * first * factor) : linear(3 * first * factor, -3 * first * factor)),
+      digits: 4, value: () => loadOf()[key] * factor, command: (v) => newLoad({ [key]: v / factor }) });
+    const load = loadOf();
+    const others = [["horizontal", "horizontal force [N]", "horizontal_force_N", 1], ["lateral", "lateral force [N]", "lateral_force_N", 1],
+      ["camber", "camber [\u00b0]", "camber_rad", parts.degree], ["torque", "torque [N m]", "torque_N_m", 1],
+      ["speed", "speed [m/s]", "speed_m_per_s", 1]];
+    return [load.travel_m === undefined ? one("force", "load [N]", "force_N", 1, load.force_N)
+      : one("travel", "travel [mm]", "travel_m", 1e3, load.travel_m),
+    ...others.filter(([, , key]) => load[key] !== 0).map(([id, text, key, factor]) => one(id, text, key, factor, load[key]))];
+  }
+
   function makeSettings() {
-    const force = frame.settings.load.force_N;
-    const weight = (id, label, key, low, high) => setting(id, label, { ...powers(low, high), digits: 3,
+    const weight = (id, text, key, low, high) => setting(id, text, { ...powers(low, high), digits: 3,
       value: () => frame.settings.weights[key], command: (v) => ({ do: "weights", [key]: v }) });
     // Widths of which 0 allows any.
     const ring = frame.wheel.outer_radius_m - frame.wheel.inner_radius_m;
-    const width = (id, label, key) => setting(id, label, { ...linear(0, 250 * ring), digits: 3,
+    const width = (id, text, key) => setting(id, text, { ...linear(0, 250 * ring), digits: 3,
       value: () => 1e3 * frame.settings[key], command: (v) => ({ do: "widths", [key]: v * 1e-3 }) });
-    const relations = { at_least: "at least", at_most: "at most", equals: "equal to" };
+    const relations = { at_least: "\u2265", at_most: "\u2264", equals: "=" };
     const limit = (k, bound, relation) => {
       const first = bound[relation], range = first > 0 ? powers(0.2 * first, 5 * first) : linear(-1, 1);
       return setting(`bound-${k}-${relation}`, `${bound.quantity.replaceAll("_", " ")} ${relations[relation]} [SI]`, {
@@ -567,31 +779,18 @@
         command: (v) => ({ do: "bound", constraint: k, [relation]: v }) });
     };
     settings = [
-      setting("force", "load [N]", { ...linear(0.1 * force, 3 * force), digits: 4,
-        value: () => frame.settings.load.force_N,
-        command: (v) => ({ do: "load", ...present(frame.settings.load), force_N: v }) }),
-      setting("volume", "volume [% of the ring]", { ...linear(20, 95), digits: 3,
+      ...loadSettings(),
+      setting("volume", "material [%]", { ...linear(20, 95), digits: 3,
         value: () => 100 * frame.settings.volume_target, command: (v) => ({ do: "volume", target: v / 100 }) }),
-      weight("stiff", "weight of stiffness", "strain_energy", 0.01, 100),
-      weight("even", "weight of even rolling", "uniformity_dual", 1, 1e5),
+      weight("stiff", "weight: stiff", "strain_energy", 0.01, 100),
+      weight("even", "weight: even", "uniformity_dual", 1, 1e5),
       width("wall", "thinnest wall [mm]", "minimum_wall_m"), width("gap", "narrowest gap [mm]", "minimum_gap_m"),
       ...frame.settings.bounds.flatMap((bound, k) => Object.keys(relations).filter((relation) => relation in bound)
         .map((relation) => limit(k, bound, relation))),
     ];
   }
-  const present = (members) => Object.fromEntries(Object.entries(members).filter(([, v]) => v !== null));
 
-  // --- The run ----------------------------------------------------------------------------------------
-
-  // A run that settled can be paused too: it then waits through several changes.
-  at("go").addEventListener("click", () => give({ do: frame?.activity === "paused" ? "continue" : "pause" }));
-  at("step").addEventListener("click", () => give({ do: "step" }));
-  at("undo").addEventListener("click", () => give({ do: "undo" }));
-  at("reset").addEventListener("click", () => give({ do: "reset" }));
-  at("position").addEventListener("input", () => {
-    showPosition();
-    look();
-  });
+  // --- The loop ---------------------------------------------------------------------------------------
 
   let version = 0, curveVersion = 0, painted = 0, shapesPainted = 0, framed = 0;
   let waiting = new AbortController();
@@ -602,43 +801,58 @@
     waiting.abort();
   }
 
-  // The curves of the last shape, when no other follows.
+  // The curves of the last shape, when no other follows, and the contact pressure of the position where a rolling wheel is.
   setInterval(() => {
     const isQuiet = frame?.wheel && performance.now() - framed > betweenCurves;
-    if (isQuiet && curvesOf !== frame.version) look();
-  }, betweenCurves);
+    if (isQuiet && (curvesOf !== frame.version || (pressed("roll") && frame.pressure.position !== position()))) look();
+  }, 2 * betweenCurves);
 
   async function next() {
     waiting = new AbortController();
     const wantsForces = performance.now() - curvesDrawn > betweenCurves ? 1 : 0;
-    const address = `/frame?after=${version}&curve=${curveVersion}&position=${at("position").value}&force_curve=${wantsForces}`;
+    const address = `/frame?after=${version}&curve=${curveVersion}&position=${at("position").value}&case=${loadCase}&force_curve=${wantsForces}`;
     const response = await ask(address, { signal: waiting.signal });
     return response.json();
   }
 
   const painting = () => new Promise((done) => requestAnimationFrame(done));
 
+  function startWheel() {
+    makeSettings();
+    offerFormats();
+    if (isSolid()) {
+      for (const id of ["wheel", "loaded-wheel", "tools", "ghost"]) at(id).hidden = true;
+      document.querySelector("main").classList.add("solid");
+      at("zoom-text").hidden = true;
+    } else {
+      scene = stage.make(wheel, at("loaded-wheel"), frame.wheel);
+    }
+    animate();
+    followNumbers();
+  }
+
   async function take(news) {
-    const isNew = news.version !== frame?.version;
+    const isNew = news.version !== frame?.version, before = frame;
     frame = news;
     framed = performance.now();
-    version = curveVersion = news.version;
+    version = news.version;
+    curveVersion = news.wheel ? version : 0;  // the first shape brings the edges of the initial one
     curve.push(...news.curve);
     if (curve.length > mostPoints) curve.splice(0, curve.length - mostPoints);
     showState();
     if (!frame.wheel) return;
-    if (!settings) {
-      makeSettings();
-      offerFormats();
-    }
+    if (!settings) startWheel();
+    if (frame.initial_outline) first = frame.initial_outline;
     for (const follow of settings) follow();
+    showLoadCases();
     // An edge that a command drew replaces what the user drew; its numbers come with its solution.
     if (frame.is_proposed && edit?.isGiven) edit = null;
     paint();
-    if (isSolid() && isNew) await showSolid();
     if (isNew) wheel.dataset.painted = String(++painted);
     if (frame.is_proposed) return;
+    if (frame.message !== before?.message && frame.shape_version !== before?.shape_version) ++numbersAsked;
     showNumbers();
+    showBounds();
     if ("force_curve" in frame) showCurves();
     if (news.curve.length > 0) wheel.dataset.shapes = String(++shapesPainted);
     wheel.dataset.shape = String(frame.shape);
@@ -658,11 +872,11 @@
         }
         if (error.name === "AbortError") continue;
         at("state").textContent = "the program does not answer; trying again";
-        await new Promise((done) => setTimeout(done, 1000));
+        await pause(1000);
       }
     }
   }
 
-  addEventListener("resize", () => { if (frame?.outline) paint(); });
+  addEventListener("resize", () => { if (frame?.wheel) paint(); });
   follow();
 })();

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdio>
+#include <string>
+
+#include "wheelwright/app/progress.h"
+#include "wheelwright/run/observer.h"
+
+namespace wheelwright {
+
+/// Tells on the terminal, in one line, what a watched run does: the page tells the rest. A terminal's line
+/// repaints itself; elsewhere a line is written only when the run begins to compute, to wait or ends.
+template <int dim>
+class WatchStatus : public Observer<dim> {
+ public:
+  /// `stream` must outlive this.
+  explicit WatchStatus(std::FILE* stream)
+      : stream_(stream), repaints_(progress_style(stream) != ProgressStyle::lines) {}
+  WatchStatus(const WatchStatus&) = delete;
+  WatchStatus& operator=(const WatchStatus&) = delete;
+  ~WatchStatus() override;
+
+  void operator()(const Event<dim>& event, const RunView<dim>& run) override;
+
+ private:
+  void tell_activity(const std::string& activity);
+  void show() const;
+
+  std::FILE* stream_;
+  bool repaints_;
+  bool is_shown_ = false;
+  std::string shape_, activity_;
+};
+
+}  // namespace wheelwright
