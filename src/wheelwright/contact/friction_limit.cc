@@ -37,6 +37,30 @@ ContactUnknowns<dim> held(ContactUnknowns<dim> x, const RimControl& rim) {
   return x;
 }
 
+/// The resultant of a contact that slides everywhere.
+struct Sliding {
+  double against_push;  ///< the ground's force that does work on the motion of a push, with the other sign
+  double normal_force;
+};
+
+template <int dim>
+std::optional<Sliding> sliding_along(const ReducedContact<dim>& contact, const Vec<dim>& direction,
+                                     const RimMotion& push, const ContactUnknowns<dim>& start,
+                                     const Interrupt& interrupt) {
+  const ReducedContact<dim> sliding = held_along_ground(contact.sliding_along(direction));
+  const auto end = newton(sliding, sliding.touching(held(contact.touching(start), contact.rim())),
+                          Cycling::change_fewer, interrupt);
+  if (!end.converged) return {};
+  Sliding result{0, 0};
+  for (int i = 0; i < contact.n_points(); ++i) {
+    const auto& point = contact.points()[i];
+    const Vec<dim> traction = sliding.response(i, end.x.augmented[i]).traction;
+    result.against_push -= point.weight * dot<dim>(traction, displacement<dim>(push, point.position));
+    result.normal_force -= point.weight * traction[0];
+  }
+  return result;
+}
+
 }  // namespace
 
 bool is_along_ground(const FreeMotion& motion) {
@@ -60,22 +84,20 @@ std::optional<FrictionLimit> friction_limit(const ReducedContact<dim>& contact,
   // The ground pushes against the motion of the lowest point of the tread.
   Vec<dim> lowest{};
   lowest[0] = tread_radius;
-  Vec<dim> direction = displacement<dim>(push.motion, lowest);
-  direction[0] = 0;
-  const double length = norm<dim>(direction);
-  for (double& component : direction) component /= -length;
-  const ReducedContact<dim> sliding = held_along_ground(contact.sliding_along(direction));
-  const auto end = newton(sliding, sliding.touching(held(contact.touching(start), contact.rim())),
-                          Cycling::change_fewer, interrupt);
-  if (!end.converged) return {};
-  FrictionLimit limit{push.force, 0, 0};
-  for (int i = 0; i < contact.n_points(); ++i) {
-    const auto& point = contact.points()[i];
-    const Vec<dim> traction = sliding.response(i, end.x.augmented[i]).traction;
-    limit.available -= point.weight * dot<dim>(traction, displacement<dim>(push.motion, point.position));
-    limit.normal_force -= point.weight * traction[0];
-  }
-  return limit;
+  Vec<dim> against = displacement<dim>(push.motion, lowest);
+  against[0] = 0;
+  const double length = norm<dim>(against);
+  for (double& component : against) component /= -length;
+  Vec<dim> along = against;
+  for (double& component : along) component = -component;
+  const auto pushed = sliding_along<dim>(contact, against, push.motion, start, interrupt);
+  const auto pulled = sliding_along<dim>(contact, along, push.motion, start, interrupt);
+  if (!pushed || !pulled) return {};
+  // Half way between the two the pressure is left, whose moment turns the rim.
+  const double of_pressure = 0.5 * (pushed->against_push + pulled->against_push);
+  return FrictionLimit{.needed = std::abs(push.force - of_pressure),
+                       .available = 0.5 * (pushed->against_push - pulled->against_push),
+                       .normal_force = 0.5 * (pushed->normal_force + pulled->normal_force)};
 }
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                               \

@@ -8,7 +8,8 @@
 namespace wheelwright {
 
 /// What friction must hold in the rim's free motions along the ground, and what it holds at most: when all
-/// that touches slides. A torque counts as the force at the tread that has its moment about the axle.
+/// that touches slides. A torque counts as the force at the tread that has its moment about the axle; the
+/// moment of the pressure, whose centre need not lie below the axle, adds to it.
 struct FrictionLimit {
   double needed, available;  ///< [N/m when dim = 2, N when dim = 3]
   double normal_force;       ///< of the ground, while all slides [the same]
@@ -23,8 +24,9 @@ bool is_along_ground(const FreeMotion& motion);
 template <int dim>
 ReducedContact<dim> held_along_ground(const ReducedContact<dim>& contact);
 
-/// Solves the contact that slides everywhere against the loads along the ground. Empty if no free motion is
-/// along the ground, if nothing moves it, or if that contact has no solution.
+/// Solves the contact that slides everywhere against the loads along the ground, and the one that slides the
+/// other way. Empty if no free motion is along the ground, if nothing moves it, or if that contact has no
+/// solution.
 template <int dim>
 std::optional<FrictionLimit> friction_limit(const ReducedContact<dim>& contact,
                                             const ContactUnknowns<dim>& start, const Interrupt& interrupt);

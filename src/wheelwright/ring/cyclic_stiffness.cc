@@ -195,8 +195,11 @@ Expected<std::vector<HarmonicFactor>> CyclicStiffness<dim>::factor_harmonics(
   std::vector<HarmonicFactor> result;
   for (int h = 0; h < harmonics.n_harmonics(); ++h) {
     if (!factors[h])
-      return Failure{FailureReason::not_positive_definite,
-                     fmt::format("the ring's stiffness is not positive definite for harmonic {}", h)};
+      return Failure{
+          FailureReason::not_positive_definite,
+          fmt::format("the ring's stiffness is not positive definite for harmonic {}: take a larger "
+                      "contact.gamma_0, or another grid.angular_cells",
+                      h)};
     result.push_back(*std::move(factors[h]));
   }
   return result;
