@@ -573,6 +573,9 @@
     for (const { key, unit, factor } of numbers.rows) {
       if (!(key in labels) || (numbers.now[key] === undefined && numbers.before[key] === undefined)) continue;
       numberRow(ids[key] ?? key, labels[key], unit, numbers.before[key] * factor, now[key] * factor);
+      // Grey: of an earlier shape.
+      const isLate = numbers.shape_version !== frame.shape_version && now[key] === numbers.now[key] && key !== "volume_fraction";
+      at(`number-${ids[key] ?? key}`).classList.toggle("late", isLate);
     }
   }
 
