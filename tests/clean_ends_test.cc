@@ -76,16 +76,17 @@ class CleanEnd : public ::testing::TestWithParam<Start> {};
 TEST_P(CleanEnd, HasWallsAndGapsOfACell) {
   const Course course = course_of(case_text(GetParam(), 30));
   const double cell = course.last.shape.lattice.grid().resolution();
-  const auto clearances = outline_clearances(course.last.shape);
-  ASSERT_TRUE(clearances && clearances->wall && clearances->gap);
-  EXPECT_GT(clearances->wall->width, 0.95 * cell);
-  EXPECT_GT(clearances->gap->width, 0.95 * cell);
+  const auto measured = outline_measures(course.last.shape);
+  ASSERT_TRUE(measured && measured->clearances.wall && measured->clearances.gap);
+  const cad::Clearances& clearances = measured->clearances;
+  EXPECT_GT(clearances.wall->width, 0.95 * cell);
+  EXPECT_GT(clearances.gap->width, 0.95 * cell);
   EXPECT_EQ(course.last.final_widths, FinalWidths::kept);
   EXPECT_NEAR(course.last.measure, course.last.target_measure, 1e-6 * course.last.target_measure);
   const auto value = [](const Evaluation<2>& evaluation) { return evaluation.function("objective").value; };
   EXPECT_LT(value(course.last.evaluation), value(*course.trials.front().evaluation));
-  RecordProperty("widths", fmt::format("wall {:.2f}, gap {:.2f} cells", clearances->wall->width / cell,
-                                       clearances->gap->width / cell));
+  RecordProperty("widths", fmt::format("wall {:.2f}, gap {:.2f} cells", clearances.wall->width / cell,
+                                       clearances.gap->width / cell));
 }
 
 INSTANTIATE_TEST_SUITE_P(Starts, CleanEnd, ::testing::ValuesIn(starts),

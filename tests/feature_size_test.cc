@@ -50,7 +50,7 @@ LevelSet<2> holes_with_slit(const PolarGrid<2>& grid, double width) {
   return psi;
 }
 
-double wall_of(const LevelSet<2>& psi) { return outline_clearances(psi)->wall->width; }
+double wall_of(const LevelSet<2>& psi) { return outline_measures(psi)->clearances.wall->width; }
 
 TEST(FeatureSize, ShapesThatHaveItStayAsTheyAre) {
   for (const auto& grid : {grid_of(14, 192), grid_of(28, 384)}) {
@@ -125,8 +125,8 @@ TEST(FeatureSize, SlitsAndSmallHolesAreFilled) {
   const auto filled = without_narrow_gaps(slit, 0.012);
   const auto apart =
       holes(grid, 2, {{0.235, 0.5 * grid.sector_angle(), 0.016}, {0.305, 0.5 * grid.sector_angle(), 0.016}});
-  EXPECT_LT(outline_clearances(slit)->gap->width, 0.0065);
-  EXPECT_GT(outline_clearances(filled)->gap->width, 0.99 * 0.012);
+  EXPECT_LT(outline_measures(slit)->clearances.gap->width, 0.0065);
+  EXPECT_GT(outline_measures(filled)->clearances.gap->width, 0.99 * 0.012);
   EXPECT_GT(material_measure(filled), material_measure(slit));
   EXPECT_LT(material_measure(filled), 1.002 * material_measure(apart));
   // A slit that is wide enough stays.

@@ -259,6 +259,7 @@ class Page(Browser, unittest.TestCase):
             "evenness": [after["run_out_m"] * 1e3, after["force_variation_N"]],
             "volume": [100 * after["volume_fraction"]],
             "wall": [after["minimum_wall_m"] * 1e3],
+            "edges": [after["internal_corner_radius_m"] * 1e3, after["roughness_turns"]],
             "stress": [after["peak_von_mises_Pa"] * 1e-6, after["peak_von_mises_place"]["radius_m"] * 1e3],
             "pressure": [after["peak_pressure_Pa"] * 1e-6],
             "travel": [after["mean_travel_m"] * 1e3],

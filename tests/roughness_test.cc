@@ -10,6 +10,7 @@
 #include "wheelwright/cad/outline_fault.h"
 #include "wheelwright/case/case.h"
 #include "wheelwright/geometry/cell_map.h"
+#include "wheelwright/report/described_wheel.h"
 #include "wheelwright/run/roughness_warning.h"
 
 namespace wheelwright::cad {
@@ -255,6 +256,40 @@ TEST(Roughness, OfAnOutlineIsThatOfItsRoughestEdge) {
 
 Roughness with_turns(double turns) {
   return {0.005, {turns, {0.001, cartesian<2>({0.27, 0.5})}, {}, {}}, {}, {}};
+}
+
+/// A level set of the whole ring whose hole is r(phi) about a centre at azimuth `turned`, of this degree.
+LevelSet<2> hole(const std::function<double(double)>& r, int degree, double turned) {
+  const PolarGrid<2> grid{0.2, 0.34, 0.12, 1, {28, 384}};
+  LevelSet<2> psi{Lattice<2>(grid, degree), {}};
+  for (int node = 0; node < psi.lattice.n_nodes(); ++node) {
+    const Vec<2> p = wheelwright::rotated<2>(cartesian<2>(psi.lattice.polar_point(node)), -turned);
+    psi.values.push_back(r(std::atan2(p[1], p[0] - 0.27)) - std::hypot(p[0] - 0.27, p[1]));
+  }
+  return psi;
+}
+
+TEST(Roughness, OfALevelSetIsThatOfItsEdgeWhereverItLiesOnTheGrid) {
+  const auto r = [](double phi) { return 0.03 + 0.002 * std::cos(12 * phi) + 0.001 * std::sin(5 * phi); };
+  const double cell = hole(r, 2, 0).lattice.grid().resolution();
+  const EdgeRoughness exact = edge_roughness(polar_curve(r, 400, {0.27, 0}), cell);
+  EXPECT_GT(exact.turns, 0.5);
+  for (const double turned : {0.0, 0.7301, 4.1}) {
+    const auto found = outline_measures(hole(r, 2, turned))->roughness;
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->length, cell);
+    EXPECT_NEAR(found->edge.turns, exact.turns, 0.1 * exact.turns) << turned;
+    EXPECT_NEAR(found->internal_corner->radius, exact.internal_corner->radius,
+                0.15 * exact.internal_corner->radius);
+    const Vec<2> centre = wheelwright::rotated<2>({0.27, 0}, turned);
+    EXPECT_LT(
+        std::hypot(found->edge.sharpest.place[0] - centre[0], found->edge.sharpest.place[1] - centre[1]),
+        0.034);
+  }
+  // In 3D edges are no plane curves.
+  const PolarGrid<3> solid{0.2, 0.34, 0.12, 16, {7, 6, 2}};
+  const Lattice<3> lattice(solid, 1);
+  EXPECT_FALSE(outline_measures(LevelSet<3>{lattice, std::vector<double>(lattice.n_nodes(), -1)})->roughness);
 }
 
 TEST(RoughnessWarning, IsAboutWhatTheDrawingDoesNotHave) {

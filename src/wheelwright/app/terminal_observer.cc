@@ -7,6 +7,7 @@
 #include "wheelwright/app/trial_log.h"
 #include "wheelwright/case/unlimited.h"
 #include "wheelwright/run/feature_warnings.h"
+#include "wheelwright/run/roughness_warning.h"
 
 namespace wheelwright {
 namespace {
@@ -58,9 +59,11 @@ class TerminalObserver : public Observer<dim> {
     if (ended.summary) {
       const DescribedWheel<dim>& wheel = ended.summary->after.wheel;
       if (wheel.loaded) warn(run, "last shape", deformation_warning(wheel.loaded->summary.deformation));
-      if (wheel.clearances)
-        for (const std::string& warning : feature_warnings(run.study.source, *wheel.clearances))
+      if (wheel.outline)
+        for (const std::string& warning : feature_warnings(run.study.source, wheel.outline->clearances))
           warn(run, "last shape", warning);
+      warn(run, "last shape",
+           roughness_warning(run.study.source, roughness(wheel), roughness(ended.summary->before.wheel)));
     }
     progress_->end();
   }

@@ -14,6 +14,7 @@ const std::vector<RankedQuantity>& ranked_quantities() {
       {"peak_pressure", "peak contact pressure", "MPa", 1e-6, "peak_pressure_Pa", false, true},
       {"peak_stress", "peak von Mises stress", "MPa", 1e-6, "peak_von_mises_Pa", false, false},
       {"strain", "largest strain", "%", 100, "largest_strain", false, false},
+      {"roughness", "roughness of the edges", "turns below a cell", 1, "roughness_turns", false, false},
   };
   return all;
 }

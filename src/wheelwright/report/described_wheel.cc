@@ -79,9 +79,16 @@ double width(const DescribedWheel<dim>& wheel) {
 
 template <int dim>
 Number width_of(const DescribedWheel<dim>& wheel, std::optional<cad::Clearance> cad::Clearances::*which) {
-  if (!wheel.clearances) return wheel.clearances.failure().what;
-  const auto& clearance = (*wheel.clearances).*which;
+  if (!wheel.outline) return wheel.outline.failure().what;
+  const auto& clearance = wheel.outline->clearances.*which;
   return clearance ? Number(clearance->width) : std::nullopt;
+}
+
+/// Nothing where there are no holes.
+template <int dim>
+Number of_edges(const DescribedWheel<dim>& wheel, Number (*value)(const cad::Roughness&)) {
+  if (!wheel.outline) return wheel.outline.failure().what;
+  return wheel.outline->roughness ? value(*wheel.outline->roughness) : std::nullopt;
 }
 
 template <int dim>
@@ -103,14 +110,20 @@ Expected<LoadedWheel<dim>> loaded_wheel(const StateSolver<dim>& solver, const Le
 }  // namespace
 
 template <int dim>
-Expected<cad::Clearances, cad::OutlineFault> outline_clearances(const LevelSet<dim>& psi) {
+Expected<OutlineMeasures, cad::OutlineFault> outline_measures(const LevelSet<dim>& psi) {
   if constexpr (dim == 2) {
     const PolarGrid<2>& grid = psi.lattice.grid();
     const auto outline = cad::fit_outline(psi, curve_tolerance * grid.outer_radius);
     if (!outline) return outline.failure();
-    return cad::clearances(*outline, grid.n_sectors, cad::clearance_step * grid.outer_radius);
+    return OutlineMeasures{cad::clearances(*outline, grid.n_sectors, cad::clearance_step * grid.outer_radius),
+                           cad::roughness(*outline, grid.n_sectors, grid.resolution())};
   }
-  return cad::Clearances{};
+  return OutlineMeasures{};
+}
+
+template <int dim>
+std::optional<cad::Roughness> roughness(const DescribedWheel<dim>& wheel) {
+  return wheel.outline ? wheel.outline->roughness : std::nullopt;
 }
 
 template <int dim>
@@ -122,7 +135,7 @@ DescribedWheel<dim> described_wheel(const StateSolver<dim>& solver, const LevelS
                             .grid = solver.model().grid,
                             .volume_fraction = volume_fraction,
                             .mass = mass(solver, volume_fraction),
-                            .clearances = outline_clearances(psi),
+                            .outline = outline_measures(psi),
                             .loaded = loaded_wheel(solver, psi, states)};
   if (!cases.empty()) wheel.load_case = cases.front().name;
   for (std::size_t k = 1; k < cases.size(); ++k) {
@@ -205,6 +218,18 @@ const std::vector<WheelNumber<dim>>& wheel_numbers() {
        [](const Wheel& w) { return width_of(w, &cad::Clearances::wall); }, true},
       {"narrowest gap", "mm", mm, "minimum_gap_m",
        [](const Wheel& w) { return width_of(w, &cad::Clearances::gap); }, true},
+      {"roughness of the edges", "turns below a cell", 1, "roughness_turns",
+       [](const Wheel& w) {
+         return of_edges(w, [](const cad::Roughness& r) -> Number { return r.edge.turns; });
+       },
+       true},
+      {"smallest radius of an internal corner", "mm", mm, "internal_corner_radius_m",
+       [](const Wheel& w) {
+         return of_edges(w, [](const cad::Roughness& r) {
+           return r.internal_corner ? Number(r.internal_corner->radius) : std::nullopt;
+         });
+       },
+       true},
   };
   return numbers;
 }
@@ -213,7 +238,8 @@ const std::vector<WheelNumber<dim>>& wheel_numbers() {
   template DescribedWheel<dim> described_wheel(const StateSolver<dim>&, const LevelSet<dim>&, double,  \
                                                const SolvedStates<dim>&, const LoadCases<dim>&);       \
   template const DescribedWheel<dim>* under_load_case(const DescribedWheel<dim>&, const std::string&); \
-  template Expected<cad::Clearances, cad::OutlineFault> outline_clearances(const LevelSet<dim>&);      \
+  template Expected<OutlineMeasures, cad::OutlineFault> outline_measures(const LevelSet<dim>&);        \
+  template std::optional<cad::Roughness> roughness(const DescribedWheel<dim>&);                        \
   template std::optional<double> known_value(const WheelNumber<dim>&, const DescribedWheel<dim>&);     \
   template const std::vector<WheelNumber<dim>>& wheel_numbers();
 WHEELWRIGHT_INSTANTIATE(2)

@@ -9,6 +9,7 @@
 #include "wheelwright/analysis/shape_summary.h"
 #include "wheelwright/cad/clearance.h"
 #include "wheelwright/cad/outline_fault.h"
+#include "wheelwright/cad/roughness.h"
 #include "wheelwright/state/load_case.h"
 
 namespace wheelwright {
@@ -20,6 +21,13 @@ struct LoadedWheel {
   RollingAnalysis rolling;
 };
 
+/// What is measured on the curves that follow the edges of a shape. Nothing when dim = 3, whose edges are no
+/// plane curves.
+struct OutlineMeasures {
+  cad::Clearances clearances = {};
+  std::optional<cad::Roughness> roughness = {};  ///< at a cell of the grid; nothing without holes
+};
+
 /// A wheel in numbers.
 template <int dim>
 struct DescribedWheel {
@@ -28,11 +36,10 @@ struct DescribedWheel {
   PolarGrid<dim> grid;
   double volume_fraction;      ///< material area over the area of the full ring
   std::optional<double> mass;  ///< [kg, per metre of width when dim = 2], if the material has a density
-  /// The thinnest wall and the narrowest gap of the outline; fails where no curves can be fitted.
-  Expected<cad::Clearances, cad::OutlineFault> clearances;
-  Expected<LoadedWheel<dim>> loaded;        ///< fails as the contact problem does
-  std::string load_case = {};               ///< under which; empty: the wheel has one load alone
-  std::vector<DescribedWheel> others = {};  ///< the same wheel under its other load cases
+  Expected<OutlineMeasures, cad::OutlineFault> outline;  ///< fails where no curves can be fitted
+  Expected<LoadedWheel<dim>> loaded;                     ///< fails as the contact problem does
+  std::string load_case = {};                            ///< under which; empty: the wheel has one load alone
+  std::vector<DescribedWheel> others = {};               ///< the same wheel under its other load cases
 };
 
 /// States of a shape, or why there are none.
@@ -50,10 +57,13 @@ DescribedWheel<dim> described_wheel(const StateSolver<dim>& solver, const LevelS
 template <int dim>
 const DescribedWheel<dim>* under_load_case(const DescribedWheel<dim>& wheel, const std::string& load_case);
 
-/// The thinnest wall and the narrowest gap of a shape, measured on the curves that follow its edges: none
-/// when dim = 3. Fails where no curves can be fitted.
+/// Fails where no curves can be fitted.
 template <int dim>
-Expected<cad::Clearances, cad::OutlineFault> outline_clearances(const LevelSet<dim>& psi);
+Expected<OutlineMeasures, cad::OutlineFault> outline_measures(const LevelSet<dim>& psi);
+
+/// Of a wheel; nothing where it has none or no curves could be fitted.
+template <int dim>
+std::optional<cad::Roughness> roughness(const DescribedWheel<dim>& wheel);
 
 /// A number about a wheel, or in one line why it could not be computed, e.g. "newton_stalled: ...".
 using KnownNumber = Expected<double, std::string>;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -36,6 +37,10 @@ Json shape_json(const SummarizedShape<dim>& shape, const std::string& minimized)
   add_numbers(shape.wheel, json);
   if (!shape.objective) json["missing"][objective] = shape.objective.failure();
   if (shape.wheel.loaded) add_details(*shape.wheel.loaded, json);
+  if (const auto rough = roughness(shape.wheel)) {
+    const Vec<2>& place = rough->edge.sharpest.place;
+    json["roughness_place"] = {{"radius_m", norm<2>(place)}, {"azimuth_rad", std::atan2(place[1], place[0])}};
+  }
   return json;
 }
 

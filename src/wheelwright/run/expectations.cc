@@ -20,9 +20,10 @@ std::optional<double> named_value(const std::vector<NamedValue>& values, std::st
 
 template <int dim>
 std::optional<double> clearance(Quantity quantity, const LevelSet<dim>& shape) {
-  const auto clearances = outline_clearances(shape);
-  if (!clearances) return {};
-  const auto& clearance = quantity == Quantity::minimum_wall ? clearances->wall : clearances->gap;
+  const auto measured = outline_measures(shape);
+  if (!measured) return {};
+  const cad::Clearances& clearances = measured->clearances;
+  const auto& clearance = quantity == Quantity::minimum_wall ? clearances.wall : clearances.gap;
   return clearance ? std::optional(clearance->width) : std::nullopt;
 }
 

@@ -57,8 +57,10 @@ std::vector<std::string> feature_warnings(const Case& c, const cad::Clearances& 
 }
 
 Expected<cad::Clearances, cad::OutlineFault> initial_clearances(const Case& c) {
-  return outline_clearances(
+  const auto measured = outline_measures(
       in_dimension_of(c, [&](auto dim) { return mid_plane_section(initial_shape<dim>(c)); }));
+  if (!measured) return measured.failure();
+  return measured->clearances;
 }
 
 }  // namespace wheelwright

@@ -46,9 +46,10 @@ std::string changed_start(const Study<dim>& study, const InitialShape<dim>& star
   std::string changes = change("volume", percent, "% of the ring",
                                volume_fraction(study.grid(), material_measure(study.initial)),
                                volume_fraction(study.grid(), start.measure));
-  const auto from = outline_clearances(study.initial), to = outline_clearances(start.shape);
+  const auto from = outline_measures(study.initial), to = outline_measures(start.shape);
   if (from && to)
-    changes += change("thinnest wall", from->wall, to->wall) + change("narrowest gap", from->gap, to->gap);
+    changes += change("thinnest wall", from->clearances.wall, to->clearances.wall) +
+               change("narrowest gap", from->clearances.gap, to->clearances.gap);
   return "\"before\" is the wheel as the case gives it. The run began with a changed one, which has the "
          "volume "
          "and the widths that the case asks for and no loose pieces" +

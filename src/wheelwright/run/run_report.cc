@@ -21,6 +21,7 @@
 #include "wheelwright/run/feature_warnings.h"
 #include "wheelwright/run/history.h"
 #include "wheelwright/run/provenance.h"
+#include "wheelwright/run/roughness_warning.h"
 #include "wheelwright/run/run_title.h"
 #include "wheelwright/run/stop_text.h"
 #include "wheelwright/run/study.h"
@@ -153,8 +154,12 @@ std::vector<std::string> flags(const Case& c, const RunSummary<dim>& summary,
   if (wheel.loaded)
     if (const auto warning = deformation_warning(wheel.loaded->summary.deformation); !warning.empty())
       result.push_back(warning);
-  if (wheel.clearances)
-    for (const std::string& warning : feature_warnings(c, *wheel.clearances)) result.push_back(warning);
+  if (wheel.outline)
+    for (const std::string& warning : feature_warnings(c, wheel.outline->clearances))
+      result.push_back(warning);
+  if (const auto warning = roughness_warning(c, roughness(wheel), roughness(summary.before.wheel));
+      !warning.empty())
+    result.push_back(warning);
   for (const std::string& warning : warnings(with_levels_of_results(c))) result.push_back(warning);
   for (const std::string& line : missing_lines(summary)) result.push_back(line);
   for (const Remark& remark : summary.remarks) result.push_back(text(remark));
@@ -192,9 +197,9 @@ std::vector<std::string> limits(const Case& c, const DescribedWheel<dim>& wheel)
       fmt::format("It was computed on {} x {} cells", c.grid.radial_cells, c.grid.angular_cells);
   if (!c.load.travel)
     cells += fmt::format("; the contact patch is {:.1f} cells wide", cells_per_contact_patch(shown));
-  if (wheel.clearances && wheel.clearances->wall)
+  if (wheel.outline && wheel.outline->clearances.wall)
     cells += fmt::format("; the thinnest wall is {:.1f} cells thick",
-                         wheel.clearances->wall->width / polar_grid<2>(c).resolution());
+                         wheel.outline->clearances.wall->width / polar_grid<2>(c).resolution());
   result.push_back(cells + ". A finer grid shows how much that matters.");
   return result;
 }
