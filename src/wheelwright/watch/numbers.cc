@@ -9,6 +9,7 @@
 #include "wheelwright/run/case_report.h"
 #include "wheelwright/run/feature_warnings.h"
 #include "wheelwright/run/remarks.h"
+#include "wheelwright/run/roughness_warning.h"
 
 namespace wheelwright {
 namespace {
@@ -45,8 +46,10 @@ Json warnings_json(const Case& c, const DescribedWheel<dim>& before, const Descr
   if (now.loaded)
     if (auto text = deformation_warning(now.loaded->summary.deformation); !text.empty())
       texts.push_back(std::move(text));
-  if (now.clearances)
-    for (auto& text : feature_warnings(c, *now.clearances)) texts.push_back(std::move(text));
+  if (now.outline)
+    for (auto& text : feature_warnings(c, now.outline->clearances)) texts.push_back(std::move(text));
+  if (auto text = roughness_warning(c, roughness(now), roughness(before)); !text.empty())
+    texts.push_back(std::move(text));
   for (auto& text : warnings(c)) texts.push_back(std::move(text));
   for (const Remark& remark : remarks(c, before.load_case, judged(before), judged(now)))
     texts.push_back(remark.text);
