@@ -76,7 +76,7 @@ Expected<Course> course(const Case& c, bool tells) {
   if (!state) return state.failure();
   result.reason = optimizer.run(*state, observe, [] { return false; });
   result.end = optimizer.objective_of(state->evaluation);
-  if (const auto clearances = outline_clearances(state->shape)) result.clearances = *clearances;
+  if (const auto measured = outline_measures(state->shape)) result.clearances = measured->clearances;
   result.cell = state->shape.lattice.grid().resolution();
   return result;
 }

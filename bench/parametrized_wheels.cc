@@ -95,8 +95,8 @@ Expected<Judged> judge(const Case& c) {
   if (!cells) return cells.failure();
   const auto evaluated = evaluate_of(*study)({study->initial, &cells->domain}, nullptr);
   if (!evaluated) return evaluated.failure();
-  const auto clearances = outline_clearances(study->initial);
-  const auto wall = clearances ? clearances->wall : std::nullopt;
+  const auto measured = outline_measures(study->initial);
+  const auto wall = measured ? measured->clearances.wall : std::nullopt;
   const double volume = cells->measure * c.wheel.sectors * c.wheel.width;
   return Judged{c.material.density.value_or(0) * volume,
                 largest_violation(bound_constraints(evaluated->evaluation)), wall ? wall->width : 0};
