@@ -24,8 +24,9 @@ RollingModel<2> pressed_model() {
 }
 
 /// The contact of one position in a zone that is given and not widened.
-Expected<ContactState<2>> solved_in(const RollingProblem<2>& problem, const RollingSolution<2>& s,
-                                    int position, const RimControl& rim, ContactZone zone) {
+Expected<ContactState<2>, ContactFailure> solved_in(const RollingProblem<2>& problem,
+                                                    const RollingSolution<2>& s, int position,
+                                                    const RimControl& rim, ContactZone zone) {
   const SurfaceCompliance<2> surface(s.ring, problem.tread(), zone.n_columns - 1);
   const ReducedContact<2> contact(surface, problem.tread(), problem.model().grid,
                                   s.positions.grounds[position], zone, rim);

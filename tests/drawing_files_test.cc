@@ -790,7 +790,7 @@ std::string dxf(const std::string& entities, int units = 4) {
       units, entities);
 }
 
-std::vector<BadFile> bad_files() {
+std::vector<BadFile> bad_svg_files() {
   const std::string path = "path";
   const std::string circle = "<circle cx='270' cy='0' r='20'/>";
   std::string many = "<path d='M0,0";
@@ -799,8 +799,6 @@ std::vector<BadFile> bad_files() {
   for (int i = 0; i < 200; ++i) deep += "<g>";
   deep += circle;
   for (int i = 0; i < 200; ++i) deep += "</g>";
-  std::string cut = png(20, 20, [](double x, double y) { return std::hypot(x - 10, y - 10) < 5; });
-  cut.resize(cut.size() / 2);
   return {
       {"open.svg", svg("<path d='M 250,0 L 290,0 L 290,20'/>"), 2, path, ""},
       {"crossing.svg", svg(circle + "\n<path d='M250,50 L290,90 L290,50 L250,90 Z'/>"), 3, path, ""},
@@ -833,6 +831,12 @@ std::vector<BadFile> bad_files() {
       {"infinite.svg", svg("<g transform='scale(1e300)'>\n<circle cx='1e300' cy='0' r='1'/></g>"), 3, path,
        ""},
       {"not_in_sectors.svg", svg(circle), 2, "wheel.sectors", "count = 3\n"},
+  };
+}
+
+std::vector<BadFile> bad_dxf_files() {
+  const std::string path = "path";
+  return {
       {"open.dxf", dxf("0\nLINE\n10\n250\n20\n0\n11\n290\n21\n0\n"), 15, path, ""},
       {"branching.dxf",
        dxf("0\nLINE\n10\n250\n20\n0\n11\n290\n21\n0\n0\nLINE\n10\n290\n20\n0\n11\n290\n21\n20\n"
@@ -866,6 +870,14 @@ std::vector<BadFile> bad_files() {
       {"in_metres.dxf", dxf("0\nCIRCLE\n10\n270\n20\n0\n40\n20\n", 6), 5, "shape.file[1]", ""},
       {"crossing.dxf", dxf("0\nCIRCLE\n10\n270\n20\n0\n40\n20\n0\nCIRCLE\n10\n290\n20\n0\n40\n20\n"), 15,
        path, ""},
+  };
+}
+
+std::vector<BadFile> other_bad_files() {
+  const std::string path = "path";
+  std::string cut = png(20, 20, [](double x, double y) { return std::hypot(x - 10, y - 10) < 5; });
+  cut.resize(cut.size() / 2);
+  return {
       {"other_format.step", "ISO-10303-21;\n", 6, "shape.file[1].path", ""},
       {"cut_off.png", cut, 0, path, "width = 0.7\n"},
       {"no_png.png", "GIF89a", 0, path, "width = 0.7\n"},
@@ -874,6 +886,13 @@ std::vector<BadFile> bad_files() {
       {"dark.png", png(20, 20, [](double, double) { return true; }), 5, "shape.picture[1]",
        "width = 0.7\ncount = 16\n"},
   };
+}
+
+std::vector<BadFile> bad_files() {
+  std::vector<BadFile> all;
+  for (const auto& files : {bad_svg_files(), bad_dxf_files(), other_bad_files()})
+    all.insert(all.end(), files.begin(), files.end());
+  return all;
 }
 
 std::string array_of(const BadFile& bad) {

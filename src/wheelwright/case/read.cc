@@ -25,8 +25,8 @@
 #include "wheelwright/case/suggest.h"
 #include "wheelwright/case/toml_guard.h"
 #include "wheelwright/case/toml_lines.h"
-#include "wheelwright/files/path_queries.h"
 #include "wheelwright/case/unit_text.h"
+#include "wheelwright/files/path_queries.h"
 
 namespace wheelwright {
 
