@@ -40,7 +40,7 @@ class ShapeOnly : public RunControl {
   }
   std::optional<Refusal> take_shape(const std::filesystem::path&, const std::string&) override { return {}; }
   std::optional<Refusal> reset() override { return {}; }
-  std::optional<Refusal> undo() override { return {}; }
+  Expected<std::string, Refusal> undo() override { return std::string("the last change"); }
 
  private:
   static LevelSet<2> ring_with_holes(const Wheel& wheel) {
