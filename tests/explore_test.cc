@@ -142,16 +142,16 @@ TEST(Starts, CanBeHalvedAsOftenAsTheCoarseGridsNeed) {
 TEST(Starts, AttemptsThatFailAreBoundedAndCounted) {
   Case refused = case_of(usual_wheel + least_mass);
   refused.material.density.reset();
-  const Drawing none = draw_start(refused, {0.66}, 1, 2);
+  const DrawnStart none = draw_start(refused, {0.66}, 1, 2);
   EXPECT_FALSE(none.start);
   EXPECT_GT(none.failed.refused, 0);
   EXPECT_LT(none.failed.refused, 50);
   EXPECT_FALSE(none.failed.refusal.empty());
-  const Drawing full = draw_start(case_of(usual_wheel), {0.9999}, 1, 2);
+  const DrawnStart full = draw_start(case_of(usual_wheel), {0.9999}, 1, 2);
   EXPECT_FALSE(full.start);
   EXPECT_GT(full.failed.off_volume, 0);
   int n_asked = 0;
-  const Drawing ended = draw_start(case_of(usual_wheel), {0.9999}, 1, 2, [&] { return ++n_asked > 3; });
+  const DrawnStart ended = draw_start(case_of(usual_wheel), {0.9999}, 1, 2, [&] { return ++n_asked > 3; });
   EXPECT_FALSE(ended.start);
   EXPECT_EQ(ended.failed.total(), 3);
 }

@@ -12,20 +12,29 @@
 namespace wheelwright {
 namespace {
 
+/// Where Newton's method ended from the last start that was tried, with the steps of all, and the last
+/// iterates from those that led to no solution.
+template <int dim>
+struct NewtonAttempts {
+  NewtonEnd<dim> end;
+  std::vector<ContactUnknowns<dim>> last_iterates;
+};
+
 /// Newton's method from each start until one leads to a solution.
 template <int dim>
-NewtonEnd<dim> newton_from_each(const ReducedContact<dim>& contact,
-                                std::span<const ContactUnknowns<dim>> starts, Cycling when_cycling,
-                                const Interrupt& interrupt) {
-  NewtonEnd<dim> end;
+NewtonAttempts<dim> newton_from_each(const ReducedContact<dim>& contact,
+                                     std::span<const ContactUnknowns<dim>> starts, Cycling when_cycling,
+                                     const Interrupt& interrupt) {
+  NewtonAttempts<dim> attempts;
   int iterations = 0;
   for (const ContactUnknowns<dim>& start : starts) {
-    if (end.converged || interrupt.requested()) break;
-    end = newton(contact, contact.touching(start), when_cycling, interrupt, iterations);
-    iterations += end.iterations;
+    if (attempts.end.converged || interrupt.requested()) break;
+    attempts.end = newton(contact, contact.touching(start), when_cycling, interrupt, iterations);
+    iterations += attempts.end.iterations;
+    if (!attempts.end.converged) attempts.last_iterates.push_back(attempts.end.x);
   }
-  end.iterations = iterations;
-  return end;
+  attempts.end.iterations = iterations;
+  return attempts;
 }
 
 /// The thresholds of Coulomb's law for the pressures of x.
@@ -121,35 +130,42 @@ NewtonEnd<3> led_from(const ReducedContact<3>& contact, const ContactUnknowns<3>
   return newton_by_load_steps(contact, x, interrupt, steps_before);
 }
 
-/// From the last iterate of Newton's method, and from its starts.
-NewtonEnd<2> where_newton_cycles(const ReducedContact<2>& contact, const NewtonEnd<2>& last,
+/// Paths from the last iterates of Newton's method, and from its starts. Where all of them stay at a corner
+/// of the contact law, a sequence of problems with given friction.
+NewtonEnd<2> where_newton_cycles(const ReducedContact<2>& contact, const NewtonAttempts<2>& newton,
                                  std::span<const ContactUnknowns<2>> starts, const Interrupt& interrupt) {
-  NewtonEnd<2> end = newton_by_path(contact, last.x, interrupt, last.iterations);
-  int iterations = last.iterations + end.iterations;
-  for (const ContactUnknowns<2>& start : starts) {
+  std::vector<ContactUnknowns<2>> beginnings = newton.last_iterates;
+  for (const ContactUnknowns<2>& start : starts) beginnings.push_back(contact.touching(start));
+  NewtonEnd<2> end;
+  int iterations = newton.end.iterations;
+  for (const ContactUnknowns<2>& x : beginnings) {
     if (end.converged || interrupt.requested()) break;
-    end = newton_by_path(contact, contact.touching(start), interrupt, iterations);
+    end = newton_by_path(contact, x, interrupt, iterations);
+    iterations += end.iterations;
+  }
+  if (!end.converged && !interrupt.requested()) {
+    end = newton_by_given_friction(contact, contact.touching(starts.back()), interrupt);
     iterations += end.iterations;
   }
   end.iterations = iterations;
   return end;
 }
 
-NewtonEnd<3> where_newton_cycles(const ReducedContact<3>& contact, const NewtonEnd<3>& last,
+NewtonEnd<3> where_newton_cycles(const ReducedContact<3>& contact, const NewtonAttempts<3>& newton,
                                  std::span<const ContactUnknowns<3>> starts, const Interrupt& interrupt) {
   NewtonEnd<3> end = newton_by_given_friction(contact, contact.touching(starts.back()), interrupt);
-  end.iterations += last.iterations;
+  end.iterations += newton.end.iterations;
   return end;
 }
 
-/// Coulomb's friction where Newton's method fails. In the plane a path leads on from its last iterate, or
-/// from one of the starts; in space, where the cone of friction is round, a sequence of problems with given
-/// friction is solved. If that fails too, the rim is first held along the ground, and then loaded.
+/// Coulomb's friction where Newton's method fails. In the plane a path leads on from one of its last
+/// iterates, or from one of the starts; in space, where the cone of friction is round, a sequence of problems
+/// with given friction is solved. If that fails too, the rim is first held along the ground, and then loaded.
 template <int dim>
 NewtonEnd<dim> solve_with_friction(const ReducedContact<dim>& contact,
-                                   std::span<const ContactUnknowns<dim>> starts, const NewtonEnd<dim>& last,
-                                   const Interrupt& interrupt) {
-  NewtonEnd<dim> end = where_newton_cycles(contact, last, starts, interrupt);
+                                   std::span<const ContactUnknowns<dim>> starts,
+                                   const NewtonAttempts<dim>& newton, const Interrupt& interrupt) {
+  NewtonEnd<dim> end = where_newton_cycles(contact, newton, starts, interrupt);
   if (end.converged || interrupt.requested()) return end;
   const ReducedContact<dim> held = held_along_ground(contact);
   if (held.rim().free.size() == contact.rim().free.size()) return end;
@@ -158,9 +174,9 @@ NewtonEnd<dim> solve_with_friction(const ReducedContact<dim>& contact,
     x.rim.resize(held.rim().free.size());
     held_starts.push_back(std::move(x));
   }
-  NewtonEnd<dim> standing = newton_from_each<dim>(held, held_starts, Cycling::give_up, interrupt);
-  if (!standing.converged)
-    standing = where_newton_cycles(held, NewtonEnd<dim>(standing), held_starts, interrupt);
+  const auto attempts = newton_from_each<dim>(held, held_starts, Cycling::give_up, interrupt);
+  const NewtonEnd<dim> standing =
+      attempts.end.converged ? attempts.end : where_newton_cycles(held, attempts, held_starts, interrupt);
   const int before = end.iterations + standing.iterations;
   if (standing.converged) end = led_from(contact, released(standing.x, contact.rim()), interrupt, before);
   end.iterations = standing.converged ? before + end.iterations : before;
@@ -207,12 +223,13 @@ Expected<ContactState<dim>, ContactFailure> solve_contact(const ReducedContact<d
   }
   if (const auto force = pressing_force(contact); force && !(*force > 0))
     return ContactFailure{{FailureReason::no_contact, "the other loads lift the wheel off the ground"}};
-  NewtonEnd<dim> end = newton_from_each(
+  const auto attempts = newton_from_each(
       contact, starts, contact.has_friction() ? Cycling::give_up : Cycling::change_fewer, interrupt);
+  NewtonEnd<dim> end = attempts.end;
   std::optional<FrictionLimit> limit;
   if (!end.converged && contact.has_friction() && !interrupt.requested()) {
     limit = friction_limit(contact, starts.back(), interrupt);
-    if (!limit || !limit->is_exceeded()) end = solve_with_friction<dim>(contact, starts, end, interrupt);
+    if (!limit || !limit->is_exceeded()) end = solve_with_friction<dim>(contact, starts, attempts, interrupt);
   }
   if (end.converged) return contact.state(end.x, end.iterations);
   if (interrupt.requested())

@@ -7,9 +7,9 @@
 
 namespace wheelwright {
 
-/// Newton's steps of one contact problem. From one iterate to the next the contact law changes its derivative
-/// at a few points only: the tangent is factored once and corrected for these points (Woodbury's formula); it
-/// is factored anew where they are many.
+/// Newton's steps of one contact problem. The tangent is factored anew where the derivative of the contact
+/// law differs from that of the last step at some point. (Corrected for these points by Woodbury's formula it
+/// is found sooner, but its rounding errors left contacts unsolved that come to a corner of the law.)
 template <int dim>
 class NewtonTangent {
  public:
@@ -22,9 +22,6 @@ class NewtonTangent {
                                            const ContactUnknowns<dim>& residual);
 
  private:
-  std::optional<ContactUnknowns<dim>> corrected_step(const std::vector<Mat<dim>>& tangents,
-                                                     const ContactUnknowns<dim>& residual) const;
-
   const ReducedContact<dim>* contact_;
   std::optional<ContactTangent<dim>> factored_;
 };

@@ -95,7 +95,7 @@ Expected<std::vector<Start>> planned_starts(const Case& c, const ExplorationPlan
   for (int number = 0; static_cast<int>(starts.size()) < plan.starts && without_start < n_kinds_of_starts;
        ++number) {
     if (settings.must_end()) break;
-    Drawing drawing = draw_start(c, {*volume, plan.keeps_sectors}, plan.seed, number, settings.must_end);
+    DrawnStart drawing = draw_start(c, {*volume, plan.keeps_sectors}, plan.seed, number, settings.must_end);
     without_start = drawing.start ? 0 : without_start + 1;
     failed += drawing.failed;
     if (drawing.start) starts.push_back(*std::move(drawing.start));

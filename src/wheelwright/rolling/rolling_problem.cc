@@ -220,7 +220,7 @@ Expected<RolledContact<dim>> roll_to(const RollingModel<dim>& model, const Tread
     if (!touches_edge(*state) || half >= largest_half)
       return RolledContact<dim>{std::move(contact), *std::move(state)};
     known = *std::move(state);
-    half += std::max(2, half / 4);
+    half += std::max(2, half / 8);
   }
 }
 

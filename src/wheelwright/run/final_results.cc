@@ -61,8 +61,9 @@ FinalResults<dim> final_results(const Study<dim>& study, const InitialShape<dim>
   const auto before = [&] {
     if (study.initial.values == state.shape.values) return after;
     if (solved.initial && solver == study.solver && begins_as_given(study, initial)) return *solved.initial;
-    return described(*solver, study.load_cases, study.initial, material_measure(study.initial),
-                     solutions.of(*solver, study.initial));
+    const double measure =
+        begins_as_given(study, initial) ? initial.measure : material_measure(study.initial);
+    return described(*solver, study.load_cases, study.initial, measure, solutions.of(*solver, study.initial));
   }();
   auto summary = summarized_run(study, initial, before, state, after, interrupt);
   return {.own = own ? *own : nullptr,

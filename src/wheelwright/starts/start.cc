@@ -105,7 +105,7 @@ std::string refusal(const Case& c) {
 }
 
 /// One attempt at a start.
-Drawing attempt(const Case& c, const StartRange& range, const std::optional<Draft>& draft) {
+DrawnStart attempt(const Case& c, const StartRange& range, const std::optional<Draft>& draft) {
   if (!draft) return {{}, {.without_room = 1}};
   const auto size = matching_size(c, range, *draft);
   if (!size) return {{}, {.off_volume = 1}};
@@ -146,14 +146,14 @@ std::string to_string(const FailedAttempts& attempts) {
   return fmt::format("{} attempts failed: {}", attempts.total(), fmt::join(reasons, ", "));
 }
 
-Drawing draw_start(const Case& c, const StartRange& range, std::uint64_t seed, int number,
+DrawnStart draw_start(const Case& c, const StartRange& range, std::uint64_t seed, int number,
                    const std::function<bool()>& must_end) {
   Random random(seed, static_cast<std::uint64_t>(number));
   const DraftSpace space = draft_space(c, range);
   FailedAttempts failed;
   while (failed.total() < most_attempts && failed.refused < most_refused && !must_end()) {
     // A kind that finds no room gives way to the next one.
-    Drawing drawing = attempt(c, range, draft(space, random, number + failed.total() / 20));
+    DrawnStart drawing = attempt(c, range, draft(space, random, number + failed.total() / 20));
     failed += drawing.failed;
     if (drawing.start) return {std::move(drawing.start), std::move(failed)};
   }

@@ -40,7 +40,7 @@ struct FailedAttempts {
 /// E.g. "41 attempts failed: no room 30, off the volume 11". Empty if none failed.
 std::string to_string(const FailedAttempts& attempts);
 
-struct Drawing {
+struct DrawnStart {
   std::optional<Start> start;
   FailedAttempts failed;
 };
@@ -52,7 +52,7 @@ inline constexpr int n_kinds_of_starts = 10;
 /// wall and no hole is lost there, and its volume is that of the range to within a hundredth of the ring.
 /// There is none if a bounded number of attempts failed, or if `must_end`, which is asked before each of
 /// them, says so.
-Drawing draw_start(
+DrawnStart draw_start(
     const Case& c, const StartRange& range, std::uint64_t seed, int number,
     const std::function<bool()>& must_end = [] { return false; });
 
