@@ -64,7 +64,7 @@ TEST(BoundedFunctions, LetALighterWheelBeFound) {
   c.constraints = {{.quantity = Quantity::stiffness, .at_least = 1}};
   c.constraints[0].at_least = 1.02 * evaluated(c).function("stiffness").value;
   c.objective.minimize = Quantity::volume_fraction;
-  c.optimizer.iterations = 15;
+  c.optimizer.iterations = 30;
   const auto study = make_study<2>(c);
   ASSERT_TRUE(study);
   const auto outcome = optimize<2>(

@@ -482,7 +482,8 @@ at_most = 1e-3
                 front, round(x - size["width"] / 2), round(y - size["height"] / 2)).click().perform()
             name = self.element("design").get_attribute("value")
             self.until(lambda name=name: f"designs/{name}/" in self.text("message"))
-            outlines.append(self.watched.frame()["outline"])
+            before = outlines[-1] if outlines else own
+            outlines.append(self.watched.wait(lambda f, before=before: f["outline"] != before)["outline"])
         self.assertNotEqual(outlines[0], outlines[1])
         self.assertNotIn(own, outlines)
         self.element("design").send_keys(Keys.ARROW_UP)
@@ -664,7 +665,8 @@ class OneScreen(PageTest):
     def test_bounds_say_whether_they_are_met(self):
         self.until(lambda: self.element("bounds").is_displayed())
         frame = self.watched.frame()
-        rows = [row.text for row in self.element("bound-rows").find_elements(By.TAG_NAME, "tr")]
+        rows = self.browser.execute_script(
+            "return [...document.querySelectorAll('#bound-rows tr')].map((row) => row.innerText)")
         self.assertEqual(len(rows), len(frame["bounds"]))
         for row, bound in zip(rows, frame["bounds"]):
             self.assertEqual("not met" not in row, bound["is_kept"], row)
