@@ -192,6 +192,7 @@ class Page(PageTest):
         for command in command_lines():
             self.assertNotIn(self.watched.token, command)
         self.watched.give({"do": "pause"})
+        self.browser.get("about:blank")  # the page would tell that the server is gone
         code, _, messages = self.watched.end()
         self.assertEqual(code, 130)
         self.assertNotIn(self.watched.token, messages)
