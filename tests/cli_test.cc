@@ -598,7 +598,8 @@ TEST_F(CommandLine, AnInitialShapeThatFallsApartIsThreeAndIsDrawn) {
 // With large steps every pair of holes joins, and reaches the band at the rim.
 TEST_F(CommandLine, ARunTellsOfHolesThatJoinOnTheTerminalAndInItsHistory) {
   std::ofstream(folder() / "c.toml") << case_with_thin_spokes("control = \"exact\"", 2);
-  const Outcome run = wheelwright(fmt::format("run {} --output {} --verbose", in_folder("c.toml"), in_folder("run")));
+  const Outcome run =
+      wheelwright(fmt::format("run {} --output {} --verbose", in_folder("c.toml"), in_folder("run")));
   EXPECT_EQ(run.code, exit_done);
   const std::string history = content(folder() / "run/history.csv");
   for (const ShapeEventKind kind : {ShapeEventKind::holes_merged, ShapeEventKind::hole_at_rim_band})

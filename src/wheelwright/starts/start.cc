@@ -147,7 +147,7 @@ std::string to_string(const FailedAttempts& attempts) {
 }
 
 DrawnStart draw_start(const Case& c, const StartRange& range, std::uint64_t seed, int number,
-                   const std::function<bool()>& must_end) {
+                      const std::function<bool()>& must_end) {
   Random random(seed, static_cast<std::uint64_t>(number));
   const DraftSpace space = draft_space(c, range);
   FailedAttempts failed;
