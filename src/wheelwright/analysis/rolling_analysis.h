@@ -24,7 +24,7 @@ struct RollingAnalysis {
   double load;    ///< the model's, or the mean of the forces at its travel
   double travel;  ///< the model's, or the mean of the travels under its load
 
-  // What the model does not hold takes further solves, which fail as the contact problem does.
+  // Numbers at loads or travels that the model does not hold need further solves. These may fail.
   /// By how far the axle descends at each position, from the mean height at which the wheel touches the
   /// ground without load; its variation is the run-out of the loaded radius.
   Expected<std::vector<double>> travel_at_load;

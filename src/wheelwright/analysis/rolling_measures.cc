@@ -76,7 +76,7 @@ struct Lobe {
   double begin, end;  ///< along the ground [m]
 };
 
-/// Of the points of a lobe, in their order along the ground, and the one on either side that does not touch.
+/// The arguments are the points of a lobe, in their order along the ground, and the next one on either side.
 Lobe lobe_of(std::vector<GroundPoint> points) {
   const double end = end_of_lobe(points);
   for (GroundPoint& p : points) p.along = -p.along;

@@ -23,8 +23,8 @@ struct DesignOptions {
   /// --output, --for, --seconds, --threads
   void declare(Options& options);
 
-  /// Those of --for; without it what the case minimizes, if that is one of them, or else stiffness, and
-  /// run-out, or the radial force variation where the travel is prescribed.
+  /// The quantities that --for names; without it they are what the case minimizes, if that is one of them, or
+  /// else stiffness, and run-out, or the radial force variation where the travel is prescribed.
   std::vector<RankedQuantity> chosen_quantities(const Case& c) const;
   int n_threads() const;
 };

@@ -96,7 +96,7 @@ struct NotBegunReport {
   }
 };
 
-/// Where to look first.
+/// The files to look at first.
 void print_files(const fs::path& folder) {
   for (const auto& [file, meaning] : {std::pair{"report.html", "all of it on one page, for a browser"},
                                       {"comparison.svg", "before and after"},
