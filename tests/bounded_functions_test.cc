@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <numeric>
 
 #include "wheelwright/optimize/constraints.h"
+#include "wheelwright/run/case_report.h"
 #include "wheelwright/run/study.h"
 
 using namespace wheelwright;
@@ -59,6 +61,24 @@ TEST(BoundedFunctions, AreEveryPositionOfAWheelThatIsNotItsMirrorImage) {
 }
 
 // A lighter wheel of the same stiffness, to begin with one that is too soft by two percent.
+TEST(BoundedFunctions, AreShownOnTheWholeWidthInTheUnitsOfTables) {
+  Case c = small_case();
+  c.wheel.width = 0.04;
+  c.load.force = 1000;
+  c.constraints = {{.quantity = Quantity::stiffness, .at_least = 600e3 / c.wheel.width}};
+  EXPECT_NE(derived_report(c).find("stiffness at least 600 N/mm"), std::string::npos);
+  const auto study = make_study<2>(c);
+  ASSERT_TRUE(study);
+  const auto bounds = bound_states(evaluated(c), {});
+  ASSERT_EQ(bounds.size(), 1u);
+  double value = 0, limit = 0;
+  const std::string shown = text(bounds[0], study->grid());
+  ASSERT_EQ(std::sscanf(shown.c_str(), "stiffness = %lf N/mm, is at least %lf N/mm", &value, &limit), 2)
+      << shown;
+  EXPECT_NEAR(value, bounds[0].value * 0.04 * 1e-3, 1e-5 * value);
+  EXPECT_NEAR(limit, 600, 1e-9);
+}
+
 TEST(BoundedFunctions, LetALighterWheelBeFound) {
   Case c = small_case();
   c.constraints = {{.quantity = Quantity::stiffness, .at_least = 1}};
@@ -72,7 +92,7 @@ TEST(BoundedFunctions, LetALighterWheelBeFound) {
   ASSERT_TRUE(outcome.state);
   const auto bounds = bound_states(outcome.state->evaluation, outcome.state->memory.multipliers);
   ASSERT_EQ(bounds.size(), 1u);
-  EXPECT_TRUE(bounds[0].is_kept()) << bounds[0].text();
+  EXPECT_TRUE(bounds[0].is_kept()) << bounds[0].value;
   EXPECT_GT(bounds[0].multiplier, 0);
   EXPECT_LT(outcome.state->evaluation.function("objective").value,
             0.99 * evaluated(c).function("objective").value);

@@ -271,6 +271,21 @@ TEST(SetNumber, GivesAKeyItsValueInTheUnitOfTheFile) {
   EXPECT_EQ(c, before);
 }
 
+TEST(SetNumber, TakesUnitsAsACaseFileDoes) {
+  Case c = case_of(usual_wheel + "[[constraint]]\nquantity = \"stiffness\"\nat_least = 1e6\n");
+  EXPECT_FALSE(set_number(c, "wheel.outer_radius", 320, "mm"));
+  EXPECT_DOUBLE_EQ(c.wheel.outer_radius, 0.32);
+  EXPECT_FALSE(set_number(c, "constraint[1].at_least", 600, "N/mm"));  // on the whole width
+  EXPECT_DOUBLE_EQ(*c.constraints[0].at_least, 600e3 / c.wheel.width);
+  const Case before = c;
+  EXPECT_TRUE(set_number(c, "constraint[1].at_least", 600, "MPa"));
+  EXPECT_TRUE(set_number(c, "grid.radial_cells", 42, "mm"));
+  EXPECT_EQ(c, before);
+  const auto designs = sweep_designs(c, "test.toml", {{"constraint[1].at_least", {700, 800}, "N/mm"}});
+  ASSERT_TRUE(designs) << designs.failure().text;
+  EXPECT_DOUBLE_EQ(*designs->back().source.constraints[0].at_least, 800e3 / c.wheel.width);
+}
+
 TEST(Sweep, HoldsEveryCombinationOnce) {
   const Case c = case_of(usual_wheel);
   const auto designs =

@@ -113,7 +113,7 @@ TEST(Remarks, SuggestBoundsThatTheProgramAccepts) {
                                                                                                : 1;
       const double value = factor * bound.at_least.value_or(bound.at_most.value_or(0));
       const double side = bound.at_least ? -1 : 1;
-      EXPECT_GE(side * value, side * remark.before * (1 - 1e-12)) << remark.constraint;
+      EXPECT_GE(side * value, (side - 1e-12) * remark.before) << remark.constraint;
       EXPECT_NEAR(value, remark.before, 0.01 * remark.before) << remark.constraint;
       EXPECT_TRUE(remarks(bounded, load_case, caster, worse).size() < found.size());
     }

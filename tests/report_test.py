@@ -498,16 +498,20 @@ class LoadsPage(Browser, unittest.TestCase):
         bounds = self.summary["bounds"]
         self.assertEqual(len(bounds), 4)
         self.assertGreater(max(bound["multiplier"] for bound in bounds), 0)
+        shown = {"stiffness": ("N/mm", 1e-3 * self.summary["width_m"]), "run_out": ("mm", 1e3)}
         for bound in bounds:
+            unit, factor = shown[bound["name"].split()[0]]
             row = self.browser.find_element(By.CSS_SELECTOR, f"tr[data-bound='{bound['name']}']")
             limit, before, after, margin, percent, state, multiplier = (cell.text for cell in
                                                                        row.find_elements(By.TAG_NAME, "td"))
+            self.assertIn(f"[{unit}]", row.text)
             (column,) = [name for name in first if name.startswith(f"bounded {bound['name']} [")]
             sign = 1 if bound["relation"] == ">" else -1
-            for text, value in ((limit.split()[-1], bound["bound"]), (before, float(first[column])), (after, bound["value"]),
-                                (margin, sign * (bound["value"] - bound["bound"])),
+            for text, value in ((limit.split()[-1], bound["bound"] * factor), (before, float(first[column]) * factor),
+                                (after, bound["value"] * factor),
+                                (margin, sign * (bound["value"] - bound["bound"]) * factor),
                                 (percent, sign * 100 * (bound["value"] / bound["bound"] - 1)),
-                                (multiplier.split()[0], bound["multiplier"])):
+                                (multiplier.split()[0], bound["multiplier"] / factor)):
                 self.assertAlmostEqual(float(text.replace("\u2212", "-")), value, delta=1e-3 * abs(value), msg=bound["name"])
             self.assertEqual(state, "active" if bound["multiplier"] else "not active")
         self.assertIn("4 bounds are kept", self.text("run0-verdict"))

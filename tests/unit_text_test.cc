@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "wheelwright/base/quantity.h"
 #include "wheelwright/case/read.h"
+#include "wheelwright/case/shown_value.h"
 #include "wheelwright/case/write.h"
 
 namespace wheelwright {
@@ -33,6 +35,22 @@ TEST(UnitText, ACaseWithUnitsIsThatInItsOwnUnits) {
       "mass = 150\n[[holes.ring]]\ncount = 16\ncenter_radius = 0.27\nradius = 0.03\n");
   ASSERT_TRUE(with_units.value && plain.value);
   EXPECT_EQ(to_toml(*with_units.value), to_toml(*plain.value));
+}
+
+TEST(UnitText, WhatIsShownReadsBackAsTheSameValue) {
+  for (const int dimension : {2, 3})
+    for (const QuantityDescription& quantity : quantity_descriptions) {
+      Wheel wheel;
+      wheel.dimension = dimension;
+      wheel.width = 0.04;
+      const double value = 1.25;
+      const auto shown =
+          value_with_unit(shown_text(value, shown_unit(quantity.kind, wheel.dimension, wheel.width)));
+      ASSERT_TRUE(shown) << quantity.name;
+      const auto again = in_file_unit(*shown, quantity.kind, dimension, wheel.width);
+      ASSERT_TRUE(again) << quantity.name << " " << shown->unit;
+      EXPECT_NEAR(*again, value, 1e-5 * value) << quantity.name;
+    }
 }
 
 TEST(UnitText, BoundsWithUnitsAreThoseOfTheWholeWheel) {

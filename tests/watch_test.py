@@ -463,8 +463,10 @@ at_most = 1e-3
         cls.arguments = ["--designs", cls.folder / "designs"]
 
     def test_a_bound_follows_its_slider(self):
-        self.type("bound-0-at_most-number", "0.0009")
-        self.watched.wait(lambda f: f["settings"]["bounds"] == [{"quantity": "mean_travel", "at_most": 9e-4}])
+        self.assertIn("[mm]", self.browser.find_element(By.CSS_SELECTOR, "label[for='bound-0-at_most']").text)
+        self.type("bound-0-at_most-number", "0.9")
+        self.watched.wait(lambda f: [bound["quantity"] for bound in f["settings"]["bounds"]] == ["mean_travel"] and
+                          abs(f["settings"]["bounds"][0]["at_most"] / 9e-4 - 1) < 1e-12)
         self.until(lambda: "new bound" in self.text("message"))
         self.element("bound-0-at_most").send_keys(Keys.ARROW_RIGHT)
         self.watched.wait(lambda f: f["settings"]["bounds"][0]["at_most"] > 9e-4)

@@ -69,10 +69,14 @@ std::string_view word_of_minimized(Quantity minimized) {
 
 void DesignOptions::declare(Options& options) {
   add_output(options, output, "Folder of the results, instead of the case's output.folder with an ending");
+  std::vector<std::string> known;
+  for (const RankedQuantity& quantity : ranked_quantities())
+    known.push_back(fmt::format("{} [{}]", quantity.word, quantity.shown.name));
   options.text(
       "--for", "QUANTITY,...", quantities, check_quantities,
-      "By what designs are ranked and drawn, without it what the case minimizes, or stiffness, and run_out; "
-      "known: stiffness, strain_energy, mass, run_out, force_variation, peak_pressure, peak_stress, strain");
+      fmt::format("By what designs are ranked and drawn, without it what the case minimizes, or stiffness, "
+                  "and run_out; known: {}",
+                  fmt::join(known, ", ")));
   constexpr int most_seconds = 10'000'000;
   options.number("--seconds", seconds, {1, most_seconds},
                  "Begin no further design after so much time; without it the number of designs decides");
@@ -172,8 +176,8 @@ void DesignSession::show(const Design& design, const DesignResult& result) const
   std::string numbers;
   for (const RankedQuantity& quantity : quantities_)
     if (!result.numbers.empty())
-      numbers += fmt::format(", {} {:.5g} {}", quantity.word, result.value(quantity) * quantity.factor,
-                             quantity.unit);
+      numbers += fmt::format(", {} {:.5g} {}", quantity.word, result.value(quantity) * quantity.shown.factor,
+                             quantity.shown.name);
   tell("{} {}: {} shapes, {}{}\n", design.name, design.text, result.shapes, text_of_stop(result.status),
        numbers);
 }

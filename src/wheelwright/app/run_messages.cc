@@ -9,6 +9,7 @@
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/files/path_queries.h"
 #include "wheelwright/report/gains.h"
+#include "wheelwright/run/bounded_functions.h"
 #include "wheelwright/run/failure_report.h"
 #include "wheelwright/run/stop_text.h"
 
@@ -34,10 +35,10 @@ int report_bounds(const OptimizationState<dim>& state) {
   int code = exit_done;
   for (const BoundState& bound : bounds) {
     if (bound.is_kept()) {
-      print("bound      {}\n", bound.text());
+      print("bound      {}\n", text(bound, state.shape.lattice.grid()));
       continue;
     }
-    tell("wheelwright: bound {}\n", bound.text());
+    tell("wheelwright: bound {}\n", text(bound, state.shape.lattice.grid()));
     code = exit_infeasible;
   }
   return code;

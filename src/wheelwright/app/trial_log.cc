@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "wheelwright/base/text.h"
+#include "wheelwright/run/bounded_functions.h"
 
 namespace wheelwright {
 namespace {
@@ -54,7 +55,9 @@ void TrialLog<dim>::tell_bounds(const OptimizationState<dim>& state) {
   const bool are_kept = std::ranges::all_of(bounds, &BoundState::is_kept);
   if (state.iteration == 0)
     for (const BoundState& bound : bounds)
-      if (!bound.is_kept()) progress_->note("the initial shape does not keep a bound: " + bound.text());
+      if (!bound.is_kept())
+        progress_->note("the initial shape does not keep a bound: " +
+                        text(bound, state.shape.lattice.grid()));
   if (are_kept && !were_kept_) progress_->note(fmt::format("shape {}: all bounds are kept", state.iteration));
   were_kept_ = are_kept;
 }

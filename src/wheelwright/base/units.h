@@ -3,7 +3,18 @@
 namespace wheelwright {
 
 /// Kinds of numbers that are shown to the user, all in SI units.
-enum class UnitKind { energy, force, torque, length, stress, ratio, mass, stiffness, torsional_stiffness };
+enum class UnitKind {
+  energy,
+  force,
+  torque,
+  length,
+  stress,
+  ratio,
+  mass,
+  stiffness,
+  torsional_stiffness,
+  turns
+};
 
 /// The unit of each kind. In 2D, energies, forces, torques, masses and stiffnesses are those of one
 /// metre of width.
@@ -28,16 +39,59 @@ constexpr const char* unit(UnitKind kind) {
       return dim == 2 ? "N/m^2" : "N/m";
     case UnitKind::torsional_stiffness:
       return dim == 2 ? "N/rad" : "N m/rad";
+    case UnitKind::turns:
+      return "turns below a cell";
   }
   return "";
 }
 
-inline const char* unit(UnitKind kind, int dimension) {
+constexpr const char* unit(UnitKind kind, int dimension) {
   return dimension == 2 ? unit<2>(kind) : unit<3>(kind);
 }
 
 /// The width that energies, forces and torques of this dimension stand for, as a factor that turns them into
 /// those of the whole width [m, or 1 in 3D].
 constexpr double whole_width(int dimension, double width) { return dimension == 2 ? width : 1; }
+
+/// Whether numbers of this kind are those of one metre of width in 2D.
+constexpr bool is_per_width(UnitKind kind) {
+  return kind != UnitKind::length && kind != UnitKind::stress && kind != UnitKind::ratio &&
+         kind != UnitKind::turns;
+}
+
+/// The unit in which people read a number.
+struct ShownUnit {
+  const char* name;
+  double factor;  ///< from the number in its SI unit
+};
+
+/// The unit in which tables, pages and messages show numbers of this kind: of the whole width, but for
+/// energies in 2D, which are those of one metre. The numbers themselves are those of the whole width.
+constexpr ShownUnit shown_unit(UnitKind kind, int dimension) {
+  switch (kind) {
+    case UnitKind::energy:
+      return {unit(kind, dimension), 1};
+    case UnitKind::length:
+      return {"mm", 1e3};
+    case UnitKind::stress:
+      return {"MPa", 1e-6};
+    case UnitKind::ratio:
+      return {"%", 100};
+    case UnitKind::stiffness:
+      return {"N/mm", 1e-3};
+    default:
+      return {unit<3>(kind), 1};
+  }
+}
+
+/// The same for numbers as cases and histories hold them, in 2D those of one metre of width.
+constexpr ShownUnit shown_unit(UnitKind kind, int dimension, double width) {
+  const ShownUnit shown = shown_unit(kind, dimension);
+  const bool is_of_whole = is_per_width(kind) && kind != UnitKind::energy;
+  return {shown.name, shown.factor * (is_of_whole ? whole_width(dimension, width) : 1)};
+}
+
+/// For lengths that differ by micrometres between good wheels.
+inline constexpr ShownUnit micrometres{"um", 1e6};
 
 }  // namespace wheelwright

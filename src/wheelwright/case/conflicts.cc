@@ -21,6 +21,7 @@
 #include "wheelwright/case/number_text.h"
 #include "wheelwright/case/shape_conflicts.h"
 #include "wheelwright/case/shape_symmetry.h"
+#include "wheelwright/case/shown_value.h"
 #include "wheelwright/geometry/values_on.h"
 
 namespace wheelwright {
@@ -898,20 +899,26 @@ void check_minimized(const Case& c, Conflicts& found) {
 struct OneBound {
   std::string key;
   double value;
+  std::string text;  ///< of the value
 };
+
+OneBound one_bound(const Case& c, std::size_t i, const char* name, double value) {
+  return {fmt::format("constraint[{}].{}", i + 1, name), value,
+          shown_text(c.constraints[i].quantity, value, c.wheel)};
+}
 
 std::optional<OneBound> lower_bound(const Case& c, std::size_t i) {
   const Constraint& constraint = c.constraints[i];
   const auto& value = constraint.equals ? constraint.equals : constraint.at_least;
   if (!value) return {};
-  return OneBound{fmt::format("constraint[{}].{}", i + 1, constraint.equals ? "equals" : "at_least"), *value};
+  return one_bound(c, i, constraint.equals ? "equals" : "at_least", *value);
 }
 
 std::optional<OneBound> upper_bound(const Case& c, std::size_t i) {
   const Constraint& constraint = c.constraints[i];
   const auto& value = constraint.equals ? constraint.equals : constraint.at_most;
   if (!value) return {};
-  return OneBound{fmt::format("constraint[{}].{}", i + 1, constraint.equals ? "equals" : "at_most"), *value};
+  return one_bound(c, i, constraint.equals ? "equals" : "at_most", *value);
 }
 
 /// Finds bounds of one quantity in two tables that no wheel can keep both.
@@ -924,11 +931,10 @@ void check_bounds_together(const Case& c, Conflicts& found) {
                          bool lower_is_later) {
     if (!lower || !upper || lower->value <= upper->value) return;
     const OneBound &later = lower_is_later ? *lower : *upper, &earlier = lower_is_later ? *upper : *lower;
-    found.push_back(
-        {.keys = {later.key, earlier.key},
-         .problem = fmt::format("no wheel keeps this and {} = {:.6g} too", earlier.key, earlier.value),
-         .remedy = "change one of them, or remove it",
-         .other_place = earlier.key});
+    found.push_back({.keys = {later.key, earlier.key},
+                     .problem = fmt::format("no wheel keeps this and {} = {} too", earlier.key, earlier.text),
+                     .remedy = "change one of them, or remove it",
+                     .other_place = earlier.key});
   };
   for (std::size_t i = 0; i < c.constraints.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
@@ -957,7 +963,9 @@ void check_constraints(const Case& c, Conflicts& found) {
     if (constraint.equals && (constraint.at_least || constraint.at_most))
       refuse("equals", "a value and bounds are given", "keep one of them");
     if (constraint.at_least && constraint.at_most && *constraint.at_least >= *constraint.at_most)
-      refuse("at_least", fmt::format("must be less than at_most = {:.6g}", *constraint.at_most),
+      refuse("at_least",
+             fmt::format("must be less than at_most = {}",
+                         shown_text(constraint.quantity, *constraint.at_most, c.wheel)),
              "exchange them, or take equals");
     if (constraint.over == OverPositions::worst &&
         (constraint.equals || (constraint.at_least && constraint.at_most)))

@@ -417,18 +417,6 @@ void read_parent(Reading& reading, const toml::table& root, std::string_view nam
     read_table(reading, std::string(name), *table, std::vector<Key<Struct>>{}, out);
 }
 
-/// Whether numbers of this kind are those of one metre of width in 2D.
-constexpr bool is_per_width(UnitKind kind) {
-  return kind != UnitKind::length && kind != UnitKind::stress && kind != UnitKind::ratio;
-}
-
-/// A value of a quantity with a unit, in SI units and in 2D per metre of width.
-std::optional<double> in_file_unit(const ValueWithUnit& value, UnitKind kind, const Wheel& wheel) {
-  const double width = whole_width(wheel.dimension, wheel.width);
-  if (const auto whole = converted(value, unit<3>(kind))) return *whole / (is_per_width(kind) ? width : 1);
-  return converted(value, unit(kind, wheel.dimension));
-}
-
 /// Values in quotes of what a section's `quantity` names, whose units depend on other keys.
 template <class Struct>
 void read_quantities(Reading& reading, const toml::table& root, const SectionArray<Struct>& section,
@@ -444,7 +432,7 @@ void read_quantities(Reading& reading, const toml::table& root, const SectionArr
       const std::string path = fmt::format("{}[{}].{}", section.path(), i + 1, key.name);
       const auto given = value_with_unit(*text);
       const UnitKind kind = wheelwright::kind(list[i].quantity);
-      const auto value = given ? in_file_unit(*given, kind, c.wheel) : std::nullopt;
+      const auto value = given ? in_file_unit(*given, kind, c.wheel.dimension, c.wheel.width) : std::nullopt;
       if (!given) {
         complain(reading, path,
                  wrong_type("a number", fmt::format("write it without quotes, or with a unit: {}",

@@ -1,6 +1,7 @@
 #include "wheelwright/case/set_number.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "wheelwright/case/keys.h"
 #include "wheelwright/case/number_text.h"
 #include "wheelwright/case/suggest.h"
+#include "wheelwright/case/unit_text.h"
 
 namespace wheelwright {
 
@@ -35,6 +37,24 @@ std::optional<std::string> set_field(Struct& out, const Key<Struct>& key, const 
   }
 }
 
+/// The value in the unit of the key in a case file; nothing if the given unit does not fit.
+template <class Struct>
+std::optional<double> in_unit_of_key(const Struct& table, const Key<Struct>& key, const ValueWithUnit& given,
+                                     const Wheel& wheel) {
+  if (given.unit.empty()) return given.value;
+  if constexpr (requires { table.quantity; })
+    if (key.unit == unit_of_quantity)
+      return in_file_unit(given, kind(table.quantity), wheel.dimension, wheel.width);
+  return converted(given, key.unit);
+}
+
+template <class Struct>
+std::vector<std::string_view> fitting_units(const Struct& table, const Key<Struct>& key) {
+  if constexpr (requires { table.quantity; })
+    if (key.unit == unit_of_quantity) return units_like(unit<3>(kind(table.quantity)));
+  return units_like(key.unit);
+}
+
 /// Takes back the optional keys that another one is given instead of.
 template <class Struct>
 void reset_alternatives(Struct& out, const std::vector<Key<Struct>>& keys, const Key<Struct>& given) {
@@ -48,9 +68,15 @@ void reset_alternatives(Struct& out, const std::vector<Key<Struct>>& keys, const
 /// Nothing if the table has no such key.
 template <class Struct>
 std::optional<std::optional<std::string>> set_in_table(Struct& out, const std::vector<Key<Struct>>& keys,
-                                                       const std::string& name, double value) {
+                                                       const std::string& name, const ValueWithUnit& given,
+                                                       const Wheel& wheel) {
   const Key<Struct>* key = find_key(keys, name);
   if (!key) return {};
+  const auto in_unit = in_unit_of_key(out, *key, given, wheel);
+  if (!in_unit)
+    return fmt::format("{} is no unit of {}; units that fit: {}", given.unit, name,
+                       fmt::join(fitting_units(out, *key), ", "));
+  const double value = *in_unit;
   auto problem =
       std::visit([&](const auto& field) { return set_field(out, *key, field, value); }, key->field);
   if (!problem) reset_alternatives(out, keys, *key);
@@ -75,7 +101,9 @@ std::vector<std::string> known_paths(Case& c) {
 
 }  // namespace
 
-std::optional<std::string> set_number(Case& c, const std::string& path, double value) {
+std::optional<std::string> set_number(Case& c, const std::string& path, double value,
+                                      const std::string& unit) {
+  const ValueWithUnit given{value, unit};
   std::optional<std::optional<std::string>> outcome;
   const auto dot = path.rfind('.');
   const std::string table = dot == std::string::npos ? "" : path.substr(0, dot), name = path.substr(dot + 1);
@@ -84,9 +112,9 @@ std::optional<std::string> set_number(Case& c, const std::string& path, double v
       auto& list = section.in(c);
       for (std::size_t i = 0; i < list.size(); ++i)
         if (table == fmt::format("{}[{}]", section.path(), i + 1))
-          outcome = set_in_table(list[i], section.keys, name, value);
+          outcome = set_in_table(list[i], section.keys, name, given, c.wheel);
     } else if (table == section.name && !outcome) {
-      outcome = set_in_table(section.in(c), section.keys, name, value);
+      outcome = set_in_table(section.in(c), section.keys, name, given, c.wheel);
     }
   });
   if (outcome) return *outcome;

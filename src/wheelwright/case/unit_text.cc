@@ -72,6 +72,12 @@ std::optional<double> converted(const ValueWithUnit& value, std::string_view uni
   return {};
 }
 
+std::optional<double> in_file_unit(const ValueWithUnit& value, UnitKind kind, int dimension, double width) {
+  if (const auto whole = converted(value, unit<3>(kind)))
+    return *whole / (is_per_width(kind) ? whole_width(dimension, width) : 1);
+  return converted(value, unit(kind, dimension));
+}
+
 std::vector<std::string_view> units_like(std::string_view unit) {
   std::vector<std::string_view> names;
   for (const UnitsOfKind& kind : known_units())

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "wheelwright/base/units.h"
+
 namespace wheelwright {
 
 // Values with a unit, as a case file may give them in quotes: "300 mm", "25 MPa", "50 N/mm".
@@ -20,6 +22,10 @@ std::optional<ValueWithUnit> value_with_unit(std::string_view text);
 
 /// The value in another unit of the same kind; nothing if the two are not known as units of one kind.
 std::optional<double> converted(const ValueWithUnit& value, std::string_view unit);
+
+/// A value of a quantity with a unit, as a case holds it: in SI units and in 2D per metre of width. Without
+/// "/m" it is that of the whole wheel. Nothing if the unit does not fit.
+std::optional<double> in_file_unit(const ValueWithUnit& value, UnitKind kind, int dimension, double width);
 
 /// The units of the kind of this one, itself included; empty if none is known.
 std::vector<std::string_view> units_like(std::string_view unit);

@@ -74,7 +74,7 @@ const Section<Material>& material_section() {
                       "axle, for wheels cut from sheet"},
           {.name = "density",
            .unit = "kg/m^3",
-           .field = OptionalNumberField<Material>{&Material::density, above(0, 1e5), "no mass is told"},
+           .field = OptionalNumberField<Material>{&Material::density, above(0, 1e5), "no mass is shown"},
            .meaning = "for the mass of the wheel, and where a case minimizes or bounds it; load.body_force "
                       "has its weight"}}};
   return section;

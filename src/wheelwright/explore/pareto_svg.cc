@@ -41,7 +41,7 @@ struct Axis {
     low -= more;
     high += more;
   }
-  double value(const RankedDesign& one) const { return one.result.value(quantity) * quantity.factor; }
+  double value(const RankedDesign& one) const { return one.result.value(quantity) * quantity.shown.factor; }
   double pixel(double v) const { return from + (v - low) / (high - low) * (to - from); }
 };
 
@@ -60,10 +60,10 @@ void draw_axes(const Axis& x, const Axis& y, std::string& svg) {
   svg += fmt::format("<rect class=\"frame\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>\n", x.from, y.to,
                      frame_width, frame_height);
   svg += fmt::format("<text class=\"middle\" x=\"{}\" y=\"{}\">{} [{}]</text>\n", x.from + 0.5 * frame_width,
-                     y.from + 44, escape_xml(x.quantity.label), escape_xml(x.quantity.unit));
+                     y.from + 44, escape_xml(x.quantity.label), escape_xml(x.quantity.shown.name));
   svg += fmt::format("<text class=\"middle\" transform=\"translate({} {}) rotate(-90)\">{} [{}]</text>\n",
                      x.from - 66, y.to + 0.5 * frame_height, escape_xml(y.quantity.label),
-                     escape_xml(y.quantity.unit));
+                     escape_xml(y.quantity.shown.name));
 }
 
 void draw_points(const Axis& x, const Axis& y, const std::vector<RankedDesign>& designs, std::string& svg) {

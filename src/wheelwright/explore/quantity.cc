@@ -3,18 +3,26 @@
 #include <algorithm>
 
 namespace wheelwright {
+namespace {
+
+/// Designs are plane wheels.
+constexpr ShownUnit in(UnitKind kind) { return shown_unit(kind, 2); }
+
+}  // namespace
 
 const std::vector<RankedQuantity>& ranked_quantities() {
   static const std::vector<RankedQuantity> all{
-      {"stiffness", "stiffness", "N/mm", 1e-3, "stiffness_N_per_m", true, false},
-      {"strain_energy", "strain energy per position", "J/m", 1, "strain_energy_J_per_m", false, false},
-      {"mass", "volume, which the mass is proportional to", "%", 100, "volume_fraction", false, false},
-      {"run_out", "run-out", "um", 1e6, "run_out_m", false, true},
-      {"force_variation", "radial force variation", "N", 1, "force_variation_N", false, true},
-      {"peak_pressure", "peak contact pressure", "MPa", 1e-6, "peak_pressure_Pa", false, true},
-      {"peak_stress", "peak von Mises stress", "MPa", 1e-6, "peak_von_mises_Pa", false, false},
-      {"strain", "largest strain", "%", 100, "largest_strain", false, false},
-      {"roughness", "roughness of the edges", "turns below a cell", 1, "roughness_turns", false, false},
+      {"stiffness", "stiffness", in(UnitKind::stiffness), "stiffness_N_per_m", true, false},
+      {"strain_energy", "strain energy per position", in(UnitKind::energy), "strain_energy_J_per_m", false,
+       false},
+      {"mass", "volume, which the mass is proportional to", in(UnitKind::ratio), "volume_fraction", false,
+       false},
+      {"run_out", "run-out", micrometres, "run_out_m", false, true},
+      {"force_variation", "radial force variation", in(UnitKind::force), "force_variation_N", false, true},
+      {"peak_pressure", "peak contact pressure", in(UnitKind::stress), "peak_pressure_Pa", false, true},
+      {"peak_stress", "peak von Mises stress", in(UnitKind::stress), "peak_von_mises_Pa", false, false},
+      {"strain", "largest strain", in(UnitKind::ratio), "largest_strain", false, false},
+      {"roughness", "roughness of the edges", in(UnitKind::turns), "roughness_turns", false, false},
   };
   return all;
 }

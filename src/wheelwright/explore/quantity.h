@@ -3,15 +3,16 @@
 #include <string_view>
 #include <vector>
 
+#include "wheelwright/base/units.h"
+
 namespace wheelwright {
 
 /// A number about a wheel by which designs are ranked.
 struct RankedQuantity {
   std::string_view word;   ///< on the command line, e.g. "run_out"
   std::string_view label;  ///< for people
-  std::string_view unit;   ///< for people
-  double factor;           ///< from SI to that unit
-  std::string_view key;    ///< in summary.json
+  ShownUnit shown;
+  std::string_view key;  ///< in summary.json
   bool is_larger_better;
   bool is_of_evenness;  ///< whether it tells how evenly the wheel rolls
 };

@@ -155,13 +155,13 @@ std::string designs_table(const std::vector<RankedDesign>& designs,
   std::vector<std::vector<std::string>> rows{{"rank", "design", "start"}};
   std::vector<ShownNumber> shown;
   for (const RankedQuantity& quantity : quantities)
-    shown.push_back(
-        {fmt::format("{} [{}]", quantity.word, quantity.unit), std::string(quantity.key), quantity.factor});
+    shown.push_back({fmt::format("{} [{}]", quantity.word, quantity.shown.name), std::string(quantity.key),
+                     quantity.shown.factor});
   for (const std::string& load_case : load_cases_of(designs))
     for (const RankedQuantity& quantity : quantities)
       if (depends_on_the_load(quantity))
-        shown.push_back({fmt::format("{} in {} [{}]", quantity.word, load_case, quantity.unit),
-                         key_in_case(quantity.key, load_case), quantity.factor});
+        shown.push_back({fmt::format("{} in {} [{}]", quantity.word, load_case, quantity.shown.name),
+                         key_in_case(quantity.key, load_case), quantity.shown.factor});
   for (const ShownNumber& number : shown) rows[0].push_back(number.heading);
   for (int i = 0; i < std::min(most_rows, static_cast<int>(designs.size())); ++i) {
     const RankedDesign& one = designs[i];
@@ -195,16 +195,16 @@ std::string designs_page(const std::vector<RankedDesign>& designs,
   for (const RankedQuantity& quantity : ranked_quantities())
     data["quantities"].push_back({{"key", quantity.key},
                                   {"label", quantity.label},
-                                  {"unit", quantity.unit},
-                                  {"factor", quantity.factor}});
+                                  {"unit", quantity.shown.name},
+                                  {"factor", quantity.shown.factor}});
   const auto others = load_cases_of(designs);
   for (const std::string& load_case : others)
     for (const RankedQuantity& quantity : ranked_quantities())
       if (depends_on_the_load(quantity))
         data["quantities"].push_back({{"key", key_in_case(quantity.key, load_case)},
                                       {"label", fmt::format("{} in {}", quantity.label, load_case)},
-                                      {"unit", quantity.unit},
-                                      {"factor", quantity.factor}});
+                                      {"unit", quantity.shown.name},
+                                      {"factor", quantity.shown.factor}});
   int rank = 0;
   for (const RankedDesign& one : designs) {
     Json values = Json::object();

@@ -39,9 +39,12 @@ Expected<std::vector<Design>, SweepProblem> sweep_designs(const Case& c, const s
       block /= swept.values.size();
       const double value = swept.values[rest / block];
       rest %= block;
-      if (const auto problem = set_number(source, swept.key, value)) return SweepProblem{*problem};
-      design.text += fmt::format("{}{} = {}", design.text.empty() ? "" : ", ", swept.key, number_text(value));
-      design.parameters.emplace_back(swept.key, value);
+      if (const auto problem = set_number(source, swept.key, value, swept.unit))
+        return SweepProblem{*problem};
+      design.text += fmt::format("{}{} = {}{}{}", design.text.empty() ? "" : ", ", swept.key,
+                                 number_text(value), swept.unit.empty() ? "" : " ", swept.unit);
+      design.parameters.emplace_back(
+          swept.unit.empty() ? swept.key : fmt::format("{} [{}]", swept.key, swept.unit), value);
     }
     auto valid = checked(source, file, design.text);
     if (!valid) return valid.failure();

@@ -9,10 +9,11 @@
 
 namespace wheelwright {
 
-/// A key of a case and the numbers that it takes, in the unit of the case file.
+/// A key of a case and the numbers that it takes.
 struct SweptKey {
   std::string key;  ///< e.g. "load.mass"
   std::vector<double> values;
+  std::string unit = {};  ///< empty: that of the case file
 };
 
 /// Why the designs of a sweep cannot be made, one line.

@@ -37,11 +37,6 @@ double largest_violation(const std::vector<BoundConstraint>& constraints) {
   return largest;
 }
 
-std::string BoundState::text() const {
-  const char* words = relation == '<' ? "at most" : relation == '>' ? "at least" : "equal to";
-  return fmt::format("{} = {:.6g}, {} {} {:.6g}", name, value, is_kept() ? "is" : "is not", words, bound);
-}
-
 template <int dim>
 std::vector<BoundState> bound_states(const Evaluation<dim>& evaluation,
                                      const std::vector<double>& multipliers) {

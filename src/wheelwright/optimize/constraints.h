@@ -43,8 +43,6 @@ struct BoundState {
   double violation;   ///< relative to the bound
 
   bool is_kept() const { return violation <= feasible_violation; }
-  /// One line: name, value, relation and bound.
-  std::string text() const;
 };
 
 /// All bounds of an evaluation, with the multipliers of the last step, which may be missing.

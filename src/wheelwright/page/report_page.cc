@@ -11,6 +11,7 @@
 #include "wheelwright/page/assets.h"
 #include "wheelwright/page/html_template.h"
 #include "wheelwright/page/report_run.h"
+#include "wheelwright/report/numbers_json.h"
 #include "wheelwright/report/svg.h"
 
 namespace wheelwright {
@@ -283,16 +284,6 @@ Json pressures_json(const std::vector<ContactPoint>& points) {
   return all;
 }
 
-/// How numbers are told, in the order of the table.
-template <int dim>
-Json numbers_json() {
-  Json numbers = Json::array();
-  for (const WheelNumber<dim>& number : wheel_numbers<dim>())
-    numbers.push_back(
-        {{"key", number.key}, {"label", number.label}, {"unit", number.unit}, {"factor", number.factor}});
-  return numbers;
-}
-
 template <int dim>
 Json run_json(const ReportRun<dim>& run) {
   Json history = Json::object();
@@ -308,7 +299,7 @@ Json run_json(const ReportRun<dim>& run) {
   Json events = Json::array();
   for (const HoleEvents& event : run.events) events.push_back({{"shape", event.shape}, {"text", event.text}});
   Json json{{"dimension", dim},
-            {"numbers", numbers_json<dim>()},
+            {"numbers", shown_numbers<dim>()},
             {"name", run.name},
             {"title", run.title},
             {"status", run.status},
@@ -333,6 +324,8 @@ Json run_json(const ReportRun<dim>& run) {
   if (run.given) json["given_contours"] = run.given->contours;
   if (run.summary) {
     json["summary"] = Json::parse(summary_json(*run.summary));
+    for (const SummarizedBound& bound : run.summary->bounds)
+      json["bound_units"].push_back({{"unit", bound.shown.name}, {"factor", bound.shown.factor}});
     json["rolling"] = {{"before", rolling_json(run.summary->before.wheel)},
                        {"after", rolling_json(run.summary->after.wheel)}};
   }

@@ -80,10 +80,10 @@ std::string text(const MissingNumbers& missing) {
 template <int dim>
 void add_row(const WheelNumber<dim>& number, const std::string& in_case,
              const std::vector<const DescribedWheel<dim>*>& wheels, std::vector<ComparedRow>& rows) {
-  ComparedRow row{fmt::format("{}{} [{}]", number.label, in_case, number.unit), {}};
+  ComparedRow row{fmt::format("{}{} [{}]", number.label, in_case, number.shown().name), {}};
   for (const DescribedWheel<dim>* wheel : wheels) {
     const auto value = wheel ? number.value(*wheel) : std::nullopt;
-    row.values.push_back(is_known(value) ? Value(**value * number.factor) : value);
+    row.values.push_back(is_known(value) ? Value(**value * number.shown().factor) : value);
   }
   if (std::ranges::any_of(row.values, [](const auto& value) { return value.has_value(); }))
     rows.push_back(std::move(row));

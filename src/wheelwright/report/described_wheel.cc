@@ -12,8 +12,6 @@
 namespace wheelwright {
 namespace {
 
-constexpr double mm = 1e3, MPa = 1e-6, N_per_mm = 1e-3, percent = 100;
-
 double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
@@ -167,63 +165,62 @@ const std::vector<WheelNumber<dim>>& wheel_numbers() {
   using Wheel = DescribedWheel<dim>;
   using Loaded = LoadedWheel<dim>;
   static const std::vector<WheelNumber<dim>> numbers{
-      {"volume of the ring", "%", percent, "volume_fraction",
+      {"volume of the ring", UnitKind::ratio, "volume_fraction",
        [](const Wheel& w) -> Number { return w.volume_fraction; }, true},
-      {"mass", "kg", 1, "mass_kg",
+      {"mass", UnitKind::mass, "mass_kg",
        [](const Wheel& w) -> Number { return w.mass ? Number(*w.mass * width(w)) : std::nullopt; }, true},
-      {"load", "N", 1, "load_N",
+      {"load", UnitKind::force, "load_N",
        [](const Wheel& w) {
          return under_load(w, [&](const Loaded& l) { return l.rolling.load * width(w); });
        }},
-      {"mean travel", "mm", mm, "mean_travel_m",
+      {"mean travel", UnitKind::length, "mean_travel_m",
        [](const Wheel& w) {
          return under_load(w, [](const Loaded& l) { return mean(of_positions(l, &ContactSummary::travel)); });
        }},
-      {"stiffness", "N/mm", N_per_mm, "stiffness_N_per_m",
+      {"stiffness", UnitKind::stiffness, "stiffness_N_per_m",
        [](const Wheel& w) {
          return under_load(w, [&](const Loaded& l) { return l.summary.stiffness * width(w); });
        }},
-      {"run-out at fixed load", "mm", mm, "run_out_m",
+      {"run-out at fixed load", UnitKind::length, "run_out_m",
        [](const Wheel& w) { return of_curve(w, &RollingAnalysis::travel_at_load, 1, peak_to_peak); }},
-      {"  its first sector harmonic", "mm", mm, "run_out_first_harmonic_m",
+      {"  its first sector harmonic", UnitKind::length, "run_out_first_harmonic_m",
        [](const Wheel& w) { return of_curve(w, &RollingAnalysis::travel_at_load, 1, first_harmonic); }},
-      {"radial force variation at fixed travel", "N", 1, "force_variation_N",
+      {"radial force variation at fixed travel", UnitKind::force, "force_variation_N",
        [](const Wheel& w) { return of_curve(w, &RollingAnalysis::force_at_travel, width(w), peak_to_peak); }},
-      {"  its first sector harmonic", "N", 1, "force_first_harmonic_N",
+      {"  its first sector harmonic", UnitKind::force, "force_first_harmonic_N",
        [](const Wheel& w) {
          return of_curve(w, &RollingAnalysis::force_at_travel, width(w), first_harmonic);
        }},
-      {"peak contact pressure", "MPa", MPa, "peak_pressure_Pa",
+      {"peak contact pressure", UnitKind::stress, "peak_pressure_Pa",
        [](const Wheel& w) {
          return under_load(w, [](const Loaded& l) { return l.summary.rolling.peak_pressure; });
        }},
-      {"mean length of the contact patch", "mm", mm, "patch_length_m",
+      {"mean length of the contact patch", UnitKind::length, "patch_length_m",
        [](const Wheel& w) {
          return under_load(
              w, [](const Loaded& l) { return mean(of_positions(l, &ContactSummary::patch_length)); });
        }},
-      {"  with its gaps", "mm", mm, "patch_extent_m", [](const Wheel& w) { return patch_extent(w); }},
-      {"peak von Mises stress", "MPa", MPa, "peak_von_mises_Pa",
+      {"  with its gaps", UnitKind::length, "patch_extent_m", [](const Wheel& w) { return patch_extent(w); }},
+      {"peak von Mises stress", UnitKind::stress, "peak_von_mises_Pa",
        [](const Wheel& w) {
          return under_load(w, [](const Loaded& l) { return l.summary.von_mises.value; });
        }},
-      {"largest strain", "%", percent, "largest_strain",
+      {"largest strain", UnitKind::ratio, "largest_strain",
        [](const Wheel& w) {
          return under_load(w, [](const Loaded& l) { return l.summary.deformation.strain; });
        }},
-      {"strain energy per position", unit<dim>(UnitKind::energy), 1,
-       dim == 2 ? "strain_energy_J_per_m" : "strain_energy_J",
+      {"strain energy per position", UnitKind::energy, dim == 2 ? "strain_energy_J_per_m" : "strain_energy_J",
        [](const Wheel& w) { return under_load(w, [](const Loaded& l) { return l.summary.strain_energy; }); }},
-      {"thinnest wall", "mm", mm, "minimum_wall_m",
+      {"thinnest wall", UnitKind::length, "minimum_wall_m",
        [](const Wheel& w) { return width_of(w, &cad::Clearances::wall); }, true},
-      {"narrowest gap", "mm", mm, "minimum_gap_m",
+      {"narrowest gap", UnitKind::length, "minimum_gap_m",
        [](const Wheel& w) { return width_of(w, &cad::Clearances::gap); }, true},
-      {"roughness of the edges", "turns below a cell", 1, "roughness_turns",
+      {"roughness of the edges", UnitKind::turns, "roughness_turns",
        [](const Wheel& w) {
          return of_edges(w, [](const cad::Roughness& r) -> Number { return r.edge.turns; });
        },
        true},
-      {"smallest radius of an internal corner", "mm", mm, "internal_corner_radius_m",
+      {"smallest radius of an internal corner", UnitKind::length, "internal_corner_radius_m",
        [](const Wheel& w) {
          return of_edges(w, [](const cad::Roughness& r) {
            return r.internal_corner ? Number(r.internal_corner->radius) : std::nullopt;

@@ -72,13 +72,14 @@ using KnownNumber = Expected<double, std::string>;
 template <int dim>
 struct WheelNumber {
   const char* label;
-  const char* unit;  ///< for people
-  double factor;     ///< from SI to that unit
-  const char* key;   ///< for programs, with the SI unit
+  UnitKind kind;
+  const char* key;  ///< for programs, with the SI unit
   /// In SI units, on the whole width: nothing where a wheel has no such number, such as a mass without a
   /// density; the reason where it could not be computed.
   std::optional<KnownNumber> (*value)(const DescribedWheel<dim>&);
   bool is_of_shape = false;  ///< the same under every load
+
+  ShownUnit shown() const { return shown_unit(kind, dim); }
 };
 
 /// The numbers by which wheels are judged and compared, in the order in which they are told.

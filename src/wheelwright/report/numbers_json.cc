@@ -16,6 +16,17 @@ void add_number(const WheelNumber<dim>& number, const DescribedWheel<dim>& wheel
 }  // namespace
 
 template <int dim>
+Json shown_numbers() {
+  Json rows = Json::array();
+  for (const WheelNumber<dim>& number : wheel_numbers<dim>())
+    rows.push_back({{"key", number.key},
+                    {"label", number.label},
+                    {"unit", number.shown().name},
+                    {"factor", number.shown().factor}});
+  return rows;
+}
+
+template <int dim>
 void add_numbers(const DescribedWheel<dim>& wheel, Json& json) {
   Json missing;
   for (const WheelNumber<dim>& number : wheel_numbers<dim>()) add_number(number, wheel, json, missing);
@@ -30,6 +41,8 @@ void add_numbers(const DescribedWheel<dim>& wheel, Json& json) {
   }
 }
 
+template Json shown_numbers<2>();
+template Json shown_numbers<3>();
 template void add_numbers(const DescribedWheel<2>&, Json&);
 template void add_numbers(const DescribedWheel<3>&, Json&);
 

@@ -18,8 +18,7 @@ double forces(const RollingReport& report) { return whole_width(report.dimension
 /// A quantity over the positions.
 struct ShownQuantity {
   std::string name;
-  std::string unit;  ///< for people
-  double factor;     ///< from SI to that unit
+  ShownUnit shown;
   Expected<RollingVariation> variation;
 };
 
@@ -52,9 +51,11 @@ RollingVariation travel_variation(const std::vector<ContactSummary>& positions) 
 
 std::vector<ShownQuantity> quantities(const RollingReport& report) {
   const RollingAnalysis& a = report.analysis;
-  return {{"rim travel at fixed load", "mm", mm, variation(a.travel_at_load)},
-          {"radial force at fixed travel", "N", forces(report), variation(a.force_at_travel)},
-          {"peak of the contact pressure", "MPa", MPa, rolling_variation(peak_pressures(a.positions))}};
+  const auto in = [&](UnitKind kind) { return shown_unit(kind, report.dimension, report.width); };
+  return {
+      {"rim travel at fixed load", in(UnitKind::length), variation(a.travel_at_load)},
+      {"radial force at fixed travel", in(UnitKind::force), variation(a.force_at_travel)},
+      {"peak of the contact pressure", in(UnitKind::stress), rolling_variation(peak_pressures(a.positions))}};
 }
 
 std::string load_text(const RollingReport& report) {
@@ -140,9 +141,10 @@ std::string variation_lines(const RollingReport& report) {
   for (const ShownQuantity& q : all) {
     if (!q.variation) continue;
     const RollingVariation& v = *q.variation;
-    table += fmt::format("{:<36}{:>11.5g}{:>11.4g}{:>11.3g} %", fmt::format("{} [{}]", q.name, q.unit),
-                         v.mean * q.factor, v.peak_to_peak() * q.factor, 100 * v.peak_to_peak() / v.mean);
-    for (size_t k = 0; k < shown; ++k) table += fmt::format("{:>11.3g}", v.harmonics[k] * q.factor);
+    table += fmt::format("{:<36}{:>11.5g}{:>11.4g}{:>11.3g} %", fmt::format("{} [{}]", q.name, q.shown.name),
+                         v.mean * q.shown.factor, v.peak_to_peak() * q.shown.factor,
+                         100 * v.peak_to_peak() / v.mean);
+    for (size_t k = 0; k < shown; ++k) table += fmt::format("{:>11.3g}", v.harmonics[k] * q.shown.factor);
     table += '\n';
   }
   return table;

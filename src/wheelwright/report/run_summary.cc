@@ -92,6 +92,7 @@ std::string summary_json(const RunSummary<dim>& summary) {
                               {"value", bound.value},
                               {"relation", std::string(1, bound.relation)},
                               {"bound", bound.bound},
+                              {"unit", bound.unit},
                               {"multiplier", bound.multiplier},
                               {"is_kept", bound.is_kept}});
   json["remarks"] = Json::array();

@@ -24,6 +24,8 @@ struct SummarizedBound {
   char relation;      ///< '<', '>' or '='
   double multiplier;  ///< of the objective, per unit of the bound
   bool is_kept;
+  const char* unit;  ///< of value and bound
+  ShownUnit shown;   ///< as tables show them
 };
 
 /// What a run made of the wheel that its case gives. Both shapes are solved alike: on a tread of the same

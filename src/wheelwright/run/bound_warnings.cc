@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "wheelwright/case/shown_value.h"
 #include "wheelwright/optimize/constraints.h"
 #include "wheelwright/run/bounded_functions.h"
 #include "wheelwright/run/predicted_deformation.h"
@@ -28,13 +29,13 @@ bool is_told_apart(Quantity quantity) {
   }
 }
 
-std::string warning(const BoundState& bound, Quantity quantity, double width) {
+std::string warning(const BoundState& bound, Quantity quantity, const Wheel& wheel) {
   return fmt::format(
-      "constraint {} = {:.4g}: in 2D bounds are per metre of width, so that this is {:.4g} {} on the whole "
+      "constraint {} = {:.4g}: plain numbers are per metre of width in 2D, so that this is {} on the whole "
       "width "
-      "of {:g} m, where the initial shape has {:.4g} {}; for {:.4g} {} on the whole width write {:.6g}",
-      bound.name, bound.bound, bound.bound * width, unit<3>(kind(quantity)), width, bound.value * width,
-      unit<3>(kind(quantity)), bound.bound, unit<3>(kind(quantity)), bound.bound / width);
+      "of {:g} m, where the initial shape has {}; a bound of the whole width has its unit: \"{}\"",
+      bound.name, bound.bound, shown_text(quantity, bound.bound, wheel), wheel.width,
+      shown_text(quantity, bound.value, wheel), shown_text(quantity, bound.bound / wheel.width, wheel));
 }
 
 }  // namespace
@@ -51,7 +52,7 @@ std::vector<std::string> bound_warnings(const Case& c) {
     const double ratio = bound.bound / bound.value;
     if (is_told_apart(quantity) && ratio > 0 &&
         std::abs(std::log(ratio / c.wheel.width)) < std::abs(std::log(ratio)))
-      result.push_back(warning(bound, quantity, c.wheel.width));
+      result.push_back(warning(bound, quantity, c.wheel));
   }
   return result;
 }

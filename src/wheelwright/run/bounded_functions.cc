@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/shown_value.h"
 #include "wheelwright/evolution/volume.h"
 #include "wheelwright/functionals/material_volume.h"
 #include "wheelwright/functionals/quantity_functional.h"
@@ -174,7 +175,16 @@ Quantity quantity_of(std::string_view function_name) {
   return static_cast<Quantity>(std::ranges::find(quantity_names, word) - quantity_names.begin());
 }
 
+template <int dim>
+std::string text(const BoundState& bound, const PolarGrid<dim>& grid) {
+  const char* words = bound.relation == '<' ? "at most" : bound.relation == '>' ? "at least" : "equal to";
+  const ShownUnit shown = shown_unit(kind(quantity_of(bound.name)), dim, grid.width);
+  return fmt::format("{} = {}, {} {} {}", bound.name, shown_text(bound.value, shown),
+                     bound.is_kept() ? "is" : "is not", words, shown_text(bound.bound, shown));
+}
+
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                         \
+  template std::string text(const BoundState&, const PolarGrid<dim>&);                                       \
   template WeightedSum<dim> in_load_cases(const Case&, WeightedSum<dim>);                                    \
   template Expected<WeightedSum<dim>> minimized_terms(const Case&, const StateSolver<dim>&);                 \
   template Expected<std::vector<ShapeFunction<dim>>> bounded_functions(const Case&, const StateSolver<dim>&, \

@@ -3,6 +3,7 @@
 #include "wheelwright/base/quantity.h"
 #include "wheelwright/case/case.h"
 #include "wheelwright/functionals/shape_function.h"
+#include "wheelwright/optimize/constraints.h"
 
 namespace wheelwright {
 
@@ -26,5 +27,9 @@ Expected<std::vector<ShapeFunction<dim>>> bounded_functions(const Case& c, const
 
 /// The quantity that a function with such a name is about.
 Quantity quantity_of(std::string_view function_name);
+
+/// One line, in the units of tables: name, value, relation and limit.
+template <int dim>
+std::string text(const BoundState& bound, const PolarGrid<dim>& grid);
 
 }  // namespace wheelwright

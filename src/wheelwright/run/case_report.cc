@@ -11,6 +11,7 @@
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/number_text.h"
 #include "wheelwright/case/shape_symmetry.h"
+#include "wheelwright/case/shown_value.h"
 
 namespace wheelwright {
 
@@ -120,10 +121,30 @@ std::string coarse_contact_warning(const Case& c, double cells) {
                             std::ceil(c.grid.angular_cells * least_cells_per_contact_patch / reachable));
 }
 
+std::string bounds_report(const Case& c) {
+  std::string report;
+  for (const Constraint& bound : c.constraints) {
+    std::string text(name(bound.quantity));
+    const char* separator = " ";
+    for (const auto& [words, value] :
+         {std::pair{"at least", bound.at_least}, {"at most", bound.at_most}, {"equal to", bound.equals}})
+      if (value) {
+        text += fmt::format("{}{} {}", separator, words, shown_text(bound.quantity, *value, c.wheel));
+        separator = ", ";
+      }
+    if (bound.over == OverPositions::worst) text += " at the worst load position";
+    if (bound.over == OverPositions::each) text += " at each load position";
+    if (!bound.load_case.empty()) text += " in " + bound.load_case;
+    report += line("bound", text);
+  }
+  return report;
+}
+
 }  // namespace
 
 std::string derived_report(const Case& c) {
-  if (c.load.cases.empty()) return load_report(c) + material_report(c) + contact_report(c) + size_report(c);
+  if (c.load.cases.empty())
+    return load_report(c) + material_report(c) + contact_report(c) + size_report(c) + bounds_report(c);
   std::string report;
   Case finest = c;
   finest.grid.tread_levels = tread_levels(c);
@@ -133,7 +154,7 @@ std::string derived_report(const Case& c) {
         line("load case", fmt::format("{}, weight {:.6g}", c.load.cases[k].name, c.load.cases[k].weight)) +
         load_report(single) + contact_report(single);
   }
-  return report + material_report(c) + size_report(c);
+  return report + material_report(c) + size_report(c) + bounds_report(c);
 }
 
 std::string clearance_report(const cad::Clearances& clearances) {

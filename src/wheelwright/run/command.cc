@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "wheelwright/case/load_case_change.h"
+#include "wheelwright/case/shown_value.h"
 
 namespace wheelwright {
 namespace {
@@ -112,7 +113,7 @@ Obeyed NewBound::obey(RunControl& run) const {
   const auto set = [&](const char* what, const std::optional<double>& value, std::optional<double>& place) {
     if (!value) return;
     place = value;
-    words.push_back(fmt::format("{} {:.6g}", what, *value));
+    words.push_back(fmt::format("{} {}", what, shown_text(bound.quantity, *value, c.wheel)));
   };
   set("at least", at_least, bound.at_least);
   set("at most", at_most, bound.at_most);

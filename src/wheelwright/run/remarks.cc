@@ -6,9 +6,8 @@
 #include <array>
 #include <cmath>
 
-#include "wheelwright/base/units.h"
 #include "wheelwright/case/conflicts.h"
-#include "wheelwright/case/number_text.h"
+#include "wheelwright/case/shown_value.h"
 
 namespace wheelwright {
 namespace {
@@ -21,8 +20,8 @@ constexpr double clearly = 0.1, least_variation = 0.01;
 /// A number by which wheels are judged, and how it is bounded.
 struct Measure {
   Value value;
-  std::string_view key, label, unit;
-  double factor;  ///< from SI to the unit
+  std::string_view key, label;
+  UnitKind kind;
   bool is_larger_better;
   Value varies_about;                  ///< what a variation is compared with; null for others
   std::string_view meaning;            ///< of the change
@@ -36,8 +35,7 @@ const std::vector<Measure>& measures() {
       {&JudgedWheel::stiffness,
        "stiffness_N_per_m",
        "stiffness",
-       "N/mm",
-       1e-3,
+       UnitKind::stiffness,
        true,
        nullptr,
        "the wheel gives way more",
@@ -47,8 +45,7 @@ const std::vector<Measure>& measures() {
       {&JudgedWheel::run_out,
        "run_out_m",
        "run-out at fixed load",
-       "mm",
-       1e3,
+       UnitKind::length,
        false,
        &JudgedWheel::mean_travel,
        "the axle moves up and down more while the wheel rolls",
@@ -58,8 +55,7 @@ const std::vector<Measure>& measures() {
       {&JudgedWheel::force_variation,
        "force_variation_N",
        "radial force variation at fixed travel",
-       "N",
-       1,
+       UnitKind::force,
        false,
        &JudgedWheel::load,
        "the force on the axle varies more while the wheel rolls",
@@ -69,8 +65,7 @@ const std::vector<Measure>& measures() {
       {&JudgedWheel::peak_pressure,
        "peak_pressure_Pa",
        "peak contact pressure",
-       "MPa",
-       1e-6,
+       UnitKind::stress,
        false,
        nullptr,
        "tread and floor are pressed harder",
@@ -80,8 +75,7 @@ const std::vector<Measure>& measures() {
       {&JudgedWheel::peak_von_mises,
        "peak_von_mises_Pa",
        "peak von Mises stress",
-       "MPa",
-       1e-6,
+       UnitKind::stress,
        false,
        nullptr,
        "the material is loaded more",
@@ -91,8 +85,7 @@ const std::vector<Measure>& measures() {
       {&JudgedWheel::largest_strain,
        "largest_strain",
        "largest strain",
-       "%",
-       100,
+       UnitKind::ratio,
        false,
        nullptr,
        "the material is strained more",
@@ -139,11 +132,12 @@ std::optional<Constraint> bound(const Case& c, const Measure& m, const std::stri
   for (const Quantity quantity : m.bounded_by) {
     const Measure& bounded = measure_of(quantity);
     if (!(before.*bounded.value && *(before.*bounded.value) > 0)) continue;
-    const bool is_of_width = kind(quantity) == UnitKind::stiffness || kind(quantity) == UnitKind::force;
     const double value =
-        *(before.*bounded.value) / (is_of_width ? whole_width(c.wheel.dimension, c.wheel.width) : 1);
+        rounded(*(before.*bounded.value) * shown_unit(bounded.kind, c.wheel.dimension).factor,
+                !bounded.is_larger_better) /
+        shown_unit(quantity, c.wheel).factor;
     Constraint result{.quantity = quantity, .over = bounded.over, .load_case = load_case};
-    (bounded.is_larger_better ? result.at_least : result.at_most) = rounded(value, !bounded.is_larger_better);
+    (bounded.is_larger_better ? result.at_least : result.at_most) = value;
     Case with_bound = c;
     with_bound.constraints.push_back(result);
     if (conflicts(with_bound).empty()) return result;
@@ -152,23 +146,27 @@ std::optional<Constraint> bound(const Case& c, const Measure& m, const std::stri
 }
 
 /// As it stands in a case file.
-std::string lines(const Constraint& constraint, int dimension, const JudgedWheel& before) {
+std::string lines(const Constraint& constraint, const Wheel& wheel, const JudgedWheel& before) {
   const Measure& m = measure_of(constraint.quantity);
   std::string text = fmt::format("[[constraint]]\nquantity = \"{}\"\n", name(constraint.quantity));
   if (constraint.over == OverPositions::worst) text += "over = \"worst\"\n";
   if (!constraint.load_case.empty()) text += fmt::format("load_case = \"{}\"\n", constraint.load_case);
-  text += fmt::format("{} = {}  # {}, as before: {:.4g} {}", constraint.at_least ? "at_least" : "at_most",
-                      number_text(constraint.at_least ? *constraint.at_least : *constraint.at_most),
-                      unit(kind(constraint.quantity), dimension), *(before.*m.value) * m.factor, m.unit);
+  const ShownUnit shown = shown_unit(m.kind, wheel.dimension);
+  text += fmt::format("{} = \"{}\"  # as before: {:.4g} {}", constraint.at_least ? "at_least" : "at_most",
+                      shown_text(constraint.quantity,
+                                 constraint.at_least ? *constraint.at_least : *constraint.at_most, wheel),
+                      *(before.*m.value) * shown.factor, shown.name);
   return text;
 }
 
-std::string sentence(const Measure& m, const std::string& load_case, double before, double after) {
+std::string sentence(const Measure& m, const std::string& load_case, int dimension, double before,
+                     double after) {
   constexpr double most_percents = 1e5;
   const double percents = 100 * (after / before - 1);
+  const ShownUnit shown = shown_unit(m.kind, dimension);
   return fmt::format(
       "{}{} {} from {:.4g} to {:.4g} {}{}: {}.", m.label, load_case.empty() ? "" : " in " + load_case,
-      m.is_larger_better ? "fell" : "grew", before * m.factor, after * m.factor, m.unit,
+      m.is_larger_better ? "fell" : "grew", before * shown.factor, after * shown.factor, shown.name,
       std::abs(percents) < most_percents ? fmt::format(" ({:+.0f} %)", percents) : "", m.meaning);
 }
 
@@ -191,9 +189,10 @@ std::vector<Remark> remarks(const Case& c, const std::string& load_case, const J
   for (const Measure& m : measures()) {
     if (!is_clearly_worse(m, before, after) || is_bounded(c, m, load_case)) continue;
     const double from = *(before.*m.value), to = *(after.*m.value);
-    Remark remark{std::string(m.key), load_case, from, to, sentence(m, load_case, from, to), ""};
+    Remark remark{
+        std::string(m.key), load_case, from, to, sentence(m, load_case, c.wheel.dimension, from, to), ""};
     if (const auto constraint = bound(c, m, load_case, before))
-      remark.constraint = lines(*constraint, c.wheel.dimension, before);
+      remark.constraint = lines(*constraint, c.wheel, before);
     const auto same = std::ranges::find_if(result, [&](const Remark& other) {
       return !remark.constraint.empty() && other.constraint == remark.constraint;
     });

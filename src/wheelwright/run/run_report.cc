@@ -149,8 +149,9 @@ std::vector<std::string> flags(const Case& c, const RunSummary<dim>& summary,
   std::vector<std::string> result;
   for (const SummarizedBound& bound : summary.bounds)
     if (!bound.is_kept)
-      result.push_back(fmt::format("The bound {} {} {:.6g} is not kept: the value is {:.6g}.", bound.name,
-                                   bound.relation, bound.bound, bound.value));
+      result.push_back(fmt::format("The bound {} {} {:.6g} {} is not kept: the value is {:.6g} {}.",
+                                   bound.name, bound.relation, bound.bound * bound.shown.factor,
+                                   bound.shown.name, bound.value * bound.shown.factor, bound.shown.name));
   if (wheel.loaded)
     if (const auto warning = deformation_warning(wheel.loaded->summary.deformation); !warning.empty())
       result.push_back(warning);

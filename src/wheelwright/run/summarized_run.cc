@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include "wheelwright/base/quantity.h"
+#include "wheelwright/case/shown_value.h"
 #include "wheelwright/optimize/constraints.h"
+#include "wheelwright/run/bounded_functions.h"
 #include "wheelwright/run/given_wheel.h"
 #include "wheelwright/run/remarks.h"
 #include "wheelwright/run/run_title.h"
@@ -18,10 +20,11 @@ std::string minimized_text(Quantity quantity) {
 }
 
 template <int dim>
-std::vector<SummarizedBound> summarized_bounds(const OptimizationState<dim>& state) {
+std::vector<SummarizedBound> summarized_bounds(const OptimizationState<dim>& state, const Wheel& wheel) {
   std::vector<SummarizedBound> result;
   for (const BoundState& b : bound_states(state.evaluation, state.memory.multipliers))
-    result.push_back({b.name, b.value, b.bound, b.relation, b.multiplier, b.is_kept()});
+    result.push_back({b.name, b.value, b.bound, b.relation, b.multiplier, b.is_kept(),
+                      unit<dim>(kind(quantity_of(b.name))), shown_unit(quantity_of(b.name), wheel)});
   return result;
 }
 
@@ -35,7 +38,7 @@ RunSummary<dim> summarized_run(const Study<dim>& study, const InitialShape<dim>&
   return {.title = run_title(study.source),
           .before = {0, objective_as_given(study, start, interrupt), std::move(before)},
           .after = {last.iteration, last.evaluation.function("objective").value, std::move(after)},
-          .bounds = summarized_bounds(last),
+          .bounds = summarized_bounds(last, study.source.wheel),
           .minimized = minimized_text<dim>(study.source.objective.minimize),
           .remarks = std::move(worse),
           .changed_start = changed_start(study, start)};

@@ -8,6 +8,7 @@
 #include "wheelwright/analysis/shape_summary.h"
 #include "wheelwright/base/units.h"
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/shown_value.h"
 #include "wheelwright/evolution/volume.h"
 #include "wheelwright/report/solution_fields.h"
 #include "wheelwright/run/bounded_functions.h"
@@ -32,11 +33,17 @@ Json load_cases_json(const Case& c) {
   return loads;
 }
 
+/// What turns values of the quantity into those that people read.
+Json shown_json(Quantity quantity, const Case& c) {
+  const ShownUnit shown = shown_unit(quantity, c.wheel);
+  return {{"unit", shown.name}, {"factor", shown.factor}};
+}
+
 /// The bounds of the case, in the units of its sections.
 Json bounds_json(const Case& c) {
   Json bounds = Json::array();
   for (const Constraint& bound : c.constraints) {
-    Json json{{"quantity", name(bound.quantity)}};
+    Json json{{"quantity", name(bound.quantity)}, {"shown", shown_json(bound.quantity, c)}};
     if (bound.at_least) json["at_least"] = *bound.at_least;
     if (bound.at_most) json["at_most"] = *bound.at_most;
     if (bound.equals) json["equals"] = *bound.equals;
@@ -110,7 +117,7 @@ Json bound_states_json(const WatchedShape<dim>& shape) {
   Json bounds = Json::array();
   for (const BoundState& bound : shape.bounds)
     bounds.push_back({{"name", bound.name},
-                      {"unit", unit<dim>(kind(quantity_of(bound.name)))},
+                      {"shown", shown_json(quantity_of(bound.name), *shape.source)},
                       {"value", number(bound.value)},
                       {"relation", std::string(1, bound.relation)},
                       {"limit", bound.bound},

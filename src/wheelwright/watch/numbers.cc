@@ -6,6 +6,7 @@
 #include "wheelwright/cut/measure.h"
 #include "wheelwright/evolution/regrid.h"
 #include "wheelwright/evolution/volume.h"
+#include "wheelwright/report/numbers_json.h"
 #include "wheelwright/run/case_report.h"
 #include "wheelwright/run/feature_warnings.h"
 #include "wheelwright/run/remarks.h"
@@ -15,16 +16,6 @@ namespace wheelwright {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// How numbers are told, in the order of tables.
-template <int dim>
-Json rows_json() {
-  Json rows = Json::array();
-  for (const WheelNumber<dim>& number : wheel_numbers<dim>())
-    rows.push_back(
-        {{"key", number.key}, {"label", number.label}, {"unit", number.unit}, {"factor", number.factor}});
-  return rows;
-}
 
 template <int dim>
 Json values_json(const DescribedWheel<dim>& wheel) {
@@ -87,7 +78,7 @@ std::string WatchedNumbers<dim>::json(const BoardView<dim>& view, int load_case)
   const auto before = initial_wheel(view, load_case);
   const Json json{{"shape_version", view.shape_version},
                   {"load_case", load_case},
-                  {"rows", rows_json<dim>()},
+                  {"rows", shown_numbers<dim>()},
                   {"before", values_json(before)},
                   {"now", values_json(now)},
                   {"warnings", warnings_json(*shape.source, before, now)}};

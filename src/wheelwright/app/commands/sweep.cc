@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "wheelwright/app/case_input.h"
 #include "wheelwright/app/commands/commands.h"
 #include "wheelwright/app/design_session.h"
@@ -15,14 +17,18 @@
 namespace wheelwright {
 namespace {
 
-constexpr const char* form = "KEY=A,B,... | KEY=FROM:TO:NUMBER | KEY=FROM:TO:NUMBER:log";
+constexpr const char* form =
+    "KEY=A,B,... | KEY=FROM:TO:NUMBER | KEY=FROM:TO:NUMBER:log, with a unit behind a space if it is not that "
+    "of the "
+    "case file";
 
 std::optional<SweptKey> parse_swept_key(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0) return {};
-  auto values = parse_number_list(std::string_view(text).substr(equals + 1));
+  const std::size_t end = std::min(text.find(' ', equals), text.size());
+  auto values = parse_number_list(std::string_view(text).substr(equals + 1, end - equals - 1));
   if (!values) return {};
-  return SweptKey{text.substr(0, equals), *std::move(values)};
+  return SweptKey{text.substr(0, equals), *std::move(values), text.substr(std::min(end + 1, text.size()))};
 }
 
 class SweepCommand : public Subcommand {
@@ -31,9 +37,11 @@ class SweepCommand : public Subcommand {
 
   void declare(Options& options) override {
     add_case(options, case_file_);
-    options.arguments(
-        "KEYS", texts_, 1,
-        fmt::format("Keys of the case with their numbers, e.g. load.mass=100:300:5; each is {}", form));
+    options.arguments("KEYS", texts_, 1,
+                      fmt::format("Keys of the case with their numbers, e.g. load.mass=100:300:5 or "
+                                  "'constraint[1].at_least=6000,7000 "
+                                  "N/mm'; each is {}",
+                                  form));
     options_.declare(options);
   }
 

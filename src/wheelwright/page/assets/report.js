@@ -49,7 +49,7 @@
       .map(([name, numbers]) => group(name, before.load_cases?.[name], numbers))]);
   }
 
-  // The bounds at the last shape that the run computed, by the units of history.csv.
+  // The bounds at the last shape that the run computed, in the units of tables.
   function bounds(run) {
     const course = (words) => {
       const name = Object.keys(run.history).find((column) => column.startsWith(`${words} [`));
@@ -60,15 +60,16 @@
     const titles = ["bound", "limit", "before", "after", "margin", "margin [%]", "state", "multiplier"];
     const head = element("tr", {}, ...titles.map((title) => element("th", { scope: "col" }, title)));
     const body = element("tbody");
-    for (const { name, value, bound, relation, multiplier, is_kept } of run.summary.bounds) {
-      const { unit, first } = course(`bounded ${name}`), price = course(`multiplier of ${name}`).unit;
+    for (const [k, { name, value: last, bound: limit, relation, multiplier, is_kept }] of run.summary.bounds.entries()) {
+      const { unit, factor } = run.bound_units[k], { first } = course(`bounded ${name}`);
+      const [value, bound] = [last * factor, limit * factor], [price] = course(`multiplier of ${name}`).unit.split(" per ");
       const margin = relation === "<" ? bound - value : relation === ">" ? value - bound : -Math.abs(value - bound);
       const state = !is_kept ? "not kept" : relation === "=" || multiplier !== 0 ? "active" : "not active";
       body.append(element("tr", { "data-bound": name, ...(is_kept ? {} : { class: "broken" }) },
         element("th", { scope: "row" }, `${name.replaceAll("_", " ")} [${unit}]`),
-        ...[`${words[relation]} ${shown(bound)}`, first === undefined ? "\u2013" : shown(first), shown(value), shown(margin),
+        ...[`${words[relation]} ${shown(bound)}`, first === undefined ? "\u2013" : shown(first * factor), shown(value), shown(margin),
           bound ? shown(100 * margin / Math.abs(bound)) : "\u2013", state,
-          `${shown(multiplier)}${multiplier && price ? ` ${price}` : ""}`].map((text) => element("td", {}, text))));
+          `${shown(multiplier / factor)}${multiplier && price ? ` ${price} per ${unit}` : ""}`].map((text) => element("td", {}, text))));
     }
     return element("div", {}, element("div", { class: "wide" }, element("table", { id: `${run.id}-bounds` },
       element("thead", {}, head), body)), element("p", { class: "quiet" }, "The margin is what is left to the limit; a " +

@@ -579,13 +579,11 @@
     }
   }
 
-  // Stiffness and force per metre of width are those per millimetre.
-  const scales = { Pa: ["MPa", 1e-6], m: ["mm", 1e3], "-": ["", 1], "N/m^2": ["N/mm\u00b2", 1e-6], "N/m": ["N/mm", 1e-3] };
   function showBounds() {
     at("bounds").hidden = frame.bounds.length === 0;
-    at("bound-rows").replaceChildren(...frame.bounds.map(({ name, unit, value, relation, limit, is_kept: isKept }) => {
-      const [told, factor] = scales[unit] ?? [unit, 1], sign = { "<": "\u2264", ">": "\u2265", "=": "=" }[relation];
-      return element("tr", {}, element("th", { scope: "row" }, `${name.replaceAll("_", " ")} `, element("span", { class: "unit" }, told)),
+    at("bound-rows").replaceChildren(...frame.bounds.map(({ name, shown: { unit, factor }, value, relation, limit, is_kept: isKept }) => {
+      const sign = { "<": "\u2264", ">": "\u2265", "=": "=" }[relation];
+      return element("tr", {}, element("th", { scope: "row" }, `${name.replaceAll("_", " ")} `, element("span", { class: "unit" }, unit)),
         element("td", { class: "now" }, short(value * factor)), element("td", {}, `${sign} ${short(limit * factor)}`),
         element("td", { class: isKept ? "good" : "bad" }, isKept ? "met" : "not met"));
     }));
@@ -776,10 +774,11 @@
       value: () => 1e3 * frame.settings[key], command: (v) => ({ do: "widths", [key]: v * 1e-3 }) });
     const relations = { at_least: "\u2265", at_most: "\u2264", equals: "=" };
     const limit = (k, bound, relation) => {
-      const first = bound[relation], range = first > 0 ? powers(0.2 * first, 5 * first) : linear(-1, 1);
-      return setting(`bound-${k}-${relation}`, `${bound.quantity.replaceAll("_", " ")} ${relations[relation]} [SI]`, {
-        ...range, digits: 4, value: () => frame.settings.bounds[k][relation],
-        command: (v) => ({ do: "bound", constraint: k, [relation]: v }) });
+      const { unit, factor } = bound.shown, first = bound[relation] * factor;
+      const range = first > 0 ? powers(0.2 * first, 5 * first) : linear(-1, 1);
+      return setting(`bound-${k}-${relation}`, `${bound.quantity.replaceAll("_", " ")} ${relations[relation]} [${unit}]`, {
+        ...range, digits: 4, value: () => frame.settings.bounds[k][relation] * factor,
+        command: (v) => ({ do: "bound", constraint: k, [relation]: v / factor }) });
     };
     settings = [
       ...loadSettings(),
