@@ -57,6 +57,7 @@ const std::map<std::string, std::string> refused_key{{"base", ""},
                                                      {"friction_corner", ""},
                                                      {"light", ""},
                                                      {"light2", "load.mass"},
+                                                     {"narrow_stick", ""},
                                                      {"nu4999_degree1", "grid.degree"},
                                                      {"overload", "load.mass"},
                                                      {"scooter_tpu", ""},
@@ -193,6 +194,23 @@ TEST(EdgeCases, APathThatStaysAtACornerIsLeft) {
     const Interrupt interrupt([&] { return ++steps > 3000 * positions; }, [](const ContactProgress&) {});
     const auto state = (*solver)->states(initial_shape<2>(c), (*solver)->all_positions(), interrupt);
     ASSERT_TRUE(state) << positions << ": " << state.failure().detail;
+  }
+}
+
+// Where the last point that sticks begins to slide, nothing resists a motion of the rim along the ground.
+TEST(EdgeCases, PathsPassPiecesWhoseTangentIsSingular) {
+  const Case c = *read("narrow_stick").value;
+  const auto solver = make_solver(rolling_model<2>(c));
+  ASSERT_TRUE(solver);
+  const auto state = (*solver)->states(initial_shape<2>(c), (*solver)->all_positions(), Interrupt());
+  ASSERT_TRUE(state) << state.failure().detail;
+  const RollingModel<2>& model = (*solver)->model();
+  for (const auto& contact : (*state)->contacts()) {
+    Vec<2> force{};
+    for (const auto& point : contact.points)
+      for (int d = 0; d < 2; ++d) force[d] += point.weight * point.traction[d];
+    EXPECT_NEAR(force[0], -model.load, 1e-9 * model.load);
+    EXPECT_NEAR(force[1], -model.horizontal_force, 1e-9 * model.load);
   }
 }
 

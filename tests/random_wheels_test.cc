@@ -185,8 +185,10 @@ AnyEnd any_end_of(const Case& c) {
     for (const auto* values : {&analysis.travel_at_load, &analysis.force_at_travel})
       if (!*values && !is_explained(values->failure())) return failed(values->failure());
     const double stiffness = shape_summary<dim>(**solver, shape, *state).stiffness;
-    const auto& others = state->model().distributed;  // which may lift the wheel, or inflate it
-    const bool is_pressed_only = norm<dim>(others.body_force) == 0 && others.hole_pressure == 0;
+    const auto& others = state->model().distributed;  // which may lift or inflate the wheel, as friction may
+    const RollingModel<dim>& model = state->model();
+    const bool is_pressed_only = norm<dim>(others.body_force) == 0 && others.hole_pressure == 0 &&
+                                 std::hypot(model.horizontal_force, model.lateral_force) <= model.load;
     if (!(stiffness > 0) && is_pressed_only && c.contact.with == Counterpart::ground)
       return {"solved", "stiffness " + std::to_string(stiffness)};
   }
@@ -221,11 +223,12 @@ void expect_a_reason_of_each(int first, int n, unsigned seed) {
   for (const auto& [kind, number] : count) std::cout << number << " " << kind << ", ";
   std::cout << "at most " << longest << " s each\n";
   EXPECT_GE(count["solved"], 0.4 * n);
-  EXPECT_LE(count["newton_stalled"], 0.01 * n);
+  EXPECT_EQ(count["newton_stalled"], 0);
 }
 
 TEST(AnyWheels, EndSolvedOrWithAReason) { expect_a_reason_of_each(0, 8, 3); }
 TEST(AnyWheels, EndSolvedOrWithAReasonSlow) { expect_a_reason_of_each(0, 300, 4); }
+TEST(AnyWheels, OthersEndSolvedOrWithAReasonSlow) { expect_a_reason_of_each(0, 300, 5); }
 
 }  // namespace
 }  // namespace wheelwright

@@ -204,6 +204,12 @@ bool touches(const ContactUnknowns<dim>& x) {
 }
 
 template <int dim>
+ContactUnknowns<dim> sticking_somewhere(const ReducedContact<dim>& contact, ContactUnknowns<dim> x) {
+  if (slides(contact, x)) stick_one(contact, ContactUnknowns<dim>(x), x);
+  return x;
+}
+
+template <int dim>
 NewtonEnd<dim> newton(const ReducedContact<dim>& contact, ContactUnknowns<dim> start, Cycling when_cycling,
                       const Interrupt& interrupt, int steps_before) {
   NewtonEnd<dim> end{std::move(start)};
@@ -212,7 +218,7 @@ NewtonEnd<dim> newton(const ReducedContact<dim>& contact, ContactUnknowns<dim> s
     end.converged = !touches(end.x) && contact.rim().free.empty();
     if (!touches(end.x)) return end;
   }
-  if (slides(contact, end.x)) stick_one(contact, ContactUnknowns<dim>(end.x), end.x);
+  end.x = sticking_somewhere(contact, std::move(end.x));
   const ResidualNorm<dim> norm(contact, end.x);
   size_t fewest_changes = end.x.augmented.size() + 1;
   int without_progress = 0;
@@ -246,6 +252,24 @@ NewtonEnd<dim> newton(const ReducedContact<dim>& contact, ContactUnknowns<dim> s
 }
 
 template <int dim>
+NewtonEnd<dim> without_rounding_errors(const ReducedContact<dim>& contact, ContactUnknowns<dim> x) {
+  constexpr int most_steps = 2;
+  NewtonEnd<dim> end{std::move(x)};
+  const ResidualNorm<dim> norm(contact, end.x);
+  NewtonTangent<dim> tangent(contact);
+  while (end.iterations < most_steps && !end.converged) {
+    const auto step = tangent.step(end.x, contact.residual(end.x));
+    if (!step) return end;
+    end.x = difference(end.x, *step);
+    ++end.iterations;
+    const auto residual = contact.residual(end.x);
+    end.residual = norm(residual);
+    end.converged = norm.vanishes(residual, end.x);
+  }
+  return end;
+}
+
+template <int dim>
 Expected<ContactState<dim>> solve_bonded(const ReducedContact<dim>& contact) {
   constexpr int solves = 2;
   ContactUnknowns<dim> x = contact.zero_start();
@@ -262,10 +286,12 @@ Expected<ContactState<dim>> solve_bonded(const ReducedContact<dim>& contact) {
                  fmt::format("bonded tread: residual {:.3g} Pa", norm(residual))};
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                        \
-  template bool touches(const ContactUnknowns<dim>&);                                       \
-  template NewtonEnd<dim> newton(const ReducedContact<dim>&, ContactUnknowns<dim>, Cycling, \
-                                 const Interrupt&, int);                                    \
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                                  \
+  template bool touches(const ContactUnknowns<dim>&);                                                 \
+  template ContactUnknowns<dim> sticking_somewhere(const ReducedContact<dim>&, ContactUnknowns<dim>); \
+  template NewtonEnd<dim> without_rounding_errors(const ReducedContact<dim>&, ContactUnknowns<dim>);  \
+  template NewtonEnd<dim> newton(const ReducedContact<dim>&, ContactUnknowns<dim>, Cycling,           \
+                                 const Interrupt&, int);                                              \
   template Expected<ContactState<dim>> solve_bonded(const ReducedContact<dim>&);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)

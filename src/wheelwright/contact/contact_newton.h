@@ -20,11 +20,21 @@ enum class Cycling { give_up, change_fewer };
 template <int dim>
 bool touches(const ContactUnknowns<dim>& x);
 
+/// x, but where friction must hold the rim and all that touches slides along the same line, so that nothing
+/// resists a motion along it and the tangent is singular: then the point that lacks least to stick sticks.
+template <int dim>
+ContactUnknowns<dim> sticking_somewhere(const ReducedContact<dim>& contact, ContactUnknowns<dim> x);
+
 /// A semi-smooth Newton method. Its start touches the ground, or the rim is held. `interrupt` is polled and
 /// told of before every step, of which `steps_before` were taken by others.
 template <int dim>
 NewtonEnd<dim> newton(const ReducedContact<dim>& contact, ContactUnknowns<dim> start, Cycling when_cycling,
                       const Interrupt& interrupt, int steps_before = 0);
+
+/// The solution next to x, which solves the contact problem but for rounding errors: no point changes its
+/// status on purpose, even if all of them slide.
+template <int dim>
+NewtonEnd<dim> without_rounding_errors(const ReducedContact<dim>& contact, ContactUnknowns<dim> x);
 
 /// A bonded tread: one linear solve, and another one that lowers its rounding errors.
 template <int dim>

@@ -69,6 +69,12 @@ struct Change {
   Vec<2> normal;
   Unknowns solved;  ///< tangent before^-1 . residual
   double ratio;     ///< of the tangent's determinants, after to before
+
+  /// Whether the tangent after is singular: `solved` is its null vector.
+  bool is_singular() const { return !(std::abs(ratio) > 1e-10) || !std::isfinite(ratio); }
+
+  /// From a solution with the tangent before to that with the tangent after.
+  void apply(Unknowns& x) const { add(-dot<2>(normal, x.augmented[point]) / ratio, solved, x); }
 };
 
 /// The tangent of the problem on one set of pieces: a factored one and the changes since.
@@ -80,13 +86,12 @@ class ChangingTangent {
 
   Unknowns solve(const Unknowns& residual) const {
     Unknowns x = factored_.solve(residual);
-    for (const Change& change : changes_) apply(change, x);
+    for (const Change& change : changes_) change.apply(x);
     return x;
   }
 
-  /// Adds a change and applies it to `direction`, a solution with the tangent before.
-  double change(const ReducedContact<2>& contact, int point, const Border& border, Piece from,
-                Unknowns& direction) {
+  /// The change when a point leaves a piece through a border.
+  Change change_at(const ReducedContact<2>& contact, int point, const Border& border, Piece from) const {
     // The difference of the two pieces' tangents is traction . normal^T, as the law is continuous.
     const Mat<2> before = tangent_of(from, contact.friction()),
                  after = tangent_of(border.beyond, contact.friction());
@@ -96,16 +101,12 @@ class ChangingTangent {
       for (int j = 0; j < 2; ++j) traction[i] += (after[i][j] - before[i][j]) * border.normal[j] / squared;
     Change change{point, border.normal, solve(contact.residual_of(point, traction)), 0};
     change.ratio = 1 + dot<2>(change.normal, change.solved.augmented[point]);
-    apply(change, direction);
-    changes_.push_back(std::move(change));
-    return changes_.back().ratio;
+    return change;
   }
+
+  void add_change(Change change) { changes_.push_back(std::move(change)); }
 
  private:
-  static void apply(const Change& change, Unknowns& x) {
-    add(-dot<2>(change.normal, x.augmented[change.point]) / change.ratio, change.solved, x);
-  }
-
   ContactTangent<2> factored_;
   std::vector<Change> changes_;
 };
@@ -174,11 +175,12 @@ class Path {
     if (tangent_.n_changes() >= most_changes) refresh();
     if (tangent_.n_changes() >= most_changes_at_a_corner) return false;
     go(next_.distance);
-    Piece& piece = pieces_[next_.point];
-    const double ratio = tangent_.change(*contact_, next_.point, next_.border, piece, rate_);
-    if (!std::isfinite(ratio) || ratio == 0) return false;
-    if (ratio < 0) sense_ = -sense_;
-    piece = next_.border.beyond;
+    const Crossing crossing = next_;
+    const Change change = change_at(crossing);
+    if (change.is_singular()) {
+      if (!pass(crossing, change)) return false;
+    } else
+      enter(crossing, change);
     look_ahead();
     return true;
   }
@@ -197,6 +199,34 @@ class Path {
         tangent_(std::move(tangent)),
         rate_(tangent_.solve(start_residual_)) {
     look_ahead();
+  }
+
+  Change change_at(const Crossing& crossing) const {
+    return tangent_.change_at(*contact_, crossing.point, crossing.border, pieces_[crossing.point]);
+  }
+
+  void enter(const Crossing& crossing, Change change) {
+    if (change.ratio < 0) sense_ = -sense_;
+    change.apply(rate_);
+    tangent_.add_change(std::move(change));
+    pieces_[crossing.point] = crossing.border.beyond;
+  }
+
+  /// Passes a piece whose tangent is singular, such as the one on which the last point that sticks begins to
+  /// slide: there x moves along the tangent's null vector, as the rim does along the ground, while t stays,
+  /// up to the border of another point. Both changes are made at once, as they commute: the other one first.
+  bool pass(const Crossing& crossing, const Change& into) {
+    std::vector<Piece> pieces = pieces_;
+    pieces[crossing.point] = crossing.border.beyond;
+    const Crossing other = next_crossing(pieces, contact_->friction(), x_, 1, into.solved);
+    if (other.point < 0 || other.point == crossing.point) return false;
+    add(other.distance, into.solved, x_);
+    for (const Crossing* each : {&other, &crossing}) {
+      Change change = change_at(*each);
+      if (change.is_singular()) return false;
+      enter(*each, std::move(change));
+    }
+    return true;
   }
 
   std::vector<Piece> pieces_of(const Unknowns& x) const {

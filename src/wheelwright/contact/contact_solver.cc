@@ -66,11 +66,14 @@ NewtonEnd<dim> newton_by_given_friction(const ReducedContact<dim>& contact, Cont
   return end;
 }
 
-/// A path from x, and Newton's method from where it ends, which removes its rounding errors.
+/// A path from x, without the rounding errors of its end. Where these hide the solution, Newton's method
+/// starts there.
 NewtonEnd<2> newton_by_path(const ReducedContact<2>& contact, const ContactUnknowns<2>& x,
                             const Interrupt& interrupt, int steps_before) {
-  const PathEnd<2> path = follow_path(contact, x, interrupt, steps_before);
-  NewtonEnd<2> end = newton(contact, path.x, Cycling::give_up, interrupt, steps_before + path.turns);
+  const PathEnd<2> path = follow_path(contact, sticking_somewhere(contact, x), interrupt, steps_before);
+  NewtonEnd<2> end;
+  if (path.arrives) end = without_rounding_errors(contact, path.x);
+  if (!end.converged) end = newton(contact, path.x, Cycling::give_up, interrupt, steps_before + path.turns);
   end.iterations += path.turns;
   return end;
 }
@@ -130,8 +133,7 @@ NewtonEnd<3> led_from(const ReducedContact<3>& contact, const ContactUnknowns<3>
   return newton_by_load_steps(contact, x, interrupt, steps_before);
 }
 
-/// Paths from the last iterates of Newton's method, and from its starts. Where all of them stay at a corner
-/// of the contact law, a sequence of problems with given friction.
+/// Paths from the last iterates of Newton's method, and from its starts.
 NewtonEnd<2> where_newton_cycles(const ReducedContact<2>& contact, const NewtonAttempts<2>& newton,
                                  std::span<const ContactUnknowns<2>> starts, const Interrupt& interrupt) {
   std::vector<ContactUnknowns<2>> beginnings = newton.last_iterates;
@@ -141,10 +143,6 @@ NewtonEnd<2> where_newton_cycles(const ReducedContact<2>& contact, const NewtonA
   for (const ContactUnknowns<2>& x : beginnings) {
     if (end.converged || interrupt.requested()) break;
     end = newton_by_path(contact, x, interrupt, iterations);
-    iterations += end.iterations;
-  }
-  if (!end.converged && !interrupt.requested()) {
-    end = newton_by_given_friction(contact, contact.touching(starts.back()), interrupt);
     iterations += end.iterations;
   }
   end.iterations = iterations;

@@ -14,11 +14,19 @@ struct Push {
   double force;  ///< that does work on it, at least 0
 };
 
-Push push_along_ground(const RimControl& rim, const RimForce& preload, double tread_radius) {
+template <int dim>
+double tread_radius(const ReducedContact<dim>& contact) {
+  return norm<dim>(contact.points().front().position);
+}
+
+template <int dim>
+Push push_along_ground(const ReducedContact<dim>& contact) {
+  const RimControl& rim = contact.rim();
+  const RimForce& preload = contact.preload_resultant();
   Push push{{}, 0};
   for (const FreeMotion& free : rim.free) {
     if (!is_along_ground(free)) continue;
-    const double arm = free.direction.rotation != 0 ? tread_radius : 1;
+    const double arm = free.direction.rotation != 0 ? tread_radius(contact) : 1;
     const double force = (free.force + work(preload, free.direction)) / arm;
     push.motion = combined(push.motion, force / arm, free.direction);
     push.force = std::hypot(push.force, force);
@@ -69,6 +77,11 @@ bool is_along_ground(const FreeMotion& motion) {
 }
 
 template <int dim>
+double force_along_ground(const ReducedContact<dim>& contact) {
+  return push_along_ground(contact).force;
+}
+
+template <int dim>
 ReducedContact<dim> held_along_ground(const ReducedContact<dim>& contact) {
   RimControl rim = contact.rim();
   std::erase_if(rim.free, is_along_ground);
@@ -78,12 +91,11 @@ ReducedContact<dim> held_along_ground(const ReducedContact<dim>& contact) {
 template <int dim>
 std::optional<FrictionLimit> friction_limit(const ReducedContact<dim>& contact,
                                             const ContactUnknowns<dim>& start, const Interrupt& interrupt) {
-  const double tread_radius = norm<dim>(contact.points().front().position);
-  const Push push = push_along_ground(contact.rim(), contact.preload_resultant(), tread_radius);
+  const Push push = push_along_ground(contact);
   if (push.force == 0) return {};
   // The ground pushes against the motion of the lowest point of the tread.
   Vec<dim> lowest{};
-  lowest[0] = tread_radius;
+  lowest[0] = tread_radius(contact);
   Vec<dim> against = displacement<dim>(push.motion, lowest);
   against[0] = 0;
   const double length = norm<dim>(against);
@@ -101,6 +113,7 @@ std::optional<FrictionLimit> friction_limit(const ReducedContact<dim>& contact,
 }
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                               \
+  template double force_along_ground(const ReducedContact<dim>&);                  \
   template ReducedContact<dim> held_along_ground(const ReducedContact<dim>&);      \
   template std::optional<FrictionLimit> friction_limit(const ReducedContact<dim>&, \
                                                        const ContactUnknowns<dim>&, const Interrupt&);

@@ -20,6 +20,11 @@ struct FrictionLimit {
 /// Whether a motion of the rim is one that friction resists.
 bool is_along_ground(const FreeMotion& motion);
 
+/// The loads that push the rim along the ground, without the moment of the pressure; a torque counts as the
+/// force at the tread that has its moment about the axle.
+template <int dim>
+double force_along_ground(const ReducedContact<dim>& contact);
+
 /// The same contact with the rim held in all motions that friction resists.
 template <int dim>
 ReducedContact<dim> held_along_ground(const ReducedContact<dim>& contact);

@@ -59,9 +59,11 @@ Failure lifted(const RollingModel<dim>& model) {
 
 template <int dim>
 Failure overload(const RollingModel<dim>& model, const std::string& what) {
-  std::vector<std::string> keys{model.travel ? "load.travel" : "load.force"};
+  std::vector<std::string> keys = keys_along_ground(model);
+  keys.insert(keys.begin(), model.travel ? "load.travel" : "load.force");
+  if (norm<dim>(model.distributed.body_force) > 0 && keys.back() != "load.body_force")
+    keys.emplace_back("load.body_force");
   if (model.distributed.angular_speed != 0) keys.emplace_back("load.speed");
-  if (norm<dim>(model.distributed.body_force) > 0) keys.emplace_back("load.body_force");
   if (model.distributed.hole_pressure != 0) keys.emplace_back("load.hole_pressure");
   return {FailureReason::overload,
           fmt::format("{}, far beyond linear elasticity: take less {}, or a larger material.youngs_modulus",
@@ -76,21 +78,50 @@ Expected<ContactState<dim>, ContactFailure> without_friction(const ReducedContac
   return solve_contact<dim>(smooth, std::span(&start, 1));
 }
 
+/// What pushes the rim along the ground, by what presses it down there: at least so many times as large as
+/// the pressure are the tractions of friction.
+template <int dim>
+double push_by_pressure(const ReducedContact<dim>& contact, const ContactState<dim>& smooth) {
+  double normal_force = 0;
+  for (int i = 0; i < contact.n_points(); ++i)
+    normal_force -= contact.points()[i].weight * smooth.traction[i][0];
+  return force_along_ground(contact) / normal_force;
+}
+
+/// Whether gamma is so large that, with several points per cell, the contact is numerically overdetermined.
+template <int dim>
+std::optional<Failure> overdetermined(const RollingModel<dim>& model) {
+  const ContactForm& form = model.contact;
+  if (form.method != ContactMethod::nitsche || form.gamma_0 <= largest_smooth_gamma_0) return {};
+  return Failure{
+      FailureReason::inaccurate_solution,
+      fmt::format("contact.gamma_0 = {:.4g} forbids even the gaps between the points of a cell, and leaves "
+                  "their pressures undetermined: take contact.theta = -1 with contact.gamma_0 = {:g}",
+                  form.gamma_0, enough_gamma_0)};
+}
+
 /// Why there is no solution, from the contact without friction.
 template <int dim>
 Failure unexplained(const ContactFailure& failure, const RollingModel<dim>& model,
                     const ReducedContact<dim>& contact) {
   constexpr double largest_strain = 0.25;
   const auto smooth = without_friction(contact);
+  if (smooth) {
+    if (auto under = rim_under_ground(model, smooth->rim)) return *under;
+    double peak = 0;
+    for (const Vec<dim>& traction : smooth->traction) peak = std::max(peak, -traction[0]);
+    const double strain = peak / model.materials.at_tread().contact_modulus();
+    if (strain > largest_strain)
+      return overload(model, fmt::format("even without friction the pressure on the ground is {:.0f} % of "
+                                         "the material's modulus",
+                                         100 * strain));
+    if (const double push = push_by_pressure(contact, *smooth); push * strain > largest_strain)
+      return overload(model, fmt::format("the loads along the ground need friction of {:.0f} % of the "
+                                         "material's modulus",
+                                         100 * push * strain));
+  }
+  if (const auto reason = overdetermined(model)) return *reason;
   if (!smooth) return overload(model, "even without friction the contact has no state of equilibrium");
-  if (auto under = rim_under_ground(model, smooth->rim)) return *under;
-  double peak = 0;
-  for (const Vec<dim>& traction : smooth->traction) peak = std::max(peak, -traction[0]);
-  const double strain = peak / model.materials.at_tread().contact_modulus();
-  if (strain > largest_strain)
-    return overload(model, fmt::format("even without friction the pressure on the ground is {:.0f} % of the "
-                                       "material's modulus",
-                                       100 * strain));
   return {failure.reason,
           failure.detail + ": take another contact.gamma_0, less contact.friction, or another grid"};
 }

@@ -5,6 +5,10 @@
 
 namespace wheelwright {
 
+/// The gamma_0 that theta = -1 and 0 need at most, and the one beyond which pressures may oscillate by a third
+/// from point to point.
+constexpr double enough_gamma_0 = 14, largest_smooth_gamma_0 = 300;
+
 /// The failure of a load position's contact problem in the words of the case: which load cannot be carried
 /// and why, with the keys that would help. Where the contact found no reason, one is looked for: whether the
 /// load deforms the wheel without friction too far for linear elasticity.

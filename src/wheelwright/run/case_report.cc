@@ -12,6 +12,7 @@
 #include "wheelwright/case/number_text.h"
 #include "wheelwright/case/shape_symmetry.h"
 #include "wheelwright/case/shown_value.h"
+#include "wheelwright/rolling/contact_failure.h"
 
 namespace wheelwright {
 
@@ -197,11 +198,11 @@ std::vector<std::string> warnings(const Case& c) {
         "grid.degree = 1 is too stiff for material.poissons_ratio = {}: at 0.48 and 28 x 384 cells "
         "travel and energy are 5 % too small and pressures useless; grid.degree = 2 is accurate",
         c.material.poissons_ratio));
-  if (c.contact.method == ContactMethod::nitsche && c.contact.gamma_0 > 300)
+  if (c.contact.method == ContactMethod::nitsche && c.contact.gamma_0 > largest_smooth_gamma_0)
     result.push_back(
         fmt::format("contact.gamma_0 = {} is so large that pressures may oscillate by a third; "
-                    "contact.theta = -1 and 0 need at most 14",
-                    c.contact.gamma_0));
+                    "contact.theta = -1 and 0 need at most {:g}",
+                    c.contact.gamma_0, enough_gamma_0));
   if (c.ghost_penalty.xi == 0)
     result.push_back("ghost_penalty.xi = 0: slivers in cut cells will spoil the solution");
   if (c.optimizer.velocity == VelocityKind::harmonic && c.optimizer.smoothing == 0)
