@@ -41,30 +41,51 @@ double directional_derivative(const std::vector<SurfaceSample<dim>>& gradient, c
 }
 
 template <int dim>
+Expected<std::vector<TaylorTest>> taylor_tests(
+    const std::function<Expected<Evaluation<dim>>(const LevelSet<dim>&)>& evaluate,
+    const Evaluation<dim>& start, const LevelSet<dim>& psi, std::span<const double> direction, int map_degree,
+    double step, int halvings) {
+  std::vector<TaylorTest> tests;
+  for (const FunctionValue& function : start.functions)
+    tests.push_back(
+        {.value = function.value,
+         .derivative = directional_derivative(start.gradient(function.name), psi, direction, map_degree),
+         .steps = {},
+         .remainders = {},
+         .orders = {}});
+  for (int k = 0; k <= halvings; ++k) {
+    const double t = step * std::pow(0.5, k);
+    const auto trial = evaluate(moved(psi, direction, t));
+    if (!trial) return trial.failure();
+    for (size_t i = 0; i < tests.size(); ++i) {
+      TaylorTest& test = tests[i];
+      test.steps.push_back(t);
+      test.remainders.push_back(std::abs(trial->functions[i].value - test.value - t * test.derivative));
+      if (k > 0) test.orders.push_back(std::log2(test.remainders[k - 1] / test.remainders[k]));
+    }
+  }
+  return tests;
+}
+
+template <int dim>
 Expected<TaylorTest> taylor_test(
     const std::function<Expected<Evaluation<dim>>(const LevelSet<dim>&)>& evaluate, const LevelSet<dim>& psi,
     std::span<const double> direction, int map_degree, double step, int halvings, std::string_view name) {
   const auto start = evaluate(psi);
   if (!start) return start.failure();
-  TaylorTest test{.value = start->function(name).value,
-                  .derivative = directional_derivative(start->gradient(name), psi, direction, map_degree),
-                  .steps = {},
-                  .remainders = {},
-                  .orders = {}};
-  for (int k = 0; k <= halvings; ++k) {
-    const double t = step * std::pow(0.5, k);
-    const auto trial = evaluate(moved(psi, direction, t));
-    if (!trial) return trial.failure();
-    test.steps.push_back(t);
-    test.remainders.push_back(std::abs(trial->function(name).value - test.value - t * test.derivative));
-    if (k > 0) test.orders.push_back(std::log2(test.remainders[k - 1] / test.remainders[k]));
-  }
-  return test;
+  const auto tests = taylor_tests<dim>(evaluate, *start, psi, direction, map_degree, step, halvings);
+  if (!tests) return tests.failure();
+  for (size_t i = 0; i < tests->size(); ++i)
+    if (start->functions[i].name == name) return (*tests)[i];
+  return Failure{FailureReason::unsupported_model, "there is no function of the name " + std::string(name)};
 }
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                   \
   template double directional_derivative(const std::vector<SurfaceSample<dim>>&, const LevelSet<dim>&, \
                                          std::span<const double>, int);                                \
+  template Expected<std::vector<TaylorTest>> taylor_tests(                                             \
+      const std::function<Expected<Evaluation<dim>>(const LevelSet<dim>&)>&, const Evaluation<dim>&,   \
+      const LevelSet<dim>&, std::span<const double>, int, double, int);                                \
   template Expected<TaylorTest> taylor_test(                                                           \
       const std::function<Expected<Evaluation<dim>>(const LevelSet<dim>&)>&, const LevelSet<dim>&,     \
       std::span<const double>, int, double, int, std::string_view);

@@ -23,9 +23,17 @@ struct TaylorTest {
   std::vector<double> orders;  ///< log2 of successive remainders' ratios: 2 for an exact derivative
 };
 
-/// The test of the function of that name. Halves the step `halvings` times. The basis functions do not move
-/// with the boundary, so the derivative is that of the discrete function as long as the same cells are cut:
-/// the caller must choose shape and step accordingly.
+/// The tests of all functions of an evaluation, in their order. `start`: the evaluation of psi itself. Halves
+/// the step `halvings` times. The basis functions do not move with the boundary, so the derivative is that of
+/// the discrete function as long as the same cells are cut: the caller must choose shape and step
+/// accordingly.
+template <int dim>
+Expected<std::vector<TaylorTest>> taylor_tests(
+    const std::function<Expected<Evaluation<dim>>(const LevelSet<dim>&)>& evaluate,
+    const Evaluation<dim>& start, const LevelSet<dim>& psi, std::span<const double> direction, int map_degree,
+    double step, int halvings);
+
+/// The same of the function of that name.
 template <int dim>
 Expected<TaylorTest> taylor_test(
     const std::function<Expected<Evaluation<dim>>(const LevelSet<dim>&)>& evaluate, const LevelSet<dim>& psi,

@@ -1,0 +1,153 @@
+#include "wheelwright/run/gradient_check.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "wheelwright/case/read.h"
+#include "wheelwright/cut/cut_domain.h"
+
+namespace wheelwright {
+namespace {
+
+Case case_of(const std::string& text) {
+  CaseResult result = parse_case(text, "test.toml");
+  for (const Diagnostic& problem : result.problems) ADD_FAILURE() << problem.text();
+  return result.value.value_or(Case{});
+}
+
+template <int dim>
+std::vector<GradientCheck> checked(const Case& c) {
+  const auto study = make_study<dim>(c);
+  if (!study) throw std::runtime_error(study.failure().detail);
+  const auto checks = check_gradients(*study, study->initial);
+  if (!checks) throw std::runtime_error(checks.failure().detail);
+  return *checks;
+}
+
+void expect_passed(const std::vector<GradientCheck>& checks, size_t n_functions) {
+  EXPECT_EQ(checks.size(), n_functions);
+  for (const GradientCheck& check : checks)
+    EXPECT_FALSE(check.failed()) << check.function << ": order " << check.lowest_order() << ", error "
+                                 << check.largest_error() << ", step " << check.test.steps.front();
+}
+
+const std::string coarse = R"(
+[grid]
+radial_cells = 14
+angular_cells = 192
+tread_levels = 0
+[optimizer]
+tread_band = 0.02
+)";
+
+/// Its edges lie on the bands at rim and tread, and on lines of the grid.
+const std::string slots_between_bands = R"(
+[wheel]
+sectors = 8
+[load]
+positions = 3
+[[shape.slot]]
+count = 16
+center_radius = 0.265
+length = 0.108
+width = 0.04
+)" + coarse;
+
+TEST(GradientCheck, ItsDirectionLeavesTheSameCellsCutOnEveryWheel) {
+  const Case c = case_of(slots_between_bands);
+  const LevelSet<2> psi = initial_shape<2>(c);
+  const double step = 1e-3 * psi.lattice.grid().resolution();
+  for (int number = 0; number < 3; ++number) {
+    const auto direction = test_direction(psi, number, step);
+    EXPECT_GT(std::ranges::max(direction), 0.5);
+    const auto kinds = [&](double t) {
+      LevelSet<2> moved = psi;
+      for (size_t i = 0; i < direction.size(); ++i) moved.values[i] += t * direction[i];
+      return cut_domain(moved, 2)->kinds;
+    };
+    EXPECT_EQ(kinds(step), kinds(0));
+    EXPECT_EQ(kinds(-step), kinds(0));
+  }
+}
+
+TEST(GradientCheck, PassesOnAWheelWhoseEdgesLieOnTheBands) {
+  expect_passed(checked<2>(case_of(slots_between_bands)), 2);
+}
+
+TEST(GradientCheck, PassesWithFrictionTorqueSeveralLoadsAndBounds) {
+  expect_passed(checked<2>(case_of(slots_between_bands + R"(
+[contact]
+friction = 0.5
+[material]
+density = 1100
+[objective]
+minimize = "mass"
+[[load.case]]
+name = "straight"
+[[load.case]]
+name = "driven"
+torque = 200
+[[load.case]]
+name = "fast"
+speed = 20
+[[constraint]]
+quantity = "stiffness"
+at_least = 1e6
+[[constraint]]
+quantity = "peak_pressure"
+load_case = "driven"
+at_most = 1e7
+)")),
+                6);
+}
+
+TEST(GradientCheck, PassesInThreeDimensions) {
+  expect_passed(checked<3>(case_of(R"(
+[wheel]
+dimension = 3
+sectors = 16
+[load]
+positions = 2
+lateral_force = 100
+[contact]
+friction = 0.5
+[[holes.tapered]]
+count = 16
+center_radius = 0.27
+profile = [[-0.06, 0.02], [0, 0.024], [0.06, 0.028]]
+[[constraint]]
+quantity = "stiffness"
+at_least = 1e6
+[grid]
+radial_cells = 7
+angular_cells = 96
+axial_cells = 3
+[optimizer]
+rim_band = 0.02
+tread_band = 0.04
+)")),
+                3);
+}
+
+// A derivative that is wrong by a hundredth shows in the order, one that is right does not.
+TEST(GradientCheck, FindsAWrongDerivative) {
+  const auto check_of = [](double derivative) {
+    GradientCheck check{"objective",
+                        {.value = 1, .derivative = derivative, .steps = {}, .remainders = {}, .orders = {}}};
+    for (double t = 1e-3; t > 1e-4; t /= 2) {
+      check.test.steps.push_back(t);
+      check.test.remainders.push_back(std::abs(2 * t + 3 * t * t - t * derivative));
+    }
+    for (size_t k = 1; k < check.test.steps.size(); ++k)
+      check.test.orders.push_back(std::log2(check.test.remainders[k - 1] / check.test.remainders[k]));
+    return check;
+  };
+  EXPECT_TRUE(check_of(2).passed());
+  EXPECT_FALSE(check_of(2.02).passed());
+  EXPECT_FALSE(check_of(0).passed());
+}
+
+}  // namespace
+}  // namespace wheelwright
