@@ -149,5 +149,12 @@ TEST(GradientCheck, FindsAWrongDerivative) {
   EXPECT_FALSE(check_of(0).passed());
 }
 
+// A quantity that the case prescribes does not change with the shape.
+TEST(GradientCheck, AConstantIsNoFailure) {
+  const GradientCheck check{
+      "travel", {.value = 1, .derivative = 0, .steps = {1e-3, 5e-4}, .remainders = {0, 0}, .orders = {0}}};
+  EXPECT_TRUE(check.passed());
+}
+
 }  // namespace
 }  // namespace wheelwright

@@ -78,14 +78,16 @@ Expected<ContactState<dim>, ContactFailure> without_friction(const ReducedContac
   return solve_contact<dim>(smooth, std::span(&start, 1));
 }
 
-/// What pushes the rim along the ground, by what presses it down there: at least so many times as large as
-/// the pressure are the tractions of friction.
+/// The friction that the loads along the ground need, and what can be held under the normal force of a
+/// contact without friction.
 template <int dim>
-double push_by_pressure(const ReducedContact<dim>& contact, const ContactState<dim>& smooth) {
+FrictionLimit smooth_limit(const ReducedContact<dim>& contact, const ContactState<dim>& smooth) {
   double normal_force = 0;
   for (int i = 0; i < contact.n_points(); ++i)
     normal_force -= contact.points()[i].weight * smooth.traction[i][0];
-  return force_along_ground(contact) / normal_force;
+  return {.needed = force_along_ground(contact),
+          .available = contact.friction() * normal_force,
+          .normal_force = normal_force};
 }
 
 /// Whether gamma is so large that, with several points per cell, the contact is numerically overdetermined.
@@ -100,26 +102,36 @@ std::optional<Failure> overdetermined(const RollingModel<dim>& model) {
                   form.gamma_0, enough_gamma_0)};
 }
 
-/// Why there is no solution, from the contact without friction.
+/// What the contact without friction, `smooth`, tells of why there is no solution with it.
+template <int dim>
+std::optional<Failure> reason_in(const ContactState<dim>& smooth, const RollingModel<dim>& model,
+                                 const ReducedContact<dim>& contact) {
+  constexpr double largest_strain = 0.25;
+  if (auto under = rim_under_ground(model, smooth.rim)) return under;
+  const FrictionLimit limit = smooth_limit(contact, smooth);
+  if (limit.is_exceeded() && limit.needed > 0) return sliding(limit, model);
+  double peak = 0;
+  for (const Vec<dim>& traction : smooth.traction) peak = std::max(peak, -traction[0]);
+  const double strain = peak / model.materials.at_tread().contact_modulus();
+  if (strain > largest_strain)
+    return overload(model, fmt::format("even without friction the pressure on the ground is {:.0f} % of the "
+                                       "material's modulus",
+                                       100 * strain));
+  // Friction is at least so many times as large as the pressure.
+  if (const double ratio = limit.needed / limit.normal_force; ratio * strain > largest_strain)
+    return overload(model, fmt::format("the loads along the ground need friction of {:.0f} % of the "
+                                       "material's modulus",
+                                       100 * ratio * strain));
+  return {};
+}
+
+/// Why there is no solution, as far as it can be told.
 template <int dim>
 Failure unexplained(const ContactFailure& failure, const RollingModel<dim>& model,
                     const ReducedContact<dim>& contact) {
-  constexpr double largest_strain = 0.25;
   const auto smooth = without_friction(contact);
-  if (smooth) {
-    if (auto under = rim_under_ground(model, smooth->rim)) return *under;
-    double peak = 0;
-    for (const Vec<dim>& traction : smooth->traction) peak = std::max(peak, -traction[0]);
-    const double strain = peak / model.materials.at_tread().contact_modulus();
-    if (strain > largest_strain)
-      return overload(model, fmt::format("even without friction the pressure on the ground is {:.0f} % of "
-                                         "the material's modulus",
-                                         100 * strain));
-    if (const double push = push_by_pressure(contact, *smooth); push * strain > largest_strain)
-      return overload(model, fmt::format("the loads along the ground need friction of {:.0f} % of the "
-                                         "material's modulus",
-                                         100 * push * strain));
-  }
+  if (smooth)
+    if (const auto reason = reason_in(*smooth, model, contact)) return *reason;
   if (const auto reason = overdetermined(model)) return *reason;
   if (!smooth) return overload(model, "even without friction the contact has no state of equilibrium");
   return {failure.reason,

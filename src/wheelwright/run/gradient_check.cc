@@ -158,18 +158,23 @@ bool is_better(const GradientCheck& a, const GradientCheck& b) {
 
 }  // namespace
 
-double GradientCheck::lowest_order() const {
+bool GradientCheck::is_rounding(size_t step) const {
   constexpr double rounding = 1e-10;
+  return test.remainders[step] <= rounding * std::abs(test.value);
+}
+
+double GradientCheck::lowest_order() const {
   double lowest = std::numeric_limits<double>::infinity();
   for (size_t k = 0; k < test.orders.size(); ++k)
-    if (test.remainders[k + 1] > rounding * std::abs(test.value)) lowest = std::min(lowest, test.orders[k]);
+    if (!is_rounding(k + 1)) lowest = std::min(lowest, test.orders[k]);
   return lowest;
 }
 
 double GradientCheck::largest_error() const {
   double largest = 0;
   for (size_t k = 0; k < test.steps.size(); ++k)
-    largest = std::max(largest, test.remainders[k] / (test.steps[k] * std::abs(test.derivative)));
+    if (!is_rounding(k))
+      largest = std::max(largest, test.remainders[k] / (test.steps[k] * std::abs(test.derivative)));
   return largest;
 }
 

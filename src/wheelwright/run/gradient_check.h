@@ -15,10 +15,14 @@ struct GradientCheck {
   /// (PeakNorm) or of a smooth maximum over the positions. Its value is no reference for that gradient.
   bool is_smoothed = false;
 
+  /// Whether what the derivative leaves of the change by a step is rounding.
+  bool is_rounding(size_t step) const;
+
   /// The lowest order of the remainders above rounding; infinite if all of them are rounding.
   double lowest_order() const;
 
-  /// The largest difference of a difference quotient and the derivative, as a fraction of the derivative.
+  /// The largest difference, beyond rounding, of a difference quotient and the derivative, as a fraction of
+  /// the derivative.
   double largest_error() const;
 
   /// Whether the remainders fall with the square of the step, or are rounding, and the derivative is most of
