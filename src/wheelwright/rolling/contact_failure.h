@@ -5,8 +5,8 @@
 
 namespace wheelwright {
 
-/// The gamma_0 that theta = -1 and 0 need at most, and the one beyond which pressures may oscillate by a third
-/// from point to point.
+/// The gamma_0 that theta = -1 and 0 need at most, and the one beyond which pressures may oscillate by a
+/// third from point to point.
 constexpr double enough_gamma_0 = 14, largest_smooth_gamma_0 = 300;
 
 /// The failure of a load position's contact problem in the words of the case: which load cannot be carried
