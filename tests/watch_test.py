@@ -462,6 +462,17 @@ at_most = 1e-3
         support.run_program(program, "sweep", case, "objective.uniformity_dual=0,1e5", "--output", cls.folder / "designs")
         cls.arguments = ["--designs", cls.folder / "designs"]
 
+    def test_designs_stand_still_while_numbers_appear(self):
+        self.until(lambda: self.element("designs").is_displayed())
+        before = self.element("front").rect
+        self.browser.execute_script("""
+            const more = document.createElement("div");
+            more.id = "more";
+            more.style = "flex: none; height: 200px";
+            document.getElementById("numbers").before(more);""")
+        self.assertEqual(self.element("front").rect, before)
+        self.browser.execute_script("document.getElementById('more').remove()")
+
     def test_a_bound_follows_its_slider(self):
         self.assertIn("[mm]", self.browser.find_element(By.CSS_SELECTOR, "label[for='bound-0-at_most']").text)
         self.type("bound-0-at_most-number", "0.9")

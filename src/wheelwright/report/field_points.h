@@ -6,6 +6,9 @@
 
 namespace wheelwright {
 
+/// The scalar at every point, of components [component][point].
+std::vector<float> scalars(const std::vector<std::vector<float>>& components, const PointScalar& scalar);
+
 /// Points of sector 0 at which fields are evaluated there and in all other sectors.
 template <int dim>
 class FieldPoints {
@@ -18,8 +21,10 @@ class FieldPoints {
 
   std::size_t size() const { return points_.size(); }
 
-  /// The components of a field at the points, or its scalar if it has one: [component][point + size() *
-  /// sector].
+  /// The components of a field at the points: [component][point + size() * sector].
+  std::vector<std::vector<float>> components(const RingField& field) const;
+
+  /// The same, or its scalar if it has one.
   std::vector<std::vector<float>> values(const NamedField& field) const;
 
  private:
@@ -28,6 +33,7 @@ class FieldPoints {
     std::array<double, ShapeFunctions<dim>::max_nodes> functions;  ///< values of the shape functions
   };
 
+  template <int n_components>
   std::vector<std::vector<float>> components(const RingField& field) const;
 
   Lattice<dim> lattice_;

@@ -10,6 +10,7 @@ namespace wheelwright {
 namespace {
 
 constexpr double no_material = std::numeric_limits<double>::quiet_NaN();
+constexpr const char* von_mises_name = "von_mises";
 
 }  // namespace
 
@@ -166,7 +167,7 @@ RingField stress_field(const RollingModel<dim>& model, const CutDomain<dim>& dom
 }
 
 NamedField von_mises_field(const RingField& stress) {
-  return {"von_mises", unit<2>(UnitKind::stress), stress, von_mises_of};
+  return {von_mises_name, unit<2>(UnitKind::stress), stress, von_mises_of};
 }
 
 namespace {
@@ -292,8 +293,10 @@ std::vector<PositionFields<dim>> all_position_fields(const StateSolver<dim>& sol
 template <int dim>
 std::vector<NamedField> named_fields(const PositionFields<dim>& fields) {
   return {{"displacement", unit<dim>(UnitKind::length), fields.displacement},
-          {"stress", unit<dim>(UnitKind::stress), fields.stress},
-          von_mises_field(fields.stress)};
+          {.name = "stress",
+           .unit = unit<dim>(UnitKind::stress),
+           .field = fields.stress,
+           .beside = {{von_mises_name, unit<dim>(UnitKind::stress), von_mises_of}}}};
 }
 
 template <int dim>

@@ -27,8 +27,7 @@ std::string surface_vtp(const SurfaceMesh& surface, const Lattice<3>& lattice,
   std::string tags;
   if (!fields.empty()) {
     const FieldPoints<3> vertices = field_points(surface, lattice);
-    for (const NamedField& field : fields)
-      tags += add_field(vtu_name(field.name, field.unit), vertices.values(field), arrays);
+    for (const NamedField& field : fields) tags += add_field(field, vertices, arrays);
   }
   const std::string part_tag = arrays.add("part", 1, parts);
   return vtp_beginning(surface.points.size(), surface.triangles.size(), mesh) + tags +

@@ -179,8 +179,7 @@ template <int dim>
 std::string VtuMesh<dim>::file(std::span<const NamedField> fields) const {
   AppendedArrays arrays(arrays_.size());
   std::string tags;
-  for (const NamedField& field : fields)
-    tags += add_field(vtu_name(field.name, field.unit), points_.values(field), arrays);
+  for (const NamedField& field : fields) tags += add_field(field, points_, arrays);
   return vtu_file(beginning_ + tags, {arrays_, arrays.bytes()});
 }
 

@@ -11,12 +11,16 @@ namespace {
 constexpr std::array<const char*, 6> tensor_components{"xx", "yy", "zz", "xy", "yz", "xz"};
 
 /// The components as ParaView has them: the numbers say which, -1 is zero.
+/// The components that are shown, each point's behind each other; 0 for a negative one.
+template <std::size_t n>
 std::vector<float> interleaved(const std::vector<std::vector<float>>& components,
-                               const std::vector<int>& shown) {
-  std::vector<float> result;
-  result.reserve(shown.size() * components[0].size());
-  for (std::size_t k = 0; k < components[0].size(); ++k)
-    for (const int c : shown) result.push_back(c < 0 ? 0 : components[c][k]);
+                               const std::array<int, n>& shown) {
+  std::vector<float> result(n * components[0].size());
+  for (std::size_t c = 0; c < n; ++c) {
+    if (shown[c] < 0) continue;
+    const std::vector<float>& values = components[shown[c]];
+    for (std::size_t k = 0; k < values.size(); ++k) result[c + n * k] = values[k];
+  }
   return result;
 }
 
@@ -47,16 +51,29 @@ std::string add_field(const std::string& name, const std::vector<std::vector<flo
     case 1:
       return arrays.add(name, 1, components[0]);
     case 2:
-      return arrays.add(name, 3, interleaved(components, {0, 1, -1}));
+      return arrays.add(name, 3, interleaved<3>(components, {0, 1, -1}));
     case 3:
-      return arrays.add(name, 3, interleaved(components, {0, 1, 2}));
+      return arrays.add(name, 3, interleaved<3>(components, {0, 1, 2}));
     case 4:
-      return arrays.add(name, 6, interleaved(components, {0, 1, 2, 3, -1, -1}));
+      return arrays.add(name, 6, interleaved<6>(components, {0, 1, 2, 3, -1, -1}));
     default:
       assert(components.size() == 6);
-      return arrays.add(name, 6, interleaved(components, {0, 1, 2, 3, 4, 5}));
+      return arrays.add(name, 6, interleaved<6>(components, {0, 1, 2, 3, 4, 5}));
   }
 }
+
+template <int dim>
+std::string add_field(const NamedField& field, const FieldPoints<dim>& points, AppendedArrays& arrays) {
+  if (field.scalar) return add_field(vtu_name(field.name, field.unit), points.values(field), arrays);
+  const auto components = points.components(field.field);
+  std::string tags = add_field(vtu_name(field.name, field.unit), components, arrays);
+  for (const NamedScalar& scalar : field.beside)
+    tags += add_field(vtu_name(scalar.name, scalar.unit), {scalars(components, scalar.of)}, arrays);
+  return tags;
+}
+
+template std::string add_field(const NamedField&, const FieldPoints<2>&, AppendedArrays&);
+template std::string add_field(const NamedField&, const FieldPoints<3>&, AppendedArrays&);
 
 std::string vtu_name(std::string_view name, std::string_view unit) {
   return fmt::format("{}_{}", name, unit);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "wheelwright/files/little_endian.h"
+#include "wheelwright/report/field_points.h"
 
 namespace wheelwright {
 
@@ -58,6 +59,10 @@ std::string add_mesh(const std::vector<float>& points, const std::vector<std::in
 /// xx, yy, zz, xy, yz and xz.
 std::string add_field(const std::string& name, const std::vector<std::vector<float>>& components,
                       AppendedArrays& arrays);
+
+/// Adds a field and the scalars beside it.
+template <int dim>
+std::string add_field(const NamedField& field, const FieldPoints<dim>& points, AppendedArrays& arrays);
 
 /// A field's name in files: the unit, made a word, follows it.
 std::string vtu_name(std::string_view name, std::string_view unit);

@@ -21,13 +21,23 @@ struct RingField {
   std::vector<double> values;
 };
 
+/// A scalar of the components of a field at a point.
+using PointScalar = std::function<double(std::span<const double>)>;
+
+struct NamedScalar {
+  std::string name;
+  std::string unit;
+  PointScalar of;
+};
+
 /// A field as it is shown to the user.
 struct NamedField {
   std::string name;  ///< e.g. "displacement"
   std::string unit;  ///< e.g. "m"
   RingField field;
   /// The scalar that is shown, of the components at a point; absent: the components themselves.
-  std::function<double(std::span<const double>)> scalar = {};
+  PointScalar scalar = {};
+  std::vector<NamedScalar> beside = {};  ///< scalars that files hold beside it
 };
 
 /// The index of a node of the full ring: its azimuthal position counts from azimuth 0 round the ring.
