@@ -121,6 +121,18 @@ TEST(Remarks, SuggestBoundsThatTheProgramAccepts) {
   }
 }
 
+TEST(Remarks, SuggestNoBoundThatTheCaseHas) {
+  JudgedWheel worse = caster;
+  worse.force_variation = 3 * *caster.force_variation;
+  const auto without = remarks(case_of(small_wheel), "", caster, worse);
+  ASSERT_EQ(without.size(), 1u);
+  EXPECT_NE(without[0].constraint.find("run_out"),
+            std::string::npos);  // a force's variation follows the run-out
+  const auto with = remarks(case_of(small_wheel + without[0].constraint + "\n"), "", caster, worse);
+  ASSERT_EQ(with.size(), 1u);
+  EXPECT_TRUE(with[0].constraint.empty()) << with[0].constraint;
+}
+
 TEST(Remarks, SuggestNoBoundToSteepestDescent) {
   JudgedWheel worse = caster;
   worse.run_out = 3 * *caster.run_out;

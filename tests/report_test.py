@@ -486,6 +486,45 @@ class Page(Browser, unittest.TestCase):
         self.assertEqual(again.returncode, 4)
 
 
+class RemarksPage(Browser, unittest.TestCase):
+    """The page of a caster that became stiffer, but whose stress grew."""
+
+    case = """
+[wheel]
+inner_radius = 0.025
+outer_radius = 0.0625
+width = 0.032
+sectors = 10
+[material]
+youngs_modulus = 60e6
+poissons_ratio = 0.45
+[load]
+mass = 80
+positions = 2
+[[holes.ring]]
+count = 10
+center_radius = 0.043
+radius = 0.009
+[grid]
+radial_cells = 14
+angular_cells = 120
+tread_levels = 1
+[optimizer]
+iterations = 20
+tread_band = 0.0055
+rim_band = 0.003
+"""
+
+    def test_the_bounds_of_remarks_can_be_pasted_into_the_case(self):
+        self.open(self.page)
+        lines = [block.text for block in self.browser.find_elements(By.CSS_SELECTOR, "#run0-flags pre")]
+        self.assertEqual(lines, [remark["constraint"] for remark in self.summary["remarks"] if remark["constraint"]])
+        self.assertTrue(lines)
+        case = self.folder / "bounded.toml"
+        case.write_text(self.case + "\n".join(lines) + "\n")
+        run_program("check", case)
+
+
 class LoadsPage(Browser, unittest.TestCase):
     """The page of a wheel with several loads and bounds."""
 
@@ -511,10 +550,19 @@ class LoadsPage(Browser, unittest.TestCase):
                                 (after, bound["value"] * factor),
                                 (margin, sign * (bound["value"] - bound["bound"]) * factor),
                                 (percent, sign * 100 * (bound["value"] / bound["bound"] - 1)),
-                                (multiplier.split()[0], bound["multiplier"] / factor)):
+                                (multiplier.split()[0], bound["multiplier"] * self.summary["width_m"] / factor)):  # kg of mass
                 self.assertAlmostEqual(float(text.replace("\u2212", "-")), value, delta=1e-3 * abs(value), msg=bound["name"])
             self.assertEqual(state, "active" if bound["multiplier"] else "not active")
         self.assertIn("4 bounds are kept", self.text("run0-verdict"))
+
+    def test_the_load_and_the_mass_are_those_of_the_whole_width(self):
+        self.open(self.page)
+        run = json.loads(self.browser.execute_script("return document.getElementById('data').textContent"))["runs"][0]
+        value, unit = run["load"].split()
+        self.assertEqual(unit, "N")
+        self.assertAlmostEqual(float(value), self.summary["before"]["load_N"], delta=1e-5 * float(value))
+        value = float(re.search(r"objective \[kg\] ([\d.]+)", self.text("run0-shape-text"))[1])
+        self.assertAlmostEqual(value, self.summary["after"]["mass_kg"], delta=1e-3 * value)
 
     def test_each_load_has_its_numbers_and_its_picture(self):
         self.open(self.page)

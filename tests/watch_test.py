@@ -462,6 +462,16 @@ at_most = 1e-3
         support.run_program(program, "sweep", case, "objective.uniformity_dual=0,1e5", "--output", cls.folder / "designs")
         cls.arguments = ["--designs", cls.folder / "designs"]
 
+    def test_the_labels_of_the_legend_have_room(self):
+        self.until(lambda: self.element("legend").is_displayed())
+        labels = self.browser.execute_script("""
+            return [...document.getElementById("scale-labels").children].map((e) =>
+                [e.textContent, e.scrollWidth - e.clientWidth, e.clientHeight])""")
+        self.assertGreater(len(labels), 1)
+        for text, hidden, height in labels:
+            self.assertLessEqual(hidden, 1, text)
+            self.assertGreater(height, 8, text)
+
     def test_designs_stand_still_while_numbers_appear(self):
         self.until(lambda: self.element("designs").is_displayed())
         before = self.element("front").rect
@@ -956,6 +966,15 @@ class Folder(unittest.TestCase):
         for name, content in first.items():
             self.assertEqual(content, again[name], name)
         self.assertEqual(len(first["commands.jsonl"].splitlines()), 9)
+
+    def test_commands_that_cannot_be_read_leave_no_run(self):
+        (self.folder / "broken.jsonl").write_text('{"do": "nothing"}\n')
+        for log in ("missing.jsonl", "broken.jsonl"):
+            run = subprocess.run([program, "watch", self.folder / "case.toml", "--output", self.folder / "run", "--replay",
+                                  self.folder / log], check=False, capture_output=True, text=True, timeout=60)
+            self.assertEqual(run.returncode, 2)
+            self.assertIn(log, run.stderr)
+            self.assertFalse((self.folder / "run").exists())
 
     def test_a_saved_design_begins_with_the_same_numbers(self):
         watched = self.watch(self.folder / "case.toml", "--output", self.folder / "run")

@@ -300,6 +300,7 @@ Json run_json(const ReportRun<dim>& run) {
   for (const HoleEvents& event : run.events) events.push_back({{"shape", event.shape}, {"text", event.text}});
   Json json{{"dimension", dim},
             {"numbers", shown_numbers<dim>()},
+            {"objective", {{"unit", run.objective.name}, {"factor", run.objective.factor}}},
             {"name", run.name},
             {"title", run.title},
             {"status", run.status},

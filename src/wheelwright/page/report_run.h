@@ -66,6 +66,7 @@ struct ReportRun {
   std::string case_text;  ///< case.toml
   double seconds;         ///< computed
   std::string load;       ///< for people
+  ShownUnit objective;
   PolarGrid<dim> grid;
   int trials;
   std::map<std::string, int> rejected;  ///< trials, by the reason

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace wheelwright {
 namespace {
 
@@ -17,10 +15,9 @@ std::string indented(const std::string& lines) {
 }  // namespace
 
 std::string text(const Remark& remark) {
-  if (remark.constraint.empty()) return remark.text;
-  std::string line = remark.constraint;
-  std::ranges::replace(line, '\n', ' ');
-  return fmt::format("{} To bound it, add to the case: {}", remark.text, line);
+  return remark.constraint.empty()
+             ? remark.text
+             : fmt::format("{} To bound it, add to the case:\n{}", remark.text, remark.constraint);
 }
 
 std::string remarks_text(const std::vector<Remark>& remarks) {

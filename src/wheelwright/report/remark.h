@@ -15,7 +15,7 @@ struct Remark {
   std::string constraint;
 };
 
-/// One line for people: the sentence, and what would bound the number.
+/// For people: the sentence, and below it the lines that would bound the number.
 std::string text(const Remark& remark);
 
 /// Several lines for people, the lines for the case file indented below each remark; empty without remarks.

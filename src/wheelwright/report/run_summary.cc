@@ -57,10 +57,13 @@ std::string stress_line(const DescribedWheel<dim>& wheel) {
 
 template <int dim>
 std::vector<ComparedRow> rows(const RunSummary<dim>& summary) {
+  const auto shown = [&](const KnownNumber& value) -> std::optional<KnownNumber> {
+    return value ? KnownNumber(*value * summary.objective.factor) : value;
+  };
   std::vector<ComparedRow> result{{summary.minimized.empty()
                                        ? fmt::format("objective [{}]", unit<dim>(UnitKind::energy))
                                        : "objective: " + summary.minimized,
-                                   {summary.before.objective, summary.after.objective}}};
+                                   {shown(summary.before.objective), shown(summary.after.objective)}}};
   for (ComparedRow& row : compared_rows<dim>({&summary.before.wheel, &summary.after.wheel}))
     result.push_back(std::move(row));
   return result;

@@ -37,6 +37,7 @@ struct RunSummary {
   std::vector<SummarizedBound> bounds = {};
   /// What is minimized in place of the weighted sum, with its unit; empty for the sum.
   std::string minimized = {};
+  ShownUnit objective = shown_unit(UnitKind::energy, dim);
   std::vector<Remark> remarks = {};  ///< what got clearly worse
   std::string changed_start = {};    ///< how the run's first shape differs from the given wheel, if it does
 };

@@ -125,13 +125,14 @@ const Measure& measure_of(Quantity quantity) {
   return *std::ranges::find_if(measures(), [&](const Measure& m) { return m.bounded_by[0] == quantity; });
 }
 
-/// A bound that keeps the quantity at its value from before; empty where the case may not bound it, or where
-/// there is no such value.
+/// A bound that keeps the quantity at its value from before; empty where the case may not bound it or does so
+/// already, or where there is no such value.
 std::optional<Constraint> bound(const Case& c, const Measure& m, const std::string& load_case,
                                 const JudgedWheel& before) {
   for (const Quantity quantity : m.bounded_by) {
     const Measure& bounded = measure_of(quantity);
-    if (!(before.*bounded.value && *(before.*bounded.value) > 0)) continue;
+    if (!(before.*bounded.value && *(before.*bounded.value) > 0) || is_bounded(c, bounded, load_case))
+      continue;
     const double value =
         rounded(*(before.*bounded.value) * shown_unit(bounded.kind, c.wheel.dimension).factor,
                 !bounded.is_larger_better) /

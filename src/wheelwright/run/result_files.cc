@@ -6,6 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "wheelwright/case/shown_value.h"
 #include "wheelwright/cut/measure.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/report/shape_boundary.h"
@@ -24,7 +25,8 @@ namespace {
 template <int dim>
 WheelState<dim> wheel_state(const RunView<dim>& run, const std::string& heading, const LevelSet<dim>& shape,
                             double objective, double measure) {
-  return {heading, shape_boundary(shape, run.study.model().degree), objective,
+  const ShownUnit shown = shown_unit(run.study.source.objective.minimize, run.study.source.wheel);
+  return {heading, shape_boundary(shape, run.study.model().degree), objective * shown.factor,
           volume_fraction(shape.lattice.grid(), measure)};
 }
 
@@ -62,7 +64,7 @@ void write_shapes(const RunView<dim>& run, const OptimizationState<dim>& last,
                                                                   run.study.model().n_positions, load)
                                                     : load,
                                      .objective_name = std::string(name(minimized)),
-                                     .objective_unit = unit<dim>(kind(minimized)),
+                                     .objective_unit = shown_unit(minimized, run.study.source.wheel).name,
                                      .before = before,
                                      .after = after}));
 }

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/shown_value.h"
 #include "wheelwright/files/csv.h"
 #include "wheelwright/geometry/section.h"
 #include "wheelwright/report/shape_boundary.h"
@@ -306,6 +307,7 @@ ReportRun<dim> report_of_folder(const fs::path& folder, const Case& c) {
                      .case_text = content(folder / "case.toml"),
                      .seconds = 0,
                      .load = load_text(rolling_model<dim>(c)),
+                     .objective = shown_unit(c.objective.minimize, c.wheel),
                      .grid = polar_grid<dim>(c),
                      .trials = 0,
                      .rejected = {},

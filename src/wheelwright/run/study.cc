@@ -7,6 +7,7 @@
 
 #include "wheelwright/analysis/deformation_size.h"
 #include "wheelwright/case/drawn_shapes.h"
+#include "wheelwright/case/shown_value.h"
 #include "wheelwright/cut/measure.h"
 #include "wheelwright/drawing/composed_level_set.h"
 #include "wheelwright/evolution/regrid.h"
@@ -297,7 +298,7 @@ double volume_fraction(const PolarGrid<dim>& grid, double measure) {
 template <int dim>
 std::string load_text(const RollingModel<dim>& model) {
   return model.travel ? fmt::format("rim travel {:.6g} mm", *model.travel * 1e3)
-                      : fmt::format("{:.6g} {}", model.load, unit<dim>(UnitKind::force));
+                      : shown_text(model.load, shown_unit(UnitKind::force, dim, model.grid.width));
 }
 
 template <int dim>

@@ -13,10 +13,9 @@
 namespace wheelwright {
 namespace {
 
-template <int dim>
-std::string minimized_text(Quantity quantity) {
+std::string minimized_text(Quantity quantity, const Wheel& wheel) {
   if (quantity == Quantity::objective) return {};
-  return fmt::format("{} [{}]", name(quantity), unit<dim>(kind(quantity)));
+  return fmt::format("{} [{}]", name(quantity), shown_unit(quantity, wheel).name);
 }
 
 template <int dim>
@@ -39,7 +38,8 @@ RunSummary<dim> summarized_run(const Study<dim>& study, const InitialShape<dim>&
           .before = {0, objective_as_given(study, start, interrupt), std::move(before)},
           .after = {last.iteration, last.evaluation.function("objective").value, std::move(after)},
           .bounds = summarized_bounds(last, study.source.wheel),
-          .minimized = minimized_text<dim>(study.source.objective.minimize),
+          .minimized = minimized_text(study.source.objective.minimize, study.source.wheel),
+          .objective = shown_unit(study.source.objective.minimize, study.source.wheel),
           .remarks = std::move(worse),
           .changed_start = changed_start(study, start)};
 }

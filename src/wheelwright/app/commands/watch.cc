@@ -60,7 +60,7 @@ class WatchCommand : public Subcommand {
     const bool is_run = is_folder(input_);
     const fs::path case_file = is_run ? fs::path(input_) / "case.toml" : fs::path(input_);
     auto c = read_or_tell(case_file);
-    if (!c || !find_designs()) return exit_usage;
+    if (!c || !find_designs() || !read_replay()) return exit_usage;
     if (!may_compute(name(), *c, case_file, threads_)) return exit_refused;
     const fs::path folder = is_run ? fs::path(input_) : fs::path(output_.value_or(c->output.folder));
     return in_dimension_of(*c, [&](auto dim) {
@@ -69,7 +69,7 @@ class WatchCommand : public Subcommand {
       if (is_run) report_resumption(run->resumption(), folder);
       run->add(std::make_unique<WatchStatus<dim>>(stderr));
       commands_.add_source([&signals] { return signals.next_command(); });
-      return replay_ ? replay(*run, signals) : serve(*run, signals);
+      return log_ ? replay(*run, signals) : serve(*run, signals);
     });
   }
 
@@ -82,6 +82,22 @@ class WatchCommand : public Subcommand {
     else
       tell("wheelwright watch: --designs: {}\n", found.failure().reason);
     return bool(found);
+  }
+
+  /// Reads the commands that are obeyed again, before the run makes its folder.
+  bool read_replay() {
+    if (!replay_) return true;
+    const auto text = content(*replay_);
+    if (!text) {
+      tell("{}: cannot be read; check its name and permissions\n", *replay_);
+      return false;
+    }
+    auto log = parse_command_log(*text);
+    if (log)
+      log_ = *std::move(log);
+    else
+      tell("{}: {}\n", *replay_, log.failure().reason);
+    return bool(log);
   }
 
   template <int dim>
@@ -108,17 +124,7 @@ class WatchCommand : public Subcommand {
 
   template <int dim>
   int replay(Run<dim>& run, const Signals& signals) {
-    const auto text = content(*replay_);
-    if (!text) {
-      tell("{}: cannot be read; check its name and permissions\n", *replay_);
-      return exit_usage;
-    }
-    auto log = parse_command_log(*text);
-    if (!log) {
-      tell("{}: {}\n", *replay_, log.failure().reason);
-      return exit_usage;
-    }
-    auto replay = std::make_unique<CommandReplay<dim>>(*std::move(log));
+    auto replay = std::make_unique<CommandReplay<dim>>(*std::move(log_));
     commands_.add_source(replay->source());
     run.add(std::make_unique<CommandLog<dim>>());
     run.add(std::move(replay));
@@ -127,6 +133,7 @@ class WatchCommand : public Subcommand {
 
   std::string input_;
   std::optional<std::string> output_, replay_, designs_;
+  std::optional<std::vector<LoggedCommand>> log_;  ///< of replay_
   OfferedDesigns offered_;
   int port_ = 0;
   bool no_browser_ = false;

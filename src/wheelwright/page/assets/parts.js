@@ -404,7 +404,7 @@ const parts = (() => {
     const start = () => {
       const small = options.compact ? { font: { size: 10 }, maxTicksLimit: 4, maxRotation: 0, includeBounds: false } : {};
       const axis = (text) => ({ title: { display: !options.compact, text, color: colour("--quiet") },
-        ticks: { color: colour("--quiet"), ...small }, grid: { color: colour("--line") } });
+        ticks: { color: colour("--quiet"), ...(text === "shape" ? { precision: 0 } : {}), ...small }, grid: { color: colour("--line") } });
       drawn = new Chart(canvas, {
         type: options.bars ? "bar" : "line",
         data: { labels: options.labels, datasets: data(curves) },

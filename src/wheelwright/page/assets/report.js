@@ -51,25 +51,22 @@
 
   // The bounds at the last shape that the run computed, in the units of tables.
   function bounds(run) {
-    const course = (words) => {
-      const name = Object.keys(run.history).find((column) => column.startsWith(`${words} [`));
-      const values = (run.history[name] ?? []).filter((value) => value !== null);
-      return { unit: name?.match(/\[(.*)\]$/)[1] ?? "", first: values[0] };
-    };
+    const first = (words) => (run.history[Object.keys(run.history).find((column) => column.startsWith(`${words} [`))] ?? [])
+      .find((value) => value !== null);
     const words = { "<": "at most", ">": "at least", "=": "equal to" };
     const titles = ["bound", "limit", "before", "after", "margin", "margin [%]", "state", "multiplier"];
     const head = element("tr", {}, ...titles.map((title) => element("th", { scope: "col" }, title)));
     const body = element("tbody");
     for (const [k, { name, value: last, bound: limit, relation, multiplier, is_kept }] of run.summary.bounds.entries()) {
-      const { unit, factor } = run.bound_units[k], { first } = course(`bounded ${name}`);
-      const [value, bound] = [last * factor, limit * factor], [price] = course(`multiplier of ${name}`).unit.split(" per ");
+      const { unit, factor } = run.bound_units[k], before = first(`bounded ${name}`);
+      const [value, bound] = [last * factor, limit * factor], price = multiplier * run.objective.factor / factor;
       const margin = relation === "<" ? bound - value : relation === ">" ? value - bound : -Math.abs(value - bound);
       const state = !is_kept ? "not kept" : relation === "=" || multiplier !== 0 ? "active" : "not active";
       body.append(element("tr", { "data-bound": name, ...(is_kept ? {} : { class: "broken" }) },
         element("th", { scope: "row" }, `${name.replaceAll("_", " ")} [${unit}]`),
-        ...[`${words[relation]} ${shown(bound)}`, first === undefined ? "\u2013" : shown(first * factor), shown(value), shown(margin),
+        ...[`${words[relation]} ${shown(bound)}`, before === undefined ? "\u2013" : shown(before * factor), shown(value), shown(margin),
           bound ? shown(100 * margin / Math.abs(bound)) : "\u2013", state,
-          `${shown(multiplier / factor)}${multiplier && price ? ` ${price} per ${unit}` : ""}`].map((text) => element("td", {}, text))));
+          `${shown(price)}${price ? ` ${run.objective.unit} per ${unit}` : ""}`].map((text) => element("td", {}, text))));
     }
     return element("div", {}, element("div", { class: "wide" }, element("table", { id: `${run.id}-bounds` },
       element("thead", {}, head), body)), element("p", { class: "quiet" }, "The margin is what is left to the limit; a " +
@@ -87,7 +84,7 @@
       parts_of_it.push(`the stiffness by ${change(before.stiffness_N_per_m, after.stiffness_N_per_m)}`);
     const broken = all.filter(({ is_kept }) => !is_kept).length;
     if (all.length) parts_of_it.push(broken ? `${broken} of ${all.length} bounds ${broken > 1 ? "are" : "is"} not kept` :
-      all.length > 1 ? `all ${all.length} bounds are kept` : "the bound is kept");
+      all.length > 2 ? `all ${all.length} bounds are kept` : all.length > 1 ? "both bounds are kept" : "the bound is kept");
     parts_of_it.push(run.flags.length === 0 ? "there are no remarks" :
       `there ${run.flags.length > 1 ? `are ${run.flags.length} remarks` : "is a remark"} below`);
     const text = `${parts_of_it.slice(0, -1).join(", ")}${parts_of_it.length > 1 ? "; " : ""}${parts_of_it.at(-1)}.`;
@@ -135,9 +132,15 @@
     return list;
   }
 
+  // A sentence; lines for a case file follow it as they are.
+  function remark(text) {
+    const [sentence, ...lines] = (text[0].toUpperCase() + text.slice(1)).split("\n");
+    return lines.length ? [sentence, element("pre", {}, lines.join("\n"))] : [sentence];
+  }
+
   function flags(run) {
     const list = element("ul", { class: "flags", id: `${run.id}-flags` });
-    for (const text of run.flags) list.append(element("li", {}, text[0].toUpperCase() + text.slice(1)));
+    for (const text of run.flags) list.append(element("li", {}, ...remark(text)));
     if (run.flags.length === 0 && !run.is_running) list.append(element("li", { class: "fine" }, "No remarks: strains are small and the " +
       "contact is resolved."));
     return list;
@@ -229,7 +232,6 @@
     const last = run.outlines.length - 1;
     const slider = element("input", { type: "range", min: 0, max: last, value: last, id: `${run.id}-shape` });
     const caption = element("figcaption", { id: `${run.id}-shape-text`, "aria-live": "polite" });
-    const column = Object.keys(run.history).find((name) => name.startsWith("objective"));
     const draw = () => {
       const size = canvas.width = canvas.height = Math.round(canvas.clientWidth * (window.devicePixelRatio || 1)) || 600;
       const context = canvas.getContext("2d"), unit = 0.48 * size / run.outline_units;
@@ -243,8 +245,8 @@
       context.strokeStyle = colour("--bad");
       context.stroke(edges({ contours: run.given_contours ?? run.outlines[0].contours }));
       context.setLineDash([]);
-      const value = run.outlines[i].objective;
-      caption.textContent = `Shape ${run.outlines[i].shape} of ${run.outlines[last].shape}: ${column} ${shown(value)}; ` +
+      const value = run.outlines[i].objective * run.objective.factor;
+      caption.textContent = `Shape ${run.outlines[i].shape} of ${run.outlines[last].shape}: objective [${run.objective.unit}] ${shown(value)}; ` +
         "dashed: the edges of the initial holes.";
     };
     slider.addEventListener("input", draw);
@@ -295,7 +297,7 @@
           x: iterations, y: run.history[name].map((v) => v === null ? null : v * factor) })), { y }));
     };
     course("Objective and its terms", ["objective", "strain_energy", "uniformity_annulus", "uniformity_dual",
-      "uniformity_l2"], 1, (column("objective") ?? "").replace("objective ", ""));
+      "uniformity_l2"], run.objective.factor, `[${run.objective.unit}]`);
     course("Mean travel and run-out", ["mean_travel", "run_out"], 1e3, "[mm]");
     course("Peaks of pressure and stress", ["peak_pressure", "peak_von_mises ["], 1e-6, "[MPa]");
     course("Volume", ["volume fraction"], 100, "[% of the ring]", { grace: 0.05 });
