@@ -771,6 +771,20 @@ class SolidPage(PageTest):
             seen.append(self.surface())
         self.assertEqual(self.element("load").get_attribute("aria-pressed"), "false")
 
+    def test_edges_of_the_initial_holes_are_drawn_over_it(self):
+        self.paused()
+        self.element("step").click()
+        self.watched.wait(lambda f: f["shape"] > 0 and f["activity"] == "paused")
+        shape = self.watched.frame()["shape"]
+        self.element("roll").click()
+        self.until(lambda: self.element("stage").get_attribute("data-solid") == str(shape))
+        time.sleep(0.5)
+        with_edges = self.surface()
+        self.element("ghost").click()
+        self.until(lambda: self.surface() != with_edges)
+        self.element("ghost").click()
+        self.until(lambda: self.surface() == with_edges)
+
     def test_it_is_steered_and_taken_away(self):
         self.paused()
         travel = self.watched.frame()["numbers"]["mean_travel"]

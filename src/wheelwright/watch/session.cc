@@ -149,7 +149,8 @@ PageAnswer WatchSession<dim>::obeyed(Command command) {
 
 template <int dim>
 PageAnswer WatchSession<dim>::loaded(const PageRequest& request) const {
-  const BoardView<dim> view = board_->view();
+  BoardView<dim> view = board_->view();
+  if (parameter(request, "initial") > 0) view.shape = view.first;
   if (!view.shape) return no_shape();
   const int load_case = asked_load_case(request, *view.shape), n = view.shape->solver->model().n_positions,
             position = static_cast<int>(parameter(request, "position") % n);

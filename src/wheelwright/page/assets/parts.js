@@ -199,6 +199,27 @@ const parts = (() => {
     return { places, sources, corners, positions: surfacePositions(fields) };
   }
 
+  // The edges of the holes on the side faces, as pairs of points behind each other.
+  function holeEdges(run) {
+    const { fields, sectors } = run, { places } = wheelSurface(run);
+    const triangles = new Uint32Array(bytes(fields.triangles).buffer), parts = bytes(fields.parts), n = places.length / 3;
+    const sides = (part, visit) => {
+      for (let s = 0; s < sectors; ++s)
+        for (let k = 0; k < triangles.length; ++k) {
+          if (parts[Math.floor(k / 3)] !== part) continue;
+          const next = k % 3 === 2 ? k - 2 : k + 1;
+          const ends = [k, next].map((corner) => (triangles[corner] + s * n / sectors) % n);
+          visit(ends, Math.min(...ends) * n + Math.max(...ends));
+        }
+    };
+    const ofHoles = new Set(), edges = [];
+    sides(3, (ends, key) => ofHoles.add(key));
+    sides(2, (ends, key) => {
+      if (ofHoles.has(key)) for (const vertex of ends) edges.push(...places.subarray(3 * vertex, 3 * vertex + 3));
+    });
+    return new Float32Array(edges);
+  }
+
   const surfacePositions = (fields) => fields.positions.map((p) => ({
     azimuth: p.azimuth_rad, stress: bytes(p.root_of_stress),
     displacement: [p.x, p.y, p.z].map((text) => new Int16Array(bytes(text).buffer)),
@@ -232,7 +253,8 @@ const parts = (() => {
     }
     const radius = run.outer_radius_m;
     const wheel = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.MeshPhongMaterial(
-      { vertexColors: THREE.VertexColors, shininess: 25, specular: 0x222222 }));
+      { vertexColors: THREE.VertexColors, shininess: 25, specular: 0x222222,
+        polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 4 }));
     let surface = null, full = 0, places = null, colours = null;
     const kinds = {};
     // Takes another shape of the same wheel, or other load positions of the shape; they are seen when they are painted.
@@ -257,8 +279,10 @@ const parts = (() => {
       new THREE.MeshBasicMaterial({ transparent: true, opacity: 0.35, side: THREE.DoubleSide }));
     ground.rotation.x = -Math.PI / 2;
     ground.position.y = -radius * 1.001;
+    const before = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial());
+    before.visible = false;
     const turned = new THREE.Group(), scene = new THREE.Scene();
-    turned.add(wheel, ground);
+    turned.add(wheel, ground, before);
     scene.add(turned, new THREE.HemisphereLight(0xffffff, 0xc8c8d0, 0.75));
     const key = new THREE.DirectionalLight(0xffffff, 0.55);
     key.position.set(-0.5, 0.8, 1);
@@ -276,6 +300,7 @@ const parts = (() => {
       turned.rotation.set(view.pitch, view.yaw, 0);
       turned.scale.setScalar(1 / radius);
       ground.material.color.set(colour("--quiet"));
+      before.material.color.set(colour("--ghost") || colour("--bad"));
       renderer.render(scene, camera);
     };
     const paint = (index, magnified, kind, brightened = 1) => {
@@ -289,9 +314,17 @@ const parts = (() => {
         for (let c = 0; c < 3; ++c)
           colours[3 * k + c] = (viridis[low][c] + (at - low) * (viridis[low + 1][c] - viridis[low][c])) / 255;
       });
-      wheel.rotation.z = -Math.PI / 2 - position.azimuth;  // the ground's azimuth points down
+      wheel.rotation.z = before.rotation.z = -Math.PI / 2 - position.azimuth;  // the ground's azimuth points down
       for (const name of ["position", "color"]) wheel.geometry.getAttribute(name).needsUpdate = true;
       wheel.geometry.computeVertexNormals();
+      draw();
+    };
+    // Takes the holes of another shape, whose edges are drawn as lines where they are wanted.
+    const takeGhost = (fields) => {
+      before.geometry.setAttribute("position", new THREE.BufferAttribute(holeEdges({ ...run, fields }), 3));
+    };
+    const showGhost = (isShown) => {
+      before.visible = isShown && before.geometry.getAttribute("position") !== undefined;
       draw();
     };
     const turn = (yaw, pitch) => {
@@ -334,7 +367,7 @@ const parts = (() => {
       if (step) turn(...step);
       else resize(factor);
     });
-    return Object.assign(paint, { kinds, take, draw, resize, fit });
+    return Object.assign(paint, { kinds, take, takeGhost, showGhost, draw, resize, fit });
   }
 
   // The ground, flat and solid. Near the contact, magnified displacements take the tread a little below it.

@@ -188,6 +188,8 @@
       solid.paint = parts.surfacePainter(canvas, { fields, outer_radius_m, width_m, sectors });
       solid.draw = () => solid.paint?.draw();
       if (!solid.paint) tell("this browser cannot draw in three dimensions", true);
+      else solid.paint.takeGhost((await (await ask("/loaded?initial=1")).json()).fields);
+      solid.paint?.showGhost(pressed("ghost"));
     } else {
       solid.paint?.take(fields);
     }
@@ -219,6 +221,7 @@
   at("fit").addEventListener("click", fit);
   at("ghost").addEventListener("click", () => {
     press("ghost", !pressed("ghost"));
+    solid?.paint?.showGhost(pressed("ghost"));
     paint();
   });
   at("roll").addEventListener("click", () => press("roll", !pressed("roll")));
@@ -823,7 +826,7 @@
     makeSettings();
     offerFormats();
     if (isSolid()) {
-      for (const id of ["wheel", "loaded-wheel", "tools", "ghost"]) at(id).hidden = true;
+      for (const id of ["wheel", "loaded-wheel", "tools"]) at(id).hidden = true;
       document.querySelector("main").classList.add("solid");
       at("zoom-text").hidden = true;
     } else {
