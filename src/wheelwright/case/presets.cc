@@ -118,6 +118,7 @@ sectors = 12
 [material]
 youngs_modulus = 60e6
 poissons_ratio = 0.45
+plane = "stress"
 
 [load]
 mass = 80

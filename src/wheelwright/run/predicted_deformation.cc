@@ -36,20 +36,20 @@ bool is_physical(FailureReason reason) {
          reason == FailureReason::overload || reason == FailureReason::sliding;
 }
 
-Expected<DeformationSize> deformation_of(const Case& c) {
+Expected<DeformationSize> deformation_of(const Case& c, const Interrupt& interrupt) {
   const auto solver = make_solver(rolling_model<2>(c));
   if (!solver) return solver.failure();
   const LevelSet<2> shape = initial_shape<2>(c);
-  const auto state = (*solver)->states(shape, (*solver)->distinct_positions(shape), Interrupt());
+  const auto state = (*solver)->states(shape, (*solver)->distinct_positions(shape), interrupt);
   if (!state) return state.failure();
   return deformation_size(**solver, shape, **state);
 }
 
 /// Under the one load of a case.
-std::optional<std::string> predicted_under_load(const Case& source) {
+std::optional<std::string> predicted_under_load(const Case& source, const Interrupt& interrupt) {
   if (!is_prismatic(source)) return {};
   const Case coarse = on_predicting_grid(in_the_plane(source));
-  const auto size = deformation_of(coarse);
+  const auto size = deformation_of(coarse, interrupt);
   if (!size && !is_physical(size.failure().reason)) return {};
   const std::string text = size ? deformation_warning(*size) : size.failure().detail;
   if (text.empty()) return {};
@@ -68,12 +68,12 @@ Case on_predicting_grid(Case c) {
   return on_coarser_grid(c, level);
 }
 
-Expected<DeformationSize> predicted_size(const Case& c) { return deformation_of(on_predicting_grid(c)); }
+Expected<DeformationSize> predicted_size(const Case& c) { return deformation_of(on_predicting_grid(c), {}); }
 
-std::optional<std::string> predicted_deformation(const Case& c) {
-  if (c.load.cases.empty()) return predicted_under_load(c);
+std::optional<std::string> predicted_deformation(const Case& c, const Interrupt& interrupt) {
+  if (c.load.cases.empty()) return predicted_under_load(c, interrupt);
   for (std::size_t k = 0; k < c.load.cases.size(); ++k)
-    if (const auto warning = predicted_under_load(with_load_case(c, static_cast<int>(k))))
+    if (const auto warning = predicted_under_load(with_load_case(c, static_cast<int>(k)), interrupt))
       return fmt::format("load case {}: {}", c.load.cases[k].name, *warning);
   return {};
 }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "wheelwright/analysis/deformation_size.h"
+#include "wheelwright/base/interrupt.h"
 #include "wheelwright/case/case.h"
 
 namespace wheelwright {
@@ -16,7 +17,7 @@ Case on_predicting_grid(Case c);
 /// load positions, on a coarser grid where the case's own is large. In 3D the wheel's middle plane is solved
 /// in plane strain, and only if the shape is the same over the width. Empty if nothing exceeds what
 /// deformation_warning() allows, or if no grid of that size can be solved.
-std::optional<std::string> predicted_deformation(const Case& c);
+std::optional<std::string> predicted_deformation(const Case& c, const Interrupt& interrupt = {});
 
 /// The numbers of that solution, for the one load of a case in the plane.
 Expected<DeformationSize> predicted_size(const Case& c);

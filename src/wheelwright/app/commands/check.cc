@@ -2,6 +2,7 @@
 
 #include "wheelwright/app/case_input.h"
 #include "wheelwright/app/commands/commands.h"
+#include "wheelwright/app/contact_progress.h"
 #include "wheelwright/app/exit_code.h"
 #include "wheelwright/app/memory.h"
 #include "wheelwright/app/shared_options.h"
@@ -11,6 +12,7 @@
 #include "wheelwright/run/case_report.h"
 #include "wheelwright/run/feature_warnings.h"
 #include "wheelwright/run/loose_material.h"
+#include "wheelwright/run/plane_comparison.h"
 #include "wheelwright/run/predicted_deformation.h"
 #include "wheelwright/run/study.h"
 
@@ -41,8 +43,15 @@ class CheckCommand : public Subcommand {
     if (change) print("{}\n", text(*change));
     const auto clearances = initial_clearances(*c);
     if (clearances) print_lines(stdout, clearance_report(*clearances));
+    const auto planes = c->wheel.dimension == 2 && c->contact.with == Counterpart::ground
+                            ? std::optional(compare_planes(*c, tell_contact_progress()))
+                            : std::nullopt;
+    if (planes && *planes) print_lines(stdout, comparison_text(**planes));
     print_warnings(stdout, *c);
-    if (const auto warning = predicted_deformation(*c)) print_warning(stdout, *warning);
+    if (planes && *planes)
+      if (const auto warning = plane_warning(*c, **planes)) print_warning(stdout, *warning);
+    if (const auto warning = predicted_deformation(*c, tell_contact_progress()))
+      print_warning(stdout, *warning);
     for (const std::string& warning : bound_warnings(*c)) print_warning(stdout, warning);
     if (!clearances) print_warning(stdout, "walls and gaps were not measured: " + clearances.failure().what);
     if (clearances)
