@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "wheelwright/report/run_summary.h"
-#include "wheelwright/report/solution_fields.h"
 #include "wheelwright/run/checkpoint.h"
 #include "wheelwright/run/command.h"
 #include "wheelwright/run/study.h"
@@ -87,8 +86,6 @@ struct RunEnded {
   const StateSolver<dim>* solver;             ///< of that solution; its tread may be finer than the study's
   const RunSummary<dim>* summary;             ///< null after a failed start
   std::span<const Trial<dim>> failed_trials;  ///< after the last accepted shape
-  /// Of the solution in all load positions, in 2D; in 3D they are too many to be kept.
-  std::span<const PositionFields<dim>> fields = {};
 };
 
 template <int dim>

@@ -36,8 +36,7 @@ template <int dim>
 ReportRun<dim> report_of_end(const RunEnded<dim>& ended, const RunView<dim>& run) {
   if (!ended.solution) return report_without_results<dim>(run.folder, run.study.source, ended.reason);
   return report_of_results<dim>(run.folder, run.study.source, *ended.summary,
-                                {&ended.state->shape, ended.solver, ended.solution, ended.fields},
-                                ended.reason);
+                                {&ended.state->shape, ended.solver, ended.solution}, ended.reason);
 }
 
 }  // namespace

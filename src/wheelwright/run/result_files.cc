@@ -139,7 +139,7 @@ void ResultFiles<dim>::operator()(const Event<dim>& event, const RunView<dim>& r
   write_shapes(run, *ended->state, ended->summary->before.objective);
   RollingFiles<dim> rolling(run, shape, all_tread_contacts(*ended->solver, solution));
   const int worst = worst_position(solution.strain_energy());
-  const auto write_position = [&](int position, const PositionFields<dim>& fields) {
+  for_each_position<dim>(*ended->solver, solution, [&](int position, const PositionFields<dim>& fields) {
     rolling.write(position, fields);
     if (position != worst) return;
     write_surface(run, shape, fields);
@@ -147,10 +147,7 @@ void ResultFiles<dim>::operator()(const Event<dim>& event, const RunView<dim>& r
         run.folder,
         {.prefix = "", .title = run_title(run.study.source), .width = run.study.source.wheel.width}, shape,
         solution.domain(), fields);
-  };
-  for (int position = 0; position < std::ssize(ended->fields); ++position)
-    write_position(position, ended->fields[position]);
-  if (ended->fields.empty()) for_each_position<dim>(*ended->solver, solution, write_position);
+  });
   rolling.write_collection();
   write_other_load_cases(run, *ended->solver, shape, solution);
 }

@@ -242,11 +242,8 @@ RunResult<dim> RunLoop<dim>::end(StopReason reason) {
   const auto results = final_results(work_->study, *initial_, *state_, solved_, interrupt);
   if (results.is_interrupted && reason != StopReason::gave_up)
     reason = StopReason::stop_requested;  // a resumed run completes them
-  std::vector<PositionFields<dim>> fields;
-  if constexpr (dim == 2)
-    if (results.shown) fields = all_position_fields(*results.solver, *results.shown);
   notify(RunEnded<dim>{reason, &*state_, results.shown.get(), results.solver.get(), &results.summary,
-                       failed_trials_, fields});
+                       failed_trials_});
   RunResult<dim> ended = result(reason);
   ended.summary = results.summary;
   if (reason != StopReason::stop_requested) ended.findings = findings_at_the_end(results.own.get());

@@ -216,8 +216,7 @@ void for_other_loads(const Case& c, const State<dim>& first, const auto& show) {
 }
 
 void add_fields(const Case& c, const SolvedShape<2>& last, ReportRun<2>& run) {
-  run.positions = last.fields.empty() ? all_position_fields(*last.solver, *last.solution)
-                                      : std::vector(last.fields.begin(), last.fields.end());
+  run.positions = all_position_fields(*last.solver, *last.solution);
   for_other_loads<2>(c, *last.solution, [&](const std::string& name, const State<2>& state) {
     run.other_loads.push_back({name, all_position_fields(*last.solver, state)});
   });

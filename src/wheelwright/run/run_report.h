@@ -28,7 +28,6 @@ struct SolvedShape {
   const LevelSet<dim>* shape;
   const StateSolver<dim>* solver;
   const State<dim>* solution;
-  std::span<const PositionFields<dim>> fields = {};  ///< of all positions, where they are known
 };
 
 /// The loaded wheel in one of its load positions, as the page holds it.
