@@ -22,6 +22,7 @@
 #include "wheelwright/case/shape_conflicts.h"
 #include "wheelwright/case/shape_symmetry.h"
 #include "wheelwright/case/shown_value.h"
+#include "wheelwright/case/widest_gap.h"
 #include "wheelwright/geometry/values_on.h"
 
 namespace wheelwright {
@@ -793,6 +794,19 @@ void check_feature_size(const Case& c, Conflicts& found) {
   check_band_of("optimizer.tread_band", c.optimizer.tread_band);
 }
 
+/// Finds a least width of gaps that none of the drawn holes has: to keep it would fill all of them.
+void check_widest_gap(const Case& c, Conflicts& found) {
+  const bool is_plane_drawing =
+      c.holes.spheres.empty() && c.holes.tapered.empty() && !c.saved_shape.shape.contents;
+  if (!is_plane_drawing || !c.optimizer.minimum_gap) return;
+  const WidestGap widest = widest_gap(c);
+  if (widest.diameter > 0 && *c.optimizer.minimum_gap > widest.at_most)
+    found.push_back({{"optimizer.minimum_gap"},
+                     fmt::format("all holes would be filled: none is wider than {:.4g} m", widest.at_most),
+                     fmt::format("take less than {:.4g}, or draw wider holes", widest.diameter) +
+                         if_in_millimetres(*c.optimizer.minimum_gap, widest.diameter)});
+}
+
 /// What a quantity needs of the case to mean something.
 struct Need {
   std::vector<Quantity> quantities;
@@ -1068,7 +1082,10 @@ std::vector<Conflict> conflicts(const Case& c) {
   check_constraints(c, found);
   check_bounds_together(c, found);
   check_expectations(c, found);
-  if (!found.empty()) check_load_cases(c, all_load_cases(c), found, check_walls);
+  if (found.empty())
+    check_widest_gap(c, found);
+  else
+    check_load_cases(c, all_load_cases(c), found, check_walls);
   return found;
 }
 
