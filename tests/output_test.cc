@@ -629,6 +629,7 @@ DeformedPicture<2> picture_of(const LevelSet<2>& psi, RingField displacement, do
           .scalar = {"radius", "m", radius},
           .scale = ScaleKind::all,
           .rim = {},
+          .travel = 0,
           .rim_force = {3000, 0, 0},
           .contact = {},
           .peak = {}};
@@ -752,6 +753,16 @@ TEST(DeformedSvg, ThePeakIsMarkedAtItsDrawnPlace) {
     EXPECT_NEAR(std::stod(match[1]), 40 + 320 + pixels * place[0], 1);
     EXPECT_NEAR(std::stod(match[2]), 76 + 320 - pixels * place[1], azimuth == 0.3 ? 3 : 1);
   }
+}
+
+// At speed the rim also moves as the whole wheel grows, which is no travel.
+TEST(DeformedSvg, TellsTheTravelAndNotTheMotionOfTheRim) {
+  const auto psi = holes_level_set(2, 1.0);
+  const auto still = ring_field(psi.lattice, 2, [](const Vec<2>&) { return Vec<2>{}; });
+  DeformedPicture<2> picture = picture_of(psi, still, 1);
+  picture.rim.towards_ground = 0.005;
+  picture.travel = 0.002;
+  EXPECT_NE(facts(picture).find("travel 2 mm"), std::string::npos) << facts(picture);
 }
 
 TEST(DeformedSvg, AWindowShowsThePartAtTheContact) {

@@ -177,7 +177,7 @@ std::string facts(const DeformedPicture<dim>& picture) {
   std::string text = "load " + force_text(picture.rim_force.towards_ground, "N");
   text += fmt::format(" \u00b7 {} {:.4g}\u00b0", picture.is_bonded ? "towards" : "contact at",
                       picture.contact_azimuth * 180 / std::numbers::pi);
-  text += fmt::format(" \u00b7 travel {}", value_text(picture.rim.towards_ground, "m"));
+  text += fmt::format(" \u00b7 travel {}", value_text(picture.travel, "m"));
   if (picture.rim.rotation != 0)
     text += fmt::format(" \u00b7 wind-up {:.3g}\u00b0", picture.rim.rotation * 180 / std::numbers::pi);
   return text + (picture.magnification == 1

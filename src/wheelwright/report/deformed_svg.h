@@ -30,6 +30,7 @@ struct DeformedPicture {
   NamedField scalar;  ///< in an SI unit without prefix, e.g. "von Mises stress" in "Pa"
   ScaleKind scale;
   RimMotion rim;                      ///< ground frame
+  double travel;                      ///< from where the rotating wheel without load touches the ground [m]
   RimForce rim_force;                 ///< on the whole width [N, N m]
   std::vector<ContactPoint> contact;  ///< of this position; its pressure is shown in a window
   /// The largest scalar and its place before the deformation (body frame); absent: that of the drawn points.

@@ -258,6 +258,7 @@ PositionFields<dim> fields_at(const StateSolver<dim>& solver, const State<dim>& 
           .ground_azimuth = ground_azimuth(solver, position),
           .is_bonded = solver.model().contact.counterpart == Counterpart::ring,
           .rim = source.is_image ? mirror_image(contact.rim) : contact.rim,
+          .travel = contact.travel(),
           .rim_force = source.is_image ? mirror_image(contact.rim_force) : contact.rim_force,
           .contact = points_at(solver, state, source, position),
           .von_mises = peak_at(lattice.grid(), state.strain_peaks(), source)};

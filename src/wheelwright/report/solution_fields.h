@@ -30,6 +30,7 @@ struct PositionFields {
   double ground_azimuth;  ///< of n_y, body frame [rad]
   bool is_bonded;         ///< the tread to a rigid ring, instead of touching the ground
   RimMotion rim;          ///< ground frame
+  double travel;          ///< of the rim from where the rotating wheel without load touches the ground [m]
   RimForce rim_force;     ///< on the rim, per metre of width when dim = 2
   std::vector<ContactPoint> contact;
   DrawnPeak<dim> von_mises;

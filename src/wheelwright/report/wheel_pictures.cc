@@ -43,6 +43,7 @@ void write_wheel_pictures(const std::filesystem::path& folder, const PictureName
                                    .scalar = scalar,
                                    .scale = scale,
                                    .rim = fields.rim,
+                                   .travel = fields.travel,
                                    .rim_force = scaled(names.width, fields.rim_force),
                                    .contact = fields.contact,
                                    .peak = peak}));
@@ -75,6 +76,7 @@ void write_wheel_pictures(const std::filesystem::path& folder, const PictureName
                                                                    .scalar = scalar,
                                                                    .scale = scale,
                                                                    .rim = fields.rim,
+                                                                   .travel = fields.travel,
                                                                    .rim_force = fields.rim_force,
                                                                    .contact = fields.contact,
                                                                    .peak = peak}));
