@@ -3,16 +3,10 @@
 #include <span>
 #include <vector>
 
-#include "wheelwright/geometry/level_set.h"
+#include "wheelwright/evolution/boundary_motion.h"
 #include "wheelwright/linalg/sparse_spd.h"
 
 namespace wheelwright {
-
-/// A deformation is one of these; it moves the boundary along the outward normal n of the material.
-enum class DeformationKind {
-  vector_field,  ///< theta, in polar directions (radial, azimuthal[, axial]); moves the boundary by theta . n
-  normal_speed,  ///< v; moves the boundary by v
-};
 
 /// Deformations of a sector. They are multilinear between the nodes of the lattice, vanish at some of them,
 /// and have one component after the other, each at all nodes. A load is a linear function of the deformation,
@@ -37,21 +31,17 @@ class DeformationSpace {
   /// The load l with l . w = (deformation, w) for all deformations w.
   std::vector<double> load(std::span<const double> deformation) const;
 
-  /// The load that is the sum of weight * value * speed over the samples: a shape derivative with this
-  /// density.
-  std::vector<double> normal_load(std::span<const SurfaceSample<dim>> density) const;
+  /// How a boundary moves under these deformations.
+  BoundaryMotion<dim> motion_of(const LevelSet<dim>& psi, std::span<const SurfacePoint<dim>> boundary) const {
+    return {psi, boundary, kind_};
+  }
 
-  /// How fast points of the boundary move along the normal.
-  std::vector<double> speeds_at(std::span<const SurfacePoint<dim>> boundary,
-                                std::span<const double> deformation) const;
-
-  /// The same at the nodes, with the normals of the level set, for transport(). Where it is flat there are
-  /// none.
+  /// The speeds at the nodes along the normals of psi's spline coefficients, for Evolver::move(). Where they
+  /// are flat there are none.
   std::vector<double> speeds(const LevelSet<dim>& psi, std::span<const double> deformation) const;
 
  private:
   Vec<dim> factors(const Vec<dim>& normal) const;
-  Vec<dim> factors_at(const SurfacePoint<dim>& point) const;
   std::vector<double> restricted(std::span<const double> component) const;
   template <class Function>
   std::vector<double> by_component(std::span<const double> vector, Function function) const;

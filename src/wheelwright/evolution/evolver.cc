@@ -6,6 +6,7 @@
 
 #include "wheelwright/evolution/multilinear.h"
 #include "wheelwright/evolution/redistance.h"
+#include "wheelwright/evolution/spline_level_set.h"
 #include "wheelwright/evolution/sub_cell_filter.h"
 #include "wheelwright/evolution/transport.h"
 #include "wheelwright/geometry/finite.h"
@@ -37,6 +38,7 @@ constexpr double rounding_of(MirrorPlane plane) { return plane == MirrorPlane::a
 template <int dim>
 Evolver<dim>::Evolver(const Lattice<dim>& lattice, const EvolutionOptions& options)
     : lattice_(lattice),
+      space_(options.space),
       bands_(lattice, options.bands),
       extension_(make_velocity_extension<dim>(lattice, bands_, options.velocity)),
       deformations_(lattice, bands_.nodes(), options.velocity.length * lattice.grid().resolution(),
@@ -72,47 +74,53 @@ Expected<std::vector<double>> Evolver<dim>::measure_preserving_velocity(
 }
 
 template <int dim>
-std::vector<bool> Evolver<dim>::held_by_bands(std::span<const SurfacePoint<dim>> boundary,
-                                              std::span<const double> speeds) const {
+std::vector<bool> Evolver<dim>::at_bands(std::span<const SurfacePoint<dim>> boundary) const {
+  std::vector<bool> result;
+  for (const auto& point : boundary) result.push_back(bands_.touches(point));
+  return result;
+}
+
+/// A coefficient that may still move by a quarter of what it would is not held: the band clips it.
+template <int dim>
+std::vector<bool> Evolver<dim>::held_by_bands(const LevelSet<dim>& psi, std::span<const double> velocity,
+                                              double distance) const {
+  constexpr double part = 0.25, least = 0.01;  // of the motion; of a cell
+  const double time = distance / largest_magnitude(velocity);
+  const LevelSet<dim> coefficients = spline_coefficients(psi);
   std::vector<bool> held;
-  for (std::size_t q = 0; q < boundary.size(); ++q)
-    held.push_back(speeds[q] < 0 && bands_.touches(boundary[q]));
+  for (std::size_t node = 0; node < velocity.size(); ++node) {
+    const double margin = std::max(-part * time * velocity[node], least * lattice_.grid().resolution());
+    held.push_back(velocity[node] < 0 &&
+                   bands_.is_clipped(static_cast<int>(node), coefficients.values[node], margin));
+  }
   return held;
 }
 
-/// Of the nodes around a point those decide its velocity that are on its side of the edge: it lies up to a
-/// tenth of a cell off.
 template <int dim>
-void Evolver<dim>::hold(std::span<const SurfacePoint<dim>> boundary, const std::vector<bool>& held,
-                        std::vector<double>& velocity) const {
-  constexpr double share = 0.3;
-  for (std::size_t q = 0; q < boundary.size(); ++q) {
-    if (!held[q]) continue;
-    const auto at = node_weights<dim>(lattice_, boundary[q].cell, boundary[q].xi);
-    double largest = 0;
-    for (std::size_t a = 0; a < at.node.size(); ++a)
-      if (!bands_.nodes()[at.node[a]]) largest = std::max(largest, at.weight[a]);
-    for (std::size_t a = 0; a < at.node.size(); ++a)
-      if (at.weight[a] > share * largest) velocity[at.node[a]] = std::min(velocity[at.node[a]], 0.0);
-  }
+LevelSet<dim> Evolver<dim>::design_of(const LevelSet<dim>& psi) const {
+  return space_ == ShapeSpace::spline ? spline_coefficients(psi) : psi;
 }
 
-/// Post-processes the result of a stage: applies the sub-cell filter, restores the mirror symmetries that the
-/// input of the stage had, and clips holes at the protected bands. Clipping could hide an infinity, so that
-/// values are checked first.
 template <int dim>
-Expected<LevelSet<dim>> Evolver<dim>::finished(const LevelSet<dim>& psi,
+LevelSet<dim> Evolver<dim>::shape_of(LevelSet<dim> design) const {
+  return bands_.keep(space_ == ShapeSpace::spline ? spline_level_set(bands_.keep(std::move(design)))
+                                                  : sub_cell_filter(design));
+}
+
+/// Clipping could hide an infinity, so that values are checked first.
+template <int dim>
+Expected<LevelSet<dim>> Evolver<dim>::finished(LevelSet<dim> design,
                                                const std::vector<MirrorPlane>& symmetries,
                                                const char* what) const {
-  if (auto failure = check_finite<dim>(lattice_, psi.values, what)) return *failure;
-  LevelSet<dim> filtered = sub_cell_filter(psi);
-  for (const MirrorPlane plane : symmetries) filtered = mirror_symmetric_part(filtered, plane);
-  return bands_.keep(std::move(filtered));
+  if (auto failure = check_finite<dim>(lattice_, design.values, what)) return *failure;
+  for (const MirrorPlane plane : symmetries) design = mirror_symmetric_part(design, plane);
+  return shape_of(std::move(design));
 }
 
 template <int dim>
 Expected<LevelSet<dim>> Evolver<dim>::move(const LevelSet<dim>& psi, std::span<const double> velocity,
                                            double distance) const {
+  if (auto failure = check_finite<dim>(psi.lattice, psi.values, "the level set")) return *failure;
   if (auto failure = check_finite<dim>(psi.lattice, velocity, "the velocity")) return *failure;
   const double time = distance / largest_magnitude(velocity);
   if (!std::isfinite(time)) return Failure{FailureReason::not_finite, "the velocity vanishes"};
@@ -121,7 +129,8 @@ Expected<LevelSet<dim>> Evolver<dim>::move(const LevelSet<dim>& psi, std::span<c
     return !is_mirror_symmetric<dim>(psi.lattice, velocity, rounding_of(plane) * largest_magnitude(velocity),
                                      plane);
   });
-  return finished(transport<dim>(psi, velocity, time), kept, "the level set after transport");
+  const auto move = space_ == ShapeSpace::spline ? smooth_transport<dim> : transport<dim>;
+  return finished(move(design_of(psi), velocity, time), kept, "the level set after transport");
 }
 
 template <int dim>
@@ -135,13 +144,23 @@ double Evolver<dim>::first_order_change(std::span<const SurfaceSample<dim>> grad
 template <int dim>
 Expected<LevelSet<dim>> Evolver<dim>::redistance(const LevelSet<dim>& psi) const {
   if (auto failure = check_finite<dim>(psi.lattice, psi.values, "the level set")) return *failure;
-  return finished(wheelwright::redistance<dim>(psi), symmetries(psi), "the level set after redistancing");
+  return finished(wheelwright::redistance<dim>(design_of(psi)), symmetries(psi),
+                  "the level set after redistancing");
+}
+
+template <int dim>
+Expected<LevelSet<dim>> Evolver<dim>::distance(const LevelSet<dim>& psi) const {
+  if (auto failure = check_finite<dim>(psi.lattice, psi.values, "the level set")) return *failure;
+  auto distance = wheelwright::redistance<dim>(psi);
+  if (auto failure = check_finite<dim>(lattice_, distance.values, "the signed distance")) return *failure;
+  return bands_.keep(with_symmetries_of(psi, std::move(distance)));
 }
 
 template <int dim>
 Expected<LevelSet<dim>> Evolver<dim>::smooth(const LevelSet<dim>& psi) const {
   if (!smoother_) return psi;
-  return finished((*smoother_)(psi), symmetries(psi), "the level set after smoothing");
+  if (auto failure = check_finite<dim>(psi.lattice, psi.values, "the level set")) return *failure;
+  return finished((*smoother_)(design_of(psi)), symmetries(psi), "the level set after smoothing");
 }
 
 template <int dim>

@@ -14,20 +14,27 @@
 
 namespace wheelwright {
 
+/// The level sets of degree 2 that shapes move in.
+enum class ShapeSpace {
+  nodal,   ///< all nodal values, filtered below the cell (sub_cell_filter.h): what steepest descent moves
+  spline,  ///< cubic B-splines (spline_level_set.h), whose motion BoundaryMotion predicts
+};
+
 struct EvolutionOptions {
   VelocityOptions velocity;
   /// tau of (76), in units of the squared resolution of the grid. With 0, smooth() is the identity.
   double smoothing = 0;
   Bands bands;                ///< that stay material
   FeatureSize features = {};  ///< the least widths of walls and gaps in every shape
+  ShapeSpace space = ShapeSpace::nodal;
   DeformationKind deformation = DeformationKind::vector_field;  ///< in the space of deformations()
   int cut_points = 4;  ///< Gauss points per direction in cut cells; those of a solver that uses them again
 };
 
 /// Moves shapes on one lattice. Matrices that depend only on the lattice are factored once. All returned
-/// shapes keep the protected bands. Shapes from move(), redistance() and smooth() have passed the sub-cell
-/// filter (sub_cell_filter.h), and they are mirror-symmetric if the given shape and velocity are
-/// (geometry/mirror.h). A NaN or an infinity in the input or in the result of a stage is the failure
+/// shapes keep the protected bands. move(), redistance() and smooth() act on the design of a shape, its nodal
+/// values or the coefficients of its spline; the shapes that they return are of the ShapeSpace, and
+/// mirror-symmetric if the given shape and velocity are (geometry/mirror.h). A NaN or an infinity in the input or in the result of a stage is the failure
 /// not_finite.
 template <int dim>
 class Evolver {
@@ -44,14 +51,13 @@ class Evolver {
   /// The deformations that vanish in the bands, with the inner product of velocity.length.
   const DeformationSpace<dim>& deformations() const { return deformations_; }
 
-  /// Which points of the boundary lie on the edge of a band and would move into it with these speeds along
-  /// the normal, one per point.
-  std::vector<bool> held_by_bands(std::span<const SurfacePoint<dim>> boundary,
-                                  std::span<const double> speeds) const;
+  /// Which points of the boundary lie on the edge of a band.
+  std::vector<bool> at_bands(std::span<const SurfacePoint<dim>> boundary) const;
 
-  /// Keeps these points on the edge: takes away what moves them off it.
-  void hold(std::span<const SurfacePoint<dim>> boundary, const std::vector<bool>& held,
-            std::vector<double>& velocity) const;
+  /// The nodes whose coefficients a band stops when they move with this velocity, sooner or later: those at
+  /// the edge of a band that would move into it by more than they may. One flag per node.
+  std::vector<bool> held_by_bands(const LevelSet<dim>& psi, std::span<const double> velocity,
+                                  double distance) const;
 
   /// Transports the shape for the time in which the fastest node travels `distance` [m]. Fails if `velocity`
   /// vanishes everywhere.
@@ -62,7 +68,13 @@ class Evolver {
   double first_order_change(std::span<const SurfaceSample<dim>> gradient, std::span<const double> velocity,
                             double distance) const;
 
+  /// The shape whose design is a signed distance, with the design's boundary.
   Expected<LevelSet<dim>> redistance(const LevelSet<dim>& psi) const;
+
+  /// The signed distance to the boundary of a level set that was not moved, but drawn: no spline, so that the
+  /// boundary stays as it is.
+  Expected<LevelSet<dim>> distance(const LevelSet<dim>& psi) const;
+
   Expected<LevelSet<dim>> smooth(const LevelSet<dim>& psi) const;
   LevelSet<dim> keep_bands(const LevelSet<dim>& psi) const;
 
@@ -97,11 +109,16 @@ class Evolver {
 
   std::optional<Failure> check_widths(const LevelSet<dim>& psi, const FeatureSize& size) const;
 
-  /// Post-processes the result of a stage: filters, symmetrizes and clips it.
-  Expected<LevelSet<dim>> finished(const LevelSet<dim>& psi, const std::vector<MirrorPlane>& symmetries,
+  /// What the stages act on, and the shape that a design stands for, which keeps the bands.
+  LevelSet<dim> design_of(const LevelSet<dim>& psi) const;
+  LevelSet<dim> shape_of(LevelSet<dim> design) const;
+
+  /// The shape of the design that is the result of a stage, symmetrized.
+  Expected<LevelSet<dim>> finished(LevelSet<dim> design, const std::vector<MirrorPlane>& symmetries,
                                    const char* what) const;
 
   Lattice<dim> lattice_;
+  ShapeSpace space_;
   ProtectedBands<dim> bands_;
   std::unique_ptr<VelocityExtension<dim>> extension_;
   DeformationSpace<dim> deformations_;

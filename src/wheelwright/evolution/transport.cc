@@ -1,6 +1,8 @@
 #include "wheelwright/evolution/transport.h"
 
+#include "wheelwright/evolution/boundary_motion.h"
 #include "wheelwright/evolution/lattice_strides.h"
+#include "wheelwright/linalg/dense.h"
 
 namespace wheelwright {
 
@@ -106,6 +108,22 @@ LevelSet<dim> transport(const LevelSet<dim>& psi, std::span<const double> veloci
   return {psi.lattice, std::move(phi)};
 }
 
+template <int dim>
+LevelSet<dim> smooth_transport(const LevelSet<dim>& psi, std::span<const double> velocity, double time) {
+  constexpr double short_move = 0.3;  // cells
+  LevelSet<dim> phi = transport<dim>(psi, velocity, time);
+  const double moved = time * largest_magnitude(velocity) / (short_move * psi.lattice.grid().resolution());
+  const double share = std::exp(-0.5 * moved * moved);
+  const auto godunov = squared_gradient(psi.lattice, psi.values, velocity);
+  const auto central = gradients_at_nodes<dim>(psi);
+  for (std::size_t node = 0; node < phi.values.size(); ++node)
+    phi.values[node] +=
+        share * time * velocity[node] * (std::sqrt(godunov[node]) - norm<dim>(central[node]));
+  return phi;
+}
+
+template LevelSet<2> smooth_transport<2>(const LevelSet<2>&, std::span<const double>, double);
+template LevelSet<3> smooth_transport<3>(const LevelSet<3>&, std::span<const double>, double);
 template LevelSet<2> transport<2>(const LevelSet<2>&, std::span<const double>, double);
 template LevelSet<3> transport<3>(const LevelSet<3>&, std::span<const double>, double);
 

@@ -50,8 +50,7 @@ std::optional<double> gain_at_edges(const OptimizerOptions& options, const Evolv
                                     const OptimizationState<dim>& state) {
   const auto weights = lagrangian_weights(options, state);
   const auto& [functions, boundary] = std::tie(state.evaluation.functions, state.evaluation.boundary);
-  const std::vector<double> into_bands(boundary.size(), -1.0);
-  const auto held = evolver.held_by_bands(boundary, into_bands);
+  const auto held = evolver.at_bands(boundary);
   double sum = 0, length = 0;
   for (size_t q = 0; q < boundary.size(); ++q) {
     if (held[q]) continue;

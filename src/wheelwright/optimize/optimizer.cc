@@ -27,6 +27,12 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+/// Quadratic steps need shapes whose motion they can predict.
+EvolutionOptions in_space_of(Method method, EvolutionOptions evolution) {
+  evolution.space = method == Method::sequential_quadratic ? ShapeSpace::spline : ShapeSpace::nodal;
+  return evolution;
+}
+
 template <class Points>
 double boundary_measure(const Points& points) {
   double sum = 0;
@@ -179,7 +185,7 @@ std::optional<StopReason> reason_to_stop(const OptimizerOptions& options,
 template <int dim>
 ShapeOptimizer<dim>::ShapeOptimizer(const Lattice<dim>& lattice, const EvolutionOptions& evolution,
                                     const OptimizerOptions& options, Evaluate evaluate)
-    : lattice_(lattice), evolver_(lattice, evolution), options_(options), evaluate_(std::move(evaluate)) {}
+    : lattice_(lattice), evolver_(lattice, in_space_of(options.method, evolution)), options_(options), evaluate_(std::move(evaluate)) {}
 
 template <int dim>
 Expected<OptimizationState<dim>> ShapeOptimizer<dim>::start(const LevelSet<dim>& initial,
@@ -547,7 +553,7 @@ OptimizationState<dim> ShapeOptimizer<dim>::successor(const OptimizationState<di
                               .step = proposals.next_step(move, *trial.evaluation),
                               .since_redistance = count(options_.redistance_every, state.since_redistance),
                               .since_smoothing = count(options_.smooth_every, state.since_smoothing),
-                              .memory = proposals.remembered(move, *trial.evaluation),
+                              .memory = proposals.remembered(move, trial.shape, *trial.evaluation),
                               .history = state.history,
                               .history_begin = state.history_begin,
                               .final_widths = state.final_widths};

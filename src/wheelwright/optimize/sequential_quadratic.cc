@@ -23,27 +23,20 @@ double product(const Nodal& load, const Nodal& deformation) {
   return std::inner_product(load.begin(), load.end(), deformation.begin(), 0.0);
 }
 
-/// The derivative with this density, as a load.
+/// The derivatives of the objective, of the measure, and of the constraints, as loads, without what the held
+/// points of the boundary contribute.
 template <int dim>
-Nodal load_of(const DeformationSpace<dim>& space, const Evaluation<dim>& evaluation,
-              const std::vector<double>& density, double factor, const std::vector<bool>& held) {
-  std::vector<SurfaceSample<dim>> samples;
-  for (size_t i = 0; i < density.size(); ++i)
-    if (!held[i]) samples.push_back({evaluation.boundary[i], factor * density[i]});
-  return space.normal_load(samples);
-}
-
-/// The derivatives of the objective, of the measure, and of the constraints.
-template <int dim>
-std::vector<Nodal> loads(const DeformationSpace<dim>& space, const Evaluation<dim>& evaluation,
+std::vector<Nodal> loads(const BoundaryMotion<dim>& motion, const Evaluation<dim>& evaluation,
                          const std::string& objective, const std::vector<BoundConstraint>& constraints,
                          const std::vector<bool>& held) {
-  std::vector<Nodal> result{
-      load_of(space, evaluation, evaluation.function(objective).gradient, 1, held),
-      load_of(space, evaluation, std::vector<double>(evaluation.boundary.size(), 1.0), 1, held)};
+  const auto load_of = [&](std::vector<double> density, double factor) {
+    for (size_t q = 0; q < density.size(); ++q) density[q] *= held[q] ? 0 : factor;
+    return motion.load(density);
+  };
+  std::vector<Nodal> result{load_of(evaluation.function(objective).gradient, 1),
+                            load_of(std::vector<double>(held.size(), 1.0), 1)};
   for (const auto& c : constraints)
-    result.push_back(
-        load_of(space, evaluation, evaluation.functions[c.function].gradient, 1 / c.scale, held));
+    result.push_back(load_of(evaluation.functions[c.function].gradient, 1 / c.scale));
   return result;
 }
 
@@ -78,6 +71,7 @@ SequentialQuadraticProposals<dim>::SequentialQuadraticProposals(const Evolver<di
       options_(options),
       state_(state),
       constraints_(bound_constraints(state.evaluation)),
+      motion_(evolver.deformations().motion_of(state.shape, state.evaluation.boundary)),
       narrow_(at_least_width<dim>(state.shape, state.evaluation.boundary,
                                   widths_after(evolver.features(), options, state))) {
   const auto& space = evolver_.deformations();
@@ -94,46 +88,64 @@ SequentialQuadraticProposals<dim>::SequentialQuadraticProposals(const Evolver<di
 /// The derivatives without what these points of the boundary contribute, and the pairs.
 template <int dim>
 typename SequentialQuadraticProposals<dim>::Span SequentialQuadraticProposals<dim>::span_without(
-    const std::vector<bool>& held) const {
+    const BoundaryMotion<dim>& motion, const std::vector<bool>& held) const {
   const auto& space = evolver_.deformations();
   Span span{.deformations = {},
-            .loads = loads(space, state_.evaluation, options_.objective, constraints_, held)};
+            .loads = loads(motion, state_.evaluation, options_.objective, constraints_, held)};
   for (const auto& load : span.loads) span.deformations.push_back(space.representative(load));
   span.loads.insert(span.loads.end(), pairs_.loads.begin(), pairs_.loads.end());
   span.deformations.insert(span.deformations.end(), pairs_.deformations.begin(), pairs_.deformations.end());
   return span;
 }
 
-/// Points of the boundary that would move into a band, or narrow what is as narrow as it may be, stand still:
-/// the move is sought without them.
+/// What would move into a band, or narrow what is as narrow as it may be, stands still: the move is sought
+/// without it, and again if that sets other parts in motion.
 template <int dim>
 Expected<Move<dim>> SequentialQuadraticProposals<dim>::move(double step) const {
-  const auto& boundary = state_.evaluation.boundary;
-  auto move = move_with(std::vector<bool>(boundary.size(), false), step);
-  const auto speeds = evolver_.deformations().speeds_at(boundary, move.deformation);
-  const auto by_bands = evolver_.held_by_bands(boundary, speeds);
-  auto held = held_by_widths(narrow_, speeds);
-  for (std::size_t q = 0; q < held.size(); ++q) held[q] = held[q] || by_bands[q];
-  if (std::ranges::any_of(held, [](bool h) { return h; })) {
-    move = move_with(held, step);
-    evolver_.hold(boundary, by_bands, move.velocity);
+  constexpr int most_turns = 5;
+  Held held{.nodes = std::vector<bool>(state_.shape.values.size()),
+            .points = std::vector<bool>(state_.evaluation.boundary.size())};
+  auto motion = motion_;
+  auto move = move_with(motion, held.points, step);
+  for (int turn = 0; turn < most_turns && hold_more(motion, move, held); ++turn) {
+    motion = motion_.holding(held.nodes);
+    move = move_with(motion, held.points, step);
+    for (std::size_t node = 0; node < held.nodes.size(); ++node)
+      if (held.nodes[node]) move.velocity[node] = 0;
   }
   if (!std::isfinite(move.step)) return Failure{FailureReason::not_finite, "the velocity"};
   return move;
 }
 
+/// Adds what stands in the way of this move; whether there was more.
 template <int dim>
-Move<dim> SequentialQuadraticProposals<dim>::move_with(const std::vector<bool>& held, double step) const {
+bool SequentialQuadraticProposals<dim>::hold_more(const BoundaryMotion<dim>& motion, const Move<dim>& move,
+                                                  Held& held) const {
+  bool is_more = false;
+  const auto add = [&](const std::vector<bool>& stopped, std::vector<bool>& to) {
+    for (std::size_t i = 0; i < to.size(); ++i) {
+      is_more = is_more || (stopped[i] && !to[i]);
+      to[i] = to[i] || stopped[i];
+    }
+  };
+  const double distance = move.distance * state_.shape.lattice.grid().resolution();
+  add(evolver_.held_by_bands(state_.shape, move.velocity, distance), held.nodes);
+  add(held_by_widths(narrow_, motion.speeds(move.deformation)), held.points);
+  return is_more;
+}
+
+template <int dim>
+Move<dim> SequentialQuadraticProposals<dim>::move_with(const BoundaryMotion<dim>& motion, const std::vector<bool>& held, double step) const {
   const double measure = next_measure(options_, state_, step);
-  const Span span = span_without(held);
+  const Span span = span_without(motion, held);
   auto penalties = this->penalties();
-  const auto found = step_in(span, state_.measure - measure, step, penalties);
+  const auto found = step_in(motion, span, state_.measure - measure, step, penalties);
   const auto& space = evolver_.deformations();
   auto deformation = combination(found.coefficients, span.deformations);
   auto velocity = space.speeds(state_.shape, deformation);
   const double resolution = state_.shape.lattice.grid().resolution();
   const double distance = largest_magnitude(velocity) / resolution,
-               farthest = largest_magnitude(space.speeds_at(state_.evaluation.boundary, deformation));
+               farthest = largest_magnitude(motion.speeds(deformation));
   return {.velocity = std::move(velocity),
           .deformation = std::move(deformation),
           .distance = distance,
@@ -148,7 +160,7 @@ Move<dim> SequentialQuadraticProposals<dim>::move_with(const std::vector<bool>& 
 
 /// Raises penalties until the linearized violation falls by at least half of what it could fall by.
 template <int dim>
-QuadraticStep SequentialQuadraticProposals<dim>::step_in(const Span& span, double gap, double step,
+QuadraticStep SequentialQuadraticProposals<dim>::step_in(const BoundaryMotion<dim>& motion, const Span& span, double gap, double step,
                                                          std::vector<double>& penalties) const {
   constexpr double raise = 4, beyond = 1e6, enough = 0.5, small = 1e-9;
   constexpr int most_raises = 10;
@@ -167,7 +179,7 @@ QuadraticStep SequentialQuadraticProposals<dim>::step_in(const Span& span, doubl
                                  .is_equality = constraints_[i].is_equality});
   std::vector<std::vector<double>> at_boundary;
   for (const auto& deformation : span.deformations)
-    at_boundary.push_back(evolver_.deformations().speeds_at(state_.evaluation.boundary, deformation));
+    at_boundary.push_back(motion.speeds(deformation));
   const auto with = [&](double factor) {
     for (size_t i = 0; i < penalties.size(); ++i)
       model.constraints[first + i].penalty = factor * penalties[i];
@@ -238,7 +250,8 @@ double SequentialQuadraticProposals<dim>::next_step(const Move<dim>& move,
 /// The pair of the move and the change of the Lagrangian's derivative.
 template <int dim>
 StepMemory SequentialQuadraticProposals<dim>::remembered(const Move<dim>& move,
-                                                         const Evaluation<dim>& evaluation) const {
+                                                          const LevelSet<dim>& shape,
+                                                          const Evaluation<dim>& evaluation) const {
   StepMemory memory = state_.memory;
   memory.penalties = move.penalties;
   memory.multipliers.assign(move.multipliers.end() - static_cast<std::ptrdiff_t>(constraints_.size()),
@@ -251,13 +264,13 @@ StepMemory SequentialQuadraticProposals<dim>::remembered(const Move<dim>& move,
   if (move.multipliers.size() == constraints_.size()) weights.push_back(0);  // the measure is free
   for (const double m : move.multipliers) weights.push_back(m);
   for (size_t i = 0; i < constraints_.size(); ++i) weights[2 + i] *= constraints_[i].sign;
-  const auto add_loads = [&](double factor, const Evaluation<dim>& e) {
+  const auto add_loads = [&](double factor, const BoundaryMotion<dim>& motion, const Evaluation<dim>& e) {
     const auto derivatives =
-        loads(space, e, options_.objective, constraints_, std::vector<bool>(e.boundary.size(), false));
+        loads(motion, e, options_.objective, constraints_, std::vector<bool>(e.boundary.size(), false));
     for (size_t i = 0; i < derivatives.size(); ++i) add(factor * weights[i], derivatives[i], pair.change);
   };
-  add_loads(unit, evaluation);
-  add_loads(-unit, state_.evaluation);
+  add_loads(unit, space.motion_of(shape, evaluation.boundary), evaluation);
+  add_loads(-unit, motion_, state_.evaluation);
   const double move_square = product(space.load(pair.move), pair.move),
                move_change = product(pair.change, pair.move),
                change_square = product(pair.change, space.representative(pair.change));

@@ -21,7 +21,7 @@ class SequentialQuadraticProposals final : public Proposals<dim> {
   Expected<Move<dim>> move(double step) const override;
   bool accepts(const Move<dim>& move, const Evaluation<dim>& evaluation) const override;
   double next_step(const Move<dim>& move, const Evaluation<dim>& evaluation) const override;
-  StepMemory remembered(const Move<dim>& move, const Evaluation<dim>& evaluation) const override;
+  StepMemory remembered(const Move<dim>& move, const LevelSet<dim>& shape, const Evaluation<dim>& evaluation) const override;
 
  private:
   /// Deformations and their loads: the representatives of derivatives, then the moves of the pairs, then
@@ -31,9 +31,15 @@ class SequentialQuadraticProposals final : public Proposals<dim> {
     Matrix products() const;
   };
 
-  Span span_without(const std::vector<bool>& held) const;
-  Move<dim> move_with(const std::vector<bool>& held, double step) const;
-  QuadraticStep step_in(const Span& span, double gap, double step, std::vector<double>& penalties) const;
+  /// What stands still: coefficients of the level set at the bands, points of the boundary at what is narrow.
+  struct Held {
+    std::vector<bool> nodes, points;
+  };
+
+  bool hold_more(const BoundaryMotion<dim>& motion, const Move<dim>& move, Held& held) const;
+  Span span_without(const BoundaryMotion<dim>& motion, const std::vector<bool>& held) const;
+  Move<dim> move_with(const BoundaryMotion<dim>& motion, const std::vector<bool>& held, double step) const;
+  QuadraticStep step_in(const BoundaryMotion<dim>& motion, const Span& span, double gap, double step, std::vector<double>& penalties) const;
   std::vector<double> penalties() const;
   double noise() const;
 
@@ -41,6 +47,7 @@ class SequentialQuadraticProposals final : public Proposals<dim> {
   const OptimizerOptions& options_;
   const OptimizationState<dim>& state_;
   std::vector<BoundConstraint> constraints_;
+  BoundaryMotion<dim> motion_;  ///< of the state's shape
   AtLeastWidth narrow_;  ///< of the state's shape
   Span pairs_;           ///< of the state's memory
 };

@@ -62,7 +62,7 @@ Expected<LevelSet<dim>, Refusal> drawn_over(const LevelSet<dim>& shape, std::spa
                                             const Evolver<dim>& evolver, double largest_island) {
   LevelSet<dim> drawn = shape;
   for (const Stroke& stroke : strokes) drawn = with_stroke(drawn, stroke);
-  auto smooth = evolver.redistance(evolver.keep_bands(drawn));
+  auto smooth = evolver.distance(evolver.keep_bands(drawn));
   if (!smooth) return refusal(smooth.failure());
   auto attached = evolver.without_islands(*smooth, largest_island);
   if (!attached) return refusal(attached.failure());

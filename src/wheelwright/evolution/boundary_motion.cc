@@ -1,0 +1,130 @@
+#include "wheelwright/evolution/boundary_motion.h"
+
+#include "wheelwright/evolution/spline_level_set.h"
+#include "wheelwright/geometry/cell_map.h"
+
+namespace wheelwright {
+namespace {
+
+/// The length of the gradient of psi at a point of a cell, as the cell's map of the same degree has it.
+template <int dim>
+double steepness_at(const LevelSet<dim>& psi, const SurfacePoint<dim>& point) {
+  const auto& grid = psi.lattice.grid();
+  const int degree = psi.lattice.degree();
+  const auto values = psi.cell_values(point.cell);
+  const ShapeFunctions<dim> shape(degree, point.xi);
+  Vec<dim> gradient{};
+  for (std::size_t a = 0; a < values.size(); ++a)
+    for (int d = 0; d < dim; ++d) gradient[d] += values[a] * shape.gradient[a][d];
+  const CellMap<dim> map(grid, degree, grid.cell_position(point.cell));
+  return norm<dim>(transpose_times<dim>(inverse<dim>(map.jacobian(shape)), gradient));
+}
+
+template <int dim>
+Vec<dim> gradient_at(const LevelSet<dim>& psi, int node) {
+  const Lattice<dim>& lattice = psi.lattice;
+  const auto position = lattice.node_position(node);
+  const double radius = lattice.polar_point(position)[0];
+  Vec<dim> gradient;
+  for (int axis = 0; axis < dim; ++axis) {
+    auto before = position, after = position;
+    const bool is_periodic = axis == 1;
+    if (is_periodic || position[axis] > 0) --before[axis];
+    if (is_periodic || position[axis] + 1 < lattice.nodes()[axis]) ++after[axis];
+    const double distance =
+        (after[axis] - before[axis]) * lattice.spacing()[axis] * (is_periodic ? radius : 1);
+    gradient[axis] =
+        (psi.values[lattice.node_index(after)] - psi.values[lattice.node_index(before)]) / distance;
+  }
+  return gradient;
+}
+
+}  // namespace
+
+template <int dim>
+std::vector<Vec<dim>> gradients_at_nodes(const LevelSet<dim>& psi) {
+  std::vector<Vec<dim>> result;
+  for (int node = 0; node < psi.lattice.n_nodes(); ++node) result.push_back(gradient_at<dim>(psi, node));
+  return result;
+}
+
+template <int dim>
+BoundaryMotion<dim>::BoundaryMotion(const LevelSet<dim>& psi, std::span<const SurfacePoint<dim>> boundary,
+                                    DeformationKind kind)
+    : lattice_(psi.lattice),
+      n_components_(kind == DeformationKind::vector_field ? dim : 1),
+      rates_(gradients_at_nodes<dim>(spline_coefficients(psi))) {
+  if (kind == DeformationKind::normal_speed)
+    for (auto& rate : rates_) rate = {norm<dim>(rate)};
+  const auto& grid = lattice_.grid();
+  for (const auto& point : boundary) {
+    Place place{.cell = grid.cell_position(point.cell),
+                .weights = {},
+                .steepness = steepness_at<dim>(psi, point),
+                .measure = point.weight};
+    for (int d = 0; d < dim; ++d)
+      place.weights[d] =
+          spline_weights(lattice_.degree(), place.cell[d], point.xi[d], grid.cells[d] + 1, d == 1);
+    places_.push_back(place);
+  }
+}
+
+template <int dim>
+BoundaryMotion<dim> BoundaryMotion<dim>::holding(const std::vector<bool>& held) const {
+  BoundaryMotion result = *this;
+  for (std::size_t node = 0; node < held.size(); ++node)
+    if (held[node]) result.rates_[node] = {};
+  return result;
+}
+
+/// Calls function(node, weight) for the coefficients that decide the value of psi at a place.
+template <int dim>
+template <class Function>
+void BoundaryMotion<dim>::for_coefficients(const Place& place, Function function) const {
+  for (int k = 0; k < power(4, dim); ++k) {
+    std::array<int, dim> vertex;
+    double weight = 1;
+    int rest = k;
+    for (int d = 0; d < dim; ++d, rest /= 4) {
+      weight *= place.weights[d][rest % 4];
+      vertex[d] = lattice_.degree() * (place.cell[d] + rest % 4 - 1);
+    }
+    if (weight != 0) function(lattice_.node_index(vertex), weight);
+  }
+}
+
+template <int dim>
+std::vector<double> BoundaryMotion<dim>::speeds(std::span<const double> deformation) const {
+  const std::size_t n_nodes = rates_.size();
+  std::vector<double> rate(n_nodes), result;
+  for (int component = 0; component < n_components_; ++component)
+    for (std::size_t node = 0; node < n_nodes; ++node)
+      rate[node] += rates_[node][component] * deformation[component * n_nodes + node];
+  for (const Place& place : places_) {
+    double sum = 0;
+    for_coefficients(place, [&](int node, double weight) { sum += weight * rate[node]; });
+    result.push_back(sum / place.steepness);
+  }
+  return result;
+}
+
+template <int dim>
+std::vector<double> BoundaryMotion<dim>::load(std::span<const double> density) const {
+  const std::size_t n_nodes = rates_.size();
+  std::vector<double> at_node(n_nodes), result(n_components_ * n_nodes);
+  for (std::size_t q = 0; q < places_.size(); ++q) {
+    const double value = places_[q].measure * density[q] / places_[q].steepness;
+    for_coefficients(places_[q], [&](int node, double weight) { at_node[node] += weight * value; });
+  }
+  for (int component = 0; component < n_components_; ++component)
+    for (std::size_t node = 0; node < n_nodes; ++node)
+      result[component * n_nodes + node] = rates_[node][component] * at_node[node];
+  return result;
+}
+
+template class BoundaryMotion<2>;
+template class BoundaryMotion<3>;
+template std::vector<Vec<2>> gradients_at_nodes<2>(const LevelSet<2>&);
+template std::vector<Vec<3>> gradients_at_nodes<3>(const LevelSet<3>&);
+
+}  // namespace wheelwright

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "wheelwright/geometry/level_set.h"
+
+namespace wheelwright {
+
+/// A deformation is one of these; it moves the boundary along the outward normal n of the material.
+enum class DeformationKind {
+  vector_field,  ///< theta, in polar directions (radial, azimuthal[, axial]); moves the boundary by theta . n
+  normal_speed,  ///< v; moves the boundary by v
+};
+
+/// How fast the boundary {psi = 0} of one shape moves along its normal under a deformation, to first order and
+/// exactly as Evolver::move() moves it. The deformation changes the coefficients c of psi's spline
+/// (spline_level_set.h) at the vertices at the rate -theta . grad c, or -v |grad c|; psi follows, and the
+/// boundary moves by -(d psi / dt) / |grad psi|. Where c is a signed distance and the deformation smooth, this
+/// is theta . n, or v. Midway between two boundaries about a cell apart, where c has a kink, it is not.
+template <int dim>
+class BoundaryMotion {
+ public:
+  BoundaryMotion(const LevelSet<dim>& psi, std::span<const SurfacePoint<dim>> boundary, DeformationKind kind);
+
+  /// The motion in which the coefficients at these nodes stay as they are. One flag per node.
+  BoundaryMotion holding(const std::vector<bool>& held) const;
+
+  /// Speeds along the normal, one per point of the boundary. `deformation` has one component after the other,
+  /// each at all nodes of the lattice.
+  std::vector<double> speeds(std::span<const double> deformation) const;
+
+  /// The load l with l . deformation = the sum over the points of weight * density * speed, for every
+  /// deformation. `density` has one value per point.
+  std::vector<double> load(std::span<const double> density) const;
+
+ private:
+  /// Where a point of the boundary lies.
+  struct Place {
+    std::array<int, dim> cell;
+    std::array<std::array<double, 4>, dim> weights;  ///< of the coefficients, along each axis
+    double steepness;                                ///< |grad psi|
+    double measure;                                  ///< the weight of the point in integrals
+  };
+
+  template <class Function>
+  void for_coefficients(const Place& place, Function function) const;
+
+  Lattice<dim> lattice_;
+  int n_components_;
+  std::vector<Vec<dim>> rates_;  ///< -dc/dt at the nodes per unit of each component of the deformation
+  std::vector<Place> places_;
+};
+
+/// The gradient of a level set at all nodes by central differences, one-sided at the ends of the lattice, in
+/// polar directions.
+template <int dim>
+std::vector<Vec<dim>> gradients_at_nodes(const LevelSet<dim>& psi);
+
+}  // namespace wheelwright

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "wheelwright/geometry/level_set.h"
+
+namespace wheelwright {
+
+// Quadratic level sets that move are tensor-product cubic B-splines over the polar grid, with knots at the
+// vertices of the cells: they are smooth, and their edges bend over about a cell. What is designed are the
+// coefficients. Without this the nodes between the vertices are variables of their own, and edges grow teeth
+// below the size of a cell, which the discrete energy rewards and the true one does not. Level sets of degree
+// 1 have vertices only: both functions return them as they are.
+
+/// The coefficients of the spline that has the values of psi at the vertices. At its ends along the radius
+/// (and the width) it is linear. The nodes between the vertices have values for transport(), by cubic
+/// interpolation; spline_level_set() ignores them.
+template <int dim>
+LevelSet<dim> spline_coefficients(const LevelSet<dim>& psi);
+
+/// The spline with these coefficients, at all nodes. It is nowhere larger than another one whose coefficients
+/// are larger.
+template <int dim>
+LevelSet<dim> spline_level_set(const LevelSet<dim>& coefficients);
+
+/// The weights of the coefficients around a cell along one axis in the value at xi in [0, 1]: those of the
+/// vertices cell - 1, cell, cell + 1 and cell + 2 of `n_vertices`, zero for vertices that do not exist. For
+/// degree 1 the weights of the vertices' values.
+std::array<double, 4> spline_weights(int degree, int cell, double xi, int n_vertices, bool is_periodic);
+
+}  // namespace wheelwright

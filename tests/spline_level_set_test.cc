@@ -1,0 +1,110 @@
+#include "wheelwright/evolution/spline_level_set.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "wheelwright/geometry/shapes.h"
+
+using namespace wheelwright;
+
+namespace {
+
+template <int dim>
+Lattice<dim> lattice_of(int degree) {
+  if constexpr (dim == 2)
+    return {{0.20, 0.34, 0.12, 12, {14, 17}}, degree};
+  else
+    return {{0.20, 0.34, 0.12, 12, {7, 9, 5}}, degree};
+}
+
+template <int dim>
+LevelSet<dim> random_level_set(int degree) {
+  std::mt19937 random(11);
+  LevelSet<dim> psi{lattice_of<dim>(degree), {}};
+  for (int node = 0; node < psi.lattice.n_nodes(); ++node)
+    psi.values.push_back(std::normal_distribution<double>()(random));
+  return psi;
+}
+
+template <int dim>
+bool is_vertex(const Lattice<dim>& lattice, int node) {
+  for (const int x : lattice.node_position(node))
+    if (x % lattice.degree() != 0) return false;
+  return true;
+}
+
+template <class Dimension>
+class SplineLevelSets : public testing::Test {};
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(SplineLevelSets, Dimensions);
+
+}  // namespace
+
+TYPED_TEST(SplineLevelSets, HaveTheValuesOfTheVertices) {
+  constexpr int dim = TypeParam::value;
+  const auto psi = random_level_set<dim>(2);
+  const auto filtered = spline_level_set(spline_coefficients(psi)), coefficients = spline_coefficients(psi);
+  for (int node = 0; node < psi.lattice.n_nodes(); ++node) {
+    if (!is_vertex(psi.lattice, node)) continue;
+    EXPECT_NEAR(filtered.values[node], psi.values[node], 1e-13);
+    EXPECT_NEAR(spline_coefficients(filtered).values[node], coefficients.values[node], 1e-12);
+    if (node > 40) break;
+  }
+}
+
+TYPED_TEST(SplineLevelSets, ReproduceLinesAlongTheRadius) {
+  constexpr int dim = TypeParam::value;
+  LevelSet<dim> psi{lattice_of<dim>(2), {}};
+  for (int node = 0; node < psi.lattice.n_nodes(); ++node)
+    psi.values.push_back(3 - 2 * psi.lattice.polar_point(node)[0]);
+  const auto coefficients = spline_coefficients(psi), shape = spline_level_set(psi);
+  for (int node = 0; node < psi.lattice.n_nodes(); ++node) {
+    EXPECT_NEAR(coefficients.values[node], psi.values[node], 1e-13);
+    EXPECT_NEAR(shape.values[node], psi.values[node], 1e-13);
+  }
+}
+
+/// Coefficients that are clipped give a level set that is: what keeps the bands.
+TYPED_TEST(SplineLevelSets, AreMonotoneInTheirCoefficients) {
+  constexpr int dim = TypeParam::value;
+  const auto c = random_level_set<dim>(2);
+  auto larger = c;
+  std::mt19937 random(2);
+  for (double& x : larger.values) x += std::exponential_distribution<double>(1)(random);
+  const auto psi = spline_level_set(c), above = spline_level_set(larger);
+  for (int node = 0; node < psi.lattice.n_nodes(); ++node)
+    EXPECT_LE(psi.values[node], above.values[node] + (psi.lattice.node_position(node)[0] == 0 ? 2 : 1e-14));
+}
+
+/// The value in a cell, of the polynomial through its nodes, as the weighted sum of the coefficients.
+TYPED_TEST(SplineLevelSets, HaveTheWeightsOfTheirCoefficients) {
+  constexpr int dim = TypeParam::value;
+  std::mt19937 random(5);
+  for (const int degree : {1, 2}) {
+    const auto c = random_level_set<dim>(degree);
+    const auto psi = spline_level_set(c);
+    const auto& lattice = c.lattice;
+    const auto& grid = lattice.grid();
+    for (int cell = 0; cell < grid.n_cells(); ++cell) {
+      const auto position = grid.cell_position(cell);
+      Vec<dim> xi;
+      for (double& x : xi) x = std::uniform_real_distribution<double>()(random);
+      const ShapeFunctions<dim> shape(degree, xi);
+      const auto values = psi.cell_values(cell);
+      double value = 0, sum = 0;
+      for (std::size_t a = 0; a < values.size(); ++a) value += shape.value[a] * values[a];
+      for (int k = 0; k < power(4, dim); ++k) {
+        std::array<int, dim> vertex;
+        double weight = 1;
+        int rest = k;
+        for (int d = 0; d < dim; ++d, rest /= 4) {
+          weight *= spline_weights(degree, position[d], xi[d], grid.cells[d] + 1, d == 1)[rest % 4];
+          vertex[d] = degree * (position[d] + rest % 4 - 1);
+        }
+        if (weight != 0) sum += weight * c.values[lattice.node_index(vertex)];
+      }
+      EXPECT_NEAR(sum, value, 1e-12);
+    }
+  }
+}
