@@ -87,9 +87,9 @@ TYPED_TEST_SUITE(BoundaryMotions, Settings);
 
 }  // namespace
 
-/// Taylor's test with respect to the deformation: a point of the boundary that moves with its speed stays on the
-/// boundary of the moved shape to second order, also where a wall is as thin as a cell and psi has a kink in its
-/// middle.
+/// Taylor's test with respect to the deformation: a point of the boundary that moves with its speed stays on
+/// the boundary of the moved shape to second order, also where a wall is as thin as a cell and psi has a kink
+/// in its middle.
 TYPED_TEST(BoundaryMotions, PredictTheMovedShapeToSecondOrder) {
   constexpr int dim = TypeParam::dim;
   const auto lattice = lattice_of<dim>(2);
@@ -164,8 +164,7 @@ TYPED_TEST(BoundaryMotions, IsTheNormalPartOfTheDeformationAtSmoothEdges) {
   const auto size = lattice.grid().cell_size();
   const double tolerance = dim == 2 ? 3e-3 : 4e-2;
   for (std::size_t q = 0; q < boundary.size(); ++q) {
-    const double azimuth =
-        (lattice.grid().cell_position(boundary[q].cell)[1] + boundary[q].xi[1]) * size[1];
+    const double azimuth = (lattice.grid().cell_position(boundary[q].cell)[1] + boundary[q].xi[1]) * size[1];
     const double radial =
         std::cos(azimuth) * boundary[q].normal[0] + std::sin(azimuth) * boundary[q].normal[1];
     EXPECT_NEAR(speeds[q], is_vector ? radial : 1, tolerance);

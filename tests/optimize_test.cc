@@ -292,7 +292,7 @@ TEST(SequentialQuadratic, KeepsABoundWithItsMultiplier) {
       const auto outcome = optimize<2>(optimizer, displaced_hole(), Record().observer(), never);
       const auto states = bound_states(outcome.state->evaluation, outcome.state->memory.multipliers);
       ASSERT_EQ(states.size(), 1u);
-      EXPECT_TRUE(states[0].is_kept()) << share << ": " << states[0].text();
+      EXPECT_TRUE(states[0].is_kept()) << share << ": " << states[0].name;
       EXPECT_NEAR(outcome.state->measure, bound, 1e-3 * bound) << share;
       const auto [low, high] = range_of_q(outcome.state->shape);
       EXPECT_LT(high - low, 0.08 * high) << share;

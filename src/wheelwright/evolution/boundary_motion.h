@@ -14,11 +14,11 @@ enum class DeformationKind {
   normal_speed,  ///< v; moves the boundary by v
 };
 
-/// How fast the boundary {psi = 0} of one shape moves along its normal under a deformation, to first order and
-/// exactly as Evolver::move() moves it. The deformation changes the coefficients c of psi's spline
+/// How fast the boundary {psi = 0} of one shape moves along its normal under a deformation, to first order
+/// and exactly as Evolver::move() moves it. The deformation changes the coefficients c of psi's spline
 /// (spline_level_set.h) at the vertices at the rate -theta . grad c, or -v |grad c|; psi follows, and the
-/// boundary moves by -(d psi / dt) / |grad psi|. Where c is a signed distance and the deformation smooth, this
-/// is theta . n, or v. Midway between two boundaries about a cell apart, where c has a kink, it is not.
+/// boundary moves by -(d psi / dt) / |grad psi|. Where c is a signed distance and the deformation smooth,
+/// this is theta . n, or v. Midway between two boundaries about a cell apart, where c has a kink, it is not.
 template <int dim>
 class BoundaryMotion {
  public:

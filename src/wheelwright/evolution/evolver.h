@@ -34,8 +34,8 @@ struct EvolutionOptions {
 /// Moves shapes on one lattice. Matrices that depend only on the lattice are factored once. All returned
 /// shapes keep the protected bands. move(), redistance() and smooth() act on the design of a shape, its nodal
 /// values or the coefficients of its spline; the shapes that they return are of the ShapeSpace, and
-/// mirror-symmetric if the given shape and velocity are (geometry/mirror.h). A NaN or an infinity in the input or in the result of a stage is the failure
-/// not_finite.
+/// mirror-symmetric if the given shape and velocity are (geometry/mirror.h). A NaN or an infinity in the
+/// input or in the result of a stage is the failure not_finite.
 template <int dim>
 class Evolver {
  public:

@@ -23,8 +23,8 @@ struct Line {
   }
 };
 
-/// The coefficients of the periodic spline with these values at its knots (M. Unser, A. Aldroubi, M. Eden, IEEE
-/// Trans. Signal Process. 41, 1993): the inverse of (1, 4, 1) / 6 has the entries sqrt(3) pole^|k|.
+/// The coefficients of the periodic spline with these values at its knots (M. Unser, A. Aldroubi, M. Eden,
+/// IEEE Trans. Signal Process. 41, 1993): the inverse of (1, 4, 1) / 6 has the entries sqrt(3) pole^|k|.
 std::vector<double> periodic_coefficients(const Line& value) {
   constexpr int reach = 27;  // pole^27 = 4e-16
   const double pole = std::sqrt(3.0) - 2;
@@ -53,8 +53,8 @@ std::vector<double> bounded_coefficients(const Line& value) {
   return result;
 }
 
-/// Replaces the values on every line of nodes along each axis by function(line of vertices), which has a value
-/// for every node.
+/// Replaces the values on every line of nodes along each axis by function(line of vertices), which has a
+/// value for every node.
 template <int dim, class Function>
 LevelSet<dim> by_lines(LevelSet<dim> psi, Function function) {
   const auto& lattice = psi.lattice;
@@ -71,8 +71,8 @@ LevelSet<dim> by_lines(LevelSet<dim> psi, Function function) {
   return psi;
 }
 
-/// Weights of the vertices i - 1, i, i + 1 and i + 2 halfway between i and i + 1: of Lagrange's polynomial, and
-/// of the B-splines.
+/// Weights of the vertices i - 1, i, i + 1 and i + 2 halfway between i and i + 1: of Lagrange's polynomial,
+/// and of the B-splines.
 constexpr double lagrange_outer = -1.0 / 16, lagrange_inner = 9.0 / 16;
 constexpr double spline_outer = 1.0 / 48, spline_inner = 23.0 / 48;
 
@@ -115,10 +115,9 @@ std::array<double, 4> spline_weights(int degree, int cell, double xi, int n_vert
   const Lagrange1D shape(degree, xi);
   if (degree == 1) return {0, shape.value[0], shape.value[1], 0};
   const auto [first, middle, last] = shape.value;
-  std::array<double, 4> weight{first / 6 + spline_outer * middle,
-                               4 * first / 6 + spline_inner * middle + last / 6,
-                               first / 6 + spline_inner * middle + 4 * last / 6,
-                               spline_outer * middle + last / 6};
+  std::array<double, 4> weight{
+      first / 6 + spline_outer * middle, 4 * first / 6 + spline_inner * middle + last / 6,
+      first / 6 + spline_inner * middle + 4 * last / 6, spline_outer * middle + last / 6};
   const auto continue_linearly = [&](int beyond, int end, int before) {
     weight[end] += 2 * weight[beyond];
     weight[before] -= weight[beyond];
@@ -129,7 +128,7 @@ std::array<double, 4> spline_weights(int degree, int cell, double xi, int n_vert
   return weight;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                     \
+#define WHEELWRIGHT_INSTANTIATE(dim)                                    \
   template LevelSet<dim> spline_coefficients(const LevelSet<dim>& psi); \
   template LevelSet<dim> spline_level_set(const LevelSet<dim>& coefficients);
 WHEELWRIGHT_INSTANTIATE(2)

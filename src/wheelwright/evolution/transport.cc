@@ -117,8 +117,7 @@ LevelSet<dim> smooth_transport(const LevelSet<dim>& psi, std::span<const double>
   const auto godunov = squared_gradient(psi.lattice, psi.values, velocity);
   const auto central = gradients_at_nodes<dim>(psi);
   for (std::size_t node = 0; node < phi.values.size(); ++node)
-    phi.values[node] +=
-        share * time * velocity[node] * (std::sqrt(godunov[node]) - norm<dim>(central[node]));
+    phi.values[node] += share * time * velocity[node] * (std::sqrt(godunov[node]) - norm<dim>(central[node]));
   return phi;
 }
 

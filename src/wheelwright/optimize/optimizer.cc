@@ -185,7 +185,10 @@ std::optional<StopReason> reason_to_stop(const OptimizerOptions& options,
 template <int dim>
 ShapeOptimizer<dim>::ShapeOptimizer(const Lattice<dim>& lattice, const EvolutionOptions& evolution,
                                     const OptimizerOptions& options, Evaluate evaluate)
-    : lattice_(lattice), evolver_(lattice, in_space_of(options.method, evolution)), options_(options), evaluate_(std::move(evaluate)) {}
+    : lattice_(lattice),
+      evolver_(lattice, in_space_of(options.method, evolution)),
+      options_(options),
+      evaluate_(std::move(evaluate)) {}
 
 template <int dim>
 Expected<OptimizationState<dim>> ShapeOptimizer<dim>::start(const LevelSet<dim>& initial,

@@ -39,7 +39,8 @@ class Proposals {
   virtual double next_step(const Move<dim>& move, const Evaluation<dim>& evaluation) const = 0;
 
   /// What is to be remembered at an accepted shape.
-  virtual StepMemory remembered(const Move<dim>& move, const LevelSet<dim>& shape, const Evaluation<dim>& evaluation) const = 0;
+  virtual StepMemory remembered(const Move<dim>& move, const LevelSet<dim>& shape,
+                                const Evaluation<dim>& evaluation) const = 0;
 };
 
 /// By the method of the options. Fails as the extension of a gradient does.

@@ -135,7 +135,8 @@ bool SequentialQuadraticProposals<dim>::hold_more(const BoundaryMotion<dim>& mot
 }
 
 template <int dim>
-Move<dim> SequentialQuadraticProposals<dim>::move_with(const BoundaryMotion<dim>& motion, const std::vector<bool>& held, double step) const {
+Move<dim> SequentialQuadraticProposals<dim>::move_with(const BoundaryMotion<dim>& motion,
+                                                       const std::vector<bool>& held, double step) const {
   const double measure = next_measure(options_, state_, step);
   const Span span = span_without(motion, held);
   auto penalties = this->penalties();
@@ -160,7 +161,8 @@ Move<dim> SequentialQuadraticProposals<dim>::move_with(const BoundaryMotion<dim>
 
 /// Raises penalties until the linearized violation falls by at least half of what it could fall by.
 template <int dim>
-QuadraticStep SequentialQuadraticProposals<dim>::step_in(const BoundaryMotion<dim>& motion, const Span& span, double gap, double step,
+QuadraticStep SequentialQuadraticProposals<dim>::step_in(const BoundaryMotion<dim>& motion, const Span& span,
+                                                         double gap, double step,
                                                          std::vector<double>& penalties) const {
   constexpr double raise = 4, beyond = 1e6, enough = 0.5, small = 1e-9;
   constexpr int most_raises = 10;
@@ -178,8 +180,7 @@ QuadraticStep SequentialQuadraticProposals<dim>::step_in(const BoundaryMotion<di
                                  .gap = constraints_[i].gap,
                                  .is_equality = constraints_[i].is_equality});
   std::vector<std::vector<double>> at_boundary;
-  for (const auto& deformation : span.deformations)
-    at_boundary.push_back(motion.speeds(deformation));
+  for (const auto& deformation : span.deformations) at_boundary.push_back(motion.speeds(deformation));
   const auto with = [&](double factor) {
     for (size_t i = 0; i < penalties.size(); ++i)
       model.constraints[first + i].penalty = factor * penalties[i];
@@ -249,9 +250,8 @@ double SequentialQuadraticProposals<dim>::next_step(const Move<dim>& move,
 
 /// The pair of the move and the change of the Lagrangian's derivative.
 template <int dim>
-StepMemory SequentialQuadraticProposals<dim>::remembered(const Move<dim>& move,
-                                                          const LevelSet<dim>& shape,
-                                                          const Evaluation<dim>& evaluation) const {
+StepMemory SequentialQuadraticProposals<dim>::remembered(const Move<dim>& move, const LevelSet<dim>& shape,
+                                                         const Evaluation<dim>& evaluation) const {
   StepMemory memory = state_.memory;
   memory.penalties = move.penalties;
   memory.multipliers.assign(move.multipliers.end() - static_cast<std::ptrdiff_t>(constraints_.size()),

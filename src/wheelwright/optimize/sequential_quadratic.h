@@ -21,7 +21,8 @@ class SequentialQuadraticProposals final : public Proposals<dim> {
   Expected<Move<dim>> move(double step) const override;
   bool accepts(const Move<dim>& move, const Evaluation<dim>& evaluation) const override;
   double next_step(const Move<dim>& move, const Evaluation<dim>& evaluation) const override;
-  StepMemory remembered(const Move<dim>& move, const LevelSet<dim>& shape, const Evaluation<dim>& evaluation) const override;
+  StepMemory remembered(const Move<dim>& move, const LevelSet<dim>& shape,
+                        const Evaluation<dim>& evaluation) const override;
 
  private:
   /// Deformations and their loads: the representatives of derivatives, then the moves of the pairs, then
@@ -39,7 +40,8 @@ class SequentialQuadraticProposals final : public Proposals<dim> {
   bool hold_more(const BoundaryMotion<dim>& motion, const Move<dim>& move, Held& held) const;
   Span span_without(const BoundaryMotion<dim>& motion, const std::vector<bool>& held) const;
   Move<dim> move_with(const BoundaryMotion<dim>& motion, const std::vector<bool>& held, double step) const;
-  QuadraticStep step_in(const BoundaryMotion<dim>& motion, const Span& span, double gap, double step, std::vector<double>& penalties) const;
+  QuadraticStep step_in(const BoundaryMotion<dim>& motion, const Span& span, double gap, double step,
+                        std::vector<double>& penalties) const;
   std::vector<double> penalties() const;
   double noise() const;
 
@@ -48,8 +50,8 @@ class SequentialQuadraticProposals final : public Proposals<dim> {
   const OptimizationState<dim>& state_;
   std::vector<BoundConstraint> constraints_;
   BoundaryMotion<dim> motion_;  ///< of the state's shape
-  AtLeastWidth narrow_;  ///< of the state's shape
-  Span pairs_;           ///< of the state's memory
+  AtLeastWidth narrow_;         ///< of the state's shape
+  Span pairs_;                  ///< of the state's memory
 };
 
 }  // namespace wheelwright
