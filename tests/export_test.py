@@ -565,7 +565,7 @@ class Command(unittest.TestCase):
         comb = ("[[shape.polygon]]\ncount = 16\npoints = [[0.24, -0.02], [0.3, -0.02], [0.3, 0.02], [0.28, 0.02], "
                 "[0.275, 0.01], [0.27, 0.02], [0.26, 0.02], [0.255, 0.01], [0.25, 0.02], [0.24, 0.02]]\n")
         drawn, saved = self.fresh() / "drawn.toml", self.fresh() / "saved.toml"
-        settings = PAPER[PAPER.index("[grid]"):].replace("iterations = 12", "iterations = 1")
+        settings = PAPER[PAPER.index("[grid]"):].replace("iterations = 12", "iterations = 0")
         drawn.write_text(comb + settings)
         run_folder = self.fresh() / "run"
         wheelwright("run", drawn, "--output", run_folder, "--threads", 1)

@@ -71,6 +71,8 @@ rim_band = 0.0201
 tread_band = 0.0405
 iterations = 6
 tolerance = 0
+minimum_wall = 0
+minimum_gap = 0
 )");
   EXPECT_LT(expect_a_sound_run(c), 0.99);
 }
