@@ -182,7 +182,7 @@ radial_cells = 14
 angular_cells = 189
 tread_levels = 0
 [optimizer]
-iterations = 10
+iterations = 40
 rim_band = 0.01
 tread_band = 0.02
 """
@@ -487,7 +487,7 @@ class Page(Browser, unittest.TestCase):
 
 
 class RemarksPage(Browser, unittest.TestCase):
-    """The page of a caster that became stiffer, but whose stress grew."""
+    """The page of a caster that became lighter, but whose run-out and strain grew."""
 
     case = """
 [wheel]
@@ -498,6 +498,7 @@ sectors = 10
 [material]
 youngs_modulus = 60e6
 poissons_ratio = 0.45
+density = 1200
 [load]
 mass = 80
 positions = 2
@@ -513,6 +514,11 @@ tread_levels = 1
 iterations = 20
 tread_band = 0.0055
 rim_band = 0.003
+[objective]
+minimize = "mass"
+[[constraint]]
+quantity = "stiffness"
+at_least = "700 N/mm"
 """
 
     def test_the_bounds_of_remarks_can_be_pasted_into_the_case(self):
