@@ -112,7 +112,10 @@ Box Curve::box() const {
     const double low = std::min(from_, to_), high = std::max(from_, to_);
     for (int d = 0; d < 2; ++d) {
       const double extreme = std::atan2(control_[2][d], control_[1][d]);
-      for (double t = extreme + pi * std::ceil((low - extreme) / pi); t <= high; t += pi) {
+      const int last = static_cast<int>(std::floor((high - extreme) / pi));
+      for (int half_turn = static_cast<int>(std::ceil((low - extreme) / pi)); half_turn <= last;
+           ++half_turn) {
+        const double t = extreme + half_turn * pi;
         Point p = start_;
         p[d] = control_[0][d] + std::cos(t) * control_[1][d] + std::sin(t) * control_[2][d];
         box.add(p);

@@ -51,8 +51,9 @@ std::vector<double> polar_values(const Lattice<dim>& lattice, const RingField& f
   std::vector<double> polar = field.values;
   const int per_sector = lattice.nodes()[1], per_line = lattice.nodes_per_line();
   for (int line = 0; line < per_sector * lattice.grid().n_sectors; ++line) {
+    const int sector = line / per_sector;
     const double azimuth =
-        (line % per_sector) * lattice.spacing()[1] + line / per_sector * lattice.grid().sector_angle();
+        (line % per_sector) * lattice.spacing()[1] + sector * lattice.grid().sector_angle();
     const double cosine = std::cos(azimuth), sine = std::sin(azimuth);
     double* u = &polar[dim * ring_node<dim>(lattice, {0, line})];
     for (int node = 0; node < per_line; ++node, u += dim) {
