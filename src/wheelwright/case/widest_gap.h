@@ -10,7 +10,7 @@ struct WidestGap {
   double at_most = 0;   ///< no larger one fits
 };
 
-/// Of the plane shapes of a case, which repeats its sectors: from the distance to their edges at many points.
+/// The case has plane shapes that repeat in its sectors. The width is found from the distance to their edges at many points.
 WidestGap widest_gap(const Case& c);
 
 }  // namespace wheelwright

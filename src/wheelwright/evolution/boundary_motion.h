@@ -36,7 +36,7 @@ class BoundaryMotion {
   std::vector<double> load(std::span<const double> density) const;
 
  private:
-  /// Where a point of the boundary lies.
+  /// A point of the boundary, and how the level set depends on its coefficients there.
   struct Place {
     std::array<int, dim> cell;
     std::array<std::array<double, 4>, dim> weights;  ///< of the coefficients, along each axis

@@ -4,6 +4,7 @@
 #include "wheelwright/evolution/spline_level_set.h"
 
 namespace wheelwright {
+
 template <int dim>
 DeformationSpace<dim>::DeformationSpace(const Lattice<dim>& lattice, std::vector<bool> fixed, double length,
                                         DeformationKind kind)

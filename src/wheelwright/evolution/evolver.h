@@ -109,7 +109,8 @@ class Evolver {
 
   std::optional<Failure> check_widths(const LevelSet<dim>& psi, const FeatureSize& size) const;
 
-  /// What the stages act on, and the shape that a design stands for, which keeps the bands.
+  /// The stages act on the design of a shape. shape_of() returns the shape of a design, which keeps the
+  /// bands.
   LevelSet<dim> design_of(const LevelSet<dim>& psi) const;
   LevelSet<dim> shape_of(LevelSet<dim> design) const;
 

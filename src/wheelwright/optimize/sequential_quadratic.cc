@@ -98,26 +98,24 @@ typename SequentialQuadraticProposals<dim>::Span SequentialQuadraticProposals<di
   return span;
 }
 
-/// What would move into a band, or narrow what is as narrow as it may be, stands still: the move is sought
-/// without it, and again if that sets other parts in motion.
+/// Holds the parts of the boundary that would move into a band, or narrow a wall or a gap that is as narrow
+/// as it may be: the move is sought without them, and again if other parts must then be held too.
 template <int dim>
 Expected<Move<dim>> SequentialQuadraticProposals<dim>::move(double step) const {
   constexpr int most_turns = 5;
   Held held{.nodes = std::vector<bool>(state_.shape.values.size()),
             .points = std::vector<bool>(state_.evaluation.boundary.size())};
   auto motion = motion_;
-  auto move = move_with(motion, held.points, step);
+  auto move = move_with(motion, held, step);
   for (int turn = 0; turn < most_turns && hold_more(motion, move, held); ++turn) {
     motion = motion_.holding(held.nodes);
-    move = move_with(motion, held.points, step);
-    for (std::size_t node = 0; node < held.nodes.size(); ++node)
-      if (held.nodes[node]) move.velocity[node] = 0;
+    move = move_with(motion, held, step);
   }
   if (!std::isfinite(move.step)) return Failure{FailureReason::not_finite, "the velocity"};
   return move;
 }
 
-/// Adds what stands in the way of this move; whether there was more.
+/// Adds the parts that this move would push too far, and returns whether there were any.
 template <int dim>
 bool SequentialQuadraticProposals<dim>::hold_more(const BoundaryMotion<dim>& motion, const Move<dim>& move,
                                                   Held& held) const {
@@ -135,15 +133,17 @@ bool SequentialQuadraticProposals<dim>::hold_more(const BoundaryMotion<dim>& mot
 }
 
 template <int dim>
-Move<dim> SequentialQuadraticProposals<dim>::move_with(const BoundaryMotion<dim>& motion,
-                                                       const std::vector<bool>& held, double step) const {
+Move<dim> SequentialQuadraticProposals<dim>::move_with(const BoundaryMotion<dim>& motion, const Held& held,
+                                                       double step) const {
   const double measure = next_measure(options_, state_, step);
-  const Span span = span_without(motion, held);
+  const Span span = span_without(motion, held.points);
   auto penalties = this->penalties();
   const auto found = step_in(motion, span, state_.measure - measure, step, penalties);
   const auto& space = evolver_.deformations();
   auto deformation = combination(found.coefficients, span.deformations);
   auto velocity = space.speeds(state_.shape, deformation);
+  for (std::size_t node = 0; node < velocity.size(); ++node)
+    if (held.nodes[node]) velocity[node] = 0;
   const double resolution = state_.shape.lattice.grid().resolution();
   const double distance = largest_magnitude(velocity) / resolution,
                farthest = largest_magnitude(motion.speeds(deformation));

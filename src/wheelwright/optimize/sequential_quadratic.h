@@ -32,14 +32,15 @@ class SequentialQuadraticProposals final : public Proposals<dim> {
     Matrix products() const;
   };
 
-  /// What stands still: coefficients of the level set at the bands, points of the boundary at what is narrow.
+  /// The parts that a move leaves where they are: coefficients of the level set that a band stops, and points
+  /// of the boundary at walls and gaps of the least width. One flag each.
   struct Held {
     std::vector<bool> nodes, points;
   };
 
   bool hold_more(const BoundaryMotion<dim>& motion, const Move<dim>& move, Held& held) const;
   Span span_without(const BoundaryMotion<dim>& motion, const std::vector<bool>& held) const;
-  Move<dim> move_with(const BoundaryMotion<dim>& motion, const std::vector<bool>& held, double step) const;
+  Move<dim> move_with(const BoundaryMotion<dim>& motion, const Held& held, double step) const;
   QuadraticStep step_in(const BoundaryMotion<dim>& motion, const Span& span, double gap, double step,
                         std::vector<double>& penalties) const;
   std::vector<double> penalties() const;
