@@ -10,7 +10,7 @@ struct WidestGap {
   double at_most = 0;   ///< no larger one fits
 };
 
-/// The case has plane shapes that repeat in its sectors. The width is found from the distance to their edges at many points.
+/// Finds the width from the distance to the edges of plane shapes at many points. The case repeats its sectors.
 WidestGap widest_gap(const Case& c);
 
 }  // namespace wheelwright
