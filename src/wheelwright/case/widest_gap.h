@@ -10,7 +10,8 @@ struct WidestGap {
   double at_most = 0;   ///< no larger one fits
 };
 
-/// Finds the width from the distance to the edges of plane shapes at many points. The case repeats its sectors.
+/// Finds the width from the distance to the edges of plane shapes at many points. The case repeats its
+/// sectors.
 WidestGap widest_gap(const Case& c);
 
 }  // namespace wheelwright
