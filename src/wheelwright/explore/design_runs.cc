@@ -102,6 +102,7 @@ double largest_violation(const nlohmann::json& bounds) {
 void read_summary(const fs::path& folder, DesignResult& result) {
   if (!is_there(folder / "summary.json")) return;
   const auto summary = nlohmann::json::parse(content(folder / "summary.json"));
+  if (!summary.contains("after")) return;
   if (summary.contains("bounds")) result.violation = largest_violation(summary["bounds"]);
   const auto& after = summary.at("after");
   auto& numbers = result.numbers;

@@ -110,6 +110,12 @@ std::string summary_json(const RunSummary<dim>& summary) {
   return json.dump(2) + '\n';
 }
 
+std::string failure_json(const std::string& title, const Failure& failure) {
+  const Json json{{"title", title},
+                  {"failure", {{"reason", to_string(failure.reason)}, {"detail", failure.detail}}}};
+  return json.dump(2) + '\n';
+}
+
 template std::vector<std::string> missing_lines(const RunSummary<2>&);
 template std::vector<std::string> missing_lines(const RunSummary<3>&);
 template std::string summary_table(const RunSummary<2>&);

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "wheelwright/base/expected.h"
 #include "wheelwright/report/described_wheel.h"
 #include "wheelwright/report/remark.h"
 
@@ -56,5 +57,8 @@ std::string summary_table(const RunSummary<dim>& summary);
 /// double; one that could not be computed is null.
 template <int dim>
 std::string summary_json(const RunSummary<dim>& summary);
+
+/// The same of a run that has no shape, because its initial one cannot be computed: its title, and why.
+std::string failure_json(const std::string& title, const Failure& failure);
 
 }  // namespace wheelwright

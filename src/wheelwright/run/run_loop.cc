@@ -9,6 +9,7 @@
 #include "wheelwright/cut/measure.h"
 #include "wheelwright/evolution/regrid.h"
 #include "wheelwright/files/atomic_file.h"
+#include "wheelwright/run/filled_holes.h"
 #include "wheelwright/run/nucleated_shape.h"
 #include "wheelwright/run/on_other_grid.h"
 #include "wheelwright/run/own_drawings.h"
@@ -71,6 +72,8 @@ template <int dim>
 RunResult<dim> RunLoop<dim>::begin() {
   write_case_file();
   notify(RunStarted{});
+  if (const auto fault = filled_holes(work_->study.initial, work_->study.evolution))
+    return end_without_a_shape(*fault);
   stops_before_ = commands_.waiting_stops();
   auto state = work_->optimizer.start(
       work_->study.initial,

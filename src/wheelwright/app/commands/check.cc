@@ -11,6 +11,7 @@
 #include "wheelwright/run/bound_warnings.h"
 #include "wheelwright/run/case_report.h"
 #include "wheelwright/run/feature_warnings.h"
+#include "wheelwright/run/filled_holes.h"
 #include "wheelwright/run/loose_material.h"
 #include "wheelwright/run/plane_comparison.h"
 #include "wheelwright/run/predicted_deformation.h"
@@ -32,6 +33,13 @@ class CheckCommand : public Subcommand {
     const auto loose = lack ? std::vector<std::string>() : loose_material(*c);
     for (const std::string& piece : loose) tell("{}: {}\n", case_file_, piece);
     if (!loose.empty()) return exit_usage;
+    const auto filled = lack ? std::nullopt : in_dimension_of(*c, [&](auto dim) {
+      return filled_holes(initial_shape<dim>(*c), evolution_options(*c));
+    });
+    if (filled) {
+      tell("{}: {}\n", case_file_, filled->detail);
+      return exit_usage;
+    }
     print("{}\n", styled(stdout, Style::green, case_file_ + ": no problems"));
     print_lines(stdout, derived_report(*c));
     if (lack) {

@@ -1,0 +1,75 @@
+#include "wheelwright/run/filled_holes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "wheelwright/evolution/protected_bands.h"
+
+namespace wheelwright {
+namespace {
+
+template <int dim>
+bool has_holes(const LevelSet<dim>& shape) {
+  return std::ranges::any_of(shape.values, [](double value) { return value > 0; });
+}
+
+/// What a width leaves of a shape.
+template <int dim>
+class Mending {
+ public:
+  Mending(const LevelSet<dim>& initial, const Bands& bands)
+      : initial_(initial), bands_(initial.lattice, bands) {}
+
+  bool leaves_holes(const FeatureSize& size) const {
+    return has_holes(bands_.keep(with_feature_size(initial_, size)));
+  }
+
+  /// Up to a sixteenth of the given width, which leaves none.
+  double widest_that_leaves_holes(double width, double FeatureSize::*kind) const {
+    constexpr int bisections = 4;
+    double leaves = 0, fills = width;
+    for (int k = 0; k < bisections; ++k) {
+      FeatureSize size;
+      size.*kind = 0.5 * (leaves + fills);
+      (leaves_holes(size) ? leaves : fills) = size.*kind;
+    }
+    return leaves;
+  }
+
+ private:
+  const LevelSet<dim>& initial_;
+  ProtectedBands<dim> bands_;
+};
+
+}  // namespace
+
+template <int dim>
+std::optional<Failure> filled_holes(const LevelSet<dim>& initial, const EvolutionOptions& options) {
+  const FeatureSize& asked = options.features;
+  if (!asked.any() || !has_holes(initial)) return {};
+  const Mending<dim> mending(initial, options.bands);
+  if (mending.leaves_holes(asked)) return {};
+  constexpr double mm = 1e3;
+  const auto fault = [&](const char* key, double FeatureSize::*kind) -> std::optional<Failure> {
+    FeatureSize size;
+    size.*kind = asked.*kind;
+    if (mending.leaves_holes(size)) return {};
+    return Failure{
+        FailureReason::too_narrow,
+        fmt::format("optimizer.{} = {:.4g} mm fills all holes of the initial shape; {:.4g} mm "
+                    "leaves some",
+                    key, asked.*kind * mm, mending.widest_that_leaves_holes(asked.*kind, kind) * mm)};
+  };
+  if (auto gap = fault("minimum_gap", &FeatureSize::gap)) return gap;
+  if (auto wall = fault("minimum_wall", &FeatureSize::wall)) return wall;
+  return Failure{FailureReason::too_narrow,
+                 fmt::format("optimizer.minimum_wall = {:.4g} mm and optimizer.minimum_gap = {:.4g} mm "
+                             "together fill all holes of the initial shape; take less for one of them",
+                             asked.wall * mm, asked.gap * mm)};
+}
+
+template std::optional<Failure> filled_holes(const LevelSet<2>&, const EvolutionOptions&);
+template std::optional<Failure> filled_holes(const LevelSet<3>&, const EvolutionOptions&);
+
+}  // namespace wheelwright

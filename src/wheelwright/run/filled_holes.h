@@ -1,0 +1,16 @@
+#pragma once
+
+#include <optional>
+
+#include "wheelwright/base/expected.h"
+#include "wheelwright/evolution/evolver.h"
+#include "wheelwright/geometry/level_set.h"
+
+namespace wheelwright {
+
+/// Why no run can begin with an initial shape: the minimum widths of walls and gaps fill all of its holes.
+/// Names the key, its value and a width that leaves holes. Nothing where holes are left, or were none.
+template <int dim>
+std::optional<Failure> filled_holes(const LevelSet<dim>& initial, const EvolutionOptions& options);
+
+}  // namespace wheelwright
