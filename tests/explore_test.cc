@@ -281,15 +281,15 @@ TEST(SetNumber, TakesUnitsAsACaseFileDoes) {
   EXPECT_TRUE(set_number(c, "constraint[1].at_least", 600, "MPa"));
   EXPECT_TRUE(set_number(c, "grid.radial_cells", 42, "mm"));
   EXPECT_EQ(c, before);
-  const auto designs = sweep_designs(c, "test.toml", {{"constraint[1].at_least", {700, 800}, "N/mm"}});
+  const auto designs = sweep_designs(c, {}, "test.toml", {{"constraint[1].at_least", {700, 800}, "N/mm"}});
   ASSERT_TRUE(designs) << designs.failure().text;
   EXPECT_DOUBLE_EQ(*designs->back().source.constraints[0].at_least, 800e3 / c.wheel.width);
 }
 
 TEST(Sweep, HoldsEveryCombinationOnce) {
   const Case c = case_of(usual_wheel);
-  const auto designs =
-      sweep_designs(c, "test.toml", {{"load.mass", {100, 200}}, {"objective.uniformity_dual", {0, 1, 10}}});
+  const auto designs = sweep_designs(c, {}, "test.toml",
+                                     {{"load.mass", {100, 200}}, {"objective.uniformity_dual", {0, 1, 10}}});
   ASSERT_TRUE(designs);
   ASSERT_EQ(designs->size(), 6u);
   EXPECT_DOUBLE_EQ((*designs)[4].source.load.force, 1962);
@@ -298,12 +298,29 @@ TEST(Sweep, HoldsEveryCombinationOnce) {
   for (const Design& design : *designs)
     seen.insert({design.source.load.force, design.source.objective.uniformity_dual});
   EXPECT_EQ(seen.size(), 6u);
-  const auto bad = sweep_designs(c, "test.toml", {{"holes.ring[1].radius", {0.03, 0.06}}});
+  const auto bad = sweep_designs(c, {}, "test.toml", {{"holes.ring[1].radius", {0.03, 0.06}}});
   ASSERT_FALSE(bad);
   EXPECT_NE(bad.failure().text.find("0.06"), std::string::npos);
   EXPECT_FALSE(sweep_designs(
-      c, "test.toml",
+      c, {}, "test.toml",
       {{"load.mass", std::vector<double>(40, 1)}, {"load.torque", std::vector<double>(40, 1)}}));
+}
+
+TEST(Sweep, FitsTheSizesOfTheGridThatTheFileDoesNotGive) {
+  const Case c =
+      case_of("[[holes.ring]]\ncount = 36\ncenter_radius = 0.27\nradius = 0.015\n[wheel]\nsectors = 4\n");
+  const SweptKey sectors{"wheel.sectors", {4, 9, 18}};
+  const auto fitted = sweep_designs(c, {}, "test.toml", {sectors});
+  ASSERT_TRUE(fitted) << fitted.failure().text;
+  for (const Design& design : *fitted) {
+    EXPECT_EQ(design.source.grid.angular_cells % design.source.wheel.sectors, 0) << design.text;
+    EXPECT_NEAR(design.source.grid.angular_cells, 384, 9) << design.text;
+  }
+  EXPECT_FALSE(sweep_designs(c, {.angular = true}, "test.toml", {sectors}));
+  const auto swept =
+      sweep_designs(c, {}, "test.toml", {{"grid.angular_cells", {384, 432}}, {"wheel.sectors", {4}}});
+  ASSERT_TRUE(swept) << swept.failure().text;
+  EXPECT_EQ(swept->back().source.grid.angular_cells, 432);
 }
 
 class Exploration : public TemporaryFolder {

@@ -8,7 +8,7 @@ namespace wheelwright {
 
 /// Which sizes of the grid a case file gives.
 struct GivenCells {
-  bool radial, angular, axial;
+  bool radial = false, angular = false, axial = false;
 };
 
 /// The case with the sizes of its grid that are not given moved to the nearest ones that fit: whole cells in

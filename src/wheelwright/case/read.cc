@@ -582,9 +582,10 @@ CaseResult interpret(const TomlLines& toml, const std::filesystem::path& file) {
   if (!reading.entries.contains("wheel.sectors"))
     result.wheel.sectors = sectors_by_drawings(result).value_or(result.wheel.sectors);
   const auto is_given = [&](const char* key) { return reading.entries.contains(key); };
-  result = with_fitting_grid(std::move(result), {.radial = is_given("grid.radial_cells"),
-                                                 .angular = is_given("grid.angular_cells"),
-                                                 .axial = is_given("grid.axial_cells")});
+  const GivenCells given_cells{.radial = is_given("grid.radial_cells"),
+                               .angular = is_given("grid.angular_cells"),
+                               .axial = is_given("grid.axial_cells")};
+  result = with_fitting_grid(std::move(result), given_cells);
   if (syntax.empty()) check_conflicts(reading, result);
   if (syntax.empty() && toml.root.empty())
     return failed({.kind = Kind::empty,
@@ -600,9 +601,9 @@ CaseResult interpret(const TomlLines& toml, const std::filesystem::path& file) {
     return std::tie(a.line, a.column) < std::tie(b.line, b.column);
   });
   problems.insert(problems.end(), in_drawings.begin(), in_drawings.end());
-  if (!problems.empty()) return {std::nullopt, std::move(problems)};
+  if (!problems.empty()) return {std::nullopt, std::move(problems), given_cells};
   if (result.output.folder.empty()) result.output.folder = default_folder(file);
-  return {std::move(result), {}};
+  return {std::move(result), {}, given_cells};
 }
 
 }  // namespace

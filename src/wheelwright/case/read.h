@@ -8,6 +8,7 @@
 
 #include "wheelwright/case/case.h"
 #include "wheelwright/case/diagnostic.h"
+#include "wheelwright/case/fitting_grid.h"
 
 namespace wheelwright {
 
@@ -16,6 +17,7 @@ namespace wheelwright {
 struct CaseResult {
   std::optional<Case> value;  ///< present if and only if there are no problems
   std::vector<Diagnostic> problems;
+  GivenCells given_cells = {};  ///< the other sizes of the grid follow from the rest of the case
 };
 
 /// Reads and checks a case file.

@@ -213,6 +213,15 @@ void check_number_of_curves(const std::vector<DrawnShape>& shapes, Conflicts& fo
   }
 }
 
+/// Finds shapes that draw nothing but material where no hole is: the wheel would begin as a full ring.
+void check_material_on_the_ring(const Case& c, const std::vector<DrawnShape>& shapes, Conflicts& found) {
+  const auto is_hole = [](const DrawnShape& shape) { return shape.fill == Fill::hole; };
+  if (shapes.empty() || c.holes != Holes{} || std::ranges::any_of(shapes, is_hole)) return;
+  found.push_back({{shapes.front().key},
+                   "it draws material where all is material: nothing is cut out of the ring",
+                   "put [[shape.annulus]] before it, or give as = \"hole\""});
+}
+
 }  // namespace
 
 std::vector<std::string> with_ring_shape(std::vector<std::string> keys) {
@@ -235,6 +244,7 @@ std::vector<Conflict> shape_conflicts(const Case& c, const std::vector<DrawnShap
     if (shape.repetition == Repetition::by_count) check_crossings(shape, found);
     check_repetition(c, shapes, shape, found);
   }
+  check_material_on_the_ring(c, shapes, found);
   return found;
 }
 

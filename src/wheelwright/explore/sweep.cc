@@ -12,6 +12,25 @@ namespace {
 
 constexpr std::size_t most_designs = 999;
 
+/// With the sizes of the grid that a file with the other keys would have.
+Case with_default_grid(Case c, const GivenCells& given) {
+  const Grid usual;
+  if (!given.radial) c.grid.radial_cells = usual.radial_cells;
+  if (!given.angular) c.grid.angular_cells = usual.angular_cells;
+  if (!given.axial) c.grid.axial_cells = usual.axial_cells;
+  return with_fitting_grid(std::move(c), given);
+}
+
+/// The sizes that the case file or the sweep gives.
+GivenCells with_swept(GivenCells given, const std::vector<SweptKey>& keys) {
+  for (const SweptKey& swept : keys) {
+    given.radial |= swept.key == "grid.radial_cells";
+    given.angular |= swept.key == "grid.angular_cells";
+    given.axial |= swept.key == "grid.axial_cells";
+  }
+  return given;
+}
+
 /// The case as a file of its own would give it; what is wrong with it otherwise.
 Expected<Case, SweepProblem> checked(const Case& c, const std::filesystem::path& file,
                                      const std::string& text) {
@@ -24,7 +43,8 @@ Expected<Case, SweepProblem> checked(const Case& c, const std::filesystem::path&
 
 }  // namespace
 
-Expected<std::vector<Design>, SweepProblem> sweep_designs(const Case& c, const std::filesystem::path& file,
+Expected<std::vector<Design>, SweepProblem> sweep_designs(const Case& c, const GivenCells& given_cells,
+                                                          const std::filesystem::path& file,
                                                           const std::vector<SweptKey>& keys) {
   std::size_t n = 1;
   for (const SweptKey& swept : keys) n *= swept.values.size();
@@ -46,7 +66,7 @@ Expected<std::vector<Design>, SweepProblem> sweep_designs(const Case& c, const s
       design.parameters.emplace_back(
           swept.unit.empty() ? swept.key : fmt::format("{} [{}]", swept.key, swept.unit), value);
     }
-    auto valid = checked(source, file, design.text);
+    auto valid = checked(with_default_grid(source, with_swept(given_cells, keys)), file, design.text);
     if (!valid) return valid.failure();
     design.source = *std::move(valid);
     design.source.title = design.text;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "wheelwright/base/expected.h"
+#include "wheelwright/case/fitting_grid.h"
 #include "wheelwright/explore/design.h"
 
 namespace wheelwright {
@@ -22,8 +23,9 @@ struct SweepProblem {
 };
 
 /// One design for every combination of the values; the values of the last key change fastest. The file is the
-/// case's, from whose folder it reads drawings.
-Expected<std::vector<Design>, SweepProblem> sweep_designs(const Case& c, const std::filesystem::path& file,
+/// case's, from whose folder it reads drawings. Sizes of the grid that it does not give fit each design.
+Expected<std::vector<Design>, SweepProblem> sweep_designs(const Case& c, const GivenCells& given_cells,
+                                                          const std::filesystem::path& file,
                                                           const std::vector<SweptKey>& keys);
 
 }  // namespace wheelwright

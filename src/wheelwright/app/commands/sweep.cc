@@ -12,6 +12,7 @@
 #include "wheelwright/app/number_list.h"
 #include "wheelwright/app/shared_options.h"
 #include "wheelwright/app/terminal.h"
+#include "wheelwright/case/read.h"
 #include "wheelwright/case/write.h"
 
 namespace wheelwright {
@@ -59,7 +60,7 @@ class SweepCommand : public Subcommand {
     const auto c = read_or_tell(case_file_);
     if (!c) return exit_usage;
     if (!is_plane_or_tell(name(), *c, case_file_)) return exit_refused;
-    const auto designs = sweep_designs(*c, case_file_, keys);
+    const auto designs = sweep_designs(*c, read_case(case_file_).given_cells, case_file_, keys);
     if (!designs) {
       tell("wheelwright {}: {}\n", name(), designs.failure().text);
       return exit_usage;
