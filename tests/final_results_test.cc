@@ -5,6 +5,7 @@
 #include "tests/run_support.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/report/comparison_table.h"
+#include "wheelwright/run/expectations.h"
 #include "wheelwright/run/run_report.h"
 
 namespace wheelwright::testing {
@@ -183,6 +184,26 @@ TEST_F(ResultsOfARun, AreASummaryWithoutAnySolution) {
   const auto json = nlohmann::json::parse(summary_json(none.summary));
   EXPECT_TRUE(json["after"]["objective_J_per_m"].is_number());
   EXPECT_EQ(json["after"]["missing"]["run_out_m"], told);
+}
+
+TEST_F(ResultsOfARun, TellWhyWhatIsExpectedIsNotKnown) {
+  const Study<2> study = this->study(
+      "[[load.case]]\nname = \"straight\"\n[[load.case]]\nname = \"kerb\"\nmass = 400\n"
+      "[[expect]]\nquantity = \"stiffness\"\nvalue = 1\n"
+      "[[expect]]\nquantity = \"stiffness\"\nvalue = 1\nload_case = \"kerb\"\n"
+      "[[expect]]\nquantity = \"stiffness\"\nvalue = 1\niteration = 9\n");
+  for (const int most_solves : {0, 2}) {
+    const FinalResults<2> some = results(study, most_solves);
+    const auto found =
+        findings<2>(study.source.expectations, {}, *study.solver, study.load_cases, *state_, some.own);
+    ASSERT_EQ(found.size(), 3u);
+    EXPECT_EQ(static_cast<bool>(found[0].found), most_solves > 0);
+    ASSERT_FALSE(found[1].found);
+    EXPECT_EQ(found[1].found.failure(), told);
+    EXPECT_NE(found[1].text().find(told), std::string::npos);
+    ASSERT_FALSE(found[2].found);  // the run ended with shape 1
+    EXPECT_NE(found[2].found.failure(), told);
+  }
 }
 
 }  // namespace

@@ -45,14 +45,14 @@ void expect_as_expected_in(const Case& c) {
       [&](const Trial<dim>& trial, const OptimizationState<dim>& state) {
         if (trial.verdict != Verdict::accepted) return;
         for (auto& quantity :
-             found_quantities(c.expectations, *study->solver, study->load_cases, state, *trial.solution))
+             found_quantities(c.expectations, *study->solver, study->load_cases, state, trial.solution))
           found.push_back(std::move(quantity));
         last_solution = trial.solution;
       },
       [] { return false; });
   ASSERT_TRUE(outcome.state) << outcome.failure->detail;
-  for (const Finding& finding : findings<dim>(c.expectations, found, *study->solver, study->load_cases,
-                                              *outcome.state, last_solution.get()))
+  for (const Finding& finding :
+       findings<dim>(c.expectations, found, *study->solver, study->load_cases, *outcome.state, last_solution))
     EXPECT_TRUE(finding.met()) << finding.text();
 }
 

@@ -18,22 +18,27 @@ std::optional<double> named_value(const std::vector<NamedValue>& values, std::st
   return found == values.end() ? std::nullopt : std::optional(found->value);
 }
 
+std::string why(const Failure& failure) {
+  return fmt::format("{}: {}", to_string(failure.reason), failure.detail);
+}
+
 template <int dim>
-std::optional<double> clearance(Quantity quantity, const LevelSet<dim>& shape) {
+KnownNumber clearance(Quantity quantity, const LevelSet<dim>& shape) {
   const auto measured = outline_measures(shape);
-  if (!measured) return {};
+  if (!measured) return measured.failure().what;
   const cad::Clearances& clearances = measured->clearances;
   const auto& clearance = quantity == Quantity::minimum_wall ? clearances.wall : clearances.gap;
-  return clearance ? std::optional(clearance->width) : std::nullopt;
+  if (!clearance) return std::string("the shape has none");
+  return clearance->width;
 }
 
 /// What no history has: from the solution.
 template <int dim>
-std::optional<double> computed(Quantity quantity, const StateSolver<dim>& solver, const LevelSet<dim>& shape,
-                               const State<dim>& solution) {
+KnownNumber computed(Quantity quantity, const StateSolver<dim>& solver, const LevelSet<dim>& shape,
+                     const State<dim>& solution) {
   const QuantityParameters parameters{.density = solver.model().materials.at_tread().density.value_or(0)};
   const auto functional = quantity_functional<dim>(quantity, usual_positions(quantity), parameters);
-  if (!functional) return {};
+  if (!functional) return std::string("runs do not compute it");
   const FunctionalValue<dim> value = functional->evaluate(solver, shape, solution, {});
   return value.over_positions.value_or(value.of_shape);
 }
@@ -53,32 +58,31 @@ std::string quantity_name(const Expectation& expectation, const LoadCases<dim>& 
 
 /// `solution` is that of the load case.
 template <int dim>
-std::optional<double> value_under(const std::string& in_history, Quantity quantity,
-                                  const StateSolver<dim>& solver, const OptimizationState<dim>& state,
-                                  const State<dim>* solution) {
+KnownNumber value_under(const std::string& in_history, Quantity quantity, const StateSolver<dim>& solver,
+                        const OptimizationState<dim>& state, const SolvedStates<dim>& solution) {
   const Evaluation<dim>& evaluation = state.evaluation;
   if (quantity == Quantity::objective) return evaluation.function("objective").value;
   if (quantity == Quantity::volume_fraction) return volume_fraction(solver.model().grid, state.measure);
-  if (quantity == Quantity::peak_von_mises)
-    return solution ? std::optional(std::ranges::max(solution->strain_peaks().von_mises)) : std::nullopt;
-  if (const auto functional = named_value(evaluation.terms, in_history)) return functional;
-  if (const auto measure = named_value(evaluation.measures, in_history)) return measure;
+  if (const auto functional = named_value(evaluation.terms, in_history)) return *functional;
+  if (const auto measure = named_value(evaluation.measures, in_history)) return *measure;
   if (quantity == Quantity::minimum_wall || quantity == Quantity::minimum_gap)
     return clearance(quantity, state.shape);
-  return solution ? computed(quantity, solver, state.shape, *solution) : std::nullopt;
+  if (!solution) return why(solution.failure());
+  if (quantity == Quantity::peak_von_mises) return std::ranges::max((*solution)->strain_peaks().von_mises);
+  return computed(quantity, solver, state.shape, **solution);
 }
 
 /// `solution` is that of the first load case.
 template <int dim>
-std::optional<double> value_of(const Expectation& expectation, const StateSolver<dim>& solver,
-                               const LoadCases<dim>& cases, const OptimizationState<dim>& state,
-                               const State<dim>* solution) {
+KnownNumber value_of(const Expectation& expectation, const StateSolver<dim>& solver,
+                     const LoadCases<dim>& cases, const OptimizationState<dim>& state,
+                     const SolvedStates<dim>& solution) {
   const std::string in_history = quantity_name(expectation, cases);
   const int load_case = place_of(cases, expectation.load_case);
   if (load_case == 0 || !solution)
     return value_under(in_history, expectation.quantity, solver, state, solution);
-  const auto other = solution->under(cases[load_case].model, Interrupt());
-  return value_under(in_history, expectation.quantity, solver, state, other ? other->get() : nullptr);
+  return value_under(in_history, expectation.quantity, solver, state,
+                     (*solution)->under(cases[load_case].model, Interrupt()));
 }
 
 }  // namespace
@@ -95,7 +99,7 @@ std::string Finding::text() const {
   const std::string quantity = fmt::format("{}{} of {}", name(expectation.quantity), in_case, shape);
   const std::string expected =
       fmt::format("{:.6g} within {:.3g} %", expectation.value, 100 * expectation.margin);
-  if (!found) return fmt::format("{}: not computed, expected {}", quantity, expected);
+  if (!found) return fmt::format("{}: not known ({}), expected {}", quantity, found.failure(), expected);
   return fmt::format("{}: {:.6g}, {} {}", quantity, *found, met() ? "as expected," : "expected", expected);
 }
 
@@ -113,7 +117,7 @@ void ExpectationWatch<dim>::operator()(const Event<dim>& event, const RunView<di
   const int iteration = done->state.iteration;
   std::erase_if(found_, [&](const FoundQuantity& f) { return f.iteration == iteration; });
   for (auto& found : found_quantities(expectations_, *run.study.solver, run.study.load_cases, done->state,
-                                      *done->trial.solution))
+                                      done->trial.solution))
     found_.push_back(std::move(found));
 }
 
@@ -125,11 +129,12 @@ void ExpectationWatch<dim>::add_to(Checkpoint<dim>& checkpoint) {
 template <int dim>
 std::vector<FoundQuantity> found_quantities(const std::vector<Expectation>& expectations,
                                             const StateSolver<dim>& solver, const LoadCases<dim>& cases,
-                                            const OptimizationState<dim>& state, const State<dim>& solution) {
+                                            const OptimizationState<dim>& state,
+                                            const std::shared_ptr<const State<dim>>& solution) {
   std::vector<FoundQuantity> result;
   for (const Expectation& expectation : expectations)
     if (expectation.iteration == state.iteration)
-      if (const auto value = value_of(expectation, solver, cases, state, &solution))
+      if (const auto value = value_of(expectation, solver, cases, state, SolvedStates<dim>(solution)))
         result.push_back({state.iteration, quantity_name(expectation, cases), *value});
   return result;
 }
@@ -138,7 +143,7 @@ template <int dim>
 std::vector<Finding> findings(const std::vector<Expectation>& expectations,
                               const std::vector<FoundQuantity>& found, const StateSolver<dim>& solver,
                               const LoadCases<dim>& cases, const OptimizationState<dim>& last,
-                              const State<dim>* solution) {
+                              const SolvedStates<dim>& solution) {
   std::vector<Finding> result;
   for (const Expectation& expectation : expectations) {
     if (!expectation.iteration) {
@@ -148,7 +153,10 @@ std::vector<Finding> findings(const std::vector<Expectation>& expectations,
     const auto noted = std::ranges::find_if(found, [&](const FoundQuantity& f) {
       return expectation.iteration == f.iteration && quantity_name(expectation, cases) == f.quantity;
     });
-    result.push_back({expectation, noted == found.end() ? std::nullopt : std::optional(noted->value)});
+    const KnownNumber missing = last.iteration < *expectation.iteration
+                                    ? fmt::format("the run ended with shape {}", last.iteration)
+                                    : std::string("it could not be computed of this shape");
+    result.push_back({expectation, noted == found.end() ? missing : noted->value});
   }
   return result;
 }
@@ -165,12 +173,12 @@ bool need_a_solution(const std::vector<Expectation>& expectations) {
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                         \
   template class ExpectationWatch<dim>;                                                                      \
-  template std::vector<FoundQuantity> found_quantities(const std::vector<Expectation>&,                      \
-                                                       const StateSolver<dim>&, const LoadCases<dim>&,       \
-                                                       const OptimizationState<dim>&, const State<dim>&);    \
+  template std::vector<FoundQuantity> found_quantities(                                                      \
+      const std::vector<Expectation>&, const StateSolver<dim>&, const LoadCases<dim>&,                       \
+      const OptimizationState<dim>&, const std::shared_ptr<const State<dim>>&);                              \
   template std::vector<Finding> findings(const std::vector<Expectation>&, const std::vector<FoundQuantity>&, \
                                          const StateSolver<dim>&, const LoadCases<dim>&,                     \
-                                         const OptimizationState<dim>&, const State<dim>*);
+                                         const OptimizationState<dim>&, const SolvedStates<dim>&);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)
 #undef WHEELWRIGHT_INSTANTIATE

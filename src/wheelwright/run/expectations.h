@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "wheelwright/report/described_wheel.h"
 #include "wheelwright/run/observer.h"
 
 namespace wheelwright {
@@ -11,7 +12,7 @@ namespace wheelwright {
 /// What a run found for one expectation of its case.
 struct Finding {
   Expectation expectation;
-  std::optional<double> found;  ///< empty: the shape was not reached
+  KnownNumber found;  ///< or why it is not known, e.g. because the shape was not reached
 
   /// Whether it is as expected.
   bool met() const;
@@ -38,15 +39,16 @@ class ExpectationWatch : public Observer<dim> {
 template <int dim>
 std::vector<FoundQuantity> found_quantities(const std::vector<Expectation>& expectations,
                                             const StateSolver<dim>& solver, const LoadCases<dim>& cases,
-                                            const OptimizationState<dim>& state, const State<dim>& solution);
+                                            const OptimizationState<dim>& state,
+                                            const std::shared_ptr<const State<dim>>& solution);
 
 /// One finding for each expectation, in their order: from what was found along the way and from the last
-/// accepted shape. Without the last shape's solution, its stress is not computed.
+/// accepted shape, whose solution this is, or why there is none.
 template <int dim>
 std::vector<Finding> findings(const std::vector<Expectation>& expectations,
                               const std::vector<FoundQuantity>& found, const StateSolver<dim>& solver,
                               const LoadCases<dim>& cases, const OptimizationState<dim>& last,
-                              const State<dim>* solution);
+                              const SolvedStates<dim>& solution);
 
 /// Whether any of them is about the stress, which is only known from a solution.
 bool need_a_solution(const std::vector<Expectation>& expectations);

@@ -66,7 +66,7 @@ FinalResults<dim> final_results(const Study<dim>& study, const InitialShape<dim>
     return described(*solver, study.load_cases, study.initial, measure, solutions.of(*solver, study.initial));
   }();
   auto summary = summarized_run(study, initial, before, state, after, interrupt);
-  return {.own = own ? *own : nullptr,
+  return {.own = own,
           .solver = solver,
           .shown = shown ? *shown : nullptr,
           .summary = std::move(summary),

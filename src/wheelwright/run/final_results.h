@@ -21,7 +21,7 @@ struct SolvedShapes {
 /// The last shape of a run, as its results show it.
 template <int dim>
 struct FinalResults {
-  std::shared_ptr<const State<dim>> own;  ///< by the study's solver; null where it was interrupted or failed
+  SolvedStates<dim> own;                           ///< by the study's solver
   std::shared_ptr<const StateSolver<dim>> solver;  ///< of `shown`
   /// On the tread of the results, which is finer where the case lets the program choose it; else `own`.
   std::shared_ptr<const State<dim>> shown;

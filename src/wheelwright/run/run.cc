@@ -39,11 +39,10 @@ Expected<std::vector<Finding>> findings_at(const Case& c, const Checkpoint<dim>&
   if (c.expectations.empty()) return std::vector<Finding>{};
   const auto study = make_study<dim>(c);
   if (!study) return study.failure();
-  if (!need_a_solution(c.expectations))
-    return findings<dim>(c.expectations, end.found, *study->solver, study->load_cases, end.state, nullptr);
-  const auto states = study->solver->states(end.state.shape, study->solver->all_positions(), Interrupt());
-  return findings<dim>(c.expectations, end.found, *study->solver, study->load_cases, end.state,
-                       states ? states->get() : nullptr);
+  SolvedStates<dim> states = Failure{FailureReason::interrupted, "no expectation needs a solution"};
+  if (need_a_solution(c.expectations))
+    states = study->solver->states(end.state.shape, study->solver->all_positions(), Interrupt());
+  return findings<dim>(c.expectations, end.found, *study->solver, study->load_cases, end.state, states);
 }
 
 template <int dim>

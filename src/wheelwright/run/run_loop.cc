@@ -249,7 +249,7 @@ RunResult<dim> RunLoop<dim>::end(StopReason reason) {
                        failed_trials_});
   RunResult<dim> ended = result(reason);
   ended.summary = results.summary;
-  if (reason != StopReason::stop_requested) ended.findings = findings_at_the_end(results.own.get());
+  if (reason != StopReason::stop_requested) ended.findings = findings_at_the_end(results.own);
   return ended;
 }
 
@@ -285,7 +285,7 @@ RunResult<dim> RunLoop<dim>::result(StopReason reason) const {
 }
 
 template <int dim>
-std::vector<Finding> RunLoop<dim>::findings_at_the_end(const State<dim>* solution) {
+std::vector<Finding> RunLoop<dim>::findings_at_the_end(const SolvedStates<dim>& solution) {
   const auto& expectations = work_->study.source.expectations;
   if (expectations.empty()) return {};
   Checkpoint<dim> noted{.provenance = {},

@@ -70,7 +70,7 @@ class RunLoop : private RunControl {
   RunResult<dim> end(StopReason reason);
   RunResult<dim> end_without_a_shape(const Failure& failure);
   RunResult<dim> end_between_grids(const Failure& failure);
-  std::vector<Finding> findings_at_the_end(const State<dim>* solution);
+  std::vector<Finding> findings_at_the_end(const SolvedStates<dim>& solution);
   RunResult<dim> result(StopReason reason) const;
 
   void observe(const Trial<dim>& trial, const OptimizationState<dim>& state);
