@@ -6,6 +6,7 @@
 #include "wheelwright/app/exit_code.h"
 #include "wheelwright/app/memory.h"
 #include "wheelwright/app/shared_options.h"
+#include "wheelwright/app/slow_stage.h"
 #include "wheelwright/app/terminal.h"
 #include "wheelwright/case/dimension.h"
 #include "wheelwright/run/bound_warnings.h"
@@ -51,15 +52,12 @@ class CheckCommand : public Subcommand {
     if (change) print("{}\n", text(*change));
     const auto clearances = initial_clearances(*c);
     if (clearances) print_lines(stdout, clearance_report(*clearances));
-    const auto planes = c->wheel.dimension == 2 && c->contact.with == Counterpart::ground
-                            ? std::optional(compare_planes(*c, tell_contact_progress()))
-                            : std::nullopt;
+    const auto planes = plane_comparison(*c);
     if (planes && *planes) print_lines(stdout, comparison_text(**planes));
     print_warnings(stdout, *c);
     if (planes && *planes)
       if (const auto warning = plane_warning(*c, **planes)) print_warning(stdout, *warning);
-    if (const auto warning = predicted_deformation(*c, tell_contact_progress()))
-      print_warning(stdout, *warning);
+    if (const auto warning = predicted_warning(*c)) print_warning(stdout, *warning);
     for (const std::string& warning : bound_warnings(*c)) print_warning(stdout, warning);
     if (!clearances) print_warning(stdout, "walls and gaps were not measured: " + clearances.failure().what);
     if (clearances)
@@ -68,6 +66,17 @@ class CheckCommand : public Subcommand {
   }
 
  private:
+  static std::optional<Expected<PlaneComparison>> plane_comparison(const Case& c) {
+    if (c.wheel.dimension == 3 || c.contact.with != Counterpart::ground) return {};
+    const SlowStage stage("comparing plane strain and plane stress with three dimensions, on a coarse grid");
+    return compare_planes(c, tell_contact_progress());
+  }
+
+  static std::optional<std::string> predicted_warning(const Case& c) {
+    const SlowStage stage("solving the initial wheel, on a coarse grid");
+    return predicted_deformation(c, tell_contact_progress());
+  }
+
   std::string case_file_;
 };
 

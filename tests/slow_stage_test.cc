@@ -1,0 +1,22 @@
+#include "wheelwright/app/slow_stage.h"
+
+#include <gtest/gtest.h>
+
+namespace wheelwright {
+namespace {
+
+std::string told(double seconds_until, double seconds_of_stage) {
+  ::testing::internal::CaptureStderr();
+  {
+    const SlowStage stage("solving", seconds_until);
+    std::this_thread::sleep_for(std::chrono::duration<double>(seconds_of_stage));
+  }
+  return ::testing::internal::GetCapturedStderr();
+}
+
+TEST(SlowStage, IsToldOnceIfItLasts) { EXPECT_EQ(told(0, 0.5), "solving ...\n"); }
+
+TEST(SlowStage, IsSilentAndEndsAtOnceIfItIsShort) { EXPECT_EQ(told(1e6, 0), ""); }
+
+}  // namespace
+}  // namespace wheelwright
