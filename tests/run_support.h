@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -115,13 +116,21 @@ inline std::map<std::string, std::string> results(const fs::path& run) {
   return files;
 }
 
+/// The surroundings of the first place where two texts differ.
+inline std::string first_difference(const std::string& a, const std::string& b) {
+  constexpr std::size_t before = 60, shown = 120;
+  const auto at = static_cast<std::size_t>(std::ranges::mismatch(a, b).in1 - a.begin());
+  const std::size_t from = at - std::min(at, before);
+  return a.substr(from, shown) + "\n against\n" + b.substr(std::min(from, b.size()), shown);
+}
+
 inline void expect_equal_results(const fs::path& straight, const fs::path& resumed) {
   const auto expected = results(straight), found = results(resumed);
   EXPECT_TRUE(expected.contains("history.csv") && expected.contains("comparison.svg") &&
               expected.contains("rolling/wheel_00.vtu"));
   for (const auto& [name, text] : expected) {
     ASSERT_TRUE(found.contains(name)) << name;
-    EXPECT_TRUE(found.at(name) == text) << name << " differs";
+    EXPECT_TRUE(found.at(name) == text) << name << " differs: " << first_difference(text, found.at(name));
   }
   for (const auto& [name, text] : found) EXPECT_TRUE(expected.contains(name)) << name << " is left over";
 }

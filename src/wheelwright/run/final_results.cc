@@ -7,6 +7,11 @@
 namespace wheelwright {
 namespace {
 
+template <class T>
+bool is_interruption(const Expected<T>& result) {
+  return !result && result.failure().reason == FailureReason::interrupted;
+}
+
 /// Solves shapes until it is interrupted.
 template <int dim>
 class Solutions {
@@ -15,7 +20,7 @@ class Solutions {
 
   SolvedStates<dim> of(const StateSolver<dim>& solver, const LevelSet<dim>& shape) {
     auto states = solver.states(shape, distinct_positions(solver, cases_, shape), interrupt_);
-    if (!states) is_interrupted_ = is_interrupted_ || states.failure().reason == FailureReason::interrupted;
+    is_interrupted_ = is_interrupted_ || is_interruption(states);
     return states;
   }
   bool is_interrupted() const { return is_interrupted_; }
@@ -65,12 +70,12 @@ FinalResults<dim> final_results(const Study<dim>& study, const InitialShape<dim>
         begins_as_given(study, initial) ? initial.measure : material_measure(study.initial);
     return described(*solver, study.load_cases, study.initial, measure, solutions.of(*solver, study.initial));
   }();
-  auto summary = summarized_run(study, initial, before, state, after, interrupt);
+  const auto objective = objective_as_given(study, initial, interrupt);
   return {.own = own,
           .solver = solver,
           .shown = shown ? *shown : nullptr,
-          .summary = std::move(summary),
-          .is_interrupted = solutions.is_interrupted()};
+          .summary = summarized_run(study, initial, objective, before, state, after),
+          .is_interrupted = solutions.is_interrupted() || is_interruption(objective)};
 }
 
 template FinalResults<2> final_results(const Study<2>&, const InitialShape<2>&, const OptimizationState<2>&,

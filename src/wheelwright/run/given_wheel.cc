@@ -30,12 +30,11 @@ bool begins_as_given(const Study<dim>& study, const InitialShape<dim>& start) {
 }
 
 template <int dim>
-KnownNumber objective_as_given(const Study<dim>& study, const InitialShape<dim>& start,
-                               const Interrupt& interrupt) {
+Expected<double> objective_as_given(const Study<dim>& study, const InitialShape<dim>& start,
+                                    const Interrupt& interrupt) {
   if (begins_as_given(study, start)) return start.objective;
   const auto evaluated = evaluate_of(study, interrupt)({study.initial, nullptr}, nullptr);
-  if (!evaluated)
-    return fmt::format("{}: {}", to_string(evaluated.failure().reason), evaluated.failure().detail);
+  if (!evaluated) return evaluated.failure();
   return evaluated->evaluation.function("objective").value;
 }
 
@@ -56,9 +55,10 @@ std::string changed_start(const Study<dim>& study, const InitialShape<dim>& star
          changes + ".";
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                      \
-  template bool begins_as_given(const Study<dim>&, const InitialShape<dim>&);                             \
-  template KnownNumber objective_as_given(const Study<dim>&, const InitialShape<dim>&, const Interrupt&); \
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                        \
+  template bool begins_as_given(const Study<dim>&, const InitialShape<dim>&);               \
+  template Expected<double> objective_as_given(const Study<dim>&, const InitialShape<dim>&, \
+                                               const Interrupt&);                           \
   template std::string changed_start(const Study<dim>&, const InitialShape<dim>&);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)

@@ -18,8 +18,8 @@ bool begins_as_given(const Study<dim>& study, const InitialShape<dim>& start);
 
 /// The objective of the given wheel, or why it cannot be computed.
 template <int dim>
-KnownNumber objective_as_given(const Study<dim>& study, const InitialShape<dim>& start,
-                               const Interrupt& interrupt);
+Expected<double> objective_as_given(const Study<dim>& study, const InitialShape<dim>& start,
+                                    const Interrupt& interrupt);
 
 /// How the wheel that a run begins with differs from the given one, in one line for people; empty if it
 /// begins as given.

@@ -27,15 +27,20 @@ std::vector<SummarizedBound> summarized_bounds(const OptimizationState<dim>& sta
   return result;
 }
 
+KnownNumber known(const Expected<double>& value) {
+  if (value) return *value;
+  return fmt::format("{}: {}", to_string(value.failure().reason), value.failure().detail);
+}
+
 }  // namespace
 
 template <int dim>
 RunSummary<dim> summarized_run(const Study<dim>& study, const InitialShape<dim>& start,
-                               DescribedWheel<dim> before, const OptimizationState<dim>& last,
-                               DescribedWheel<dim> after, const Interrupt& interrupt) {
+                               const Expected<double>& objective, DescribedWheel<dim> before,
+                               const OptimizationState<dim>& last, DescribedWheel<dim> after) {
   auto worse = remarks(study.source, before, after);
   return {.title = run_title(study.source),
-          .before = {0, objective_as_given(study, start, interrupt), std::move(before)},
+          .before = {0, known(objective), std::move(before)},
           .after = {last.iteration, last.evaluation.function("objective").value, std::move(after)},
           .bounds = summarized_bounds(last, study.source.wheel),
           .minimized = minimized_text(study.source.objective.minimize, study.source.wheel),
@@ -44,9 +49,9 @@ RunSummary<dim> summarized_run(const Study<dim>& study, const InitialShape<dim>&
           .changed_start = changed_start(study, start)};
 }
 
-template RunSummary<2> summarized_run(const Study<2>&, const InitialShape<2>&, DescribedWheel<2>,
-                                      const OptimizationState<2>&, DescribedWheel<2>, const Interrupt&);
-template RunSummary<3> summarized_run(const Study<3>&, const InitialShape<3>&, DescribedWheel<3>,
-                                      const OptimizationState<3>&, DescribedWheel<3>, const Interrupt&);
+template RunSummary<2> summarized_run(const Study<2>&, const InitialShape<2>&, const Expected<double>&,
+                                      DescribedWheel<2>, const OptimizationState<2>&, DescribedWheel<2>);
+template RunSummary<3> summarized_run(const Study<3>&, const InitialShape<3>&, const Expected<double>&,
+                                      DescribedWheel<3>, const OptimizationState<3>&, DescribedWheel<3>);
 
 }  // namespace wheelwright

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "wheelwright/base/interrupt.h"
 #include "wheelwright/report/run_summary.h"
 #include "wheelwright/run/checkpoint.h"
 #include "wheelwright/run/study.h"
@@ -8,10 +7,10 @@
 namespace wheelwright {
 
 /// What a run that began with `start` made of the wheel that its case gives. `before` and `after` describe
-/// that wheel and the one of the state, solved alike.
+/// that wheel and the one of the state, solved alike; `objective` is that of the given wheel.
 template <int dim>
 RunSummary<dim> summarized_run(const Study<dim>& study, const InitialShape<dim>& start,
-                               DescribedWheel<dim> before, const OptimizationState<dim>& last,
-                               DescribedWheel<dim> after, const Interrupt& interrupt);
+                               const Expected<double>& objective, DescribedWheel<dim> before,
+                               const OptimizationState<dim>& last, DescribedWheel<dim> after);
 
 }  // namespace wheelwright

@@ -11,6 +11,7 @@
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/files/path_queries.h"
 #include "wheelwright/run/final_results.h"
+#include "wheelwright/run/given_wheel.h"
 #include "wheelwright/run/run_report.h"
 #include "wheelwright/run/summarized_run.h"
 
@@ -33,10 +34,11 @@ Expected<PageRun> report_of_run(const RunInput<dim>& run) {
   const OptimizationState<dim>& last = run.checkpoint.state;
   const auto last_states = solved(last.shape);
   if (!last_states) return last_states.failure();
-  const auto summary = summarized_run(
-      *study, run.checkpoint.initial,
-      described(solver, study->load_cases, given, material_measure(given), solved(given)), last,
-      described(solver, study->load_cases, last.shape, last.measure, last_states), tell_contact_progress());
+  const auto summary =
+      summarized_run(*study, run.checkpoint.initial,
+                     objective_as_given(*study, run.checkpoint.initial, tell_contact_progress()),
+                     described(solver, study->load_cases, given, material_measure(given), solved(given)),
+                     last, described(solver, study->load_cases, last.shape, last.measure, last_states));
   return page_run(report_of_results<dim>(
       run.folder, run.source, summary, {&last.shape, &solver, last_states->get()}, run.checkpoint.finished));
 }
