@@ -57,21 +57,22 @@ Checkpoint<dim> some_checkpoint() {
       .measures = {{"run_out", std::numeric_limits<double>::denorm_min()},
                    {"pressure_spread", std::numeric_limits<double>::quiet_NaN()}}};
   const int n_nodes = Lattice<dim>(small_grid<dim>(), 2).n_nodes();
-  OptimizationState<dim> state{some_level_set<dim>(random, 2),
-                               evaluation,
-                               random.number(),
-                               random.number(),
-                               3,
-                               0.5,
-                               2,
-                               1,
-                               {{{random.numbers(n_nodes), random.numbers(n_nodes)},
-                                 {random.numbers(n_nodes), random.numbers(n_nodes)}},
-                                random.numbers(2),
-                                random.numbers(3)},
-                               random.numbers(4),
-                               0,
-                               FinalWidths::kept};
+  OptimizationState<dim> state{
+      some_level_set<dim>(random, 2),
+      evaluation,
+      random.number(),
+      random.number(),
+      3,
+      0.5,
+      2,
+      1,
+      {{{random.numbers(n_nodes), random.numbers(n_nodes)},
+        {random.numbers(n_nodes), random.numbers(n_nodes)}},
+       random.numbers(2),
+       random.numbers(3)},
+      {{random.number(), 0, 2}, {random.number(), random.number(), 1}, {random.number()}, {random.number()}},
+      0,
+      FinalWidths::kept};
   return {{"[load]\nforce = 1\n", "wheelwright 1.2.3"},
           state,
           {some_level_set<dim>(random, 1), random.number(), random.number()},
@@ -79,7 +80,8 @@ Checkpoint<dim> some_checkpoint() {
           {{1, "peak_von_mises", random.number()}, {0, "run_out", random.number()}},
           {123456789012, 0xfedcba98},
           17.25,
-          StopReason::no_descent};
+          StopReason::no_descent,
+          2e-4};
 }
 
 }  // namespace wheelwright::testing

@@ -112,7 +112,7 @@ TEST(FinalWidths, AreMendedOnceInAShapeOfItsOwn) {
   EXPECT_LT(first.iteration, 15);
   // Objectives before are not compared with: the history begins with it.
   EXPECT_EQ(course.last.history_begin, first.iteration);
-  EXPECT_EQ(course.last.history.front(), first.evaluation->function("objective").value);
+  EXPECT_EQ(course.last.history.front().objective, first.evaluation->function("objective").value);
   for (const auto& trial : course.trials) {
     if (trial.verdict != Verdict::accepted || trial.iteration < first.iteration) continue;
     EXPECT_TRUE(thin_walls(trial.shape, 0.48 * trial.shape.lattice.grid().resolution()).empty());

@@ -194,6 +194,39 @@ TEST(SequentialQuadratic, ConvergesToTheLevelLineInFewTrials) {
     EXPECT_LT(trials_to(Method::sequential_quadratic, near, 1.5, kind), of_descent);
 }
 
+// A search ends six trials after its last gain of the tolerance, begin it far from the optimum or at it.
+// Without a tolerance it goes on to where no step helps. What begins anew is no end.
+TEST(SequentialQuadratic, EndsSixTrialsAfterItsLastGain) {
+  OptimizerOptions options;
+  options.method = Method::sequential_quadratic;
+  const auto optimizer_with = [&](double tolerance) {
+    options.tolerance = tolerance;
+    return ShapeOptimizer<2>(lattice, evolution, options,
+                             wheelwright::testing::objective_of_shape<2>(bowl_objective));
+  };
+  const auto objective = [](const Trial<2>& trial) { return trial.evaluation->function("objective").value; };
+  constexpr double tolerance = 2e-4;
+  const auto endless = optimize<2>(optimizer_with(0), displaced_hole(), Record().observer(), never);
+  EXPECT_NE(endless.reason, StopReason::converged);
+  const double best = endless.state->evaluation.function("objective").value;
+  for (const auto& initial : {displaced_hole(), endless.state->shape}) {
+    Record record;
+    const auto optimizer = optimizer_with(tolerance);
+    const auto outcome = optimize<2>(optimizer, initial, record.observer(), never);
+    EXPECT_EQ(outcome.reason, StopReason::converged);
+    std::size_t last_gain = 0;
+    for (std::size_t k = 0; k < record.trials.size(); ++k)
+      if (record.trials[k].verdict == Verdict::accepted &&
+          objective(record.trials[k]) <
+              objective(record.trials[last_gain]) - tolerance * std::abs(objective(record.trials[last_gain])))
+        last_gain = k;
+    EXPECT_EQ(record.trials.size() - 1 - last_gain, 6u);
+    EXPECT_NEAR(objective(record.trials[last_gain]), best, 2 * tolerance * std::abs(best));
+    const auto anew = optimizer.restart(*outcome.state, Record().observer());
+    EXPECT_FALSE(reason_to_stop(options, *anew));
+  }
+}
+
 // Over the first shapes, far from the minimum, the objective falls as the method's model foretells.
 TEST(SequentialQuadratic, TellsByHowMuchATrialIsToFall) {
   OptimizerOptions options;
@@ -264,6 +297,8 @@ TEST(SequentialQuadratic, GoesPastAJumpUntilShapesHaveTheFinalWidths) {
   Evaluation<2> evaluation = evaluate_bowl(displaced_hole());
   evaluation.functions.front().value = 1;
   const auto accepts = [&](const std::vector<double>& history, double objective, FinalWidths widths) {
+    std::vector<AcceptedShape> remembered;
+    for (const double value : history) remembered.push_back({value});
     const OptimizationState<2> state{.shape = displaced_hole(),
                                      .evaluation = evaluation,
                                      .measure = material_measure(displaced_hole()),
@@ -273,7 +308,7 @@ TEST(SequentialQuadratic, GoesPastAJumpUntilShapesHaveTheFinalWidths) {
                                      .since_redistance = 0,
                                      .since_smoothing = 0,
                                      .memory = {},
-                                     .history = history,
+                                     .history = remembered,
                                      .final_widths = widths};
     Evaluation<2> of_trial = evaluation;
     of_trial.functions.front().value = objective;
@@ -346,6 +381,22 @@ TEST(SequentialQuadratic, SaysWhenABoundIsNotActiveAndWhenNoneCanBeKept) {
   EXPECT_FALSE(end({.lower = 1.1 * initial}).is_kept());
 }
 
+// However little is gained: a search whose bounds are violated has not converged.
+TEST(SequentialQuadratic, DoesNotConvergeWhileABoundIsViolated) {
+  OptimizerOptions options;
+  options.method = Method::sequential_quadratic;
+  options.iterations = 15;
+  options.tolerance = 1;
+  const auto stop = [&](double share) {
+    const auto evaluate = bowl_with_bounds({.lower = share * material_measure(displaced_hole())});
+    const ShapeOptimizer<2> optimizer(lattice, evolution, options,
+                                      wheelwright::testing::objective_of_shape<2>(evaluate));
+    return optimize<2>(optimizer, displaced_hole(), Record().observer(), never).reason;
+  };
+  EXPECT_EQ(stop(0.9), StopReason::converged);
+  EXPECT_NE(stop(1.1), StopReason::converged);  // the measure is held at its initial value
+}
+
 TEST(ShapeOptimizer, ReachesAGivenMeasure) {
   OptimizerOptions options;
   options.iterations = 3;
@@ -389,9 +440,9 @@ TEST(ShapeOptimizer, ReachesAFarMeasureByItsRateAndThenOptimizes) {
     EXPECT_EQ(objective(arrival) > objective(0), target > initial);
     EXPECT_EQ(outcome.reason, StopReason::converged);
     EXPECT_EQ(outcome.state->history_begin, arrival);
-    EXPECT_EQ(outcome.state->history.front(), objective(arrival));
+    EXPECT_EQ(outcome.state->history.front().objective, objective(arrival));
     EXPECT_EQ(outcome.state->iteration, arrival + 10);
-    EXPECT_LT(outcome.state->history.back(), outcome.state->history.front());
+    EXPECT_LT(outcome.state->history.back().objective, outcome.state->history.front().objective);
   }
 }
 
@@ -503,7 +554,7 @@ TEST(ShapeOptimizer, HalvesTheStepWhereTheEvaluationFails) {
     EXPECT_FALSE(trial.evaluation);
   }
   EXPECT_GE(failures, 1);
-  EXPECT_LT(outcome.state->evaluation.function("objective").value, outcome.state->history.front());
+  EXPECT_LT(outcome.state->evaluation.function("objective").value, outcome.state->history.front().objective);
 }
 
 /// The bowl at shapes whose values differ from the first one's by no more than this, a failure elsewhere.

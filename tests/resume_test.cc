@@ -234,6 +234,25 @@ TEST_F(Resume, OfAFinishedRunChangesNothing) {
   EXPECT_EQ(content(place / "run/history.csv"), history);
 }
 
+// A run that had converged by a larger tolerance goes on with the case's.
+TEST_F(Resume, OfAConvergedRunGoesOnOnlyWithASmallerTolerance) {
+  const fs::path place = workplace("converged");
+  ASSERT_EQ(run(place, small_case_of_any_width(4)), exit_done);
+  const fs::path newest = CheckpointFolder(place / "run").files().front();
+  const auto history = content(place / "run/history.csv");
+  auto checkpoint = *parse_checkpoint_file<2>(content(newest));
+  const auto resumed_after = [&](double tolerance) {
+    checkpoint.finished = StopReason::converged;
+    checkpoint.tolerance = tolerance;
+    std::ofstream(newest, std::ios::binary) << checkpoint_file(checkpoint);
+    EXPECT_EQ(resume(place, 6), exit_done);
+    return content(place / "run/history.csv");
+  };
+  const double tolerance = checkpoint.tolerance;
+  EXPECT_EQ(resumed_after(tolerance), history);
+  EXPECT_NE(resumed_after(tolerance + 1e-3), history);
+}
+
 TEST_F(Resume, WritesResultsThatAKillLeftOut) {
   const fs::path straight = workplace("straight"), killed = workplace("killed");
   ASSERT_EQ(run(straight, small_case_of_any_width(4)), exit_done);

@@ -346,7 +346,7 @@ struct Optimizer {
   std::optional<double> step;  ///< maximum move of the boundary per shape [cells]; absent: by the method
   int max_halvings = 6;
   double accepted_increase = 1e-4;
-  double tolerance = 1e-5;
+  std::optional<double> tolerance;  ///< absent: by the method
   int redistance_every = 5;
   double smoothing = 0;  ///< tau of (76) [cells^2]
   int smooth_every = 5;

@@ -32,7 +32,7 @@ Case on_coarser_grid(Case c, int level) {
   const auto [rim, tread] = bands(c);
   c.optimizer.rim_band = widened(rim, cell);
   c.optimizer.tread_band = widened(tread, cell);
-  c.optimizer.tolerance = std::max(c.optimizer.tolerance, coarse_tolerance);
+  c.optimizer.tolerance = std::max(convergence_tolerance(c), coarse_tolerance);
   c.optimizer.coarse_levels = 0;
   return c;
 }

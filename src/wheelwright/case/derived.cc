@@ -96,6 +96,11 @@ OptimizerMethod optimizer_method(const Case& c) {
   return needs_descent ? OptimizerMethod::descent : OptimizerMethod::sequential_quadratic;
 }
 
+double convergence_tolerance(const Case& c) {
+  const bool descends = optimizer_method(c) == OptimizerMethod::descent;
+  return c.optimizer.tolerance.value_or(descends ? 1e-5 : 2e-4);
+}
+
 VelocityKind velocity_kind(const Case& c) {
   if (c.optimizer.velocity != VelocityKind::automatic) return c.optimizer.velocity;
   const bool is_plane = c.wheel.dimension == 2,

@@ -41,6 +41,9 @@ double likely_half_width(const Case& c);
 /// The method of the case, or the one that its volume and velocity need; never automatic.
 OptimizerMethod optimizer_method(const Case& c);
 
+/// The relative gain below which a search has converged; 0: it never has.
+double convergence_tolerance(const Case& c);
+
 /// The kind of the velocity, which is not `automatic`.
 VelocityKind velocity_kind(const Case& c);
 

@@ -171,7 +171,8 @@ std::vector<Key<Optimizer>> search_keys() {
        .unit = "",
        .field = IntegerField<Optimizer>{&Optimizer::coarse_levels, between(0, 4)},
        .meaning = "the descent begins on a grid whose cells are doubled so many times along each axis, and "
-                  "moves on to the next finer one when J has fallen by less than 0.5 % over 10 shapes, until "
+                  "moves on to the next finer one when J has fallen by less than 0.5 % in 6 trials (with "
+                  "method = \"descent\" over 10 shapes), until "
                   "it is on the case's own grid; 0: on the case's own grid from the beginning"},
       {.name = "velocity",
        .unit = "",
@@ -201,8 +202,10 @@ std::vector<Key<Optimizer>> search_keys() {
                   "walls and gaps are mended also if it is at most the larger J of the last two shapes"},
       {.name = "tolerance",
        .unit = "",
-       .field = NumberField<Optimizer>{&Optimizer::tolerance, between(0, 1)},
-       .meaning = "the run stops when J has fallen by less than this fraction over 10 shapes; 0 means never"},
+       .field = OptionalNumberField<Optimizer>{&Optimizer::tolerance, between(0, 1),
+                                               "2e-4; with method = \"descent\" 1e-5"},
+       .meaning = "the run has converged when J has fallen by less than this fraction in 6 trials, or with "
+                  "method = \"descent\" over 10 shapes; 0 means never"},
       {.name = "redistance_every",
        .unit = "shapes",
        .field = IntegerField<Optimizer>{&Optimizer::redistance_every, between(0, 1000000)},

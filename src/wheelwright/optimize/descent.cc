@@ -64,7 +64,7 @@ template <int dim>
 bool DescentProposals<dim>::accepts(const Move<dim>&, const Evaluation<dim>& evaluation) const {
   if (options_.measure_control == MeasureControl::proportional || is_approaching(options_, state_))
     return true;
-  const double best = *std::min_element(state_.history.begin(), state_.history.end());
+  const double best = std::ranges::min_element(state_.history, {}, &AcceptedShape::objective)->objective;
   return evaluation.function(options_.objective).value <= best + options_.accepted_increase * std::abs(best);
 }
 

@@ -39,7 +39,7 @@ struct OptimizerOptions {
   int max_halvings = 6;             ///< of the step, for one shape
   double largest_island = 0.01;     ///< share of the sector; smaller ones are removed, larger ones a failure
   double accepted_increase = 1e-4;  ///< of the objective over the best shape so far, relative
-  double tolerance = 1e-5;  ///< converged when the objective falls by less over 10 shapes, relative; 0: never
+  double tolerance = 1e-5;   ///< relative fall of the objective that has_converged() looks for; 0: never
   int redistance_every = 5;  ///< accepted shapes; 0: never
   int smooth_every = 0;      ///< accepted shapes; 0: never
   MeasureControl measure_control = MeasureControl::exact;
@@ -58,6 +58,15 @@ enum class FinalWidths {
   not_yet,
   kept,
   impossible,  ///< no shape that has them could be evaluated
+};
+
+/// What is remembered of an accepted shape.
+struct AcceptedShape {
+  double objective;
+  double violation = 0;  ///< largest_violation() of its bounds
+  int trials = 0;        ///< that led from it to the next one, rejected ones included; 0 at the last shape
+
+  bool operator==(const AcceptedShape&) const = default;
 };
 
 /// What a method learns from the shapes before.
@@ -79,8 +88,8 @@ struct OptimizationState {
   double step;           ///< to be tried next [cells]
   int since_redistance;  ///< accepted shapes since the last redistancing
   int since_smoothing;
-  StepMemory memory;            ///< of the method
-  std::vector<double> history;  ///< the objective of every accepted shape from history_begin on
+  StepMemory memory;                   ///< of the method
+  std::vector<AcceptedShape> history;  ///< every accepted shape from history_begin on
   /// The last shape whose objective is not compared with those before it: the first, one at which the
   /// objective was changed, or one whose measure had not been the target's yet.
   int history_begin = 0;

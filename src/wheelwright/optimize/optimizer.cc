@@ -12,13 +12,13 @@
 #include "wheelwright/geometry/place.h"
 #include "wheelwright/linalg/dense.h"
 #include "wheelwright/optimize/constraints.h"
+#include "wheelwright/optimize/convergence.h"
 
 namespace wheelwright {
 
 namespace {
 
 constexpr double step_reduction = 0.5;  // after a rejected trial
-constexpr std::size_t convergence_window = 10;
 constexpr int max_removals = 4;
 constexpr int halvings_before_rest = 2;  // they mend most failures; then the step 0 tells whether others can
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -49,17 +49,6 @@ bool is_finite(const Evaluation<dim>& evaluation) {
       sum += evaluation.boundary[q].weight * function.gradient[q];
   }
   return std::isfinite(sum);
-}
-
-/// Whether the objective falls by less than the tolerance over some shapes, relative.
-bool is_slow(const OptimizerOptions& options, double tolerance, const std::vector<double>& history,
-             bool has_bounds) {
-  if (tolerance <= 0 || history.size() <= convergence_window) return false;
-  const double before = history[history.size() - 1 - convergence_window];
-  double fall = before - history.back();
-  // The paper's rule lets the measure drift, and the objective rise with it; so do bounds that are violated.
-  if (options.measure_control == MeasureControl::proportional || has_bounds) fall = std::abs(fall);
-  return fall < tolerance * std::abs(before);
 }
 
 /// Whether final widths are asked for that the state's shape may not have.
@@ -175,10 +164,7 @@ template <int dim>
 std::optional<StopReason> reason_to_stop(const OptimizerOptions& options,
                                          const OptimizationState<dim>& state) {
   if (state.iteration >= options.iterations) return StopReason::iterations;
-  const auto bounds = bound_constraints(state.evaluation);
-  if (largest_violation(bounds) <= feasible_violation &&
-      is_slow(options, options.tolerance, state.history, !bounds.empty()))
-    return StopReason::converged;
+  if (has_converged(options, state)) return StopReason::converged;
   return {};
 }
 
@@ -215,7 +201,7 @@ Expected<OptimizationState<dim>> ShapeOptimizer<dim>::start(const LevelSet<dim>&
                                .since_redistance = 0,
                                .since_smoothing = 0,
                                .memory = {},
-                               .history = {objective_of(*trial.evaluation)}};
+                               .history = {accepted_shape(*trial.evaluation)}};
   state.final_widths = first_widths(state.shape);
   observer(trial, state);
   return state;
@@ -235,7 +221,7 @@ Expected<OptimizationState<dim>> ShapeOptimizer<dim>::restart(const Optimization
   anew.target_measure = options_.target_measure.value_or(state.target_measure);
   anew.step = options_.step;
   anew.memory = {};
-  anew.history = {objective_of(*trial.evaluation)};
+  anew.history = {accepted_shape(*trial.evaluation)};
   anew.history_begin = state.iteration;
   anew.final_widths = first_widths(anew.shape);
   observer(trial, anew);
@@ -251,7 +237,8 @@ std::optional<StopReason> ShapeOptimizer<dim>::advance(OptimizationState<dim>& s
   if (mending == Mending::interrupted) return StopReason::stop_requested;
   if (mending == Mending::done) return std::nullopt;
   const auto reason = descend(state, observer, stop_requested);
-  const bool goes_no_further = reason == StopReason::no_descent || reason == StopReason::gave_up;
+  const bool goes_no_further =
+      reason == StopReason::converged || reason == StopReason::no_descent || reason == StopReason::gave_up;
   if (!goes_no_further || !may_be_mended(options_, state)) return reason;
   const auto at_last = mend(state, observer);
   if (at_last == Mending::interrupted) return StopReason::stop_requested;
@@ -341,7 +328,7 @@ OptimizationState<dim> ShapeOptimizer<dim>::begun_anew(OptimizationState<dim> st
   state.step = options_.step;
   ++state.since_redistance;
   ++state.since_smoothing;
-  state.history = {objective_of(*trial.evaluation)};
+  state.history = {accepted_shape(*trial.evaluation)};
   state.history_begin = trial.iteration;
   return state;
 }
@@ -379,6 +366,9 @@ std::optional<StopReason> ShapeOptimizer<dim>::descend(OptimizationState<dim>& s
     const bool is_narrow = trial.failure && trial.failure->reason == FailureReason::too_narrow;
     all_failed =
         all_failed && trial.verdict == Verdict::failed && (!is_narrow || is_approaching(options_, state));
+    if (!all_failed && has_converged(options_, state, halvings + 1) &&
+        !foretells_gain(options_, state, move->model_decrease))
+      return StopReason::converged;
     if (stop_requested()) return StopReason::stop_requested;
     // What redistancing or smoothing spoilt is tried again without them.
     const bool was_reshaped = halvings == 0 && options_.method == Method::sequential_quadratic &&
@@ -424,6 +414,12 @@ StopReason ShapeOptimizer<dim>::run(OptimizationState<dim>& state, const Observe
 template <int dim>
 double ShapeOptimizer<dim>::objective_of(const Evaluation<dim>& evaluation) const {
   return evaluation.function(options_.objective).value;
+}
+
+template <int dim>
+AcceptedShape ShapeOptimizer<dim>::accepted_shape(const Evaluation<dim>& evaluation) const {
+  return {.objective = objective_of(evaluation),
+          .violation = largest_violation(bound_constraints(evaluation))};
 }
 
 template <int dim>
@@ -560,11 +556,12 @@ OptimizationState<dim> ShapeOptimizer<dim>::successor(const OptimizationState<di
                               .history = state.history,
                               .history_begin = state.history_begin,
                               .final_widths = state.final_widths};
+  next.history.back().trials = trial.halvings + 1;
   if (is_approaching(options_, state)) {
     next.history.clear();
     next.history_begin = next.iteration;
   }
-  next.history.push_back(objective_of(*trial.evaluation));
+  next.history.push_back(accepted_shape(*trial.evaluation));
   return next;
 }
 

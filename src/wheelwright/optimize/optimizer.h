@@ -118,6 +118,7 @@ class ShapeOptimizer {
                 const FeatureSize& widths) const;
   FeatureSize widths_after(const OptimizationState<dim>& state) const;
   bool is_due(int every, int since, int halvings) const;
+  AcceptedShape accepted_shape(const Evaluation<dim>& evaluation) const;
   OptimizationState<dim> successor(const OptimizationState<dim>& state, const Proposals<dim>& proposals,
                                    const Move<dim>& move, const Trial<dim>& trial) const;
 

@@ -47,9 +47,10 @@ std::vector<Nodal> loads(const BoundaryMotion<dim>& motion, const Evaluation<dim
 template <int dim>
 double largest_objective(const OptimizerOptions& options, const OptimizationState<dim>& state, double noise) {
   const auto& history = state.history;
-  const double largest = std::max(*std::ranges::min_element(history) + noise, history.back());
+  const double best = std::ranges::min_element(history, {}, &AcceptedShape::objective)->objective,
+               largest = std::max(best + noise, history.back().objective);
   const bool may_jump = options.final_widths.any() && state.final_widths == FinalWidths::not_yet;
-  return may_jump && history.size() >= 2 ? std::max(largest, history[history.size() - 2]) : largest;
+  return may_jump && history.size() >= 2 ? std::max(largest, history[history.size() - 2].objective) : largest;
 }
 
 }  // namespace

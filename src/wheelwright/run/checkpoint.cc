@@ -8,7 +8,7 @@ namespace wheelwright {
 namespace {
 
 constexpr std::string_view file_kind = "CKPT";
-constexpr std::uint32_t version = 5;
+constexpr std::uint32_t version = 6;
 
 constexpr int largest_int = std::numeric_limits<int>::max();
 
@@ -193,6 +193,24 @@ StepMemory read_memory(ByteReader& reader) {
   return memory;
 }
 
+void append(const std::vector<AcceptedShape>& history, ByteWriter& writer) {
+  append_all(history, writer, [&](const AcceptedShape& shape) {
+    const auto& [objective, violation, trials] = shape;
+    writer.number(objective);
+    writer.number(violation);
+    writer.integer(trials);
+  });
+}
+
+std::vector<AcceptedShape> read_history(ByteReader& reader) {
+  return read_all<AcceptedShape>(reader, 2 * number_size + count_size, [&](AcceptedShape& shape) {
+    auto& [objective, violation, trials] = shape;
+    objective = reader.finite_number("an objective so far");
+    violation = reader.finite_number("a violation so far");
+    trials = static_cast<int>(reader.integer(0, largest_int, "a number of trials"));
+  });
+}
+
 template <int dim>
 void append(const OptimizationState<dim>& state, ByteWriter& writer) {
   const auto& [shape, evaluation, measure, target_measure, iteration, step, since_redistance, since_smoothing,
@@ -206,7 +224,7 @@ void append(const OptimizationState<dim>& state, ByteWriter& writer) {
   writer.integer(since_redistance);
   writer.integer(since_smoothing);
   append(memory, writer);
-  writer.numbers(history);
+  append(history, writer);
   writer.integer(history_begin);
   writer.integer(static_cast<int>(final_widths));
 }
@@ -246,7 +264,7 @@ std::optional<OptimizationState<dim>> read_state(ByteReader& reader) {
   const int since_redistance = count("the number of shapes since the last redistancing");
   const int since_smoothing = count("the number of shapes since the last smoothing");
   auto memory = read_memory(reader);
-  auto history = reader.finite_numbers("the objectives so far");
+  auto history = read_history(reader);
   const int history_begin = count("the shape that the objectives begin with");
   const auto final_widths = static_cast<FinalWidths>(
       reader.integer(0, static_cast<int>(FinalWidths::impossible), "whether shapes have their final widths"));
@@ -333,7 +351,7 @@ std::vector<FoundQuantity> read_found(ByteReader& reader) {
 
 template <int dim>
 std::string checkpoint_file(const Checkpoint<dim>& checkpoint) {
-  const auto& [provenance, state, initial, nucleation, found, history, elapsed_seconds, finished] =
+  const auto& [provenance, state, initial, nucleation, found, history, elapsed_seconds, finished, tolerance] =
       checkpoint;
   ByteWriter origin, current, first, holes, run;
   origin.text(provenance.resolved_case);
@@ -345,6 +363,7 @@ std::string checkpoint_file(const Checkpoint<dim>& checkpoint) {
   run.integer(history.checksum);
   run.number(elapsed_seconds);
   run.integer(finished ? static_cast<int>(*finished) : -1);
+  run.number(tolerance);
   append(found, run);
   return block_file(file_kind, version,
                     {{"CASE", origin.bytes()},
@@ -372,14 +391,21 @@ Expected<Checkpoint<dim>, FormatError> parse_checkpoint_file(std::string_view by
   const double elapsed_seconds = run.finite_number("the elapsed time");
   const auto finished =
       run.integer(-1, static_cast<int>(StopReason::stop_requested), "the reason why the run ended");
+  const double tolerance = run.finite_number("the tolerance");
   auto found = read_found(run);
   for (ByteReader* reader : {&origin, &current, &first, &holes, &run}) {
     reader->finish();
     if (!reader->ok()) return FormatError{FormatFault::invalid_value, reader->problem()};
   }
-  Checkpoint<dim> checkpoint{
-      std::move(provenance), *std::move(state), *std::move(initial), std::move(nucleation),
-      std::move(found),      history,           elapsed_seconds,     {}};
+  Checkpoint<dim> checkpoint{std::move(provenance),
+                             *std::move(state),
+                             *std::move(initial),
+                             std::move(nucleation),
+                             std::move(found),
+                             history,
+                             elapsed_seconds,
+                             {},
+                             tolerance};
   if (finished >= 0) checkpoint.finished = static_cast<StopReason>(finished);
   return checkpoint;
 }

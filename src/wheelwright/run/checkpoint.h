@@ -46,6 +46,7 @@ struct Checkpoint {
   HistoryMark history;                 ///< the end of history.csv at this shape
   double elapsed_seconds;              ///< computed so far
   std::optional<StopReason> finished;  ///< set when the run ended by itself and its results are written
+  double tolerance = 0;                ///< OptimizerOptions::tolerance, by which it may have converged
 };
 
 template <int dim>

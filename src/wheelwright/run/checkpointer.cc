@@ -49,7 +49,8 @@ void Checkpointer<dim>::write(const OptimizationState<dim>& state, const RunView
                              .found = {},
                              .history = {},
                              .elapsed_seconds = 0,
-                             .finished = finished};
+                             .finished = finished,
+                             .tolerance = run.study.optimizer.tolerance};
   for (const auto& observer : run.observers) observer->add_to(checkpoint);
   folder_.save(state.iteration, checkpoint_file(checkpoint));
   write_atomically(run.folder / saved_shape_file, level_set_file(state.shape));

@@ -29,8 +29,11 @@ bool has_trials(const fs::path& history) {
 template <int dim>
 bool is_finished(const Checkpoint<dim>& checkpoint, const Case& c) {
   if (!checkpoint.finished) return false;
-  return checkpoint.finished == StopReason::no_descent ||
-         reason_to_stop(optimizer_options<dim>(c), checkpoint.state);
+  const OptimizerOptions options = optimizer_options<dim>(c);
+  const bool is_done =
+      checkpoint.finished == StopReason::no_descent ||
+      (checkpoint.finished == StopReason::converged && options.tolerance >= checkpoint.tolerance);
+  return is_done || reason_to_stop(options, checkpoint.state);
 }
 
 /// What the case expects of a run that ended there.

@@ -166,7 +166,7 @@ std::vector<std::string> flags(const Case& c, const RunSummary<dim>& summary,
   for (const std::string& line : missing_lines(summary)) result.push_back(line);
   for (const Remark& remark : summary.remarks) result.push_back(text(remark));
   if (!summary.changed_start.empty()) result.push_back(summary.changed_start);
-  if (reason == StopReason::iterations && c.optimizer.tolerance > 0)
+  if (reason == StopReason::iterations && convergence_tolerance(c) > 0)
     result.push_back(
         "The run ended by its number of shapes before it converged: more shapes may improve the wheel.");
   if (reason == StopReason::gave_up)

@@ -278,7 +278,7 @@ OptimizerOptions optimizer_options(const Case& c) {
   options.step = c.optimizer.step.value_or(descends ? 0.5 : 1.25);
   options.max_halvings = c.optimizer.max_halvings;
   options.accepted_increase = c.optimizer.accepted_increase;
-  options.tolerance = c.optimizer.tolerance;
+  options.tolerance = convergence_tolerance(c);
   options.redistance_every = c.optimizer.redistance_every;
   options.smooth_every = c.optimizer.smoothing > 0 ? c.optimizer.smooth_every : 0;
   options.measure_control = c.volume.control == VolumeControl::paper ? MeasureControl::proportional
