@@ -962,8 +962,9 @@ class Folder(unittest.TestCase):
         watched.wait(lambda f: f.get("shape", 0) >= 3)
         load = {k: v for k, v in watched.frame()["settings"]["load"].items() if v is not None}
         hole = [0.27 * 0.92387953, 0.27 * 0.38268343]
+        at_rim = [0.205 * 0.92387953, 0.205 * 0.38268343]  # what is painted from there is attached, whatever the shape
         for command in ({"do": "load", **load, "force_N": 4000},
-                        {"do": "paint", "as": "material", "path_m": [hole], "radius_m": 0.01},
+                        {"do": "paint", "as": "material", "path_m": [at_rim, hole], "radius_m": 0.01},
                         {"do": "undo"}, {"do": "step"}, {"do": "volume", "target": 0.88},
                         {"do": "move_hole", "at_m": hole, "by_m": [0.002, 0.001], "scale": 0.9},
                         {"do": "continue"}):
