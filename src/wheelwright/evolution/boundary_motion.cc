@@ -1,5 +1,7 @@
 #include "wheelwright/evolution/boundary_motion.h"
 
+#include <array>
+
 #include "wheelwright/evolution/spline_level_set.h"
 #include "wheelwright/geometry/cell_map.h"
 
@@ -49,60 +51,90 @@ std::vector<Vec<dim>> gradients_at_nodes(const LevelSet<dim>& psi) {
 }
 
 template <int dim>
+typename BoundaryMotion<dim>::Boundary BoundaryMotion<dim>::boundary_of(
+    const LevelSet<dim>& psi, std::span<const SurfacePoint<dim>> points) {
+  const auto& lattice = psi.lattice;
+  const auto& grid = lattice.grid();
+  Boundary result;
+  for (const auto& point : points) {
+    const auto cell = grid.cell_position(point.cell);
+    std::array<std::array<double, 4>, dim> weights;
+    for (int d = 0; d < dim; ++d)
+      weights[d] = spline_weights(lattice.degree(), cell[d], point.xi[d], grid.cells[d] + 1, d == 1);
+    const std::size_t first = result.dependences.size();
+    for (int k = 0; k < power(4, dim); ++k) {
+      std::array<int, dim> vertex;
+      double weight = 1;
+      int rest = k;
+      for (int d = 0; d < dim; ++d, rest /= 4) {
+        weight *= weights[d][rest % 4];
+        vertex[d] = lattice.degree() * (cell[d] + rest % 4 - 1);
+      }
+      if (weight != 0) result.dependences.push_back({lattice.node_index(vertex), weight});
+    }
+    result.places.push_back({.first = first,
+                             .last = result.dependences.size(),
+                             .steepness = steepness_at<dim>(psi, point),
+                             .measure = point.weight});
+  }
+  return result;
+}
+
+template <int dim>
 BoundaryMotion<dim>::BoundaryMotion(const LevelSet<dim>& psi, std::span<const SurfacePoint<dim>> boundary,
                                     DeformationKind kind)
-    : lattice_(psi.lattice),
-      n_components_(kind == DeformationKind::vector_field ? dim : 1),
-      rates_(gradients_at_nodes<dim>(spline_coefficients(psi))) {
+    : coefficients_(spline_coefficients(psi)),
+      kind_(kind),
+      gradients_(gradients_at_nodes<dim>(coefficients_)),
+      held_(gradients_.size(), false),
+      rates_(gradients_),
+      boundary_(std::make_shared<Boundary>(boundary_of(psi, boundary))) {
   if (kind == DeformationKind::normal_speed)
     for (auto& rate : rates_) rate = {norm<dim>(rate)};
-  const auto& grid = lattice_.grid();
-  for (const auto& point : boundary) {
-    Place place{.cell = grid.cell_position(point.cell),
-                .weights = {},
-                .steepness = steepness_at<dim>(psi, point),
-                .measure = point.weight};
-    for (int d = 0; d < dim; ++d)
-      place.weights[d] =
-          spline_weights(lattice_.degree(), place.cell[d], point.xi[d], grid.cells[d] + 1, d == 1);
-    places_.push_back(place);
-  }
 }
 
 template <int dim>
 BoundaryMotion<dim> BoundaryMotion<dim>::holding(const std::vector<bool>& held) const {
   BoundaryMotion result = *this;
   for (std::size_t node = 0; node < held.size(); ++node)
-    if (held[node]) result.rates_[node] = {};
+    if (held[node]) {
+      result.held_[node] = true;
+      result.rates_[node] = {};
+    }
   return result;
 }
 
-/// Calls function(node, weight) for the coefficients that decide the value of psi at a place.
 template <int dim>
-template <class Function>
-void BoundaryMotion<dim>::for_coefficients(const Place& place, Function function) const {
-  for (int k = 0; k < power(4, dim); ++k) {
-    std::array<int, dim> vertex;
-    double weight = 1;
-    int rest = k;
-    for (int d = 0; d < dim; ++d, rest /= 4) {
-      weight *= place.weights[d][rest % 4];
-      vertex[d] = lattice_.degree() * (place.cell[d] + rest % 4 - 1);
+std::vector<double> BoundaryMotion<dim>::speeds_at_nodes(std::span<const double> deformation) const {
+  std::vector<double> result(held_.size(), 0.0);
+  for (std::size_t node = 0; node < result.size(); ++node) {
+    if (held_[node]) continue;
+    Vec<dim> factor{1};
+    if (kind_ == DeformationKind::vector_field) {
+      factor = gradients_[node];
+      const double length = norm<dim>(factor);
+      for (double& x : factor) x = length > 0 ? x / length : 0;
     }
-    if (weight != 0) function(lattice_.node_index(vertex), weight);
+    for (int k = 0; k < n_components(); ++k)
+      result[node] += factor[k] * deformation[k * result.size() + node];
   }
+  return result;
 }
 
 template <int dim>
 std::vector<double> BoundaryMotion<dim>::speeds(std::span<const double> deformation) const {
   const std::size_t n_nodes = rates_.size();
   std::vector<double> rate(n_nodes), result;
-  for (int component = 0; component < n_components_; ++component)
+  for (int component = 0; component < n_components(); ++component)
     for (std::size_t node = 0; node < n_nodes; ++node)
       rate[node] += rates_[node][component] * deformation[component * n_nodes + node];
-  for (const Place& place : places_) {
+  result.reserve(boundary_->places.size());
+  for (const Place& place : boundary_->places) {
     double sum = 0;
-    for_coefficients(place, [&](int node, double weight) { sum += weight * rate[node]; });
+    for (std::size_t k = place.first; k < place.last; ++k) {
+      const auto& [node, weight] = boundary_->dependences[k];
+      sum += weight * rate[node];
+    }
     result.push_back(sum / place.steepness);
   }
   return result;
@@ -111,12 +143,16 @@ std::vector<double> BoundaryMotion<dim>::speeds(std::span<const double> deformat
 template <int dim>
 std::vector<double> BoundaryMotion<dim>::load(std::span<const double> density) const {
   const std::size_t n_nodes = rates_.size();
-  std::vector<double> at_node(n_nodes), result(n_components_ * n_nodes);
-  for (std::size_t q = 0; q < places_.size(); ++q) {
-    const double value = places_[q].measure * density[q] / places_[q].steepness;
-    for_coefficients(places_[q], [&](int node, double weight) { at_node[node] += weight * value; });
+  std::vector<double> at_node(n_nodes), result(n_components() * n_nodes);
+  for (std::size_t q = 0; q < boundary_->places.size(); ++q) {
+    const Place& place = boundary_->places[q];
+    const double value = place.measure * density[q] / place.steepness;
+    for (std::size_t k = place.first; k < place.last; ++k) {
+      const auto& [node, weight] = boundary_->dependences[k];
+      at_node[node] += weight * value;
+    }
   }
-  for (int component = 0; component < n_components_; ++component)
+  for (int component = 0; component < n_components(); ++component)
     for (std::size_t node = 0; node < n_nodes; ++node)
       result[component * n_nodes + node] = rates_[node][component] * at_node[node];
   return result;

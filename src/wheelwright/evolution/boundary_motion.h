@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -27,6 +27,13 @@ class BoundaryMotion {
   /// The motion in which the coefficients at these nodes stay as they are. One flag per node.
   BoundaryMotion holding(const std::vector<bool>& held) const;
 
+  /// The coefficients that move.
+  const LevelSet<dim>& coefficients() const { return coefficients_; }
+
+  /// Speeds of the coefficients along their normals at the nodes, for Evolver::move(). Vector fields move
+  /// those not that are flat there.
+  std::vector<double> speeds_at_nodes(std::span<const double> deformation) const;
+
   /// Speeds along the normal, one per point of the boundary. `deformation` has one component after the other,
   /// each at all nodes of the lattice.
   std::vector<double> speeds(std::span<const double> deformation) const;
@@ -36,21 +43,31 @@ class BoundaryMotion {
   std::vector<double> load(std::span<const double> density) const;
 
  private:
-  /// A point of the boundary, and how the level set depends on its coefficients there.
-  struct Place {
-    std::array<int, dim> cell;
-    std::array<std::array<double, 4>, dim> weights;  ///< of the coefficients, along each axis
-    double steepness;                                ///< |grad psi|
-    double measure;                                  ///< the weight of the point in integrals
+  /// How the level set depends on one of its coefficients at a point of the boundary.
+  struct Dependence {
+    int node;
+    double weight;
   };
+  /// A point of the boundary.
+  struct Place {
+    std::size_t first, last;  ///< of its dependences
+    double steepness;         ///< |grad psi|
+    double measure;           ///< the weight of the point in integrals
+  };
+  struct Boundary {
+    std::vector<Place> places;
+    std::vector<Dependence> dependences;
+  };
+  static Boundary boundary_of(const LevelSet<dim>& psi, std::span<const SurfacePoint<dim>> points);
 
-  template <class Function>
-  void for_coefficients(const Place& place, Function function) const;
-
-  Lattice<dim> lattice_;
-  int n_components_;
+  LevelSet<dim> coefficients_;
+  DeformationKind kind_;
+  std::vector<Vec<dim>> gradients_;  ///< of the coefficients, in polar directions
+  std::vector<bool> held_;
   std::vector<Vec<dim>> rates_;  ///< -dc/dt at the nodes per unit of each component of the deformation
-  std::vector<Place> places_;
+  std::shared_ptr<const Boundary> boundary_;
+
+  int n_components() const { return kind_ == DeformationKind::vector_field ? dim : 1; }
 };
 
 /// The gradient of a level set at all nodes by central differences, one-sided at the ends of the lattice, in

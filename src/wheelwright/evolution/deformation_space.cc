@@ -1,7 +1,6 @@
 #include "wheelwright/evolution/deformation_space.h"
 
 #include "wheelwright/evolution/multilinear.h"
-#include "wheelwright/evolution/spline_level_set.h"
 
 namespace wheelwright {
 
@@ -28,24 +27,7 @@ std::vector<double> DeformationSpace<dim>::load(std::span<const double> deformat
 template <int dim>
 std::vector<double> DeformationSpace<dim>::speeds(const LevelSet<dim>& psi,
                                                   std::span<const double> deformation) const {
-  std::vector<double> result(fixed_.size(), 0.0);
-  const auto gradients = gradients_at_nodes<dim>(spline_coefficients(psi));
-  for (std::size_t node = 0; node < result.size(); ++node) {
-    if (fixed_[node]) continue;
-    Vec<dim> normal = gradients[node];
-    const double length = norm<dim>(normal);
-    for (double& x : normal) x = length > 0 ? x / length : 0;
-    const auto factor = factors(normal);
-    for (int k = 0; k < n_components(); ++k)
-      result[node] += factor[k] * deformation[k * fixed_.size() + node];
-  }
-  return result;
-}
-
-/// How far each component moves a boundary with this normal, given in polar directions.
-template <int dim>
-Vec<dim> DeformationSpace<dim>::factors(const Vec<dim>& normal) const {
-  return kind_ == DeformationKind::vector_field ? normal : Vec<dim>{1};
+  return restricted(motion_of(psi, {}).speeds_at_nodes(deformation));
 }
 
 /// With zeros at the fixed nodes.

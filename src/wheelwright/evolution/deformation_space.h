@@ -36,12 +36,10 @@ class DeformationSpace {
     return {psi, boundary, kind_};
   }
 
-  /// The speeds at the nodes along the normals of psi's spline coefficients, for Evolver::move(). Where they
-  /// are flat there are none.
+  /// BoundaryMotion::speeds_at_nodes() of any deformation, without the fixed nodes.
   std::vector<double> speeds(const LevelSet<dim>& psi, std::span<const double> deformation) const;
 
  private:
-  Vec<dim> factors(const Vec<dim>& normal) const;
   std::vector<double> restricted(std::span<const double> component) const;
   template <class Function>
   std::vector<double> by_component(std::span<const double> vector, Function function) const;

@@ -82,11 +82,10 @@ std::vector<bool> Evolver<dim>::at_bands(std::span<const SurfacePoint<dim>> boun
 
 /// A coefficient that may still move by a quarter of what it would is not held: the band clips it.
 template <int dim>
-std::vector<bool> Evolver<dim>::held_by_bands(const LevelSet<dim>& psi, std::span<const double> velocity,
-                                              double distance) const {
+std::vector<bool> Evolver<dim>::held_by_bands(const LevelSet<dim>& coefficients,
+                                              std::span<const double> velocity, double distance) const {
   constexpr double part = 0.25, least = 0.01;  // of the motion; of a cell
   const double time = distance / largest_magnitude(velocity);
-  const LevelSet<dim> coefficients = spline_coefficients(psi);
   std::vector<bool> held;
   for (std::size_t node = 0; node < velocity.size(); ++node) {
     const double margin = std::max(-part * time * velocity[node], least * lattice_.grid().resolution());

@@ -56,7 +56,7 @@ class Evolver {
 
   /// The nodes whose coefficients a band stops when they move with this velocity, sooner or later: those at
   /// the edge of a band that would move into it by more than they may. One flag per node.
-  std::vector<bool> held_by_bands(const LevelSet<dim>& psi, std::span<const double> velocity,
+  std::vector<bool> held_by_bands(const LevelSet<dim>& coefficients, std::span<const double> velocity,
                                   double distance) const;
 
   /// Transports the shape for the time in which the fastest node travels `distance` [m]. Fails if `velocity`

@@ -6,8 +6,8 @@
 
 namespace wheelwright {
 
-/// A move of the boundary, as a deformation, and the change of a derivative along it, as a load
-/// (evolution/deformation_space.h).
+/// A move of the boundary, as a deformation, and the Riesz representative of the change of a derivative along
+/// it (evolution/deformation_space.h).
 struct CurvaturePair {
   std::vector<double> move, change;
 };

@@ -57,10 +57,12 @@ double largest_objective(const OptimizerOptions& options, const OptimizationStat
 
 template <int dim>
 Matrix SequentialQuadraticProposals<dim>::Span::products() const {
-  const int n = static_cast<int>(loads.size());
+  const int n = static_cast<int>(loads.size()), n_known = known.rows(), first_known = n - n_known;
   Matrix result(n, n);
   for (int j = 0; j < n; ++j)
-    for (int i = 0; i <= j; ++i) result(i, j) = result(j, i) = product(loads[i], deformations[j]);
+    for (int i = 0; i <= j; ++i)
+      result(i, j) = result(j, i) =
+          i < first_known ? product(loads[i], deformations[j]) : known(i - first_known, j - first_known);
   return result;
 }
 
@@ -76,14 +78,10 @@ SequentialQuadraticProposals<dim>::SequentialQuadraticProposals(const Evolver<di
       narrow_(at_least_width<dim>(state.shape, state.evaluation.boundary,
                                   widths_after(evolver.features(), options, state))) {
   const auto& space = evolver_.deformations();
-  for (const auto& pair : state_.memory.pairs) {
-    pairs_.deformations.push_back(pair.move);
-    pairs_.loads.push_back(space.load(pair.move));
-  }
-  for (const auto& pair : state_.memory.pairs) {
-    pairs_.deformations.push_back(space.representative(pair.change));
-    pairs_.loads.push_back(pair.change);
-  }
+  for (const auto& pair : state_.memory.pairs) pairs_.deformations.push_back(pair.move);
+  for (const auto& pair : state_.memory.pairs) pairs_.deformations.push_back(pair.change);
+  for (const auto& deformation : pairs_.deformations) pairs_.loads.push_back(space.load(deformation));
+  pairs_.known = pairs_.products();
 }
 
 /// The derivatives without what these points of the boundary contribute, and the pairs.
@@ -92,7 +90,8 @@ typename SequentialQuadraticProposals<dim>::Span SequentialQuadraticProposals<di
     const BoundaryMotion<dim>& motion, const std::vector<bool>& held) const {
   const auto& space = evolver_.deformations();
   Span span{.deformations = {},
-            .loads = loads(motion, state_.evaluation, options_.objective, constraints_, held)};
+            .loads = loads(motion, state_.evaluation, options_.objective, constraints_, held),
+            .known = pairs_.known};
   for (const auto& load : span.loads) span.deformations.push_back(space.representative(load));
   span.loads.insert(span.loads.end(), pairs_.loads.begin(), pairs_.loads.end());
   span.deformations.insert(span.deformations.end(), pairs_.deformations.begin(), pairs_.deformations.end());
@@ -107,10 +106,10 @@ Expected<Move<dim>> SequentialQuadraticProposals<dim>::move(double step) const {
   Held held{.nodes = std::vector<bool>(state_.shape.values.size()),
             .points = std::vector<bool>(state_.evaluation.boundary.size())};
   auto motion = motion_;
-  auto move = move_with(motion, held, step);
+  auto move = move_with(motion, held.points, step);
   for (int turn = 0; turn < most_turns && hold_more(motion, move, held); ++turn) {
     motion = motion_.holding(held.nodes);
-    move = move_with(motion, held, step);
+    move = move_with(motion, held.points, step);
   }
   if (!std::isfinite(move.step)) return Failure{FailureReason::not_finite, "the velocity"};
   return move;
@@ -128,23 +127,21 @@ bool SequentialQuadraticProposals<dim>::hold_more(const BoundaryMotion<dim>& mot
     }
   };
   const double distance = move.distance * state_.shape.lattice.grid().resolution();
-  add(evolver_.held_by_bands(state_.shape, move.velocity, distance), held.nodes);
+  add(evolver_.held_by_bands(motion.coefficients(), move.velocity, distance), held.nodes);
   add(held_by_widths(narrow_, motion.speeds(move.deformation)), held.points);
   return is_more;
 }
 
 template <int dim>
-Move<dim> SequentialQuadraticProposals<dim>::move_with(const BoundaryMotion<dim>& motion, const Held& held,
+Move<dim> SequentialQuadraticProposals<dim>::move_with(const BoundaryMotion<dim>& motion,
+                                                       const std::vector<bool>& held_points,
                                                        double step) const {
   const double measure = next_measure(options_, state_, step);
-  const Span span = span_without(motion, held.points);
+  const Span span = span_without(motion, held_points);
   auto penalties = this->penalties();
   const auto found = step_in(motion, span, state_.measure - measure, step, penalties);
-  const auto& space = evolver_.deformations();
   auto deformation = combination(found.coefficients, span.deformations);
-  auto velocity = space.speeds(state_.shape, deformation);
-  for (std::size_t node = 0; node < velocity.size(); ++node)
-    if (held.nodes[node]) velocity[node] = 0;
+  auto velocity = motion.speeds_at_nodes(deformation);
   const double resolution = state_.shape.lattice.grid().resolution();
   const double distance = largest_magnitude(velocity) / resolution,
                farthest = largest_magnitude(motion.speeds(deformation));
@@ -259,7 +256,8 @@ StepMemory SequentialQuadraticProposals<dim>::remembered(const Move<dim>& move, 
                             move.multipliers.end());
   const auto& space = evolver_.deformations();
   const double unit = 1 / largest_magnitude(move.deformation);
-  CurvaturePair pair{move.deformation, Nodal(move.deformation.size(), 0.0)};
+  CurvaturePair pair{.move = move.deformation, .change = {}};
+  Nodal change(move.deformation.size(), 0.0);
   for (double& v : pair.move) v *= unit;
   std::vector<double> weights{1.0};
   if (move.multipliers.size() == constraints_.size()) weights.push_back(0);  // the measure is free
@@ -268,13 +266,13 @@ StepMemory SequentialQuadraticProposals<dim>::remembered(const Move<dim>& move, 
   const auto add_loads = [&](double factor, const BoundaryMotion<dim>& motion, const Evaluation<dim>& e) {
     const auto derivatives =
         loads(motion, e, options_.objective, constraints_, std::vector<bool>(e.boundary.size(), false));
-    for (size_t i = 0; i < derivatives.size(); ++i) add(factor * weights[i], derivatives[i], pair.change);
+    for (size_t i = 0; i < derivatives.size(); ++i) add(factor * weights[i], derivatives[i], change);
   };
   add_loads(unit, space.motion_of(shape, evaluation.boundary), evaluation);
   add_loads(-unit, motion_, state_.evaluation);
+  pair.change = space.representative(change);
   const double move_square = product(space.load(pair.move), pair.move),
-               move_change = product(pair.change, pair.move),
-               change_square = product(pair.change, space.representative(pair.change));
+               move_change = product(change, pair.move), change_square = product(change, pair.change);
   remember(std::move(pair), move_square, move_change, change_square, memory.pairs);
   return memory;
 }

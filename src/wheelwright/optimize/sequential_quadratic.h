@@ -29,6 +29,7 @@ class SequentialQuadraticProposals final : public Proposals<dim> {
   /// their changes.
   struct Span {
     std::vector<std::vector<double>> deformations, loads;
+    Matrix known = {};  ///< the products of its last vectors
     Matrix products() const;
   };
 
@@ -40,7 +41,8 @@ class SequentialQuadraticProposals final : public Proposals<dim> {
 
   bool hold_more(const BoundaryMotion<dim>& motion, const Move<dim>& move, Held& held) const;
   Span span_without(const BoundaryMotion<dim>& motion, const std::vector<bool>& held) const;
-  Move<dim> move_with(const BoundaryMotion<dim>& motion, const Held& held, double step) const;
+  Move<dim> move_with(const BoundaryMotion<dim>& motion, const std::vector<bool>& held_points,
+                      double step) const;
   QuadraticStep step_in(const BoundaryMotion<dim>& motion, const Span& span, double gap, double step,
                         std::vector<double>& penalties) const;
   std::vector<double> penalties() const;

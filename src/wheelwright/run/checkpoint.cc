@@ -8,7 +8,7 @@ namespace wheelwright {
 namespace {
 
 constexpr std::string_view file_kind = "CKPT";
-constexpr std::uint32_t version = 6;
+constexpr std::uint32_t version = 7;
 
 constexpr int largest_int = std::numeric_limits<int>::max();
 
