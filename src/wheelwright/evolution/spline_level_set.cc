@@ -28,12 +28,13 @@ struct Line {
 std::vector<double> periodic_coefficients(const Line& value) {
   constexpr int reach = 27;  // pole^27 = 4e-16
   const double pole = std::sqrt(3.0) - 2;
-  std::vector<double> result;
-  for (int i = 0; i < value.size(); ++i) {
-    double sum = value(i), weight = 1;
+  std::vector<double> around, result;
+  for (int i = -reach; i < value.size() + reach; ++i) around.push_back(value(i));
+  for (int i = reach; i < value.size() + reach; ++i) {
+    double sum = around[i], weight = 1;
     for (int k = 1; k <= reach; ++k) {
       weight *= pole;
-      sum += weight * (value(i + k) + value(i - k));
+      sum += weight * (around[i + k] + around[i - k]);
     }
     result.push_back(std::sqrt(3.0) * sum);
   }
