@@ -41,7 +41,7 @@ const stage = (() => {
     const { sectors, inner_radius_m: inner, outer_radius_m: outer, stands_on_ground: hasGround } = wheel;
     const view = { zoom: 1, x: 0, y: 0 };  // in the middle of the canvas; 0, 0: what fit() shows
     let painter = null, fields = null, field = null, mesh = null, size = { width: 1, height: 1, ratio: 1 };
-    let turn = -Math.PI / 2, magnified = 1, isLoaded = true;
+    let turn = -Math.PI / 2, magnified = 1, isLoaded = true, painted = {};
 
     // What fits: the wheel, and a strip of ground below it.
     const top = 1.05 * outer, bottom = (hasGround ? 1.13 : 1.05) * outer;
@@ -182,6 +182,14 @@ const stage = (() => {
       context.stroke();
     }
 
+    // The coloured wheel lies on a canvas of its own, below the edges: it stays as it is while only they change.
+    function paintStress(seen) {
+      const shown = isLoaded ? magnified : 0, key = JSON.stringify([shown, seen]);
+      if (!painter || (painted.fields === fields && painted.key === key)) return;
+      painted = { fields, key };
+      painter(0, shown, "stress", seen);
+    }
+
     // Paints the wheel. `outline`: edges of the newest shape; `coloured`: those of the shape that is coloured, where it is
     // another one; `ghost`: those of the initial shape, or null; `brightest`: stress at the colours' end.
     function paint({ outline, coloured, ghost, brightest }) {
@@ -190,7 +198,7 @@ const stage = (() => {
       context.setTransform(1, 0, 0, 1, 0, 0);
       context.clearRect(0, 0, width, height);
       const [cx, cy] = middle(), s = scale();
-      painter?.(0, isLoaded ? magnified : 0, "stress", { ...size, scale: s, x: cx, y: cy, ground: hasGround ? -outer : -1e9, brightest });
+      paintStress({ ...size, scale: s, x: cx, y: cy, ground: hasGround ? -outer : -1e9, brightest });
       const edges = outlinePath(outline), rim = circlePath(inner, 0), tread = circlePath(outer, 1);
       if (!painter) {
         const ring = new Path2D(rim);
