@@ -5,6 +5,7 @@
 #include "tests/run_support.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/report/comparison_table.h"
+#include "wheelwright/report/gains.h"
 #include "wheelwright/run/expectations.h"
 #include "wheelwright/run/run_report.h"
 
@@ -184,6 +185,17 @@ TEST_F(ResultsOfARun, AreASummaryWithoutAnySolution) {
   const auto json = nlohmann::json::parse(summary_json(none.summary));
   EXPECT_TRUE(json["after"]["objective_J_per_m"].is_number());
   EXPECT_EQ(json["after"]["missing"]["run_out_m"], told);
+}
+
+TEST_F(ResultsOfARun, ThatBeginNearZeroAreNotToldInPercents) {
+  RunSummary<2> summary = results(study(""), {}).summary;
+  const auto objective_told = [&](double times) {
+    summary.after.objective = times * *summary.before.objective;
+    const std::string line = gains(summary);
+    return line.substr(line.rfind(", ") + 2);
+  };
+  EXPECT_EQ(objective_told(1.5), "objective 50.0 % higher");
+  EXPECT_EQ(objective_told(1e5).find('%'), std::string::npos) << objective_told(1e5);
 }
 
 TEST_F(ResultsOfARun, TellWhyWhatIsExpectedIsNotKnown) {

@@ -37,13 +37,6 @@ double rounded_up(double value) {
   return std::ceil(value / unit) * unit;
 }
 
-/// What to add to a remedy where a length is so much too large for the wheel that it may be in millimetres.
-std::string if_in_millimetres(double length, double largest) {
-  if (length <= 3 * largest || length > 1000 * largest) return "";
-  return fmt::format("; lengths are in metres: if {} is in mm, write {}", number_text(length),
-                     number_text(length / 1000));
-}
-
 /// A band covers the rows of cells that must be full.
 void check_band(const Case& c, const Band& band, std::string_view place, const std::string& key,
                 bool is_given, Conflicts& found) {

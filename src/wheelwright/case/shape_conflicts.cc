@@ -8,6 +8,7 @@
 
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/keys.h"
+#include "wheelwright/case/number_text.h"
 #include "wheelwright/case/shape_symmetry.h"
 #include "wheelwright/drawing/drawing.h"
 
@@ -149,7 +150,8 @@ void check_extent(const Case& c, const DrawnShape& shape, Conflicts& found) {
   found.push_back({with_ring_shape({shape.key}),
                    fmt::format("{} {}; {} {:.6g} m to {:.6g} m", is_hole ? "the hole" : "the material", where,
                                allowed, region.inner, region.outer),
-                   hint.empty() ? "move it, or make it smaller" : hint});
+                   (hint.empty() ? "move it, or make it smaller" : hint) +
+                       if_in_millimetres(c.wheel.outer_radius, 2 * extent.high)});
 }
 
 void check_crossings(const DrawnShape& shape, Conflicts& found) {
@@ -223,6 +225,12 @@ void check_material_on_the_ring(const Case& c, const std::vector<DrawnShape>& sh
 }
 
 }  // namespace
+
+std::string if_in_millimetres(double length, double other) {
+  if (length <= 3 * other || length > 5000 * other) return "";
+  return fmt::format("; lengths are in metres: if {} is in mm, write {}", number_text(length),
+                     number_text(length / 1000));
+}
 
 std::vector<std::string> with_ring_shape(std::vector<std::string> keys) {
   for (const char* key : {"wheel.inner_radius", "wheel.outer_radius", "optimizer.rim_band",

@@ -10,6 +10,10 @@ namespace wheelwright {
 /// drawings that are not the same in all sectors.
 std::vector<Conflict> shape_conflicts(const Case& c, const std::vector<DrawnShape>& shapes);
 
+/// What to add to a remedy where a length is so much larger than another one of the wheel that it may be in
+/// millimetres.
+std::string if_in_millimetres(double length, double other);
+
 /// The keys that decide where holes may be, after `keys`.
 std::vector<std::string> with_ring_shape(std::vector<std::string> keys);
 

@@ -19,9 +19,10 @@ struct Words {
 /// Nothing where there is no relative change, as from a run-out of 0.
 std::optional<std::string> change(double before, double after, const Words& words) {
   const double percents = 100 * (after / before - 1);
-  constexpr double least = 0.05;
+  constexpr double least = 0.05, most = 1000;
   if (!std::isfinite(percents)) return {};
   if (std::abs(percents) < least) return words.same;
+  if (percents > most) return fmt::format("more than ten times {}", words.larger);
   return fmt::format("{:.1f} % {}", std::abs(percents), percents > 0 ? words.larger : words.smaller);
 }
 

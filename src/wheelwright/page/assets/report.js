@@ -199,8 +199,8 @@
       const k = (at?.azimuths_rad ?? []).findIndex((azimuth) => Math.abs(azimuth - shown_azimuth) < 1e-9);
       const numbers = k < 0 ? "" : `: travel ${shown((at.travel_at_load_m?.[k] ?? NaN) * 1e3)} mm, peak pressure ` +
         `${shown(at.peak_pressure_Pa[k] * 1e-6)} MPa, peak stress ${shown(at.peak_von_mises_Pa[k] * 1e-6)} MPa`;
-      caption.textContent = `${loadCase ? `Load case ${loadCase}. ` : ""}Ground at azimuth ${shown(shown_azimuth * degree)}\u00b0${numbers}. Displacements are drawn ` +
-        `${magnified} times as large.${is_surface ? " Drag the wheel to turn it." : ""}`;
+      caption.textContent = `${loadCase ? `Load case ${loadCase}. ` : ""}Ground at azimuth ${shown(shown_azimuth * degree)}\u00b0${numbers}. ` +
+        `Displacements are drawn ${magnified === 1 ? "in true scale" : `${magnified} times as large`}.${is_surface ? " Drag the wheel to turn it." : ""}`;
     };
     const roll = (on) => {
       clearInterval(timer);
