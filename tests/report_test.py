@@ -590,6 +590,13 @@ class LoadsPage(Browser, unittest.TestCase):
         self.assertNotEqual(self.pixels("run0-load1-position"), seen)
 
 
+    def test_the_wheels_of_two_loads_and_their_shape_stand_in_one_row(self):
+        self.open(self.page)
+        figures = self.browser.find_elements(By.CSS_SELECTOR, ".wheels > figure")
+        self.assertEqual(len(figures), 3)
+        self.assertEqual(len({figure.location["y"] for figure in figures}), 1)
+
+
 class SolidPage(Browser, unittest.TestCase):
     """The page of a run in 3D: a lit surface that turns."""
 

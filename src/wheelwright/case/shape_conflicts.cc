@@ -129,6 +129,15 @@ std::string unit_hint(const DrawnShape& shape, const Case& c, double reach) {
       units, units * 1e-3, units * 0.0254, units);
 }
 
+/// What to do about a drawing of holes that reaches the tread: it may show the material.
+std::string whole_wheel_hint(const DrawnShape& shape, const Case& c, double reach) {
+  constexpr double near = 0.01;
+  const bool shows_tread = std::abs(reach - c.wheel.outer_radius) < near * c.wheel.outer_radius;
+  if (!shape.key.starts_with("shape.file") || shape.fill != Fill::hole || !shows_tread) return "";
+  return "if it shows the whole wheel with its tread, put [[shape.annulus]] before it and give as = "
+         "\"material\"";
+}
+
 /// Holes must lie between the bands, and material in the ring.
 void check_extent(const Case& c, const DrawnShape& shape, Conflicts& found) {
   const bool is_hole = shape.fill == Fill::hole;
@@ -144,7 +153,8 @@ void check_extent(const Case& c, const DrawnShape& shape, Conflicts& found) {
                                                   point_text(extent.highest), place_text(highest_place))
                                     : fmt::format("reaches radius {:.6g} m at {}{}", extent.low,
                                                   point_text(extent.lowest), place_text(lowest_place));
-  const std::string hint = unit_hint(shape, c, extent.high);
+  const std::string unit = unit_hint(shape, c, extent.high),
+                    hint = unit.empty() ? whole_wheel_hint(shape, c, extent.high) : unit;
   const std::string allowed =
       is_hole ? "between the bands at rim and tread there is only" : "the ring has only";
   found.push_back({with_ring_shape({shape.key}),

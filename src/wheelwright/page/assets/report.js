@@ -351,7 +351,7 @@
     const made = element("article", { id: run.id }, element("h1", {}, run.title),
       element("p", { class: "quiet", id: `${run.id}-status` }, `${data.runs.length > 1 ? `run ${run.name}; ` : ""}${run.status}; load ${run.load}`));
     if (run.summary) made.append(verdict(run));
-    const pictures = element("div", { class: "pictures" });
+    const pictures = element("div", { class: "pictures wheels" });
     const picture = (part) => {
       later.push(part);
       pictures.append(part.figure);
