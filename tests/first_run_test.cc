@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -92,6 +93,23 @@ TEST_F(FirstRun, AGoodEndDoesNotSoundLikeAFailure) {
   EXPECT_EQ(n_lines_with(outcome, text(StopReason::no_descent)), 1u) << text(outcome);
   const Outcome again = wheelwright("resume run");
   EXPECT_EQ(n_lines_with(again, "no_descent"), 0u) << text(again);
+}
+
+// The wheel is 120 mm wide: per metre it would have 8.3 times this mass.
+TEST_F(FirstRun, ProgressTellsTheMassThatTheTableTells) {
+  write("case.toml", small_case(1) +
+                         "[material]\ndensity = 1200\n[objective]\nminimize = \"mass\"\n"
+                         "[[constraint]]\nquantity = \"stiffness\"\nat_least = 1e6\n");
+  const Outcome outcome = wheelwright("run case.toml");
+  const auto summary = nlohmann::json::parse(content(folder() / "run" / "summary.json"));
+  const auto told = std::ranges::find_if(
+      outcome.lines, [](const std::string& line) { return line.find("shape 0/") != std::string::npos; });
+  ASSERT_NE(told, outcome.lines.end()) << text(outcome);
+  const std::string before = "objective ";
+  const char* number = told->c_str() + told->find(before) + before.size();
+  char* unit = nullptr;
+  EXPECT_NEAR(std::strtod(number, &unit), summary["before"]["mass_kg"].get<double>(), 1e-4);
+  EXPECT_TRUE(std::string(unit).starts_with(" kg ")) << *told;
 }
 
 // A table that is longer than a buffer, with warnings on standard error.

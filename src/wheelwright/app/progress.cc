@@ -28,6 +28,11 @@ int terminal_width(std::FILE* stream) {
   return 80;
 }
 
+/// e.g. " kg"
+std::string unit_text(const ProgressState& s) {
+  return s.objective_unit.empty() ? "" : " " + s.objective_unit;
+}
+
 std::string change_text(const ProgressState& s) {
   return fmt::format("{:+.2f} %", 100 * (s.objective / s.initial_objective - 1));
 }
@@ -69,19 +74,20 @@ std::string clock_text(double seconds) {
 }
 
 std::string progress_line(const ProgressState& s, double seconds_left) {
-  return fmt::format("shape {}  objective {:.6g} ({})  volume {:.3f} %  step {:.3g} mm  elapsed {}{}",
-                     shape_text(s), s.objective, change_text(s), 100 * s.volume_fraction, 1000 * s.step,
-                     clock_text(s.elapsed_seconds),
+  return fmt::format("shape {}  objective {:.6g}{} ({})  volume {:.3f} %  step {:.3g} mm  elapsed {}{}",
+                     shape_text(s), s.objective, unit_text(s), change_text(s), 100 * s.volume_fraction,
+                     1000 * s.step, clock_text(s.elapsed_seconds),
                      s.n_shapes && !is_last(s) ? "  " + left_text(seconds_left) : "");
 }
 
 std::string progress_bar(const ProgressState& s, double seconds_left, int width) {
   constexpr int shortest_bar = 20, longest_bar = 40;
-  const std::vector<std::string> parts{fmt::format("{}{}", s.n_shapes ? " " : "shape ", shape_text(s)),
-                                       fmt::format("  J {:.5g} ({})", s.objective, change_text(s)),
-                                       s.n_shapes && !is_last(s) ? "  " + left_text(seconds_left) : "",
-                                       fmt::format("  volume {:.2f} %", 100 * s.volume_fraction),
-                                       fmt::format("  step {:.2g} mm", 1000 * s.step)};
+  const std::vector<std::string> parts{
+      fmt::format("{}{}", s.n_shapes ? " " : "shape ", shape_text(s)),
+      fmt::format("  J {:.5g}{} ({})", s.objective, unit_text(s), change_text(s)),
+      s.n_shapes && !is_last(s) ? "  " + left_text(seconds_left) : "",
+      fmt::format("  volume {:.2f} %", 100 * s.volume_fraction),
+      fmt::format("  step {:.2g} mm", 1000 * s.step)};
   std::string numbers;
   for (const std::string& part : parts) {
     if (static_cast<int>(numbers.size() + part.size()) + shortest_bar + 2 > width) break;

@@ -19,11 +19,12 @@ ProgressStyle progress_style(std::FILE* stream);
 struct ProgressState {
   int shape;                    ///< shapes accepted so far
   std::optional<int> n_shapes;  ///< shapes asked for; nothing: there is no end
-  double objective;
-  double initial_objective;
+  double objective;             ///< as tables show it
+  double initial_objective;     ///< likewise
   double volume_fraction;
-  double step;             ///< farthest that the boundary travelled in this shape [m]
-  double elapsed_seconds;  ///< since the run began
+  double step;                      ///< farthest that the boundary travelled in this shape [m]
+  double elapsed_seconds;           ///< since the run began
+  std::string objective_unit = {};  ///< nothing where it has none
 };
 
 /// One line of text for a log. `seconds_left` < 0: not known yet.

@@ -5,6 +5,7 @@
 #include "wheelwright/analysis/deformation_size.h"
 #include "wheelwright/app/contact_progress.h"
 #include "wheelwright/app/trial_log.h"
+#include "wheelwright/case/shown_value.h"
 #include "wheelwright/case/unlimited.h"
 #include "wheelwright/run/feature_warnings.h"
 #include "wheelwright/run/roughness_warning.h"
@@ -45,13 +46,15 @@ class TerminalObserver : public Observer<dim> {
            deformation_warning(deformation_size(*run.study.solver, trial.shape, *trial.solution)));
     const PolarGrid<dim>& grid = run.study.grid();
     const int asked = run.study.optimizer.iterations;
+    const ShownUnit shown = shown_unit(run.study.source.objective.minimize, run.study.source.wheel);
     progress_->show({.shape = state.iteration,
                      .n_shapes = asked < unlimited_iterations ? std::optional(asked) : std::nullopt,
-                     .objective = state.evaluation.function("objective").value,
-                     .initial_objective = run.initial->objective,
+                     .objective = state.evaluation.function("objective").value * shown.factor,
+                     .initial_objective = run.initial->objective * shown.factor,
                      .volume_fraction = volume_fraction(grid, state.measure),
                      .step = trial.step * grid.resolution(),
-                     .elapsed_seconds = run.elapsed_seconds});
+                     .elapsed_seconds = run.elapsed_seconds,
+                     .objective_unit = shown.name});
   }
 
   void end(const RunEnded<dim>& ended, const RunView<dim>& run) {

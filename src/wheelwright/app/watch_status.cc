@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "wheelwright/app/terminal.h"
+#include "wheelwright/case/shown_value.h"
 
 namespace wheelwright {
 
@@ -17,8 +18,10 @@ void WatchStatus<dim>::operator()(const Event<dim>& event, const RunView<dim>& r
   if (const auto* done = std::get_if<TrialDone<dim>>(&event)) {
     if (done->trial.verdict != Verdict::accepted) return;
     const double objective = done->state.evaluation.function("objective").value;
-    shape_ = fmt::format("shape {}, objective {:.5g} {} ({:+.2f} %), ", done->state.iteration, objective,
-                         unit<dim>(UnitKind::energy), 100 * (objective / run.initial->objective - 1));
+    const ShownUnit shown = shown_unit(run.study.source.objective.minimize, run.study.source.wheel);
+    shape_ =
+        fmt::format("shape {}, objective {:.5g} {} ({:+.2f} %), ", done->state.iteration,
+                    objective * shown.factor, shown.name, 100 * (objective / run.initial->objective - 1));
     if (activity_.starts_with("computing")) activity_ = "optimizing";
     if (repaints_) show();
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "wheelwright/case/shown_value.h"
 #include "wheelwright/case/write.h"
 #include "wheelwright/cut/measure.h"
 #include "wheelwright/files/atomic_file.h"
@@ -52,10 +53,12 @@ std::string report(const RunEnded<dim>& failure, const RunView<dim>& run) {
   if (failure.state)
     if (const std::string hint = volume_hint(*run.initial, *failure.state); !hint.empty())
       text += hint + "\n\n";
+  const ShownUnit shown = shown_unit(run.study.source.objective.minimize, run.study.source.wheel);
   if (failure.state)
     text += fmt::format("last accepted shape: {}, objective {:.8g} {}, volume {:.6f} of the ring\n",
-                        failure.state->iteration, failure.state->evaluation.function("objective").value,
-                        unit<dim>(kind(Quantity::objective)), volume_fraction(grid, failure.state->measure));
+                        failure.state->iteration,
+                        failure.state->evaluation.function("objective").value * shown.factor, shown.name,
+                        volume_fraction(grid, failure.state->measure));
   for (const Trial<dim>& trial : failure.failed_trials)
     text += fmt::format("trial {} of shape {}: step {:.4g} cells = {:.4g} mm, volume {:.6f}: {}: {}\n",
                         trial.halvings, trial.iteration, trial.step, 1e3 * trial.step * grid.resolution(),
@@ -87,22 +90,25 @@ WheelState<2> wheel(const std::string& heading, const LevelSet<dim>& shape, doub
 }
 
 template <int dim>
-std::string picture(const RunEnded<dim>& failure, Quantity minimized) {
+std::string picture(const RunEnded<dim>& failure, const Case& c) {
+  const Quantity minimized = c.objective.minimize;
+  const ShownUnit shown = shown_unit(minimized, c.wheel);
   const Trial<dim>& trial = failure.failed_trials.back();
   const PolarGrid<2> grid = mid_plane_section(trial.shape).lattice.grid();
   const std::string reason = to_string(trial.failure->reason);
-  const double objective = trial.evaluation ? trial.evaluation->function("objective").value
+  const double objective = trial.evaluation ? trial.evaluation->function("objective").value * shown.factor
                                             : std::numeric_limits<double>::quiet_NaN();
   const WheelState<2> rejected =
       wheel("rejected: " + reason, trial.shape, objective, material_measure(trial.shape));
   if (!failure.state) return shape_svg(grid, rejected.boundary, rejected.heading);
   const OptimizationState<dim>& last = *failure.state;
-  const WheelState<2> accepted = wheel(fmt::format("shape {}, accepted", last.iteration), last.shape,
-                                       last.evaluation.function("objective").value, last.measure);
+  const WheelState<2> accepted =
+      wheel(fmt::format("shape {}, accepted", last.iteration), last.shape,
+            last.evaluation.function("objective").value * shown.factor, last.measure);
   return comparison_svg(grid, {.title = "Where the run gave up",
                                .caption = trial.failure->detail,
                                .objective_name = std::string(name(minimized)),
-                               .objective_unit = unit<dim>(kind(minimized)),
+                               .objective_unit = shown.name,
                                .before = accepted,
                                .after = rejected});
 }
@@ -120,7 +126,7 @@ void FailureReport<dim>::operator()(const Event<dim>& event, const RunView<dim>&
   write_drawings(run.folder / "failure", run.study.source);
   write_atomically(run.folder / "failure/case.toml", to_toml(run.study.source));
   write_atomically(run.folder / failure_report_file, report(*ended, run));
-  write_atomically(run.folder / rejected_picture_file, picture(*ended, run.study.source.objective.minimize));
+  write_atomically(run.folder / rejected_picture_file, picture(*ended, run.study.source));
   write_atomically(run.folder / "failure/rejected.levelset", level_set_file(rejected));
   if (ended->state)
     write_atomically(run.folder / "failure/accepted.levelset", level_set_file(ended->state->shape));
