@@ -7,6 +7,7 @@
 #include "wheelwright/evolution/multilinear.h"
 #include "wheelwright/evolution/redistance.h"
 #include "wheelwright/evolution/spline_level_set.h"
+#include "wheelwright/evolution/spline_redistance.h"
 #include "wheelwright/evolution/sub_cell_filter.h"
 #include "wheelwright/evolution/transport.h"
 #include "wheelwright/geometry/finite.h"
@@ -143,8 +144,8 @@ double Evolver<dim>::first_order_change(std::span<const SurfaceSample<dim>> grad
 template <int dim>
 Expected<LevelSet<dim>> Evolver<dim>::redistance(const LevelSet<dim>& psi) const {
   if (auto failure = check_finite<dim>(psi.lattice, psi.values, "the level set")) return *failure;
-  return finished(wheelwright::redistance<dim>(design_of(psi)), symmetries(psi),
-                  "the level set after redistancing");
+  auto design = space_ == ShapeSpace::spline ? redistanced_coefficients(psi) : wheelwright::redistance(psi);
+  return finished(std::move(design), symmetries(psi), "the level set after redistancing");
 }
 
 template <int dim>

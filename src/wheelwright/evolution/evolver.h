@@ -68,7 +68,7 @@ class Evolver {
   double first_order_change(std::span<const SurfaceSample<dim>> gradient, std::span<const double> velocity,
                             double distance) const;
 
-  /// The shape whose design is a signed distance, with the design's boundary.
+  /// The shape whose design is about a signed distance, with the same boundary.
   Expected<LevelSet<dim>> redistance(const LevelSet<dim>& psi) const;
 
   /// The signed distance to the boundary of a level set that was not moved, but drawn: no spline, so that the

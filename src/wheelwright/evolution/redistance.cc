@@ -5,29 +5,56 @@
 #include "wheelwright/geometry/nearest_point.h"
 
 namespace wheelwright {
+namespace {
+
+/// A node in units of the node spacing.
+template <int dim>
+Vec<dim> point_of(const Lattice<dim>& lattice, int node) {
+  const auto position = lattice.node_position(node);
+  Vec<dim> point;
+  for (int d = 0; d < dim; ++d) point[d] = position[d];
+  return point;
+}
+
+}  // namespace
 
 template <int dim>
-LevelSet<dim> redistance(const LevelSet<dim>& psi) {
+std::vector<Vec<dim>> closest_points(const LevelSet<dim>& psi) {
   const auto& lattice = psi.lattice;
   const CubicInterpolant<dim> interpolant(psi);
   const auto seeds = with_images<dim>(lattice, zero_seeds<dim>(interpolant));
-  if (seeds.empty()) return psi;
-  std::vector<Vec<dim>> positions;
+  if (seeds.empty()) return {};
+  std::vector<Vec<dim>> positions, result;
   for (const auto& seed : seeds) positions.push_back(cartesian_position<dim>(lattice, seed));
   const NearestPoint<dim> nearest_seed(std::move(positions));
-  LevelSet<dim> result = psi;
   for (int n = 0; n < lattice.n_nodes(); ++n) {
-    const auto position = lattice.node_position(n);
-    Vec<dim> node;
-    for (int d = 0; d < dim; ++d) node[d] = position[d];
+    const Vec<dim> node = point_of(lattice, n);
     const Vec<dim> seed = seeds[nearest_seed.index_of_nearest(cartesian_position<dim>(lattice, node))];
-    const Vec<dim> closest = closest_zero<dim>(interpolant, node, seed).value_or(seed);
-    const double distance = physical_distance<dim>(lattice, node, closest);
+    result.push_back(closest_zero<dim>(interpolant, node, seed).value_or(seed));
+  }
+  return result;
+}
+
+template <int dim>
+LevelSet<dim> signed_distances(const LevelSet<dim>& psi, const std::vector<Vec<dim>>& closest) {
+  LevelSet<dim> result = psi;
+  for (std::size_t n = 0; n < closest.size(); ++n) {
+    const double distance =
+        physical_distance<dim>(psi.lattice, point_of(psi.lattice, static_cast<int>(n)), closest[n]);
     result.values[n] = psi.values[n] < 0 ? -distance : distance;
   }
   return result;
 }
 
+template <int dim>
+LevelSet<dim> redistance(const LevelSet<dim>& psi) {
+  return signed_distances<dim>(psi, closest_points(psi));
+}
+
+template std::vector<Vec<2>> closest_points<2>(const LevelSet<2>&);
+template std::vector<Vec<3>> closest_points<3>(const LevelSet<3>&);
+template LevelSet<2> signed_distances<2>(const LevelSet<2>&, const std::vector<Vec<2>>&);
+template LevelSet<3> signed_distances<3>(const LevelSet<3>&, const std::vector<Vec<3>>&);
 template LevelSet<2> redistance<2>(const LevelSet<2>&);
 template LevelSet<3> redistance<3>(const LevelSet<3>&);
 
