@@ -6,6 +6,7 @@
 #include "tests/support.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/evolution/feature_size.h"
+#include "wheelwright/evolution/medial_balls.h"
 #include "wheelwright/geometry/topology.h"
 #include "wheelwright/report/described_wheel.h"
 #include "wheelwright/run/study.h"

@@ -336,7 +336,7 @@ TEST_F(CommandLine, AVolumeThatIsNotReachedIsNamed) {
   const Outcome there = run("there", "target = 0.8\nrate = 0.1\n");
   EXPECT_EQ(there.code, exit_done) << there.output;
   EXPECT_EQ(there.output.find("volume.target"), std::string::npos) << there.output;
-  for (const char* volume : {"target = 0.46\ncontrol = \"paper\"\n", "target = 0.455\nrate = 0.02\n"}) {
+  for (const char* volume : {"target = 0.46\ncontrol = \"paper\"\n", "target = 0.455\nrate = 0.03\n"}) {
     const Outcome gave_up = run(fmt::format("gave-up-{}", std::strlen(volume)), volume, 60);
     EXPECT_EQ(gave_up.code, exit_no_solution) << gave_up.output;
     EXPECT_NE(gave_up.output.find("volume.target = 0.4"), std::string::npos) << gave_up.output;

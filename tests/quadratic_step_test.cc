@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "wheelwright/optimize/box_program.h"
+#include "wheelwright/linalg/box_program.h"
 #include "wheelwright/optimize/curvature_memory.h"
 
 using namespace wheelwright;

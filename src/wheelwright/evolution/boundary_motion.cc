@@ -1,5 +1,6 @@
 #include "wheelwright/evolution/boundary_motion.h"
 
+#include <algorithm>
 #include <array>
 
 #include "wheelwright/evolution/spline_level_set.h"
@@ -50,28 +51,33 @@ std::vector<Vec<dim>> gradients_at_nodes(const LevelSet<dim>& psi) {
   return result;
 }
 
+/// Adds how the spline at a point of the unit cell depends on its coefficients, times a factor.
+template <int dim>
+void BoundaryMotion<dim>::add_dependences(const Lattice<dim>& lattice, const std::array<int, dim>& cell,
+                                          const Vec<dim>& xi, double factor, std::vector<Dependence>& to) {
+  std::array<std::array<double, 4>, dim> weights;
+  for (int d = 0; d < dim; ++d)
+    weights[d] = spline_weights(lattice.degree(), cell[d], xi[d], lattice.grid().cells[d] + 1, d == 1);
+  for (int k = 0; k < power(4, dim); ++k) {
+    std::array<int, dim> vertex;
+    double weight = factor;
+    int rest = k;
+    for (int d = 0; d < dim; ++d, rest /= 4) {
+      weight *= weights[d][rest % 4];
+      vertex[d] = lattice.degree() * (cell[d] + rest % 4 - 1);
+    }
+    if (weight != 0) to.push_back({lattice.node_index(vertex), weight});
+  }
+}
+
 template <int dim>
 typename BoundaryMotion<dim>::Boundary BoundaryMotion<dim>::boundary_of(
     const LevelSet<dim>& psi, std::span<const SurfacePoint<dim>> points) {
-  const auto& lattice = psi.lattice;
-  const auto& grid = lattice.grid();
   Boundary result;
   for (const auto& point : points) {
-    const auto cell = grid.cell_position(point.cell);
-    std::array<std::array<double, 4>, dim> weights;
-    for (int d = 0; d < dim; ++d)
-      weights[d] = spline_weights(lattice.degree(), cell[d], point.xi[d], grid.cells[d] + 1, d == 1);
     const std::size_t first = result.dependences.size();
-    for (int k = 0; k < power(4, dim); ++k) {
-      std::array<int, dim> vertex;
-      double weight = 1;
-      int rest = k;
-      for (int d = 0; d < dim; ++d, rest /= 4) {
-        weight *= weights[d][rest % 4];
-        vertex[d] = lattice.degree() * (cell[d] + rest % 4 - 1);
-      }
-      if (weight != 0) result.dependences.push_back({lattice.node_index(vertex), weight});
-    }
+    add_dependences(psi.lattice, psi.lattice.grid().cell_position(point.cell), point.xi, 1,
+                    result.dependences);
     result.places.push_back({.first = first,
                              .last = result.dependences.size(),
                              .steepness = steepness_at<dim>(psi, point),
@@ -91,6 +97,33 @@ BoundaryMotion<dim>::BoundaryMotion(const LevelSet<dim>& psi, std::span<const Su
       boundary_(std::make_shared<Boundary>(boundary_of(psi, boundary))) {
   if (kind == DeformationKind::normal_speed)
     for (auto& rate : rates_) rate = {norm<dim>(rate)};
+}
+
+template <int dim>
+BoundaryMotion<dim> BoundaryMotion<dim>::at(const CubicInterpolant<dim>& psi,
+                                            const std::vector<Vec<dim>>& points) const {
+  const Lattice<dim>& lattice = psi.lattice();
+  Boundary boundary;
+  for (const auto& point : points) {
+    const std::size_t first = boundary.dependences.size();
+    for (const auto& [node, weight] : psi.weights(point)) {
+      const auto position = lattice.node_position(node);
+      std::array<int, dim> cell;
+      Vec<dim> xi;
+      for (int d = 0; d < dim; ++d) {
+        cell[d] = std::min(position[d] / lattice.degree(), lattice.grid().cells[d] - 1);
+        xi[d] = static_cast<double>(position[d] - lattice.degree() * cell[d]) / lattice.degree();
+      }
+      add_dependences(lattice, cell, xi, weight, boundary.dependences);
+    }
+    boundary.places.push_back({.first = first,
+                               .last = boundary.dependences.size(),
+                               .steepness = norm<dim>(psi(point).gradient),
+                               .measure = 1});
+  }
+  BoundaryMotion result = *this;
+  result.boundary_ = std::make_shared<const Boundary>(std::move(boundary));
+  return result;
 }
 
 template <int dim>

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "wheelwright/geometry/level_set.h"
+#include "wheelwright/evolution/cubic_interpolant.h"
 
 namespace wheelwright {
 
@@ -26,6 +26,10 @@ class BoundaryMotion {
 
   /// The motion in which the coefficients at these nodes stay as they are. One flag per node.
   BoundaryMotion holding(const std::vector<bool>& held) const;
+
+  /// The motion of points on the zero set of the interpolant of the same level set, in units of the node
+  /// spacing of the lattice; their weight in load() is 1.
+  BoundaryMotion at(const CubicInterpolant<dim>& psi, const std::vector<Vec<dim>>& points) const;
 
   /// The coefficients that move.
   const LevelSet<dim>& coefficients() const { return coefficients_; }
@@ -59,6 +63,8 @@ class BoundaryMotion {
     std::vector<Dependence> dependences;
   };
   static Boundary boundary_of(const LevelSet<dim>& psi, std::span<const SurfacePoint<dim>> points);
+  static void add_dependences(const Lattice<dim>& lattice, const std::array<int, dim>& cell,
+                              const Vec<dim>& xi, double factor, std::vector<Dependence>& to);
 
   LevelSet<dim> coefficients_;
   DeformationKind kind_;

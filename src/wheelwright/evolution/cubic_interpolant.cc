@@ -39,6 +39,20 @@ typename CubicInterpolant<dim>::AxisBasis CubicInterpolant<dim>::axis_basis(int 
 }
 
 template <int dim>
+std::vector<std::pair<int, double>> CubicInterpolant<dim>::weights(const Vec<dim>& point) const {
+  std::vector<std::pair<int, double>> result{{0, 1.0}};
+  for (int axis = 0; axis < dim; ++axis) {
+    const AxisBasis basis = axis_basis(axis, point[axis]);
+    std::vector<std::pair<int, double>> finer;
+    for (const auto& [node, weight] : result)
+      for (int k = 0; k < n_points_[axis]; ++k)
+        finer.emplace_back(node + basis.offset[k], weight * basis.derivative[0][k]);
+    result = std::move(finer);
+  }
+  return result;
+}
+
+template <int dim>
 Jet<dim> CubicInterpolant<dim>::operator()(const Vec<dim>& point) const {
   std::array<AxisBasis, dim> basis;
   for (int d = 0; d < dim; ++d) basis[d] = axis_basis(d, point[d]);

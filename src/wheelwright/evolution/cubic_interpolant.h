@@ -1,5 +1,8 @@
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include "wheelwright/geometry/level_set.h"
 
 namespace wheelwright {
@@ -25,6 +28,9 @@ class CubicInterpolant {
   /// Evaluates the interpolant at a point in units of the node spacing of the lattice: the node at lattice
   /// position p lies at the point p. The azimuth is periodic.
   Jet<dim> operator()(const Vec<dim>& point) const;
+
+  /// How the value at a point depends on the nodal values: a node and its weight each.
+  std::vector<std::pair<int, double>> weights(const Vec<dim>& point) const;
 
   const LevelSet<dim>& level_set() const { return *psi_; }
   const Lattice<dim>& lattice() const { return psi_->lattice; }

@@ -2,14 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numeric>
 
+#include "wheelwright/cut/measure.h"
 #include "wheelwright/evolution/multilinear.h"
 #include "wheelwright/evolution/redistance.h"
 #include "wheelwright/evolution/spline_level_set.h"
 #include "wheelwright/evolution/spline_redistance.h"
 #include "wheelwright/evolution/sub_cell_filter.h"
 #include "wheelwright/evolution/transport.h"
+#include "wheelwright/evolution/widening.h"
 #include "wheelwright/geometry/finite.h"
 #include "wheelwright/geometry/mirror.h"
 #include "wheelwright/geometry/place.h"
@@ -19,20 +22,16 @@ namespace wheelwright {
 
 namespace {
 
-constexpr MirrorPlane planes[] = {MirrorPlane::azimuth, MirrorPlane::width};
-
-/// The planes with respect to which a shape is symmetric.
-template <int dim>
-std::vector<MirrorPlane> symmetries(const LevelSet<dim>& psi) {
-  std::vector<MirrorPlane> result;
-  for (const MirrorPlane plane : planes)
-    if (is_mirror_symmetric(psi, plane)) result.push_back(plane);
-  return result;
-}
-
 /// How much a velocity may differ from its mirror image, in units of its maximum. Mirror images of load
 /// positions are not computed but reflected; halves of the width are computed both.
 constexpr double rounding_of(MirrorPlane plane) { return plane == MirrorPlane::azimuth ? 1e-9 : 1e-6; }
+
+template <int dim>
+Failure too_narrow(bool is_wall, const Vec<dim>& place, double least) {
+  return {FailureReason::too_narrow,
+          fmt::format("a {} at {} stays narrower than {:.4g} mm", is_wall ? "wall" : "gap",
+                      place_text<dim>(place), 1e3 * least)};
+}
 
 }  // namespace
 
@@ -178,40 +177,84 @@ LevelSet<dim> Evolver<dim>::with_features(const LevelSet<dim>& psi, const Featur
 
 template <int dim>
 Expected<MeasuredShape<dim>> Evolver<dim>::measured(LevelSet<dim> psi, const FeatureSize& size) const {
-  if (check_widths(psi, size)) {
-    psi = with_features(psi, size);
-    if (auto failure = check_widths(psi, size)) return *failure;
-  }
-  return wheelwright::measured(std::move(psi), cut_points_);
-}
-
-/// Fails where a wall or a gap is narrower than its least width by more than the resolution of the nodes
-/// explains.
-template <int dim>
-std::optional<Failure> Evolver<dim>::check_widths(const LevelSet<dim>& psi, const FeatureSize& size) const {
-  constexpr double enough = 0.96;
-  const auto narrow = narrowest_places(psi, {.wall = enough * size.wall, .gap = enough * size.gap});
-  if (narrow.empty()) return {};
-  const bool is_wall = narrow.front().kind == ShapeEventKind::thin_wall_mended;
-  return Failure{FailureReason::too_narrow,
-                 fmt::format("a {} at {} stays narrower than {:.4g} mm", is_wall ? "wall" : "gap",
-                             place_text<dim>(narrow.front().place), 1e3 * (is_wall ? size.wall : size.gap))};
+  return with_widths(std::move(psi), size, false, [&](LevelSet<dim> shape) {
+    return wheelwright::measured(std::move(shape), cut_points_);
+  });
 }
 
 template <int dim>
 Expected<MeasuredShape<dim>> Evolver<dim>::with_measure(const LevelSet<dim>& psi, double target,
                                                         double boundary_measure,
                                                         const FeatureSize& size) const {
-  constexpr int most_turns = 6;
-  LevelSet<dim> shape = with_features(psi, size);
-  for (int turn = 1;; ++turn) {
-    auto shifted = wheelwright::with_measure<dim>(shape, bands_, target, boundary_measure, cut_points_);
-    if (!shifted || !size.any()) return shifted;
-    shape = with_features(shifted->shape, size);
-    if (turn < most_turns && shape.values != shifted->shape.values) continue;
-    if (auto failure = check_widths(shifted->shape, size)) return *failure;
-    return shifted;
+  return with_widths(psi, size, true, [&](const LevelSet<dim>& shape) {
+    return wheelwright::with_measure<dim>(shape, bands_, target, boundary_measure, cut_points_);
+  });
+}
+
+/// Measures the shape, or shifts it to a measure, and widens what is narrow, until nothing is. Where much of
+/// a width is missing, or a hole is too small to be seen by its widths, balls are put in its place first.
+template <int dim>
+template <class Measure>
+Expected<MeasuredShape<dim>> Evolver<dim>::with_widths(LevelSet<dim> psi, const FeatureSize& size,
+                                                       bool keeps_measure, Measure measure) const {
+  constexpr int most_turns = 12;
+  constexpr double enough = 1e-3, far = 0.2;
+  constexpr double sampled = 0.9;  // of a diameter: small holes are measured by samples
+  const double reach = 0.5 * lattice_.grid().resolution();
+  for (int turn = 0;; ++turn) {
+    auto shape = measure(std::move(psi));
+    if (!shape || !size.any()) return shape;
+    const auto widths = narrow_widths(shape->shape, size, reach);
+    const double gap = largest_gap(widths);
+    if (!std::isfinite(gap)) return Failure{FailureReason::not_finite, "a width of the shape"};
+    const auto hole = gap <= enough ? small_hole(shape->shape, sampled * size.gap) : std::nullopt;
+    if (gap <= enough && !hole) return shape;
+    if (turn == 0 && (hole || gap > far)) {
+      psi = with_features(shape->shape, size);
+      continue;
+    }
+    if (hole) return too_narrow<dim>(false, hole->place, size.gap);
+    if (turn == most_turns) {
+      const auto& narrowest = *std::ranges::max_element(widths, {}, &Width<dim>::gap);
+      return too_narrow<dim>(narrowest.is_wall, narrowest.place, narrowest.least);
+    }
+    auto wider = widened(shape->shape, widths, keeps_measure);
+    if (!wider) return wider.failure();
+    psi = *std::move(wider);
   }
+}
+
+/// The shape after a deformation that gives it the widths, to first order, by which no point of its boundary
+/// moves farther than half a cell.
+template <int dim>
+Expected<LevelSet<dim>> Evolver<dim>::widened(const LevelSet<dim>& psi, const std::vector<Width<dim>>& widths,
+                                              bool keeps_measure) const {
+  constexpr int most_turns = 3;
+  constexpr double farthest = 0.5;
+  const auto samples = boundary_samples<dim>(psi);
+  const std::vector<SurfacePoint<dim>> boundary(samples.begin(), samples.end());
+  const auto motion = deformations_.motion_of(psi, boundary), ends = motion_of_ends(motion, psi, widths);
+  std::vector<bool> held(psi.values.size(), false);
+  std::vector<double> velocity;
+  for (int turn = 0; turn < most_turns; ++turn) {
+    const auto free = motion.holding(held);
+    std::vector<std::vector<double>> kept;
+    if (keeps_measure) kept.push_back(free.load(std::vector<double>(boundary.size(), 1.0)));
+    const auto deformation = widening(deformations_, ends.holding(held), widths, kept);
+    velocity = free.speeds_at_nodes(deformation);
+    const double reached = std::max(largest_magnitude(free.speeds(deformation)), 1e-300),
+                 most = farthest * lattice_.grid().resolution();
+    for (double& speed : velocity) speed *= std::min(1.0, most / reached);
+    const auto more = held_by_bands(motion.coefficients(), velocity, largest_magnitude(velocity));
+    bool is_more = false;
+    for (std::size_t node = 0; node < held.size(); ++node) {
+      is_more = is_more || (more[node] && !held[node]);
+      held[node] = held[node] || more[node];
+    }
+    if (!is_more) break;
+  }
+  const double distance = largest_magnitude(velocity);
+  return distance == 0 ? psi : move(psi, velocity, distance);
 }
 
 template <int dim>

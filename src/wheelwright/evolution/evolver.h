@@ -10,6 +10,7 @@
 #include "wheelwright/evolution/smoothing.h"
 #include "wheelwright/evolution/velocity.h"
 #include "wheelwright/evolution/volume.h"
+#include "wheelwright/evolution/widths.h"
 #include "wheelwright/geometry/mirror.h"
 
 namespace wheelwright {
@@ -81,14 +82,15 @@ class Evolver {
   /// The least widths of walls and gaps in every shape.
   const FeatureSize& features() const { return features_; }
 
-  /// The shape with these least widths of walls and gaps (with_feature_size()).
+  /// The shape with these least widths: balls are put where walls are thinner, and narrower gaps are filled
+  /// (with_feature_size()).
   LevelSet<dim> with_features(const LevelSet<dim>& psi, const FeatureSize& size) const;
 
   /// These do what the free functions with these names do, with the shape that has the given widths, or
-  /// features() where none are given. The shift to the measure thins walls or gaps again: shape and shift are
-  /// found in turns, until the widths hold after the shift. They fail with too_narrow if a width is missed by
-  /// more than 4 % even so. measured() leaves a shape as it is that misses no width by more: what one
-  /// evaluation accepted, the next one keeps to the last digit.
+  /// features() where none are given: while one is missing, the boundary moves by the smallest deformation
+  /// that makes up for it (widening()); where much of one is missing, with_features() comes first. They fail
+  /// with too_narrow if a width is missed by more than a thousandth even so. A shape that misses none by more
+  /// stays as it is: what one evaluation accepted, the next one keeps to the last digit.
   Expected<MeasuredShape<dim>> measured(LevelSet<dim> psi, const FeatureSize& size) const;
   Expected<MeasuredShape<dim>> with_measure(const LevelSet<dim>& psi, double target, double boundary_measure,
                                             const FeatureSize& size) const;
@@ -107,7 +109,11 @@ class Evolver {
   Expected<std::vector<double>> movable_velocity(std::span<const SurfaceSample<dim>> gradient,
                                                  Extend extend) const;
 
-  std::optional<Failure> check_widths(const LevelSet<dim>& psi, const FeatureSize& size) const;
+  template <class Measure>
+  Expected<MeasuredShape<dim>> with_widths(LevelSet<dim> psi, const FeatureSize& size, bool keeps_measure,
+                                           Measure measure) const;
+  Expected<LevelSet<dim>> widened(const LevelSet<dim>& psi, const std::vector<Width<dim>>& widths,
+                                  bool keeps_measure) const;
 
   /// The stages act on the design of a shape. shape_of() returns the shape of a design, which keeps the
   /// bands.

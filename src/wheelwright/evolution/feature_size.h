@@ -1,7 +1,7 @@
 #pragma once
 
 #include <algorithm>
-#include <span>
+#include <optional>
 #include <vector>
 
 #include "wheelwright/geometry/level_set.h"
@@ -23,20 +23,6 @@ inline FeatureSize larger(const FeatureSize& a, const FeatureSize& b) {
   return {.wall = std::max(a.wall, b.wall), .gap = std::max(a.gap, b.gap)};
 }
 
-/// A ball in the material that touches its boundary at two places.
-template <int dim>
-struct MedialBall {
-  Vec<dim> centre;  ///< Cartesian, body frame [m]
-  double radius;
-};
-
-/// The balls of less than `radius` in the material that touch the boundary at two places which face each
-/// other (their normals are more than 120 degrees apart), one for every seed point on {psi = 0} of a sector:
-/// the middle of walls thinner than 2 `radius`. They are found by shrinking, at every seed, a ball that
-/// touches the boundary there until it holds no other point of it (Ma, Bae, Choi 2012).
-template <int dim>
-std::vector<MedialBall<dim>> thin_walls(const LevelSet<dim>& psi, double radius);
-
 /// Walls thinner than `wall` with material added on both sides until they are as thick, and 2 % more: a ball
 /// of that diameter is put in the place of every one of thin_walls(), and larger ones, up to 24 %, where a
 /// neck between the nodes is still too thin. Elsewhere the shape stays as it is.
@@ -55,6 +41,11 @@ LevelSet<dim> without_narrow_gaps(const LevelSet<dim>& psi, double gap);
 template <int dim>
 LevelSet<dim> without_thin_walls(const LevelSet<dim>& psi, double wall);
 
+/// The first hole that is smaller than a ball of this diameter, if there is one. It may lie between the
+/// nodes, where MedialBalls has too few seeds to see it.
+template <int dim>
+std::optional<ShapeEvent<dim>> small_hole(const LevelSet<dim>& psi, double gap);
+
 /// The narrowest of the walls and of the gaps that are narrower than these widths: at most one event each.
 template <int dim>
 std::vector<ShapeEvent<dim>> narrowest_places(const LevelSet<dim>& psi, const FeatureSize& size);
@@ -62,18 +53,5 @@ std::vector<ShapeEvent<dim>> narrowest_places(const LevelSet<dim>& psi, const Fe
 /// Both: first the gaps, whose filling makes no thin walls.
 template <int dim>
 LevelSet<dim> with_feature_size(const LevelSet<dim>& psi, const FeatureSize& size);
-
-/// This tells which points of the boundary bound a wall, or a gap, that is wider than the least by at most 3
-/// %.
-struct AtLeastWidth {
-  std::vector<bool> wall, gap;  ///< one value per point
-};
-template <int dim>
-AtLeastWidth at_least_width(const LevelSet<dim>& psi, std::span<const SurfacePoint<dim>> boundary,
-                            const FeatureSize& size);
-
-/// Which points of the boundary would narrow such a wall or gap with these speeds along the outward normal of
-/// the material, one per point.
-std::vector<bool> held_by_widths(const AtLeastWidth& narrow, std::span<const double> speeds);
 
 }  // namespace wheelwright

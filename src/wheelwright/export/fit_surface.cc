@@ -18,8 +18,6 @@ std::string place(const Vec<3>& polar) {
   return fmt::format("{}, z = {:.1f} mm", place_text<3>(polar), polar[2] * mm);
 }
 
-Vec<3> polar(const Vec<3>& x) { return {std::hypot(x[0], x[1]), std::atan2(x[1], x[0]), x[2]}; }
-
 }  // namespace
 
 Expected<FittedSurface, SurfaceRefusal> fit_surface(const LevelSet<3>& psi, int map_degree,
@@ -42,7 +40,7 @@ Expected<FittedSurface, SurfaceRefusal> fit_surface(const LevelSet<3>& psi, int 
   if (!report) {
     Vec<3> at = report.failure().place;
     for (double& x : at) x /= mm;
-    return SurfaceRefusal{fmt::format("{}: {}", place(polar(at)), report.failure().what)};
+    return SurfaceRefusal{fmt::format("{}: {}", place(polar<3>(at)), report.failure().what)};
   }
   fitted.report = *report;
   const auto domain = cut_domain(psi, gauss_points);

@@ -31,6 +31,14 @@ bool is_mirror_symmetric(const LevelSet<dim>& psi, MirrorPlane plane) {
 }
 
 template <int dim>
+std::vector<MirrorPlane> symmetries(const LevelSet<dim>& psi) {
+  std::vector<MirrorPlane> result;
+  for (const MirrorPlane plane : {MirrorPlane::azimuth, MirrorPlane::width})
+    if (is_mirror_symmetric(psi, plane)) result.push_back(plane);
+  return result;
+}
+
+template <int dim>
 LevelSet<dim> mirror_symmetric_part(const LevelSet<dim>& psi, MirrorPlane plane) {
   LevelSet<dim> part = psi;
   for (int i = 0; i < psi.lattice.n_nodes(); ++i)
@@ -40,14 +48,14 @@ LevelSet<dim> mirror_symmetric_part(const LevelSet<dim>& psi, MirrorPlane plane)
 
 template <int dim>
 LevelSet<dim> with_symmetries_of(const LevelSet<dim>& other, LevelSet<dim> psi) {
-  for (const MirrorPlane plane : {MirrorPlane::azimuth, MirrorPlane::width})
-    if (is_mirror_symmetric(other, plane)) psi = mirror_symmetric_part(psi, plane);
+  for (const MirrorPlane plane : symmetries(other)) psi = mirror_symmetric_part(psi, plane);
   return psi;
 }
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                    \
   template bool is_mirror_symmetric(const Lattice<dim>&, std::span<const double>, double, MirrorPlane); \
   template bool is_mirror_symmetric(const LevelSet<dim>&, MirrorPlane);                                 \
+  template std::vector<MirrorPlane> symmetries(const LevelSet<dim>&);                                   \
   template LevelSet<dim> mirror_symmetric_part(const LevelSet<dim>&, MirrorPlane);                      \
   template LevelSet<dim> with_symmetries_of(const LevelSet<dim>&, LevelSet<dim>);
 WHEELWRIGHT_INSTANTIATE(2)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "wheelwright/geometry/level_set.h"
 
@@ -20,6 +21,10 @@ bool is_mirror_symmetric(const Lattice<dim>& lattice, std::span<const double> va
 /// Whether a shape is mirror-symmetric, up to 1e-9 of the resolution of the grid.
 template <int dim>
 bool is_mirror_symmetric(const LevelSet<dim>& psi, MirrorPlane plane = MirrorPlane::azimuth);
+
+/// The planes with respect to which a shape is symmetric.
+template <int dim>
+std::vector<MirrorPlane> symmetries(const LevelSet<dim>& psi);
 
 /// Returns the mean of a level set and its mirror image.
 template <int dim>

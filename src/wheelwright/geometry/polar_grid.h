@@ -88,6 +88,15 @@ Vec<dim> cartesian(const Vec<dim>& polar) {
   return x;
 }
 
+/// Radius, azimuth in (-pi, pi][, and axial position] of a point of the body frame.
+template <int dim>
+Vec<dim> polar(const Vec<dim>& x) {
+  Vec<dim> result = x;
+  result[0] = std::hypot(x[0], x[1]);
+  result[1] = std::atan2(x[1], x[0]);
+  return result;
+}
+
 /// The nodes of a sector's grid for elements of degree `degree`. The lattice is periodic in azimuth: the
 /// nodes of the last face of a sector are those of the first face of the next sector. The radial position
 /// varies fastest in the node index and the azimuthal position slowest.

@@ -278,7 +278,7 @@ FinalWidths ShapeOptimizer<dim>::first_widths(const LevelSet<dim>& shape) const 
 
 template <int dim>
 bool ShapeOptimizer<dim>::has_widths(const LevelSet<dim>& shape, const FeatureSize& widths) const {
-  return evolver_.with_features(shape, widths).values == shape.values;
+  return narrowest_places(shape, widths).empty();
 }
 
 /// The state's shape with the widths of the shapes that follow it, in two ways: with walls that are too thin

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "wheelwright/optimize/box_program.h"
+#include "wheelwright/linalg/box_program.h"
 #include "wheelwright/optimize/curvature_memory.h"
 
 namespace wheelwright {
@@ -14,6 +14,13 @@ double inner(const Matrix& products, const std::vector<double>& a, const std::ve
   double sum = 0;
   for (int i = 0; i < products.rows(); ++i)
     for (int j = 0; j < products.columns(); ++j) sum += a[i] * products(i, j) * b[j];
+  return sum;
+}
+
+/// The inner product of a vector of the span and a combination of them.
+double product_with(const Matrix& products, int vector, const std::vector<double>& combination) {
+  double sum = 0;
+  for (int j = 0; j < products.columns(); ++j) sum += products(vector, j) * combination[j];
   return sum;
 }
 
@@ -35,10 +42,12 @@ QuadraticStep quadratic_step(const QuadraticModel& model, double shift) {
   const ShiftedHessian hessian(model.products, model.first_move, model.n_pairs, shift);
   std::vector<double> objective(n, 0.0);
   objective[0] = 1;
-  std::vector<std::vector<double>> rows, solved;
+  std::vector<std::vector<double>> rows, solved, products;  // of all vectors of the span with the solved ones
   for (const auto& c : model.constraints) {
     rows.emplace_back(n, 0.0)[c.vector] = c.sign;
     solved.push_back(hessian.solve(rows.back()));
+    auto& with_all = products.emplace_back();
+    for (int i = 0; i < n; ++i) with_all.push_back(product_with(model.products, i, solved.back()));
   }
   auto d = hessian.solve(objective);
   for (double& value : d) value = -value;
@@ -46,9 +55,9 @@ QuadraticStep quadratic_step(const QuadraticModel& model, double shift) {
   for (int i = 0; i < m; ++i) {
     const auto& c = model.constraints[i];
     for (int j = 0; j < m; ++j)
-      dual.quadratic(i, j) =
-          0.5 * (inner(model.products, rows[i], solved[j]) + inner(model.products, rows[j], solved[i]));
-    dual.linear.push_back(-(inner(model.products, rows[i], d) + c.gap));
+      dual.quadratic(i, j) = 0.5 * (c.sign * products[j][c.vector] +
+                                    model.constraints[j].sign * products[i][model.constraints[j].vector]);
+    dual.linear.push_back(-(c.sign * product_with(model.products, c.vector, d) + c.gap));
     dual.lower.push_back(c.is_equality ? -c.penalty : 0);
     dual.upper.push_back(c.penalty);
   }
@@ -70,8 +79,8 @@ QuadraticStep quadratic_step(const QuadraticModel& model, double shift) {
   step.decrease = -step.slope - curvature / 2;
   for (int i = 0; i < m; ++i) {
     const auto& c = model.constraints[i];
-    const double after = violation(c, c.gap + inner(model.products, rows[i], d));
-    if (!std::isinf(c.penalty)) step.decrease += c.penalty * (violation(c, c.gap) - after);
+    const double after = violation(c, c.gap + c.sign * product_with(model.products, c.vector, d));
+    if (c.is_in_merit && !std::isinf(c.penalty)) step.decrease += c.penalty * (violation(c, c.gap) - after);
     step.violations.push_back(after);
   }
   return step;

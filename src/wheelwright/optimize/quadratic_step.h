@@ -17,6 +17,8 @@ struct LinearConstraint {
   /// What a unit of violation costs in the merit function; infinite: the constraint is met at any cost. A
   /// multiplier that reaches it says that the constraint is relaxed.
   double penalty = std::numeric_limits<double>::infinity();
+  /// Whether violations count in the merit function, and so in QuadraticStep::decrease.
+  bool is_in_merit = true;
 };
 
 /// The model (g, d) + (d, B d) / 2 + sum penalty * violation of a merit function, and the constraints, in the

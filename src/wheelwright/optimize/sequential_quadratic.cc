@@ -23,18 +23,16 @@ double product(const Nodal& load, const Nodal& deformation) {
   return std::inner_product(load.begin(), load.end(), deformation.begin(), 0.0);
 }
 
-/// The derivatives of the objective, of the measure, and of the constraints, as loads, without what the held
-/// points of the boundary contribute.
+/// The derivatives of the objective, of the measure, and of the constraints, as loads.
 template <int dim>
 std::vector<Nodal> loads(const BoundaryMotion<dim>& motion, const Evaluation<dim>& evaluation,
-                         const std::string& objective, const std::vector<BoundConstraint>& constraints,
-                         const std::vector<bool>& held) {
+                         const std::string& objective, const std::vector<BoundConstraint>& constraints) {
   const auto load_of = [&](std::vector<double> density, double factor) {
-    for (size_t q = 0; q < density.size(); ++q) density[q] *= held[q] ? 0 : factor;
+    for (double& value : density) value *= factor;
     return motion.load(density);
   };
   std::vector<Nodal> result{load_of(evaluation.function(objective).gradient, 1),
-                            load_of(std::vector<double>(held.size(), 1.0), 1)};
+                            load_of(std::vector<double>(evaluation.boundary.size(), 1.0), 1)};
   for (const auto& c : constraints)
     result.push_back(load_of(evaluation.functions[c.function].gradient, 1 / c.scale));
   return result;
@@ -74,9 +72,10 @@ SequentialQuadraticProposals<dim>::SequentialQuadraticProposals(const Evolver<di
       options_(options),
       state_(state),
       constraints_(bound_constraints(state.evaluation)),
+      widths_(narrow_widths(state.shape, widths_after(evolver.features(), options, state),
+                            2 * state.step * state.shape.lattice.grid().resolution())),
       motion_(evolver.deformations().motion_of(state.shape, state.evaluation.boundary)),
-      narrow_(at_least_width<dim>(state.shape, state.evaluation.boundary,
-                                  widths_after(evolver.features(), options, state))) {
+      ends_(motion_of_ends(motion_, state.shape, widths_)) {
   const auto& space = evolver_.deformations();
   for (const auto& pair : state_.memory.pairs) pairs_.deformations.push_back(pair.move);
   for (const auto& pair : state_.memory.pairs) pairs_.deformations.push_back(pair.change);
@@ -84,60 +83,52 @@ SequentialQuadraticProposals<dim>::SequentialQuadraticProposals(const Evolver<di
   pairs_.known = pairs_.products();
 }
 
-/// The derivatives without what these points of the boundary contribute, and the pairs.
+/// The derivatives while these nodes are held, and the pairs.
 template <int dim>
-typename SequentialQuadraticProposals<dim>::Span SequentialQuadraticProposals<dim>::span_without(
+typename SequentialQuadraticProposals<dim>::Span SequentialQuadraticProposals<dim>::span_of(
     const BoundaryMotion<dim>& motion, const std::vector<bool>& held) const {
   const auto& space = evolver_.deformations();
   Span span{.deformations = {},
-            .loads = loads(motion, state_.evaluation, options_.objective, constraints_, held),
+            .loads = loads(motion, state_.evaluation, options_.objective, constraints_),
             .known = pairs_.known};
+  const auto ends = ends_.holding(held);
+  for (size_t k = 0; k < widths_.size(); ++k) span.loads.push_back(gap_load(ends, widths_, k));
   for (const auto& load : span.loads) span.deformations.push_back(space.representative(load));
   span.loads.insert(span.loads.end(), pairs_.loads.begin(), pairs_.loads.end());
   span.deformations.insert(span.deformations.end(), pairs_.deformations.begin(), pairs_.deformations.end());
   return span;
 }
 
-/// Holds the parts of the boundary that would move into a band, or narrow a wall or a gap that is as narrow
-/// as it may be: the move is sought without them, and again if other parts must then be held too.
+/// Holds the coefficients that would move into a band: the move is sought without them, and again if others
+/// must then be held too.
 template <int dim>
 Expected<Move<dim>> SequentialQuadraticProposals<dim>::move(double step) const {
   constexpr int most_turns = 5;
-  Held held{.nodes = std::vector<bool>(state_.shape.values.size()),
-            .points = std::vector<bool>(state_.evaluation.boundary.size())};
-  auto motion = motion_;
-  auto move = move_with(motion, held.points, step);
-  for (int turn = 0; turn < most_turns && hold_more(motion, move, held); ++turn) {
-    motion = motion_.holding(held.nodes);
-    move = move_with(motion, held.points, step);
-  }
+  std::vector<bool> held(state_.shape.values.size(), false);
+  auto move = move_with(held, step);
+  for (int turn = 0; turn < most_turns && hold_more(move, held); ++turn) move = move_with(held, step);
   if (!std::isfinite(move.step)) return Failure{FailureReason::not_finite, "the velocity"};
   return move;
 }
 
-/// Adds the parts that this move would push too far, and returns whether there were any.
+/// Adds the coefficients that this move would push into a band, and returns whether there were any.
 template <int dim>
-bool SequentialQuadraticProposals<dim>::hold_more(const BoundaryMotion<dim>& motion, const Move<dim>& move,
-                                                  Held& held) const {
-  bool is_more = false;
-  const auto add = [&](const std::vector<bool>& stopped, std::vector<bool>& to) {
-    for (std::size_t i = 0; i < to.size(); ++i) {
-      is_more = is_more || (stopped[i] && !to[i]);
-      to[i] = to[i] || stopped[i];
-    }
-  };
+bool SequentialQuadraticProposals<dim>::hold_more(const Move<dim>& move, std::vector<bool>& held) const {
   const double distance = move.distance * state_.shape.lattice.grid().resolution();
-  add(evolver_.held_by_bands(motion.coefficients(), move.velocity, distance), held.nodes);
-  add(held_by_widths(narrow_, motion.speeds(move.deformation)), held.points);
+  const auto stopped = evolver_.held_by_bands(motion_.coefficients(), move.velocity, distance);
+  bool is_more = false;
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    is_more = is_more || (stopped[i] && !held[i]);
+    held[i] = held[i] || stopped[i];
+  }
   return is_more;
 }
 
 template <int dim>
-Move<dim> SequentialQuadraticProposals<dim>::move_with(const BoundaryMotion<dim>& motion,
-                                                       const std::vector<bool>& held_points,
-                                                       double step) const {
+Move<dim> SequentialQuadraticProposals<dim>::move_with(const std::vector<bool>& held, double step) const {
   const double measure = next_measure(options_, state_, step);
-  const Span span = span_without(motion, held_points);
+  const auto motion = motion_.holding(held);
+  const Span span = span_of(motion, held);
   auto penalties = this->penalties();
   const auto found = step_in(motion, span, state_.measure - measure, step, penalties);
   auto deformation = combination(found.coefficients, span.deformations);
@@ -153,7 +144,8 @@ Move<dim> SequentialQuadraticProposals<dim>::move_with(const BoundaryMotion<dim>
           .measure = measure,
           .objective_change = found.slope,
           .model_decrease = found.decrease,
-          .multipliers = found.multipliers,
+          .multipliers = {found.multipliers.begin(),
+                          found.multipliers.end() - static_cast<std::ptrdiff_t>(widths_.size())},
           .penalties = penalties};
 }
 
@@ -162,7 +154,7 @@ template <int dim>
 QuadraticStep SequentialQuadraticProposals<dim>::step_in(const BoundaryMotion<dim>& motion, const Span& span,
                                                          double gap, double step,
                                                          std::vector<double>& penalties) const {
-  constexpr double raise = 4, beyond = 1e6, enough = 0.5, small = 1e-9;
+  constexpr double raise = 4, beyond = 1e6, enough = 0.5, small = 1e-9, comes_first = 10;
   constexpr int most_raises = 10;
   const int n_pairs = static_cast<int>(state_.memory.pairs.size());
   QuadraticModel model{.products = span.products(),
@@ -177,6 +169,14 @@ QuadraticStep SequentialQuadraticProposals<dim>::step_in(const BoundaryMotion<di
                                  .sign = constraints_[i].sign,
                                  .gap = constraints_[i].gap,
                                  .is_equality = constraints_[i].is_equality});
+  const double of_widths = comes_first * std::abs(state_.evaluation.function(options_.objective).value);
+  for (size_t k = 0; k < widths_.size(); ++k)
+    model.constraints.push_back({.vector = static_cast<int>(2 + constraints_.size() + k),
+                                 .sign = 1,
+                                 .gap = widths_[k].gap(),
+                                 .is_equality = false,
+                                 .penalty = of_widths,
+                                 .is_in_merit = false});
   std::vector<std::vector<double>> at_boundary;
   for (const auto& deformation : span.deformations) at_boundary.push_back(motion.speeds(deformation));
   const auto with = [&](double factor) {
@@ -187,8 +187,8 @@ QuadraticStep SequentialQuadraticProposals<dim>::step_in(const BoundaryMotion<di
         [&](const std::vector<double>& d) { return largest_magnitude(combination(d, at_boundary)); });
   };
   const auto total = [&](const QuadraticStep& s) {
-    return std::accumulate(s.violations.begin() + static_cast<std::ptrdiff_t>(first), s.violations.end(),
-                           0.0);
+    const auto begin = s.violations.begin() + static_cast<std::ptrdiff_t>(first);
+    return std::accumulate(begin, begin + static_cast<std::ptrdiff_t>(constraints_.size()), 0.0);
   };
   double now = 0;
   for (const auto& c : constraints_) now += c.violation();
@@ -264,8 +264,7 @@ StepMemory SequentialQuadraticProposals<dim>::remembered(const Move<dim>& move, 
   for (const double m : move.multipliers) weights.push_back(m);
   for (size_t i = 0; i < constraints_.size(); ++i) weights[2 + i] *= constraints_[i].sign;
   const auto add_loads = [&](double factor, const BoundaryMotion<dim>& motion, const Evaluation<dim>& e) {
-    const auto derivatives =
-        loads(motion, e, options_.objective, constraints_, std::vector<bool>(e.boundary.size(), false));
+    const auto derivatives = loads(motion, e, options_.objective, constraints_);
     for (size_t i = 0; i < derivatives.size(); ++i) add(factor * weights[i], derivatives[i], change);
   };
   add_loads(unit, space.motion_of(shape, evaluation.boundary), evaluation);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "wheelwright/evolution/widths.h"
 #include "wheelwright/optimize/constraints.h"
 #include "wheelwright/optimize/proposals.h"
 #include "wheelwright/optimize/quadratic_step.h"
@@ -12,6 +13,8 @@ namespace wheelwright {
 /// (evolution/deformation_space.h), and no point of the boundary moves farther than the step. The step
 /// shrinks where the model foretells badly, and grows where it foretells well. Bounds that cannot be met
 /// within a step are relaxed; their penalties grow until the step does about as much for them as one can.
+/// Widths that a step could bring below their least one are constraints too, with a penalty so large that
+/// they come first.
 template <int dim>
 class SequentialQuadraticProposals final : public Proposals<dim> {
  public:
@@ -33,16 +36,9 @@ class SequentialQuadraticProposals final : public Proposals<dim> {
     Matrix products() const;
   };
 
-  /// The parts that a move leaves where they are: coefficients of the level set that a band stops, and points
-  /// of the boundary at walls and gaps of the least width. One flag each.
-  struct Held {
-    std::vector<bool> nodes, points;
-  };
-
-  bool hold_more(const BoundaryMotion<dim>& motion, const Move<dim>& move, Held& held) const;
-  Span span_without(const BoundaryMotion<dim>& motion, const std::vector<bool>& held) const;
-  Move<dim> move_with(const BoundaryMotion<dim>& motion, const std::vector<bool>& held_points,
-                      double step) const;
+  bool hold_more(const Move<dim>& move, std::vector<bool>& held) const;
+  Span span_of(const BoundaryMotion<dim>& motion, const std::vector<bool>& held) const;
+  Move<dim> move_with(const std::vector<bool>& held, double step) const;
   QuadraticStep step_in(const BoundaryMotion<dim>& motion, const Span& span, double gap, double step,
                         std::vector<double>& penalties) const;
   std::vector<double> penalties() const;
@@ -52,9 +48,10 @@ class SequentialQuadraticProposals final : public Proposals<dim> {
   const OptimizerOptions& options_;
   const OptimizationState<dim>& state_;
   std::vector<BoundConstraint> constraints_;
-  BoundaryMotion<dim> motion_;  ///< of the state's shape
-  AtLeastWidth narrow_;         ///< of the state's shape
-  Span pairs_;                  ///< of the state's memory
+  std::vector<Width<dim>> widths_;  ///< that a step may bring below the least one
+  BoundaryMotion<dim> motion_;      ///< of the state's shape
+  BoundaryMotion<dim> ends_;        ///< of the ends of the widths
+  Span pairs_;                      ///< of the state's memory
 };
 
 }  // namespace wheelwright

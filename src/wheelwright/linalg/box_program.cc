@@ -1,4 +1,4 @@
-#include "wheelwright/optimize/box_program.h"
+#include "wheelwright/linalg/box_program.h"
 
 #include <algorithm>
 #include <cmath>

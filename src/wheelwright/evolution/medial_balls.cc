@@ -1,0 +1,134 @@
+#include "wheelwright/evolution/medial_balls.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "wheelwright/evolution/seeds.h"
+#include "wheelwright/geometry/cell_map.h"
+
+namespace wheelwright {
+namespace {
+
+/// The cosine between the normals of places that face each other, 130 degrees apart: the sides of a corner of
+/// 60 degrees are none. And that between their directions from the centre of a ball that lie opposite.
+constexpr double facing = -0.64, opposite = -0.8;
+
+/// How far beyond such a ball there is material if it lies in a neck and not in the tip of a corner: by its
+/// radius, and by the resolution.
+constexpr double beyond_ball = 3, beyond_tip = 1.5;
+
+template <int dim>
+Vec<dim> difference(const Vec<dim>& a, const Vec<dim>& b) {
+  Vec<dim> result;
+  for (int d = 0; d < dim; ++d) result[d] = a[d] - b[d];
+  return result;
+}
+
+}  // namespace
+
+template <int dim>
+Vec<dim> normal_at(const CubicInterpolant<dim>& psi, const Vec<dim>& point) {
+  Vec<dim> normal = psi(point).gradient;
+  const double length = norm<dim>(normal);
+  for (double& x : normal) x /= length;
+  return rotated<dim>(normal, point[1] * psi.lattice().spacing()[1]);
+}
+
+template <int dim>
+MedialBalls<dim>::MedialBalls(const LevelSet<dim>& psi) : psi_(psi) {
+  points_ = with_images<dim>(psi.lattice, zero_seeds<dim>(psi_));
+  std::vector<Vec<dim>> positions;
+  for (const auto& point : points_) {
+    normals_.push_back(normal_at<dim>(psi_, point));
+    positions.push_back(cartesian_position<dim>(psi.lattice, point));
+  }
+  if (!points_.empty()) nearest_.emplace(std::move(positions));
+}
+
+/// The normal that points out of this side.
+template <int dim>
+Vec<dim> MedialBalls<dim>::outward(int point, Side side) const {
+  Vec<dim> normal = normals_[point];
+  if (side == Side::holes)
+    for (double& x : normal) x = -x;
+  return normal;
+}
+
+template <int dim>
+std::vector<MedialBall<dim>> MedialBalls<dim>::in(Side side, double radius) const {
+  const int n = static_cast<int>(points_.size()) / 3;  // the images of the sector itself are in the middle
+  std::vector<MedialBall<dim>> balls;
+  for (int seed = n; seed < 2 * n; ++seed)
+    if (const auto ball = ball_at(seed, side, radius)) balls.push_back(*ball);
+  return balls;
+}
+
+/// Whether there is more of this side at some distance from the ball, which touches a point besides its seed,
+/// where its neighbours become smaller: beyond a neck, but not beyond the tip of a corner.
+template <int dim>
+bool MedialBalls<dim>::opens_beyond(const MedialBall<dim>& ball, int touched, Side side) const {
+  const auto& positions = nearest_->points();
+  const int point = ball.touched[0];
+  const Vec<dim> across = difference<dim>(positions[touched], positions[point]);
+  const Vec<dim> one = outward(point, side), other = outward(touched, side);
+  Vec<dim> closing;
+  for (int d = 0; d < dim; ++d) closing[d] = one[d] + other[d];
+  const double along = dot<dim>(closing, across) / dot<dim>(across, across);
+  for (int d = 0; d < dim; ++d) closing[d] -= along * across[d];
+  const double length = norm<dim>(closing);
+  if (length == 0) return true;
+  const double distance =
+      std::max(beyond_ball * ball.radius, beyond_tip * psi_.lattice().grid().resolution());
+  Vec<dim> there;
+  for (int d = 0; d < dim; ++d) there[d] = ball.centre[d] + distance / length * closing[d];
+  const int nearest = nearest_->index_of_nearest(there);
+  return dot<dim>(difference<dim>(there, positions[nearest]), outward(nearest, side)) < 0;
+}
+
+/// The ball of less than `radius` that touches the boundary at a seed and holds no other, if it lies between
+/// places that face each other: when it was hardly larger it touched a point that faces the first. (In a
+/// small round hole such a ball touches everywhere at last.)
+template <int dim>
+std::optional<MedialBall<dim>> MedialBalls<dim>::ball_at(int seed, Side side, double radius) const {
+  constexpr int most_steps = 30;
+  constexpr double hardly_larger = 1.1;
+  const Vec<dim>& p = nearest_->points()[seed];
+  const Vec<dim> normal = outward(seed, side);
+  const auto centre_of = [&](double r) {
+    Vec<dim> centre;
+    for (int d = 0; d < dim; ++d) centre[d] = p[d] - r * normal[d];
+    return centre;
+  };
+  double facing_radius = 0, opposite_radius = 0;
+  int touched = seed, across = seed;
+  for (int step = 0; step < most_steps; ++step) {
+    const Vec<dim> centre = centre_of(radius);
+    const int nearest = nearest_->index_of_nearest(centre);
+    const Vec<dim>& other = nearest_->points()[nearest];
+    const Vec<dim> apart = difference<dim>(other, p);
+    if (nearest == seed || norm<dim>(difference<dim>(other, centre)) >= radius * (1 - 1e-6)) break;
+    const double smaller = -dot<dim>(apart, apart) / (2 * dot<dim>(apart, normal));
+    if (!(smaller > 0 && smaller < radius)) break;
+    radius = smaller;
+    touched = nearest;
+    // At the tip of a sharp neck the boundary's own normal says nothing, but the direction from the centre.
+    Vec<dim> towards;
+    for (int d = 0; d < dim; ++d) towards[d] = apart[d] / radius + normal[d];
+    if (dot<dim>(normal, outward(nearest, side)) < facing) facing_radius = radius;
+    if (dot<dim>(normal, towards) < opposite) opposite_radius = radius;
+    if (std::max(facing_radius, opposite_radius) == radius) across = nearest;
+  }
+  const auto was_hardly_larger = [&](double r) { return r > 0 && r <= hardly_larger * radius; };
+  const MedialBall<dim> ball{centre_of(radius), radius, {seed, across}};
+  if (was_hardly_larger(facing_radius) ||
+      (was_hardly_larger(opposite_radius) && opens_beyond(ball, touched, side)))
+    return ball;
+  return {};
+}
+
+template Vec<2> normal_at<2>(const CubicInterpolant<2>&, const Vec<2>&);
+template Vec<3> normal_at<3>(const CubicInterpolant<3>&, const Vec<3>&);
+template class MedialBalls<2>;
+template class MedialBalls<3>;
+
+}  // namespace wheelwright

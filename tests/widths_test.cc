@@ -1,0 +1,149 @@
+#include "wheelwright/evolution/widths.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "wheelwright/evolution/deformation_space.h"
+#include "wheelwright/evolution/spline_level_set.h"
+#include "wheelwright/evolution/transport.h"
+#include "wheelwright/geometry/mirror.h"
+#include "wheelwright/geometry/shapes.h"
+#include "wheelwright/linalg/dense.h"
+
+using namespace wheelwright;
+
+namespace {
+
+template <int dim>
+Lattice<dim> lattice_of() {
+  if constexpr (dim == 2)
+    return {{0.20, 0.34, 0.12, 12, {28, 32}}, 2};
+  else
+    return {{0.20, 0.34, 0.12, 12, {24, 28, 6}}, 2};
+}
+
+/// Two holes with a wall of this many cells between them along the radius, and one that crosses the face of
+/// the sector; in 3D the wall is narrowest at one place of the width.
+template <int dim>
+LevelSet<dim> shape_with_wall(double cells, double azimuth = 0.13) {
+  const auto lattice = lattice_of<dim>();
+  const double h = lattice.grid().resolution(), wall = cells * h;
+  auto psi = make_level_set<dim>(
+      lattice, std::vector<Circle>{
+                   {0.235, azimuth, 0.018}, {0.235 + 0.036 + wall, azimuth, 0.018}, {0.262, 0.42, 0.03}});
+  if constexpr (dim == 3)
+    for (int node = 0; node < lattice.n_nodes(); ++node) {
+      const double off = lattice.polar_point(node)[2] / lattice.grid().width - 0.45;
+      psi.values[node] -= 8 * h * off * off;
+    }
+  return spline_level_set(spline_coefficients(psi));
+}
+
+/// A smooth deformation of the whole ring.
+template <int dim>
+std::vector<double> smooth_deformation(const Lattice<dim>& lattice, int n_components) {
+  std::vector<double> result;
+  for (int component = 0; component < n_components; ++component)
+    for (int node = 0; node < lattice.n_nodes(); ++node) {
+      const auto x = lattice.polar_point(node);
+      result.push_back(component == 0 ? 0.3 + std::sin(12 * x[1]) * std::sin(40 * x[0])
+                                      : std::cos(12 * x[1]) - 3 * x[0]);
+    }
+  return result;
+}
+
+template <int space_dim, DeformationKind deformation_kind>
+struct Setting {
+  static constexpr int dim = space_dim;
+  static constexpr DeformationKind kind = deformation_kind;
+};
+template <class Setting>
+class WidthsOf : public testing::Test {};
+using Settings =
+    testing::Types<Setting<2, DeformationKind::vector_field>, Setting<2, DeformationKind::normal_speed>,
+                   Setting<3, DeformationKind::vector_field>, Setting<3, DeformationKind::normal_speed>>;
+TYPED_TEST_SUITE(WidthsOf, Settings);
+
+}  // namespace
+
+/// Taylor's test with respect to the deformation: the narrowest wall changes as its derivative says, to
+/// second order, also where it is as thin as a cell and psi has a kink in its middle.
+TYPED_TEST(WidthsOf, ChangeAsTheirDerivativeSays) {
+  constexpr int dim = TypeParam::dim;
+  const auto lattice = lattice_of<dim>();
+  const double h = lattice.grid().resolution();
+  const DeformationSpace<dim> space(lattice, std::vector<bool>(lattice.n_nodes(), false), 0.02,
+                                    TypeParam::kind);
+  const auto deformation = smooth_deformation<dim>(lattice, space.n_components());
+  for (const double cells : {2.0, 1.0}) {
+    const auto psi = shape_with_wall<dim>(cells);
+    const FeatureSize size{.wall = 1.8 * cells * h};
+    const auto widths = narrow_widths(psi, size, 0);
+    ASSERT_FALSE(widths.empty());
+    EXPECT_NEAR(widths[0].value, cells * h, 0.4 * h);  // splines round what is as thin as a cell
+    const auto load = gap_load(motion_of_ends(space.motion_of(psi, {}), psi, widths), widths, 0);
+    const double slope = std::inner_product(load.begin(), load.end(), deformation.begin(), 0.0);
+    const auto speeds = space.speeds(psi, deformation);
+    double last = 0;
+    for (const double step : {4e-2, 2e-2, 1e-2}) {
+      const double time = step * h / largest_magnitude(speeds);
+      const auto moved = spline_level_set(smooth_transport<dim>(spline_coefficients(psi), speeds, time));
+      const auto after = narrow_widths(moved, size, 0);
+      ASSERT_FALSE(after.empty());
+      const double remainder = std::abs(after[0].gap() - widths[0].gap() - time * slope);
+      EXPECT_LT(remainder, 0.1 * std::abs(time * slope));
+      if (last > 0) {
+        EXPECT_GT(std::log2(last / remainder), 1.9) << cells << " cells, " << step;
+      }
+      last = remainder;
+    }
+  }
+}
+
+/// A wall, and a gap, are found where they are narrower than the least width and the reach together, at their
+/// place.
+TEST(Widths, AreThoseWithinReach) {
+  const auto lattice = lattice_of<2>();
+  const double h = lattice.grid().resolution();
+  const auto psi = shape_with_wall<2>(2);
+  auto holes = psi;
+  for (double& value : holes.values) value = -value;
+  const double width = narrow_widths(psi, {.wall = 3 * h}, 0)[0].value;
+  for (const bool is_wall : {true, false}) {
+    const auto& shape = is_wall ? psi : holes;
+    const auto size_of = [&](double least) {
+      return is_wall ? FeatureSize{.wall = least} : FeatureSize{.gap = least};
+    };
+    EXPECT_TRUE(narrow_widths(shape, size_of(0.97 * width), 0).empty());
+    EXPECT_FALSE(narrow_widths(shape, size_of(0.97 * width), 0.05 * width).empty());
+    const auto widths = narrow_widths(shape, size_of(1.02 * width), 0);
+    ASSERT_EQ(widths.size(), 1u);
+    EXPECT_EQ(widths[0].is_wall, is_wall);
+    EXPECT_NEAR(widths[0].gap(), 1 - 1 / 1.02, 1e-9);
+    EXPECT_NEAR(widths[0].place[0], 0.235 + 0.018 + h, 0.1 * h);
+    EXPECT_NEAR(widths[0].place[1], 0.13, 0.01);
+    EXPECT_DOUBLE_EQ(largest_gap(widths), widths[0].gap());
+  }
+}
+
+/// The widths of a mirror-symmetric shape are symmetric as a set, so that what is derived from them is.
+TEST(Widths, OfASymmetricShapeAreSymmetric) {
+  const auto lattice = lattice_of<2>();
+  const double h = lattice.grid().resolution(), angle = lattice.grid().sector_angle();
+  const auto psi = mirror_symmetric_part(make_level_set<2>(
+      lattice,
+      std::vector<Circle>{{0.235, 0.3 * angle, 0.018}, {0.235, 0.7 * angle, 0.018}, {0.285, 0, 0.03}}));
+  ASSERT_TRUE(is_mirror_symmetric(psi));
+  const auto widths = narrow_widths(psi, {.wall = 8 * h, .gap = 12 * h}, 0);
+  ASSERT_FALSE(widths.empty());
+  for (const auto& width : widths)
+    EXPECT_TRUE(std::ranges::any_of(widths,
+                                    [&](const auto& other) {
+                                      return std::abs(other.place[0] - width.place[0]) < 1e-9 &&
+                                             std::abs(std::remainder(other.place[1] + width.place[1],
+                                                                     angle)) < 1e-9 &&
+                                             std::abs(other.value - width.value) < 1e-12;
+                                    }))
+        << width.place[0] << " " << width.place[1];
+}
