@@ -5,6 +5,7 @@
 #include <numeric>
 #include <random>
 
+#include "tests/deformations.h"
 #include "wheelwright/cut/measure.h"
 #include "wheelwright/evolution/deformation_space.h"
 #include "wheelwright/evolution/spline_level_set.h"
@@ -35,19 +36,6 @@ LevelSet<dim> thin_wall(const Lattice<dim>& lattice, double wall) {
                    {0.235, 0.13, 0.018}, {0.235 + 0.036 + wall * h, 0.14, 0.018}, {0.262, 0.42, 0.03}});
 }
 
-/// A smooth deformation of the whole ring.
-template <int dim>
-std::vector<double> smooth_deformation(const Lattice<dim>& lattice, int n_components) {
-  std::vector<double> result;
-  for (int component = 0; component < n_components; ++component)
-    for (int node = 0; node < lattice.n_nodes(); ++node) {
-      const auto x = lattice.polar_point(node);
-      result.push_back(component == 0 ? 0.3 + std::sin(12 * x[1]) * std::sin(40 * x[0])
-                                      : std::cos(12 * x[1]) - 3 * x[0]);
-    }
-  return result;
-}
-
 template <int dim>
 std::vector<SurfacePoint<dim>> boundary_of(const LevelSet<dim>& psi) {
   const auto samples = boundary_samples<dim>(psi);
@@ -73,17 +61,9 @@ ValueAndSteepness at(const LevelSet<dim>& psi, const SurfacePoint<dim>& point) {
   return {value, norm<dim>(transpose_times<dim>(inverse<dim>(map.jacobian(shape)), gradient))};
 }
 
-template <int space_dim, DeformationKind deformation_kind>
-struct Setting {
-  static constexpr int dim = space_dim;
-  static constexpr DeformationKind kind = deformation_kind;
-};
 template <class Setting>
-class BoundaryMotions : public testing::Test {};
-using Settings =
-    testing::Types<Setting<2, DeformationKind::vector_field>, Setting<2, DeformationKind::normal_speed>,
-                   Setting<3, DeformationKind::vector_field>, Setting<3, DeformationKind::normal_speed>>;
-TYPED_TEST_SUITE(BoundaryMotions, Settings);
+class BoundaryMotions : public ::testing::Test {};
+TYPED_TEST_SUITE(BoundaryMotions, wheelwright::testing::DeformationSettings);
 
 }  // namespace
 
@@ -96,7 +76,7 @@ TYPED_TEST(BoundaryMotions, PredictTheMovedShapeToSecondOrder) {
   const double h = lattice.grid().resolution();
   const DeformationSpace<dim> space(lattice, std::vector<bool>(lattice.n_nodes(), false), 0.02,
                                     TypeParam::kind);
-  const auto deformation = smooth_deformation<dim>(lattice, space.n_components());
+  const auto deformation = wheelwright::testing::smooth_deformation<dim>(lattice, space.n_components());
   for (const double wall : {4.0, 2.0, 1.5, 1.0}) {
     const auto psi = spline_level_set(spline_coefficients(thin_wall<dim>(lattice, wall)));
     const auto boundary = boundary_of<dim>(psi);

@@ -4,6 +4,7 @@
 
 #include <numeric>
 
+#include "tests/deformations.h"
 #include "wheelwright/evolution/deformation_space.h"
 #include "wheelwright/evolution/spline_level_set.h"
 #include "wheelwright/evolution/transport.h"
@@ -40,30 +41,9 @@ LevelSet<dim> shape_with_wall(double cells, double azimuth = 0.13) {
   return spline_level_set(spline_coefficients(psi));
 }
 
-/// A smooth deformation of the whole ring.
-template <int dim>
-std::vector<double> smooth_deformation(const Lattice<dim>& lattice, int n_components) {
-  std::vector<double> result;
-  for (int component = 0; component < n_components; ++component)
-    for (int node = 0; node < lattice.n_nodes(); ++node) {
-      const auto x = lattice.polar_point(node);
-      result.push_back(component == 0 ? 0.3 + std::sin(12 * x[1]) * std::sin(40 * x[0])
-                                      : std::cos(12 * x[1]) - 3 * x[0]);
-    }
-  return result;
-}
-
-template <int space_dim, DeformationKind deformation_kind>
-struct Setting {
-  static constexpr int dim = space_dim;
-  static constexpr DeformationKind kind = deformation_kind;
-};
 template <class Setting>
-class WidthsOf : public testing::Test {};
-using Settings =
-    testing::Types<Setting<2, DeformationKind::vector_field>, Setting<2, DeformationKind::normal_speed>,
-                   Setting<3, DeformationKind::vector_field>, Setting<3, DeformationKind::normal_speed>>;
-TYPED_TEST_SUITE(WidthsOf, Settings);
+class WidthsOf : public ::testing::Test {};
+TYPED_TEST_SUITE(WidthsOf, wheelwright::testing::DeformationSettings);
 
 }  // namespace
 
@@ -75,7 +55,7 @@ TYPED_TEST(WidthsOf, ChangeAsTheirDerivativeSays) {
   const double h = lattice.grid().resolution();
   const DeformationSpace<dim> space(lattice, std::vector<bool>(lattice.n_nodes(), false), 0.02,
                                     TypeParam::kind);
-  const auto deformation = smooth_deformation<dim>(lattice, space.n_components());
+  const auto deformation = wheelwright::testing::smooth_deformation<dim>(lattice, space.n_components());
   for (const double cells : {2.0, 1.0}) {
     const auto psi = shape_with_wall<dim>(cells);
     const FeatureSize size{.wall = 1.8 * cells * h};
