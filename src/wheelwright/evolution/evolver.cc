@@ -82,17 +82,19 @@ std::vector<bool> Evolver<dim>::at_bands(std::span<const SurfacePoint<dim>> boun
 
 /// A coefficient that may still move by a quarter of what it would is not held: the band clips it.
 template <int dim>
-std::vector<bool> Evolver<dim>::held_by_bands(const LevelSet<dim>& coefficients,
-                                              std::span<const double> velocity, double distance) const {
+bool Evolver<dim>::hold_at_bands(const LevelSet<dim>& coefficients, std::span<const double> velocity,
+                                 double distance, std::vector<bool>& held) const {
   constexpr double part = 0.25, least = 0.01;  // of the motion; of a cell
   const double time = distance / largest_magnitude(velocity);
-  std::vector<bool> held;
+  bool is_more = false;
   for (std::size_t node = 0; node < velocity.size(); ++node) {
     const double margin = std::max(-part * time * velocity[node], least * lattice_.grid().resolution());
-    held.push_back(velocity[node] < 0 &&
-                   bands_.is_clipped(static_cast<int>(node), coefficients.values[node], margin));
+    if (held[node] || velocity[node] >= 0 ||
+        !bands_.is_clipped(static_cast<int>(node), coefficients.values[node], margin))
+      continue;
+    held[node] = is_more = true;
   }
-  return held;
+  return is_more;
 }
 
 template <int dim>
@@ -245,13 +247,7 @@ Expected<LevelSet<dim>> Evolver<dim>::widened(const LevelSet<dim>& psi, const st
     const double reached = std::max(largest_magnitude(free.speeds(deformation)), 1e-300),
                  most = farthest * lattice_.grid().resolution();
     for (double& speed : velocity) speed *= std::min(1.0, most / reached);
-    const auto more = held_by_bands(motion.coefficients(), velocity, largest_magnitude(velocity));
-    bool is_more = false;
-    for (std::size_t node = 0; node < held.size(); ++node) {
-      is_more = is_more || (more[node] && !held[node]);
-      held[node] = held[node] || more[node];
-    }
-    if (!is_more) break;
+    if (!hold_at_bands(motion.coefficients(), velocity, largest_magnitude(velocity), held)) break;
   }
   const double distance = largest_magnitude(velocity);
   return distance == 0 ? psi : move(psi, velocity, distance);

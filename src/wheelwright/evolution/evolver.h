@@ -55,10 +55,11 @@ class Evolver {
   /// Which points of the boundary lie on the edge of a band.
   std::vector<bool> at_bands(std::span<const SurfacePoint<dim>> boundary) const;
 
-  /// The nodes whose coefficients a band stops when they move with this velocity, sooner or later: those at
-  /// the edge of a band that would move into it by more than they may. One flag per node.
-  std::vector<bool> held_by_bands(const LevelSet<dim>& coefficients, std::span<const double> velocity,
-                                  double distance) const;
+  /// Adds to `held` the nodes whose coefficients a band stops when they move with this velocity, sooner or
+  /// later: those at the edge of a band that would move into it by more than they may. One flag per node.
+  /// Returns whether it added any.
+  bool hold_at_bands(const LevelSet<dim>& coefficients, std::span<const double> velocity, double distance,
+                     std::vector<bool>& held) const;
 
   /// Transports the shape for the time in which the fastest node travels `distance` [m]. Fails if `velocity`
   /// vanishes everywhere.

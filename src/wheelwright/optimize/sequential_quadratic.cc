@@ -105,23 +105,14 @@ template <int dim>
 Expected<Move<dim>> SequentialQuadraticProposals<dim>::move(double step) const {
   constexpr int most_turns = 5;
   std::vector<bool> held(state_.shape.values.size(), false);
+  const double resolution = state_.shape.lattice.grid().resolution();
+  const auto hold_more = [&](const Move<dim>& move) {
+    return evolver_.hold_at_bands(motion_.coefficients(), move.velocity, move.distance * resolution, held);
+  };
   auto move = move_with(held, step);
-  for (int turn = 0; turn < most_turns && hold_more(move, held); ++turn) move = move_with(held, step);
+  for (int turn = 0; turn < most_turns && hold_more(move); ++turn) move = move_with(held, step);
   if (!std::isfinite(move.step)) return Failure{FailureReason::not_finite, "the velocity"};
   return move;
-}
-
-/// Adds the coefficients that this move would push into a band, and returns whether there were any.
-template <int dim>
-bool SequentialQuadraticProposals<dim>::hold_more(const Move<dim>& move, std::vector<bool>& held) const {
-  const double distance = move.distance * state_.shape.lattice.grid().resolution();
-  const auto stopped = evolver_.held_by_bands(motion_.coefficients(), move.velocity, distance);
-  bool is_more = false;
-  for (std::size_t i = 0; i < held.size(); ++i) {
-    is_more = is_more || (stopped[i] && !held[i]);
-    held[i] = held[i] || stopped[i];
-  }
-  return is_more;
 }
 
 template <int dim>

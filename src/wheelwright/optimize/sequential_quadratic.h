@@ -36,7 +36,6 @@ class SequentialQuadraticProposals final : public Proposals<dim> {
     Matrix products() const;
   };
 
-  bool hold_more(const Move<dim>& move, std::vector<bool>& held) const;
   Span span_of(const BoundaryMotion<dim>& motion, const std::vector<bool>& held) const;
   Move<dim> move_with(const std::vector<bool>& held, double step) const;
   QuadraticStep step_in(const BoundaryMotion<dim>& motion, const Span& span, double gap, double step,
