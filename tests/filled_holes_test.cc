@@ -28,7 +28,8 @@ bool names(const std::optional<Failure>& fault, const std::string& key) {
   return fault && fault->detail.find(key) != std::string::npos;
 }
 
-/// What the fault of a width advises leaves holes, and no less than seven eighths of what would.
+/// The width that the failure advises [m]. It leaves holes, and is at least seven eighths of the largest that
+/// does.
 double advised(const Failure& fault) {
   const auto at = fault.detail.find("; ");
   return 1e-3 * std::strtod(fault.detail.c_str() + at + 2, nullptr);

@@ -234,7 +234,7 @@ TEST_F(Resume, OfAFinishedRunChangesNothing) {
   EXPECT_EQ(content(place / "run/history.csv"), history);
 }
 
-// A run that had converged by a larger tolerance goes on with the case's.
+// A run that converged continues when it is resumed with a smaller tolerance.
 TEST_F(Resume, OfAConvergedRunGoesOnOnlyWithASmallerTolerance) {
   const fs::path place = workplace("converged");
   ASSERT_EQ(run(place, small_case_of_any_width(4)), exit_done);

@@ -129,7 +129,7 @@ std::string unit_hint(const DrawnShape& shape, const Case& c, double reach) {
       units, units * 1e-3, units * 0.0254, units);
 }
 
-/// What to do about a drawing of holes that reaches the tread: it may show the material.
+/// Advice for a drawing of holes that reaches the tread, which may show the material.
 std::string whole_wheel_hint(const DrawnShape& shape, const Case& c, double reach) {
   constexpr double near = 0.01;
   const bool shows_tread = std::abs(reach - c.wheel.outer_radius) < near * c.wheel.outer_radius;

@@ -10,8 +10,8 @@ namespace wheelwright {
 /// drawings that are not the same in all sectors.
 std::vector<Conflict> shape_conflicts(const Case& c, const std::vector<DrawnShape>& shapes);
 
-/// What to add to a remedy where a length is so much larger than another one of the wheel that it may be in
-/// millimetres.
+/// The addition to a remedy where a length is so much larger than another one of the wheel that it may be in
+/// millimetres; empty elsewhere.
 std::string if_in_millimetres(double length, double other);
 
 /// The keys that decide where holes may be, after `keys`.

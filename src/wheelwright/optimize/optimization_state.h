@@ -60,7 +60,7 @@ enum class FinalWidths {
   impossible,  ///< no shape that has them could be evaluated
 };
 
-/// What is remembered of an accepted shape.
+/// An accepted shape, as far as the state remembers it.
 struct AcceptedShape {
   double objective;
   double violation = 0;  ///< largest_violation() of its bounds

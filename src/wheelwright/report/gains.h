@@ -8,8 +8,9 @@ namespace wheelwright {
 
 /// What a run changed, in one line: stiffness, run-out and what was minimized, of the last shape against the
 /// given wheel, e.g. "Compared with before: 22.4 % stiffer, run-out 51.7 % smaller, objective 18.8 % lower".
-/// A change of less than 0.05 % is told as none, and one to more than the eleven-fold as "more than ten times
-/// larger": the run-out of a wheel may have been nearly 0. Empty if none of the three has a relative change.
+/// A change of less than 0.05 % is left out, and an increase to more than eleven times the value is called
+/// "more than ten times larger": the run-out of a wheel may have been nearly 0. Empty if none of the three
+/// has a relative change.
 template <int dim>
 std::string gains(const RunSummary<dim>& summary);
 

@@ -14,7 +14,7 @@ bool has_holes(const LevelSet<dim>& shape) {
   return std::ranges::any_of(shape.values, [](double value) { return value > 0; });
 }
 
-/// What a width leaves of a shape.
+/// The shape with a minimum width, and whether holes are left in it.
 template <int dim>
 class Mending {
  public:
