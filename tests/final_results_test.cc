@@ -161,9 +161,9 @@ TEST_F(ResultsOfARun, CompareWithTheGivenWheel) {
     }
   EXPECT_LT(found["before"]["minimum_wall_m"], 0.016);
   EXPECT_GT(found["after"]["minimum_wall_m"], 0.0165);
-  const ReportRun<2> run = report_of_results<2>(folder(), study.source, widened.summary,
-                                                {&state_->shape, widened.solver.get(), widened.shown.get()},
-                                                StopReason::converged);
+  const SolvedShape<2> shape{&state_->shape, widened.solver.get(), widened.shown.get()};
+  const ReportRun<2> run = report_of_results<2>(folder(), study.source, widened.summary, shape,
+                                                shown_wheel(shape), StopReason::converged);
   ASSERT_TRUE(run.given);
   EXPECT_EQ(run.given->contours, shape_outline(0, 0, study.initial).contours);
 }
@@ -171,9 +171,9 @@ TEST_F(ResultsOfARun, CompareWithTheGivenWheel) {
 TEST_F(ResultsOfARun, HaveAPageThatTellsWhatIsMissing) {
   const Study<2> study = this->study("");
   const FinalResults<2> some = results(study, 2);
-  const ReportRun<2> run =
-      report_of_results<2>(folder(), study.source, some.summary,
-                           {&state_->shape, some.solver.get(), some.shown.get()}, StopReason::converged);
+  const SolvedShape<2> shape{&state_->shape, some.solver.get(), some.shown.get()};
+  const ReportRun<2> run = report_of_results<2>(folder(), study.source, some.summary, shape,
+                                                shown_wheel(shape), StopReason::converged);
   EXPECT_TRUE(std::ranges::any_of(run.flags, [](const std::string& flag) { return flag.ends_with(told); }));
   const std::string json = page_run(run).json;
   EXPECT_NE(json.find("\"force_at_travel_N\":null"), std::string::npos);

@@ -71,8 +71,14 @@ double largest_rotation(const MiddleGradients<dim>& gradients, const State<dim>&
   return largest;
 }
 
-/// The deformed place of a point of the ring.
-Vec<2> deformed(const Vec<2>& x, const RingField& u, const Lattice<2>& lattice) {
+/// A point of an edge, with the nodes of its cell and the values of their shape functions.
+struct EdgePoint {
+  Vec<2> x;
+  RingCellNodes<2> nodes;
+  std::array<double, ShapeFunctions<2>::max_nodes> shape;
+};
+
+EdgePoint edge_point(const Vec<2>& x, const Lattice<2>& lattice) {
   const PolarGrid<2>& grid = lattice.grid();
   const Vec<2> size = grid.cell_size();
   const double azimuth = std::atan2(x[1], x[0]),
@@ -85,13 +91,13 @@ Vec<2> deformed(const Vec<2>& x, const RingField& u, const Lattice<2>& lattice) 
     cell[d] = std::clamp(static_cast<int>(along[d]), 0, cells[d] - 1);
     xi[d] = std::clamp(along[d] - cell[d], 0.0, 1.0);
   }
-  const ShapeFunctions<2> shape(lattice.degree(), xi);
-  const auto nodes = ring_cell_nodes<2>(lattice, cell);
-  const auto n = static_cast<size_t>(nodes_per_cell<2>(lattice.degree()));
-  Vec<2> result = x;
-  for (int d = 0; d < 2; ++d)
-    result[d] += interpolate(u, std::span(nodes.data(), n), std::span(shape.value.data(), n), d);
-  return result;
+  return {x, ring_cell_nodes<2>(lattice, cell), ShapeFunctions<2>(lattice.degree(), xi).value};
+}
+
+Vec<2> deformed(const EdgePoint& point, const RingField& u, int n_nodes) {
+  const std::span nodes(point.nodes.data(), static_cast<size_t>(n_nodes));
+  const std::span shape(point.shape.data(), static_cast<size_t>(n_nodes));
+  return {point.x[0] + interpolate(u, nodes, shape, 0), point.x[1] + interpolate(u, nodes, shape, 1)};
 }
 
 struct Side {
@@ -135,29 +141,38 @@ bool any_cross(const std::vector<std::vector<Vec<2>>>& curves) {
   return false;
 }
 
+using Edge = std::vector<EdgePoint>;
+
 /// The edges of the material in 2D; a third dimension has none that are looked at.
-std::vector<Contour> edges(const LevelSet<2>& psi) { return material_contours(psi, 2); }
-std::vector<Contour> edges(const LevelSet<3>&) { return {}; }
+std::vector<Edge> edges(const LevelSet<2>& psi, const Lattice<2>& lattice) {
+  std::vector<Edge> result;
+  for (const Contour& contour : material_contours(psi, 2)) {
+    Edge& edge = result.emplace_back();
+    for (const Vec<2>& x : contour.points) edge.push_back(edge_point(x, lattice));
+  }
+  return result;
+}
+std::vector<Edge> edges(const LevelSet<3>&, const Lattice<3>&) { return {}; }
 
 /// Whether edges that a field of the ring deforms cross each other or themselves.
-bool cross_deformed(const std::vector<Contour>& edges, const RingField& u, const Lattice<2>& lattice) {
+bool cross_deformed(const std::vector<Edge>& edges, const RingField& u, int nodes_per_cell) {
   std::vector<std::vector<Vec<2>>> curves;
-  for (const Contour& edge : edges) {
-    curves.emplace_back();
-    for (const Vec<2>& x : edge.points) curves.back().push_back(deformed(x, u, lattice));
+  for (const Edge& edge : edges) {
+    auto& curve = curves.emplace_back();
+    for (const EdgePoint& point : edge) curve.push_back(deformed(point, u, nodes_per_cell));
   }
   return any_cross(curves);
 }
-bool cross_deformed(const std::vector<Contour>&, const RingField&, const Lattice<3>&) { return false; }
 
 }  // namespace
 
 template <int dim>
 bool edges_overlap(const StateSolver<dim>& solver, const LevelSet<dim>& psi, const State<dim>& state) {
-  const auto contours = edges(psi);
   const Lattice<dim> lattice = displacement_lattice(solver);
+  const auto all_edges = edges(psi, lattice);
+  const int n_nodes = nodes_per_cell<dim>(lattice.degree());
   for (int position = 0; position < state.positions().size(); ++position)
-    if (cross_deformed(contours, state.displacement().at_nodes(position), lattice)) return true;
+    if (cross_deformed(all_edges, state.displacement().at_nodes(position), n_nodes)) return true;
   return false;
 }
 
@@ -175,7 +190,8 @@ DeformationSize deformation_size(const StateSolver<dim>& solver, const LevelSet<
                                  const State<dim>& state) {
   const Lattice<dim> lattice = displacement_lattice(solver);
   const MiddleGradients<dim> gradients(lattice);
-  const auto contours = edges(psi);
+  const auto all_edges = edges(psi, lattice);
+  const int n_nodes = nodes_per_cell<dim>(lattice.degree());
   DeformationSize size{.strain = std::ranges::max(state.strain_peaks().principal),
                        .rotation = 0,
                        .travel = travel_by_thickness(solver, state),
@@ -184,7 +200,7 @@ DeformationSize deformation_size(const StateSolver<dim>& solver, const LevelSet<
     const RingField u = state.displacement().at_nodes(position);
     const double rim = state.contacts()[position].rim.rotation;
     size.rotation = std::max(size.rotation, largest_rotation(gradients, state, u, rim));
-    size.edges_overlap = size.edges_overlap || cross_deformed(contours, u, lattice);
+    size.edges_overlap = size.edges_overlap || cross_deformed(all_edges, u, n_nodes);
   }
   return size;
 }

@@ -117,15 +117,17 @@ TouchingCircle touching_circle(const NearestPoint<2>& edges, const Vec<2>& p, co
 }
 
 /// Moves a place towards the point of its loop that is nearest to a target, at most to the end of its curve
-/// and from there to the next one.
-void approach(const Outline& outline, EdgePoint& edge, const Vec<2>& target) {
+/// and from there to the next one. Whether it moved.
+bool approach(const Outline& outline, EdgePoint& edge, const Vec<2>& target) {
   Place place = edge.place;
   const CurvePoint p = at(outline.loops[place.loop].curves[place.curve], place.parameter);
   const Vec<2> miss{target[0] - p.position[0], target[1] - p.position[1]};
   place.parameter += dot<2>(miss, p.velocity) / dot<2>(p.velocity, p.velocity);
   if (place.parameter > 1) place = begin_of_next(outline, place);
   if (place.parameter < 0) place = end_of_previous(outline, place);
-  edge = edge_point(outline, place);
+  const bool moves = place.curve != edge.place.curve || place.parameter != edge.place.parameter;
+  if (moves) edge = edge_point(outline, place);
+  return moves;
 }
 
 /// Whether a way in this direction leaves the edge straight, as at the end of a shortest way. At a corner it
@@ -146,8 +148,8 @@ std::optional<Clearance> neck(const Outline& outline, EdgePoint from, EdgePoint 
   constexpr double least_share = 0.5;
   const double before = distance(from.position, to.position);
   for (int k = 0; k < steps; ++k) {
-    approach(outline, to, from.position);
-    approach(outline, from, to.position);
+    const bool to_moves = approach(outline, to, from.position);
+    if (!approach(outline, from, to.position) && !to_moves) break;
   }
   const double width = distance(from.position, to.position);
   if (!(width > least_share * before && width <= before)) return {};

@@ -14,10 +14,19 @@ namespace {
 constexpr int degree = 3;
 /// Solutions of the linear problem, each followed by a correction of the parameters of the points.
 constexpr int n_corrections = 3;
+/// Where a spline nearly follows the points, the corrections lower the deviation by a few hundredths at most:
+/// none saves a first solution that deviates by so many tolerances.
+constexpr double hopeless = 1.1;
 
-/// Values and derivatives of the four B-splines that are not zero in a span.
-struct Basis {
-  std::array<double, degree + 1> value, derivative;
+/// Numbers of so many samples lie side by side, so that a loop over them is compiled to vector instructions.
+constexpr int lanes = 32;
+using Lanes = std::array<double, lanes>;
+
+/// Samples that follow each other in one interval, with the four B-splines that are not zero there. Lanes
+/// without a sample hold zeros.
+struct Block {
+  int interval, first, n_samples;
+  std::array<Lanes, degree + 1> value, derivative;
 };
 
 /// Cubic splines with these breaks; of closed ones the last break is the first again, one period later.
@@ -52,24 +61,17 @@ class SplineSpace {
     return static_cast<int>(above - breaks_.begin()) - 1;
   }
 
-  /// Of the functions interval, ..., interval + 3.
-  Basis basis(int interval, double u) const {
-    const int k = interval + degree;
-    const Reciprocals& by_width = reciprocals_[interval];
-    Basis result{};
-    auto& n = result.value;
-    n[0] = 1;
+  /// Samples of an interval with these parameters, at most one per lane.
+  Block block(int interval, int first, std::span<const double> parameters) const {
+    Block block{interval, first, static_cast<int>(parameters.size()), {}, {}};
+    Lanes u{};
+    std::ranges::copy(parameters, u.begin());
+    std::fill_n(block.value[0].begin(), parameters.size(), 1.0);
     for (int p = 1; p <= degree; ++p) {
-      if (p == degree) result.derivative = derivatives(by_width[p - 1], n);
-      double saved = 0;
-      for (int r = 0; r < p; ++r) {
-        const double part = n[r] * by_width[p - 1][r];
-        n[r] = saved + (knots_[k + r + 1] - u) * part;
-        saved = (u - knots_[k + 1 - p + r]) * part;
-      }
-      n[p] = saved;
+      if (p == degree) add_derivatives(block);
+      raise_degree(p, u, block);
     }
-    return result;
+    return block;
   }
 
   /// The spline with these control points, clamped.
@@ -104,16 +106,33 @@ class SplineSpace {
     return result;
   }
 
-  /// Derivatives of the cubics from the values of the quadratics.
-  static std::array<double, degree + 1> derivatives(const std::array<double, degree>& by_width,
-                                                    const std::array<double, degree + 1>& quadratic) {
-    std::array<double, degree + 1> result{};
-    for (int r = 0; r < degree; ++r) {
-      const double part = degree * quadratic[r] * by_width[r];
-      result[r] -= part;
-      result[r + 1] += part;
+  /// From the functions of degree p - 1 to those of degree p, by the recursion of Cox and de Boor.
+  void raise_degree(int p, const Lanes& u, Block& block) const {
+    const int k = block.interval + degree;
+    Lanes saved{};
+    for (int r = 0; r < p; ++r) {
+      const double by_width = reciprocals_[block.interval][p - 1][r];
+      const double low = knots_[k + 1 - p + r], high = knots_[k + r + 1];
+      Lanes& value = block.value[r];
+      for (int l = 0; l < lanes; ++l) {
+        const double part = value[l] * by_width;
+        value[l] = saved[l] + (high - u[l]) * part;
+        saved[l] = (u[l] - low) * part;
+      }
     }
-    return result;
+    block.value[p] = saved;
+  }
+
+  /// Derivatives of the cubics from the values of the quadratics.
+  void add_derivatives(Block& block) const {
+    for (int r = 0; r < degree; ++r) {
+      const double factor = degree * reciprocals_[block.interval][degree - 1][r];
+      for (int l = 0; l < lanes; ++l) {
+        const double part = block.value[r][l] * factor;
+        block.derivative[r][l] -= part;
+        block.derivative[r + 1][l] += part;
+      }
+    }
   }
 
   Vec<2> blossom(const std::vector<Vec<2>>& points, int interval,
@@ -163,22 +182,37 @@ struct Fit {
   int where;  ///< the point with the largest deviation
 };
 
-/// A parameter in its interval.
-struct Located {
-  int interval;
-  Basis basis;
-};
-
-std::vector<Located> located(const SplineSpace& space, std::span<const double> parameters) {
-  std::vector<Located> result;
-  result.reserve(parameters.size());
-  int interval = 0;  // of the sample before, which is near
-  for (const double u : parameters) {
-    interval = space.interval(u, interval);
-    result.push_back({interval, space.basis(interval, u)});
+std::vector<Block> blocks(const SplineSpace& space, std::span<const double> parameters) {
+  std::vector<Block> result;
+  result.reserve(parameters.size() / lanes + space.n_intervals() + 1);
+  std::vector<int> intervals;
+  for (const double u : parameters)
+    intervals.push_back(space.interval(u, intervals.empty() ? 0 : intervals.back()));
+  for (std::size_t first = 0, end; first < parameters.size(); first = end) {
+    for (end = first; end < parameters.size() && end - first < lanes && intervals[end] == intervals[first];)
+      ++end;
+    result.push_back(
+        space.block(intervals[first], static_cast<int>(first), parameters.subspan(first, end - first)));
   }
   return result;
 }
+
+/// The coordinates of the points of a block.
+std::array<Lanes, 2> coordinates(const Block& block, std::span<const Vec<2>> points) {
+  std::array<Lanes, 2> result{};
+  for (int l = 0; l < block.n_samples; ++l)
+    for (int d = 0; d < 2; ++d) result[d][l] = points[block.first + l][d];
+  return result;
+}
+
+/// sum += factor * values, lane by lane.
+void add(double factor, const Lanes& values, Lanes& sum) {
+  for (int l = 0; l < lanes; ++l) sum[l] += factor * values[l];
+}
+void add_product(const Lanes& a, const Lanes& b, Lanes& sum) {
+  for (int l = 0; l < lanes; ++l) sum[l] += a[l] * b[l];
+}
+double total(const Lanes& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
 /// The normal equations of least squares. Samples of one interval are summed before they are added.
 class NormalEquations {
@@ -193,13 +227,12 @@ class NormalEquations {
   int n_free() const { return n_ - 2 * fixed_; }
   bool is_free(int point) const { return point >= fixed_ && point < n_ - fixed_; }
 
-  void add(const Located& place, const Vec<2>& target) {
-    if (place.interval != interval_) add_interval();
-    interval_ = place.interval;
-    const auto& value = place.basis.value;
+  void add(const Block& block, const std::array<Lanes, 2>& targets) {
+    if (block.interval != interval_) add_interval();
+    interval_ = block.interval;
     for (int i = 0; i <= degree; ++i) {
-      for (int j = 0; j <= i; ++j) products_[i][j] += value[i] * value[j];
-      for (int d = 0; d < 2; ++d) targets_[i][d] += value[i] * target[d];
+      for (int j = 0; j <= i; ++j) add_product(block.value[i], block.value[j], products_[i][j]);
+      for (int d = 0; d < 2; ++d) add_product(block.value[i], targets[d], targets_[i][d]);
     }
   }
 
@@ -219,10 +252,10 @@ class NormalEquations {
     for (int i = 0; i <= degree; ++i) {
       const int a = space_.point_of(interval_ + i);
       if (!is_free(a)) continue;
-      for (int d = 0; d < 2; ++d) right_(a - fixed_, d) += targets_[i][d];
+      for (int d = 0; d < 2; ++d) right_(a - fixed_, d) += total(targets_[i][d]);
       for (int j = 0; j <= degree; ++j)
         if (const int b = space_.point_of(interval_ + j); is_free(b))
-          matrix_(a - fixed_, b - fixed_) += products_[std::max(i, j)][std::min(i, j)];
+          matrix_(a - fixed_, b - fixed_) += total(products_[std::max(i, j)][std::min(i, j)]);
     }
     products_ = {};
     targets_ = {};
@@ -230,27 +263,27 @@ class NormalEquations {
 
   const SplineSpace& space_;
   int n_, fixed_, interval_ = -1;
-  std::array<std::array<double, degree + 1>, degree + 1> products_{};  ///< of the interval, lower triangle
-  std::array<Vec<2>, degree + 1> targets_{};                           ///< of the interval
+  std::array<std::array<Lanes, degree + 1>, degree + 1> products_{};  ///< of the interval, lower triangle
+  std::array<std::array<Lanes, 2>, degree + 1> targets_{};            ///< of the interval
   Matrix matrix_, right_;
 };
 
 /// The control points with the least sum of squared distances; ends of open curves are the end points. Empty
 /// if an interval holds too few points.
 std::optional<std::vector<Vec<2>>> least_squares(const SplineSpace& space, std::span<const Vec<2>> points,
-                                                 const std::vector<Located>& places) {
+                                                 const std::vector<Block>& blocks) {
   std::vector<Vec<2>> control(space.n_points());
   if (!space.closed()) {
     control.front() = points.front();
     control.back() = points.back();
   }
   NormalEquations equations(space);
-  for (std::size_t s = 0; s < points.size(); ++s) {
-    Vec<2> target = points[s];
+  for (const Block& block : blocks) {
+    std::array<Lanes, 2> targets = coordinates(block, points);
     for (int i = 0; i <= degree; ++i)
-      if (const int a = space.point_of(places[s].interval + i); !equations.is_free(a))
-        for (int d = 0; d < 2; ++d) target[d] -= places[s].basis.value[i] * control[a][d];
-    equations.add(places[s], target);
+      if (const int a = space.point_of(block.interval + i); !equations.is_free(a))
+        for (int d = 0; d < 2; ++d) add(-control[a][d], block.value[i], targets[d]);
+    equations.add(block, targets);
   }
   const auto free = equations.solution();
   if (!free) return {};
@@ -259,43 +292,66 @@ std::optional<std::vector<Vec<2>>> least_squares(const SplineSpace& space, std::
   return control;
 }
 
-/// Moves the parameters towards the points of the spline that are nearest to the samples, and measures the
-/// distances that are left.
-void correct(Fit& fit, std::span<const Vec<2>> points, const std::vector<Located>& places) {
-  const bool closed = fit.space.closed();
-  fit.deviation.assign(fit.space.n_intervals(), 0);
-  fit.largest = 0;
-  for (std::size_t s = 0; s < points.size(); ++s) {
-    const auto& [interval, basis] = places[s];
-    Vec<2> miss = points[s], velocity{};
-    for (int i = 0; i <= degree; ++i) {
-      const Vec<2>& p = fit.control[fit.space.point_of(interval + i)];
-      for (int d = 0; d < 2; ++d) {
-        miss[d] -= basis.value[i] * p[d];
-        velocity[d] += basis.derivative[i] * p[d];
-      }
-    }
-    const double speed2 = dot<2>(velocity, velocity), along = dot<2>(miss, velocity) / speed2;
-    const bool at_end = !closed && (s == 0 || s + 1 == points.size());
-    double& u = fit.parameters[s];
-    if (!at_end) u = std::clamp(u + along, 0.0, 1.0);
-    const double across = std::abs(miss[0] * velocity[1] - miss[1] * velocity[0]) / std::sqrt(speed2);
-    fit.deviation[interval] = std::max(fit.deviation[interval], across);
-    if (across > fit.largest) {
-      fit.largest = across;
-      fit.where = static_cast<int>(s);
+/// How samples lie beside the spline at their parameters.
+struct Misses {
+  Lanes along;           ///< by which parameter they are off
+  Lanes squared_across;  ///< squared distances
+};
+
+Misses misses(const Fit& fit, const Block& block, std::span<const Vec<2>> points) {
+  std::array<Lanes, 2> miss = coordinates(block, points), velocity{};
+  for (int i = 0; i <= degree; ++i) {
+    const Vec<2>& p = fit.control[fit.space.point_of(block.interval + i)];
+    for (int d = 0; d < 2; ++d) {
+      add(-p[d], block.value[i], miss[d]);
+      add(p[d], block.derivative[i], velocity[d]);
     }
   }
+  Misses result;
+  for (int l = 0; l < lanes; ++l) {
+    const double squared_speed = velocity[0][l] * velocity[0][l] + velocity[1][l] * velocity[1][l];
+    const double cross = miss[0][l] * velocity[1][l] - miss[1][l] * velocity[0][l];
+    result.along[l] = (miss[0][l] * velocity[0][l] + miss[1][l] * velocity[1][l]) / squared_speed;
+    result.squared_across[l] = cross * cross / squared_speed;
+  }
+  return result;
 }
 
-std::optional<Fit> fit_in(const SplineSpace& space, const Samples& samples) {
+/// Moves the parameters towards the points of the spline that are nearest to the samples, and measures the
+/// distances that are left.
+void correct(Fit& fit, std::span<const Vec<2>> points, const std::vector<Block>& blocks) {
+  const int last = static_cast<int>(points.size()) - 1;
+  fit.deviation.assign(fit.space.n_intervals(), 0);
+  fit.largest = 0;
+  for (const Block& block : blocks) {
+    const Misses miss = misses(fit, block, points);
+    double& largest_here = fit.deviation[block.interval];
+    for (int l = 0; l < block.n_samples; ++l) {
+      const int s = block.first + l;
+      const bool at_end = !fit.space.closed() && (s == 0 || s == last);
+      double& u = fit.parameters[s];
+      if (!at_end) u = std::clamp(u + miss.along[l], 0.0, 1.0);
+      largest_here = std::max(largest_here, miss.squared_across[l]);
+      if (miss.squared_across[l] > fit.largest) {
+        fit.largest = miss.squared_across[l];
+        fit.where = s;
+      }
+    }
+  }
+  for (double& deviation : fit.deviation) deviation = std::sqrt(deviation);
+  fit.largest = std::sqrt(fit.largest);
+}
+
+/// Empty where there is no fit, or where the first solution deviates by more than `most`.
+std::optional<Fit> fit_in(const SplineSpace& space, const Samples& samples, double most) {
   Fit fit{space, {}, samples.parameters, {}, 0, 0};
   for (int k = 0; k < n_corrections; ++k) {
-    const auto places = located(space, fit.parameters);
-    auto control = least_squares(space, samples.points, places);
+    const auto samples_by_interval = blocks(space, fit.parameters);
+    auto control = least_squares(space, samples.points, samples_by_interval);
     if (!control) return {};
     fit.control = *std::move(control);
-    correct(fit, samples.points, places);
+    correct(fit, samples.points, samples_by_interval);
+    if (k == 0 && fit.largest > most) return {};
   }
   if (!std::isfinite(fit.largest)) return {};
   return fit;
@@ -338,7 +394,7 @@ Fit with_fewer_breaks(Fit fit, const Samples& samples, double tolerance, int few
     std::vector<double> breaks = fit.space.breaks();
     kept.push_back(breaks[candidate]);
     breaks.erase(breaks.begin() + candidate);
-    auto fewer = fit_in(SplineSpace(std::move(breaks), fit.space.closed()), samples);
+    auto fewer = fit_in(SplineSpace(std::move(breaks), fit.space.closed()), samples, hopeless * tolerance);
     if (fewer && fewer->largest <= tolerance) fit = *std::move(fewer);
   }
   return fit;
@@ -358,7 +414,7 @@ Expected<Spline, NoFit> fit_spline(std::span<const Vec<2>> points, bool closed, 
   const Samples samples = by_arc_length(points, closed);
   std::vector<double> breaks = equal_breaks(fewest_intervals);
   while (true) {
-    auto fit = fit_in(SplineSpace(breaks, closed), samples);
+    auto fit = fit_in(SplineSpace(breaks, closed), samples, INFINITY);
     if (!fit) return NoFit{points[points.size() / 2], INFINITY};
     if (fit->largest <= tolerance) {
       fit = with_fewer_breaks(*std::move(fit), samples, tolerance, fewest_intervals);

@@ -118,13 +118,21 @@ class Lattice {
     for (int k : nodes_) n *= k;
     return n;
   }
-  int nodes_per_line() const { return n_nodes() / nodes_[1]; }  ///< number of nodes at one azimuth
+  /// Number of nodes at one azimuth.
+  int nodes_per_line() const {
+    if constexpr (dim == 3) return nodes_[0] * nodes_[2];
+    return nodes_[0];
+  }
+
+  /// Index of a node among those at its azimuth.
+  int index_on_line(const std::array<int, dim>& position) const {
+    if constexpr (dim == 3) return position[2] * nodes_[0] + position[0];
+    return position[0];
+  }
 
   /// Index of the node at a position. position[1] is taken modulo nodes()[1].
   int node_index(const std::array<int, dim>& position) const {
-    int index = (position[1] % nodes_[1] + nodes_[1]) % nodes_[1];
-    if constexpr (dim == 3) index = index * nodes_[2] + position[2];
-    return index * nodes_[0] + position[0];
+    return (position[1] % nodes_[1] + nodes_[1]) % nodes_[1] * nodes_per_line() + index_on_line(position);
   }
 
   /// Position of a node along each axis.

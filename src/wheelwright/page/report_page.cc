@@ -6,8 +6,6 @@
 
 #include "wheelwright/base/units.h"
 #include "wheelwright/files/base64.h"
-#include "wheelwright/geometry/cell_map.h"
-#include "wheelwright/geometry/contour.h"
 #include "wheelwright/page/assets.h"
 #include "wheelwright/page/html_template.h"
 #include "wheelwright/page/report_run.h"
@@ -19,120 +17,21 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Points of the material of sector 0 with what it takes to interpolate a field there, and triangles of them.
-struct SectorMesh {
-  std::vector<Vec<2>> points;             ///< Cartesian [m]
-  std::vector<RingCellNodes<2>> nodes;    ///< of the cell of every point
-  std::vector<ShapeFunctions<2>> shapes;  ///< of the fields there, in its cell
-  std::vector<std::uint32_t> triangles;   ///< corners, counter-clockwise
-};
-
-/// Collects the points of a sector's polygons; those that polygons share are one.
-class SectorMeshBuilder {
- public:
-  SectorMeshBuilder(const LevelSet<2>& psi, const Lattice<2>& field_lattice)
-      : psi_(psi), field_lattice_(field_lattice) {}
-
-  std::uint32_t add(int cell, const Vec<2>& xi) {
-    const Vec<2> x = position(cell, xi);
-    const auto [entry, is_new] = known_.try_emplace(key(x), static_cast<std::uint32_t>(mesh_.points.size()));
-    if (is_new) {
-      mesh_.points.push_back(x);
-      mesh_.nodes.push_back(ring_cell_nodes<2>(field_lattice_, grid().cell_position(cell)));
-      mesh_.shapes.emplace_back(field_lattice_.degree(), xi);
-    }
-    return entry->second;
-  }
-
-  /// Whether there is a point here, or in a sector beside it where that shares its edge.
-  bool has(int cell, const Vec<2>& xi) const {
-    const Vec<2> x = position(cell, xi);
-    for (const int sector : {0, 1, -1})
-      if (known_.contains(key(rotated<2>(x, sector * grid().sector_angle())))) return true;
-    return false;
-  }
-
-  void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    mesh_.triangles.insert(mesh_.triangles.end(), {a, b, c});
-  }
-
-  SectorMesh mesh() && { return std::move(mesh_); }
-
- private:
-  const PolarGrid<2>& grid() const { return psi_.lattice.grid(); }
-  Vec<2> position(int cell, const Vec<2>& xi) const {
-    const auto place = grid().cell_position(cell);
-    const CellMap<2> map(grid(), psi_.lattice.degree(), place);
-    return rotated<2>(map.position(ShapeFunctions<2>(psi_.lattice.degree(), xi)),
-                      place[1] * grid().cell_size()[1]);
-  }
-  static std::array<long, 2> key(const Vec<2>& x) {
-    constexpr double resolution = 1e7;  // [1/m]
-    return {std::lround(x[0] * resolution), std::lround(x[1] * resolution)};
-  }
-
-  const LevelSet<2>& psi_;
-  const Lattice<2>& field_lattice_;
-  std::map<std::array<long, 2>, std::uint32_t> known_;
-  SectorMesh mesh_;
-};
-
-/// Polygons beside halved ones have the middles of their sides too, so that no gaps open where the mesh is
-/// deformed.
-SectorMesh sector_mesh(const LevelSet<2>& psi, const Lattice<2>& field_lattice) {
-  constexpr int cut_subdivisions = 2;
-  const auto polygons = material_polygons(psi, cut_subdivisions);
-  SectorMeshBuilder builder(psi, field_lattice);
-  const int n_cells = psi.lattice.grid().n_cells();
-  for (int cell = 0; cell < n_cells; ++cell)
-    for (const MaterialPolygon& polygon : polygons[cell])
-      for (const Vec<2>& xi : polygon) builder.add(cell, xi);
-  for (int cell = 0; cell < n_cells; ++cell)
-    for (const MaterialPolygon& polygon : polygons[cell]) {
-      std::vector<std::uint32_t> corners;
-      for (std::size_t k = 0; k < polygon.size(); ++k) {
-        const Vec<2>&a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
-        const Vec<2> middle{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
-        corners.push_back(builder.add(cell, a));
-        if (builder.has(cell, middle)) corners.push_back(builder.add(cell, middle));
-      }
-      for (std::size_t k = 2; k < corners.size(); ++k)
-        builder.add_triangle(corners[0], corners[k - 1], corners[k]);
-    }
-  return std::move(builder).mesh();
-}
-
 template <class T>
 std::string encoded(const std::vector<T>& values) {
   return base64({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
 }
 
-/// Visits a field's components at the points of a mesh in all sectors, in the order point + n_points *
-/// sector.
-template <class Visit>
-void for_each_point(const SectorMesh& mesh, const Lattice<2>& lattice, const RingField& field,
-                    const Visit& visit) {
-  std::vector<double> components(field.components);
-  const int n_nodes = nodes_per_cell<2>(lattice.degree()), n_sectors = lattice.grid().n_sectors;
-  const std::size_t sector_nodes = lattice.n_nodes(), ring_nodes = sector_nodes * n_sectors;
-  for (int sector = 0; sector < n_sectors; ++sector)
-    for (std::size_t k = 0; k < mesh.points.size(); ++k) {
-      RingCellNodes<2> nodes = mesh.nodes[k];
-      for (int a = 0; a < n_nodes; ++a) {
-        nodes[a] += sector * sector_nodes;
-        if (nodes[a] >= ring_nodes) nodes[a] -= ring_nodes;
-      }
-      const std::span shape(mesh.shapes[k].value.data(), n_nodes);
-      for (int c = 0; c < field.components; ++c) components[c] = interpolate(field, nodes, shape, c);
-      visit(std::span<const double>(components));
-    }
+double largest(const std::vector<double>& values) {
+  double result = 0;
+  for (const double v : values)
+    if (std::isfinite(v)) result = std::max(result, std::abs(v));
+  return result;
 }
 
 double largest(const std::vector<std::vector<double>>& all) {
   double result = 0;
-  for (const auto& values : all)
-    for (const double v : values)
-      if (std::isfinite(v)) result = std::max(result, std::abs(v));
+  for (const auto& values : all) result = std::max(result, largest(values));
   return result;
 }
 
@@ -153,37 +52,25 @@ std::vector<std::uint8_t> as_bytes_of_roots(const std::vector<double>& values, d
 }
 
 /// The deformed wheel in its load positions. Displacements are Cartesian, in the body frame.
-Json fields_json(const LevelSet<2>& shape, std::span<const PositionFields<2>> all) {
-  const SectorMesh mesh = sector_mesh(shape, all.front().lattice);
+Json fields_json(const SectorMesh& mesh, std::span<const MeshPosition> all) {
   std::vector<float> points;
   for (const Vec<2>& x : mesh.points) points.insert(points.end(), {float(x[0]), float(x[1])});
-  std::vector<std::vector<double>> x, y, stress;
-  for (const PositionFields<2>& position : all) {
-    const NamedField von_mises = von_mises_field(position.stress);
-    auto &at_x = x.emplace_back(), &at_y = y.emplace_back(), &at_stress = stress.emplace_back();
-    for_each_point(mesh, position.lattice, position.displacement, [&](auto u) {
-      at_x.push_back(u[0]);
-      at_y.push_back(u[1]);
-    });
-    for_each_point(mesh, position.lattice, von_mises.field,
-                   [&](auto components) { at_stress.push_back(von_mises.scalar(components)); });
+  double full_displacement = 0, full_stress = 0;
+  for (const MeshPosition& position : all) {
+    full_displacement = std::max({full_displacement, largest(position.x), largest(position.y)});
+    full_stress = std::max(full_stress, largest(position.von_mises));
   }
-  const double full_displacement = std::max(largest(x), largest(y)), full_stress = largest(stress);
   Json positions = Json::array();
-  for (std::size_t i = 0; i < all.size(); ++i)
-    positions.push_back({{"azimuth_rad", all[i].ground_azimuth},
-                         {"x", encoded(as_shorts(x[i], full_displacement))},
-                         {"y", encoded(as_shorts(y[i], full_displacement))},
-                         {"root_of_stress", encoded(as_bytes_of_roots(stress[i], full_stress))}});
+  for (const MeshPosition& position : all)
+    positions.push_back({{"azimuth_rad", position.ground_azimuth},
+                         {"x", encoded(as_shorts(position.x, full_displacement))},
+                         {"y", encoded(as_shorts(position.y, full_displacement))},
+                         {"root_of_stress", encoded(as_bytes_of_roots(position.von_mises, full_stress))}});
   return {{"points", encoded(points)},
           {"triangles", encoded(mesh.triangles)},
           {"full_displacement_m", full_displacement},
           {"full_stress_Pa", full_stress},
           {"positions", std::move(positions)}};
-}
-
-Json fields_json(const ReportRun<2>& run, std::span<const PositionFields<2>> positions) {
-  return fields_json(*run.shape, positions);
 }
 
 /// null where it could not be computed.
@@ -253,16 +140,12 @@ Json fields_json(const SurfaceMesh& mesh, std::span<const SurfacePosition> all) 
           {"positions", std::move(positions)}};
 }
 
-Json fields_json(const ReportRun<3>& run, std::span<const SurfacePosition> positions) {
-  return fields_json(run.surface, positions);
-}
-
 /// The fields under the load cases after the first one, on its mesh.
 template <int dim>
 Json other_fields_json(const ReportRun<dim>& run) {
   Json all = Json::array();
   for (const LoadedPositions<dim>& load : run.other_loads) {
-    Json fields = fields_json(run, load.positions);
+    Json fields = fields_json(run.wheel->mesh, load.positions);
     for (const char* of_mesh : {"points", "triangles", "parts"}) fields.erase(of_mesh);
     all.push_back({{"load_case", load.load_case}, {"fields", std::move(fields)}});
   }
@@ -330,8 +213,8 @@ Json run_json(const ReportRun<dim>& run) {
     json["rolling"] = {{"before", rolling_json(run.summary->before.wheel)},
                        {"after", rolling_json(run.summary->after.wheel)}};
   }
-  if (run.shape) {
-    json["fields"] = fields_json(run, run.positions);
+  if (run.wheel) {
+    json["fields"] = fields_json(run.wheel->mesh, run.wheel->positions);
     json["other_fields"] = other_fields_json(run);
   }
   if (!run.contact_points.empty()) json["pressures"] = pressures_json(curve_points<dim>(run.contact_points));
@@ -342,19 +225,19 @@ Json run_json(const ReportRun<dim>& run) {
 
 template <int dim>
 PageRun page_run(const ReportRun<dim>& run) {
-  return {run.title, json_in_script(run_json(run)), dim == 3 && run.shape};
+  return {run.title, json_in_script(run_json(run)), dim == 3 && run.wheel};
 }
 
 template PageRun page_run(const ReportRun<2>&);
 template PageRun page_run(const ReportRun<3>&);
 
-std::string loaded_wheel_json(const LevelSet<2>& shape, std::span<const PositionFields<2>> positions) {
-  return fields_json(shape, positions).dump();
+template <int dim>
+std::string loaded_wheel_json(const ShownWheel<dim>& wheel) {
+  return fields_json(wheel.mesh, wheel.positions).dump();
 }
 
-std::string loaded_wheel_json(const SurfaceMesh& surface, std::span<const SurfacePosition> positions) {
-  return fields_json(surface, positions).dump();
-}
+template std::string loaded_wheel_json(const ShownWheel<2>&);
+template std::string loaded_wheel_json(const ShownWheel<3>&);
 
 std::string report_page(const std::vector<PageRun>& runs) {
   std::string data;

@@ -3,10 +3,11 @@
 #include <array>
 #include <map>
 #include <optional>
-#include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
+#include "wheelwright/page/sector_mesh.h"
 #include "wheelwright/report/run_summary.h"
 #include "wheelwright/report/solution_fields.h"
 #include "wheelwright/surface/surface_mesh.h"
@@ -48,14 +49,25 @@ struct SurfacePosition {
   std::vector<float> von_mises;                  ///< [Pa]
 };
 
-/// The last shape under a load case after the first one.
+/// One load position as the page shows it.
+template <int dim>
+using ShownPosition = std::conditional_t<dim == 2, MeshPosition, SurfacePosition>;
+
+/// The loaded wheel as the page shows it: in 2D drawn in the plane, in 3D as a lit surface.
+template <int dim>
+struct ShownWheel {
+  std::conditional_t<dim == 2, SectorMesh, SurfaceMesh> mesh;
+  std::vector<ShownPosition<dim>> positions;
+};
+
+/// It under a load case after the first one.
 template <int dim>
 struct LoadedPositions {
   std::string load_case;
-  std::vector<std::conditional_t<dim == 2, PositionFields<2>, SurfacePosition>> positions;
+  std::vector<ShownPosition<dim>> positions;
 };
 
-/// What the page tells about one run. In 2D its wheel is drawn in the plane, in 3D as a lit surface.
+/// What the page tells about one run.
 template <int dim>
 struct ReportRun {
   std::string name;  ///< of the run's folder
@@ -78,9 +90,7 @@ struct ReportRun {
   std::vector<std::string> flags;          ///< what deserves attention, in sentences
   std::vector<std::string> limits;         ///< what was not checked or computed, in sentences
   std::optional<RunSummary<dim>> summary;  ///< absent while the run goes on
-  const LevelSet<dim>* shape = nullptr;    ///< the last one, with the fields of all positions
-  SurfaceMesh surface;                     ///< of it; in 3D
-  std::vector<std::conditional_t<dim == 2, PositionFields<2>, SurfacePosition>> positions;
+  std::optional<ShownWheel<dim>> wheel;    ///< the last shape
   std::vector<LoadedPositions<dim>> other_loads = {};
   std::vector<ContactPoint> contact_points;
 };
@@ -96,8 +106,8 @@ template <int dim>
 PageRun page_run(const ReportRun<dim>& run);
 
 /// The loaded wheel in its load positions, as the page holds it.
-std::string loaded_wheel_json(const LevelSet<2>& shape, std::span<const PositionFields<2>> positions);
-std::string loaded_wheel_json(const SurfaceMesh& surface, std::span<const SurfacePosition> positions);
+template <int dim>
+std::string loaded_wheel_json(const ShownWheel<dim>& wheel);
 
 /// One HTML file that needs no network: what came out, the wheel rolling, the shapes of the run, curves.
 std::string report_page(const std::vector<PageRun>& runs);

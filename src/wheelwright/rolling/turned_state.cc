@@ -33,17 +33,16 @@ class TurnedDisplacement : public Displacement<dim> {
     const int by = lattice_.degree() * columns_;
     const AxleRotation forward(columns_ * lattice_.grid().cell_size()[1]);
     RingField here = there;
-    for (int sector = 0; sector < lattice_.grid().n_sectors; ++sector)
-      for (int node = 0; node < lattice_.n_nodes(); ++node) {
-        auto p = lattice_.node_position(node);
-        p[1] += sector * lattice_.nodes()[1];
-        double* to = &here.values[dim * ring_node<dim>(lattice_, p)];
-        p[1] -= by;
+    for (int line = 0; line < lattice_.grid().n_sectors * lattice_.nodes()[1]; ++line) {
+      const double* from = &there.values[dim * ring_line(lattice_, line - by)];
+      double* to = &here.values[dim * ring_line(lattice_, line)];
+      for (int node = 0; node < lattice_.nodes_per_line(); ++node, from += dim, to += dim) {
         Vec<dim> u;
-        std::copy_n(&there.values[dim * ring_node<dim>(lattice_, p)], dim, u.begin());
+        std::copy_n(from, dim, u.begin());
         u = forward.forward(u);
         std::copy(u.begin(), u.end(), to);
       }
+    }
     return here;
   }
 

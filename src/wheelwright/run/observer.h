@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "wheelwright/report/run_summary.h"
+#include "wheelwright/report/solution_fields.h"
 #include "wheelwright/run/checkpoint.h"
 #include "wheelwright/run/command.h"
 #include "wheelwright/run/study.h"
@@ -88,10 +89,19 @@ struct RunEnded {
   std::span<const Trial<dim>> failed_trials;  ///< after the last accepted shape
 };
 
+/// One load position of the last shape of a run: all of them are told before RunEnded, in their order, where
+/// the shape has a solution.
 template <int dim>
-using Event =
-    std::variant<RunStarted, TrialDone<dim>, ContactAdvanced, SaveRequested<dim>, CommandDone, CaseChanged,
-                 ShapeProposed<dim>, ShapeReplaced, GridChanged, RunWaits, RunProceeds, RunEnded<dim>>;
+struct PositionShown {
+  const RunEnded<dim>& ended;
+  int position;
+  const PositionFields<dim>& fields;
+};
+
+template <int dim>
+using Event = std::variant<RunStarted, TrialDone<dim>, ContactAdvanced, SaveRequested<dim>, CommandDone,
+                           CaseChanged, ShapeProposed<dim>, ShapeReplaced, GridChanged, RunWaits, RunProceeds,
+                           PositionShown<dim>, RunEnded<dim>>;
 
 template <int dim>
 class Observer;

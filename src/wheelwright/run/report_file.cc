@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
+#include <utility>
 
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/files/output_error.h"
@@ -33,10 +34,8 @@ void add_outline(const std::filesystem::path& folder, const ShapeOutline& outlin
 }
 
 template <int dim>
-ReportRun<dim> report_of_end(const RunEnded<dim>& ended, const RunView<dim>& run) {
-  if (!ended.solution) return report_without_results<dim>(run.folder, run.study.source, ended.reason);
-  return report_of_results<dim>(run.folder, run.study.source, *ended.summary,
-                                {&ended.state->shape, ended.solver, ended.solution}, ended.reason);
+SolvedShape<dim> last_shape(const RunEnded<dim>& ended) {
+  return {&ended.state->shape, ended.solver, ended.solution};
 }
 
 }  // namespace
@@ -58,9 +57,21 @@ void ReportFile<dim>::operator()(const Event<dim>& event, const RunView<dim>& ru
       wait_ = clock_.lap() / most_share_of_time;
     }
   }
+  if (const auto* shown = std::get_if<PositionShown<dim>>(&event)) {
+    if (!positions_) positions_.emplace(last_shape(shown->ended));
+    positions_->add(shown->position, shown->fields);
+  }
   const auto* ended = std::get_if<RunEnded<dim>>(&event);
   if (ended && (ended->state || ended->reason == StopReason::failed_start))
     write_atomically(run.folder / page_file, report_page({page_run(report_of_end(*ended, run))}));
+}
+
+template <int dim>
+ReportRun<dim> ReportFile<dim>::report_of_end(const RunEnded<dim>& ended, const RunView<dim>& run) {
+  if (!ended.solution) return report_without_results<dim>(run.folder, run.study.source, ended.reason);
+  ShownPositions<dim> positions = *std::exchange(positions_, std::nullopt);
+  return report_of_results<dim>(run.folder, run.study.source, *ended.summary, last_shape(ended),
+                                std::move(positions).wheel(), ended.reason);
 }
 
 template class ReportFile<2>;

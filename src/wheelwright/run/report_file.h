@@ -1,7 +1,10 @@
 #pragma once
 
+#include <optional>
+
 #include "wheelwright/base/stopwatch.h"
 #include "wheelwright/run/observer.h"
+#include "wheelwright/run/shown_wheel.h"
 
 namespace wheelwright {
 
@@ -14,6 +17,9 @@ class ReportFile : public Observer<dim> {
   void operator()(const Event<dim>& event, const RunView<dim>& run) override;
 
  private:
+  ReportRun<dim> report_of_end(const RunEnded<dim>& ended, const RunView<dim>& run);
+
+  std::optional<ShownPositions<dim>> positions_;  ///< of the last shape, while they are told
   Stopwatch clock_;
   double waited_ = 0;  ///< since the page was written [s]
   double wait_ = 0;    ///< from one page to the next, by what the last one took [s]

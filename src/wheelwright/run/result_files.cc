@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <limits>
-#include <numbers>
 #include <stdexcept>
 
 #include "wheelwright/case/shown_value.h"
@@ -14,8 +13,6 @@
 #include "wheelwright/report/solution_fields.h"
 #include "wheelwright/report/surface_vtp.h"
 #include "wheelwright/report/svg.h"
-#include "wheelwright/report/tread_contact.h"
-#include "wheelwright/report/vtu.h"
 #include "wheelwright/report/wheel_pictures.h"
 #include "wheelwright/run/run_title.h"
 
@@ -69,36 +66,6 @@ void write_shapes(const RunView<dim>& run, const OptimizationState<dim>& last,
                                      .after = after}));
 }
 
-/// The wheel, its tread and the ground in every load position, at the azimuth of the contact in degrees.
-template <int dim>
-class RollingFiles {
- public:
-  RollingFiles(const RunView<dim>& run, const LevelSet<dim>& shape, std::vector<TreadContact<dim>> treads)
-      : run_(run),
-        mesh_(shape, displacement_lattice(run.study.model()), vtu_cut_subdivisions<dim>),
-        treads_(std::move(treads)) {
-    make_subfolder(run.folder / "rolling");
-  }
-
-  void write(int position, const PositionFields<dim>& fields) {
-    const auto file = [&](const char* part) { return fmt::format("rolling/{}_{:02d}.vtu", part, position); };
-    mesh_.write(run_.folder / file("wheel"), named_fields(fields));
-    write_tread_vtu<dim>(run_.folder / file("tread"), treads_[position]);
-    write_ground_vtu(run_.folder / file("ground"), run_.study.grid(), fields.ground_azimuth);
-    const double degrees = fields.ground_azimuth * 180 / std::numbers::pi;
-    for (const char* part : {"wheel", "tread", "ground"})
-      entries_.push_back({degrees, file(part), static_cast<int>(entries_.size() % 3), part});
-  }
-
-  void write_collection() const { write_pvd(run_.folder / "rolling.pvd", entries_); }
-
- private:
-  const RunView<dim>& run_;
-  VtuMesh<dim> mesh_;
-  std::vector<TreadContact<dim>> treads_;
-  std::vector<PvdEntry> entries_;
-};
-
 /// The wheel under every load case but the first one: its pictures in its worst position, in the folder
 /// load_cases.
 template <int dim>
@@ -132,24 +99,26 @@ void write_surface(const RunView<3>& run, const LevelSet<3>& shape, const Positi
 
 template <int dim>
 void ResultFiles<dim>::operator()(const Event<dim>& event, const RunView<dim>& run) {
+  if (const auto* shown = std::get_if<PositionShown<dim>>(&event)) write(*shown, run);
   const auto* ended = std::get_if<RunEnded<dim>>(&event);
   if (!ended || !ended->solution) return;
-  const LevelSet<dim>& shape = ended->state->shape;
-  const State<dim>& solution = *ended->solution;
+  rolling_->write_collection();
+  rolling_.reset();
   write_shapes(run, *ended->state, ended->summary->before.objective);
-  RollingFiles<dim> rolling(run, shape, all_tread_contacts(*ended->solver, solution));
-  const int worst = worst_position(solution.strain_energy());
-  for_each_position<dim>(*ended->solver, solution, [&](int position, const PositionFields<dim>& fields) {
-    rolling.write(position, fields);
-    if (position != worst) return;
-    write_surface(run, shape, fields);
-    write_wheel_pictures(
-        run.folder,
-        {.prefix = "", .title = run_title(run.study.source), .width = run.study.source.wheel.width}, shape,
-        solution.domain(), fields);
-  });
-  rolling.write_collection();
-  write_other_load_cases(run, *ended->solver, shape, solution);
+  write_other_load_cases(run, *ended->solver, ended->state->shape, *ended->solution);
+}
+
+template <int dim>
+void ResultFiles<dim>::write(const PositionShown<dim>& shown, const RunView<dim>& run) {
+  const LevelSet<dim>& shape = shown.ended.state->shape;
+  const State<dim>& solution = *shown.ended.solution;
+  if (!rolling_) rolling_.emplace(run.folder, shape, *shown.ended.solver, solution);
+  rolling_->write(shown.position, shown.fields);
+  if (shown.position != worst_position(solution.strain_energy())) return;
+  write_surface(run, shape, shown.fields);
+  write_wheel_pictures(
+      run.folder, {.prefix = "", .title = run_title(run.study.source), .width = run.study.source.wheel.width},
+      shape, solution.domain(), shown.fields);
 }
 
 template class ResultFiles<2>;

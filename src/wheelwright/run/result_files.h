@@ -1,6 +1,9 @@
 #pragma once
 
+#include <optional>
+
 #include "wheelwright/run/observer.h"
+#include "wheelwright/run/rolling_files.h"
 
 namespace wheelwright {
 
@@ -12,6 +15,11 @@ template <int dim>
 class ResultFiles : public Observer<dim> {
  public:
   void operator()(const Event<dim>& event, const RunView<dim>& run) override;
+
+ private:
+  void write(const PositionShown<dim>& shown, const RunView<dim>& run);
+
+  std::optional<RollingFiles<dim>> rolling_;  ///< while the positions are told
 };
 
 }  // namespace wheelwright

@@ -245,12 +245,18 @@ RunResult<dim> RunLoop<dim>::end(StopReason reason) {
   const auto results = final_results(work_->study, *initial_, *state_, solved_, interrupt);
   if (results.is_interrupted && reason != StopReason::gave_up)
     reason = StopReason::stop_requested;  // a resumed run completes them
-  notify(RunEnded<dim>{reason, &*state_, results.shown.get(), results.solver.get(), &results.summary,
-                       failed_trials_});
-  RunResult<dim> ended = result(reason);
-  ended.summary = results.summary;
-  if (reason != StopReason::stop_requested) ended.findings = findings_at_the_end(results.own);
-  return ended;
+  const RunEnded<dim> ended{reason,           &*state_,      results.shown.get(), results.solver.get(),
+                            &results.summary, failed_trials_};
+  if (results.shown)
+    for_each_position<dim>(*results.solver, *results.shown,
+                           [&](int position, const PositionFields<dim>& fields) {
+                             notify(PositionShown<dim>{ended, position, fields});
+                           });
+  notify(ended);
+  RunResult<dim> of_run = result(reason);
+  of_run.summary = results.summary;
+  if (reason != StopReason::stop_requested) of_run.findings = findings_at_the_end(results.own);
+  return of_run;
 }
 
 template <int dim>

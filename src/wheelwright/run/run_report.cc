@@ -14,9 +14,6 @@
 #include "wheelwright/case/shown_value.h"
 #include "wheelwright/files/csv.h"
 #include "wheelwright/geometry/section.h"
-#include "wheelwright/report/shape_boundary.h"
-#include "wheelwright/report/surface_vtp.h"
-#include "wheelwright/report/wheel_pictures.h"
 #include "wheelwright/run/case_report.h"
 #include "wheelwright/run/failure_report.h"
 #include "wheelwright/run/feature_warnings.h"
@@ -206,78 +203,16 @@ std::vector<std::string> limits(const Case& c, const DescribedWheel<dim>& wheel)
   return result;
 }
 
-/// Calls show(name, state) for each load case after the first one that is solved.
+/// The wheel under the load cases after the first one.
 template <int dim>
-void for_other_loads(const Case& c, const State<dim>& first, const auto& show) {
+std::vector<LoadedPositions<dim>> other_loads(const Case& c, const SolvedShape<dim>& last) {
   const LoadCases<dim> cases = load_cases<dim>(c);
+  std::vector<LoadedPositions<dim>> all;
   for (std::size_t k = 1; k < cases.size(); ++k)
-    if (const auto state = first.under(with_loads_of(first.model(), cases[k].model), Interrupt()))
-      show(cases[k].name, **state);
-}
-
-void add_fields(const Case& c, const SolvedShape<2>& last, ReportRun<2>& run) {
-  run.positions = all_position_fields(*last.solver, *last.solution);
-  for_other_loads<2>(c, *last.solution, [&](const std::string& name, const State<2>& state) {
-    run.other_loads.push_back({name, all_position_fields(*last.solver, state)});
-  });
-}
-
-/// The page holds no more fields of one load of a wheel in 3D.
-constexpr double most_page_bytes = 8e6;
-
-/// Bytes that the fields of so many positions take in the page.
-double page_bytes(const SurfaceMesh& surface, int positions) {
-  constexpr double bytes_per_vertex = (3 * 2 + 1) * 4.0 / 3;
-  return bytes_per_vertex * static_cast<double>(surface.points.size()) * positions;
-}
-
-struct LitWheel {
-  SurfaceMesh surface;
-  std::vector<SurfacePosition> positions;
-};
-
-/// The surface, as fine as the page holds it with so many positions, but at least with one cube per cell.
-SurfaceMesh page_surface(const SolvedShape<3>& last, int positions) {
-  const int degree = last.solver->model().degree;
-  SurfaceMesh surface = shape_boundary(*last.shape, degree);
-  return page_bytes(surface, positions) > most_page_bytes ? material_surface(*last.shape, 1, degree)
-                                                          : surface;
-}
-
-template <class Points>
-SurfacePosition on_points(const PositionFields<3>& fields, const Points& points) {
-  return {fields.ground_azimuth, points.values({"displacement", "m", fields.displacement}),
-          points.values(von_mises_field(fields.stress))[0]};
-}
-
-/// The fields of all positions at the vertices of a surface; where they are too many for the page, those of
-/// the worst position.
-std::vector<SurfacePosition> lit_positions(const SurfaceMesh& surface, const StateSolver<3>& solver,
-                                           const State<3>& solution) {
-  const bool all = page_bytes(surface, solver.model().n_positions) <= most_page_bytes;
-  const int worst = worst_position(solution.strain_energy());
-  const auto points = field_points(surface, displacement_lattice(solver.model()));
-  std::vector<SurfacePosition> positions;
-  for_each_position<3>(solver, solution, [&](int position, const PositionFields<3>& fields) {
-    if (all || position == worst) positions.push_back(on_points(fields, points));
-  });
-  return positions;
-}
-
-/// With all positions where the page holds them, else with the worst one.
-LitWheel lit_wheel(const SolvedShape<3>& last) {
-  LitWheel wheel{page_surface(last, last.solver->model().n_positions), {}};
-  wheel.positions = lit_positions(wheel.surface, *last.solver, *last.solution);
-  return wheel;
-}
-
-void add_fields(const Case& c, const SolvedShape<3>& last, ReportRun<3>& run) {
-  LitWheel wheel = lit_wheel(last);
-  run.surface = std::move(wheel.surface);
-  run.positions = std::move(wheel.positions);
-  for_other_loads<3>(c, *last.solution, [&](const std::string& name, const State<3>& state) {
-    run.other_loads.push_back({name, lit_positions(run.surface, *last.solver, state)});
-  });
+    if (const auto state =
+            last.solution->under(with_loads_of(last.solution->model(), cases[k].model), Interrupt()))
+      all.push_back({cases[k].name, shown_wheel<dim>({last.shape, last.solver, state->get()}).positions});
+  return all;
 }
 
 }  // namespace
@@ -316,8 +251,7 @@ ReportRun<dim> report_of_folder(const fs::path& folder, const Case& c) {
                      .flags = {},
                      .limits = {},
                      .summary = {},
-                     .surface = {},
-                     .positions = {},
+                     .wheel = {},
                      .contact_points = {}};
   read_history(folder / history_file, run);
   run.seconds = last_elapsed(run);
@@ -327,7 +261,8 @@ ReportRun<dim> report_of_folder(const fs::path& folder, const Case& c) {
 
 template <int dim>
 ReportRun<dim> report_of_results(const fs::path& folder, const Case& c, const RunSummary<dim>& summary,
-                                 const SolvedShape<dim>& last, std::optional<StopReason> reason) {
+                                 const SolvedShape<dim>& last, ShownWheel<dim> wheel,
+                                 std::optional<StopReason> reason) {
   ReportRun<dim> run = report_of_folder<dim>(folder, c);
   run.is_running = false;
   run.status = status_text(reason);
@@ -337,8 +272,8 @@ ReportRun<dim> report_of_results(const fs::path& folder, const Case& c, const Ru
   if (!summary.changed_start.empty())
     run.given = shape_outline(0, summary.before.objective ? *summary.before.objective : NAN,
                               mid_plane_section(initial_shape<dim>(c)));
-  run.shape = last.shape;
-  add_fields(c, last, run);
+  run.wheel = std::move(wheel);
+  run.other_loads = other_loads(c, last);
   run.contact_points = contact_points(*last.solver, *last.solution);
   return run;
 }
@@ -355,28 +290,13 @@ ReportRun<dim> report_without_results(const fs::path& folder, const Case& c, Sto
   return run;
 }
 
-template <int dim>
-std::string loaded_wheel(const SolvedShape<dim>& solved, int position) {
-  const PositionFields<dim> fields = position_fields(*solved.solver, *solved.solution, position);
-  if constexpr (dim == 2) {
-    return loaded_wheel_json(*solved.shape, std::span(&fields, 1));
-  } else {
-    const SurfaceMesh surface = page_surface(solved, 1);
-    const SurfacePosition on_surface =
-        on_points(fields, field_points(surface, displacement_lattice(solved.solver->model())));
-    return loaded_wheel_json(surface, std::span(&on_surface, 1));
-  }
-}
-
 template ReportRun<2> report_without_results(const fs::path&, const Case&, StopReason);
 template ReportRun<3> report_without_results(const fs::path&, const Case&, StopReason);
-template std::string loaded_wheel(const SolvedShape<2>&, int);
-template std::string loaded_wheel(const SolvedShape<3>&, int);
 template ReportRun<2> report_of_folder(const fs::path&, const Case&);
 template ReportRun<3> report_of_folder(const fs::path&, const Case&);
 template ReportRun<2> report_of_results(const fs::path&, const Case&, const RunSummary<2>&,
-                                        const SolvedShape<2>&, std::optional<StopReason>);
+                                        const SolvedShape<2>&, ShownWheel<2>, std::optional<StopReason>);
 template ReportRun<3> report_of_results(const fs::path&, const Case&, const RunSummary<3>&,
-                                        const SolvedShape<3>&, std::optional<StopReason>);
+                                        const SolvedShape<3>&, ShownWheel<3>, std::optional<StopReason>);
 
 }  // namespace wheelwright

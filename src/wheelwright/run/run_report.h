@@ -5,6 +5,7 @@
 #include "wheelwright/case/case.h"
 #include "wheelwright/optimize/optimizer.h"
 #include "wheelwright/page/report_run.h"
+#include "wheelwright/run/shown_wheel.h"
 
 namespace wheelwright {
 
@@ -22,24 +23,12 @@ std::vector<ShapeOutline> read_outlines(const std::filesystem::path& folder);
 template <int dim>
 ReportRun<dim> report_of_folder(const std::filesystem::path& folder, const Case& c);
 
-/// A shape that was solved for results.
-template <int dim>
-struct SolvedShape {
-  const LevelSet<dim>* shape;
-  const StateSolver<dim>* solver;
-  const State<dim>* solution;
-};
-
-/// The loaded wheel in one of its load positions, as the page holds it.
-template <int dim>
-std::string loaded_wheel(const SolvedShape<dim>& solved, int position);
-
-/// What is known of a run that ended, with its last shape. `reason` is absent where it is not known to have
-/// ended.
+/// What is known of a run that ended, with its last shape, which is shown as `wheel`. `reason` is absent
+/// where it is not known to have ended.
 template <int dim>
 ReportRun<dim> report_of_results(const std::filesystem::path& folder, const Case& c,
                                  const RunSummary<dim>& summary, const SolvedShape<dim>& last,
-                                 std::optional<StopReason> reason);
+                                 ShownWheel<dim> wheel, std::optional<StopReason> reason);
 
 /// The same of a run that ended without results: its first shape could not be solved, or there was no time.
 template <int dim>

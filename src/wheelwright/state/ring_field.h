@@ -50,6 +50,12 @@ std::size_t ring_node(const Lattice<dim>& lattice, std::array<int, dim> position
          static_cast<std::size_t>(lattice.n_nodes()) * (azimuthal / per_sector);
 }
 
+/// Where the nodes of an azimuth begin, which follow each other.
+template <int dim>
+std::size_t ring_line(const Lattice<dim>& lattice, int azimuthal) {
+  return ring_node<dim>(lattice, {0, azimuthal});
+}
+
 /// The mirror image of a field in the middle plane of sector 0, which takes load position i of n to position
 /// n - i: a sector further than the image in the plane of azimuth 0. A field with as many components as the
 /// space has dimensions is one of vectors, any other one of scalars.
@@ -58,18 +64,16 @@ RingField mirror_image(const Lattice<dim>& lattice, const RingField& field) {
   RingField image = field;
   const int per_sector = lattice.nodes()[1];
   const double angle = lattice.grid().sector_angle(), cosine = std::cos(angle), sine = std::sin(angle);
-  for (int sector = 0; sector < lattice.grid().n_sectors; ++sector)
-    for (int node = 0; node < lattice.n_nodes(); ++node) {
-      auto p = lattice.node_position(node);
-      p[1] += per_sector * sector;
-      const double* from = &field.values[field.components * ring_node<dim>(lattice, p)];
-      p[1] = per_sector - p[1];
-      double* to = &image.values[field.components * ring_node<dim>(lattice, p)];
-      std::copy_n(from, field.components, to);
-      if (field.components != dim) continue;
+  for (int line = 0; line < per_sector * lattice.grid().n_sectors; ++line) {
+    const double* from = &field.values[field.components * ring_line(lattice, line)];
+    double* to = &image.values[field.components * ring_line(lattice, per_sector - line)];
+    std::copy_n(from, field.components * lattice.nodes_per_line(), to);
+    if (field.components != dim) continue;
+    for (int node = 0; node < lattice.nodes_per_line(); ++node, from += dim, to += dim) {
       to[0] = cosine * from[0] + sine * from[1];
       to[1] = sine * from[0] - cosine * from[1];
     }
+  }
   return image;
 }
 
@@ -80,9 +84,13 @@ using RingCellNodes = std::array<std::size_t, ShapeFunctions<dim>::max_nodes>;
 /// cell[1] counts columns round the ring.
 template <int dim>
 RingCellNodes<dim> ring_cell_nodes(const Lattice<dim>& lattice, const std::array<int, dim>& cell) {
+  std::array<std::size_t, 3> lines;  // the first nodes of the cell's azimuths
+  for (int k = 0; k <= lattice.degree(); ++k) lines[k] = ring_line(lattice, lattice.degree() * cell[1] + k);
   RingCellNodes<dim> nodes{};
-  for (int a = 0; a < nodes_per_cell<dim>(lattice.degree()); ++a)
-    nodes[a] = ring_node<dim>(lattice, lattice.cell_node(cell, a));
+  for (int a = 0; a < nodes_per_cell<dim>(lattice.degree()); ++a) {
+    const auto position = lattice.cell_node(cell, a);
+    nodes[a] = lines[position[1] - lattice.degree() * cell[1]] + lattice.index_on_line(position);
+  }
   return nodes;
 }
 

@@ -107,7 +107,8 @@ Expected<std::string, NoProduct> design_report(const std::filesystem::path& fold
                                 .before = {0, energy, before},
                                 .after = {shape.number, shape.objective, after},
                                 .remarks = remarks(*shape.source, before, after)};
-  return report_page({page_run(report_of_results<dim>(folder, *shape.source, summary, solved(shape), {}))});
+  return report_page({page_run(report_of_results<dim>(folder, *shape.source, summary, solved(shape),
+                                                      shown_wheel(solved(shape)), {}))});
 }
 
 bool is_design_name(std::string_view name) {

@@ -39,8 +39,9 @@ Expected<PageRun> report_of_run(const RunInput<dim>& run) {
                      objective_as_given(*study, run.checkpoint.initial, tell_contact_progress()),
                      described(solver, study->load_cases, given, material_measure(given), solved(given)),
                      last, described(solver, study->load_cases, last.shape, last.measure, last_states));
-  return page_run(report_of_results<dim>(
-      run.folder, run.source, summary, {&last.shape, &solver, last_states->get()}, run.checkpoint.finished));
+  const SolvedShape<dim> shape{&last.shape, &solver, last_states->get()};
+  return page_run(report_of_results<dim>(run.folder, run.source, summary, shape, shown_wheel(shape),
+                                         run.checkpoint.finished));
 }
 
 /// The page of an exploration or a sweep, whose points open the reports of its designs.

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "wheelwright/geometry/level_set.h"
+#include "wheelwright/report/solution_fields.h"
+
+namespace wheelwright {
+
+/// Points of the material of sector 0 with what it takes to interpolate a field there, and triangles of them.
+struct SectorMesh {
+  std::vector<Vec<2>> points;             ///< Cartesian [m]
+  std::vector<RingCellNodes<2>> nodes;    ///< of the cell of every point
+  std::vector<ShapeFunctions<2>> shapes;  ///< of the fields there, in its cell
+  std::vector<std::uint32_t> triangles;   ///< corners, counter-clockwise
+};
+
+/// The mesh of a shape in the plane; `field_lattice` carries the fields. Polygons beside halved ones have the
+/// middles of their sides too, so that no gaps open where the mesh is deformed.
+SectorMesh sector_mesh(const LevelSet<2>& psi, const Lattice<2>& field_lattice);
+
+/// One load position: the fields at the points of a mesh in all sectors, in the order point + n_points *
+/// sector; NaN where there is no material.
+struct MeshPosition {
+  double ground_azimuth;          ///< as in PositionFields
+  std::vector<double> x, y;       ///< displacement [m], body frame
+  std::vector<double> von_mises;  ///< [Pa]
+};
+
+MeshPosition on_mesh(const SectorMesh& mesh, const PositionFields<2>& fields);
+
+}  // namespace wheelwright
