@@ -956,6 +956,70 @@ TEST_F(DrawingInACase, WrongUnitsAreSuspected) {
       << result.problems[0].text();
 }
 
+/// The remedies of all problems.
+std::string remedies(const CaseResult& result) {
+  std::string all;
+  for (const Diagnostic& problem : result.problems) all += problem.remedy + '\n';
+  return all;
+}
+
+/// A circle as a DXF file of which the unit is a metre (6) or a millimetre (4).
+std::string circle_dxf(double x, double radius, int unit) {
+  return dxf(fmt::format("0\nCIRCLE\n10\n{}\n20\n0\n40\n{}\n", x, radius), unit);
+}
+
+TEST_F(DrawingInACase, UnitsAreSuspectedOnlyWhereADrawingIsFarTooLargeOrSmall) {
+  const auto remedies_of = [&](const std::string& drawing) {
+    write("holes.dxf", drawing);
+    return remedies(read("[[shape.file]]\npath = \"holes.dxf\"\ncount = 16\n"));
+  };
+  const std::string hint = "if they are millimetres";
+  EXPECT_NE(remedies_of(circle_dxf(270, 20, 6)).find(hint), std::string::npos);
+  EXPECT_NE(remedies_of(circle_dxf(0.27, 0.02, 4)).find("0.29 m if they are metres"), std::string::npos);
+  for (const std::string& drawing : {circle_dxf(270, 20, 4), circle_dxf(0.27, 0.02, 6)})
+    EXPECT_EQ(remedies_of(drawing), "");
+  // Too large for the ring, in the right unit.
+  for (const double x : {320.0, 800.0}) {
+    const std::string remedy = remedies_of(circle_dxf(x, 30, 4));
+    EXPECT_NE(remedy, "") << x;
+    EXPECT_EQ(remedy.find(hint), std::string::npos) << remedy;
+  }
+  // A shape of the case itself has no unit of its own.
+  const std::string circle = remedies(read("[[shape.circle]]\ncenter_radius = 270\nradius = 20\n"));
+  EXPECT_NE(circle, "");
+  EXPECT_EQ(circle.find(hint), std::string::npos) << circle;
+}
+
+TEST_F(DrawingInACase, AWheelInMillimetresAroundADrawingIsRecognized) {
+  write("holes.dxf", circle_dxf(270, 20, 4));
+  const std::string file = "[[shape.file]]\npath = \"holes.dxf\"\ncount = 16\n";
+  const auto in_metres = [&](double inner, double outer) {
+    return remedies(
+        read(fmt::format("[wheel]\ninner_radius = {}\nouter_radius = {}\n", inner, outer) + file));
+  };
+  EXPECT_NE(in_metres(200, 340).find("if 340 is in mm, write 0.34"), std::string::npos);
+  EXPECT_EQ(in_metres(0.2, 0.34), "");
+  const std::string twice_the_wheel = in_metres(0.4, 0.68);  // the hole lies in the hub
+  EXPECT_NE(twice_the_wheel, "");
+  EXPECT_EQ(twice_the_wheel.find("is in mm"), std::string::npos) << twice_the_wheel;
+}
+
+TEST_F(DrawingInACase, AWholeWheelThatIsDrawnAsHolesIsRecognized) {
+  const std::string hint = "[[shape.annulus]] before it", whole = spoked_wheel(std::vector<double>(16, 0));
+  const auto remedies_of = [&](const std::string& drawing, const std::string& keys) {
+    write("wheel.svg", drawing);
+    return remedies(read(keys + "path = \"wheel.svg\"\n"));
+  };
+  EXPECT_NE(remedies_of(whole, "[[shape.file]]\n").find(hint), std::string::npos);
+  EXPECT_EQ(remedies_of(whole, "[[shape.annulus]]\n[[shape.file]]\nas = \"material\"\n"), "");
+  // Holes that end elsewhere than at the tread, and material.
+  for (const double radius : {100.0, 50.0}) {
+    const std::string hole = fmt::format("<circle cx='270' r='{}'/>", radius);
+    const std::string remedy = remedies_of(svg(hole), "[[shape.file]]\ncount = 16\n");
+    EXPECT_EQ(remedy.find(hint), std::string::npos) << remedy;
+  }
+}
+
 TEST_F(DrawingInACase, WhatIsNoFileIsUnreadable) {
   for (const char* path : {"missing.svg", ".svg", "/dev/zero", "../.."}) {
     const CaseResult result = read(fmt::format("[[shape.file]]\npath = \"{}\"\n", path));
