@@ -64,7 +64,7 @@ struct CountedSide {
 /// Counts sides by their points: a table with open addressing, which has room for a number of sides.
 class SideCounts {
  public:
-  explicit SideCounts(std::size_t most) : sides_(std::bit_ceil(2 * most + 1)) {}
+  explicit SideCounts(std::size_t most) : sides_(std::bit_ceil(most + most / 2 + 1)) {}
 
   void add(const PictureSide& side) {
     const std::uint64_t from = packed(side.from), to = packed(side.to);
