@@ -30,6 +30,7 @@ class StateOfOneLoad : public State<2> {
   const Displacement<2>& displacement() const override { return state_->displacement(); }
   const StrainPeaks<2>& strain_peaks() const override { return state_->strain_peaks(); }
   const std::vector<SurfacePoint<2>>& boundary() const override { return state_->boundary(); }
+  const std::vector<SurfacePoint<2>>& edges() const override { return state_->edges(); }
   Expected<ShapeGradients> shape_gradients(
       std::span<const FunctionalDerivative<2>> functions) const override {
     return state_->shape_gradients(functions);

@@ -163,6 +163,9 @@ void expect_the_same(const RollingModel<3>& model, const LevelSet<3>& psi, const
     EXPECT_LT(difference(moments(model.grid, of_a->gradient("objective")),
                          moments(model.grid, of_b->gradient("objective"))),
               1e-7);
+    EXPECT_LT(difference(moments(model.grid, of_a->edge_gradient("objective")),
+                         moments(model.grid, of_b->edge_gradient("objective"))),
+              1e-7);
   }
 }
 
@@ -203,7 +206,8 @@ TEST(HalfWidth, NearlyIncompressibleBetweenSymmetricSideFaces) {
 }
 
 TEST(HalfWidth, OfShapesThatAreMirrorSymmetricInAzimuthToo) {
-  const auto model = wheel(1, 2);
+  auto model = wheel(1, 2);
+  model.distributed.hole_pressure = 2e4;
   const auto psi = waisted_hole(model.grid, 0.5);
   ASSERT_TRUE(is_mirror_symmetric(psi));
   expect_the_same(model, psi, {{1, std::make_shared<StrainEnergy<3>>()}});

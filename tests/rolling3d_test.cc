@@ -125,6 +125,49 @@ TEST(Rolling3D, WithFrictionAndAllForcesTheGradientPassesTheTaylorTest) {
   }
 }
 
+// The hole opens in both side faces, where the edge of its wall moves too.
+TEST(Rolling3D, WithAPressureInTheHolesTheGradientPassesTheTaylorTest) {
+  for (const bool has_travel : {false, true}) {
+    SCOPED_TRACE(has_travel);
+    auto model = pushed_wheel();
+    model.distributed.hole_pressure = 5e4;
+    if (has_travel) model.travel = 4e-4;
+    const auto problem = RollingProblem<3>::create(model);
+    ASSERT_TRUE(problem) << problem.failure().detail;
+    expect_taylor_orders(model, strain_energy, *problem);
+  }
+}
+
+// A hole that is a cone: its edges are circles, and its wall has one slope.
+TEST(Rolling3D, EdgesInTheSideFacesAreThoseOfTheHoles) {
+  constexpr double radius = 0.024, slope = 0.1;
+  auto model = small_wheel(2, 2);
+  model.grid.cells = {8, 6, 2};
+  const auto problem = RollingProblem<3>::create(model);
+  ASSERT_TRUE(problem) << problem.failure().detail;
+  const double middle = 0.45 * model.grid.sector_angle();
+  LevelSet<3> psi{Lattice<3>(model.grid, 2), {}};
+  for (int i = 0; i < psi.lattice.n_nodes(); ++i) {
+    const Vec<3> p = psi.lattice.polar_point(i);
+    const double distance =
+        std::hypot(p[0] * std::cos(p[1] - middle) - 0.2581, p[0] * std::sin(p[1] - middle));
+    psi.values.push_back(radius + slope * p[2] - distance);
+  }
+  const auto state = testing::all_states<3>(*problem, psi);
+  ASSERT_TRUE(state) << state.failure().detail;
+  std::array<double, 2> length{};
+  for (const SurfacePoint<3>& point : (*state)->edges()) {
+    const bool is_last = point.xi[2] == 1;
+    EXPECT_EQ(model.grid.cell_position(point.cell)[2], is_last ? 1 : 0);
+    EXPECT_NEAR(point.normal[2], slope / std::hypot(1, slope), 0.01);
+    length[is_last] += point.weight;
+  }
+  for (const int end : {0, 1}) {
+    const double expected = 2 * std::numbers::pi * (radius + end * slope * model.grid.width);
+    EXPECT_NEAR(length[end] / expected, 1, 2e-3);
+  }
+}
+
 TEST(Rolling3D, UniformityPassesTheTaylorTest) {
   auto model = small_wheel(1, 2);
   model.tread.annulus_points = 2;

@@ -147,7 +147,7 @@ std::optional<CutCell<dim>> CellQuadrature<dim>::split(int cell, std::span<const
   const auto reflection = to_standard<dim>(degree_, nodal_values);
   const BernsteinForm<dim> psi(degree_, reflected<dim>(degree_, nodal_values, reflection));
   if (!std::isfinite(psi.variation(0))) return {};
-  CutCell<dim> result{cell, {}, {}};
+  CutCell<dim> result{cell, {}, {}, {}};
   append(psi, result);
   reflect<dim>(result, reflection);
   if (!(divergence_defect(result, nodal_values) <= largest_defect(static_cast<int>(rule_.points.size()))))

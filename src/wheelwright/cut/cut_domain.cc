@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "wheelwright/cut/cell_quadrature.h"
 #include "wheelwright/geometry/finite.h"
@@ -157,6 +158,39 @@ bool equals_image(const LevelSet<dim>& psi, int cell, int image) {
   return true;
 }
 
+/// The unit normal along the gradient of a cell's polynomial, in the coordinates of the unit cell.
+template <int dim>
+Vec<dim> reference_normal(std::span<const double> values, int degree, const Vec<dim>& xi) {
+  const ShapeFunctions<dim> shape(degree, xi);
+  Vec<dim> gradient{};
+  for (std::size_t a = 0; a < values.size(); ++a)
+    for (int d = 0; d < dim; ++d) gradient[d] += values[a] * shape.gradient[a][d];
+  const double length = norm<dim>(gradient);
+  for (double& x : gradient) x /= length;
+  return gradient;
+}
+
+/// The edges of the boundary in the side faces of the wheel, in one cell, by the quadrature of its faces.
+/// False if it cannot be found.
+bool add_edges(const LevelSet<2>&, const CellQuadrature<2>&, CutCell<2>&) { return true; }
+bool add_edges(const LevelSet<3>& psi, const CellQuadrature<2>& faces, CutCell<3>& cut) {
+  const int degree = psi.lattice.degree(), n_nodes = nodes_per_cell<2>(degree);
+  const PolarGrid<3>& grid = psi.lattice.grid();
+  const auto values = psi.cell_values(cut.cell);
+  for (const int end : {0, 1}) {
+    if (grid.cell_position(cut.cell)[2] != (end == 0 ? 0 : grid.cells[2] - 1)) continue;
+    const auto on_face = std::span(values).subspan(end * degree * n_nodes, n_nodes);
+    if (faces.classify(on_face) != CellKind::cut) continue;
+    const auto split = faces.split(cut.cell, on_face);
+    if (!split) return false;
+    for (const auto& q : split->boundary) {
+      const Vec<3> xi{q.xi[0], q.xi[1], static_cast<double>(end)};
+      cut.edges.push_back({xi, reference_normal<3>(values, degree, xi), end == 0 ? -1.0 : 1.0, q.weight});
+    }
+  }
+  return true;
+}
+
 /// The quadrature of a cell's mirror image in the middle of the width.
 template <int dim>
 CutCell<dim> reflected(CutCell<dim> cut, int image) {
@@ -165,6 +199,11 @@ CutCell<dim> reflected(CutCell<dim> cut, int image) {
   for (auto& point : cut.boundary) {
     point.xi[dim - 1] = 1 - point.xi[dim - 1];
     point.normal[dim - 1] = -point.normal[dim - 1];
+  }
+  for (auto& point : cut.edges) {
+    point.xi[dim - 1] = 1 - point.xi[dim - 1];
+    point.normal[dim - 1] = -point.normal[dim - 1];
+    point.outward = -point.outward;
   }
   return cut;
 }
@@ -187,7 +226,8 @@ Expected<CutDomain<dim>> cut_domain(const LevelSet<dim>& given, int points) {
   const PolarGrid<dim>& grid = psi.lattice.grid();
   CutDomain<dim> domain{
       .grid = grid, .kinds = std::vector<CellKind>(grid.n_cells()), .cut = {}, .ghost_faces = {}};
-  CellQuadrature<dim> quadrature(psi.lattice.degree(), points);
+  const CellQuadrature<dim> quadrature(psi.lattice.degree(), points);
+  const CellQuadrature<2> faces(psi.lattice.degree(), points);
   for (int cell = 0; cell < grid.n_cells(); ++cell) {
     if (const auto image = earlier_image(psi, cell)) {
       domain.kinds[cell] = domain.kinds[*image];
@@ -200,7 +240,7 @@ Expected<CutDomain<dim>> cut_domain(const LevelSet<dim>& given, int points) {
     domain.kinds[cell] = quadrature.classify(values);
     if (domain.kinds[cell] != CellKind::cut) continue;
     auto split = quadrature.split(cell, values);
-    if (!split)
+    if (!split || !add_edges(psi, faces, *split))
       return Failure{
           FailureReason::cut_quadrature,
           fmt::format("the quadrature of the cell at {} misses the divergence theorem", place(grid, cell))};

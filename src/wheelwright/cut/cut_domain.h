@@ -21,6 +21,15 @@ struct ReferenceSurfacePoint {
   double weight;    ///< length (or area) in the coordinates of the unit cell
 };
 
+/// A quadrature point of the edge in which {psi = 0} meets a side face of the wheel, in the unit cell.
+template <int dim>
+struct ReferenceEdgePoint {
+  Vec<dim> xi;
+  Vec<dim> normal;  ///< of {psi = 0}, as in ReferenceSurfacePoint
+  double outward;   ///< component along the axle of the side face's unit normal out of the wheel: 1 or -1
+  double weight;    ///< length in the coordinates of the unit cell
+};
+
 /// Quadrature of one cell that the boundary crosses. It integrates over the zero set of the polynomial
 /// itself; its order is that of the one-dimensional Gauss rule.
 template <int dim>
@@ -28,6 +37,7 @@ struct CutCell {
   int cell;
   std::vector<ReferencePoint<dim>> material;         ///< over {psi < 0} in the unit cell
   std::vector<ReferenceSurfacePoint<dim>> boundary;  ///< over {psi = 0} in the unit cell
+  std::vector<ReferenceEdgePoint<dim>> edges = {};   ///< where dim = 3 and the cell is at a side face
 };
 
 /// An interior face between two active cells of which at least one is cut. `plus` is the next cell after

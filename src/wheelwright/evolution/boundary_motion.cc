@@ -127,6 +127,14 @@ BoundaryMotion<dim> BoundaryMotion<dim>::at(const CubicInterpolant<dim>& psi,
 }
 
 template <int dim>
+BoundaryMotion<dim> BoundaryMotion<dim>::on(const LevelSet<dim>& psi,
+                                            std::span<const SurfacePoint<dim>> points) const {
+  BoundaryMotion result = *this;
+  result.boundary_ = std::make_shared<const Boundary>(boundary_of(psi, points));
+  return result;
+}
+
+template <int dim>
 BoundaryMotion<dim> BoundaryMotion<dim>::holding(const std::vector<bool>& held) const {
   BoundaryMotion result = *this;
   for (std::size_t node = 0; node < held.size(); ++node)

@@ -31,6 +31,9 @@ class BoundaryMotion {
   /// spacing of the lattice; their weight in load() is 1.
   BoundaryMotion at(const CubicInterpolant<dim>& psi, const std::vector<Vec<dim>>& points) const;
 
+  /// The same motion at other points of the boundary of the same shape.
+  BoundaryMotion on(const LevelSet<dim>& psi, std::span<const SurfacePoint<dim>> points) const;
+
   /// The coefficients that move.
   const LevelSet<dim>& coefficients() const { return coefficients_; }
 

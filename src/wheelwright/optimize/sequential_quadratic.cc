@@ -23,18 +23,26 @@ double product(const Nodal& load, const Nodal& deformation) {
   return std::inner_product(load.begin(), load.end(), deformation.begin(), 0.0);
 }
 
+Nodal scaled(Nodal values, double factor) {
+  for (double& value : values) value *= factor;
+  return values;
+}
+
 /// The derivatives of the objective, of the measure, and of the constraints, as loads.
 template <int dim>
-std::vector<Nodal> loads(const BoundaryMotion<dim>& motion, const Evaluation<dim>& evaluation,
-                         const std::string& objective, const std::vector<BoundConstraint>& constraints) {
-  const auto load_of = [&](std::vector<double> density, double factor) {
-    for (double& value : density) value *= factor;
-    return motion.load(density);
+std::vector<Nodal> loads(const BoundaryMotion<dim>& motion, const LevelSet<dim>& shape,
+                         const Evaluation<dim>& evaluation, const std::string& objective,
+                         const std::vector<BoundConstraint>& constraints) {
+  const auto load_of = [&](const FunctionValue& function, double factor) {
+    Nodal load = motion.load(scaled(function.gradient, factor));
+    const auto is_zero = [](double density) { return density == 0; };
+    if (!std::ranges::all_of(function.edge_gradient, is_zero))
+      add(1, motion.on(shape, evaluation.edges).load(scaled(function.edge_gradient, factor)), load);
+    return load;
   };
-  std::vector<Nodal> result{load_of(evaluation.function(objective).gradient, 1),
-                            load_of(std::vector<double>(evaluation.boundary.size(), 1.0), 1)};
-  for (const auto& c : constraints)
-    result.push_back(load_of(evaluation.functions[c.function].gradient, 1 / c.scale));
+  std::vector<Nodal> result{load_of(evaluation.function(objective), 1),
+                            motion.load(std::vector<double>(evaluation.boundary.size(), 1.0))};
+  for (const auto& c : constraints) result.push_back(load_of(evaluation.functions[c.function], 1 / c.scale));
   return result;
 }
 
@@ -89,7 +97,7 @@ typename SequentialQuadraticProposals<dim>::Span SequentialQuadraticProposals<di
     const BoundaryMotion<dim>& motion, const std::vector<bool>& held) const {
   const auto& space = evolver_.deformations();
   Span span{.deformations = {},
-            .loads = loads(motion, state_.evaluation, options_.objective, constraints_),
+            .loads = loads(motion, state_.shape, state_.evaluation, options_.objective, constraints_),
             .known = pairs_.known};
   const auto ends = ends_.holding(held);
   for (size_t k = 0; k < widths_.size(); ++k) span.loads.push_back(gap_load(ends, widths_, k));
@@ -254,12 +262,13 @@ StepMemory SequentialQuadraticProposals<dim>::remembered(const Move<dim>& move, 
   if (move.multipliers.size() == constraints_.size()) weights.push_back(0);  // the measure is free
   for (const double m : move.multipliers) weights.push_back(m);
   for (size_t i = 0; i < constraints_.size(); ++i) weights[2 + i] *= constraints_[i].sign;
-  const auto add_loads = [&](double factor, const BoundaryMotion<dim>& motion, const Evaluation<dim>& e) {
-    const auto derivatives = loads(motion, e, options_.objective, constraints_);
+  const auto add_loads = [&](double factor, const BoundaryMotion<dim>& motion, const LevelSet<dim>& psi,
+                             const Evaluation<dim>& e) {
+    const auto derivatives = loads(motion, psi, e, options_.objective, constraints_);
     for (size_t i = 0; i < derivatives.size(); ++i) add(factor * weights[i], derivatives[i], change);
   };
-  add_loads(unit, space.motion_of(shape, evaluation.boundary), evaluation);
-  add_loads(-unit, motion_, state_.evaluation);
+  add_loads(unit, space.motion_of(shape, evaluation.boundary), shape, evaluation);
+  add_loads(-unit, motion_, state_.shape, state_.evaluation);
   pair.change = space.representative(change);
   const double move_square = product(space.load(pair.move), pair.move),
                move_change = product(change, pair.move), change_square = product(change, pair.change);

@@ -62,15 +62,16 @@ void add(const std::vector<std::vector<double>>& term, std::vector<std::vector<d
 template <int dim>
 std::optional<Failure> add_growth(const RollingProblem<dim>& problem, const RollingSolution<dim>& s,
                                   std::span<const FunctionalDerivative<dim>> functions,
-                                  std::span<const Adjoint> adjoints,
-                                  std::vector<std::vector<double>>& gradients) {
+                                  std::span<const Adjoint> adjoints, ShapeGradients& gradients) {
   const auto derivatives = by_states_without_load(s, functions, adjoints, problem.tread().observation_rows());
   if (derivatives.empty()) return {};
   const auto unloaded = problem.without_load(s);
   if (!unloaded) return unloaded.failure();
   const auto of_growth = solve_adjoints<dim>(problem, *unloaded, derivatives);
   if (!of_growth) return of_growth.failure();
-  add(shape_gradients<dim>(problem, *unloaded, derivatives, *of_growth), gradients);
+  const ShapeGradients added = shape_gradients<dim>(problem, *unloaded, derivatives, *of_growth);
+  add(added.densities, gradients.densities);
+  add(added.edge_densities, gradients.edge_densities);
   return {};
 }
 
@@ -93,7 +94,7 @@ std::optional<Failure> add_growth(const RollingProblem<dim>& problem, const Roll
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                       \
   template std::optional<Failure> add_growth(const RollingProblem<dim>&, const RollingSolution<dim>&,      \
                                              std::span<const FunctionalDerivative<dim>>,                   \
-                                             std::span<const Adjoint>, std::vector<std::vector<double>>&); \
+                                             std::span<const Adjoint>, ShapeGradients&);                   \
   template std::optional<Failure> add_growth(                                                              \
       const RollingProblem<dim>&, const RollingSolution<dim>&, std::span<const FunctionalDerivative<dim>>, \
       std::span<const Adjoint>, std::span<const MaterialPoint<dim>>, std::vector<std::vector<double>>&);

@@ -11,8 +11,7 @@ namespace wheelwright {
 template <int dim>
 std::optional<Failure> add_growth(const RollingProblem<dim>& problem, const RollingSolution<dim>& solution,
                                   std::span<const FunctionalDerivative<dim>> functions,
-                                  std::span<const Adjoint> adjoints,
-                                  std::vector<std::vector<double>>& gradients);
+                                  std::span<const Adjoint> adjoints, ShapeGradients& gradients);
 
 /// The same of topological derivatives at some points.
 template <int dim>

@@ -57,6 +57,7 @@ class WholeState : public State<3> {
         observations_(halves().observations(half_->observations())),
         phases_(std::move(phases)),
         boundary_(halves().boundary(half_->boundary())),
+        edges_(halves().boundary(half_->edges())),
         displacement_(*half_, halves()) {
     for (double& energy : strain_energy_) energy *= 2;
     for (const auto& contact : half_->contacts()) contacts_.push_back(halves().patch(contact));
@@ -72,15 +73,17 @@ class WholeState : public State<3> {
   const Displacement<3>& displacement() const override { return displacement_; }
   const StrainPeaks<3>& strain_peaks() const override { return half_->strain_peaks(); }
   const std::vector<SurfacePoint<3>>& boundary() const override { return boundary_; }
+  const std::vector<SurfacePoint<3>>& edges() const override { return edges_; }
 
   Expected<ShapeGradients> shape_gradients(
       std::span<const FunctionalDerivative<3>> functions) const override {
     auto gradients = half_->shape_gradients(of_half(functions));
     if (!gradients) return gradients;
-    for (auto& densities : gradients->densities) {
-      const std::vector<double> images = densities;
-      densities.insert(densities.end(), images.begin(), images.end());
-    }
+    for (auto* all : {&gradients->densities, &gradients->edge_densities})
+      for (auto& densities : *all) {
+        const std::vector<double> images = densities;
+        densities.insert(densities.end(), images.begin(), images.end());
+      }
     return gradients;
   }
 
@@ -148,7 +151,7 @@ class WholeState : public State<3> {
   std::vector<double> strain_energy_;
   Matrix observations_;
   std::vector<PhaseTime> phases_;
-  std::vector<SurfacePoint<3>> boundary_;
+  std::vector<SurfacePoint<3>> boundary_, edges_;
   std::vector<ContactPatch<3>> contacts_;
   WholeDisplacement displacement_;
 };

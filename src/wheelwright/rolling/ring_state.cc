@@ -20,7 +20,10 @@ template <int dim>
 class RingState : public State<dim> {
  public:
   RingState(const RollingProblem<dim>& problem, RollingSolution<dim> solution)
-      : problem_(problem), solution_(std::move(solution)), boundary_(boundary_points(problem, solution_)) {
+      : problem_(problem),
+        solution_(std::move(solution)),
+        boundary_(boundary_points(problem, solution_)),
+        edges_(edge_points(problem, solution_)) {
     for (size_t i = 0; i < solution_.contacts.size(); ++i)
       contacts_.push_back(solution_.contacts[i].patch(solution_.states[i]));
   }
@@ -33,6 +36,7 @@ class RingState : public State<dim> {
   const Matrix& observations() const override { return solution_.observations; }
   const std::vector<PhaseTime>& phases() const override { return solution_.phases; }
   const std::vector<SurfacePoint<dim>>& boundary() const override { return boundary_; }
+  const std::vector<SurfacePoint<dim>>& edges() const override { return edges_; }
 
   const Displacement<dim>& displacement() const override {
     std::call_once(is_recovered_, [this] { displacement_.emplace(problem_, solution_); });
@@ -50,10 +54,10 @@ class RingState : public State<dim> {
     const auto adjoints = solve_adjoints(problem_, solution_, functions);
     if (!adjoints) return adjoints.failure();
     const double adjoint_seconds = watch.lap();
-    auto densities = wheelwright::shape_gradients<dim>(problem_, solution_, functions, *adjoints);
-    if (auto failure = add_growth<dim>(problem_, solution_, functions, *adjoints, densities)) return *failure;
-    return ShapeGradients{std::move(densities),
-                          {{phase::adjoint, adjoint_seconds}, {phase::gradient, watch.lap()}}};
+    auto gradients = wheelwright::shape_gradients<dim>(problem_, solution_, functions, *adjoints);
+    if (auto failure = add_growth<dim>(problem_, solution_, functions, *adjoints, gradients)) return *failure;
+    gradients.phases = {{phase::adjoint, adjoint_seconds}, {phase::gradient, watch.lap()}};
+    return gradients;
   }
 
   Expected<std::vector<std::vector<double>>> topological_derivatives(
@@ -102,7 +106,7 @@ class RingState : public State<dim> {
  private:
   const RollingProblem<dim>& problem_;
   RollingSolution<dim> solution_;
-  std::vector<SurfacePoint<dim>> boundary_;
+  std::vector<SurfacePoint<dim>> boundary_, edges_;
   std::vector<ContactPatch<dim>> contacts_;
   mutable std::once_flag is_recovered_, has_peaks_;
   mutable std::optional<RingDisplacement<dim>> displacement_;

@@ -1,6 +1,7 @@
 #include "wheelwright/rolling/shape_gradient.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "wheelwright/base/parallel.h"
 #include "wheelwright/geometry/mirror.h"
@@ -56,6 +57,18 @@ BoundaryRule<dim> mirrored(BoundaryRule<dim> rule) {
 }
 
 template <int dim>
+using EdgeRule = std::vector<ReferenceEdgePoint<dim>>;
+
+template <int dim>
+EdgeRule<dim> mirrored(EdgeRule<dim> rule) {
+  for (auto& q : rule) {
+    q.xi[1] = 1 - q.xi[1];
+    q.normal = mirror_image<dim>(q.normal);
+  }
+  return rule;
+}
+
+template <int dim>
 std::vector<ReferencePoint<dim>> mirrored(std::vector<ReferencePoint<dim>> rule) {
   for (auto& q : rule) q.xi[1] = 1 - q.xi[1];
   return rule;
@@ -67,20 +80,24 @@ struct CellBoundary {
   int cell;
   BoundaryRule<dim> rule;
   std::vector<ReferencePoint<dim>> material;
+  EdgeRule<dim> edges;
 };
 
 /// The cells in which gradients are given for one cut cell: it alone; or it and its image, when positions
 /// stand for their images too; nothing for the image itself.
 template <int dim>
 std::vector<CellBoundary<dim>> cells_of(const RollingSolution<dim>& s, const CutCell<dim>& cut) {
-  if (!s.positions.stand_for_images()) return {{cut.cell, cut.boundary, cut.material}};
+  if (!s.positions.stand_for_images()) return {{cut.cell, cut.boundary, cut.material, cut.edges}};
   const int image = mirror_image(s.domain.grid, cut.cell);
   if (image < cut.cell) return {};
-  std::vector<CellBoundary<dim>> cells{{cut.cell, cut.boundary, cut.material},
-                                       {image, mirrored<dim>(cut.boundary), mirrored<dim>(cut.material)}};
+  std::vector<CellBoundary<dim>> cells{
+      {cut.cell, cut.boundary, cut.material, cut.edges},
+      {image, mirrored<dim>(cut.boundary), mirrored<dim>(cut.material), mirrored<dim>(cut.edges)}};
   if (image == cut.cell)
-    for (auto& cell : cells)
+    for (auto& cell : cells) {
       for (auto& q : cell.rule) q.weight /= 2;
+      for (auto& q : cell.edges) q.weight /= 2;
+    }
   return cells;
 }
 
@@ -139,6 +156,24 @@ class Densities {
       if (projected) add_projection(functions_[f].energy, material, u, p, dilatations, densities[f]);
       const auto integrals = integrals_in_row<dim>(functions_[f].integrals, grid, place[0]);
       if (!integrals.empty()) add_integrands(integrals, material, strain_u, densities[f]);
+    }
+    return densities;
+  }
+
+  /// [function][point] on the cell's edges in side faces.
+  std::vector<std::vector<double>> on_edges(const CellBoundary<dim>& boundary) const {
+    std::vector<std::vector<double>> densities(functions_.size());
+    if (boundary.edges.empty()) return densities;
+    const auto& element = problem_.elements().element(problem_.model().grid.cell_position(boundary.cell)[0]);
+    const auto nodes = s_.ring.sector().space.cell_nodes(boundary.cell);
+    Matrix p(s_.displacement.modes.rows(), element.n_dofs());
+    for (size_t f = 0; f < functions_.size(); ++f) {
+      gather(s_.ring, nodes, adjoints_[f].modes, p);
+      for (const auto& q : boundary.edges) {
+        const auto at = element.at(q.xi);
+        const auto surface = map_surface<dim>(at.jacobian, q.normal);
+        densities[f].push_back(loads_[f].edge_density(at, surface.normal[dim - 1], q.outward, p));
+      }
     }
     return densities;
   }
@@ -204,15 +239,16 @@ class Densities {
   std::vector<WorkOfLoads<dim>> loads_;  ///< of every function
 };
 
+using ByFunction = std::vector<std::vector<double>>;
+
 /// The densities in the cells of one cut cell, [function][point]. Where positions stand for their images too,
 /// both are the mean of what the positions give in the one and in the other.
-template <int dim>
-std::vector<std::vector<double>> in_cells(const Densities<dim>& densities,
-                                          const std::vector<CellBoundary<dim>>& cells) {
+template <int dim, class InCell>
+ByFunction in_cells(const std::vector<CellBoundary<dim>>& cells, const InCell& in_cell) {
   if (cells.empty()) return {};
-  auto result = densities.in_cell(cells[0]);
+  ByFunction result = in_cell(cells[0]);
   if (cells.size() == 1) return result;
-  const auto images = densities.in_cell(cells[1]);
+  const ByFunction images = in_cell(cells[1]);
   for (size_t f = 0; f < result.size(); ++f) {
     const size_t n = result[f].size();
     for (size_t q = 0; q < n; ++q) result[f][q] = (result[f][q] + images[f][q]) / 2;
@@ -220,6 +256,27 @@ std::vector<std::vector<double>> in_cells(const Densities<dim>& densities,
   }
   return result;
 }
+
+/// One cell's after the other.
+ByFunction joined(size_t n_functions, const std::vector<ByFunction>& of_cells) {
+  ByFunction all(n_functions);
+  for (const ByFunction& of_cell : of_cells)
+    for (size_t f = 0; f < of_cell.size(); ++f)
+      all[f].insert(all[f].end(), of_cell[f].begin(), of_cell[f].end());
+  return all;
+}
+
+/// By how much the cell's map stretches an edge, whose direction is across the axle's and the reference
+/// normal.
+double edge_stretch(const Mat<3>& jacobian, const Vec<3>& normal) {
+  const double in_face = std::hypot(normal[0], normal[1]);
+  const Vec<3> direction{-normal[1] / in_face, normal[0] / in_face, 0};
+  Vec<3> image{};
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) image[i] += jacobian[i][k] * direction[k];
+  return norm<3>(image);
+}
+double edge_stretch(const Mat<2>&, const Vec<2>&) { return 1; }
 
 }  // namespace
 
@@ -229,7 +286,7 @@ std::vector<SurfacePoint<dim>> boundary_points(const RollingProblem<dim>& proble
   const PolarGrid<dim>& grid = s.domain.grid;
   std::vector<SurfacePoint<dim>> points;
   for (const CutCell<dim>& cut : s.domain.cut)
-    for (const auto& [cell, rule, material] : cells_of(s, cut)) {
+    for (const auto& [cell, rule, material, edges] : cells_of(s, cut)) {
       const auto place = grid.cell_position(cell);
       const CellMap<dim> map(grid, problem.model().degree, place);
       for (const auto& q : rule) {
@@ -243,27 +300,52 @@ std::vector<SurfacePoint<dim>> boundary_points(const RollingProblem<dim>& proble
 }
 
 template <int dim>
-std::vector<std::vector<double>> shape_gradients(const RollingProblem<dim>& problem,
-                                                 const RollingSolution<dim>& s,
-                                                 std::span<const FunctionalDerivative<dim>> functions,
-                                                 std::span<const Adjoint> adjoints) {
-  const Densities<dim> densities(problem, s, functions, adjoints);
-  std::vector<std::vector<std::vector<double>>> of_cell(s.domain.cut.size());
-  parallel_for(static_cast<int>(s.domain.cut.size()),
-               [&](int c) { of_cell[c] = in_cells(densities, cells_of(s, s.domain.cut[c])); });
-  std::vector<std::vector<double>> gradients(functions.size());
-  for (const auto& by_function : of_cell)
-    for (size_t f = 0; f < by_function.size(); ++f)
-      gradients[f].insert(gradients[f].end(), by_function[f].begin(), by_function[f].end());
-  return gradients;
+std::vector<SurfacePoint<dim>> edge_points(const RollingProblem<dim>& problem,
+                                           const RollingSolution<dim>& s) {
+  const PolarGrid<dim>& grid = s.domain.grid;
+  const int degree = problem.model().degree;
+  std::vector<SurfacePoint<dim>> points;
+  for (const CutCell<dim>& cut : s.domain.cut) {
+    if (cut.edges.empty()) continue;
+    for (const CellBoundary<dim>& of_cell : cells_of(s, cut)) {
+      const auto place = grid.cell_position(of_cell.cell);
+      const CellMap<dim> map(grid, degree, place);
+      for (const auto& q : of_cell.edges) {
+        const Mat<dim> jacobian = map.jacobian(ShapeFunctions<dim>(degree, q.xi));
+        points.push_back(
+            {of_cell.cell, q.xi,
+             rotated<dim>(map_surface<dim>(jacobian, q.normal).normal, place[1] * grid.cell_size()[1]),
+             q.weight * edge_stretch(jacobian, q.normal)});
+      }
+    }
+  }
+  return points;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                       \
-  template std::vector<SurfacePoint<dim>> boundary_points(const RollingProblem<dim>&,                      \
-                                                          const RollingSolution<dim>&);                    \
-  template std::vector<std::vector<double>> shape_gradients(                                               \
-      const RollingProblem<dim>&, const RollingSolution<dim>&, std::span<const FunctionalDerivative<dim>>, \
-      std::span<const Adjoint>);
+template <int dim>
+ShapeGradients shape_gradients(const RollingProblem<dim>& problem, const RollingSolution<dim>& s,
+                               std::span<const FunctionalDerivative<dim>> functions,
+                               std::span<const Adjoint> adjoints) {
+  const Densities<dim> densities(problem, s, functions, adjoints);
+  std::vector<ByFunction> boundary(s.domain.cut.size()), edges(s.domain.cut.size());
+  parallel_for(static_cast<int>(s.domain.cut.size()), [&](int c) {
+    const auto cells = cells_of(s, s.domain.cut[c]);
+    boundary[c] = in_cells(cells, [&](const CellBoundary<dim>& cell) { return densities.in_cell(cell); });
+    edges[c] = in_cells(cells, [&](const CellBoundary<dim>& cell) { return densities.on_edges(cell); });
+  });
+  return {.densities = joined(functions.size(), boundary),
+          .edge_densities = joined(functions.size(), edges),
+          .phases = {}};
+}
+
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                               \
+  template std::vector<SurfacePoint<dim>> boundary_points(const RollingProblem<dim>&,              \
+                                                          const RollingSolution<dim>&);            \
+  template std::vector<SurfacePoint<dim>> edge_points(const RollingProblem<dim>&,                  \
+                                                      const RollingSolution<dim>&);                \
+  template ShapeGradients shape_gradients(const RollingProblem<dim>&, const RollingSolution<dim>&, \
+                                          std::span<const FunctionalDerivative<dim>>,              \
+                                          std::span<const Adjoint>);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)
 #undef WHEELWRIGHT_INSTANTIATE

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "wheelwright/rolling/adjoint.h"
+#include "wheelwright/state/state.h"
 
 namespace wheelwright {
 
@@ -10,13 +11,19 @@ template <int dim>
 std::vector<SurfacePoint<dim>> boundary_points(const RollingProblem<dim>& problem,
                                                const RollingSolution<dim>& solution);
 
+/// Those of the edges in which the moving boundary meets side faces, when dim = 3: those of the quadrature of
+/// the cut cells' faces. Their weight is a length.
+template <int dim>
+std::vector<SurfacePoint<dim>> edge_points(const RollingProblem<dim>& problem,
+                                           const RollingSolution<dim>& solution);
+
 /// The densities G of the shape derivatives (42) of several functions at those points, summed over all
 /// positions and sectors: M(u) + sigma(u):eps(p) - f.p and, under a pressure p_0 on the moving boundary, +
-/// p_0 div p. `adjoints` are those of the functions.
+/// p_0 div p; and those of the edges, -p_0 (p.e) / sqrt(1 - (n.e)^2) with the normal e of the side face.
+/// `adjoints` are those of the functions.
 template <int dim>
-std::vector<std::vector<double>> shape_gradients(const RollingProblem<dim>& problem,
-                                                 const RollingSolution<dim>& solution,
-                                                 std::span<const FunctionalDerivative<dim>> functions,
-                                                 std::span<const Adjoint> adjoints);
+ShapeGradients shape_gradients(const RollingProblem<dim>& problem, const RollingSolution<dim>& solution,
+                               std::span<const FunctionalDerivative<dim>> functions,
+                               std::span<const Adjoint> adjoints);
 
 }  // namespace wheelwright

@@ -74,17 +74,10 @@ class TurnedState : public State<dim> {
         phases_(std::move(phases)),
         observations_(turned_columns(turned_->observations(), ring_columns(), columns)),
         contacts_(turned_->contacts()),
-        boundary_(turned_->boundary()),
+        boundary_(turned_points(turned_->boundary())),
+        edges_(turned_points(turned_->edges())),
         displacement_(*turned_, columns) {
     for (auto& contact : contacts_) turn(contact);
-    const PolarGrid<dim>& grid = domain_->grid;
-    for (auto& point : boundary_) {
-      auto place = grid.cell_position(point.cell);
-      const int before = place[1];
-      place[1] = wrap(before + columns, grid.columns());
-      point.cell = grid.cell_index(place);
-      point.normal = rotated<dim>(point.normal, (place[1] - before) * grid.cell_size()[1]);
-    }
   }
 
   const RollingModel<dim>& model() const override { return turned_->model(); }
@@ -96,6 +89,7 @@ class TurnedState : public State<dim> {
   const std::vector<PhaseTime>& phases() const override { return phases_; }
   const Displacement<dim>& displacement() const override { return displacement_; }
   const std::vector<SurfacePoint<dim>>& boundary() const override { return boundary_; }
+  const std::vector<SurfacePoint<dim>>& edges() const override { return edges_; }
 
   const StrainPeaks<dim>& strain_peaks() const override {
     std::call_once(has_peaks_, [this] {
@@ -154,6 +148,17 @@ class TurnedState : public State<dim> {
       function.tread_loads = turned_columns(function.tread_loads, ring_columns(), -columns_);
     return there;
   }
+  std::vector<SurfacePoint<dim>> turned_points(std::vector<SurfacePoint<dim>> points) const {
+    const PolarGrid<dim>& grid = domain_->grid;
+    for (auto& point : points) {
+      auto place = grid.cell_position(point.cell);
+      const int before = place[1];
+      place[1] = wrap(before + columns_, grid.columns());
+      point.cell = grid.cell_index(place);
+      point.normal = rotated<dim>(point.normal, (place[1] - before) * grid.cell_size()[1]);
+    }
+    return points;
+  }
   void turn(ContactPatch<dim>& contact) const {
     for (auto& point : contact.points) point.column = wrap(point.column + columns_, ring_columns());
   }
@@ -165,7 +170,7 @@ class TurnedState : public State<dim> {
   std::vector<PhaseTime> phases_;
   Matrix observations_;
   std::vector<ContactPatch<dim>> contacts_;
-  std::vector<SurfacePoint<dim>> boundary_;
+  std::vector<SurfacePoint<dim>> boundary_, edges_;
   TurnedDisplacement<dim> displacement_;
   mutable std::once_flag has_peaks_;
   mutable StrainPeaks<dim> peaks_;

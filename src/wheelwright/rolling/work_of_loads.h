@@ -1,8 +1,17 @@
 #pragma once
 
+#include <cmath>
+
 #include "wheelwright/rolling/adjoint.h"
 
 namespace wheelwright {
+
+/// Where a moving boundary of unit normal n meets a side face of unit normal e, a pressure on the boundary
+/// acts on the boundary's end: the work -p_0 n.p over the boundary changes by p_0 (p.e) V / sqrt(1 - (n.e)^2)
+/// per length of the edge [N/m for a unit V], because the edge moves by V / sqrt(1 - (n.e)^2) in the face.
+inline double work_on_edge(double pressure, double outward_displacement, double normal_along_axle) {
+  return pressure * outward_displacement / std::sqrt(1 - normal_along_axle * normal_along_axle);
+}
 
 /// The work of body force and pressure in the adjoint problem, at a point of the moving boundary, summed over
 /// positions and sectors.
@@ -34,6 +43,20 @@ class WorkOfLoads {
                    (at.position[0] * value[0] + at.position[1] * value[1]);
     }
     return density - work_on_rim(at.position, material, angle);
+  }
+
+  /// -work_on_edge() at a point of an edge, where the boundary has this component of its unit normal along
+  /// the axle and the side face that of its own; per length.
+  double edge_density(const typename ElasticElement<dim>::Point& at, double normal_along_axle, double outward,
+                      const Matrix& p) const {
+    if (dim == 2 || s_.core_loads.empty()) return 0;
+    double work = 0;
+    for (int k = 0; k < p.rows(); ++k)
+      for (int i = 0; i < p.columns(); ++i) work += on_modes_(k, dim) * at.displacement[dim - 1][i] * p(k, i);
+    for (int i = 0; i < s_.positions.size(); ++i)
+      work += model_.distributed.hole_pressure * model_.grid.n_sectors * s_.positions.multiplicities[i] *
+              adjoint_.rim[i].along_axle;
+    return -work_on_edge(1, outward * work, normal_along_axle);
   }
 
  private:

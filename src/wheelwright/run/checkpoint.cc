@@ -8,7 +8,7 @@ namespace wheelwright {
 namespace {
 
 constexpr std::string_view file_kind = "CKPT";
-constexpr std::uint32_t version = 7;
+constexpr std::uint32_t version = 8;
 
 constexpr int largest_int = std::numeric_limits<int>::max();
 
@@ -93,25 +93,27 @@ std::vector<SurfacePoint<dim>> read_points(ByteReader& reader) {
 
 void append(const std::vector<FunctionValue>& functions, ByteWriter& writer) {
   append_all(functions, writer, [&](const FunctionValue& one) {
-    const auto& [name, value, by_position, gradient, bounds] = one;
+    const auto& [name, value, by_position, gradient, bounds, edge_gradient] = one;
     writer.text(name);
     writer.number(value);
     writer.numbers(by_position);
     writer.numbers(gradient);
     writer.number(bounds.lower);
     writer.number(bounds.upper);
+    writer.numbers(edge_gradient);
   });
 }
 
 std::vector<FunctionValue> read_functions(ByteReader& reader) {
-  return read_all<FunctionValue>(reader, 3 * count_size + 3 * number_size, [&](FunctionValue& one) {
-    auto& [name, value, by_position, gradient, bounds] = one;
+  return read_all<FunctionValue>(reader, 4 * count_size + 3 * number_size, [&](FunctionValue& one) {
+    auto& [name, value, by_position, gradient, bounds, edge_gradient] = one;
     name = reader.text();
     value = reader.finite_number("the value of a function");
     by_position = reader.finite_numbers("the values of a function by position");
     gradient = reader.finite_numbers("the gradient of a function");
     bounds.lower = reader.number();
     bounds.upper = reader.number();
+    edge_gradient = reader.finite_numbers("the gradient of a function at the edges");
   });
 }
 
@@ -144,7 +146,7 @@ std::vector<int> read_integers(ByteReader& reader, std::string_view name) {
 
 template <int dim>
 void append(const Evaluation<dim>& evaluation, ByteWriter& writer) {
-  const auto& [functions, terms, boundary, newton_iterations, mean_observations, phases, measures] =
+  const auto& [functions, terms, boundary, newton_iterations, mean_observations, phases, measures, edges] =
       evaluation;
   append(functions, writer);
   append(terms, writer);
@@ -153,12 +155,14 @@ void append(const Evaluation<dim>& evaluation, ByteWriter& writer) {
   append(mean_observations, writer);
   append_named(phases, writer);
   append_named(measures, writer);
+  append(edges, writer);
 }
 
 template <int dim>
 Evaluation<dim> read_evaluation(ByteReader& reader) {
   Evaluation<dim> evaluation;
-  auto& [functions, terms, boundary, newton_iterations, mean_observations, phases, measures] = evaluation;
+  auto& [functions, terms, boundary, newton_iterations, mean_observations, phases, measures, edges] =
+      evaluation;
   functions = read_functions(reader);
   terms = read_terms(reader);
   boundary = read_points<dim>(reader);
@@ -166,6 +170,7 @@ Evaluation<dim> read_evaluation(ByteReader& reader) {
   mean_observations = read_matrix(reader);
   phases = read_named<PhaseTime>(reader);
   measures = read_named<MeasureValue>(reader);
+  edges = read_points<dim>(reader);
   return evaluation;
 }
 
@@ -233,10 +238,12 @@ void append(const OptimizationState<dim>& state, ByteWriter& writer) {
 template <int dim>
 std::string_view misfit(const OptimizationState<dim>& state) {
   const int n_cells = state.shape.lattice.grid().n_cells();
-  for (const auto& point : state.evaluation.boundary)
-    if (point.cell >= n_cells) return "a point of the boundary lies outside the grid";
+  for (const auto* points : {&state.evaluation.boundary, &state.evaluation.edges})
+    for (const auto& point : *points)
+      if (point.cell >= n_cells) return "a point of the boundary lies outside the grid";
   for (const FunctionValue& function : state.evaluation.functions)
-    if (function.gradient.size() != state.evaluation.boundary.size())
+    if (function.gradient.size() != state.evaluation.boundary.size() ||
+        function.edge_gradient.size() != state.evaluation.edges.size())
       return "there is not one value of a gradient for every point of the boundary";
   const size_t n_nodes = state.shape.values.size();
   for (const CurvaturePair& pair : state.memory.pairs)

@@ -88,9 +88,13 @@ WeightedValues<dim> weighted(const ShapeFunction<dim>& function, const Functiona
                              bool mean_is_held) {
   const State<dim>& state = cases.front().state;
   const LoadPositions& positions = state.positions();
-  WeightedValues<dim> result{
-      .value = {function.name, 0, {}, std::vector<double>(state.boundary().size(), 0.0), function.bounds},
-      .derivatives = std::vector<FunctionalDerivative<dim>>(cases.size())};
+  WeightedValues<dim> result{.value = {function.name,
+                                       0,
+                                       {},
+                                       std::vector<double>(state.boundary().size(), 0.0),
+                                       function.bounds,
+                                       std::vector<double>(state.edges().size(), 0.0)},
+                             .derivatives = std::vector<FunctionalDerivative<dim>>(cases.size())};
   std::vector<double> by_position(positions.size(), 0.0);
   bool has_shares = false;
   for (const auto& [weight, functional, load_case] : function.terms) {
@@ -142,7 +146,8 @@ template <int dim>
 bool is_finite(const Evaluation<dim>& evaluation) {
   return std::ranges::all_of(evaluation.functions, [](const FunctionValue& function) {
     return std::isfinite(function.value) &&
-           std::ranges::all_of(function.gradient, [](double g) { return std::isfinite(g); });
+           std::ranges::all_of(function.gradient, [](double g) { return std::isfinite(g); }) &&
+           std::ranges::all_of(function.edge_gradient, [](double g) { return std::isfinite(g); });
   });
 }
 
@@ -207,7 +212,8 @@ Expected<Evaluation<dim>> differentiate(const StateSolver<dim>& solver, const Lo
                              .newton_iterations = {},
                              .mean_observations = of_cases.front().mean_observations,
                              .phases = {},
-                             .measures = measures<dim>(cases, of_cases)};
+                             .measures = measures<dim>(cases, of_cases),
+                             .edges = first.edges()};
   for (const State<dim>* state : states) {
     evaluation.phases.insert(evaluation.phases.end(), state->phases().begin(), state->phases().end());
     for (const auto& contact : state->contacts())
@@ -223,9 +229,13 @@ Expected<Evaluation<dim>> differentiate(const StateSolver<dim>& solver, const Lo
   for (size_t k = 0; k < states.size(); ++k) {
     const auto gradients = states[k]->shape_gradients(of_states.derivatives[k]);
     if (!gradients) return gradients.failure();
-    for (size_t f = 0; f < of_states.functions[k].size(); ++f)
+    for (size_t f = 0; f < of_states.functions[k].size(); ++f) {
+      FunctionValue& function = evaluation.functions[of_states.functions[k][f]];
       for (size_t q = 0; q < evaluation.boundary.size(); ++q)
-        evaluation.functions[of_states.functions[k][f]].gradient[q] += gradients->densities[f][q];
+        function.gradient[q] += gradients->densities[f][q];
+      for (size_t q = 0; q < evaluation.edges.size(); ++q)
+        function.edge_gradient[q] += gradients->edge_densities[f][q];
+    }
     evaluation.phases.insert(evaluation.phases.end(), gradients->phases.begin(), gradients->phases.end());
   }
   if (!is_finite(evaluation))

@@ -20,6 +20,14 @@ std::vector<SurfaceSample<dim>> Evaluation<dim>::gradient(std::string_view name)
   return samples;
 }
 
+template <int dim>
+std::vector<SurfaceSample<dim>> Evaluation<dim>::edge_gradient(std::string_view name) const {
+  const FunctionValue& of = function(name);
+  std::vector<SurfaceSample<dim>> samples;
+  for (size_t i = 0; i < edges.size(); ++i) samples.push_back({edges[i], of.edge_gradient[i]});
+  return samples;
+}
+
 template struct Evaluation<2>;
 template struct Evaluation<3>;
 

@@ -26,6 +26,7 @@ struct FunctionValue {
   std::vector<double> by_position;  ///< the share of every position of the sector; empty: none has one
   std::vector<double> gradient;     ///< density G at Evaluation::boundary
   Bounds bounds;
+  std::vector<double> edge_gradient = {};  ///< density at Evaluation::edges
 };
 
 /// A number that is watched but not optimized, over the load positions of one sector.
@@ -45,12 +46,18 @@ struct Evaluation {
   Matrix mean_observations;  ///< of the tread over the positions (functionals/mean_contact_stress.h)
   std::vector<PhaseTime> phases;
   std::vector<MeasureValue> measures;  ///< RollingMeasures, by its names
+  /// DJ(Theta) is as much more as the sum of weight edge_gradient Theta.n over these points of the edges of
+  /// the boundary in side faces, in 3D.
+  std::vector<SurfacePoint<dim>> edges = {};
 
   /// The function of that name, which there must be.
   const FunctionValue& function(std::string_view name) const;
 
   /// Its gradient at the points of the boundary.
   std::vector<SurfaceSample<dim>> gradient(std::string_view name) const;
+
+  /// The part of it at the edges.
+  std::vector<SurfaceSample<dim>> edge_gradient(std::string_view name) const;
 };
 
 }  // namespace wheelwright

@@ -49,7 +49,8 @@ Expected<std::vector<TaylorTest>> taylor_tests(
   for (const FunctionValue& function : start.functions)
     tests.push_back(
         {.value = function.value,
-         .derivative = directional_derivative(start.gradient(function.name), psi, direction, map_degree),
+         .derivative = directional_derivative(start.gradient(function.name), psi, direction, map_degree) +
+                       directional_derivative(start.edge_gradient(function.name), psi, direction, map_degree),
          .steps = {},
          .remainders = {},
          .orders = {}});

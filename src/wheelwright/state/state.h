@@ -45,8 +45,9 @@ struct StrainPeaks {
 
 /// Shape gradients of several functions.
 struct ShapeGradients {
-  std::vector<std::vector<double>> densities;  ///< [function][point of State::boundary()]
-  std::vector<PhaseTime> phases;               ///< wall times of the adjoint problems and of the densities
+  std::vector<std::vector<double>> densities;       ///< [function][point of State::boundary()]
+  std::vector<std::vector<double>> edge_densities;  ///< [function][point of State::edges()]
+  std::vector<PhaseTime> phases;  ///< wall times of the adjoint problems and of the densities
 };
 
 /// The states of one shape: the solutions of its contact problems (27) at some load positions. Position i is
@@ -88,9 +89,14 @@ class State {
   /// The points of the moving boundary at which shape gradients are given.
   virtual const std::vector<SurfacePoint<dim>>& boundary() const = 0;
 
+  /// Points of the edges in which the moving boundary meets side faces of the wheel; their weights are
+  /// lengths. None when dim = 2.
+  virtual const std::vector<SurfacePoint<dim>>& edges() const = 0;
+
   /// The densities at boundary() of the shape derivatives (42) of several functions, each summed over its
   /// positions (as often as they count) and over the sectors: M(u) + sigma(u):eps(p) - f.p, and p_0 div p
-  /// under a pressure p_0. Their adjoint problems (79) are solved as one block of right-hand sides.
+  /// under a pressure p_0; and those at edges(), -p_0 (p.e) / sqrt(1 - (n.e)^2) with the outward normal e of
+  /// the side face. Their adjoint problems (79) are solved as one block of right-hand sides.
   virtual Expected<ShapeGradients> shape_gradients(
       std::span<const FunctionalDerivative<dim>> functions) const = 0;
 
