@@ -19,57 +19,80 @@ Lattice<dim> displacement_lattice(const StateSolver<dim>& solver) {
   return {solver.model().grid, solver.model().degree};
 }
 
-/// Gradients of the shape functions in the middle of the cells of a grid, in the cell's frame: one entry per
-/// cell of a sector's first column.
+/// The rotation about the axle in the middle of the cells of the ring that hold material.
 template <int dim>
-class MiddleGradients {
+class MiddleRotations {
  public:
-  explicit MiddleGradients(const Lattice<dim>& lattice) : lattice_(lattice) {
+  MiddleRotations(const Lattice<dim>& lattice, const CutDomain<dim>& domain)
+      : grid_(domain.grid),
+        n_nodes_(nodes_per_cell<dim>(lattice.degree())),
+        sector_nodes_(lattice.n_nodes()) {
+    for (int row = 0; row < grid_.cells[0]; ++row) slopes_.push_back(slopes_in_row(lattice, row));
+    for (int column = 0; column < grid_.ring_columns(); ++column)
+      directions_.emplace_back(column * grid_.cell_size()[1]);
+    for (int k = 0; k < grid_.n_cells(); ++k)
+      if (const auto cell = grid_.cell_position(k); domain.active(k))
+        cells_.push_back({cell[0], cell[1], ring_cell_nodes<dim>(lattice, cell)});
+  }
+
+  /// The largest rotation of the material under a displacement against that of the rim.
+  double largest(const RingField& u, double rim) const {
+    double largest = 0;
+    for (int sector = 0; sector < grid_.n_sectors; ++sector)
+      for (const Cell& cell : cells_) largest = std::max(largest, std::abs(rotation(u, cell, sector) - rim));
+    return largest;
+  }
+
+ private:
+  /// Gradients of the shape functions in the middle of a cell, in its frame.
+  using Slopes = std::array<Vec<dim>, ShapeFunctions<dim>::max_nodes>;
+
+  /// A cell of sector 0.
+  struct Cell {
+    int row, column;
+    RingCellNodes<dim> nodes;
+  };
+
+  /// The first axis of a cell's frame.
+  struct Direction {
+    explicit Direction(double azimuth) : cosine(std::cos(azimuth)), sine(std::sin(azimuth)) {}
+    double cosine, sine;
+  };
+
+  static Slopes slopes_in_row(const Lattice<dim>& lattice, int row) {
     Vec<dim> middle;
     middle.fill(0.5);
     const ShapeFunctions<dim> shape(lattice.degree(), middle);
-    for (int row = 0; row < lattice.grid().cells[0]; ++row) {
-      const CellMap<dim> map(lattice.grid(), lattice.degree(), {row});
-      const Mat<dim> inverse_jacobian = inverse<dim>(map.jacobian(shape));
-      auto& slopes = of_row_.emplace_back();
-      for (int a = 0; a < nodes_per_cell<dim>(lattice.degree()); ++a)
-        slopes[a] = transpose_times<dim>(inverse_jacobian, shape.gradient[a]);
-    }
+    const CellMap<dim> map(lattice.grid(), lattice.degree(), {row});
+    const Mat<dim> inverse_jacobian = inverse<dim>(map.jacobian(shape));
+    Slopes slopes{};
+    for (int a = 0; a < nodes_per_cell<dim>(lattice.degree()); ++a)
+      slopes[a] = transpose_times<dim>(inverse_jacobian, shape.gradient[a]);
+    return slopes;
   }
 
-  /// The rotation about the axle at the middle of a cell of the ring, from the antisymmetric part of grad u.
-  double rotation(const RingField& u, const std::array<int, dim>& cell) const {
-    const auto nodes = ring_cell_nodes<dim>(lattice_, cell);
-    const double azimuth = cell[1] * lattice_.grid().cell_size()[1];
-    const double cosine = std::cos(azimuth), sine = std::sin(azimuth);
+  /// From the antisymmetric part of grad u.
+  double rotation(const RingField& u, const Cell& cell, int sector) const {
+    const auto [cosine, sine] = directions_[sector * grid_.columns() + cell.column];
+    const Slopes& slopes = slopes_[cell.row];
+    const std::size_t first = sector * sector_nodes_, ring_nodes = grid_.n_sectors * sector_nodes_;
     double twice = 0;  // d u_1 / d x_0 - d u_0 / d x_1
-    for (int a = 0; a < nodes_per_cell<dim>(lattice_.degree()); ++a) {
-      const double *value = &u.values[dim * nodes[a]], *slope = of_row_[cell[0]][a].data();
-      twice +=
-          (cosine * value[1] - sine * value[0]) * slope[0] - (cosine * value[0] + sine * value[1]) * slope[1];
+    for (int a = 0; a < n_nodes_; ++a) {
+      const std::size_t node = first + cell.nodes[a];
+      const double* value = &u.values[dim * (node < ring_nodes ? node : node - ring_nodes)];
+      twice += (cosine * value[1] - sine * value[0]) * slopes[a][0] -
+               (cosine * value[0] + sine * value[1]) * slopes[a][1];
     }
     return 0.5 * twice;
   }
 
- private:
-  Lattice<dim> lattice_;
-  std::vector<std::array<Vec<dim>, ShapeFunctions<dim>::max_nodes>> of_row_;
+  PolarGrid<dim> grid_;
+  int n_nodes_;
+  std::size_t sector_nodes_;
+  std::vector<Slopes> slopes_;         ///< of every radial row
+  std::vector<Direction> directions_;  ///< of every column of the ring
+  std::vector<Cell> cells_;
 };
-
-/// The largest rotation of the material against the rim at one load position.
-template <int dim>
-double largest_rotation(const MiddleGradients<dim>& gradients, const State<dim>& state, const RingField& u,
-                        double rim) {
-  const PolarGrid<dim>& grid = state.domain().grid;
-  double largest = 0;
-  for (int k = 0; k < grid.n_cells(); ++k) {
-    if (!state.domain().active(k)) continue;
-    auto cell = grid.cell_position(k);
-    for (int sector = 0; sector < grid.n_sectors; ++sector, cell[1] += grid.columns())
-      largest = std::max(largest, std::abs(gradients.rotation(u, cell) - rim));
-  }
-  return largest;
-}
 
 /// A point of an edge, with the nodes of its cell and the values of their shape functions.
 struct EdgePoint {
@@ -189,7 +212,7 @@ template <int dim>
 DeformationSize deformation_size(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                  const State<dim>& state) {
   const Lattice<dim> lattice = displacement_lattice(solver);
-  const MiddleGradients<dim> gradients(lattice);
+  const MiddleRotations<dim> rotations(lattice, state.domain());
   const auto all_edges = edges(psi, lattice);
   const int n_nodes = nodes_per_cell<dim>(lattice.degree());
   DeformationSize size{.strain = std::ranges::max(state.strain_peaks().principal),
@@ -199,7 +222,7 @@ DeformationSize deformation_size(const StateSolver<dim>& solver, const LevelSet<
   for (int position = 0; position < state.positions().size(); ++position) {
     const RingField u = state.displacement().at_nodes(position);
     const double rim = state.contacts()[position].rim.rotation;
-    size.rotation = std::max(size.rotation, largest_rotation(gradients, state, u, rim));
+    size.rotation = std::max(size.rotation, rotations.largest(u, rim));
     size.edges_overlap = size.edges_overlap || cross_deformed(all_edges, u, n_nodes);
   }
   return size;
