@@ -207,7 +207,8 @@ def read_stl(path):
 
 
 def admesh(path):
-    text = subprocess.run(["admesh", path], capture_output=True, text=True, check=True).stdout
+    # It prints the header of the file, and what lies in its memory behind it.
+    text = subprocess.run(["admesh", path], capture_output=True, text=True, errors="replace", check=True).stdout
     numbers = dict(re.findall(r"([A-Z][A-Za-z0-9 ]*?) *[:=] +(-?[\d.]+)", text))
     return {key: float(value) for key, value in numbers.items()}
 

@@ -198,8 +198,9 @@ Expected<std::vector<HarmonicFactor>> CyclicStiffness<dim>::factor_harmonics(
       return Failure{
           FailureReason::not_positive_definite,
           fmt::format("the ring's stiffness is not positive definite for harmonic {}: take a larger "
-                      "contact.gamma_0, or another grid.angular_cells",
-                      h)};
+                      "contact.gamma_0, or another grid.angular_cells{}",
+                      h,
+                      dim == 3 ? "; cells that are 40 times as high as thick need more radial cells" : "")};
     result.push_back(*std::move(factors[h]));
   }
   return result;
