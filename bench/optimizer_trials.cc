@@ -2,7 +2,7 @@
 /// holes differ in their own radii and in that of their circle by 1e-6 to 1e-5, and prints for every start
 /// the trials to 1 % and to 0.1 % of a given best objective, and what it ends with; then the medians. A run
 /// has at most SHAPES accepted shapes (40). With one start every trial is printed: the objective, by how much
-/// it fell and by how much it was foretold to fall, the step and the next one in cells. usage:
+/// it fell and by how much it was predicted to fall, the step and the next one in cells. usage:
 /// optimizer_trials CASE BEST [SHAPES [STARTS]]
 
 #include <fmt/format.h>
@@ -67,7 +67,7 @@ Expected<Course> course(const Case& c, bool tells) {
     if (tells)
       fmt::print("{:4} {:4} {:12.6f} fell {:9.5f} of {:9.5f} step {:.4f} next {:.4f} pairs {} widths {} {}\n",
                  result.trials(), trial.iteration, result.objectives.back(),
-                 before - result.objectives.back(), trial.foretold, trial.step, state.step,
+                 before - result.objectives.back(), trial.predicted, trial.step, state.step,
                  state.memory.pairs.size(), static_cast<int>(state.final_widths),
                  trial.failure ? to_string(trial.failure->reason) : to_string(trial.verdict));
   };

@@ -227,7 +227,7 @@ TEST(SequentialQuadratic, EndsSixTrialsAfterItsLastGain) {
   }
 }
 
-// Over the first shapes, far from the minimum, the objective falls as the method's model foretells.
+// Over the first shapes, far from the minimum, the objective falls as the method's model predicts.
 TEST(SequentialQuadratic, TellsByHowMuchATrialIsToFall) {
   OptimizerOptions options;
   options.method = Method::sequential_quadratic;
@@ -243,7 +243,7 @@ TEST(SequentialQuadratic, TellsByHowMuchATrialIsToFall) {
     ASSERT_EQ(trial.verdict, Verdict::accepted);
     const double fall = record.trials[k - 1].evaluation->function("objective").value -
                         trial.evaluation->function("objective").value;
-    EXPECT_NEAR(fall, trial.foretold, 0.3 * trial.foretold) << k;
+    EXPECT_NEAR(fall, trial.predicted, 0.3 * trial.predicted) << k;
   }
 }
 

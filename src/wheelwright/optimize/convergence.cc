@@ -48,13 +48,13 @@ bool has_converged(const OptimizerOptions& options, const OptimizationState<dim>
 }
 
 template <int dim>
-bool foretells_gain(const OptimizerOptions& options, const OptimizationState<dim>& state, double decrease) {
+bool predicts_gain(const OptimizerOptions& options, const OptimizationState<dim>& state, double decrease) {
   return decrease > options.tolerance * std::abs(state.evaluation.function(options.objective).value);
 }
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                        \
   template bool has_converged(const OptimizerOptions&, const OptimizationState<dim>&, int); \
-  template bool foretells_gain(const OptimizerOptions&, const OptimizationState<dim>&, double);
+  template bool predicts_gain(const OptimizerOptions&, const OptimizationState<dim>&, double);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)
 #undef WHEELWRIGHT_INSTANTIATE

@@ -21,8 +21,8 @@ bool is_slow(const OptimizerOptions& options, double tolerance, std::span<const 
 template <int dim>
 bool has_converged(const OptimizerOptions& options, const OptimizationState<dim>& state, int rejected = 0);
 
-/// Whether the model of a move foretells a decrease of the merit function that would be a gain.
+/// Whether the model of a move predicts a decrease of the merit function that would be a gain.
 template <int dim>
-bool foretells_gain(const OptimizerOptions& options, const OptimizationState<dim>& state, double decrease);
+bool predicts_gain(const OptimizerOptions& options, const OptimizationState<dim>& state, double decrease);
 
 }  // namespace wheelwright

@@ -34,7 +34,7 @@ DescentProposals<dim>::DescentProposals(const Evolver<dim>& evolver, const Optim
 template <int dim>
 Expected<Move<dim>> DescentProposals<dim>::move(double step) const {
   const bool stands = std::ranges::all_of(velocity_, [](double v) { return v == 0; });
-  const double change = stands ? 0 : foretold_change(step);
+  const double change = stands ? 0 : predicted_change(step);
   return Move<dim>{.velocity = velocity_,
                    .distance = stands ? 0 : step,
                    .step = stands ? 0 : step,
@@ -47,7 +47,7 @@ Expected<Move<dim>> DescentProposals<dim>::move(double step) const {
 /// First-order change of the objective under the motion by the velocity and the shift to the next measure,
 /// by which all of the boundary moves as far.
 template <int dim>
-double DescentProposals<dim>::foretold_change(double step) const {
+double DescentProposals<dim>::predicted_change(double step) const {
   const auto gradient = state_.evaluation.gradient(options_.objective);
   const double by_motion =
       evolver_.first_order_change(gradient, velocity_, step * state_.shape.lattice.grid().resolution());

@@ -26,7 +26,7 @@ class DescentProposals final : public Proposals<dim> {
                         const Evaluation<dim>& evaluation) const override;
 
  private:
-  double foretold_change(double step) const;
+  double predicted_change(double step) const;
 
   const Evolver<dim>& evolver_;
   const OptimizerOptions& options_;

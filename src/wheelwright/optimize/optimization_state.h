@@ -117,11 +117,11 @@ constexpr const char* to_string(Verdict verdict) {
 /// One shape that was tried.
 template <int dim>
 struct Trial {
-  int iteration;        ///< number of the shape that it wants to become; 0 for the initial shape
-  int halvings;         ///< of the step, so far, for this iteration
-  double step;          ///< [cells]; 0 for the initial shape, and where the boundary was not to move
-  double foretold = 0;  ///< decrease of the merit function by the method's model; 0 where none was made
-  double max_velocity;  ///< fastest node, in units of the gradient density; 0 for the initial shape
+  int iteration;         ///< number of the shape that it wants to become; 0 for the initial shape
+  int halvings;          ///< of the step, so far, for this iteration
+  double step;           ///< [cells]; 0 for the initial shape, and where the boundary was not to move
+  double predicted = 0;  ///< decrease of the merit function by the method's model; 0 where none was made
+  double max_velocity;   ///< fastest node, in units of the gradient density; 0 for the initial shape
   double evolution_seconds;
   LevelSet<dim> shape;  ///< as far as it could be built; at worst the last accepted one
   double measure;       ///< of the material, one sector; NaN when it was not reached

@@ -77,17 +77,17 @@ double merit_of(const Evaluation<dim>& evaluation, const std::string& objective,
   return merit(value, constraints, penalties);
 }
 
-/// A change of the objective is a jump when it is more than this many times what the gradient foretells, and
-/// by more than this factor besides: near a minimum the gradient foretells nothing.
+/// A change of the objective is a jump when it is more than this many times what the gradient predicts, and
+/// by more than this factor besides: near a minimum the gradient predicts nothing.
 constexpr double largest_surprise = 3, largest_factor = 4;
 
-std::optional<Failure> check_jump(double before, double after, double foretold) {
+std::optional<Failure> check_jump(double before, double after, double predicted) {
   const auto [small, large] = std::minmax({std::abs(before), std::abs(after)});
-  if (std::abs(after - before) <= largest_surprise * std::abs(foretold) || large <= largest_factor * small)
+  if (std::abs(after - before) <= largest_surprise * std::abs(predicted) || large <= largest_factor * small)
     return {};
   return Failure{FailureReason::objective_jumped,
-                 fmt::format("the objective went from {:.6g} to {:.6g}, where its gradient foretold {:.6g}",
-                             before, after, before + foretold)};
+                 fmt::format("the objective went from {:.6g} to {:.6g}, where its gradient predicted {:.6g}",
+                             before, after, before + predicted)};
 }
 
 /// A trial that has no shape of its own yet.
@@ -367,7 +367,7 @@ std::optional<StopReason> ShapeOptimizer<dim>::descend(OptimizationState<dim>& s
     all_failed =
         all_failed && trial.verdict == Verdict::failed && (!is_narrow || is_approaching(options_, state));
     if (!all_failed && has_converged(options_, state, halvings + 1) &&
-        !foretells_gain(options_, state, move->model_decrease))
+        !predicts_gain(options_, state, move->model_decrease))
       return StopReason::converged;
     if (stop_requested()) return StopReason::stop_requested;
     // What redistancing or smoothing spoilt is tried again without them.
@@ -428,7 +428,7 @@ Trial<dim> ShapeOptimizer<dim>::attempt(const OptimizationState<dim>& state, con
   const auto start = std::chrono::steady_clock::now();
   Trial<dim> trial = failed_trial(state, halvings, move.step, {});
   trial.max_velocity = largest_magnitude(move.velocity);
-  trial.foretold = move.model_decrease;
+  trial.predicted = move.model_decrease;
   auto cells = evolve(state, move, trial);
   trial.evolution_seconds = seconds_since(start);
   if (!trial.failure) evaluate(trial, std::move(cells), &state.evaluation, widths_after(state));

@@ -17,8 +17,8 @@ struct Move {
   double step;     ///< how far the boundary travels, or the fastest node, as the method counts [cells]
   double radius;   ///< the most that it was asked for [cells]
   double measure;  ///< what the measure of the material is to become
-  double objective_change;  ///< foretold to first order
-  double model_decrease;    ///< of the merit function, foretold by the method's model
+  double objective_change;  ///< predicted to first order
+  double model_decrease;    ///< of the merit function, predicted by the method's model
   std::vector<double> multipliers = {};
   std::vector<double> penalties = {};
 };

@@ -11,7 +11,7 @@ namespace wheelwright {
 /// DJ(theta) + (theta, B theta) / 2 of the merit function under the linearized measure and bounds of
 /// functions, where B is the L-BFGS matrix of the Lagrangian in the inner product of deformations
 /// (evolution/deformation_space.h), and no point of the boundary moves farther than the step. The step
-/// shrinks where the model foretells badly, and grows where it foretells well. Bounds that cannot be met
+/// shrinks where the model predicts badly, and grows where it predicts well. Bounds that cannot be met
 /// within a step are relaxed; their penalties grow until the step does about as much for them as one can.
 /// Widths that a step could bring below their least one are constraints too, with a penalty so large that
 /// they come first.
