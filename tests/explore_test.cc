@@ -466,6 +466,27 @@ TEST_F(Exploration, WhatIsKnownIsNotRunAgain) {
   EXPECT_EQ(n_runs, 0);
 }
 
+// A preview may beat the designs that were optimized to the end; the walls and gaps of their ends it does not
+// have.
+TEST_F(Exploration, UnbeatenDesignsAreAllOptimizedToTheEnd) {
+  Case longer = small;
+  longer.optimizer.iterations = 24;
+  const auto designs =
+      planned_designs(longer, {.starts = 6, .seed = 6, .keeps_sectors = false, .quantities = quantities});
+  ASSERT_TRUE(designs);
+  make_folder(folder() / "all");
+  const auto rated = explore(folder() / "all", *designs, quantities, {.threads = 1});
+  const auto front = fronts(rated_points(rated, quantities));
+  int n_full = 0;
+  for (std::size_t i = 0; i < rated.size(); ++i) {
+    n_full += rated[i].result.progression == Progression::full;
+    if (front[i] == 1) {
+      EXPECT_EQ(rated[i].result.progression, Progression::full) << rated[i].design.name;
+    }
+  }
+  EXPECT_LT(n_full, static_cast<int>(rated.size()));
+}
+
 TEST_F(Exploration, EveryDesignHasTheVolumeOfTheCaseAndARunThatOpens) {
   const auto designs =
       planned_designs(small, {.starts = 3, .seed = 3, .keeps_sectors = false, .quantities = quantities});

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <set>
 
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/load_saved_shape.h"
@@ -146,16 +147,35 @@ std::vector<int> chosen_designs(const std::vector<RatedDesign>& previews,
   return order;
 }
 
+namespace {
+
+/// The designs that no other one beats, but of which only a preview was run; without those that were tried.
+std::vector<int> unbeaten_previews(const std::vector<RatedDesign>& designs,
+                                   const std::vector<RankedQuantity>& quantities,
+                                   const std::set<int>& tried) {
+  const std::vector<int> front = fronts(rated_points(designs, quantities));
+  std::vector<int> result;
+  for (int i = 0; i < static_cast<int>(designs.size()); ++i)
+    if (front[i] == 1 && designs[i].result.progression == Progression::preview && !tried.contains(i))
+      result.push_back(i);
+  return result;
+}
+
+}  // namespace
+
 std::vector<RatedDesign> explore(const fs::path& folder, const std::vector<Design>& designs,
                                  const std::vector<RankedQuantity>& quantities, const RunSettings& settings) {
   std::vector<RatedDesign> all = rated(designs, run_designs(folder, designs, Progression::preview, settings));
-  if (settings.stop_requested()) return all;
-  const std::vector<int> chosen = chosen_designs(all, quantities);
-  std::vector<Design> best;
-  for (const int i : chosen) best.push_back(all[i].design);
-  const auto results = run_designs(folder, best, Progression::full, settings);
-  for (std::size_t k = 0; k < chosen.size(); ++k)
-    if (results[k]) all[chosen[k]].result = *results[k];
+  std::set<int> tried;
+  for (auto chosen = chosen_designs(all, quantities); !chosen.empty() && !settings.stop_requested();
+       chosen = unbeaten_previews(all, quantities, tried)) {
+    std::vector<Design> best;
+    for (const int i : chosen) best.push_back(all[i].design);
+    const auto results = run_designs(folder, best, Progression::full, settings);
+    for (std::size_t k = 0; k < chosen.size(); ++k)
+      if (results[k]) all[chosen[k]].result = *results[k];
+    tried.insert(chosen.begin(), chosen.end());
+  }
   return all;
 }
 

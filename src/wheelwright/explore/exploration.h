@@ -52,7 +52,8 @@ std::vector<int> chosen_designs(const std::vector<RatedDesign>& previews,
                                 const std::vector<RankedQuantity>& quantities);
 
 /// The designs with what is known of them, after their runs to the given progression: those of a third were
-/// chosen by their previews. Stops where the settings ask for it. Throws OutputError.
+/// chosen by their previews; then those that no other design beats. Stops where the settings ask for it.
+/// Throws OutputError.
 std::vector<RatedDesign> explore(const std::filesystem::path& folder, const std::vector<Design>& designs,
                                  const std::vector<RankedQuantity>& quantities, const RunSettings& settings);
 
