@@ -909,6 +909,35 @@ TEST(Conflicts, NearlyIncompressibleMaterialNeedsDegreeTwo) {
   }
 }
 
+// Of splines only, in holes and rings that are wide enough.
+TEST(Conflicts, ALeastRadiusNeedsEdgesAndHolesThatCanHaveIt) {
+  Case c =
+      parse_case(
+          "[[holes.ring]]\ncount = 16\ncenter_radius = 0.27\nradius = 0.04\n[optimizer]\nminimum_radius = "
+          "0.01\n",
+          "wheel.toml")
+          .value.value();
+  ASSERT_TRUE(conflicts(c).empty());
+  const auto refused = [](const Case& with) {
+    const auto found = conflicts(with);
+    return found.size() == 1 &&
+           std::ranges::find(found[0].keys, "optimizer.minimum_radius") != found[0].keys.end();
+  };
+  Case other = c;
+  other.grid.level_set_degree = 1;
+  EXPECT_TRUE(refused(other));
+  other = c;
+  other.optimizer.method = OptimizerMethod::descent;
+  EXPECT_TRUE(refused(other));
+  for (const double radius : {0.042, 0.071}) {  // the widest hole; the ring
+    other = c;
+    other.optimizer.minimum_radius = radius;
+    EXPECT_TRUE(refused(other)) << radius;
+  }
+  other.optimizer.minimum_radius = 0.039;
+  EXPECT_TRUE(conflicts(other).empty());
+}
+
 TEST(Conflicts, NitscheNeedsALargeGammaForThetaZeroAndOneOnly) {
   for (const auto& [theta, enough, too_small] : {std::tuple{0.0, 10.0, 9.9}, std::tuple{1.0, 100.0, 99.0}}) {
     Case c;

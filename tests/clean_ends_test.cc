@@ -81,7 +81,8 @@ TEST_P(CleanEnd, HasWallsAndGapsOfACell) {
   ASSERT_TRUE(measured && measured->clearances.wall && measured->clearances.gap);
   const cad::Clearances& clearances = measured->clearances;
   EXPECT_GT(clearances.wall->width, 0.95 * cell);
-  EXPECT_GT(clearances.gap->width, 0.95 * cell);
+  EXPECT_GT(clearances.gap->width, 1.42 * cell);
+  EXPECT_TRUE(narrowest_places(course.last.shape, {.radius = 0.74 * cell}).empty());
   EXPECT_EQ(course.last.final_widths, FinalWidths::kept);
   EXPECT_NEAR(course.last.measure, course.last.target_measure, 1e-6 * course.last.target_measure);
   const auto value = [](const Evaluation<2>& evaluation) { return evaluation.function("objective").value; };
@@ -143,15 +144,20 @@ TEST(FinalWidths, AreKeptFromTheBeginningWhereHolesAreSmall) {
     const Course course = course_of(case_text(start, 2));
     const LevelSet<2>& first = course.trials.front().shape;
     const double cell = first.lattice.grid().resolution();
-    const bool has_widths = narrowest_places(first, {.wall = 1.05 * cell, .gap = 1.12 * cell}).empty(),
-               has_small_holes = 2 * start.radius < 1.8 * 1.12 * cell;
+    const bool has_widths =
+                   narrowest_places(first, {.wall = 1.05 * cell, .gap = 1.5 * cell, .radius = 0.5 * cell})
+                       .empty(),
+               has_small_holes = 2 * start.radius < 1.8 * 1.5 * cell;
     const bool is_expected = has_widths && has_small_holes;
     EXPECT_EQ(course.last.final_widths == FinalWidths::kept, is_expected) << start.name;
     if (!is_expected) continue;
     ++n_small;
     for (const auto& trial : course.trials)
       if (trial.verdict == Verdict::accepted) {
-        EXPECT_TRUE(narrowest_places(trial.shape, {.wall = cell, .gap = cell}).empty()) << start.name;
+        const double radius = trial.iteration == 0 ? 0.5 * cell : 0.74 * cell;
+        EXPECT_TRUE(
+            narrowest_places(trial.shape, {.wall = cell, .gap = 1.45 * cell, .radius = radius}).empty())
+            << start.name;
       }
   }
   EXPECT_GE(n_small, 1);

@@ -211,11 +211,11 @@ TEST_F(EditTest, TheShapeOfAnotherRunIsTakenToTheLastBit) {
 }
 
 TEST_F(EditTest, WidthsAndBoundsThatACaseCouldNotHaveAreRefused) {
-  const Seen seen =
-      after({NewWidths{.minimum_wall = 0.004, .minimum_gap = 0.003}, NewWidths{.minimum_wall = 10},
-             NewWidths{.minimum_gap = -1}, NewBound{.constraint = 0, .at_most = 1},
-             NewBound{.constraint = -1, .at_most = 1}, NewWidths{.minimum_wall = 0}});
-  EXPECT_EQ(seen.refused.size(), 4U);
+  const Seen seen = after({NewWidths{.minimum_wall = 0.004, .minimum_gap = 0.003},
+                           NewWidths{.minimum_wall = 10}, NewWidths{.minimum_gap = -1},
+                           NewWidths{.minimum_radius = 10}, NewBound{.constraint = 0, .at_most = 1},
+                           NewBound{.constraint = -1, .at_most = 1}, NewWidths{.minimum_wall = 0}});
+  EXPECT_EQ(seen.refused.size(), 5U);
   ASSERT_EQ(seen.objectives.size(), 3U);
   EXPECT_EQ(seen.objectives[1], seen.objectives[0]);
 }

@@ -14,6 +14,7 @@
 #include "wheelwright/drawing/composed_level_set.h"
 #include "wheelwright/evolution/evolver.h"
 #include "wheelwright/evolution/medial_balls.h"
+#include "wheelwright/evolution/redistance.h"
 #include "wheelwright/geometry/components.h"
 #include "wheelwright/geometry/mirror.h"
 #include "wheelwright/report/described_wheel.h"
@@ -47,6 +48,24 @@ LevelSet<2> holes_with_slit(const PolarGrid<2>& grid, double width) {
     const double across = std::abs(p[0] * std::sin(p[1] - 0.5 * grid.sector_angle()));
     const double along = std::abs(p[0] * std::cos(p[1] - 0.5 * grid.sector_angle()) - 0.27) - 0.03;
     psi.values[node] = std::max(psi.values[node], -std::max(across - width / 2, along));
+  }
+  return psi;
+}
+
+/// A hole that is a regular hexagon with this inner radius, turned.
+LevelSet<2> hexagonal_hole(const PolarGrid<2>& grid, const Vec<2>& polar_centre, double inner_radius) {
+  const Lattice<2> lattice(grid, 2);
+  const Vec<2> centre = cartesian<2>(polar_centre);
+  LevelSet<2> psi{lattice, {}};
+  for (int node = 0; node < lattice.n_nodes(); ++node) {
+    const Vec<2> x = cartesian<2>(lattice.polar_point(node));
+    double outside = -inner_radius;
+    for (int side = 0; side < 6; ++side) {
+      const double angle = 0.2 + side * std::numbers::pi / 3;
+      outside = std::max(outside, std::cos(angle) * (x[0] - centre[0]) +
+                                      std::sin(angle) * (x[1] - centre[1]) - inner_radius);
+    }
+    psi.values.push_back(-outside);
   }
   return psi;
 }
@@ -118,6 +137,32 @@ TEST(FeatureSize, TheMiddleOfAWallIsFound) {
       thin_walls(LevelSet<2>{Lattice<2>(grid, 2), std::vector<double>(Lattice<2>(grid, 2).n_nodes(), -1.0)},
                  0.005)
           .empty());
+}
+
+/// Corners of a hexagonal hole become as round as asked; what is filled lies near them only, and a shape that
+/// has the radius stays as it is.
+TEST(FeatureSize, CornersAreRoundedToTheirRadius) {
+  for (const auto& grid : {grid_of(14, 192), grid_of(28, 384)})
+    for (const double radius : {0.010, 0.013}) {
+      const double at = 0.47 * grid.sector_angle();
+      const auto psi = redistance(hexagonal_hole(grid, {0.27, at}, 0.04));
+      const FeatureSize size{.radius = radius};
+      ASSERT_FALSE(narrowest_places(psi, size).empty());
+      EXPECT_EQ(narrowest_places(psi, size)[0].kind, ShapeEventKind::sharp_corner_mended);
+      const auto rounded = with_feature_size(psi, size);
+      EXPECT_TRUE(narrowest_places(rounded, size).empty());
+      EXPECT_EQ(with_feature_size(rounded, size).values, rounded.values);
+      for (size_t i = 0; i < psi.values.size(); ++i)
+        if (psi.values[i] < -0.02 * grid.resolution()) {
+          ASSERT_LT(rounded.values[i], 0);
+        }
+      // A corner of 120 degrees loses (tan 30 - pi / 6) radius^2.
+      const double least = 6 * (std::tan(std::numbers::pi / 6) - std::numbers::pi / 6) * radius * radius;
+      const double filled = material_measure(rounded) - material_measure(psi);
+      EXPECT_GT(filled, 0.5 * least);
+      EXPECT_LT(filled,
+                (radius > 1.5 * grid.resolution() ? 4 : 6.5) * least);  // coarser cells, rounder corners
+    }
 }
 
 TEST(FeatureSize, SlitsAndSmallHolesAreFilled) {

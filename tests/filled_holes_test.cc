@@ -50,6 +50,22 @@ TEST(FilledHoles, GapsMayBeAsWideAsTheWidestHole) {
   }
 }
 
+// A corner of that radius needs a hole that is twice as wide.
+TEST(FilledHoles, RadiiMayBeThoseOfTheWidestHole) {
+  const Case c = case_of(
+      "[wheel]\nsectors = 8\n[grid]\nradial_cells = 28\nangular_cells = 384\n"
+      "[[shape.circle]]\ncount = 8\ncenter_radius = 0.265\nradius = 0.03\nphase = 7\n");
+  const auto fault_of = [&](double radius) {
+    Case asked = c;
+    asked.optimizer.minimum_radius = radius;
+    return filled_holes(initial_shape<2>(asked), evolution_options(asked));
+  };
+  EXPECT_FALSE(fault_of(0.028));
+  const auto found = fault_of(0.034);
+  ASSERT_TRUE(names(found, "optimizer.minimum_radius"));
+  EXPECT_FALSE(fault_of(advised(*found)));
+}
+
 // Holes whose centres are 26.5 mm apart leave no room for walls of that width.
 TEST(FilledHoles, WallsMayBeAsWideAsTheDistanceOfHoles) {
   const Case c = case_of(

@@ -51,7 +51,8 @@ Case uneven_case() {
                  .rim_band = 0.0123,
                  .tread_band = 0.0345,
                  .minimum_wall = 0.0111,
-                 .minimum_gap = 0.0222};
+                 .minimum_gap = 0.0222,
+                 .minimum_radius = 0.0101};
   return c;
 }
 
@@ -148,6 +149,7 @@ TEST(LoopOfACase, HasItsOptions) {
   EXPECT_EQ(evolution.bands.tread.thickness, 0.0345);
   EXPECT_EQ(evolution.features.wall, 0.0111);
   EXPECT_EQ(evolution.features.gap, 0.0222);
+  EXPECT_EQ(evolution.features.radius, 0.0101);
 
   c.optimizer.velocity = VelocityKind::h1;
   c.volume = {.control = VolumeControl::paper, .target = {}};

@@ -41,6 +41,24 @@ LevelSet<dim> shape_with_wall(double cells, double azimuth = 0.13) {
   return spline_level_set(spline_coefficients(psi));
 }
 
+/// A hole that is a square with this half of the side and corners of this radius, turned; in 3D it becomes
+/// narrower along the width.
+template <int dim>
+LevelSet<dim> shape_with_corners(double half, double radius) {
+  const auto lattice = lattice_of<dim>();
+  LevelSet<dim> psi{lattice, {}};
+  for (int node = 0; node < lattice.n_nodes(); ++node) {
+    const auto p = lattice.polar_point(node);
+    const double x = p[0] - 0.272, y = 0.272 * (p[1] - 0.25), cosine = std::cos(0.4), sine = std::sin(0.4);
+    const double u = std::max(std::abs(cosine * x + sine * y) - half + radius, 0.0),
+                 v = std::max(std::abs(cosine * y - sine * x) - half + radius, 0.0);
+    const double inside = std::min(
+        std::max(std::abs(cosine * x + sine * y), std::abs(cosine * y - sine * x)) - half + radius, 0.0);
+    psi.values.push_back(radius - std::hypot(u, v) - inside - (dim == 3 ? 0.05 * (p[dim - 1] - 0.03) : 0));
+  }
+  return spline_level_set(spline_coefficients(psi));
+}
+
 template <class Setting>
 class WidthsOf : public ::testing::Test {};
 TYPED_TEST_SUITE(WidthsOf, wheelwright::testing::DeformationSettings);
@@ -62,7 +80,7 @@ TYPED_TEST(WidthsOf, ChangeAsTheirDerivativeSays) {
     const auto widths = narrow_widths(psi, size, 0);
     ASSERT_FALSE(widths.empty());
     EXPECT_NEAR(widths[0].value, cells * h, 0.4 * h);  // splines round what is as thin as a cell
-    const auto load = gap_load(motion_of_ends(space.motion_of(psi, {}), psi, widths), widths, 0);
+    const auto load = gap_load(space.motion_of(psi, {}), widths[0]);
     const double slope = std::inner_product(load.begin(), load.end(), deformation.begin(), 0.0);
     const auto speeds = space.speeds(psi, deformation);
     double last = 0;
@@ -79,6 +97,37 @@ TYPED_TEST(WidthsOf, ChangeAsTheirDerivativeSays) {
       last = remainder;
     }
   }
+}
+
+/// The same of the radius of an internal corner: that of a hole with the outline of a rounded square, turned.
+TYPED_TEST(WidthsOf, RadiiOfCornersChangeAsTheirDerivativeSays) {
+  constexpr int dim = TypeParam::dim;
+  const auto lattice = lattice_of<dim>();
+  const double h = lattice.grid().resolution();
+  const DeformationSpace<dim> space(lattice, std::vector<bool>(lattice.n_nodes(), false), 0.02,
+                                    TypeParam::kind);
+  const auto deformation = wheelwright::testing::smooth_deformation<dim>(lattice, space.n_components());
+  const auto psi = shape_with_corners<dim>(6 * h, 2.5 * h);
+  const FeatureSize size{.radius = 3 * h};
+  const auto widths = narrow_widths(psi, size, 0);
+  ASSERT_FALSE(widths.empty());
+  ASSERT_EQ(widths[0].kind, WidthKind::corner);
+  const auto speeds = space.speeds(psi, deformation);
+  const double unit = h / largest_magnitude(speeds);
+  const auto coefficients = spline_coefficients(psi);
+  const auto load = gap_load(space.motion_of(psi, {}), widths[0]);
+  const double slope = unit * std::inner_product(load.begin(), load.end(), deformation.begin(), 0.0);
+  double last = 0;
+  for (const double step : {4e-3, 2e-3, 1e-3}) {
+    const auto moved = smooth_transport<dim>(coefficients, speeds, step * unit);
+    const double after = largest_gap(narrow_widths(spline_level_set(moved), size, 0)),
+                 remainder = std::abs(after - widths[0].gap() - step * slope);
+    if (last > 0) {
+      EXPECT_GT(std::log2(last / remainder), 1.9);
+    }
+    last = remainder;
+  }
+  EXPECT_LT(last, 0.05 * std::abs(1e-3 * slope));
 }
 
 /// A wall, and a gap, are found where they are narrower than the least width and the reach together, at their
@@ -99,7 +148,7 @@ TEST(Widths, AreThoseWithinReach) {
     EXPECT_FALSE(narrow_widths(shape, size_of(0.97 * width), 0.05 * width).empty());
     const auto widths = narrow_widths(shape, size_of(1.02 * width), 0);
     ASSERT_EQ(widths.size(), 1u);
-    EXPECT_EQ(widths[0].is_wall, is_wall);
+    EXPECT_EQ(widths[0].kind, is_wall ? WidthKind::wall : WidthKind::gap);
     EXPECT_NEAR(widths[0].gap(), 1 - 1 / 1.02, 1e-9);
     EXPECT_NEAR(widths[0].place[0], 0.235 + 0.018 + h, 0.1 * h);
     EXPECT_NEAR(widths[0].place[1], 0.13, 0.01);

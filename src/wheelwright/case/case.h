@@ -353,6 +353,7 @@ struct Optimizer {
   std::optional<double> rim_band;                   ///< absent: 1/14 of the ring
   std::optional<double> tread_band;                 ///< absent: see bands()
   std::optional<double> minimum_wall, minimum_gap;  ///< of what is cut [m]; absent: any
+  std::optional<double> minimum_radius;             ///< of internal corners [m]; absent: any
   NucleationTime nucleation = NucleationTime::never;
   bool operator==(const Optimizer&) const = default;
 };

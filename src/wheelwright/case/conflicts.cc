@@ -777,6 +777,11 @@ void check_feature_size(const Case& c, Conflicts& found) {
   };
   check("optimizer.minimum_wall", c.optimizer.minimum_wall);
   check("optimizer.minimum_gap", c.optimizer.minimum_gap);
+  if (const auto radius = c.optimizer.minimum_radius)
+    if (2 * *radius >= ring)
+      found.push_back({with_ring_shape({"optimizer.minimum_radius"}),
+                       fmt::format("gaps are twice as wide, and the ring is only {:.6g} m thick", ring),
+                       "take less" + if_in_millimetres(*radius, 0.5 * ring)});
   const auto check_band_of = [&](const char* key, std::optional<double> band) {
     if (band && c.optimizer.minimum_wall && *band < *c.optimizer.minimum_wall)
       found.push_back({{"optimizer.minimum_wall", key},
@@ -791,13 +796,32 @@ void check_feature_size(const Case& c, Conflicts& found) {
 void check_widest_gap(const Case& c, Conflicts& found) {
   const bool is_plane_drawing =
       c.holes.spheres.empty() && c.holes.tapered.empty() && !c.saved_shape.shape.contents;
-  if (!is_plane_drawing || !c.optimizer.minimum_gap) return;
+  if (!is_plane_drawing || !(c.optimizer.minimum_gap || c.optimizer.minimum_radius)) return;
   const WidestGap widest = widest_gap(c);
-  if (widest.diameter > 0 && *c.optimizer.minimum_gap > widest.at_most)
-    found.push_back({{"optimizer.minimum_gap"},
-                     fmt::format("all holes would be filled: none is wider than {:.4g} m", widest.at_most),
-                     fmt::format("take less than {:.4g}, or draw wider holes", widest.diameter) +
-                         if_in_millimetres(*c.optimizer.minimum_gap, widest.diameter)});
+  if (widest.diameter <= 0) return;
+  const auto check = [&](const char* key, std::optional<double> given, double widths_of_a_gap) {
+    if (!given || *given <= widths_of_a_gap * widest.at_most) return;
+    const double fits = widths_of_a_gap * widest.diameter;
+    found.push_back(
+        {{key},
+         fmt::format("all holes would be filled: none is wider than {:.4g} m", widest.at_most),
+         fmt::format("take less than {:.4g}, or draw wider holes", fits) + if_in_millimetres(*given, fits)});
+  };
+  check("optimizer.minimum_gap", c.optimizer.minimum_gap, 1);
+  check("optimizer.minimum_radius", c.optimizer.minimum_radius, 0.5);
+}
+
+/// Finds a least radius of corners that the method or the shapes cannot have.
+void check_least_radius(const Case& c, Conflicts& found) {
+  if (c.optimizer.minimum_radius.value_or(0) == 0) return;
+  if (level_set_degree(c) == 1)
+    found.push_back({{"optimizer.minimum_radius", "grid.level_set_degree"},
+                     "edges of degree 1 have a corner in every cell",
+                     "take level_set_degree = 2, or leave the radius out"});
+  if (optimizer_method(c) == OptimizerMethod::descent)
+    found.push_back({{"optimizer.minimum_radius", "optimizer.method"},
+                     "steepest descent does not move splines, whose corners have a radius",
+                     "leave out optimizer.method, or the radius"});
 }
 
 /// What a quantity needs of the case to mean something.
@@ -1070,6 +1094,7 @@ std::vector<Conflict> conflicts(const Case& c) {
   check_volume(c, found);
   check_method(c, found);
   check_feature_size(c, found);
+  check_least_radius(c, found);
   check_nucleation(c, found);
   check_minimized(c, found);
   check_constraints(c, found);

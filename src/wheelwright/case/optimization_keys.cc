@@ -245,9 +245,15 @@ std::vector<Key<Optimizer>> feature_keys() {
       {.name = "minimum_gap",
        .unit = "m",
        .field = OptionalNumberField<Optimizer>{&Optimizer::minimum_gap, between(0, 1000),
-                                               "any at first, one cell in the last part of a run"},
+                                               "any at first, 1.5 cells in the last part of a run"},
        .meaning = "least width of a hole: narrower parts of holes, and smaller holes, are filled in every "
                   "shape; 0 means any to the end"},
+      {.name = "minimum_radius",
+       .unit = "m",
+       .field = OptionalNumberField<Optimizer>{&Optimizer::minimum_radius, between(0, 1000),
+                                               "any at first, 0.75 cells in the last part of a run"},
+       .meaning = "least radius of internal corners, those of the holes: what a milling cutter needs, and "
+                  "what keeps stress low; gaps are at least twice as wide; 0 means any to the end"},
       {.name = "nucleation",
        .unit = "",
        .field = choice<&Optimizer::nucleation>({"never", "converged"}),

@@ -51,33 +51,14 @@ std::vector<Vec<dim>> gradients_at_nodes(const LevelSet<dim>& psi) {
   return result;
 }
 
-/// Adds how the spline at a point of the unit cell depends on its coefficients, times a factor.
-template <int dim>
-void BoundaryMotion<dim>::add_dependences(const Lattice<dim>& lattice, const std::array<int, dim>& cell,
-                                          const Vec<dim>& xi, double factor, std::vector<Dependence>& to) {
-  std::array<std::array<double, 4>, dim> weights;
-  for (int d = 0; d < dim; ++d)
-    weights[d] = spline_weights(lattice.degree(), cell[d], xi[d], lattice.grid().cells[d] + 1, d == 1);
-  for (int k = 0; k < power(4, dim); ++k) {
-    std::array<int, dim> vertex;
-    double weight = factor;
-    int rest = k;
-    for (int d = 0; d < dim; ++d, rest /= 4) {
-      weight *= weights[d][rest % 4];
-      vertex[d] = lattice.degree() * (cell[d] + rest % 4 - 1);
-    }
-    if (weight != 0) to.push_back({lattice.node_index(vertex), weight});
-  }
-}
-
 template <int dim>
 typename BoundaryMotion<dim>::Boundary BoundaryMotion<dim>::boundary_of(
     const LevelSet<dim>& psi, std::span<const SurfacePoint<dim>> points) {
   Boundary result;
   for (const auto& point : points) {
     const std::size_t first = result.dependences.size();
-    add_dependences(psi.lattice, psi.lattice.grid().cell_position(point.cell), point.xi, 1,
-                    result.dependences);
+    add_dependences<dim>(psi.lattice, psi.lattice.grid().cell_position(point.cell), point.xi, 1,
+                         result.dependences);
     result.places.push_back({.first = first,
                              .last = result.dependences.size(),
                              .steepness = steepness_at<dim>(psi, point),
@@ -97,33 +78,6 @@ BoundaryMotion<dim>::BoundaryMotion(const LevelSet<dim>& psi, std::span<const Su
       boundary_(std::make_shared<Boundary>(boundary_of(psi, boundary))) {
   if (kind == DeformationKind::normal_speed)
     for (auto& rate : rates_) rate = {norm<dim>(rate)};
-}
-
-template <int dim>
-BoundaryMotion<dim> BoundaryMotion<dim>::at(const CubicInterpolant<dim>& psi,
-                                            const std::vector<Vec<dim>>& points) const {
-  const Lattice<dim>& lattice = psi.lattice();
-  Boundary boundary;
-  for (const auto& point : points) {
-    const std::size_t first = boundary.dependences.size();
-    for (const auto& [node, weight] : psi.weights(point)) {
-      const auto position = lattice.node_position(node);
-      std::array<int, dim> cell;
-      Vec<dim> xi;
-      for (int d = 0; d < dim; ++d) {
-        cell[d] = std::min(position[d] / lattice.degree(), lattice.grid().cells[d] - 1);
-        xi[d] = static_cast<double>(position[d] - lattice.degree() * cell[d]) / lattice.degree();
-      }
-      add_dependences(lattice, cell, xi, weight, boundary.dependences);
-    }
-    boundary.places.push_back({.first = first,
-                               .last = boundary.dependences.size(),
-                               .steepness = norm<dim>(psi(point).gradient),
-                               .measure = 1});
-  }
-  BoundaryMotion result = *this;
-  result.boundary_ = std::make_shared<const Boundary>(std::move(boundary));
-  return result;
 }
 
 template <int dim>
@@ -183,8 +137,7 @@ std::vector<double> BoundaryMotion<dim>::speeds(std::span<const double> deformat
 
 template <int dim>
 std::vector<double> BoundaryMotion<dim>::load(std::span<const double> density) const {
-  const std::size_t n_nodes = rates_.size();
-  std::vector<double> at_node(n_nodes), result(n_components() * n_nodes);
+  std::vector<double> at_node(rates_.size());
   for (std::size_t q = 0; q < boundary_->places.size(); ++q) {
     const Place& place = boundary_->places[q];
     const double value = place.measure * density[q] / place.steepness;
@@ -193,12 +146,47 @@ std::vector<double> BoundaryMotion<dim>::load(std::span<const double> density) c
       at_node[node] += weight * value;
     }
   }
+  return load_at_nodes(at_node);
+}
+
+template <int dim>
+std::vector<double> BoundaryMotion<dim>::load(std::span<const Dependence> function) const {
+  std::vector<double> at_node(rates_.size());
+  for (const auto& [node, weight] : function) at_node[node] -= weight;
+  return load_at_nodes(at_node);
+}
+
+/// The load of the sum over the nodes of a value times -dc/dt.
+template <int dim>
+std::vector<double> BoundaryMotion<dim>::load_at_nodes(std::span<const double> value) const {
+  const std::size_t n_nodes = rates_.size();
+  std::vector<double> result(n_components() * n_nodes);
   for (int component = 0; component < n_components(); ++component)
     for (std::size_t node = 0; node < n_nodes; ++node)
-      result[component * n_nodes + node] = rates_[node][component] * at_node[node];
+      result[component * n_nodes + node] = rates_[node][component] * value[node];
   return result;
 }
 
+template <int dim>
+std::vector<Dependence> displacement(const CubicInterpolant<dim>& psi, const Vec<dim>& point) {
+  const Lattice<dim>& lattice = psi.lattice();
+  const double steepness = norm<dim>(psi(point).gradient);
+  std::vector<Dependence> result;
+  for (const auto& [node, weight] : psi.weights(point)) {
+    const auto position = lattice.node_position(node);
+    std::array<int, dim> cell;
+    Vec<dim> xi;
+    for (int d = 0; d < dim; ++d) {
+      cell[d] = std::min(position[d] / lattice.degree(), lattice.grid().cells[d] - 1);
+      xi[d] = static_cast<double>(position[d] - lattice.degree() * cell[d]) / lattice.degree();
+    }
+    add_dependences<dim>(lattice, cell, xi, -weight / steepness, result);
+  }
+  return result;
+}
+
+template std::vector<Dependence> displacement<2>(const CubicInterpolant<2>&, const Vec<2>&);
+template std::vector<Dependence> displacement<3>(const CubicInterpolant<3>&, const Vec<3>&);
 template class BoundaryMotion<2>;
 template class BoundaryMotion<3>;
 template std::vector<Vec<2>> gradients_at_nodes<2>(const LevelSet<2>&);

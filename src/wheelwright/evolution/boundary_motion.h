@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "wheelwright/evolution/cubic_interpolant.h"
+#include "wheelwright/evolution/spline_level_set.h"
 
 namespace wheelwright {
 
@@ -27,10 +28,6 @@ class BoundaryMotion {
   /// The motion in which the coefficients at these nodes stay as they are. One flag per node.
   BoundaryMotion holding(const std::vector<bool>& held) const;
 
-  /// The motion of points on the zero set of the interpolant of the same level set, in units of the node
-  /// spacing of the lattice; their weight in load() is 1.
-  BoundaryMotion at(const CubicInterpolant<dim>& psi, const std::vector<Vec<dim>>& points) const;
-
   /// The same motion at other points of the boundary of the same shape.
   BoundaryMotion on(const LevelSet<dim>& psi, std::span<const SurfacePoint<dim>> points) const;
 
@@ -49,12 +46,11 @@ class BoundaryMotion {
   /// deformation. `density` has one value per point.
   std::vector<double> load(std::span<const double> density) const;
 
+  /// The load l with l . deformation = the rate of a function of the coefficients, for every deformation.
+  /// Given is how the function depends on the coefficients.
+  std::vector<double> load(std::span<const Dependence> function) const;
+
  private:
-  /// How the level set depends on one of its coefficients at a point of the boundary.
-  struct Dependence {
-    int node;
-    double weight;
-  };
   /// A point of the boundary.
   struct Place {
     std::size_t first, last;  ///< of its dependences
@@ -66,8 +62,6 @@ class BoundaryMotion {
     std::vector<Dependence> dependences;
   };
   static Boundary boundary_of(const LevelSet<dim>& psi, std::span<const SurfacePoint<dim>> points);
-  static void add_dependences(const Lattice<dim>& lattice, const std::array<int, dim>& cell,
-                              const Vec<dim>& xi, double factor, std::vector<Dependence>& to);
 
   LevelSet<dim> coefficients_;
   DeformationKind kind_;
@@ -76,8 +70,14 @@ class BoundaryMotion {
   std::vector<Vec<dim>> rates_;  ///< -dc/dt at the nodes per unit of each component of the deformation
   std::shared_ptr<const Boundary> boundary_;
 
+  std::vector<double> load_at_nodes(std::span<const double> value) const;
   int n_components() const { return kind_ == DeformationKind::vector_field ? dim : 1; }
 };
+
+/// How a point of the zero set of the interpolant of a level set moves along the outward normal with the
+/// coefficients of its spline. The point is in units of the node spacing of the lattice.
+template <int dim>
+std::vector<Dependence> displacement(const CubicInterpolant<dim>& psi, const Vec<dim>& point);
 
 /// The gradient of a level set at all nodes by central differences, one-sided at the ends of the lattice, in
 /// polar directions.

@@ -86,21 +86,13 @@ Jet<dim> CubicInterpolant<dim>::operator()(const Vec<dim>& point) const {
         }
       }
     }
-  // Transform them to the orthonormal frame of polar coordinates.
   const Vec<dim> spacing = lattice().spacing();
-  const double radius = lattice().grid().inner_radius + point[0] * spacing[0];
-  Vec<dim> length = spacing;
-  length[1] *= radius;
-  Jet<dim> jet{value, {}, {}};
+  PolarPartials<dim> partials{.value = value};
   for (int i = 0; i < dim; ++i) {
-    jet.gradient[i] = first[i] / length[i];
-    for (int j = 0; j <= i; ++j) jet.hessian[i][j] = second[i][j] / (length[i] * length[j]);
+    partials.first[i] = first[i] / spacing[i];
+    for (int j = 0; j <= i; ++j) partials.second[i][j] = second[i][j] / (spacing[i] * spacing[j]);
   }
-  jet.hessian[1][0] -= jet.gradient[1] / radius;
-  jet.hessian[1][1] += jet.gradient[0] / radius;
-  for (int i = 0; i < dim; ++i)
-    for (int j = 0; j < i; ++j) jet.hessian[j][i] = jet.hessian[i][j];
-  return jet;
+  return jet(partials, lattice().grid().inner_radius + point[0] * spacing[0]);
 }
 
 template class CubicInterpolant<2>;

@@ -3,18 +3,10 @@
 #include <utility>
 #include <vector>
 
+#include "wheelwright/evolution/jet.h"
 #include "wheelwright/geometry/level_set.h"
 
 namespace wheelwright {
-
-/// Value, gradient and Hessian of a function at a point, in the orthonormal frame (radial, azimuthal[,
-/// axial]) there.
-template <int dim>
-struct Jet {
-  double value;
-  Vec<dim> gradient;
-  Mat<dim> hessian;
-};
 
 /// Piecewise tensor-product cubic through the nodal values of a level set, in polar coordinates: on each
 /// element of the lattice it is the Lagrange polynomial of the four nearest nodes along each axis. It is

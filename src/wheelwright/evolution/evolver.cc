@@ -27,10 +27,11 @@ namespace {
 constexpr double rounding_of(MirrorPlane plane) { return plane == MirrorPlane::azimuth ? 1e-9 : 1e-6; }
 
 template <int dim>
-Failure too_narrow(bool is_wall, const Vec<dim>& place, double least) {
-  return {FailureReason::too_narrow,
-          fmt::format("a {} at {} stays narrower than {:.4g} mm", is_wall ? "wall" : "gap",
-                      place_text<dim>(place), 1e3 * least)};
+Failure too_narrow(WidthKind kind, const Vec<dim>& place, double least) {
+  const char* what = kind == WidthKind::wall  ? "a wall at {} stays narrower than {:.4g} mm"
+                     : kind == WidthKind::gap ? "a gap at {} stays narrower than {:.4g} mm"
+                                              : "a corner at {} keeps a radius below {:.4g} mm";
+  return {FailureReason::too_narrow, fmt::format(fmt::runtime(what), place_text<dim>(place), 1e3 * least)};
 }
 
 }  // namespace
@@ -194,15 +195,17 @@ Expected<MeasuredShape<dim>> Evolver<dim>::with_measure(const LevelSet<dim>& psi
 }
 
 /// Measures the shape, or shifts it to a measure, and widens what is narrow, until nothing is. Where much of
-/// a width is missing, or a hole is too small to be seen by its widths, balls are put in its place first.
+/// a width is missing, or a hole is too small to be seen by its widths, balls are put in its place, and
+/// corners are rounded, first.
 template <int dim>
 template <class Measure>
 Expected<MeasuredShape<dim>> Evolver<dim>::with_widths(LevelSet<dim> psi, const FeatureSize& size,
                                                        bool keeps_measure, Measure measure) const {
-  constexpr int most_turns = 12;
+  constexpr int most_turns = 12, most_mendings = 2;
   constexpr double enough = 1e-3, far = 0.2;
   constexpr double sampled = 0.9;  // of a diameter: small holes are measured by samples
   const double reach = 0.5 * lattice_.grid().resolution();
+  int mendings = 0;
   for (int turn = 0;; ++turn) {
     auto shape = measure(std::move(psi));
     if (!shape || !size.any()) return shape;
@@ -211,14 +214,15 @@ Expected<MeasuredShape<dim>> Evolver<dim>::with_widths(LevelSet<dim> psi, const 
     if (!std::isfinite(gap)) return Failure{FailureReason::not_finite, "a width of the shape"};
     const auto hole = gap <= enough ? small_hole(shape->shape, sampled * size.gap) : std::nullopt;
     if (gap <= enough && !hole) return shape;
-    if (turn == 0 && (hole || gap > far)) {
+    if (mendings < most_mendings && (hole || (turn == 0 && gap > far))) {
+      ++mendings;
       psi = with_features(shape->shape, size);
       continue;
     }
-    if (hole) return too_narrow<dim>(false, hole->place, size.gap);
+    if (hole) return too_narrow<dim>(WidthKind::gap, hole->place, size.gap);
     if (turn == most_turns) {
       const auto& narrowest = *std::ranges::max_element(widths, {}, &Width<dim>::gap);
-      return too_narrow<dim>(narrowest.is_wall, narrowest.place, narrowest.least);
+      return too_narrow<dim>(narrowest.kind, narrowest.place, narrowest.least);
     }
     auto wider = widened(shape->shape, widths, keeps_measure);
     if (!wider) return wider.failure();
@@ -235,14 +239,14 @@ Expected<LevelSet<dim>> Evolver<dim>::widened(const LevelSet<dim>& psi, const st
   constexpr double farthest = 0.5;
   const auto samples = boundary_samples<dim>(psi);
   const std::vector<SurfacePoint<dim>> boundary(samples.begin(), samples.end());
-  const auto motion = deformations_.motion_of(psi, boundary), ends = motion_of_ends(motion, psi, widths);
+  const auto motion = deformations_.motion_of(psi, boundary);
   std::vector<bool> held(psi.values.size(), false);
   std::vector<double> velocity;
   for (int turn = 0; turn < most_turns; ++turn) {
     const auto free = motion.holding(held);
     std::vector<std::vector<double>> kept;
     if (keeps_measure) kept.push_back(free.load(std::vector<double>(boundary.size(), 1.0)));
-    const auto deformation = widening(deformations_, ends.holding(held), widths, kept);
+    const auto deformation = widening(deformations_, free, widths, kept);
     velocity = free.speeds_at_nodes(deformation);
     const double reached = std::max(largest_magnitude(free.speeds(deformation)), 1e-300),
                  most = farthest * lattice_.grid().resolution();

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <optional>
 
+#include "wheelwright/evolution/edge_curvature.h"
 #include "wheelwright/evolution/medial_balls.h"
 #include "wheelwright/evolution/redistance.h"
 #include "wheelwright/geometry/cell_map.h"
@@ -41,6 +42,13 @@ std::vector<Vec<dim>> centres_of(const std::vector<MedialBall<dim>>& balls) {
   std::vector<Vec<dim>> centres;
   for (const auto& ball : balls) centres.push_back(ball.centre);
   return centres;
+}
+
+/// Area of a disk, or volume of a ball.
+template <int dim>
+double ball_measure(double radius) {
+  constexpr double pi = std::numbers::pi;
+  return dim == 2 ? pi * radius * radius : 4 * pi / 3 * radius * radius * radius;
 }
 
 /// The distance of nodes to the nearest of some points, whose images in the neighbouring sectors count too.
@@ -99,11 +107,32 @@ LevelSet<dim> closed_near(const LevelSet<dim>& psi, const std::vector<MedialBall
   return result;
 }
 
+/// The points of the edge with internal corners of less than this radius; Cartesian.
+template <int dim>
+std::vector<Vec<dim>> sharp_places(const LevelSet<dim>& coefficients, double radius) {
+  std::vector<Vec<dim>> places;
+  for (const auto& corner : internal_corners(coefficients, 1 / (radius * (1 - rounding))))
+    places.push_back(cartesian<dim>(corner.place));
+  return places;
+}
+
+/// Coefficients after a step of diffusion, by a sixth of a cell squared, near some places and less and less
+/// up to the farthest distance from them, which adds material and takes none.
+template <int dim>
+LevelSet<dim> blurred_near(LevelSet<dim> coefficients, const std::vector<Vec<dim>>& places, double farthest) {
+  const DistanceToPoints<dim> distance(coefficients.lattice, places);
+  const auto averages = spline_level_set(coefficients);
+  for (int node = 0; node < coefficients.lattice.n_nodes(); ++node) {
+    const double share = std::clamp(2 - 2 * distance(node) / farthest, 0.0, 1.0);
+    coefficients.values[node] += share * std::min(0.0, averages.values[node] - coefficients.values[node]);
+  }
+  return coefficients;
+}
+
 /// Which components are holes that are smaller than a ball of this diameter.
 template <int dim>
 std::vector<bool> small_holes(const Components<dim>& found, double diameter) {
-  const double r = 0.5 * diameter, pi = std::numbers::pi;
-  const double ball = dim == 2 ? pi * r * r : 4 * pi / 3 * r * r * r;
+  const double ball = ball_measure<dim>(0.5 * diameter);
   std::vector<bool> result;
   for (const auto& component : found.all)
     result.push_back(!component.is_material && component.measure < ball);
@@ -171,6 +200,21 @@ LevelSet<dim> without_narrow_gaps(const LevelSet<dim>& psi, double gap) {
 }
 
 template <int dim>
+LevelSet<dim> with_round_corners(const LevelSet<dim>& psi, double radius) {
+  constexpr int most_steps = 200;
+  if (psi.lattice.degree() == 1) return psi;
+  const double farthest = 2 * (radius + psi.lattice.grid().resolution());
+  auto coefficients = spline_coefficients(psi);
+  auto sharp = sharp_places(coefficients, radius);
+  if (sharp.empty()) return psi;
+  for (int step = 0; step < most_steps && !sharp.empty(); ++step) {
+    coefficients = blurred_near<dim>(std::move(coefficients), sharp, farthest);
+    sharp = sharp_places(coefficients, radius);
+  }
+  return spline_level_set(coefficients);
+}
+
+template <int dim>
 LevelSet<dim> without_thin_walls(const LevelSet<dim>& psi, double wall) {
   return negative(without_narrow_gaps(negative(psi), wall));
 }
@@ -186,6 +230,21 @@ std::optional<ShapeEvent<dim>> small_hole(const LevelSet<dim>& psi, double gap) 
                          found.all[first].measure};
 }
 
+namespace {
+
+/// The sharpest of the internal corners with less than this radius, if there is one.
+template <int dim>
+std::optional<ShapeEvent<dim>> sharpest_corner(const LevelSet<dim>& psi, double radius) {
+  if (radius <= 0 || psi.lattice.degree() == 1) return {};
+  const auto corners = internal_corners(spline_coefficients(psi), 1 / (radius * (1 - rounding)));
+  if (corners.empty()) return {};
+  const auto& sharpest = *std::ranges::max_element(corners, {}, &EdgePoint<dim>::curvature);
+  return ShapeEvent<dim>{ShapeEventKind::sharp_corner_mended, sharpest.place,
+                         ball_measure<dim>(1 / sharpest.curvature)};
+}
+
+}  // namespace
+
 template <int dim>
 std::vector<ShapeEvent<dim>> narrowest_places(const LevelSet<dim>& psi, const FeatureSize& size) {
   std::vector<ShapeEvent<dim>> result;
@@ -197,14 +256,14 @@ std::vector<ShapeEvent<dim>> narrowest_places(const LevelSet<dim>& psi, const Fe
     const auto& least = *std::ranges::min_element(balls, {}, &MedialBall<dim>::radius);
     Vec<dim> place = polar<dim>(least.centre);
     if (place[1] < 0) place[1] += psi.lattice.grid().sector_angle();
-    const double r = least.radius, pi = std::numbers::pi;
-    result.push_back({kind, place, dim == 2 ? pi * r * r : 4 * pi / 3 * r * r * r});
+    result.push_back({kind, place, ball_measure<dim>(least.radius)});
   };
   add(ShapeEventKind::thin_wall_mended, Side::material, size.wall);
   const std::size_t n_walls = result.size();
   add(ShapeEventKind::narrow_gap_mended, Side::holes, size.gap);
   if (result.size() == n_walls)
     if (const auto hole = small_hole(psi, size.gap)) result.push_back(*hole);
+  if (const auto corner = sharpest_corner(psi, size.radius)) result.push_back(*corner);
   return result;
 }
 
@@ -213,12 +272,14 @@ LevelSet<dim> with_feature_size(const LevelSet<dim>& psi, const FeatureSize& siz
   LevelSet<dim> result = psi;
   if (size.gap > 0) result = without_narrow_gaps(result, size.gap);
   if (size.wall > 0) result = with_thick_walls(result, size.wall);
+  if (size.radius > 0) result = with_round_corners(result, size.radius);
   return result;
 }
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                \
   template LevelSet<dim> with_thick_walls(const LevelSet<dim>&, double);                            \
   template LevelSet<dim> without_narrow_gaps(const LevelSet<dim>&, double);                         \
+  template LevelSet<dim> with_round_corners(const LevelSet<dim>&, double);                          \
   template LevelSet<dim> without_thin_walls(const LevelSet<dim>&, double);                          \
   template std::optional<ShapeEvent<dim>> small_hole(const LevelSet<dim>&, double);                 \
   template std::vector<ShapeEvent<dim>> narrowest_places(const LevelSet<dim>&, const FeatureSize&); \

@@ -112,13 +112,11 @@ LevelSet<dim> spline_level_set(const LevelSet<dim>& coefficients) {
   });
 }
 
-std::array<double, 4> spline_weights(int degree, int cell, double xi, int n_vertices, bool is_periodic) {
-  const Lagrange1D shape(degree, xi);
-  if (degree == 1) return {0, shape.value[0], shape.value[1], 0};
-  const auto [first, middle, last] = shape.value;
-  std::array<double, 4> weight{
-      first / 6 + spline_outer * middle, 4 * first / 6 + spline_inner * middle + last / 6,
-      first / 6 + spline_inner * middle + 4 * last / 6, spline_outer * middle + last / 6};
+namespace {
+
+/// Weights of the vertices around a cell, where the vertices beyond the ends of an axis that is not periodic
+/// continue a straight line.
+std::array<double, 4> within(std::array<double, 4> weight, int cell, int n_vertices, bool is_periodic) {
   const auto continue_linearly = [&](int beyond, int end, int before) {
     weight[end] += 2 * weight[beyond];
     weight[before] -= weight[beyond];
@@ -129,9 +127,54 @@ std::array<double, 4> spline_weights(int degree, int cell, double xi, int n_vert
   return weight;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                    \
-  template LevelSet<dim> spline_coefficients(const LevelSet<dim>& psi); \
-  template LevelSet<dim> spline_level_set(const LevelSet<dim>& coefficients);
+}  // namespace
+
+std::array<double, 4> spline_weights(int degree, int cell, double xi, int n_vertices, bool is_periodic) {
+  const Lagrange1D shape(degree, xi);
+  if (degree == 1) return {0, shape.value[0], shape.value[1], 0};
+  const auto [first, middle, last] = shape.value;
+  return within({first / 6 + spline_outer * middle, 4 * first / 6 + spline_inner * middle + last / 6,
+                 first / 6 + spline_inner * middle + 4 * last / 6, spline_outer * middle + last / 6},
+                cell, n_vertices, is_periodic);
+}
+
+std::array<std::array<double, 4>, 4> spline_derivative_weights(int cell, double xi, int n_vertices,
+                                                               bool is_periodic) {
+  const double t = xi, s = 1 - xi;
+  std::array<std::array<double, 4>, 4> result{{
+      {s * s * s / 6, (4 - 6 * t * t + 3 * t * t * t) / 6, (4 - 6 * s * s + 3 * s * s * s) / 6,
+       t * t * t / 6},
+      {-s * s / 2, -2 * t + 1.5 * t * t, 2 * s - 1.5 * s * s, t * t / 2},
+      {s, -2 + 3 * t, -2 + 3 * s, t},
+      {-1, 3, -3, 1},
+  }};
+  for (auto& weight : result) weight = within(weight, cell, n_vertices, is_periodic);
+  return result;
+}
+
+template <int dim>
+void add_dependences(const Lattice<dim>& lattice, const std::array<int, dim>& cell, const Vec<dim>& xi,
+                     double factor, std::vector<Dependence>& to) {
+  std::array<std::array<double, 4>, dim> weights;
+  for (int d = 0; d < dim; ++d)
+    weights[d] = spline_weights(lattice.degree(), cell[d], xi[d], lattice.grid().cells[d] + 1, d == 1);
+  for (int k = 0; k < power(4, dim); ++k) {
+    std::array<int, dim> vertex;
+    double weight = factor;
+    int rest = k;
+    for (int d = 0; d < dim; ++d, rest /= 4) {
+      weight *= weights[d][rest % 4];
+      vertex[d] = lattice.degree() * (cell[d] + rest % 4 - 1);
+    }
+    if (weight != 0) to.push_back({lattice.node_index(vertex), weight});
+  }
+}
+
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                                    \
+  template LevelSet<dim> spline_coefficients(const LevelSet<dim>& psi);                                 \
+  template LevelSet<dim> spline_level_set(const LevelSet<dim>& coefficients);                           \
+  template void add_dependences<dim>(const Lattice<dim>&, const std::array<int, dim>&, const Vec<dim>&, \
+                                     double, std::vector<Dependence>&);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)
 #undef WHEELWRIGHT_INSTANTIATE

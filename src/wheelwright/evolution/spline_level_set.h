@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "wheelwright/geometry/level_set.h"
 
 namespace wheelwright {
@@ -25,5 +28,21 @@ LevelSet<dim> spline_level_set(const LevelSet<dim>& coefficients);
 /// vertices cell - 1, cell, cell + 1 and cell + 2 of `n_vertices`, zero for vertices that do not exist. For
 /// degree 1 the weights of the vertices' values.
 std::array<double, 4> spline_weights(int degree, int cell, double xi, int n_vertices, bool is_periodic);
+
+/// The derivatives of order 0 to 3 by xi of the spline itself, of which a level set of degree 2 has the
+/// values at the nodes: weights of the same coefficients, by order.
+std::array<std::array<double, 4>, 4> spline_derivative_weights(int cell, double xi, int n_vertices,
+                                                               bool is_periodic);
+
+/// How something depends on one of the coefficients: its node, and the derivative by it.
+struct Dependence {
+  int node;
+  double weight;
+};
+
+/// Adds how the level set at a point of the unit cell depends on its coefficients, times a factor.
+template <int dim>
+void add_dependences(const Lattice<dim>& lattice, const std::array<int, dim>& cell, const Vec<dim>& xi,
+                     double factor, std::vector<Dependence>& to);
 
 }  // namespace wheelwright

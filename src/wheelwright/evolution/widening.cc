@@ -11,7 +11,7 @@ namespace wheelwright {
 // With the multipliers x, the deformation is -sum x_i a_i, a_i the representatives of the loads, and x
 // minimizes x.Q x / 2 - gap.x, Q the products of the a_i, with x >= 0 for the widths.
 template <int dim>
-std::vector<double> widening(const DeformationSpace<dim>& space, const BoundaryMotion<dim>& ends,
+std::vector<double> widening(const DeformationSpace<dim>& space, const BoundaryMotion<dim>& motion,
                              const std::vector<Width<dim>>& widths,
                              const std::vector<std::vector<double>>& kept) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -20,9 +20,9 @@ std::vector<double> widening(const DeformationSpace<dim>& space, const BoundaryM
   BoxProgram dual{Matrix(0, 0), {}, {}, {}};
   dual.linear.assign(kept.size(), 0.0);
   dual.lower.assign(kept.size(), -infinite);
-  for (std::size_t k = 0; k < widths.size(); ++k) {
-    loads.push_back(gap_load<dim>(ends, widths, k));
-    dual.linear.push_back(-widths[k].gap());
+  for (const auto& width : widths) {
+    loads.push_back(gap_load<dim>(motion, width));
+    dual.linear.push_back(-width.gap());
     dual.lower.push_back(0);
   }
   const int n = static_cast<int>(loads.size());

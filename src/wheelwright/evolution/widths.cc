@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "wheelwright/evolution/closest_point.h"
+#include "wheelwright/evolution/edge_curvature.h"
 #include "wheelwright/evolution/medial_balls.h"
 #include "wheelwright/evolution/seeds.h"
 #include "wheelwright/geometry/cell_map.h"
@@ -14,33 +15,42 @@ namespace wheelwright {
 namespace {
 
 /// How far the places of widths of a kind are apart, by the resolution.
-constexpr double apart = 1;
+constexpr double apart(WidthKind kind) { return kind == WidthKind::corner ? 0.5 : 1; }
 
-/// Widths that exceed the least one by more than this part of it are not needed to the last digit.
+/// Widths that exceed the least one by more than this part of it are not needed to the last digit; corners
+/// are not needed at all.
 constexpr double critical = 0.2;
 
 template <int dim>
 struct NarrowPlace {
-  Side side;
-  MedialBall<dim> ball;
+  WidthKind kind;
+  Vec<dim> place;  ///< body frame [m]
   double gap;
+  MedialBall<dim> ball;   ///< of a wall, or a gap
+  EdgePoint<dim> corner;  ///< of a corner
 };
 
-/// The balls of both sides that are smaller than the least width and the reach allow, the most critical
-/// first.
+/// Whether a width grows as its ends move along the outward normals of the material, or shrinks.
+double outward_of(WidthKind kind) { return kind == WidthKind::wall ? 1 : -1; }
+
+Side side_of(WidthKind kind) { return kind == WidthKind::wall ? Side::material : Side::holes; }
+
+/// The balls of both sides that are smaller than the least width and the reach allow.
 template <int dim>
-std::vector<NarrowPlace<dim>> narrow_places(const MedialBalls<dim>& medial, const FeatureSize& size,
-                                            double reach) {
-  std::vector<NarrowPlace<dim>> places;
-  const auto add = [&](Side side, double least) {
-    if (least <= 0) return;
-    for (const auto& ball : medial.in(side, 0.5 * (least + reach)))
-      places.push_back({side, ball, 1 - 2 * ball.radius / least});
-  };
-  add(Side::material, size.wall);
-  add(Side::holes, size.gap);
-  std::ranges::stable_sort(places, std::ranges::greater(), &NarrowPlace<dim>::gap);
-  return places;
+void add_balls(const MedialBalls<dim>& medial, WidthKind kind, double least, double reach,
+               std::vector<NarrowPlace<dim>>& places) {
+  for (const auto& ball : medial.in(side_of(kind), 0.5 * (least + reach)))
+    places.push_back({kind, ball.centre, 1 - 2 * ball.radius / least, ball, {}});
+}
+
+/// The internal corners whose radius is smaller than the least one and the reach allow.
+template <int dim>
+void add_corners(const LevelSet<dim>& coefficients, double least, double reach,
+                 std::vector<NarrowPlace<dim>>& places) {
+  if (least <= 0 || coefficients.lattice.degree() == 1) return;
+  for (const auto& corner : internal_corners(coefficients, 1 / (least + std::min(reach, critical * least))))
+    places.push_back(
+        {WidthKind::corner, cartesian<dim>(corner.place), corner.curvature * least - 1, {}, corner});
 }
 
 /// The planes of symmetry between different nodes: in 2D everything is symmetric along the width.
@@ -78,19 +88,19 @@ std::vector<Vec<dim>> images_of(const PolarGrid<dim>& grid, const std::vector<Mi
 template <int dim>
 std::vector<NarrowPlace<dim>> thinned_out(const PolarGrid<dim>& grid, const std::vector<MirrorPlane>& planes,
                                           const std::vector<NarrowPlace<dim>>& places) {
-  const double near = std::pow(apart * grid.resolution(), 2);
   std::vector<NarrowPlace<dim>> result;
-  std::array<std::vector<Vec<dim>>, 2> taken;  // in the material, in the holes
+  std::array<std::vector<Vec<dim>>, 3> taken;  // by kind
   for (const auto& place : places) {
-    auto& of_kind = taken[place.side == Side::material ? 0 : 1];
+    auto& of_kind = taken[static_cast<std::size_t>(place.kind)];
+    const double near = std::pow(apart(place.kind) * grid.resolution(), 2);
     const auto is_near = [&](const Vec<dim>& other) {
       double square = 0;
-      for (int d = 0; d < dim; ++d) square += std::pow(other[d] - place.ball.centre[d], 2);
+      for (int d = 0; d < dim; ++d) square += std::pow(other[d] - place.place[d], 2);
       return square < near;
     };
     if (std::ranges::any_of(of_kind, is_near)) continue;
     result.push_back(place);
-    const auto images = images_of<dim>(grid, planes, place.ball.centre);
+    const auto images = images_of<dim>(grid, planes, place.place);
     of_kind.insert(of_kind.end(), images.begin(), images.end());
   }
   return result;
@@ -102,13 +112,6 @@ Vec<dim> in_units(const Lattice<dim>& lattice, const Vec<dim>& x) {
   Vec<dim> point = polar<dim>(x);
   point[0] -= lattice.grid().inner_radius;
   for (int d = 0; d < dim; ++d) point[d] /= lattice.spacing()[d];
-  return point;
-}
-
-/// The point of the sector of which this one is the image in some sector.
-template <int dim>
-Vec<dim> in_sector(const Lattice<dim>& lattice, Vec<dim> point) {
-  point[1] -= std::floor(point[1] / lattice.nodes()[1]) * lattice.nodes()[1];
   return point;
 }
 
@@ -141,22 +144,34 @@ std::optional<Chord<dim>> shortest_near(const CubicInterpolant<dim>& psi, const 
   return {};
 }
 
+/// How the value depends on the coefficients whose derivatives by the speeds of two ends of the boundary
+/// along their normals are these.
+template <int dim>
+std::vector<Dependence> dependence_on_ends(const CubicInterpolant<dim>& psi, const Chord<dim>& ends,
+                                           const std::array<double, 2>& by_speed) {
+  std::vector<Dependence> result;
+  for (int end = 0; end < 2; ++end)
+    for (const auto& [node, weight] : displacement<dim>(psi, ends[end]))
+      result.push_back({node, by_speed[end] * weight});
+  return result;
+}
+
 /// The width at the shortest chord, without the least one.
 template <int dim>
-Width<dim> width_of(const Lattice<dim>& lattice, const Chord<dim>& chord, double outward) {
-  const Vec<dim> p = cartesian_position<dim>(lattice, chord[0]),
-                 q = cartesian_position<dim>(lattice, chord[1]);
+Width<dim> width_of(const CubicInterpolant<dim>& psi, WidthKind kind, const Chord<dim>& chord) {
+  const Vec<dim> p = cartesian_position<dim>(psi.lattice(), chord[0]),
+                 q = cartesian_position<dim>(psi.lattice(), chord[1]);
+  const double outward = outward_of(kind);
   Vec<dim> middle, across;
   for (int d = 0; d < dim; ++d) {
     middle[d] = 0.5 * (p[d] + q[d]);
     across[d] = q[d] - p[d];
   }
-  return {.value = norm<dim>(across),
+  return {.kind = kind,
+          .value = norm<dim>(across),
           .least = 0,
           .place = polar<dim>(middle),
-          .is_wall = outward > 0,
-          .ends = {chord[0], chord[1]},
-          .slopes = {outward, outward}};
+          .slopes = dependence_on_ends<dim>(psi, chord, {outward, outward})};
 }
 
 /// The ball that touches the boundary at a point with this outward normal, and passes through another one.
@@ -185,7 +200,8 @@ TangentBall<dim> tangent_ball(const Vec<dim>& p, const Vec<dim>& normal, const V
 /// along the side's outward normal n there, and the second one by w along its own normal e, its radius r
 /// changes by dr with w + n.e (dr - v) - dr = 0, up to the turning of n.
 template <int dim>
-Width<dim> width_of_ball(const MedialBalls<dim>& medial, const MedialBall<dim>& given, double outward) {
+Width<dim> width_of_ball(const MedialBalls<dim>& medial, WidthKind kind, const MedialBall<dim>& given) {
+  const double outward = outward_of(kind);
   constexpr int turns = 3;
   constexpr double facing = -0.6;
   const Lattice<dim>& lattice = medial.interpolant().lattice();
@@ -203,36 +219,45 @@ Width<dim> width_of_ball(const MedialBalls<dim>& medial, const MedialBall<dim>& 
     second = *nearest;
   }
   const double slope = outward * 2 / (1 - ball.cosine);
-  return {.value = 2 * ball.radius,
+  return {.kind = kind,
+          .value = 2 * ball.radius,
           .least = 0,
           .place = polar<dim>(ball.centre),
-          .is_wall = outward > 0,
-          .ends = {medial.point(seed), second},
-          .slopes = {-ball.cosine * slope, slope}};
+          .slopes = dependence_on_ends<dim>(medial.interpolant(), {medial.point(seed), second},
+                                            {-ball.cosine * slope, slope})};
 }
 
 template <int dim>
-Width<dim> width_at(const MedialBalls<dim>& medial, const NarrowPlace<dim>& narrow, double least) {
-  const Lattice<dim>& lattice = medial.interpolant().lattice();
-  const double outward = narrow.side == Side::material ? 1 : -1;
+Width<dim> width_at(const MedialBalls<dim>& medial, const NarrowPlace<dim>& narrow) {
   const auto [seed, other] = narrow.ball.touched;
   std::optional<Chord<dim>> chord;
   if (narrow.gap > -critical)
     chord = shortest_near<dim>(medial.interpolant(), {medial.point(seed), medial.point(other)});
-  auto width =
-      chord ? width_of<dim>(lattice, *chord, outward) : width_of_ball<dim>(medial, narrow.ball, outward);
-  const double angle = lattice.grid().sector_angle();
-  width.place[1] -= std::floor(width.place[1] / angle) * angle;
-  for (auto& end : width.ends) end = in_sector<dim>(lattice, end);
-  width.least = least;
-  return width;
+  return chord ? width_of<dim>(medial.interpolant(), narrow.kind, *chord)
+               : width_of_ball<dim>(medial, narrow.kind, narrow.ball);
+}
+
+/// The radius at an internal corner, without the least one.
+template <int dim>
+Width<dim> radius_at(const LevelSet<dim>& coefficients, const EdgePoint<dim>& corner) {
+  auto slopes = curvature_dependence(coefficients, corner);
+  for (auto& [node, weight] : slopes) weight *= -1 / (corner.curvature * corner.curvature);
+  return {.kind = WidthKind::corner,
+          .value = 1 / corner.curvature,
+          .least = 0,
+          .place = corner.place,
+          .slopes = std::move(slopes)};
 }
 
 template <int dim>
 Width<dim> mirror_image(const Lattice<dim>& lattice, Width<dim> width, MirrorPlane plane) {
   const int axis = plane == MirrorPlane::azimuth ? 1 : dim - 1;
   const int n = lattice.nodes()[axis];
-  for (auto& end : width.ends) end[axis] = (axis == 1 ? n : n - 1) - end[axis];
+  for (auto& [node, weight] : width.slopes) {
+    auto position = lattice.node_position(node);
+    position[axis] = (axis == 1 ? n : n - 1) - position[axis];
+    node = lattice.node_index(position);
+  }
   const auto& grid = lattice.grid();
   if (plane == MirrorPlane::azimuth)
     width.place[1] = grid.sector_angle() - width.place[1];
@@ -241,17 +266,41 @@ Width<dim> mirror_image(const Lattice<dim>& lattice, Width<dim> width, MirrorPla
   return width;
 }
 
+double least_of(WidthKind kind, const FeatureSize& size) {
+  switch (kind) {
+    case WidthKind::wall:
+      return size.wall;
+    case WidthKind::gap:
+      return size.gap;
+    case WidthKind::corner:
+      break;
+  }
+  return size.radius;
+}
+
 }  // namespace
 
 template <int dim>
 std::vector<Width<dim>> narrow_widths(const LevelSet<dim>& psi, const FeatureSize& size, double reach) {
   if (!size.any()) return {};
-  const MedialBalls<dim> medial(psi);
+  std::optional<MedialBalls<dim>> medial;
+  if (size.wall > 0 || size.gap > 0) medial.emplace(psi);
+  const LevelSet<dim> coefficients = size.radius > 0 ? spline_coefficients(psi) : psi;
   const auto& grid = psi.lattice.grid();
+  std::vector<NarrowPlace<dim>> places;
+  if (size.wall > 0) add_balls(*medial, WidthKind::wall, size.wall, reach, places);
+  if (size.gap > 0) add_balls(*medial, WidthKind::gap, size.gap, reach, places);
+  add_corners(coefficients, size.radius, reach, places);
+  std::ranges::stable_sort(places, std::ranges::greater(), &NarrowPlace<dim>::gap);
   std::vector<Width<dim>> widths;
   const auto planes = mirrors(psi);
-  for (const auto& place : thinned_out<dim>(grid, planes, narrow_places<dim>(medial, size, reach)))
-    widths.push_back(width_at<dim>(medial, place, place.side == Side::material ? size.wall : size.gap));
+  for (const auto& place : thinned_out<dim>(grid, planes, places)) {
+    widths.push_back(place.kind == WidthKind::corner ? radius_at(coefficients, place.corner)
+                                                     : width_at<dim>(*medial, place));
+    Width<dim>& width = widths.back();
+    width.place[1] -= std::floor(width.place[1] / grid.sector_angle()) * grid.sector_angle();
+    width.least = least_of(place.kind, size);
+  }
   for (const MirrorPlane plane : planes)
     for (std::size_t k = widths.size(); k-- > 0;)
       widths.push_back(mirror_image<dim>(psi.lattice, widths[k], plane));
@@ -267,29 +316,18 @@ double largest_gap(const std::vector<Width<dim>>& widths) {
 }
 
 template <int dim>
-BoundaryMotion<dim> motion_of_ends(const BoundaryMotion<dim>& motion, const LevelSet<dim>& psi,
-                                   const std::vector<Width<dim>>& widths) {
-  std::vector<Vec<dim>> ends;
-  for (const auto& width : widths) ends.insert(ends.end(), width.ends.begin(), width.ends.end());
-  return motion.at(CubicInterpolant<dim>(psi), ends);
-}
-
-template <int dim>
-std::vector<double> gap_load(const BoundaryMotion<dim>& ends, const std::vector<Width<dim>>& widths,
-                             std::size_t width) {
-  std::vector<double> density(2 * widths.size());
-  for (std::size_t end = 0; end < 2; ++end)
-    density[2 * width + end] = -widths[width].slopes[end] / widths[width].least;
-  return ends.load(density);
+std::vector<double> gap_load(const BoundaryMotion<dim>& motion, const Width<dim>& width) {
+  const double by_value =
+      width.kind == WidthKind::corner ? -width.least / (width.value * width.value) : -1 / width.least;
+  std::vector<Dependence> gap = width.slopes;
+  for (auto& [node, weight] : gap) weight *= by_value;
+  return motion.load(gap);
 }
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                \
   template std::vector<Width<dim>> narrow_widths(const LevelSet<dim>&, const FeatureSize&, double); \
   template double largest_gap(const std::vector<Width<dim>>&);                                      \
-  template BoundaryMotion<dim> motion_of_ends(const BoundaryMotion<dim>&, const LevelSet<dim>&,     \
-                                              const std::vector<Width<dim>>&);                      \
-  template std::vector<double> gap_load(const BoundaryMotion<dim>&, const std::vector<Width<dim>>&, \
-                                        std::size_t);
+  template std::vector<double> gap_load(const BoundaryMotion<dim>&, const Width<dim>&);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)
 #undef WHEELWRIGHT_INSTANTIATE

@@ -5,26 +5,33 @@
 
 namespace wheelwright {
 
-/// The width of a wall, or of a gap, at one place, and how it changes as the boundary moves: the diameter of
-/// the ball there that touches the boundary on both sides; where that is about the least width or less, the
-/// length of the shortest chord nearby.
-template <int dim>
-struct Width {
-  double value;    ///< [m]
-  double least;    ///< that it may have [m]
-  Vec<dim> place;  ///< the middle of the ball: radius, azimuth[, axial], in the sector [m, rad[, m]]
-  bool is_wall;
-  std::array<Vec<dim>, 2>
-      ends;  ///< where it touches the boundary, in units of the node spacing, in the sector
-  std::array<double, 2> slopes;  ///< derivatives of the value by the speed of each end along its normal
-
-  /// How much is missing, relative to the least width; negative where there is more.
-  double gap() const { return 1 - value / least; }
+enum class WidthKind {
+  wall,    ///< of material
+  gap,     ///< of a hole
+  corner,  ///< the radius of an internal corner of a hole
 };
 
-/// Widths that exceed the least one by less than `reach` [m]. Of widths of a kind whose places are less than
-/// a cell apart it has the most critical only, and, where the shape is mirror-symmetric, its mirror images.
-/// The balls touch the boundary itself, not only the seeds on it, so that values and derivatives agree.
+/// The width of a wall, or of a gap, at one place, and how it changes with the shape: the diameter of the
+/// ball there that touches the boundary on both sides; where that is about the least width or less, the
+/// length of the shortest chord nearby. At an internal corner, the radius of the boundary there.
+template <int dim>
+struct Width {
+  WidthKind kind;
+  double value;    ///< [m]
+  double least;    ///< that it may have [m]
+  Vec<dim> place;  ///< of the middle of the ball, or of the corner: radius, azimuth[, axial], in the sector
+                   ///< [m, rad[, m]]
+  std::vector<Dependence> slopes;  ///< derivatives of the value by the coefficients of the shape's spline
+
+  /// How much is missing, relative to the least width; negative where there is more. At corners, how much
+  /// larger the curvature is than it may be, relative, which is about linear in the coefficients.
+  double gap() const { return kind == WidthKind::corner ? least / value - 1 : 1 - value / least; }
+};
+
+/// Widths that exceed the least one by less than `reach` [m]; corners by at most a fifth of the least radius.
+/// Of widths of a kind whose places are less than a cell apart, of corners half a cell, it has the most
+/// critical only, and, where the shape is mirror-symmetric, its mirror images. The balls touch the boundary
+/// itself, not only the seeds on it, so that values and derivatives agree.
 template <int dim>
 std::vector<Width<dim>> narrow_widths(const LevelSet<dim>& psi, const FeatureSize& size, double reach);
 
@@ -32,14 +39,8 @@ std::vector<Width<dim>> narrow_widths(const LevelSet<dim>& psi, const FeatureSiz
 template <int dim>
 double largest_gap(const std::vector<Width<dim>>& widths);
 
-/// The motion of the ends of all widths of a shape, two per width. `motion`: of that shape.
+/// The derivative of the gap() of a width by the deformation, as a load. `motion`: of the same shape.
 template <int dim>
-BoundaryMotion<dim> motion_of_ends(const BoundaryMotion<dim>& motion, const LevelSet<dim>& psi,
-                                   const std::vector<Width<dim>>& widths);
-
-/// The derivative of the gap() of one of the widths by the deformation, as a load.
-template <int dim>
-std::vector<double> gap_load(const BoundaryMotion<dim>& ends, const std::vector<Width<dim>>& widths,
-                             std::size_t width);
+std::vector<double> gap_load(const BoundaryMotion<dim>& motion, const Width<dim>& width);
 
 }  // namespace wheelwright

@@ -13,11 +13,12 @@ enum class ShapeEventKind {
   hole_vanished,
   holes_merged,
   hole_split,
-  hole_at_rim_band,    ///< a hole reached the protected band at the rim
-  hole_at_tread_band,  ///< a hole reached the protected band at the tread
-  island_removed,      ///< material that was not attached to the rim was removed
-  thin_wall_mended,    ///< a wall thinner than the least width was made thicker, or taken out
-  narrow_gap_mended,   ///< a gap narrower than the least width was filled
+  hole_at_rim_band,     ///< a hole reached the protected band at the rim
+  hole_at_tread_band,   ///< a hole reached the protected band at the tread
+  island_removed,       ///< material that was not attached to the rim was removed
+  thin_wall_mended,     ///< a wall thinner than the least width was made thicker, or taken out
+  narrow_gap_mended,    ///< a gap narrower than the least width was filled
+  sharp_corner_mended,  ///< an internal corner with less than the least radius was rounded
 };
 
 /// The kind as a word for logs and files, e.g. "holes_merged".
@@ -41,6 +42,8 @@ constexpr const char* to_string(ShapeEventKind kind) {
       return "thin_wall_mended";
     case ShapeEventKind::narrow_gap_mended:
       return "narrow_gap_mended";
+    case ShapeEventKind::sharp_corner_mended:
+      return "sharp_corner_mended";
   }
   return "unknown";
 }

@@ -266,14 +266,16 @@ typename ShapeOptimizer<dim>::Mending ShapeOptimizer<dim>::mend(OptimizationStat
 }
 
 /// A free descent splits holes that are only about two cells wide into slits to which no width can be given:
-/// a shape with such holes keeps the final widths from the beginning, if it has them.
+/// a shape with such holes keeps the final widths from the beginning, if it has them. Corners that are
+/// somewhat sharper, as splines make them of small disks, are rounded in the next shape.
 template <int dim>
 FinalWidths ShapeOptimizer<dim>::first_widths(const LevelSet<dim>& shape) const {
-  constexpr double small = 1.8;  // final widths
+  constexpr double small = 1.8, almost = 2.0 / 3;  // of the final widths
   const FeatureSize& widths = options_.final_widths;
   const bool has_small_holes =
       widths.gap > 0 && !narrowest_places(shape, {.wall = 0, .gap = small * widths.gap}).empty();
-  return has_small_holes && has_widths(shape, widths) ? FinalWidths::kept : FinalWidths::not_yet;
+  const FeatureSize needed{.wall = widths.wall, .gap = widths.gap, .radius = almost * widths.radius};
+  return has_small_holes && has_widths(shape, needed) ? FinalWidths::kept : FinalWidths::not_yet;
 }
 
 template <int dim>

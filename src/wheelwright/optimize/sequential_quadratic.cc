@@ -82,8 +82,7 @@ SequentialQuadraticProposals<dim>::SequentialQuadraticProposals(const Evolver<di
       constraints_(bound_constraints(state.evaluation)),
       widths_(narrow_widths(state.shape, widths_after(evolver.features(), options, state),
                             2 * state.step * state.shape.lattice.grid().resolution())),
-      motion_(evolver.deformations().motion_of(state.shape, state.evaluation.boundary)),
-      ends_(motion_of_ends(motion_, state.shape, widths_)) {
+      motion_(evolver.deformations().motion_of(state.shape, state.evaluation.boundary)) {
   const auto& space = evolver_.deformations();
   for (const auto& pair : state_.memory.pairs) pairs_.deformations.push_back(pair.move);
   for (const auto& pair : state_.memory.pairs) pairs_.deformations.push_back(pair.change);
@@ -91,16 +90,15 @@ SequentialQuadraticProposals<dim>::SequentialQuadraticProposals(const Evolver<di
   pairs_.known = pairs_.products();
 }
 
-/// The derivatives while these nodes are held, and the pairs.
+/// The derivatives under this motion, and the pairs.
 template <int dim>
 typename SequentialQuadraticProposals<dim>::Span SequentialQuadraticProposals<dim>::span_of(
-    const BoundaryMotion<dim>& motion, const std::vector<bool>& held) const {
+    const BoundaryMotion<dim>& motion) const {
   const auto& space = evolver_.deformations();
   Span span{.deformations = {},
             .loads = loads(motion, state_.shape, state_.evaluation, options_.objective, constraints_),
             .known = pairs_.known};
-  const auto ends = ends_.holding(held);
-  for (size_t k = 0; k < widths_.size(); ++k) span.loads.push_back(gap_load(ends, widths_, k));
+  for (const auto& width : widths_) span.loads.push_back(gap_load(motion, width));
   for (const auto& load : span.loads) span.deformations.push_back(space.representative(load));
   span.loads.insert(span.loads.end(), pairs_.loads.begin(), pairs_.loads.end());
   span.deformations.insert(span.deformations.end(), pairs_.deformations.begin(), pairs_.deformations.end());
@@ -127,7 +125,7 @@ template <int dim>
 Move<dim> SequentialQuadraticProposals<dim>::move_with(const std::vector<bool>& held, double step) const {
   const double measure = next_measure(options_, state_, step);
   const auto motion = motion_.holding(held);
-  const Span span = span_of(motion, held);
+  const Span span = span_of(motion);
   auto penalties = this->penalties();
   const auto found = step_in(motion, span, state_.measure - measure, step, penalties);
   auto deformation = combination(found.coefficients, span.deformations);

@@ -36,7 +36,7 @@ class SequentialQuadraticProposals final : public Proposals<dim> {
     Matrix products() const;
   };
 
-  Span span_of(const BoundaryMotion<dim>& motion, const std::vector<bool>& held) const;
+  Span span_of(const BoundaryMotion<dim>& motion) const;
   Move<dim> move_with(const std::vector<bool>& held, double step) const;
   QuadraticStep step_in(const BoundaryMotion<dim>& motion, const Span& span, double gap, double step,
                         std::vector<double>& penalties) const;
@@ -49,7 +49,6 @@ class SequentialQuadraticProposals final : public Proposals<dim> {
   std::vector<BoundConstraint> constraints_;
   std::vector<Width<dim>> widths_;  ///< that a step may bring below the least one
   BoundaryMotion<dim> motion_;      ///< of the state's shape
-  BoundaryMotion<dim> ends_;        ///< of the ends of the widths
   Span pairs_;                      ///< of the state's memory
 };
 

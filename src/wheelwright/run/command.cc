@@ -96,11 +96,11 @@ Obeyed NewWidths::obey(RunControl& run) const {
   const auto set = [&](const char* what, const std::optional<double>& width, std::optional<double>& place) {
     if (!width) return;
     place = *width != 0 ? width : std::nullopt;
-    words.push_back(*width != 0 ? fmt::format("{} {:.6g} m", what, *width)
-                                : fmt::format("{} of any width", what));
+    words.push_back(*width != 0 ? fmt::format("{} {:.6g} m", what, *width) : fmt::format("any {}", what));
   };
   set("wall", minimum_wall, c.optimizer.minimum_wall);
   set("gap", minimum_gap, c.optimizer.minimum_gap);
+  set("radius of corners", minimum_radius, c.optimizer.minimum_radius);
   return changed(run, c, fmt::format("new least widths: {}", fmt::join(words, ", ")));
 }
 

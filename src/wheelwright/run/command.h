@@ -105,9 +105,10 @@ struct NewVolume {
   Obeyed obey(RunControl& run) const;
 };
 
-/// Another thinnest wall and narrowest gap [m]; 0 allows any. What is absent does not change.
+/// Another thinnest wall, narrowest gap and smallest radius of internal corners [m]; 0 allows any. What is
+/// absent does not change.
 struct NewWidths {
-  std::optional<double> minimum_wall = {}, minimum_gap = {};
+  std::optional<double> minimum_wall = {}, minimum_gap = {}, minimum_radius = {};
 
   Obeyed obey(RunControl& run) const;
 };

@@ -59,6 +59,7 @@ template <class Visit>
 void fields(Is<NewWidths> auto& c, Visit&& visit) {
   visit("minimum_wall_m", c.minimum_wall);
   visit("minimum_gap_m", c.minimum_gap);
+  visit("minimum_radius_m", c.minimum_radius);
 }
 
 template <class Visit>

@@ -14,6 +14,12 @@ bool has_holes(const LevelSet<dim>& shape) {
   return std::ranges::any_of(shape.values, [](double value) { return value > 0; });
 }
 
+/// What a key of the case asks for with this value.
+using SizeOf = FeatureSize (*)(double value);
+FeatureSize with_wall(double wall) { return {.wall = wall}; }
+FeatureSize with_gap(double gap) { return {.gap = gap}; }
+FeatureSize with_radius(double radius) { return {.gap = 2 * radius, .radius = radius}; }
+
 /// The shape with a minimum width, and whether holes are left in it.
 template <int dim>
 class Mending {
@@ -26,13 +32,12 @@ class Mending {
   }
 
   /// Up to a sixteenth of the given width, which leaves none.
-  double widest_that_leaves_holes(double width, double FeatureSize::*kind) const {
+  double widest_that_leaves_holes(double width, SizeOf size_of) const {
     constexpr int bisections = 4;
     double leaves = 0, fills = width;
     for (int k = 0; k < bisections; ++k) {
-      FeatureSize size;
-      size.*kind = 0.5 * (leaves + fills);
-      (leaves_holes(size) ? leaves : fills) = size.*kind;
+      const double middle = 0.5 * (leaves + fills);
+      (leaves_holes(size_of(middle)) ? leaves : fills) = middle;
     }
     return leaves;
   }
@@ -51,18 +56,16 @@ std::optional<Failure> filled_holes(const LevelSet<dim>& initial, const Evolutio
   const Mending<dim> mending(initial, options.bands);
   if (mending.leaves_holes(asked)) return {};
   constexpr double mm = 1e3;
-  const auto fault = [&](const char* key, double FeatureSize::*kind) -> std::optional<Failure> {
-    FeatureSize size;
-    size.*kind = asked.*kind;
-    if (mending.leaves_holes(size)) return {};
-    return Failure{
-        FailureReason::too_narrow,
-        fmt::format("optimizer.{} = {:.4g} mm fills all holes of the initial shape; {:.4g} mm "
-                    "leaves some",
-                    key, asked.*kind * mm, mending.widest_that_leaves_holes(asked.*kind, kind) * mm)};
+  const auto fault = [&](const char* key, double value, SizeOf size_of) -> std::optional<Failure> {
+    if (value <= 0 || mending.leaves_holes(size_of(value))) return {};
+    return Failure{FailureReason::too_narrow,
+                   fmt::format("optimizer.{} = {:.4g} mm fills all holes of the initial shape; {:.4g} mm "
+                               "leaves some",
+                               key, value * mm, mending.widest_that_leaves_holes(value, size_of) * mm)};
   };
-  if (auto gap = fault("minimum_gap", &FeatureSize::gap)) return gap;
-  if (auto wall = fault("minimum_wall", &FeatureSize::wall)) return wall;
+  if (auto radius = fault("minimum_radius", asked.radius, with_radius)) return radius;
+  if (auto gap = fault("minimum_gap", asked.gap, with_gap)) return gap;
+  if (auto wall = fault("minimum_wall", asked.wall, with_wall)) return wall;
   return Failure{FailureReason::too_narrow,
                  fmt::format("optimizer.minimum_wall = {:.4g} mm and optimizer.minimum_gap = {:.4g} mm "
                              "together fill all holes of the initial shape; take less for one of them",

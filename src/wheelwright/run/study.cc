@@ -255,18 +255,25 @@ EvolutionOptions evolution_options(const Case& c) {
       kind == VelocityKind::vector ? DeformationKind::vector_field : DeformationKind::normal_speed;
   options.smoothing = c.optimizer.smoothing;
   options.bands = bands(c);
-  options.features = {.wall = c.optimizer.minimum_wall.value_or(0),
-                      .gap = c.optimizer.minimum_gap.value_or(0)};
+  options.features = {
+      .wall = c.optimizer.minimum_wall.value_or(0),
+      .gap = std::max(c.optimizer.minimum_gap.value_or(0), 2 * c.optimizer.minimum_radius.value_or(0)),
+      .radius = c.optimizer.minimum_radius.value_or(0)};
   return options;
 }
 
-/// One cell, where the case does not give widths for all shapes, and some more for what shapes miss of it.
+/// Walls of a cell, and some more for what shapes miss of it, gaps of one and a half cells and internal
+/// corners of half their width, where the case does not give these for all shapes. A gap that is given must
+/// have room for such corners. Level sets of degree 1 have no radius there, and gaps of about a cell.
 template <int dim>
 FeatureSize final_widths(const Case& c) {
-  constexpr double wall = 1.05, gap = 1.12;
-  const double cell = polar_grid<dim>(c).resolution();
-  return {.wall = c.optimizer.minimum_wall ? 0 : wall * cell,
-          .gap = c.optimizer.minimum_gap ? 0 : gap * cell};
+  constexpr double wall = 1.05, round_gap = 1.5, gap_of_degree_1 = 1.12;
+  const Optimizer& o = c.optimizer;
+  const bool is_round = level_set_degree(c) > 1;
+  const double cell = polar_grid<dim>(c).resolution(), gap = (is_round ? round_gap : gap_of_degree_1) * cell;
+  return {.wall = o.minimum_wall ? 0 : wall * cell,
+          .gap = o.minimum_gap ? 0 : gap,
+          .radius = o.minimum_radius || !is_round ? 0 : 0.5 * std::min(gap, o.minimum_gap.value_or(gap))};
 }
 
 template <int dim>

@@ -51,8 +51,9 @@ std::optional<Draft> draft(const DraftSpace& space, Random& random, int number) 
 DraftSpace draft_space(const Case& c, const StartRange& range) {
   const auto [inner, outer] = free_region(c);
   constexpr double thinnest = 1.5;  // cells
-  const double wall = std::max({thinnest * polar_grid<2>(c).resolution(),
-                                c.optimizer.minimum_wall.value_or(0), c.optimizer.minimum_gap.value_or(0)});
+  const double wall =
+      std::max({thinnest * polar_grid<2>(c).resolution(), c.optimizer.minimum_wall.value_or(0),
+                c.optimizer.minimum_gap.value_or(0), 2 * c.optimizer.minimum_radius.value_or(0)});
   return {inner, outer, wall, range.keeps_sectors ? c.wheel.sectors : 1};
 }
 

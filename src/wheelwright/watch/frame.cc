@@ -66,6 +66,7 @@ Json settings_json(const WatchedShape<dim>& shape) {
           {"volume_target", shape.target_measure / ring},
           {"minimum_wall_m", c.optimizer.minimum_wall.value_or(0)},
           {"minimum_gap_m", c.optimizer.minimum_gap.value_or(0)},
+          {"minimum_radius_m", c.optimizer.minimum_radius.value_or(0)},
           {"bounds", bounds_json(c)}};
 }
 

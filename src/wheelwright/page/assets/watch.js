@@ -790,6 +790,7 @@
       weight("stiff", "weight: stiff", "strain_energy", 0.01, 100),
       weight("even", "weight: even", "uniformity_dual", 1, 1e5),
       width("wall", "thinnest wall [mm]", "minimum_wall_m"), width("gap", "narrowest gap [mm]", "minimum_gap_m"),
+      width("radius", "radius of corners [mm]", "minimum_radius_m"),
       ...frame.settings.bounds.flatMap((bound, k) => Object.keys(relations).filter((relation) => relation in bound)
         .map((relation) => limit(k, bound, relation))),
     ];
