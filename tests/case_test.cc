@@ -909,7 +909,7 @@ TEST(Conflicts, NearlyIncompressibleMaterialNeedsDegreeTwo) {
   }
 }
 
-// Of splines only, in holes and rings that are wide enough.
+// Only splines have such a radius, and only holes and rings that are wide enough leave room for it.
 TEST(Conflicts, ALeastRadiusNeedsEdgesAndHolesThatCanHaveIt) {
   Case c =
       parse_case(

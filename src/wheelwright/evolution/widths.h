@@ -29,9 +29,9 @@ struct Width {
 };
 
 /// Widths that exceed the least one by less than `reach` [m]; corners by at most a fifth of the least radius.
-/// Of widths of a kind whose places are less than a cell apart, of corners half a cell, it has the most
-/// critical only, and, where the shape is mirror-symmetric, its mirror images. The balls touch the boundary
-/// itself, not only the seeds on it, so that values and derivatives agree.
+/// Where widths of a kind are less than a cell apart (corners: half a cell), only the most critical one is
+/// returned. Where the shape is mirror-symmetric, its mirror images are returned too. The balls touch the
+/// boundary itself, not only the seeds on it, so that values and derivatives agree.
 template <int dim>
 std::vector<Width<dim>> narrow_widths(const LevelSet<dim>& psi, const FeatureSize& size, double reach);
 

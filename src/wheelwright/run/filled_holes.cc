@@ -14,7 +14,7 @@ bool has_holes(const LevelSet<dim>& shape) {
   return std::ranges::any_of(shape.values, [](double value) { return value > 0; });
 }
 
-/// What a key of the case asks for with this value.
+/// Returns the widths that a key of the case asks for with this value.
 using SizeOf = FeatureSize (*)(double value);
 FeatureSize with_wall(double wall) { return {.wall = wall}; }
 FeatureSize with_gap(double gap) { return {.gap = gap}; }
