@@ -409,7 +409,7 @@ TEST_F(Exploration, DrawsAsManyStartsAsThereIsTimeFor) {
   int n_starts = 0;
   bool has_ended = false;
   settings.must_end = [&] { return n_starts == 3; };
-  settings.told = [&](const DrawingProgress& progress) {
+  settings.report = [&](const DrawingProgress& progress) {
     n_starts = progress.n_starts;
     has_ended = progress.has_ended;
   };

@@ -602,7 +602,7 @@ class Command(unittest.TestCase):
         self.assertIn("cannot be read", wheelwright("export", self.fresh() / "none.toml", code=2))
         folder = self.fresh()
         (folder / "case.toml").write_bytes((self.run_folder / "case.toml").read_bytes())
-        self.assertIn("no checkpoint can be used", wheelwright("export", folder, code=6))
+        self.assertIn("no usable checkpoint", wheelwright("export", folder, code=6))
 
     def test_nothing_is_overwritten_without_force(self):
         folder = self.fresh()

@@ -35,7 +35,7 @@ TEST_F(LongRun, IsShownByEvenlyThinnedShapesEachWithItsOwnNumbers) {
   const auto run = report_of_folder<2>(folder(), source_);
   EXPECT_EQ(run.trials, last_shape + 1 + (last_shape + 1) / 3);
   EXPECT_EQ(run.rejected.at("objective_rose"), (last_shape + 1) / 3);
-  ASSERT_EQ(run.events.size() + run.events_left_out, 1001u);
+  ASSERT_EQ(run.events.size() + run.events_omitted, 1001u);
   EXPECT_EQ(run.events.size(), 400u);
   EXPECT_EQ(run.events.front().shape, std::to_string(5002 - 399 * 5));
   EXPECT_EQ(run.events.back().shape, "5002");

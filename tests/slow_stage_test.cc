@@ -5,7 +5,7 @@
 namespace wheelwright {
 namespace {
 
-std::string told(double seconds_until, double seconds_of_stage) {
+std::string printed(double seconds_until, double seconds_of_stage) {
   ::testing::internal::CaptureStderr();
   {
     const SlowStage stage("solving", seconds_until);
@@ -14,9 +14,9 @@ std::string told(double seconds_until, double seconds_of_stage) {
   return ::testing::internal::GetCapturedStderr();
 }
 
-TEST(SlowStage, IsToldOnceIfItLasts) { EXPECT_EQ(told(0, 0.5), "solving ...\n"); }
+TEST(SlowStage, IsPrintedOnceIfItLasts) { EXPECT_EQ(printed(0, 0.5), "solving ...\n"); }
 
-TEST(SlowStage, IsSilentAndEndsAtOnceIfItIsShort) { EXPECT_EQ(told(1e6, 0), ""); }
+TEST(SlowStage, IsSilentAndEndsAtOnceIfItIsShort) { EXPECT_EQ(printed(1e6, 0), ""); }
 
 }  // namespace
 }  // namespace wheelwright

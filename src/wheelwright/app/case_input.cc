@@ -16,8 +16,8 @@
 namespace wheelwright {
 namespace {
 
-/// For the rest of the program: where a limit is lifted TBB starts threads, and ends the program when there
-/// is no memory for them. The pointer stays, so that the leak sanitizer finds what it holds.
+/// Holds for the rest of the program: TBB starts threads when a limit is lifted, and aborts if there is no
+/// memory for them. The pointer is kept so that the leak sanitizer finds the object.
 void limit_threads(int n_threads) {
   static const ThreadLimit* volatile limit = new ThreadLimit(n_threads);
   static_cast<void>(limit);
@@ -25,10 +25,11 @@ void limit_threads(int n_threads) {
 
 }  // namespace
 
-std::optional<Case> read_or_tell(const std::filesystem::path& file) {
+std::optional<Case> read_or_report(const std::filesystem::path& file) {
   if (file.extension() == std::filesystem::path(saved_shape_file).extension()) {
-    tell(
-        "{}: a saved shape has no load and no material: name it in a case, by [shape] from = \"{}\", or give "
+    print_err(
+        "{}: a saved shape has no load and no material: refer to it in a case by [shape] from = \"{}\", or "
+        "pass "
         "the "
         "folder of its run\n",
         file.string(), file.string());
@@ -36,16 +37,16 @@ std::optional<Case> read_or_tell(const std::filesystem::path& file) {
   }
   CaseResult result = read_case(file);
   if (result.value) return std::move(result.value);
-  constexpr std::size_t most_told = 100;
+  constexpr std::size_t max_shown = 100;
   const std::size_t n = result.problems.size();
-  for (std::size_t i = 0; i < std::min(n, most_told); ++i) tell("{}\n", result.problems[i].text());
-  const std::string more = n > most_told ? fmt::format("; {} of them are not shown", n - most_told) : "";
-  tell("{}\n", styled(stderr, Style::red,
-                      fmt::format("{}: {} problem{}{}", file.string(), n, n == 1 ? "" : "s", more)));
+  for (std::size_t i = 0; i < std::min(n, max_shown); ++i) print_err("{}\n", result.problems[i].text());
+  const std::string more = n > max_shown ? fmt::format("; {} of them are not shown", n - max_shown) : "";
+  print_err("{}\n", styled(stderr, Style::red,
+                           fmt::format("{}: {} problem{}{}", file.string(), n, n == 1 ? "" : "s", more)));
   return {};
 }
 
-void tell_warning(const std::string& wheel, const std::string& text) {
+void warn_about(const std::string& wheel, const std::string& text) {
   print_warning(stderr, fmt::format("{}: {}", wheel, text));
 }
 
@@ -59,20 +60,20 @@ void print_warnings(std::FILE* stream, const Case& c) {
 
 bool may_compute(const std::string& command, const Case& c, const std::filesystem::path& file,
                  std::optional<int> threads) {
-  for (const std::string& text : warnings(c)) tell_warning(file.string(), text);
+  for (const std::string& text : warnings(c)) warn_about(file.string(), text);
   const int n_threads = threads.value_or(static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
   for (const auto& lack :
        {lack_of_memory(c, available_memory()), lack_of_address_space(c, n_threads, address_space_left())}) {
     if (!lack) continue;
-    tell("wheelwright {}: {}: {}\n", command, file.string(), *lack);
+    print_err("wheelwright {}: {}: {}\n", command, file.string(), *lack);
     return false;
   }
   if (threads) limit_threads(*threads);
   return true;
 }
 
-int tell_failure(const std::string& command, const Failure& failure) {
-  tell("wheelwright {}: {}: {}\n", command, to_string(failure.reason), failure.detail);
+int report_failure(const std::string& command, const Failure& failure) {
+  print_err("wheelwright {}: {}: {}\n", command, to_string(failure.reason), failure.detail);
   return exit_no_solution;
 }
 

@@ -14,12 +14,12 @@ std::string text(const ContactProgress& progress) {
                      progress.n_positions, progress.newton_steps);
 }
 
-Interrupt tell_contact_progress() {
+Interrupt print_contact_progress() {
   constexpr double seconds_between = 2;
   return Interrupt({}, [watch = std::make_shared<Stopwatch>()](const ContactProgress& progress) {
     if (watch->seconds() < seconds_between) return;
     watch->lap();
-    tell("{}\n", text(progress));
+    print_err("{}\n", text(progress));
   });
 }
 

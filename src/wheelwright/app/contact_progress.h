@@ -9,8 +9,8 @@ namespace wheelwright {
 /// "contact: load position 3 of 8, 120 steps so far".
 std::string text(const ContactProgress& progress);
 
-/// For commands that solve one shape: never requested; tells on standard error how far the contact is, every
-/// two seconds.
-Interrupt tell_contact_progress();
+/// For commands that solve one shape: an interrupt that is never requested and prints the progress of the
+/// contact solver on standard error every two seconds.
+Interrupt print_contact_progress();
 
 }  // namespace wheelwright

@@ -52,7 +52,7 @@ std::string content(const fs::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// The ranked quantity that tells how well a minimized one was minimized.
+/// The ranked quantity that corresponds to the minimized one.
 std::string_view word_of_minimized(Quantity minimized) {
   switch (minimized) {
     case Quantity::volume_fraction:
@@ -68,18 +68,17 @@ std::string_view word_of_minimized(Quantity minimized) {
 }  // namespace
 
 void DesignOptions::declare(Options& options) {
-  add_output(options, output, "Folder of the results, instead of the case's output.folder with an ending");
+  add_output(options, output, "Folder for the results, instead of the case's output.folder with a suffix");
   std::vector<std::string> known;
   for (const RankedQuantity& quantity : ranked_quantities())
     known.push_back(fmt::format("{} [{}]", quantity.word, quantity.shown.name));
-  options.text(
-      "--for", "QUANTITY,...", quantities, check_quantities,
-      fmt::format("By what designs are ranked and drawn, without it what the case minimizes, or stiffness, "
-                  "and run_out; known: {}",
-                  fmt::join(known, ", ")));
+  options.text("--for", "QUANTITY,...", quantities, check_quantities,
+               fmt::format("Quantities by which designs are ranked and plotted; default: what the case "
+                           "minimizes, or stiffness, and run_out; known: {}",
+                           fmt::join(known, ", ")));
   constexpr int most_seconds = 10'000'000;
   options.number("--seconds", seconds, {1, most_seconds},
-                 "Begin no further design after so much time; without it the number of designs decides");
+                 "Start no further design after this time; default: no limit");
   add_threads(options, threads);
 }
 
@@ -116,19 +115,21 @@ bool DesignSession::may_begin() {
                                     lock_file};
   const auto foreign = WrittenFiles(folder_).foreign(names);
   if (!foreign.empty()) {
-    tell("{}: {}: already there, and not written by this program; choose another folder with --output\n",
-         folder_.string(), fmt::format("{}", fmt::join(foreign, ", ")));
+    print_err(
+        "{}: {}: already exists, and was not written by this program; choose another folder with --output\n",
+        folder_.string(), fmt::format("{}", fmt::join(foreign, ", ")));
     return false;
   }
   auto lock = FolderLock::acquire(folder_);
   if (!lock) {
-    tell("{}: {} is writing to this folder; wait for it, or choose another folder with --output\n",
-         folder_.string(), to_string(lock.failure()));
+    print_err("{}: {} is writing to this folder; wait for it, or choose another folder with --output\n",
+              folder_.string(), to_string(lock.failure()));
     return false;
   }
   if (is_there(folder_ / settings_file) && content(folder_ / settings_file) != settings_) {
-    tell(
-        "{}: holds designs of another case or of other options, as its {} tells; choose another folder with "
+    print_err(
+        "{}: contains designs of another case or of other options, according to its {}; choose another "
+        "folder with "
         "--output, or remove this one\n",
         folder_.string(), settings_file);
     return false;
@@ -144,12 +145,13 @@ DrawingSettings DesignSession::drawing_settings(int n_starts) const {
   constexpr double seconds_between = 2;
   DrawingSettings settings;
   settings.must_end = [this] { return signals_.stop() || is_time_over(); };
-  settings.told = [n_starts, last = Stopwatch()](const DrawingProgress& progress) mutable {
+  settings.report = [n_starts, last = Stopwatch()](const DrawingProgress& progress) mutable {
     const bool is_complete = progress.n_starts == n_starts;
     if (progress.has_ended ? is_complete : last.seconds() < seconds_between) return;
     last.lap();
     const std::string failed = to_string(progress.failed);
-    tell("starts drawn: {} of {}{}{}\n", progress.n_starts, n_starts, failed.empty() ? "" : "; ", failed);
+    print_err("starts generated: {} of {}{}{}\n", progress.n_starts, n_starts, failed.empty() ? "" : "; ",
+              failed);
   };
   return settings;
 }
@@ -163,11 +165,11 @@ RunSettings DesignSession::run_settings(std::size_t n_designs) const {
   settings.stop_requested = [this] { return signals_.stop().has_value(); };
   settings.may_begin = [this] { return !is_time_over(); };
   settings.done = [this, n_designs, n_done = 0](const Design& design, const DesignResult& result) mutable {
-    tell("{:>3}/{}  ", ++n_done, n_designs);
+    print_err("{:>3}/{}  ", ++n_done, n_designs);
     show(design, result);
   };
   settings.left_out = [](const Design& design, const std::string& why) {
-    tell("{} {}: left out: {}\n", design.name, design.text, why);
+    print_err("{} {}: left out: {}\n", design.name, design.text, why);
   };
   return settings;
 }
@@ -178,23 +180,23 @@ void DesignSession::show(const Design& design, const DesignResult& result) const
     if (!result.numbers.empty())
       numbers += fmt::format(", {} {:.5g} {}", quantity.word, result.value(quantity) * quantity.shown.factor,
                              quantity.shown.name);
-  tell("{} {}: {} shapes, {}{}\n", design.name, design.text, result.shapes, text_of_stop(result.status),
-       numbers);
+  print_err("{} {}: {} shapes, {}{}\n", design.name, design.text, result.shapes, text_of_stop(result.status),
+            numbers);
 }
 
 int DesignSession::run(std::size_t n_designs, const Work& work) const {
   const ThreadLimit one_thread_each(1);
   const std::vector<RatedDesign> designs = work(run_settings(n_designs));
   if (const auto signal = signals_.stop()) {
-    tell("stopped, saved; to go on, give the same command again\n");
+    print_err("stopped and saved; to continue, give the same command again\n");
     return designs.empty() ? exit_nothing_saved : 128 + *signal;
   }
   const auto order = write_designs(folder_, name_, designs, quantities_, run_title(case_));
   print_lines(stdout, designs_table(order, quantities_, printed_rows));
-  print("\n{} designs, * worse than no other one\n", order.size());
-  for (const auto& [file, meaning] : {std::pair{name_ + ".html", "all of them, for a browser"},
+  print("\n{} designs, *: beaten by no other one\n", order.size());
+  for (const auto& [file, meaning] : {std::pair{name_ + ".html", "all designs, for a browser"},
                                       {std::string(pareto_picture), "the picture"},
-                                      {name_ + ".csv", "the numbers; .json too"},
+                                      {name_ + ".csv", "the numbers, also as .json"},
                                       {std::string(folder_of_designs), "one run per design"}})
     print("  {:<36} {}\n", (folder_ / file).string(), meaning);
   if (std::ranges::any_of(order, [](const RankedDesign& one) { return one.front > 0; })) return exit_done;
@@ -203,11 +205,11 @@ int DesignSession::run(std::size_t n_designs, const Work& work) const {
   return any_result ? exit_infeasible : exit_no_solution;
 }
 
-bool is_plane_or_tell(const std::string& command, const Case& c, const std::string& file) {
+bool is_plane_or_report(const std::string& command, const Case& c, const std::string& file) {
   if (c.wheel.dimension == 2) return true;
-  tell(
-      "wheelwright {}: {}: this command tries many designs, each of which takes minutes to hours in 3D; take "
-      "wheel.dimension = 2, and begin a case in 3D with the best design, by [shape] from\n",
+  print_err(
+      "wheelwright {}: {}: this command tries many designs, each of which takes minutes to hours in 3D; set "
+      "wheel.dimension = 2, and start a case in 3D from the best design, by [shape] from\n",
       command, file);
   return false;
 }

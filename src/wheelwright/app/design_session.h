@@ -23,31 +23,31 @@ struct DesignOptions {
   /// --output, --for, --seconds, --threads
   void declare(Options& options);
 
-  /// The quantities that --for names; without it they are what the case minimizes, if that is one of them, or
-  /// else stiffness, and run-out, or the radial force variation where the travel is prescribed.
+  /// The quantities named by --for. Default: what the case minimizes, if it is one of them, or else
+  /// stiffness; and run-out, or the radial force variation if the travel is prescribed.
   std::vector<RankedQuantity> chosen_quantities(const Case& c) const;
   int n_threads() const;
 };
 
-/// Many designs of one case in a folder of the command's own, on the terminal.
+/// The run of many designs of one case, in the command's own folder, with messages on the terminal.
 class DesignSession {
  public:
   using Work = std::function<std::vector<RatedDesign>(const RunSettings&)>;
 
-  /// `name` is that of the files that are written: explore, sweep. `settings` is all that the designs follow
-  /// from, as text. The time of --seconds begins now. `signals` must outlive this.
+  /// `name` is the name of the files: explore or sweep. `settings` is everything that determines the designs,
+  /// as text. The time of --seconds starts now. `signals` must outlive this.
   DesignSession(std::string name, std::filesystem::path folder, const DesignOptions& options, const Case& c,
                 const Signals& signals, std::string settings);
 
-  /// Whether the folder is free, or holds this session, which continues then. The folder is locked until this
-  /// ends. Tells if not: the command ends with exit_refused. Throws OutputError.
+  /// Whether the folder is free or contains this session, which then continues. Locks the folder for the
+  /// lifetime of this object. Otherwise prints why: the command ends with exit_refused. Throws OutputError.
   bool may_begin();
 
-  /// How `n_starts` starts are drawn: until a signal comes or the time of --seconds is over. Tells of the
-  /// attempts that failed where that takes long or leaves fewer starts.
+  /// Settings to generate `n_starts` starts until a signal arrives or the time of --seconds is over. Reports
+  /// failed attempts if generation takes long or yields fewer starts.
   DrawingSettings drawing_settings(int n_starts) const;
 
-  /// Runs the designs, writes what is told about them, and prints the best. Returns an ExitCode. Throws
+  /// Runs the designs, writes their page and tables, and prints the best. Returns an ExitCode. Throws
   /// OutputError.
   int run(std::size_t n_designs, const Work& work) const;
 
@@ -67,10 +67,10 @@ class DesignSession {
   std::optional<FolderLock> lock_;
 };
 
-/// Whether a case is one in the plane. Tells if not: the command ends with exit_refused.
-bool is_plane_or_tell(const std::string& command, const Case& c, const std::string& file);
+/// Whether a case is in 2D. If not, prints a message: the command ends with exit_refused.
+bool is_plane_or_report(const std::string& command, const Case& c, const std::string& file);
 
-/// The case's folder with an ending, e.g. runs/wheel-explore, unless --output gives another one.
+/// The case's folder with a suffix, e.g. runs/wheel-explore, unless --output gives another one.
 std::filesystem::path folder_for(const DesignOptions& options, const Case& c, const std::string& ending);
 
 }  // namespace wheelwright

@@ -10,7 +10,7 @@ template <int dim>
 int execute(Run<dim>& run, Signals& signals, Detail detail) {
   CommandQueue commands;
   commands.add_source([&signals] { return signals.next_command(); });
-  tell_on_terminal(run, detail);
+  show_on_terminal(run, detail);
   return report_result(run.execute(commands), run.folder(), signals);
 }
 

@@ -8,15 +8,14 @@
 
 namespace wheelwright {
 
-// A run on the terminal: with its progress, commanded by signals. Both return an ExitCode and throw
-// OutputError.
+// Runs with progress on the terminal, controlled by signals. Both return an ExitCode and throw OutputError.
 
 /// Optimizes the case and writes the folder.
 int begin_run(const Case& c, const std::filesystem::path& folder, Signals& signals,
               Detail detail = Detail::progress);
 
-/// Continues the run in a folder from its newest checkpoint that can be used, or from the beginning if it was
-/// stopped before its first; `c` is that folder's case.
+/// Continues the run in a folder from its newest usable checkpoint, or from the start if it was stopped
+/// before the first; `c` is the case of that folder.
 int resume_run(const Case& c, const std::filesystem::path& folder, Signals& signals,
                Detail detail = Detail::progress);
 

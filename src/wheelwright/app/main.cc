@@ -28,10 +28,10 @@ constexpr const char* exit_codes =
     "checks, or "
     "there is too little memory\n"
     "  5    a file could not be written\n"
-    "  6    no checkpoint can be used\n"
-    "  7    done, but the results differ from those that the case expects\n"
-    "  8    stopped before the first shape was saved: there is nothing to go on from\n"
-    "  9    done, but the last shape does not keep every bound of the case\n"
+    "  6    no usable checkpoint\n"
+    "  7    done, but the results differ from the expected ones of the case\n"
+    "  8    stopped before the first shape was saved: nothing to resume\n"
+    "  9    done, but the last shape violates a bound of the case\n"
     "  129  stopped by SIGHUP (the terminal was closed); the run can be resumed\n"
     "  130  stopped by SIGINT (Ctrl-C); the run can be resumed\n"
     "  143  stopped by SIGTERM or by a file STOP in the run's folder; the run can be resumed";
@@ -64,11 +64,11 @@ int parse_and_run(int argc, char** argv) {
   return guarded("wheelwright " + name, [&] { return (*chosen)->run(); });
 }
 
-/// Lost output, e.g. on a full disk, turns success into failure.
+/// Turns success into failure if output is lost, e.g. on a full disk.
 int after_flushing(int code) {
   const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout);
   if (!lost) return code;
-  tell("wheelwright: standard output cannot be written\n");
+  print_err("wheelwright: standard output cannot be written\n");
   return code == exit_done ? exit_input_output : code;
 }
 

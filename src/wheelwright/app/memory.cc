@@ -15,7 +15,7 @@ namespace {
 
 using Path = std::filesystem::path;
 
-/// The names of a control group's files, which hold bytes.
+/// The names of a control group's files, whose values are in bytes.
 struct GroupFiles {
   const char *limit, *used, *reclaimable_name;  ///< the last is a line of memory.stat
 };
@@ -28,7 +28,7 @@ std::optional<double> number_in(const Path& file) {
   return std::ifstream(file) >> value ? std::optional(value) : std::nullopt;
 }
 
-/// The number after a name at the beginning of a line.
+/// The number after a name at the start of a line.
 std::optional<double> number_of(const Path& file, std::string_view name) {
   std::ifstream in(file);
   std::string first;
@@ -57,7 +57,7 @@ std::optional<double> left_by_groups(const Path& top, const Path& group, const G
   }
 }
 
-/// Whether a comma-separated list holds a word.
+/// Whether a comma-separated list contains a word.
 bool lists(std::string_view list, std::string_view word) {
   return fmt::format(",{},", list).find(fmt::format(",{},", word)) != std::string::npos;
 }
@@ -97,12 +97,12 @@ std::optional<double> address_space_left(const Path& root) {
 }
 
 std::optional<std::string> lack_of_address_space(const Case& c, int n_threads, std::optional<double> left) {
-  constexpr double per_thread = 200e6;  // stack, heap of its own, buffers of BLAS
+  constexpr double per_thread = 200e6;  // stack, own heap, buffers of BLAS
   const double needed = estimated_memory(c) + per_thread * n_threads;
   if (!left || needed <= *left) return {};
   return fmt::format(
       "it may need {:.0f} MB of address space on {} threads, but `ulimit -v` leaves {:.0f} MB; raise that "
-      "limit, or take fewer --threads",
+      "limit, or use fewer --threads",
       needed / 1e6, n_threads, *left / 1e6);
 }
 
@@ -110,7 +110,7 @@ std::optional<std::string> lack_of_memory(const Case& c, std::optional<double> a
   const double needed = estimated_memory(c);
   if (!available || needed <= *available) return {};
   return fmt::format(
-      "it needs about {:.0f} MB of memory, but only {:.0f} MB are available; take fewer cells or load "
+      "it needs about {:.0f} MB of memory, but only {:.0f} MB are available; use fewer cells or load "
       "positions, or more sectors",
       needed / 1e6, *available / 1e6);
 }

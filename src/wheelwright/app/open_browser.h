@@ -6,8 +6,8 @@
 
 namespace wheelwright {
 
-/// A file that leads a browser to an address, readable by this user alone and removed with this object: the
-/// address stands in no process list and no log.
+/// A file that redirects a browser to an address, readable only by this user and removed with this object, so
+/// that the address appears in no process list and no log.
 class AddressFile {
  public:
   /// Throws std::system_error.
@@ -22,7 +22,7 @@ class AddressFile {
   std::filesystem::path folder_, file_;
 };
 
-/// Shows the file in the user's browser, where there is a desktop with one; whether that was tried.
+/// Opens the file in the user's browser if there is a desktop; returns whether it tried.
 bool open_browser(const std::filesystem::path& file);
 
 }  // namespace wheelwright

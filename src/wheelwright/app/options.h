@@ -11,33 +11,33 @@ class App;
 
 namespace wheelwright {
 
-/// Declares the arguments and options of one command to the parser. Each value is a reference to where the
-/// parser writes it; the parser refuses a command line with a value that is not allowed. This hides the
-/// parser's header, which takes seconds to compile.
+/// Declares the arguments and options of one command to the parser. The parser writes each value to the given
+/// reference, and rejects a command line with a value that is not allowed. This hides the parser's header,
+/// which takes seconds to compile.
 class Options {
  public:
-  /// What is wrong with a text; empty if nothing is.
+  /// Returns what is wrong with a text; empty if it is valid.
   using Check = std::function<std::string(const std::string&)>;
-  /// The least and the greatest number that are allowed.
+  /// The minimum and maximum allowed number.
   struct Limits {
     int low, high;
   };
 
   explicit Options(CLI::App& app) : app_(app) {}
 
-  /// An argument that the command needs.
+  /// A required argument.
   void argument(const std::string& name, std::string& value, const std::string& meaning);
   void argument(const std::string& name, std::string& value, const Check& check, const std::string& meaning);
   /// At least `least` arguments.
   void arguments(const std::string& name, std::vector<std::string>& values, int least,
                  const std::string& meaning);
-  /// An argument that may be left out; --help shows the value that stands without it.
+  /// An optional argument; --help shows the current value as the default.
   void optional_argument(const std::string& name, std::string& value, const std::string& meaning);
 
-  /// --help shows the value that stands without the option.
+  /// --help shows the current value as the default.
   void number(const std::string& name, int& value, Limits limits, const std::string& meaning);
   void number(const std::string& name, std::optional<int>& value, Limits limits, const std::string& meaning);
-  /// `form` says in --help what the text looks like.
+  /// `form` describes the syntax in --help.
   void text(const std::string& name, const std::string& form, std::optional<std::string>& value,
             const Check& check, const std::string& meaning);
   void flag(const std::string& name, bool& value, const std::string& meaning);

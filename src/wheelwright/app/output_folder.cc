@@ -11,8 +11,8 @@ namespace wheelwright {
 bool may_write_to(const std::string& folder, std::span<const std::string_view> names) {
   const auto in_the_way = WrittenFiles(folder).standing(names);
   if (in_the_way.empty()) return true;
-  tell("{}: holds {} already; choose another folder, or move that away\n", folder,
-       fmt::format("{}", fmt::join(in_the_way, ", ")));
+  print_err("{}: already contains {}; choose another folder, or move it away\n", folder,
+            fmt::format("{}", fmt::join(in_the_way, ", ")));
   return false;
 }
 

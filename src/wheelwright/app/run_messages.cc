@@ -18,17 +18,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Tells what was expected and how it turned out.
+/// Prints expected and actual values.
 int report_findings(const std::vector<Finding>& findings) {
   const auto unmet = std::ranges::count_if(findings, [](const Finding& f) { return !f.met(); });
   if (!findings.empty())
     print("expected   {} of {} values found\n", findings.size() - unmet, findings.size());
   for (const Finding& finding : findings)
-    if (!finding.met()) tell("wheelwright: {}\n", finding.text());
+    if (!finding.met()) print_err("wheelwright: {}\n", finding.text());
   return unmet > 0 ? exit_unexpected : exit_done;
 }
 
-/// Tells which bounds the last shape keeps.
+/// Prints which bounds the last shape keeps.
 template <int dim>
 int report_bounds(const OptimizationState<dim>& state) {
   const auto bounds = bound_states(state.evaluation, state.memory.multipliers);
@@ -38,47 +38,46 @@ int report_bounds(const OptimizationState<dim>& state) {
       print("bound      {}\n", text(bound, state.shape.lattice.grid()));
       continue;
     }
-    tell("wheelwright: bound {}\n", text(bound, state.shape.lattice.grid()));
+    print_err("wheelwright: bound {}\n", text(bound, state.shape.lattice.grid()));
     code = exit_infeasible;
   }
   return code;
 }
 
-/// One overload for each reason not to begin.
+/// One overload for each reason not to start.
 template <int dim>
 struct NotBegunReport {
   const fs::path& folder;
 
   int operator()(const FolderInUse& in_use) const {
-    tell("{}: {} is writing to this folder\n", folder.string(), to_string(in_use));
+    print_err("{}: {} is writing to this folder\n", folder.string(), to_string(in_use));
     return exit_refused;
   }
   int operator()(const FolderHoldsARun&) const {
-    tell(
-        "{0}: holds a run already; `wheelwright resume {0}` goes on with it; for a new one choose another "
+    print_err(
+        "{0}: already contains a run; `wheelwright resume {0}` continues it; for a new one choose another "
         "folder with --output, or remove this one\n",
         folder.string());
     return exit_refused;
   }
   int operator()(const ForeignFiles& foreign) const {
-    tell(
-        "{}: {}: already there, and not in its list of files that runs wrote, so not replaced; move that "
-        "away, or "
+    print_err(
+        "{}: {}: already exists and was not written by a run, so it is not replaced; move it away, or "
         "choose another folder with --output\n",
         folder.string(), fmt::format("{}", fmt::join(foreign.names, ", ")));
     return exit_refused;
   }
   int operator()(const CheckpointsGone&) const {
-    tell("{}: its checkpoints are gone; it cannot go on\n", folder.string());
+    print_err("{}: its checkpoints are missing; it cannot continue\n", folder.string());
     return exit_checkpoint;
   }
   int operator()(const NoUsableCheckpoint& none) const {
     report_unusable(none.unusable);
-    tell("{}: no checkpoint can be used\n", folder.string());
+    print_err("{}: no usable checkpoint\n", folder.string());
     return exit_checkpoint;
   }
   int operator()(const CheckpointMisfit& misfit) const {
-    tell("{}: {}\n", folder.string(), misfit.reason);
+    print_err("{}: {}\n", folder.string(), misfit.reason);
     return exit_checkpoint;
   }
   int operator()(const AlreadyFinished<dim>& finished) const {
@@ -86,22 +85,22 @@ struct NotBegunReport {
     const Checkpoint<dim>& end = finished.end;
     print("{}: finished: {} shapes ({})\n", folder.string(), end.state.iteration, text(*end.finished));
     if (end.finished == StopReason::iterations)
-      print("to go further: wheelwright resume {} --iterations N\n", folder.string());
+      print("to extend it: wheelwright resume {} --iterations N\n", folder.string());
     const int bounds = report_bounds(end.state);
     const int expected = report_findings(finished.findings);
     return bounds == exit_done ? expected : bounds;
   }
   int operator()(const Failure& failure) const {
-    tell("wheelwright: {}: {}\n", to_string(failure.reason), failure.detail);
+    print_err("wheelwright: {}: {}\n", to_string(failure.reason), failure.detail);
     return exit_no_solution;
   }
 };
 
 /// The files to look at first.
 void print_files(const fs::path& folder) {
-  for (const auto& [file, meaning] : {std::pair{"report.html", "all of it on one page, for a browser"},
+  for (const auto& [file, meaning] : {std::pair{"report.html", "everything on one page, for a browser"},
                                       {"comparison.svg", "before and after"},
-                                      {"shape.svg", "the shape in true scale, for cutting"},
+                                      {"shape.svg", "the shape at true scale, for cutting"},
                                       {"shape.stl", "the shape as a closed surface, in millimetres"}})
     if (is_there(folder / file)) print("  {:<36} {}\n", (folder / file).string(), meaning);
 }
@@ -113,22 +112,22 @@ void print_summary(const RunResult<dim>& result, const fs::path& folder) {
   if (result.summary)
     print_lines(stdout, fmt::format("\n{}\n{}\n\n", summary_table(*result.summary), gains(*result.summary)));
   if (result.is_approaching && result.reason != StopReason::gave_up)
-    print("volume.target = {:.6g} is not reached: it takes more shapes, or a larger volume.rate\n",
+    print("volume.target = {:.6g} was not reached: use more shapes, or a larger volume.rate\n",
           volume_fraction(grid, result.state->target_measure));
   print_files(folder);
 }
 
 template <int dim>
 int report_failure(const RunResult<dim>& result, const fs::path& folder) {
-  tell("wheelwright: {}\n",
-       failure_headline<dim>(result.state ? &*result.state : nullptr, result.failed_trials));
+  print_err("wheelwright: {}\n",
+            failure_headline<dim>(result.state ? &*result.state : nullptr, result.failed_trials));
   if (result.state)
     if (const std::string hint = volume_hint(*result.initial, *result.state); !hint.empty())
-      tell("wheelwright: {}\n", hint);
+      print_err("wheelwright: {}\n", hint);
   const auto line = [&](const char* file, const char* meaning) {
-    if (is_there(folder / file)) tell("  {:<36} {}\n", (folder / file).string(), meaning);
+    if (is_there(folder / file)) print_err("  {:<36} {}\n", (folder / file).string(), meaning);
   };
-  line(failure_report_file, "every failed trial, and what is in this folder");
+  line(failure_report_file, "every failed trial, and the contents of this folder");
   line(rejected_picture_file, "the shape that failed");
   return exit_no_solution;
 }
@@ -136,11 +135,11 @@ int report_failure(const RunResult<dim>& result, const fs::path& folder) {
 template <int dim>
 void tell_stop(const RunResult<dim>& result, const fs::path& folder) {
   if (result.state)
-    tell("stopped after {} shapes, saved; to go on: wheelwright resume {}\n", result.state->iteration,
-         folder.string());
+    print_err("stopped after {} shapes, saved; to continue: wheelwright resume {}\n", result.state->iteration,
+              folder.string());
   else
-    tell(
-        "stopped before the first shape was evaluated, so nothing is saved; to begin again: wheelwright "
+    print_err(
+        "stopped before the first shape was evaluated, so nothing is saved; to start again: wheelwright "
         "resume {}\n",
         folder.string());
 }
@@ -154,7 +153,7 @@ ExitCode exit_code_of_stop(const Signals& signals) {
 
 void report_unusable(const std::vector<UnusableCheckpoint>& unusable) {
   for (const auto& [file, reason] : unusable)
-    tell("{}: cannot be used, trying the one before it: {}\n", file.string(), reason);
+    print_err("{}: unusable, trying the one before it: {}\n", file.string(), reason);
 }
 
 template <int dim>
@@ -163,20 +162,20 @@ int report_not_begun(const NotBegun<dim>& reason, const fs::path& folder) {
 }
 
 int report_not_begun_by_signal() {
-  tell("stopped before the run began; nothing is written\n");
+  print_err("stopped before the run started; nothing was written\n");
   return exit_nothing_saved;
 }
 
 void report_resumption(const Resumption& resumption, const fs::path& folder) {
   report_unusable(resumption.unusable);
   if (!resumption.shape) {
-    tell("{}: no checkpoint yet; the run begins\n", folder.string());
+    print_err("{}: no checkpoint yet; the run starts from the beginning\n", folder.string());
     return;
   }
   if (resumption.other_program)
-    tell("warning: saved by {}; the last digits may differ from a run without a stop\n",
-         *resumption.other_program);
-  tell("{}: going on after shape {}\n", folder.string(), *resumption.shape);
+    print_err("warning: saved by {}; the last digits may differ from those of an uninterrupted run\n",
+              *resumption.other_program);
+  print_err("{}: resuming after shape {}\n", folder.string(), *resumption.shape);
 }
 
 template <int dim>

@@ -19,14 +19,14 @@ void add_threads(Options& options, std::optional<int>& threads) {
   constexpr int most_threads = 1024;
   options.number(
       "--threads", threads, {1, most_threads},
-      "Number of threads, at most the number of processors, which is the default. The results do not "
-      "depend on it");
+      "Number of threads; default and maximum: the number of processors. Results do not depend on it");
 }
 
 void add_iterations(Options& options, std::optional<int>& iterations) {
-  options.number("--iterations", iterations, limits_of_iterations(),
-                 "Number of shapes instead of the case's optimizer.iterations; expectations of later shapes, "
-                 "or of the last one, are not checked");
+  options.number(
+      "--iterations", iterations, limits_of_iterations(),
+      "Number of shapes, instead of the case's optimizer.iterations; expectations about later shapes, "
+      "or the last one, are not checked");
 }
 
 void add_output(Options& options, std::optional<std::string>& folder, const std::string& meaning) {
@@ -34,7 +34,7 @@ void add_output(Options& options, std::optional<std::string>& folder, const std:
 }
 
 void add_verbose(Options& options, bool& verbose) {
-  options.flag("--verbose", verbose, "Tell every trial shape, and why rejected ones were rejected");
+  options.flag("--verbose", verbose, "Show every trial shape, with the reason if it is rejected");
 }
 
 std::string not_empty(const std::string& text) { return text.empty() ? "must not be empty" : ""; }

@@ -7,7 +7,7 @@
 
 namespace wheelwright {
 
-// Options that several commands have. They mean the same everywhere.
+// Options shared by several commands, with the same meaning everywhere.
 
 /// CASE, a file.
 void add_case(Options& options, std::string& file);
@@ -24,7 +24,7 @@ void add_output(Options& options, std::optional<std::string>& folder, const std:
 /// --verbose
 void add_verbose(Options& options, bool& verbose);
 
-/// A check for names: what is wrong with an empty one.
+/// An Options::Check that rejects empty names.
 std::string not_empty(const std::string& text);
 
 }  // namespace wheelwright

@@ -5,7 +5,7 @@
 namespace wheelwright {
 namespace {
 
-// A signal handler reaches nothing but globals.
+// A signal handler can access only globals.
 volatile std::sig_atomic_t noted_stop = 0;
 volatile std::sig_atomic_t save_requested = 0;
 

@@ -8,10 +8,11 @@
 
 namespace wheelwright {
 
-/// While one lives, SIGINT, SIGTERM and SIGHUP no longer end the program: they are noted. A second one of
-/// SIGINT and SIGTERM ends it at once; SIGHUP never does, for the kernel and a shell both send it when a
-/// terminal is closed. SIGUSR1 asks for a checkpoint. A write beyond a limit on file sizes fails like any
-/// other instead of ending the program by SIGXFSZ. Signals that were ignored stay so. One at a time.
+/// While an instance exists, SIGINT, SIGTERM and SIGHUP no longer terminate the program but are recorded. A
+/// second SIGINT or SIGTERM terminates it at once; a second SIGHUP does not, because both the kernel and a
+/// shell send it when a terminal is closed. SIGUSR1 requests a checkpoint. A write beyond a limit on file
+/// sizes fails like any other instead of raising SIGXFSZ. Ignored signals stay ignored. Only one instance may
+/// exist.
 class Signals {
  public:
   Signals();
@@ -19,7 +20,7 @@ class Signals {
   Signals& operator=(const Signals&) = delete;
   ~Signals();
 
-  /// SIGINT, SIGTERM or SIGHUP, when one came.
+  /// SIGINT, SIGTERM or SIGHUP, if one arrived.
   std::optional<int> stop() const;
 
   /// A source of commands for a run: Stop, once, and Save.

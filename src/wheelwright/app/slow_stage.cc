@@ -14,7 +14,7 @@ SlowStage::SlowStage(std::string what, double seconds)
         std::unique_lock lock(mutex);
         std::condition_variable_any wake;
         wake.wait_for(lock, stop, std::chrono::duration<double>(seconds), [] { return false; });
-        if (!stop.stop_requested()) tell("{} ...\n", what);
+        if (!stop.stop_requested()) print_err("{} ...\n", what);
       }) {}
 
 }  // namespace wheelwright

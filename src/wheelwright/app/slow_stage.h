@@ -5,7 +5,7 @@
 
 namespace wheelwright {
 
-/// Says on standard error what the program does, if it still does it after some time.
+/// Prints on standard error what the program is doing, if that takes longer than some time.
 class SlowStage {
  public:
   explicit SlowStage(std::string what, double seconds = 1.5);

@@ -19,7 +19,8 @@ class Subcommand {
   /// Declares the options, whose values are members of the command; the parser sets them.
   virtual void declare(Options&) {}
 
-  /// Runs the command with the values of its options; returns an ExitCode. Throws what guarded() knows.
+  /// Runs the command with the values of its options; returns an ExitCode. Throws the exceptions that
+  /// guarded() handles.
   virtual int run() = 0;
 
  private:

@@ -13,8 +13,8 @@
 
 namespace wheelwright {
 
-// All that the program prints goes through these functions: no text of a case, of a file name or of a file
-// brings a control character to the terminal.
+// All output of the program goes through these functions, so that no text of a case, file name or file can
+// send control characters to the terminal.
 
 enum class Style { bold, red, yellow, green };
 
@@ -26,10 +26,10 @@ struct StyledText {
   std::string text;
 };
 
-/// The text with the escape codes of a style if the stream has colours, else without.
+/// The text, with the escape codes of a style if the stream has colours.
 StyledText styled(std::FILE* stream, Style style, std::string_view text);
 
-/// What is printed of an argument: numbers are as they are, texts have no control characters.
+/// The printable form of an argument: numbers unchanged, texts without control characters.
 template <class Argument>
 auto printable(const Argument& argument) {
   if constexpr (std::is_same_v<Argument, StyledText>)
@@ -43,13 +43,13 @@ auto printable(const Argument& argument) {
 template <class Argument>
 using Printable = decltype(printable(std::declval<const Argument&>()));
 
-/// Prints to a stream. What cannot be written, e.g. on a terminal that was closed, is lost: it ends no run.
+/// Prints to a stream. Output that cannot be written, e.g. to a closed terminal, is lost without error.
 template <class... Arguments>
 void print_to(std::FILE* stream, fmt::format_string<Printable<Arguments>...> format,
               const Arguments&... arguments) {
-  fmt::memory_buffer text;  // needs no memory of the heap for a line
+  fmt::memory_buffer text;  // no heap allocation for one line
   fmt::format_to(std::back_inserter(text), format, printable(arguments)...);
-  if (stream != stdout) std::fflush(stdout);  // what was printed before stands before it, also in a pipe
+  if (stream != stdout) std::fflush(stdout);  // keeps the order of output, also in a pipe
   std::fwrite(text.data(), 1, text.size(), stream);
 }
 
@@ -61,11 +61,11 @@ void print(fmt::format_string<Printable<Arguments>...> format, const Arguments&.
 
 /// To standard error.
 template <class... Arguments>
-void tell(fmt::format_string<Printable<Arguments>...> format, const Arguments&... arguments) {
+void print_err(fmt::format_string<Printable<Arguments>...> format, const Arguments&... arguments) {
   print_to(stderr, format, arguments...);
 }
 
-/// Prints a text of several lines.
+/// Prints a text with several lines.
 void print_lines(std::FILE* stream, std::string_view text);
 
 }  // namespace wheelwright

@@ -13,7 +13,7 @@
 namespace wheelwright {
 namespace {
 
-/// Shows the progress, and tells what the user should know of the wheel.
+/// Shows the progress, and warnings about the wheel.
 template <int dim>
 class TerminalObserver : public Observer<dim> {
  public:
@@ -35,7 +35,7 @@ class TerminalObserver : public Observer<dim> {
     if (const auto change = volume_change_of_saved_shape<dim>(run.study.source))
       progress_->note(text(*change));
     for (const auto& event : lost_on_the_grid<dim>(run.study.source))
-      warn(run, "initial shape", "the grid is too coarse for the case's holes: " + text(event));
+      warn(run, "initial shape", "the grid is too coarse for the holes of the case: " + text(event));
   }
 
   void show(const TrialDone<dim>& done, const RunView<dim>& run) {
@@ -87,16 +87,16 @@ class TerminalObserver : public Observer<dim> {
 }  // namespace
 
 template <int dim>
-void tell_on_terminal(Run<dim>& run, Detail detail) {
+void show_on_terminal(Run<dim>& run, Detail detail) {
   constexpr double seconds_between_lines = 10, of_every_trial = 0;
-  const bool tells_all = detail == Detail::every_trial;
+  const bool shows_all = detail == Detail::every_trial;
   const auto progress = std::make_shared<Progress>(stderr, progress_style(stderr),
-                                                   tells_all ? of_every_trial : seconds_between_lines);
-  if (tells_all) run.add(std::make_unique<TrialLog<dim>>(progress));
+                                                   shows_all ? of_every_trial : seconds_between_lines);
+  if (shows_all) run.add(std::make_unique<TrialLog<dim>>(progress));
   run.add(std::make_unique<TerminalObserver<dim>>(progress));
 }
 
-template void tell_on_terminal(Run<2>&, Detail);
-template void tell_on_terminal(Run<3>&, Detail);
+template void show_on_terminal(Run<2>&, Detail);
+template void show_on_terminal(Run<3>&, Detail);
 
 }  // namespace wheelwright

@@ -7,14 +7,14 @@
 
 namespace wheelwright {
 
-/// How much of a run is told on standard error.
+/// How much of a run is printed on standard error.
 enum class Detail {
-  progress,     ///< a bar, warnings, and what commands do
-  every_trial,  ///< besides, every rejected trial and why, holes that merge or vanish, bounds, grids
+  progress,     ///< a bar, warnings, and the effects of commands
+  every_trial,  ///< also every rejected trial with the reason, merging or vanishing holes, bounds, grids
 };
 
-/// Tells on the terminal what happens in the run. To be called once, before it is executed.
+/// Prints on the terminal what happens in the run. To be called once, before the run is executed.
 template <int dim>
-void tell_on_terminal(Run<dim>& run, Detail detail);
+void show_on_terminal(Run<dim>& run, Detail detail);
 
 }  // namespace wheelwright

@@ -23,7 +23,7 @@ void TrialLog<dim>::operator()(const Event<dim>& event, const RunView<dim>& run)
   if (std::holds_alternative<RunStarted>(event)) begin(run.study);
   if (const auto* done = std::get_if<TrialDone<dim>>(&event)) tell_trial(*done);
   if (const auto* changed = std::get_if<GridChanged>(&event))
-    progress_->note("going on with the " + changed->text);
+    progress_->note("continuing with the " + changed->text);
 }
 
 template <int dim>
@@ -48,7 +48,7 @@ void TrialLog<dim>::tell_trial(const TrialDone<dim>& done) {
   tell_bounds(done.state);
 }
 
-/// Tells of bounds that the first shape violates, and when all are kept for the first time.
+/// Prints the bounds that the first shape violates, and when all are kept for the first time.
 template <int dim>
 void TrialLog<dim>::tell_bounds(const OptimizationState<dim>& state) {
   const auto bounds = bound_states(state.evaluation, {});
@@ -56,8 +56,7 @@ void TrialLog<dim>::tell_bounds(const OptimizationState<dim>& state) {
   if (state.iteration == 0)
     for (const BoundState& bound : bounds)
       if (!bound.is_kept())
-        progress_->note("the initial shape does not keep a bound: " +
-                        text(bound, state.shape.lattice.grid()));
+        progress_->note("the initial shape violates a bound: " + text(bound, state.shape.lattice.grid()));
   if (are_kept && !were_kept_) progress_->note(fmt::format("shape {}: all bounds are kept", state.iteration));
   were_kept_ = are_kept;
 }

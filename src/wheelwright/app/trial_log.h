@@ -7,7 +7,7 @@
 
 namespace wheelwright {
 
-/// Tells how the search goes: rejected trials and why, changes of topology, bounds and grids.
+/// Prints the course of the search: rejected trials with the reason, changes of topology, bounds and grids.
 template <int dim>
 class TrialLog : public Observer<dim> {
  public:
@@ -21,7 +21,7 @@ class TrialLog : public Observer<dim> {
   void tell_bounds(const OptimizationState<dim>& state);
 
   std::shared_ptr<Progress> progress_;
-  bool were_kept_ = true;  ///< the bounds, by the last shape seen
+  bool were_kept_ = true;  ///< whether the last shape seen kept the bounds
 };
 
 }  // namespace wheelwright

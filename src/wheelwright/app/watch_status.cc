@@ -14,7 +14,7 @@ WatchStatus<dim>::~WatchStatus() {
 
 template <int dim>
 void WatchStatus<dim>::operator()(const Event<dim>& event, const RunView<dim>& run) {
-  if (std::holds_alternative<RunStarted>(event)) tell_activity("computing the first shape");
+  if (std::holds_alternative<RunStarted>(event)) show_activity("computing the first shape");
   if (const auto* done = std::get_if<TrialDone<dim>>(&event)) {
     if (done->trial.verdict != Verdict::accepted) return;
     const double objective = done->state.evaluation.function("objective").value;
@@ -26,13 +26,13 @@ void WatchStatus<dim>::operator()(const Event<dim>& event, const RunView<dim>& r
     if (repaints_) show();
   }
   if (const auto* waits = std::get_if<RunWaits>(&event))
-    tell_activity(waits->reason ? "no better shape is near: waiting for changes" : "paused");
-  if (std::holds_alternative<RunProceeds>(event)) tell_activity("optimizing");
-  if (const auto* ended = std::get_if<RunEnded<dim>>(&event)) tell_activity("ended");
+    show_activity(waits->reason ? "no better shape nearby: waiting for changes" : "paused");
+  if (std::holds_alternative<RunProceeds>(event)) show_activity("optimizing");
+  if (const auto* ended = std::get_if<RunEnded<dim>>(&event)) show_activity("ended");
 }
 
 template <int dim>
-void WatchStatus<dim>::tell_activity(const std::string& activity) {
+void WatchStatus<dim>::show_activity(const std::string& activity) {
   if (activity == activity_) return;
   activity_ = activity;
   is_shown_ = true;

@@ -8,8 +8,8 @@
 
 namespace wheelwright {
 
-/// Tells on the terminal, in one line, what a watched run does: the page tells the rest. A terminal's line
-/// repaints itself; elsewhere a line is written only when the run begins to compute, to wait or ends.
+/// Prints the status of a watched run in one line; the page shows the rest. On a terminal the line repaints
+/// itself; otherwise a line is written only when the run starts to compute, starts to wait or ends.
 template <int dim>
 class WatchStatus : public Observer<dim> {
  public:
@@ -23,7 +23,7 @@ class WatchStatus : public Observer<dim> {
   void operator()(const Event<dim>& event, const RunView<dim>& run) override;
 
  private:
-  void tell_activity(const std::string& activity);
+  void show_activity(const std::string& activity);
   void show() const;
 
   std::FILE* stream_;

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether or not the folder ends in a slash.
+/// The name of a folder, with or without a trailing slash.
 std::string folder_name(const fs::path& folder) {
   return (fs::absolute(folder).lexically_normal() / "").parent_path().filename().string();
 }
@@ -26,14 +26,14 @@ Case with_positions(Case c, const Computation& computation) {
   return c;
 }
 
-/// The case of a file or of a run's folder, if the memory suffices for it.
+/// The case in a file or a run's folder, if the memory suffices for it.
 Expected<Case, ExitCode> affordable_case(const fs::path& input, const Computation& computation) {
   const fs::path file = is_folder(input) ? input / "case.toml" : input;
   if (is_folder(input) && !is_there(file)) {
-    tell("{}: this folder holds no run: there is no case.toml\n", input.string());
+    print_err("{}: this folder contains no run: case.toml is missing\n", input.string());
     return exit_usage;
   }
-  auto c = read_or_tell(file);
+  auto c = read_or_report(file);
   if (!c) return exit_usage;
   if (!may_compute(computation.command, with_positions(*c, computation), file, computation.threads))
     return exit_refused;
@@ -47,7 +47,7 @@ WheelInput<dim> initial_wheel(Case c, const fs::path& file, const Computation& c
           without_control_characters(file.stem().string()), "initial shape"};
 }
 
-/// A run that was stopped on a coarser grid, as if that were its case's.
+/// A run that was stopped on a coarser grid, with that grid as its case's.
 template <int dim>
 RunInput<dim> on_grid_of_checkpoint(RunInput<dim> run) {
   const int level = *level_of(run.source, run.checkpoint.state.shape);
@@ -64,13 +64,13 @@ Expected<RunInput<dim>, ExitCode> run_in(const fs::path& folder, Case c) {
   auto point = resume_point<dim>(folder, c);
   report_unusable(point.unusable);
   if (!point.newest) {
-    tell("{}: no checkpoint can be used\n", folder.string());
+    print_err("{}: no usable checkpoint\n", folder.string());
     return exit_checkpoint;
   }
   return on_grid_of_checkpoint<dim>({folder, std::move(c), *std::move(point.newest)});
 }
 
-/// The wheel of a file or folder, which has this case.
+/// The wheel in a file or folder with this case.
 template <int dim>
 Expected<WheelInput<dim>, ExitCode> wheel_of(Case c, const fs::path& input, const Computation& computation) {
   if (!is_folder(input)) return initial_wheel<dim>(std::move(c), input, computation);
@@ -85,10 +85,9 @@ Expected<WheelInput<dim>, ExitCode> wheel_of(Case c, const fs::path& input, cons
 Expected<Case, ExitCode> plane_case(const fs::path& input, const Computation& computation) {
   auto c = affordable_case(input, computation);
   if (!c || c->wheel.dimension == 2) return c;
-  tell(
-      "wheelwright {}: {}: this command lays outlines over each other, and a wheel in 3D has none; "
-      "`wheelwright "
-      "report` puts runs in 3D side by side, with their numbers and surfaces\n",
+  print_err(
+      "wheelwright {}: {}: this command overlays outlines, which a wheel in 3D does not have; `wheelwright "
+      "report` shows runs in 3D side by side, with their numbers and surfaces\n",
       computation.command, input.string());
   return exit_refused;
 }
@@ -100,7 +99,7 @@ void add_wheel(Options& options, std::string& input) {
                    "A case file, for its initial shape, or a run's folder, for its last shape");
 }
 
-Expected<AnyWheel, ExitCode> read_wheel_or_tell(const fs::path& input, const Computation& computation) {
+Expected<AnyWheel, ExitCode> read_wheel_or_report(const fs::path& input, const Computation& computation) {
   auto c = affordable_case(input, computation);
   if (!c) return c.failure();
   return in_dimension_of(*c, [&](auto dim) -> Expected<AnyWheel, ExitCode> {
@@ -110,16 +109,16 @@ Expected<AnyWheel, ExitCode> read_wheel_or_tell(const fs::path& input, const Com
   });
 }
 
-Expected<WheelInput<2>, ExitCode> read_plane_wheel_or_tell(const fs::path& input,
-                                                           const Computation& computation) {
+Expected<WheelInput<2>, ExitCode> read_plane_wheel_or_report(const fs::path& input,
+                                                             const Computation& computation) {
   auto c = plane_case(input, computation);
   if (!c) return c.failure();
   return wheel_of<2>(*std::move(c), input, computation);
 }
 
-Expected<AnyRun, ExitCode> read_run_or_tell(const fs::path& folder, const Computation& computation) {
+Expected<AnyRun, ExitCode> read_run_or_report(const fs::path& folder, const Computation& computation) {
   if (!is_folder(folder)) {
-    tell("{}: this folder holds no run: there is no case.toml\n", folder.string());
+    print_err("{}: this folder contains no run: case.toml is missing\n", folder.string());
     return exit_usage;
   }
   auto c = affordable_case(folder, computation);

@@ -26,7 +26,7 @@ struct WheelInput {
 /// In the dimension of its case.
 using AnyWheel = std::variant<WheelInput<2>, WheelInput<3>>;
 
-/// A run's folder and what it continues from.
+/// A run's folder and the state to continue from.
 template <int dim>
 struct RunInput {
   std::filesystem::path folder;
@@ -40,25 +40,25 @@ using AnyRun = std::variant<RunInput<2>, RunInput<3>>;
 /// WHEEL, a case file or a run's folder.
 void add_wheel(Options& options, std::string& input);
 
-/// What a command computes with a wheel.
+/// What a command computes for a wheel.
 struct Computation {
   std::string command;
   std::optional<int> threads;
   std::optional<int> positions = {};  ///< load positions per sector, instead of the case's
 };
 
-/// The wheel in a case file, or in a run's folder, of which nothing is changed; the run may still go on.
-/// Tells what is wrong, and whether the memory is too small, before it allocates any; the command ends with
-/// the code then.
-Expected<AnyWheel, ExitCode> read_wheel_or_tell(const std::filesystem::path& input,
-                                                const Computation& computation);
+/// The wheel in a case file or a run's folder, which is not modified; the run may still be in progress. On
+/// errors, including too little memory, prints a message before it allocates anything; the command ends with
+/// the returned code.
+Expected<AnyWheel, ExitCode> read_wheel_or_report(const std::filesystem::path& input,
+                                                  const Computation& computation);
 
 /// The run in a folder, in the same way.
-Expected<AnyRun, ExitCode> read_run_or_tell(const std::filesystem::path& folder,
-                                            const Computation& computation);
+Expected<AnyRun, ExitCode> read_run_or_report(const std::filesystem::path& folder,
+                                              const Computation& computation);
 
-/// For commands that work in the plane of the wheel alone: they tell it of a case in 3D.
-Expected<WheelInput<2>, ExitCode> read_plane_wheel_or_tell(const std::filesystem::path& input,
-                                                           const Computation& computation);
+/// For commands that support only 2D: prints a message for a case in 3D.
+Expected<WheelInput<2>, ExitCode> read_plane_wheel_or_report(const std::filesystem::path& input,
+                                                             const Computation& computation);
 
 }  // namespace wheelwright

@@ -26,16 +26,17 @@ class Interrupt {
   bool requested() const { return requested_ && requested_(); }
 
   /// Called before every step of a contact problem.
-  void tell(const ContactProgress& progress) const {
+  void report(const ContactProgress& progress) const {
     if (progress_) progress_(progress);
   }
 
   /// The same for one of several load positions: what it is told counts for that position.
   Interrupt at_position(int position, int n_positions) const {
     if (!progress_) return *this;
-    return Interrupt(requested_, [tell = progress_, position, n_positions](const ContactProgress& progress) {
-      tell({position, n_positions, progress.newton_steps});
-    });
+    return Interrupt(requested_,
+                     [report = progress_, position, n_positions](const ContactProgress& progress) {
+                       report({position, n_positions, progress.newton_steps});
+                     });
   }
 
  private:

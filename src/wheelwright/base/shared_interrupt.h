@@ -17,7 +17,7 @@ inline Interrupt shared_by_threads(const Interrupt& interrupt) {
       },
       [interrupt, mutex](const ContactProgress& progress) {
         const std::scoped_lock lock(*mutex);
-        interrupt.tell(progress);
+        interrupt.report(progress);
       });
 }
 

@@ -63,12 +63,12 @@ void check_sides(const Outline& outline, const ZeroContour& zero, double toleran
 }
 
 void check_crossings(const std::vector<Polygon>& polygons, Faults& faults) {
-  constexpr std::size_t most_told = 10;
+  constexpr std::size_t max_shown = 10;
   const auto places = crossings(polygons);
-  for (std::size_t i = 0; i < std::min(places.size(), most_told); ++i)
+  for (std::size_t i = 0; i < std::min(places.size(), max_shown); ++i)
     faults.push_back({"edges cross or touch at " + place_of(places[i])});
-  if (places.size() > most_told)
-    faults.push_back({fmt::format("edges cross or touch at {} more places", places.size() - most_told)});
+  if (places.size() > max_shown)
+    faults.push_back({fmt::format("edges cross or touch at {} more places", places.size() - max_shown)});
 }
 
 /// Area of the whole wheel with circles for the outer and inner sides of the cells [m^2].

@@ -79,7 +79,7 @@ class Representatives {
   std::vector<Mark> marks_;
 };
 
-OutlineFault told(const NoFit& fault, double tolerance) {
+OutlineFault described(const NoFit& fault, double tolerance) {
   return {fmt::format("no curve follows the contour within {:.3g} mm at {}; the deviation is {:.3g} mm",
                       tolerance * 1e3, place_of(fault.place), fault.deviation * 1e3)};
 }
@@ -199,7 +199,7 @@ Expected<Outline, OutlineFault> fit_outline(const LevelSet<2>& psi, double toler
   for (std::size_t i = 0; i < of_sector.contours().size(); ++i) {
     const Contour& contour = *of_sector.contours()[i];
     auto curves = fit_loop(sample(contour, zero, sample_distance * tolerance), share_of_fit * tolerance);
-    if (!curves) return told(curves.failure(), tolerance);
+    if (!curves) return described(curves.failure(), tolerance);
     const Loop loop{signed_area(contour) > 0 ? LoopKind::island : LoopKind::hole, *std::move(curves)};
     const int n_images = of_sector.is_about_axle(i) ? 1 : grid.n_sectors;
     for (int sector = 0; sector < n_images; ++sector)

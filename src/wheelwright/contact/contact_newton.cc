@@ -224,7 +224,7 @@ NewtonEnd<dim> newton(const ReducedContact<dim>& contact, ContactUnknowns<dim> s
   int without_progress = 0;
   NewtonTangent<dim> tangent(contact);
   while (end.iterations < max_iterations && !interrupt.requested()) {
-    interrupt.tell({0, 1, steps_before + end.iterations});
+    interrupt.report({0, 1, steps_before + end.iterations});
     const auto step = tangent.step(end.x, contact.residual(end.x));
     if (!step) return end;
     ++end.iterations;

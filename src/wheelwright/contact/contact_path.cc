@@ -279,7 +279,7 @@ PathEnd<2> follow_path(const ReducedContact<2>& contact, ContactUnknowns<2> star
   PathEnd<2> end{std::move(start)};
   auto path = Path::from(contact, end.x);
   while (path && end.turns < most_turns && !interrupt.requested()) {
-    interrupt.tell({0, 1, steps_before + end.turns});
+    interrupt.report({0, 1, steps_before + end.turns});
     end.arrives = path->ends();
     if (end.arrives || !path->turn()) break;
     ++end.turns;

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Shapes of a preview whose run does not begin on a coarser grid.
+/// Shapes of a preview whose run does not start on a coarser grid.
 constexpr int shapes_of_preview = 15;
 
 std::string content(const fs::path& file) {
@@ -43,7 +43,7 @@ std::optional<DesignResult> known_result(const fs::path& file) {
   }
 }
 
-/// Stops a run once, when it is asked to.
+/// Stops a run once, on request.
 class StopOnce {
  public:
   explicit StopOnce(const std::function<bool()>& requested) : requested_(requested) {}
@@ -86,7 +86,7 @@ class EndOfPreview : public Observer<2> {
   bool has_changed_grid_ = false, is_over_ = false;
 };
 
-/// Of a summary's bounds, as a fraction of the bound.
+/// The largest violation of a summary's bounds, as a fraction of the bound.
 double largest_violation(const nlohmann::json& bounds) {
   double largest = 0;
   for (const auto& bound : bounds) {
@@ -107,7 +107,7 @@ void read_summary(const fs::path& folder, DesignResult& result) {
   const auto& after = summary.at("after");
   auto& numbers = result.numbers;
   result.shapes = after.at("shape");
-  for (const WheelNumber<2>& number : wheel_numbers<2>())  // some are told of some wheels only
+  for (const WheelNumber<2>& number : wheel_numbers<2>())  // some numbers exist only for some wheels
     if (after.contains(number.key) && after[number.key].is_number())
       numbers[number.key] = after[number.key].get<double>();
   if (after.contains("load_cases"))
@@ -120,11 +120,11 @@ void read_summary(const fs::path& folder, DesignResult& result) {
 std::string fault_of_folder(const NotBegun<2>& reason, const fs::path& folder) {
   if (const auto* in_use = std::get_if<FolderInUse>(&reason))
     return fmt::format("{} is writing to {}", to_string(*in_use), folder.string());
-  return fmt::format("{} cannot be used: the files in it are not those of this design, or are damaged",
+  return fmt::format("{} cannot be used: its files belong to another design, or are corrupted",
                      folder.string());
 }
 
-/// What became of a design's run: a result, or why its folder cannot be used; neither if it was stopped.
+/// The outcome of a design's run: a result, or why its folder cannot be used; neither if it was stopped.
 struct DesignRun {
   std::optional<DesignResult> result;
   std::string fault;

@@ -20,8 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// J_e / J_p2 of a case's initial shape, both summed over its load positions; 0 where all positions see the
-/// same contact but for rounding, so that there is nothing to even out.
+/// J_e / J_p2 of a case's initial shape, both summed over its load positions; 0 if the contact is the same at
+/// all positions up to rounding, so that there is nothing to even out.
 Expected<double> weight_of_evenness(Case c) {
   c.objective.strain_energy = c.objective.uniformity_dual = 1;
   const auto study = make_study<2>(c);
@@ -36,7 +36,7 @@ Expected<double> weight_of_evenness(Case c) {
   return unevenness > least_share * energy ? energy / unevenness : 0;
 }
 
-/// The case as a design runs it: without the many files of a run that nobody opens.
+/// The case as a design runs it: without the many output files that nobody opens.
 Case as_design(Case c) {
   c.output.vtu_every = c.output.pictures_every = 0;
   c.output.checkpoint_every = 50;
@@ -46,7 +46,7 @@ Case as_design(Case c) {
 
 std::string design_name(std::size_t i) { return fmt::format("{:03}", i + 1); }
 
-/// The wheel that a run's folder holds, as an SVG path.
+/// The wheel in a run's folder, as an SVG path.
 std::string outline(const fs::path& file) {
   constexpr double size = 100;
   std::ifstream stream(file, std::ios::binary);
@@ -70,8 +70,7 @@ std::vector<RatedDesign> rated(const std::vector<Design>& designs,
 
 namespace {
 
-/// The volume that a case gives its designs, as a fraction of the ring: by its target, by a bound or by its
-/// own shape.
+/// The volume of a case's designs as a fraction of the ring, from its target, a bound or its own shape.
 std::optional<double> volume_of_designs(const Case& c) {
   if (c.volume.target) return c.volume.target;
   const auto bound = std::ranges::find(c.constraints, Quantity::volume_fraction, &Constraint::quantity);
@@ -81,13 +80,13 @@ std::optional<double> volume_of_designs(const Case& c) {
   return bound->at_most ? bound->at_most : bound->at_least;
 }
 
-/// The case's own shape and those that are drawn, as far as there is time for them.
+/// The case's own shape and the random ones, as far as time permits.
 Expected<std::vector<Start>> planned_starts(const Case& c, const ExplorationPlan& plan,
                                             const DrawingSettings& settings) {
   const auto volume = volume_of_designs(c);
   if (!volume)
     return Failure{FailureReason::empty_shape,
-                   fmt::format("no volume is given for the designs; give the case holes{}",
+                   fmt::format("the volume of the designs is undefined; give the case holes{}",
                                holds_volume(c) ? " or volume.target" : "")};
   std::vector<Start> starts;
   if (has_holes(c)) starts.push_back({"the case's own shape", c});
@@ -100,12 +99,12 @@ Expected<std::vector<Start>> planned_starts(const Case& c, const ExplorationPlan
     without_start = drawing.start ? 0 : without_start + 1;
     failed += drawing.failed;
     if (drawing.start) starts.push_back(*std::move(drawing.start));
-    settings.told({static_cast<int>(starts.size()), failed, false});
+    settings.report({static_cast<int>(starts.size()), failed, false});
   }
-  settings.told({static_cast<int>(starts.size()), failed, true});
+  settings.report({static_cast<int>(starts.size()), failed, true});
   if (starts.empty() && !settings.must_end())
     return Failure{FailureReason::empty_shape,
-                   fmt::format("no start of the volume {:.6g} was found; {}", *volume, to_string(failed))};
+                   fmt::format("no start with the volume {:.6g} was found; {}", *volume, to_string(failed))};
   return starts;
 }
 
@@ -149,7 +148,7 @@ std::vector<int> chosen_designs(const std::vector<RatedDesign>& previews,
 
 namespace {
 
-/// The designs that no other one beats, but of which only a preview was run; without those that were tried.
+/// Previewed designs that no other one beats, without those that were tried already.
 std::vector<int> unbeaten_previews(const std::vector<RatedDesign>& designs,
                                    const std::vector<RankedQuantity>& quantities,
                                    const std::set<int>& tried) {

@@ -13,37 +13,37 @@
 
 namespace wheelwright {
 
-/// What an exploration tries.
+/// The designs that an exploration tries.
 struct ExplorationPlan {
-  int starts = 60;  ///< the case's own shape, if it has one, and drawn ones
+  int starts = 60;  ///< the case's own shape, if it has one, and random ones
   std::uint64_t seed = 1;
   bool keeps_sectors = false;  ///< only numbers of holes that are multiples of the case's sectors
   std::vector<RankedQuantity> quantities;
 };
 
-/// The weights of J_p2 [-] that an exploration gives its designs where even rolling is asked for, in units of
-/// the ratio of J_e and J_p2 of the case's own wheel: so they do not depend on load, material or size.
+/// The weights of J_p2 [-] that an exploration gives its designs if even rolling is requested, in units of
+/// J_e / J_p2 of the case's own wheel, so that they do not depend on load, material or size.
 inline constexpr double relative_weights_of_evenness[] = {0, 0.3, 3};
 
-/// How far the starts of an exploration are drawn.
+/// Progress in generating the starts of an exploration.
 struct DrawingProgress {
   int n_starts;
   FailedAttempts failed;
   bool has_ended;
 };
 
-/// Drawing starts takes seconds to minutes. This is asked and told meanwhile.
+/// Callbacks while starts are generated, which takes seconds to minutes.
 struct DrawingSettings {
-  /// Asked before every attempt: whether the starts drawn so far must do.
+  /// Called before every attempt: whether to stop with the starts found so far.
   std::function<bool()> must_end = [] { return false; };
-  /// Told after every start, drawn or not, and at the end.
-  std::function<void(const DrawingProgress&)> told = [](const DrawingProgress&) {};
+  /// Called after every start, successful or not, and at the end.
+  std::function<void(const DrawingProgress&)> report = [](const DrawingProgress&) {};
 };
 
-/// The designs that an exploration tries: the same for the same case and plan; the first ones of them if
-/// drawing had to end. There are fewer than planned if all kinds of starts fail in turn. Fails if the case's
-/// own shape cannot be solved, and with empty_shape if the case says no volume for its designs or none could
-/// be drawn.
+/// The designs that an exploration tries: the same for the same case and plan; only the first ones if
+/// generation had to stop. There are fewer than planned if all kinds of starts fail in turn. Fails if the
+/// case's own shape cannot be solved, and with empty_shape if the case defines no volume for its designs or
+/// no start was found.
 Expected<std::vector<Design>> planned_designs(const Case& c, const ExplorationPlan& plan,
                                               const DrawingSettings& settings = {});
 
@@ -51,9 +51,9 @@ Expected<std::vector<Design>> planned_designs(const Case& c, const ExplorationPl
 std::vector<int> chosen_designs(const std::vector<RatedDesign>& previews,
                                 const std::vector<RankedQuantity>& quantities);
 
-/// The designs with what is known of them, after their runs to the given progression: those of a third were
-/// chosen by their previews; then those that no other design beats. Stops where the settings ask for it.
-/// Throws OutputError.
+/// Runs the designs: previews of all, then to the end about a third chosen by their previews, then those that
+/// no other design beats. Returns all designs with their results. Stops when the settings request it. Throws
+/// OutputError.
 std::vector<RatedDesign> explore(const std::filesystem::path& folder, const std::vector<Design>& designs,
                                  const std::vector<RankedQuantity>& quantities, const RunSettings& settings);
 

@@ -12,7 +12,7 @@ bool is_known(const std::vector<double>& costs) {
   return std::ranges::none_of(costs, [](double cost) { return std::isnan(cost); });
 }
 
-/// The costs between 0 and 1 over all known points.
+/// The costs, scaled to [0, 1] over all known points.
 Costs scaled(const std::vector<RatedPoint>& points) {
   Costs costs;
   for (const RatedPoint& point : points) costs.push_back(point.costs);
@@ -32,7 +32,7 @@ double squared_distance(const std::vector<double>& a, const std::vector<double>&
   return sum;
 }
 
-/// The point of the list that is farthest from all chosen ones.
+/// The point in the list farthest from all chosen ones.
 std::size_t farthest(const Costs& points, const std::vector<int>& list, const std::vector<int>& chosen) {
   std::size_t best = 0;
   double best_distance = -1;

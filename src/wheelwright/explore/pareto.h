@@ -7,13 +7,13 @@ namespace wheelwright {
 /// Whether costs `a` are nowhere larger than `b` and somewhere smaller.
 bool dominates(const std::vector<double>& a, const std::vector<double>& b);
 
-/// A point with its costs, and by how much it violates its bounds: 0 if it keeps them.
+/// The costs of a point, and by how much it violates its bounds: 0 if it keeps them.
 struct RatedPoint {
   std::vector<double> costs;
   double violation = 0;
 };
 
-/// Whether a point is better than another one: it violates its bounds less, or both keep them and its costs
+/// Whether a point is better than another: it violates its bounds less, or both keep them and its costs
 /// dominate (Deb, Computer Methods in Applied Mechanics and Engineering 186, 2000).
 bool is_better(const RatedPoint& a, const RatedPoint& b);
 
@@ -23,7 +23,7 @@ std::vector<int> fronts(const std::vector<RatedPoint>& points);
 
 /// The order in which points are worth more effort: front after front; within a front the ends of every cost
 /// come first, then the points farthest from those chosen before (distances relative to the span of each
-/// cost). Points of front 0 are left out. Ties go to the smaller index.
+/// cost). Points of front 0 are omitted. Ties go to the smaller index.
 std::vector<int> spread_order(const std::vector<RatedPoint>& points);
 
 }  // namespace wheelwright

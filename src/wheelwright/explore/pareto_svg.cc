@@ -26,7 +26,7 @@ text{font-family:"Helvetica Neue",Helvetica,Arial,"DejaVu Sans",sans-serif;font-
 </style>
 )";
 
-/// One axis, from values in the unit for people to pixels.
+/// One axis: maps values in display units to pixels.
 struct Axis {
   const RankedQuantity& quantity;
   double low = HUGE_VAL, high = -HUGE_VAL, from, to;

@@ -5,7 +5,7 @@
 namespace wheelwright {
 namespace {
 
-/// Designs are plane wheels.
+/// Designs are 2D wheels.
 constexpr ShownUnit in(UnitKind kind) { return shown_unit(kind, 2); }
 
 }  // namespace

@@ -7,14 +7,14 @@
 
 namespace wheelwright {
 
-/// A number about a wheel by which designs are ranked.
+/// A quantity by which designs are ranked.
 struct RankedQuantity {
   std::string_view word;   ///< on the command line, e.g. "run_out"
   std::string_view label;  ///< for people
   ShownUnit shown;
   std::string_view key;  ///< in summary.json
   bool is_larger_better;
-  bool is_of_evenness;  ///< whether it tells how evenly the wheel rolls
+  bool is_of_evenness;  ///< whether it measures how evenly the wheel rolls
 };
 
 /// All of them.

@@ -26,7 +26,7 @@ const char* word(Progression progression) { return progression == Progression::f
 
 Json number_json(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
-/// The names of the designs' load cases but the first one.
+/// The names of the designs' load cases except the first.
 std::vector<std::string> load_cases_of(const std::vector<RankedDesign>& designs) {
   std::vector<std::string> names;
   for (const RankedDesign& one : designs)
@@ -45,14 +45,14 @@ std::vector<std::string> number_keys(const std::vector<RankedDesign>& designs) {
   return keys;
 }
 
-/// Whether a ranked quantity is another one under another load.
+/// Whether a ranked quantity depends on the load.
 bool depends_on_the_load(const RankedQuantity& quantity) {
   const auto& numbers = wheel_numbers<2>();
   const auto found = std::ranges::find(numbers, quantity.key, &WheelNumber<2>::key);
   return found != numbers.end() && !found->is_of_shape;
 }
 
-/// A column of the table for people.
+/// A column of the displayed table.
 struct ShownNumber {
   std::string heading, key;
   double factor;  ///< from SI units
@@ -73,10 +73,10 @@ double parameter(const Design& design, const std::string& name) {
   return found == design.parameters.end() ? std::nan("") : found->second;
 }
 
-/// How a design's run ended, and by how much it misses its bounds.
+/// How a design's run ended, and by how much it violates its bounds.
 std::string status(const DesignResult& result) {
   if (result.violation == 0) return text_of_stop(result.status);
-  return fmt::format("{}, misses a bound by {:.2g} %", text_of_stop(result.status), 100 * result.violation);
+  return fmt::format("{}, violates a bound by {:.2g} %", text_of_stop(result.status), 100 * result.violation);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t most_designs = 999;
 
-/// With the sizes of the grid that a file with the other keys would have.
+/// With the grid sizes that a case file with the other keys would have by default.
 Case with_default_grid(Case c, const GivenCells& given) {
   const Grid usual;
   if (!given.radial) c.grid.radial_cells = usual.radial_cells;
@@ -21,7 +21,7 @@ Case with_default_grid(Case c, const GivenCells& given) {
   return with_fitting_grid(std::move(c), given);
 }
 
-/// The sizes that the case file or the sweep gives.
+/// The sizes given by the case file or the sweep.
 GivenCells with_swept(GivenCells given, const std::vector<SweptKey>& keys) {
   for (const SweptKey& swept : keys) {
     given.radial |= swept.key == "grid.radial_cells";
@@ -31,7 +31,7 @@ GivenCells with_swept(GivenCells given, const std::vector<SweptKey>& keys) {
   return given;
 }
 
-/// The case as a file of its own would give it; what is wrong with it otherwise.
+/// The case as if read from its own file, or its first problem.
 Expected<Case, SweepProblem> checked(const Case& c, const std::filesystem::path& file,
                                      const std::string& text) {
   CaseResult result = parse_case(to_toml(c), file);

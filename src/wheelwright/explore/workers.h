@@ -4,9 +4,9 @@
 
 namespace wheelwright {
 
-/// Calls work(0), ..., work(n - 1) on so many threads, each number once and begun in this order, and returns
-/// when all calls are done. After an exception no further call begins; the first one is thrown again at the
-/// end. Within a call parallel_for() should be limited to one thread (ThreadLimit).
+/// Calls work(0), ..., work(n - 1) on `n_threads` threads, each number once and started in this order, and
+/// returns when all calls are done. After an exception no further call starts; the first one is rethrown at
+/// the end. Within a call parallel_for() should be limited to one thread (ThreadLimit).
 void on_threads(int n_threads, int n, const std::function<void(int)>& work);
 
 }  // namespace wheelwright

@@ -12,7 +12,8 @@
 namespace wheelwright {
 namespace {
 
-/// What every object names as its owner. Handles of tables and their records are fixed; entities follow.
+/// The handles by which objects name their owners. Those of tables and their records are fixed; entities
+/// follow.
 enum Handle : int {
   h_block_records = 0x1,
   h_layers = 0x2,
@@ -78,7 +79,7 @@ std::string layer(cad::LoopKind kind) {
   return upper;
 }
 
-/// Text as DXF of this version takes it: other characters than ASCII as \U+XXXX.
+/// Text as this version of DXF requires it: non-ASCII characters as \U+XXXX.
 std::string ascii(std::string_view text) {
   std::string result;
   const std::string line = without_control_characters(text);

@@ -32,10 +32,10 @@ Expected<FittedSurface, SurfaceRefusal> fit_surface(const LevelSet<3>& psi, int 
     if (fitted.deviation <= tolerance) break;
   }
   if (fitted.deviation > tolerance)
-    return SurfaceRefusal{fmt::format(
-        "with {} x {} x {} triangulated cubes per cell the surface still deviates by {:.3g} mm at {}; give "
-        "a larger --tolerance",
-        fitted.parts, fitted.parts, fitted.parts, fitted.deviation * mm, place(fitted.place))};
+    return SurfaceRefusal{
+        fmt::format("with {} x {} x {} triangulated cubes per cell the surface still deviates by {:.3g} mm "
+                    "at {}; increase --tolerance",
+                    fitted.parts, fitted.parts, fitted.parts, fitted.deviation * mm, place(fitted.place))};
   const auto report = check_solid(solid_mesh(fitted.surface));
   if (!report) {
     Vec<3> at = report.failure().place;
@@ -49,7 +49,7 @@ Expected<FittedSurface, SurfaceRefusal> fit_surface(const LevelSet<3>& psi, int 
   fitted.volume_error = report->volume / (volume * mm * mm * mm) - 1;
   if (!(std::abs(fitted.volume_error) < most_volume_error))
     return SurfaceRefusal{fmt::format(
-        "the volume of the surface differs by {:.3g} % from the level set's; give a smaller --tolerance",
+        "the volume of the surface differs by {:.3g} % from the level set's; decrease --tolerance",
         100 * fitted.volume_error)};
   return fitted;
 }

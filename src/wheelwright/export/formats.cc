@@ -30,7 +30,7 @@ std::string step(const WheelModel& wheel) { return plugin_file("step", "libocct-
 
 constexpr ExportFormat formats[] = {
     {"dxf", "outline, curves in layers", dxf, nullptr},
-    {"svg", "outline in true scale", svg_outline, nullptr},
+    {"svg", "outline at true scale", svg_outline, nullptr},
     {"stl", "solid, triangles", stl_of<WheelModel>, stl_of<SurfaceModel>},
     {"3mf", "solid, triangles with unit", three_mf<WheelModel>, three_mf<SurfaceModel>},
     {"step", "solid, exact faces", step, nullptr},

@@ -8,7 +8,7 @@
 namespace wheelwright {
 namespace {
 
-/// The folder of the library that this code is part of.
+/// The folder of the library that contains this code.
 std::filesystem::path library_folder() {
   Dl_info info;
   if (dladdr(reinterpret_cast<void*>(&plugin_writer), &info) == 0 || info.dli_fname == nullptr) return ".";
@@ -19,20 +19,20 @@ std::filesystem::path library_folder() {
 
 void* plugin_writer(const std::string& name, const std::string& development_package) {
   const std::filesystem::path file = library_folder() / "wheelwright-plugins" / (name + ".so");
-  // Never closed: the libraries of a plugin may have started what ends with the program.
+  // Never closed: the libraries of a plugin may have registered handlers that run at exit.
   void* plugin = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   std::error_code ignored;
   if (plugin == nullptr && !std::filesystem::exists(file, ignored))
-    throw MissingPlugin(fmt::format(
-        "its writer is not installed: install the package wheelwright-cad; where the program was built from "
-        "its sources, install {} and build again",
-        development_package));
+    throw MissingPlugin(
+        fmt::format("its writer is not installed: install the package wheelwright-cad; if the program was "
+                    "built from source, install {} and rebuild",
+                    development_package));
   if (plugin == nullptr)
     throw MissingPlugin(
-        fmt::format("its writer lacks a library: install the package wheelwright-cad, or {}: {}",
+        fmt::format("a library of its writer is missing: install the package wheelwright-cad, or {}: {}",
                     development_package, dlerror()));
   void* writer = dlsym(plugin, plugin_symbol);
-  if (writer == nullptr) throw MissingPlugin(fmt::format("{} is no writer", file.string()));
+  if (writer == nullptr) throw MissingPlugin(fmt::format("{} is not a writer", file.string()));
   return writer;
 }
 

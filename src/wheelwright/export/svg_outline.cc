@@ -7,14 +7,14 @@
 namespace wheelwright {
 namespace {
 
-/// Arcs deviate by this share of the tolerance.
+/// Arcs deviate by at most this fraction of the tolerance.
 constexpr double share_of_arcs = 0.1;
 
 std::string point(const Vec<2>& p) {
   return fmt::format("{:.10g} {:.10g}", p[0] * millimetres_per_metre, -p[1] * millimetres_per_metre);
 }
 
-/// Some programs draw every cubic with a fixed number of chords, however long it is: these must do.
+/// Some programs draw every cubic with a fixed number of chords, whatever its length: these must suffice.
 int n_parts(const cad::Bezier& cubic, double tolerance) {
   constexpr int chords_of_others = 16;
   return (cad::n_chords(cubic, tolerance) + chords_of_others - 1) / chords_of_others;

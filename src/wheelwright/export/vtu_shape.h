@@ -6,8 +6,8 @@
 
 namespace wheelwright {
 
-/// The material as cells for ParaView with the level set at their points, both in millimetres; not the
-/// outline's curves, but the shape as it was computed.
+/// The material as cells for ParaView with the level set at their points, both in millimetres: the shape as
+/// computed, not the curves of the outline.
 std::string vtu_shape(const WheelModel& wheel);
 std::string vtu_shape(const SurfaceModel& wheel);
 

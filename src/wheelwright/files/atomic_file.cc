@@ -14,7 +14,7 @@ namespace {
 
 int synchronize(int file) { return ::fsync(file) == 0 || errno == EINVAL ? 0 : errno; }
 
-/// Makes what was renamed or made in the folder last; returns 0 or the errno of the call that failed.
+/// Makes renamed or new entries of the folder durable; returns 0 or the errno of the call that failed.
 int synchronize_folder(const std::filesystem::path& folder) {
   const int file = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (file < 0) return errno;

@@ -34,17 +34,17 @@ FormatError truncated(std::string_view bytes, std::string_view where) {
   return {FormatFault::truncated, fmt::format("it ends after {} bytes, within {}", bytes.size(), where)};
 }
 
-/// Nothing when the header is good.
+/// Nothing if the header is valid.
 std::optional<FormatError> check_header(std::string_view bytes, std::string_view kind,
                                         std::uint32_t version) {
   const std::string_view start = bytes.substr(0, magic.size());
   if (start != magic.substr(0, start.size()))
-    return FormatError{FormatFault::wrong_kind, "it does not begin as the program's files do"};
+    return FormatError{FormatFault::wrong_kind, "it does not start like the program's files"};
   if (bytes.size() < header_size + checksum_size) return truncated(bytes, "its header");
   if (little_endian_at<std::uint32_t>(bytes, header_size) != checksum(bytes.substr(0, header_size)))
     return FormatError{FormatFault::wrong_checksum, "of its header"};
   if (bytes.substr(magic.size(), tag_size) != kind)
-    return FormatError{FormatFault::wrong_kind, fmt::format("it is no file of the kind {}", kind)};
+    return FormatError{FormatFault::wrong_kind, fmt::format("it is not a file of the kind {}", kind)};
   const auto found = little_endian_at<std::uint32_t>(bytes, magic.size() + tag_size);
   if (found != version)
     return FormatError{FormatFault::unsupported_version,
@@ -52,7 +52,7 @@ std::optional<FormatError> check_header(std::string_view bytes, std::string_view
   return {};
 }
 
-/// The payload of the block that begins at `offset`, which moves behind it.
+/// The payload of the block at `offset`, which is advanced past it.
 Expected<std::string_view, FormatError> parse_block(std::string_view bytes, std::string_view tag,
                                                     std::size_t& offset) {
   const std::string where = fmt::format("block \"{}\"", tag);
@@ -64,7 +64,7 @@ Expected<std::string_view, FormatError> parse_block(std::string_view bytes, std:
   if (little_endian_at<std::uint32_t>(bytes, offset + size) != checksum(bytes.substr(offset, size)))
     return FormatError{FormatFault::wrong_checksum, fmt::format("of {}", where)};
   if (bytes.substr(offset, tag_size) != tag)
-    return FormatError{FormatFault::wrong_block, fmt::format("no {} where it should be", where)};
+    return FormatError{FormatFault::wrong_block, fmt::format("no {} where one is expected", where)};
   const std::string_view payload = bytes.substr(offset + block_header_size, length);
   offset += size + checksum_size;
   return payload;

@@ -18,16 +18,16 @@ namespace wheelwright {
 //   then blocks: 4 bytes tag, 8 bytes length, the payload, 4 bytes CRC-32 of tag, length and payload
 //   the last block has the tag "END " and no payload; nothing follows it
 //
-// So a file that was cut off anywhere, or of which any byte changed, is told from a good one.
+// Thus a file that was truncated anywhere, or of which any byte changed, is detected.
 
-/// Why bytes are not the file that they should be.
+/// Why bytes are not a file of the expected kind.
 enum class FormatFault {
   wrong_kind,           ///< not one of the program's files, or one of another kind
   unsupported_version,  ///< of the format
   truncated,            ///< the bytes end early
   wrong_checksum,       ///< bytes changed since they were written
   wrong_block,          ///< a block is missing or out of place, or bytes follow the end
-  invalid_value,        ///< the checksums are right, but a value is none that the program writes
+  invalid_value,        ///< the checksums are correct, but a value is one that the program never writes
 };
 
 /// The fault as a word, e.g. "truncated".
@@ -46,7 +46,7 @@ struct Block {
 std::string block_file(std::string_view kind, std::uint32_t version, const std::vector<Block>& blocks);
 
 /// The payloads of the blocks, which must have these tags in this order; they point into `bytes`, which may
-/// hold anything.
+/// contain anything.
 Expected<std::vector<std::string_view>, FormatError> parse_block_file(
     std::string_view bytes, std::string_view kind, std::uint32_t version,
     const std::vector<std::string_view>& tags);

@@ -30,7 +30,7 @@ void ByteReader::fail(std::string_view problem) {
 }
 
 std::string_view ByteReader::take(std::size_t size) {
-  if (size > rest_.size()) fail("the data end early");
+  if (size > rest_.size()) fail("the data ends early");
   if (!ok()) return {};
   const std::string_view taken = rest_.substr(0, size);
   rest_.remove_prefix(size);

@@ -23,28 +23,28 @@ class ByteWriter {
   std::string bytes_;
 };
 
-/// Reads back what a ByteWriter wrote, from bytes that may hold anything. The first thing that is wrong is
-/// kept as problem(); from there on every value is zero or empty. No size that the bytes claim is believed
-/// before it is compared with what is left of them.
+/// Reads what a ByteWriter wrote, from bytes that may contain anything. The first error is kept as problem();
+/// from then on every value is zero or empty. No size stated in the bytes is trusted before it is compared
+/// with the remaining bytes.
 class ByteReader {
  public:
   /// The bytes must outlive this.
   explicit ByteReader(std::string_view bytes) : rest_(bytes) {}
 
   std::int64_t integer();
-  /// One that must lie in [low, high]; `name` says what it is if it does not.
+  /// An integer that must lie in [low, high]; `name` describes it in the error.
   std::int64_t integer(std::int64_t low, std::int64_t high, std::string_view name);
   double number();
   double finite_number(std::string_view name);
   std::vector<double> numbers();
   std::vector<double> finite_numbers(std::string_view name);
   std::string text();
-  /// How many items of at least `bytes_each` follow.
+  /// The number of following items, of at least `bytes_each` each.
   std::size_t count(std::size_t bytes_each);
 
-  /// Makes `problem` the problem, unless there is one already.
+  /// Records `problem` unless there is one already.
   void fail(std::string_view problem);
-  /// To be called at the end: bytes that are left over are a problem.
+  /// To be called at the end: remaining bytes are a problem.
   void finish() {
     if (!rest_.empty()) fail("bytes are left over");
   }

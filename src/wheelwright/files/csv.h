@@ -9,7 +9,7 @@ namespace wheelwright {
 /// The shortest decimal number that reads back to the same double, whatever the locale; empty for NaN.
 std::string csv_number(double value);
 
-/// Cells joined by commas and ended by a newline; cells with commas, quotes or newlines are quoted (RFC
+/// Cells joined by commas, with a newline at the end; cells with commas, quotes or newlines are quoted (RFC
 /// 4180).
 std::string csv_line(const std::vector<std::string>& cells);
 

@@ -10,17 +10,17 @@
 
 namespace wheelwright {
 
-// A level set as bytes, with its grid and degree, exact to the last bit. To keep one in a file of its own:
+// A level set as bytes, with its grid and degree, exact to the last bit. To save one in its own file:
 //
 //   write_atomically(path, level_set_file(psi));
 //   const auto psi = parse_level_set_file<2>(bytes);   // Expected: the level set, or what is wrong with it
 //
-// To make it part of a block of another file, append it to the block's ByteWriter.
+// To store it in a block of another file, append it to the block's ByteWriter.
 
 template <int dim>
 std::string level_set_file(const LevelSet<dim>& psi);
 
-/// From bytes that may hold anything.
+/// From bytes that may contain anything.
 template <int dim>
 Expected<LevelSet<dim>, FormatError> parse_level_set_file(std::string_view bytes);
 

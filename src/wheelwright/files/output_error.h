@@ -17,7 +17,7 @@ class OutputError : public std::runtime_error {
         path_(std::move(path)),
         error_(error) {}
 
-  /// It must not be written: `reason` says why not, and what to do.
+  /// The file must not be written: `reason` says why, and what to do.
   OutputError(std::filesystem::path path, const std::string& reason)
       : std::runtime_error("cannot write " + path.string() + ": " + reason),
         path_(std::move(path)),

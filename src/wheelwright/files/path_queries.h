@@ -4,16 +4,16 @@
 
 namespace wheelwright {
 
-// Questions about paths, which throw nothing: what cannot be looked at, e.g. for lack of permission or since
-// its name is too long, is not there. Whoever then reads or writes it learns why not.
+// Queries about paths that do not throw: what cannot be inspected, e.g. for lack of permission or because its
+// name is too long, counts as absent. A later read or write reports the reason.
 
-/// Whether something has this name; a link counts as what it leads to.
+/// Whether something has this name; links are followed.
 inline bool is_there(const std::filesystem::path& path) {
   std::error_code ignored;
   return std::filesystem::exists(path, ignored);
 }
 
-/// The same of a link itself.
+/// The same, without following links.
 inline bool has_entry(const std::filesystem::path& path) {
   std::error_code ignored;
   return std::filesystem::exists(std::filesystem::symlink_status(path, ignored));

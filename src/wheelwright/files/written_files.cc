@@ -16,16 +16,16 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view first_line =
-    "# wheelwright wrote these files, and may replace or remove them; it does so with no others";
+    "# wheelwright wrote these files, and may replace or remove them, but no others";
 constexpr std::string_view temporary_ending = ".tmp";
 
-/// A symbolic link is what it is, not what it leads to.
+/// Does not follow symbolic links.
 fs::file_type type_of(const fs::path& path) {
   std::error_code ignored;
   return fs::symlink_status(path, ignored).type();
 }
 
-/// False where the name cannot be used at all, e.g. below a link that leads to itself: writing fails there.
+/// False if the name cannot be used at all, e.g. below a link to itself: writing fails there.
 bool stands(const fs::path& path) {
   return type_of(path) != fs::file_type::not_found && type_of(path) != fs::file_type::none;
 }
@@ -87,9 +87,9 @@ void WrittenFiles::claim(std::string_view name, const std::string& line) {
   if (!others.empty())
     throw OutputError(
         folder_ / others.front(),
-        fmt::format("wheelwright did not write it and does not replace it; move it away, or add "
-                    "its name to {}",
-                    (folder_ / list_of_written_files).string()));
+        fmt::format(
+            "wheelwright did not write it and will not replace it; move it away, or add its name to {}",
+            (folder_ / list_of_written_files).string()));
   list(line);
 }
 
@@ -98,7 +98,7 @@ void WrittenFiles::list(const std::string& line) {
   append(line);
 }
 
-/// A line that an interrupted write left unfinished is ended first: half a name lists nothing.
+/// First terminates a line that an interrupted write left incomplete: half a name lists nothing.
 void WrittenFiles::append(std::string_view line) const {
   const fs::path list = folder_ / list_of_written_files;
   const int flags = O_WRONLY | O_APPEND | O_NOFOLLOW | O_CLOEXEC | (exists_ ? 0 : O_CREAT | O_EXCL);

@@ -11,7 +11,7 @@
 namespace wheelwright {
 namespace {
 
-/// A place for a hole, on a lattice of half cells, with the mean of the costs over the hole.
+/// A candidate position on a lattice of half cells, with the mean of the costs over the hole.
 struct Candidate {
   int node;
   Vec<2> polar;
@@ -23,7 +23,7 @@ Circle circle(const Vec<2>& polar, double radius) { return {polar[0], polar[1], 
 /// The nodes of a lattice of half cells: on it, the mirror planes of a sector are lines of nodes.
 Lattice<2> half_cells(const PolarGrid<2>& grid) { return {grid, 2}; }
 
-/// Costs by cell, NaN where there is none.
+/// Costs by cell, NaN where unknown.
 std::vector<double> by_cell(const PolarGrid<2>& grid, const HoleCosts& costs) {
   std::vector<double> result(grid.n_cells(), std::nan(""));
   for (std::size_t i = 0; i < costs.points.size(); ++i) result[costs.points[i].cell] = costs.values[i];
@@ -45,7 +45,7 @@ bool are_mirror_symmetric(const PolarGrid<2>& grid, const std::vector<double>& o
   return true;
 }
 
-/// The mean of the costs of the cells whose middles lie in the hole; NaN if one of them has none.
+/// The mean of the costs of the cells whose centres lie in the hole; NaN if one of them is unknown.
 double mean_cost(const PolarGrid<2>& grid, const std::vector<double>& of_cells, const Circle& hole) {
   const Vec<2> h = grid.cell_size();
   const int columns = grid.columns(), rows = grid.cells[0];
@@ -66,13 +66,13 @@ double mean_cost(const PolarGrid<2>& grid, const std::vector<double>& of_cells, 
   return sum / area;
 }
 
-/// Whether a hole keeps off others, given by their signed distance.
+/// Whether a hole is far enough from others, given by their signed distance.
 bool is_apart(const PolarGrid<2>& grid, std::span<const Circle> others, const Vec<2>& polar, double radius,
               double wall) {
   return others.empty() || -signed_distance<2>(grid, others, polar) >= radius + wall;
 }
 
-/// All places that keep the rules with respect to the shape, the best first.
+/// All positions that obey the rules with respect to the shape, best first.
 std::vector<Candidate> candidates(const LevelSet<2>& psi, const std::vector<double>& costs,
                                   const HoleRules& rules) {
   const PolarGrid<2>& grid = psi.lattice.grid();
@@ -93,7 +93,7 @@ std::vector<Candidate> candidates(const LevelSet<2>& psi, const std::vector<doub
   return result;
 }
 
-/// A hole, and its mirror image if it is another one; empty where the two are too near to each other.
+/// A hole, and its mirror image if it is a different one; empty if the two are too close to each other.
 std::vector<Circle> with_image(const PolarGrid<2>& grid, const Candidate& candidate, const HoleRules& rules,
                                bool mirrored) {
   const Circle hole = circle(candidate.polar, rules.radius);

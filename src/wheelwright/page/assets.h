@@ -2,8 +2,8 @@
 
 #include <string_view>
 
-/// Files of the pages that are compiled into the library: those of page/assets, and libraries for charts and
-/// for lit surfaces that the system has.
+/// Files of the pages that are compiled into the library: those of page/assets, and the system's libraries
+/// for charts and lit surfaces.
 namespace wheelwright::assets {
 
 extern const std::string_view report_html, report_css, report_js, parts_js, watch_html, watch_css, watch_js,

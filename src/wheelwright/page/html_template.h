@@ -8,10 +8,10 @@
 
 namespace wheelwright {
 
-/// JSON that can stand in a script element whatever its texts hold.
+/// JSON that is safe inside a script element whatever its texts contain.
 std::string json_in_script(const nlohmann::ordered_json& json);
 
-/// A template with contents in the place of marks, in the order in which they stand there.
+/// A template with its marks replaced by contents, in the order of the marks.
 std::string filled_template(std::string_view page,
                             const std::vector<std::pair<std::string_view, std::string>>& contents);
 

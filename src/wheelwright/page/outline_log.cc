@@ -17,8 +17,8 @@ double distance_to_chord(const std::array<int, 2>& p, const std::array<int, 2>& 
   return std::abs(dx * (p[1] - a[1]) - dy * (p[0] - a[0])) / length;
 }
 
-/// Douglas and Peucker's polyline between two points: appends those points before `end` without which it
-/// would be farther than the tolerance from the given one.
+/// Douglas-Peucker simplification between two points: appends the points before `end` that are needed to stay
+/// within the tolerance.
 void simplify(const Points& points, std::size_t begin, std::size_t end, double tolerance, Points& result) {
   std::size_t farthest = begin;
   double largest = tolerance;

@@ -42,7 +42,7 @@ std::vector<std::int16_t> as_shorts(const std::vector<double>& values, double fu
   return result;
 }
 
-/// Square roots of shares of the full scale: small values keep their digits, and the page colours by them.
+/// Square roots of fractions of the full scale: small values keep their digits, and the page colours by them.
 std::vector<std::uint8_t> as_bytes_of_roots(const std::vector<double>& values, double full_scale) {
   std::vector<std::uint8_t> result;
   for (const double v : values)
@@ -51,7 +51,7 @@ std::vector<std::uint8_t> as_bytes_of_roots(const std::vector<double>& values, d
   return result;
 }
 
-/// The deformed wheel in its load positions. Displacements are Cartesian, in the body frame.
+/// The deformed wheel at its load positions. Displacements are Cartesian, in the body frame.
 Json fields_json(const SectorMesh& mesh, std::span<const MeshPosition> all) {
   std::vector<float> points;
   for (const Vec<2>& x : mesh.points) points.insert(points.end(), {float(x[0]), float(x[1])});
@@ -73,7 +73,7 @@ Json fields_json(const SectorMesh& mesh, std::span<const MeshPosition> all) {
           {"positions", std::move(positions)}};
 }
 
-/// null where it could not be computed.
+/// null if it could not be computed.
 Json curve_json(const Expected<std::vector<double>>& values, double factor) {
   if (!values) return {};
   Json json = Json::array();
@@ -85,7 +85,7 @@ Json harmonics_json(const Expected<std::vector<double>>& values, double factor) 
   return values ? curve_json(rolling_variation(*values).harmonics, factor) : Json();
 }
 
-/// The curves over the load positions; null where the wheel has no solution.
+/// The curves over the load positions; null if the wheel has no solution.
 template <int dim>
 Json rolling_json(const DescribedWheel<dim>& wheel) {
   if (!wheel.loaded) return {};
@@ -102,7 +102,7 @@ Json rolling_json(const DescribedWheel<dim>& wheel) {
   return json;
 }
 
-/// A value of -32767 to 32767 is a share of the full scale.
+/// Values from -32767 to 32767 are fractions of the full scale.
 std::vector<double> widened(const std::vector<float>& values) { return {values.begin(), values.end()}; }
 
 /// The surface of sector 0, whose corners beyond its own vertices are those of the next sector, and the
@@ -199,7 +199,7 @@ Json run_json(const ReportRun<dim>& run) {
             {"trials", run.trials},
             {"rejected", run.rejected},
             {"events", std::move(events)},
-            {"events_left_out", run.events_left_out},
+            {"events_omitted", run.events_omitted},
             {"flags", run.flags},
             {"limits", run.limits},
             {"history", std::move(history)},

@@ -20,7 +20,7 @@ struct HistoryCurve {
   std::vector<double> values;
 };
 
-/// This tells what happened to the holes at one accepted shape, as history.csv has it.
+/// The events of the holes at one accepted shape, as in history.csv.
 struct HoleEvents {
   std::string shape, text;
 };
@@ -28,8 +28,8 @@ struct HoleEvents {
 /// The edges of one accepted shape, in whole outline units.
 struct ShapeOutline {
   int shape;
-  double objective;  ///< its value, as history.csv has it; NaN where the file does not tell
-  std::vector<std::vector<std::array<int, 2>>> contours;  ///< closed polylines round the whole wheel
+  double objective;  ///< its value, as in history.csv; NaN if missing there
+  std::vector<std::vector<std::array<int, 2>>> contours;  ///< closed polylines around the whole wheel
 };
 
 /// Outline units per outer radius of the wheel.
@@ -38,7 +38,7 @@ inline constexpr int outline_units = 10000;
 /// The edges of the holes of a shape, simplified to within two outline units.
 ShapeOutline shape_outline(int shape, double objective, const LevelSet<2>& psi);
 
-/// One line of a file of outlines, and back; nothing from a line that is none.
+/// Conversion to and from one line of a file of outlines; nothing if the line is invalid.
 std::string outline_line(const ShapeOutline& outline);
 std::optional<ShapeOutline> parse_outline_line(const std::string& line);
 
@@ -53,43 +53,43 @@ struct SurfacePosition {
 template <int dim>
 using ShownPosition = std::conditional_t<dim == 2, MeshPosition, SurfacePosition>;
 
-/// The loaded wheel as the page shows it: in 2D drawn in the plane, in 3D as a lit surface.
+/// The loaded wheel as the page shows it: a plane drawing in 2D, a lit surface in 3D.
 template <int dim>
 struct ShownWheel {
   std::conditional_t<dim == 2, SectorMesh, SurfaceMesh> mesh;
   std::vector<ShownPosition<dim>> positions;
 };
 
-/// It under a load case after the first one.
+/// The wheel under a load case after the first one.
 template <int dim>
 struct LoadedPositions {
   std::string load_case;
   std::vector<ShownPosition<dim>> positions;
 };
 
-/// What the page tells about one run.
+/// What the page shows of one run.
 template <int dim>
 struct ReportRun {
   std::string name;  ///< of the run's folder
   std::string title;
   std::string status;     ///< e.g. "converged", "running"
-  bool is_running;        ///< the page reloads itself then
+  bool is_running;        ///< if so, the page reloads itself
   std::string program;    ///< version, compiler and libraries
   std::string case_text;  ///< case.toml
-  double seconds;         ///< computed
-  std::string load;       ///< for people
+  double seconds;         ///< of computation
+  std::string load;       ///< as readable text
   ShownUnit objective;
   PolarGrid<dim> grid;
   int trials;
-  std::map<std::string, int> rejected;  ///< trials, by the reason
+  std::map<std::string, int> rejected;  ///< trials, by reason
   std::vector<HoleEvents> events;       ///< the newest ones, oldest first
-  int events_left_out = 0;              ///< older ones
+  int events_omitted = 0;               ///< older events that are not in `events`
   std::vector<HistoryCurve> history;
   std::vector<ShapeOutline> outlines;
-  std::optional<ShapeOutline> given = {};  ///< the wheel of the case, where the first shape is another one
-  std::vector<std::string> flags;          ///< what deserves attention, in sentences
-  std::vector<std::string> limits;         ///< what was not checked or computed, in sentences
-  std::optional<RunSummary<dim>> summary;  ///< absent while the run goes on
+  std::optional<ShapeOutline> given = {};  ///< the wheel of the case, if the first shape differs from it
+  std::vector<std::string> flags;          ///< warnings, in sentences
+  std::vector<std::string> limits;         ///< what was not checked or not computed, in sentences
+  std::optional<RunSummary<dim>> summary;  ///< absent while the run continues
   std::optional<ShownWheel<dim>> wheel;    ///< the last shape
   std::vector<LoadedPositions<dim>> other_loads = {};
   std::vector<ContactPoint> contact_points;
@@ -109,7 +109,7 @@ PageRun page_run(const ReportRun<dim>& run);
 template <int dim>
 std::string loaded_wheel_json(const ShownWheel<dim>& wheel);
 
-/// One HTML file that needs no network: what came out, the wheel rolling, the shapes of the run, curves.
+/// One HTML file that needs no network: results, the rolling wheel, the shapes of the run, curves.
 std::string report_page(const std::vector<PageRun>& runs);
 
 }  // namespace wheelwright

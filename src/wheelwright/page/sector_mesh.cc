@@ -11,7 +11,7 @@
 namespace wheelwright {
 namespace {
 
-/// Collects the points of a sector's polygons; those that polygons share are one.
+/// Collects the points of a sector's polygons; shared points are merged.
 class SectorMeshBuilder {
  public:
   SectorMeshBuilder(const LevelSet<2>& psi, const Lattice<2>& field_lattice)
@@ -28,7 +28,7 @@ class SectorMeshBuilder {
     return entry->second;
   }
 
-  /// Whether there is a point here, or in a sector beside it where that shares its edge.
+  /// Whether there is a point here, or in an adjacent sector that shares the edge.
   bool has(int cell, const Vec<2>& xi) const {
     const Vec<2> x = position(cell, xi);
     for (const int sector : {0, 1, -1})

@@ -8,7 +8,8 @@
 
 namespace wheelwright {
 
-/// Points of the material of sector 0 with what it takes to interpolate a field there, and triangles of them.
+/// Points of the material of sector 0, with the data to interpolate a field there, and triangles between
+/// them.
 struct SectorMesh {
   std::vector<Vec<2>> points;             ///< Cartesian [m]
   std::vector<RingCellNodes<2>> nodes;    ///< of the cell of every point
@@ -16,8 +17,8 @@ struct SectorMesh {
   std::vector<std::uint32_t> triangles;   ///< corners, counter-clockwise
 };
 
-/// The mesh of a shape in the plane; `field_lattice` carries the fields. Polygons beside halved ones have the
-/// middles of their sides too, so that no gaps open where the mesh is deformed.
+/// The mesh of a shape in the plane; `field_lattice` carries the fields. Polygons next to refined ones also
+/// have the midpoints of their sides, so that no gaps open when the mesh is deformed.
 SectorMesh sector_mesh(const LevelSet<2>& psi, const Lattice<2>& field_lattice);
 
 /// One load position: the fields at the points of a mesh in all sectors, in the order point + n_points *

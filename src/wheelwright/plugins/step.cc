@@ -30,8 +30,8 @@
 
 #include "wheelwright/export/plugin.h"
 
-// The solid as a STEP file (AP214) by OpenCASCADE: planes above and below, cylinders along circles and arcs,
-// B-spline surfaces along splines.
+// Writes the solid as a STEP file (AP214) by OpenCASCADE: planes above and below, cylinders along circles and
+// arcs, B-spline surfaces along splines.
 
 namespace wheelwright {
 namespace {
@@ -66,8 +66,8 @@ Handle(Geom_BSplineCurve) whole_curve(const cad::Spline& spline) {
   return new Geom_BSplineCurve(poles, knots, multiplicities, degree);
 }
 
-/// A long spline becomes several edges, cut at its knots: the rules by which programs integrate areas and
-/// volumes unless they are told otherwise have too few points for an edge of many cubics.
+/// Splits a long spline into several edges at its knots: the default quadrature by which programs compute
+/// areas and volumes has too few points for an edge of many cubics.
 std::vector<TopoDS_Edge> edges(const cad::Spline& spline) {
   constexpr int most_cubics = 4;
   const Handle(Geom_BSplineCurve) whole = whole_curve(spline);
@@ -112,7 +112,7 @@ Handle(TCollection_HAsciiString) text(const std::string& t) {
   return new TCollection_HAsciiString(t.c_str());
 }
 
-/// The header says nothing of time and place: the same wheel gives the same bytes.
+/// The header contains no time or place, so that the same wheel gives the same bytes.
 void set_header(const Handle(StepData_StepModel) & model, const WheelModel& wheel) {
   APIHeaderSection_MakeHeader header(model);
   header.SetName(text(wheel.title));
@@ -126,13 +126,14 @@ void set_header(const Handle(StepData_StepModel) & model, const WheelModel& whee
 std::string file(const WheelModel& wheel) {
   Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream));
   const TopoDS_Shape shape = solids(wheel);
-  if (!BRepCheck_Analyzer(shape).IsValid()) throw std::runtime_error("OpenCASCADE made no valid solid");
+  if (!BRepCheck_Analyzer(shape).IsValid())
+    throw std::runtime_error("OpenCASCADE did not produce a valid solid");
   STEPControl_Writer writer;
   Interface_Static::SetCVal("write.step.schema", "AP214IS");
   Interface_Static::SetCVal("write.step.unit", "MM");
   Interface_Static::SetCVal("write.step.product.name", wheel.title.c_str());
   if (writer.Transfer(shape, STEPControl_AsIs) != IFSelect_RetDone)
-    throw std::runtime_error("OpenCASCADE could not turn the solid into STEP");
+    throw std::runtime_error("OpenCASCADE could not convert the solid to STEP");
   const Handle(StepData_StepModel) model = writer.Model();
   set_header(model, wheel);
   StepData_StepWriter step(model);

@@ -9,7 +9,7 @@
 #include "wheelwright/export/plugin.h"
 #include "wheelwright/files/checksum.h"
 
-// The solid as a 3MF file by lib3mf: one mesh, in millimetres.
+// Writes the solid as a 3MF file by lib3mf: one mesh, in millimetres.
 
 namespace wheelwright {
 namespace {
@@ -25,7 +25,7 @@ struct Release {
 template <class Object>
 using Owned = std::unique_ptr<Object, Release>;
 
-/// What one of the library's functions makes in its last argument.
+/// The object that one of the library's functions creates in its last argument.
 template <class Object, class Make>
 Owned<Object> made(const Make& make) {
   Object* object = nullptr;
@@ -33,7 +33,7 @@ Owned<Object> made(const Make& make) {
   return Owned<Object>(object);
 }
 
-/// A UUID that depends on the solid and on what it names, so that the same wheel gives the same bytes.
+/// A UUID that depends on the solid and the named object, so that the same wheel gives the same bytes.
 std::string uuid(const SolidMesh& mesh, std::string_view role) {
   std::uint32_t words[4];
   std::uint32_t last = checksum(role);

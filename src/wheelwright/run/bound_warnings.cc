@@ -15,7 +15,7 @@ namespace {
 
 /// Whether a quantity is per metre of width in 2D, and hardly differs by an order of magnitude between wheels
 /// for the same load.
-bool is_told_apart(Quantity quantity) {
+bool is_distinguishable(Quantity quantity) {
   switch (quantity) {
     case Quantity::strain_energy:
     case Quantity::mass:
@@ -50,7 +50,7 @@ std::vector<std::string> bound_warnings(const Case& c) {
   for (const BoundState& bound : bound_states(evaluated->evaluation, {})) {
     const Quantity quantity = quantity_of(bound.name);
     const double ratio = bound.bound / bound.value;
-    if (is_told_apart(quantity) && ratio > 0 &&
+    if (is_distinguishable(quantity) && ratio > 0 &&
         std::abs(std::log(ratio / c.wheel.width)) < std::abs(std::log(ratio)))
       result.push_back(warning(bound, quantity, c.wheel));
   }

@@ -114,7 +114,7 @@ void read_history(const fs::path& file, ReportRun<dim>& run) {
     accepted_rows.add(std::move(row));
   }
   run.events = newest_events.newest();
-  run.events_left_out = newest_events.left_out();
+  run.events_omitted = newest_events.left_out();
   for (const auto& row : accepted_rows.rows())
     for (std::size_t k = 0; k < row.size(); ++k) run.history[k].values.push_back(row[k]);
 }

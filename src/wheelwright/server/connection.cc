@@ -20,7 +20,7 @@ constexpr std::array<std::array<const char*, 2>, 6> default_fields{{
     {"X-Content-Type-Options", "nosniff"},
 }};
 
-/// A header that stands twice is none that a browser sends: its value is empty.
+/// Browsers send each header at most once: a repeated header has an empty value.
 template <class Name>
 std::optional<std::string> field(const http::fields& fields, Name name) {
   const auto n = fields.count(name);
@@ -40,7 +40,7 @@ RequestHead head_of(const http::request_header<>& request) {
           .authorization = field(request, http::field::authorization)};
 }
 
-/// The status of a request that is none; 0 where the connection failed.
+/// The status for a malformed request; 0 if the connection failed.
 int status_of(const beast::error_code& error) {
   if (error == http::error::end_of_stream ||
       error.category() != beast::error_code(http::error::bad_method).category())

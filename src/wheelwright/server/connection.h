@@ -13,32 +13,32 @@
 
 namespace wheelwright {
 
-/// What connections need of their server, which outlives them.
+/// What connections need from their server, which outlives them.
 struct Service {
   ServerLimits limits;
-  /// The status of a request that gets nothing; 0 for one that is to be answered.
+  /// The status with which a request is refused; 0 if it is to be answered.
   std::function<int(const RequestHead&)> refusal;
   /// Called on a thread of `pool`.
   std::function<PageAnswer(const RequestHead&, const std::string& body)> answer;
   boost::asio::thread_pool& pool;
 };
 
-/// A connection of a client, which reads requests and writes their answers, one after the other. It lives as
-/// long as one of them is under way. All of it is for the thread of its socket; only the answers are made
+/// A connection to a client. Reads requests and writes their answers one at a time, and lives as long as one
+/// of these operations is pending. It is used only by the thread of its socket; answers are computed
 /// elsewhere.
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
   Connection(boost::asio::ip::tcp::socket socket, Service& service)
       : service_(service), stream_(std::move(socket)), buffer_(2 * service.limits.request_bytes) {}
 
-  /// Waits for a request and answers it, and so on.
+  /// Waits for a request, answers it, and repeats.
   void read();
 
   /// Whether no complete request has come since the last answer.
   bool is_waiting() const { return is_waiting_; }
 
   void close();
-  /// Closes it at once, or after the answer that is under way.
+  /// Closes it at once, or after the answer in progress.
   void end();
 
  private:

@@ -25,7 +25,7 @@ bool is_for(const Route& route, const RequestHead& head) {
 
 }  // namespace
 
-/// Sockets are served by one thread, which waits for none of them; answers are made by others.
+/// One thread serves all sockets without blocking on any; others compute the answers.
 class LocalServer::Http {
  public:
   Http(std::vector<Route> routes, int port, const ServerLimits& limits)
@@ -85,7 +85,7 @@ class LocalServer::Http {
     acceptor_.async_accept([this](boost::system::error_code error, tcp::socket socket) {
       if (!acceptor_.is_open()) return;
       if (error)
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));  // no descriptors are to be had
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));  // out of file descriptors
       else if (!is_of_another_user(socket.native_handle()))
         serve(std::move(socket));
       accept();

@@ -18,7 +18,7 @@ std::string endpoint(const sockaddr_in& address) {
   return fmt::format("{:08X}:{:04X}", address.sin_addr.s_addr, ntohs(address.sin_port));
 }
 
-/// The same of a socket of IPv6: the address ::ffff:a.b.c.d in four such numbers.
+/// The same for an IPv6 socket: the address ::ffff:a.b.c.d as four such numbers.
 std::string mapped_endpoint(const sockaddr_in& address) {
   return fmt::format("{:024X}", htonl(0xFFFF)) + endpoint(address);
 }

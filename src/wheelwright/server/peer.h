@@ -8,13 +8,13 @@
 
 namespace wheelwright {
 
-/// The user of a socket that is connected from one IPv4 address to another, by the lines of /proc/net/tcp and
-/// /proc/net/tcp6, in which such a socket is one of IPv6; empty where no line is about it.
+/// The user of a socket connected from one IPv4 address to another, according to a table in the format of
+/// /proc/net/tcp or /proc/net/tcp6, which lists it as an IPv6 socket; empty if it is not listed.
 std::optional<uid_t> user_of_connection(std::string_view table, const sockaddr_in& from,
                                         const sockaddr_in& to);
 
-/// Whether a connection that was accepted comes from a process of another user than this one's, root
-/// excepted, or of nobody whom the system names. False where the system does not even name this end of it.
+/// Whether an accepted connection comes from a process of another user, except root, or of a user unknown to
+/// the system. False if the system does not even know this end of it.
 bool is_of_another_user(int connection);
 
 }  // namespace wheelwright

@@ -26,8 +26,8 @@ std::string decoded(std::string_view text) {
   return result;
 }
 
-/// The text up to a character, which is taken away from it with that character; all of it where there is
-/// none.
+/// Removes and returns the text up to a character, which is also removed; all of it if the character is
+/// absent.
 std::string_view taken_until(char end, std::string_view& text) {
   const std::string_view taken = text.substr(0, text.find(end));
   text.remove_prefix(std::min(taken.size() + 1, text.size()));

@@ -15,7 +15,7 @@ using std::numbers::pi;
 constexpr int fewest = 6, most = 60;  // holes or spokes round the wheel
 constexpr double degree = pi / 180;
 
-/// A number of equal things round the wheel, uniform in its logarithm.
+/// The number of equal features around the wheel, uniform in its logarithm.
 int draw_count(const DraftSpace& space, Random& random, int low, int high) {
   const int s = space.sectors;
   const int fewest_copies = std::max(1, (low + s - 1) / s), most_copies = std::max(fewest_copies, high / s);
@@ -23,7 +23,7 @@ int draw_count(const DraftSpace& space, Random& random, int low, int high) {
   return s * std::clamp(static_cast<int>(std::lround(copies)), fewest_copies, most_copies);
 }
 
-/// A ring of holes before its size is known: its radii are `share` times the size.
+/// A ring of holes of unknown size: its radii are `share` times the size.
 struct RingDraft {
   int count;
   double center_radius, phase, share;
@@ -75,7 +75,9 @@ std::optional<Draft> draft_rings(const DraftSpace& space, Random& random, int n_
   const bool doubled = n_rings > 1 && !staggered && random.below(4) == 0;  // towards the tread
   const double thickness = (space.outer - space.inner) / n_rings;
   const double ratio =
-      n_rings == 1 ? 1 : random.uniform(0.85, 1.15);  // of each ring's holes to the one inside
+      n_rings == 1
+          ? 1
+          : random.uniform(0.85, 1.15);  // of the radii of each ring's holes to those of the ring inside
   std::vector<RingDraft> rings;
   for (int k = 0; k < n_rings; ++k) {
     const int n = doubled && k == n_rings - 1 ? 2 * count : count;
@@ -105,7 +107,7 @@ struct LongHoles {
   double center_radius, slenderness, angle;
 
   double width(double length) const { return length / slenderness; }
-  /// How far they reach from the middle along the radius, and across it.
+  /// Half extents along the radius and across it.
   double radial(double length) const { return 0.5 * (along(length, angle)); }
   double azimuthal(double length) const { return 0.5 * along(length, 0.5 * pi - std::abs(angle)); }
 

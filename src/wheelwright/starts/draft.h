@@ -10,23 +10,23 @@
 
 namespace wheelwright {
 
-/// A kind of start with its numbers and places drawn, and one size left to choose, by which its volume is
+/// A start whose numbers and places have been drawn at random, with one free size by which its volume is
 /// matched.
 struct Draft {
   std::string text;
   int sectors;
-  double least, most;                              ///< sizes that leave walls and gaps of one cell and more
+  double least, most;                              ///< sizes that leave walls and gaps of at least one cell
   std::function<void(Case& c, double size)> draw;  ///< on a case without holes and shapes
 };
 
-/// What drafts of a case have to keep to.
+/// Constraints on the drafts of a case.
 struct DraftSpace {
   double inner, outer;  ///< radii between which holes may lie [m]
   double wall;          ///< thinnest wall or gap [m]
-  int sectors;          ///< of which numbers of holes must be multiples
+  int sectors;          ///< numbers of holes must be multiples of it
 };
 
-/// One function per kind; nothing if the numbers that were drawn leave no room.
+/// One function per kind; nothing if the drawn numbers leave no room.
 std::optional<Draft> draft_rings(const DraftSpace& space, Random& random, int n_rings, bool staggered);
 std::optional<Draft> draft_slots(const DraftSpace& space, Random& random);
 std::optional<Draft> draft_ellipses(const DraftSpace& space, Random& random);

@@ -7,10 +7,10 @@
 
 namespace wheelwright {
 
-/// Random numbers that are the same on every machine: a Mersenne twister, and distributions of our own.
+/// Random numbers that are the same on every machine: a Mersenne twister, and our own distributions.
 class Random {
  public:
-  /// The sequence of a number; those of different numbers are independent.
+  /// The sequence with a number; sequences with different numbers are independent.
   Random(std::uint64_t seed, std::uint64_t number) {
     std::seed_seq words{low_word(seed), high_word(seed), low_word(number), high_word(number)};
     engine_.seed(words);

@@ -19,11 +19,11 @@ namespace wheelwright {
 namespace {
 
 constexpr int most_attempts = 200;
-/// Cases that are refused have mostly the same fault, which no other holes mend.
+/// Refused cases mostly have the same fault, which other holes do not repair.
 constexpr int most_refused = 10;
 constexpr double volume_tolerance = 1e-3;
 
-/// One of the kinds, in turn, so that even few starts hold several; rings come most often.
+/// The kinds take turns, so that even a few starts include several; rings are the most frequent.
 std::optional<Draft> draft(const DraftSpace& space, Random& random, int number) {
   switch (number % n_kinds_of_starts) {
     case 0:
@@ -58,14 +58,14 @@ DraftSpace draft_space(const Case& c, const StartRange& range) {
 }
 
 /// About as many cells as the case has, a multiple of the sectors that can be halved as often as its coarse
-/// grids need, and once where the case's can.
+/// grids need, and once if the case's can.
 int angular_cells(const Case& c, int sectors) {
   const int halvings = std::max(c.optimizer.coarse_levels, can_be_halved(c, 1) ? 1 : 0);
   const int unit = sectors << halvings;
   return unit * std::max(1, static_cast<int>(std::lround(double(c.grid.angular_cells) / unit)));
 }
 
-/// The case with a draft of some size in place of its holes and shapes.
+/// The case with a draft of this size instead of its holes and shapes.
 Case drawn(const Case& c, const StartRange& range, const Draft& draft, double size) {
   Case result = c;
   result.holes = {};
@@ -79,7 +79,7 @@ Case drawn(const Case& c, const StartRange& range, const Draft& draft, double si
   return result;
 }
 
-/// The size at which the draft has the volume of the range; nothing if none between its bounds has.
+/// The size at which the draft has the volume of the range; nothing if no size between its bounds has it.
 std::optional<double> matching_size(const Case& c, const StartRange& range, const Draft& draft) {
   double low = draft.least, high = draft.most;
   const auto excess = [&](double size) {
@@ -97,7 +97,7 @@ std::optional<double> matching_size(const Case& c, const StartRange& range, cons
   return {};
 }
 
-/// What is wrong with a case, first of all; empty if nothing is.
+/// The first problem of a case; empty if it is valid.
 std::string refusal(const Case& c) {
   const CaseResult checked = parse_case(to_toml(c), "start.toml");
   if (checked.value) return "";
@@ -153,7 +153,7 @@ DrawnStart draw_start(const Case& c, const StartRange& range, std::uint64_t seed
   const DraftSpace space = draft_space(c, range);
   FailedAttempts failed;
   while (failed.total() < most_attempts && failed.refused < most_refused && !must_end()) {
-    // A kind that finds no room gives way to the next one.
+    // If a kind finds no room, the next one is tried.
     DrawnStart drawing = attempt(c, range, draft(space, random, number + failed.total() / 20));
     failed += drawing.failed;
     if (drawing.start) return {std::move(drawing.start), std::move(failed)};

@@ -9,29 +9,29 @@
 
 namespace wheelwright {
 
-// Initial shapes for optimizations of the same wheel: rings of holes, slots, ellipses and spokes of random
+// Initial shapes for optimizations of the same wheel: rings of holes, slots, ellipses and spokes with random
 // numbers and places, all of the same volume.
 
-/// What the starts of one exploration have in common.
+/// Common properties of the starts of an exploration.
 struct StartRange {
   double volume;               ///< of the material, as a fraction of the ring
   bool keeps_sectors = false;  ///< only numbers of holes that are multiples of the case's sectors
 };
 
-/// A drawn start: the case with other holes or shapes and, where they ask for it, another number of sectors
-/// on a grid of about as many cells. Its volume.target is that of the range if the case holds its volume.
+/// A random start: the case with other holes or shapes and, if they require it, another number of sectors on
+/// a grid of about as many cells. Its volume.target is that of the range if the case fixes its volume.
 struct Start {
   std::string text;  ///< e.g. "2 rings of 16 holes, staggered"
   Case source;
 };
 
-/// What became of attempts that gave no start.
+/// Statistics of failed attempts.
 struct FailedAttempts {
   int without_room = 0;   ///< the numbers drawn leave no room for walls and gaps
   int off_volume = 0;     ///< no size has the volume of the range
   int refused = 0;        ///< the case is not valid
   int unresolved = 0;     ///< the grid loses walls or holes
-  std::string refusal{};  ///< what is wrong with the first case that was refused
+  std::string refusal{};  ///< the first problem of the first refused case
 
   int total() const { return without_room + off_volume + refused + unresolved; }
   FailedAttempts& operator+=(const FailedAttempts& other);
@@ -45,13 +45,12 @@ struct DrawnStart {
   FailedAttempts failed;
 };
 
-/// The kinds of starts, such as slots, that consecutive numbers have in turn.
+/// Number of kinds of starts, e.g. slots; consecutive starts take turns.
 inline constexpr int n_kinds_of_starts = 10;
 
-/// The start of a number, which no other start depends on. Its shape is valid on the grid of the case: no
-/// wall and no hole is lost there, and its volume is that of the range to within a hundredth of the ring.
-/// There is none if a bounded number of attempts failed, or if `must_end`, which is asked before each of
-/// them, says so.
+/// The start with a number, independent of all others. Its shape is valid on its grid: no wall and no hole is
+/// lost there, and its volume is that of the range to within a hundredth of the ring. There is none if a
+/// bounded number of attempts fail, or if `must_end`, which is called before each of them, returns true.
 DrawnStart draw_start(
     const Case& c, const StartRange& range, std::uint64_t seed, int number,
     const std::function<bool()>& must_end = [] { return false; });

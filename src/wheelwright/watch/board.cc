@@ -8,7 +8,7 @@
 namespace wheelwright {
 namespace {
 
-/// A page draws no more of a curve.
+/// Maximum number of points of a curve that a page draws.
 constexpr std::size_t most_points = 4000;
 
 template <int dim>

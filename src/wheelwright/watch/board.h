@@ -16,11 +16,11 @@
 
 namespace wheelwright {
 
-/// A shape of a run with its solutions, for those who show it. Immutable.
+/// A shape of a run with its solutions, for display. Immutable.
 template <int dim>
 struct WatchedShape {
   std::shared_ptr<const Case> source;
-  std::shared_ptr<const StateSolver<dim>> solver;  ///< which the solutions need
+  std::shared_ptr<const StateSolver<dim>> solver;  ///< required by the solutions
   std::shared_ptr<const LoadCases<dim>> load_cases;
   StatesOfCases<dim> solutions;  ///< one for each load case, and at least one
   LevelSet<dim> psi;
@@ -33,9 +33,9 @@ struct WatchedShape {
   double measure, target_measure;  ///< of one sector [m^2], or [m^3] when dim = 3
 };
 
-/// What is kept of every shape, for curves.
+/// The values kept of every shape, for curves.
 struct CurvePoint {
-  long version;  ///< of the board when it came
+  long version;  ///< of the board when the shape arrived
   int shape;
   double objective, mean_travel, run_out, volume_fraction;  ///< SI units
 };
@@ -46,13 +46,13 @@ constexpr const char* to_string(Activity activity) {
   return words[static_cast<std::size_t>(activity)];
 }
 
-/// What a run looks like now.
+/// The current state of a run.
 template <int dim>
 struct BoardView {
-  long version = 0;        ///< grows with every change
-  long shape_version = 0;  ///< with which the shape came
+  long version = 0;        ///< incremented with every change
+  long shape_version = 0;  ///< the version with which the shape arrived
   std::shared_ptr<const WatchedShape<dim>> shape, first;
-  std::shared_ptr<const LevelSet<dim>> proposed;  ///< drawn by a command, and not solved yet; mostly null
+  std::shared_ptr<const LevelSet<dim>> proposed;  ///< drawn by a command and not solved yet; usually null
   Activity activity = Activity::starting;
   std::optional<StopReason> reason;  ///< why it settled or ended
   bool can_undo = false;
@@ -60,12 +60,12 @@ struct BoardView {
   bool is_refusal = false;
 };
 
-/// Where a run leaves what others show: the newest shape replaces the one before it, whether or not anyone
-/// has seen that. Any thread may use it.
+/// The newest state of a run for those who display it. A new shape replaces the one before it, whether or not
+/// anyone has seen that. Thread-safe.
 template <int dim>
 class Board {
  public:
-  /// Changes what is to be seen.
+  /// Changes the view.
   template <class Change>
   void update(Change change) {
     {
@@ -81,14 +81,14 @@ class Board {
 
   BoardView<dim> view() const;
 
-  /// The view once its version is above the given one, at the latest after this time, or when the board is
-  /// closed.
+  /// Waits until the version exceeds the given one, this time has passed or the board is closed, and returns
+  /// the view.
   BoardView<dim> view_after(long version, std::chrono::milliseconds patience) const;
 
   /// The points of the curves that came after a version, oldest first.
   std::vector<CurvePoint> curve_after(long version) const;
 
-  /// Nobody waits any longer.
+  /// Wakes all waiting callers.
   void close();
 
  private:

@@ -7,7 +7,7 @@
 
 namespace wheelwright {
 
-/// Shows a run on a board. Costs the run next to nothing: it copies the nodal values of the shape.
+/// Shows a run on a board. Costs the run almost nothing: it copies the nodal values of the shape.
 template <int dim>
 class BoardObserver : public Observer<dim> {
  public:

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// The JSON of an exploration or a sweep; null where there is none.
+/// The JSON of an exploration or a sweep, or null.
 Json read_designs(const fs::path& folder) {
   for (const char* name : {"explore.json", "sweep.json"}) {  // of the commands
     std::ifstream stream(folder / name, std::ios::binary);
@@ -40,8 +40,7 @@ Expected<OfferedDesigns, NoProduct> offered_designs(const fs::path& folder) {
   const Json all = read_designs(folder);
   if (!all.is_object() || !all.contains("designs") || !all["designs"].is_array() ||
       !all.contains("quantities"))
-    return NoProduct{
-        fmt::format("{} is not the folder of an exploration or a sweep that ended", folder.string())};
+    return NoProduct{fmt::format("{} is not the folder of a finished exploration or sweep", folder.string())};
   OfferedDesigns offered;
   Json designs = Json::array();
   for (const Json& design : all["designs"]) {

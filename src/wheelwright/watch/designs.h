@@ -9,14 +9,14 @@
 
 namespace wheelwright {
 
-/// The designs of an exploration or a sweep, for a page that offers their shapes. What a page names is looked
-/// up here and nowhere else.
+/// The designs of an exploration or a sweep, for a page that offers their shapes. Names from a page are
+/// looked up only here.
 struct OfferedDesigns {
   std::string json = R"({"quantities":[],"designs":[]})";  ///< for the page
   std::map<std::string, std::filesystem::path> shapes;     ///< by the designs' names
 };
 
-/// Those in the folder of an exploration or a sweep that have saved a shape; or why there are none.
+/// The designs with a saved shape in the folder of an exploration or a sweep; or why there are none.
 Expected<OfferedDesigns, NoProduct> offered_designs(const std::filesystem::path& folder);
 
 }  // namespace wheelwright

@@ -24,7 +24,7 @@ using Json = nlohmann::ordered_json;
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
-/// The load of the section [load], with which commands begin, and those of all load cases.
+/// The load of the section [load], which commands modify, and those of all load cases.
 Json load_cases_json(const Case& c) {
   Json loads = Json::array();
   const auto singles = single_load_cases(c);
@@ -33,7 +33,7 @@ Json load_cases_json(const Case& c) {
   return loads;
 }
 
-/// What turns values of the quantity into those that people read.
+/// The conversion of the quantity to display units.
 Json shown_json(Quantity quantity, const Case& c) {
   const ShownUnit shown = shown_unit(quantity, c.wheel);
   return {{"unit", shown.name}, {"factor", shown.factor}};
@@ -103,7 +103,7 @@ Json outline_json(const LevelSet<2>& psi) {
   return loops;
 }
 
-/// What the contacts tell of the wheel at once, by the keys of wheel_numbers().
+/// The wheel's numbers that follow directly from the contacts, by the keys of wheel_numbers().
 template <int dim>
 Json contact_numbers_json(const State<dim>& state) {
   const RollingMeasures measures = rolling_measures(contact_summaries(state));
@@ -145,7 +145,7 @@ Json pressure_json(const StateSolver<dim>& solver, const State<dim>& state, int 
   return {{"position", position}, {"x_m", std::move(x)}, {"pressure_Pa", std::move(pressure)}};
 }
 
-/// The mean travel of the rim under forces up to one and a half times the present one; without those under
+/// The mean travel of the rim under forces up to one and a half times the present one; omitting forces for
 /// which it cannot be computed.
 template <int dim>
 Json force_curve_json(const State<dim>& state, double width) {

@@ -6,7 +6,7 @@
 
 namespace wheelwright {
 
-/// Gives freed memory back to the system now and then, so that a session of hours does not grow by it.
+/// Returns freed memory to the system from time to time, so that it does not accumulate over hours.
 template <int dim>
 class FreedMemoryObserver : public Observer<dim> {
  public:

@@ -10,17 +10,17 @@
 
 namespace wheelwright {
 
-/// The numbers of a wheel that is watched, beside those of the initial shape under the same loads. They take
-/// longer than the shape itself: pages ask for them now and then. Any thread may.
+/// The numbers of a watched wheel and of the initial shape under the same loads. They take longer than the
+/// shape itself, so pages request them only from time to time. Thread-safe.
 template <int dim>
 class WatchedNumbers {
  public:
-  /// As JSON: which shape and load case, how numbers are told, the numbers of both wheels in SI units, which
-  /// the keys end in, and warnings in sentences.
+  /// As JSON: shape and load case, how to display numbers, the numbers of both wheels in SI units, named at
+  /// the end of the keys, and warnings in sentences.
   std::string json(const BoardView<dim>& view, int load_case);
 
  private:
-  /// The initial shape under the loads of a case. The last one is remembered.
+  /// The initial shape under the loads of a case. The last one is cached.
   struct Initial {
     std::shared_ptr<const Case> source;
     std::shared_ptr<const StateSolver<dim>> solver;

@@ -13,7 +13,7 @@
 
 namespace wheelwright {
 
-/// The commands that pages give a run, each with a ticket by which its answer is found.
+/// The commands from pages to a run, each with a ticket to retrieve its answer.
 class PageCommands {
  public:
   struct Answer {
@@ -24,17 +24,16 @@ class PageCommands {
 
   explicit PageCommands(CommandQueue& queue) : queue_(queue) {}
 
-  /// Whether commands like this come from pages. To save, to stop, and what a program gives, come from
-  /// elsewhere.
+  /// Whether pages may give such a command. Save, stop and commands of programs are not for pages.
   static bool is_for_pages(const Command& command);
 
   /// Empty while too many are waiting.
   std::optional<long> give(Command command);
 
-  /// The answer to a ticket; empty when it does not come in time or nobody asks any longer.
+  /// The answer to a ticket; empty if it does not arrive in time or nobody waits any longer.
   std::optional<Answer> answer(long ticket, std::chrono::milliseconds patience);
 
-  /// To be told of every command that was obeyed or refused.
+  /// To be called for every command that was executed or refused.
   void note(const CommandDone& done);
 
   void close();
@@ -48,7 +47,7 @@ class PageCommands {
   bool is_closed_ = false;
 };
 
-/// Tells them what became of the commands.
+/// Passes the results of commands on to PageCommands.
 template <int dim>
 class PageCommandsObserver : public Observer<dim> {
  public:

@@ -47,7 +47,7 @@ std::string title(const WatchedShape<dim>& shape) {
   return fmt::format("{}, shape {}", run_title(*shape.source), shape.number);
 }
 
-/// What a format makes of a wheel.
+/// The file of a wheel in a format.
 template <class Model>
 Expected<std::string, NoProduct> file(std::string (*of_wheel)(const Model&),
                                       const std::type_identity_t<Model>& wheel) {
@@ -126,7 +126,7 @@ Expected<std::filesystem::path, NoProduct> save_design(const std::filesystem::pa
   const std::filesystem::path designs = folder / designs_folder, file = designs / (name + ".toml"),
                               level_set = designs / (name + ".levelset");
   if (is_there(file) || is_there(level_set))
-    return NoProduct{fmt::format("{} is there already: choose another name", file.string())};
+    return NoProduct{fmt::format("{} already exists: choose another name", file.string())};
   Case c = *shape.source;
   c.holes = {};
   c.shapes = {};

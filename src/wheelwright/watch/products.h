@@ -10,9 +10,9 @@
 
 namespace wheelwright {
 
-// What a user takes away from a shape on a page. Any thread may make it; the run does not wait.
+// Files that a user saves from a shape on a page. Thread-safe; the run does not wait.
 
-/// Why there is none: one line.
+/// Why there is no product; one line.
 struct NoProduct {
   std::string reason;
 };
@@ -27,17 +27,17 @@ SolvedShape<dim> solved(const WatchedShape<dim>& shape, int load_case = 0) {
 Expected<std::string, NoProduct> exported(const WatchedShape<2>& shape, std::string_view format);
 Expected<std::string, NoProduct> exported(const WatchedShape<3>& shape, std::string_view format);
 
-/// The report page of the run in a folder, with this shape as its last one; `initial` is its first one.
+/// The report page of the run in a folder, with this shape as the last one; `initial` is the first one.
 template <int dim>
 Expected<std::string, NoProduct> design_report(const std::filesystem::path& folder,
                                                const LevelSet<dim>& initial, const WatchedShape<dim>& shape);
 
-/// Whether a text is a name of a design: letters, digits, - and _, at most 40 of them.
+/// Whether a text is a valid name of a design: letters, digits, - and _, at most 40 of them.
 bool is_design_name(std::string_view name);
 
-/// Saves the shape as a case of its own, designs/NAME.toml with its level set beside it: a run of it begins
-/// with the same bits. The material that the shape has is its target. Returns the case's file; refuses a name
-/// that is taken, and shapes in 3D, with which no case begins. Throws OutputError.
+/// Saves the shape as a new case, designs/NAME.toml with its level set next to it; a run of it starts from
+/// exactly this shape. Its volume target is that of the shape. Returns the case's file; refuses a name in
+/// use, and shapes in 3D. Throws OutputError.
 template <int dim>
 Expected<std::filesystem::path, NoProduct> save_design(const std::filesystem::path& folder,
                                                        const std::string& name,

@@ -24,10 +24,10 @@ Vec<2> mean_point(const Contour& contour) {
 
 double distance(const Vec<2>& a, const Vec<2>& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
 
-/// Whether the loop has images in all other sectors; they are taken with it.
+/// Whether the loop has images in all other sectors; if so, these are consumed too.
 bool take_images(std::vector<Loop>& loops, Loop& first, const PolarGrid<2>& grid) {
   const double near = 1e-3 * grid.resolution();
-  if (norm<2>(first.mean) < near) return false;  // round the axle
+  if (norm<2>(first.mean) < near) return false;  // around the axle
   std::vector<Loop*> images;
   for (int sector = 1; sector < grid.n_sectors; ++sector) {
     const Vec<2> there = rotated<2>(first.mean, sector * grid.sector_angle());

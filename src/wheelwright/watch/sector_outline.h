@@ -6,14 +6,14 @@
 
 namespace wheelwright {
 
-/// An edge of the material besides rim and tread: a closed polyline in whole micrometres (Cartesian, body
-/// frame), x and y in turn.
+/// An edge of the material other than rim and tread: a closed polyline in whole micrometres (Cartesian, body
+/// frame), x and y alternating.
 struct OutlineLoop {
-  bool is_in_every_sector;  ///< it stands for its images in all sectors; else it is the only one
+  bool is_in_every_sector;  ///< represents its images in all sectors; otherwise it is unique
   std::vector<int> micrometres;
 };
 
-/// The edges of a shape, one of each set of images.
+/// The edges of a shape, one per set of images.
 std::vector<OutlineLoop> sector_outline(const LevelSet<2>& psi);
 
 }  // namespace wheelwright

@@ -18,10 +18,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// How long a page waits for news before it asks again.
+/// How long a page waits for news before it polls again.
 constexpr auto patience = 15s;
 
-/// A whole number of the address, at least 0; 0 where there is none.
+/// A nonnegative integer parameter of the address; 0 if absent.
 long parameter(const PageRequest& request, const std::string& name) {
   const auto found = request.parameters.find(name);
   if (found == request.parameters.end()) return 0;
@@ -37,7 +37,7 @@ PageAnswer message(int status, bool was_obeyed, const std::string& text) {
           .body = json.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace)};
 }
 
-/// The load case that a page asks for, the first where there is no such one.
+/// The load case that a page requests; the first if there is no such one.
 template <int dim>
 int asked_load_case(const PageRequest& request, const WatchedShape<dim>& shape) {
   const long load_case = parameter(request, "case");
@@ -126,11 +126,11 @@ PageAnswer WatchSession<dim>::command(const PageRequest& request) {
   const auto parsed = parse_command(request.body);
   if (!parsed) return message(400, false, parsed.failure().reason);
   if (!PageCommands::is_for_pages(*parsed) || std::holds_alternative<TakeShape>(*parsed))
-    return message(400, false, "no command of a page");
+    return message(400, false, "not a command of a page");
   return obeyed(*parsed);
 }
 
-/// The shape of a design that is offered: a page gives its name, never a file.
+/// The shape of an offered design: a page passes its name, never a file.
 template <int dim>
 PageAnswer WatchSession<dim>::take(const PageRequest& request) {
   const auto found = designs_.shapes.find(request.body);
@@ -143,7 +143,7 @@ PageAnswer WatchSession<dim>::obeyed(Command command) {
   const auto ticket = commands_->give(std::move(command));
   if (!ticket) return message(429, false, "too many commands are waiting");
   const auto answer = commands_->answer(*ticket, patience);
-  if (!answer) return message(202, false, "not obeyed yet");
+  if (!answer) return message(202, false, "not executed yet");
   return message(200, answer->was_obeyed, answer->text);
 }
 

@@ -13,25 +13,25 @@
 
 namespace wheelwright {
 
-/// The case as a run computes it that is watched: without an end by its number of shapes, without files of
-/// shapes on the way, and with a checkpoint every few seconds.
+/// The case for a watched run: without a limit on shapes, without files of intermediate shapes, and with a
+/// checkpoint every few seconds.
 Case watched_case(Case c);
 
-/// What connects pages with one run: the addresses that they use, the commands that they give and what they
-/// are shown. It knows the run by its events and its queue of commands alone. Any thread may call the routes.
+/// Connects pages with one run: the addresses that they use, their commands, and what they are shown. It
+/// knows the run only through its events and its command queue. The routes are thread-safe.
 template <int dim>
 class WatchSession {
  public:
   /// The queue must outlive the session.
   explicit WatchSession(CommandQueue& commands, OfferedDesigns designs = {});
 
-  /// Makes a run that takes its commands from the queue known to pages, before it is executed.
+  /// Connects a run that takes its commands from the queue, before it is executed.
   void watch(Run<dim>& run);
 
   /// For a server, which the session must outlive.
   std::vector<Route> routes();
 
-  /// Answers the pages that wait; none waits any longer.
+  /// Answers all waiting pages; none waits any longer.
   void close();
 
  private:

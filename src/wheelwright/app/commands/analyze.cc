@@ -26,12 +26,12 @@ namespace {
 
 constexpr const char* result_file = "analysis.json";
 
-/// What is written to the folder: whoever adds a file adds its name here.
+/// All files that are written to the folder: add the names of new files here.
 constexpr std::string_view names_in_folder[] = {
     "analysis.json", "travel.svg", "force.svg",  "peak_pressure.svg",  "pressures.svg",    "pressures.csv",
     "loads.svg",     "mesh.svg",   "stress.svg", "stress_contact.svg", "displacement.svg", "pressure.svg"};
 
-/// Loads on the whole width [N]. The wheel's name stands for a title that is missing.
+/// Loads on the whole width [N]. The wheel's name replaces a missing title.
 template <int dim>
 RollingReport rolling_report(const WheelInput<dim>& wheel, const std::vector<double>& loads,
                              const StateSolver<dim>& solver, const State<dim>& solution) {
@@ -89,14 +89,14 @@ class AnalyzeCommand : public Subcommand {
                  "Report the deflection under these loads on the whole width [N]");
     options.text(
         "--load-case", "NAME", load_case_, [](const std::string&) { return ""; },
-        "Compute the wheel under this [[load.case]], not under the first one");
+        "Compute the wheel under this [[load.case]] instead of the first one");
     add_output(options, output_, "Folder for JSON and plots; without it only the table is printed");
     options.flag("--json", json_, "Print JSON instead of the table");
     add_threads(options, threads_);
   }
 
   int run() override {
-    auto wheel = read_wheel_or_tell(input_, {name(), threads_, positions_});
+    auto wheel = read_wheel_or_report(input_, {name(), threads_, positions_});
     if (!wheel) return wheel.failure();
     if (output_ && !may_write_to(*output_, names_in_folder)) return exit_refused;
     if (!take_load_case(*wheel)) return exit_refused;
@@ -106,7 +106,7 @@ class AnalyzeCommand : public Subcommand {
  private:
   std::filesystem::path folder() const { return *output_; }
 
-  /// Leaves one load case as the only load; false, after a message, if there is none of the asked name.
+  /// Reduces the case to the requested load case; false, after a message, if there is none of that name.
   bool take_load_case(AnyWheel& wheel) const {
     return std::visit(
         [&](auto& input) {
@@ -115,8 +115,8 @@ class AnalyzeCommand : public Subcommand {
               load_case_ ? std::ranges::find(cases, *load_case_, &CaseLoad::name) : cases.begin();
           if (found == cases.end()) {
             if (load_case_)
-              tell("{}: the case has no [[load.case]] with the name {}\n", name(),
-                   without_control_characters(*load_case_));
+              print_err("{}: the case has no [[load.case]] named {}\n", name(),
+                        without_control_characters(*load_case_));
             return !load_case_;
           }
           input.which += ", load case " + found->name;
@@ -126,23 +126,23 @@ class AnalyzeCommand : public Subcommand {
         wheel);
   }
 
-  /// Computes the shape at its load positions and tells what an engineer asks of a wheel.
+  /// Computes the shape at its load positions and reports the quantities of interest.
   template <int dim>
   int analyze(const WheelInput<dim>& wheel) const {
     const Case& c = wheel.source;
     const auto made = make_solver(rolling_model<dim>(with_levels_of_results(c)));
-    if (!made) return tell_failure(name(), made.failure());
+    if (!made) return report_failure(name(), made.failure());
     const StateSolver<dim>& solver = **made;
     const LevelSet<dim>& shape = wheel.shape;
-    const auto solved = solver.states(shape, solver.all_positions(), tell_contact_progress());
-    if (!solved) return tell_failure(name(), solved.failure());
+    const auto solved = solver.states(shape, solver.all_positions(), print_contact_progress());
+    if (!solved) return report_failure(name(), solved.failure());
     if (const auto failure = material_overlaps(solver, shape, **solved))
-      return tell_failure(name(), *failure);
+      return report_failure(name(), *failure);
     const auto report = rolling_report(wheel, loads(), solver, **solved);
     print_report(report);
     const auto size = deformation_size(solver, shape, **solved);
     if (const std::string warning = deformation_warning(size); !warning.empty())
-      tell_warning(wheel.name, warning);
+      warn_about(wheel.name, warning);
     if (output_) write(report, shape, solver, **solved);
     return exit_done;
   }

@@ -23,22 +23,22 @@ namespace {
 
 class CheckCommand : public Subcommand {
  public:
-  CheckCommand() : Subcommand("check", "Report all problems of a case, or the numbers derived from it") {}
+  CheckCommand() : Subcommand("check", "Report all problems of a case, or the values derived from it") {}
 
   void declare(Options& options) override { add_case(options, case_file_); }
 
   int run() override {
-    const auto c = read_or_tell(case_file_);
+    const auto c = read_or_report(case_file_);
     if (!c) return exit_usage;
     const auto lack = lack_of_memory(*c, available_memory());
     const auto loose = lack ? std::vector<std::string>() : loose_material(*c);
-    for (const std::string& piece : loose) tell("{}: {}\n", case_file_, piece);
+    for (const std::string& piece : loose) print_err("{}: {}\n", case_file_, piece);
     if (!loose.empty()) return exit_usage;
     const auto filled = lack ? std::nullopt : in_dimension_of(*c, [&](auto dim) {
       return filled_holes(initial_shape<dim>(*c), evolution_options(*c));
     });
     if (filled) {
-      tell("{}: {}\n", case_file_, filled->detail);
+      print_err("{}: {}\n", case_file_, filled->detail);
       return exit_usage;
     }
     print("{}\n", styled(stdout, Style::green, case_file_ + ": no problems"));
@@ -69,12 +69,12 @@ class CheckCommand : public Subcommand {
   static std::optional<Expected<PlaneComparison>> plane_comparison(const Case& c) {
     if (c.wheel.dimension == 3 || c.contact.with != Counterpart::ground) return {};
     const SlowStage stage("comparing plane strain and plane stress with three dimensions, on a coarse grid");
-    return compare_planes(c, tell_contact_progress());
+    return compare_planes(c, print_contact_progress());
   }
 
   static std::optional<std::string> predicted_warning(const Case& c) {
     const SlowStage stage("solving the initial wheel, on a coarse grid");
-    return predicted_deformation(c, tell_contact_progress());
+    return predicted_deformation(c, print_contact_progress());
   }
 
   std::string case_file_;

@@ -2,7 +2,7 @@
 
 namespace wheelwright {
 
-// The list. make_NAME() stands in the file NAME.cc, make_export_() in export.cc.
+// The list. make_NAME() is in the file NAME.cc, make_export_() in export.cc.
 #define WHEELWRIGHT_COMMANDS(apply) \
   apply(run);                       \
   apply(resume);                    \

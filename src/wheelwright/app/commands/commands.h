@@ -7,8 +7,8 @@
 
 namespace wheelwright {
 
-/// All commands of the program, in the order of --help. To add one: a file here like those of the others, and
-/// its name in the list of commands.cc.
+/// All commands of the program, in the order of --help. To add one, add a file here like those of the others,
+/// and its name to the list in commands.cc.
 std::vector<std::unique_ptr<Subcommand>> make_commands();
 
 }  // namespace wheelwright

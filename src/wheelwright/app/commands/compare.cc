@@ -14,16 +14,16 @@
 namespace wheelwright {
 namespace {
 
-/// What is written to the folder: whoever adds a file adds its name here.
+/// All files that are written to the folder: add the names of new files here.
 constexpr std::string_view names_in_folder[] = {"comparison.txt", "comparison.json", "comparison.svg"};
 
-/// Solves a wheel in its load positions.
+/// Solves a wheel at its load positions.
 Expected<ComparedWheel> compared(const WheelInput<2>& wheel) {
   const Case c = with_levels_of_results(wheel.source);
   const auto solver = make_solver(rolling_model<2>(c));
   if (!solver) return solver.failure();
   const LevelSet<2>& shape = wheel.shape;
-  const auto states = (*solver)->states(shape, (*solver)->all_positions(), tell_contact_progress());
+  const auto states = (*solver)->states(shape, (*solver)->all_positions(), print_contact_progress());
   if (!states) return states.failure();
   const PolarGrid<2>& grid = shape.lattice.grid();
   auto numbers = described_wheel(**solver, shape, volume_fraction(grid, material_measure(shape)), states,
@@ -36,8 +36,7 @@ Expected<ComparedWheel> compared(const WheelInput<2>& wheel) {
 
 class CompareCommand : public Subcommand {
  public:
-  CompareCommand()
-      : Subcommand("compare", "Compare wheels: their numbers, and their outlines over each other") {}
+  CompareCommand() : Subcommand("compare", "Compare wheels: their numbers and overlaid outlines") {}
 
   void declare(Options& options) override {
     constexpr int most_positions = 1000;
@@ -53,7 +52,7 @@ class CompareCommand : public Subcommand {
   int run() override {
     std::vector<WheelInput<2>> wheels;
     for (const std::string& input : inputs_) {
-      auto wheel = read_plane_wheel_or_tell(input, {name(), threads_, positions_});
+      auto wheel = read_plane_wheel_or_report(input, {name(), threads_, positions_});
       if (!wheel) return wheel.failure();
       wheels.push_back(*std::move(wheel));
     }
@@ -67,8 +66,8 @@ class CompareCommand : public Subcommand {
     for (const WheelInput<2>& input : inputs) {
       auto wheel = compared(input);
       if (!wheel) {
-        tell("{}:\n", input.name);
-        return tell_failure(name(), wheel.failure());
+        print_err("{}:\n", input.name);
+        return report_failure(name(), wheel.failure());
       }
       wheels.push_back(*std::move(wheel));
     }

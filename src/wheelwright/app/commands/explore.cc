@@ -13,25 +13,24 @@ namespace {
 
 class ExploreCommand : public Subcommand {
  public:
-  ExploreCommand()
-      : Subcommand("explore", "Optimize a case from many starts, and show the best designs of all") {}
+  ExploreCommand() : Subcommand("explore", "Optimize a case from many starts, and show the best designs") {}
 
   void declare(Options& options) override {
     constexpr int most_starts = 999, most_seed = 1'000'000'000;
     add_case(options, case_file_);
     options.number("--starts", plan_.starts, {1, most_starts},
-                   "Number of initial shapes: the case's own and drawn ones, all of the same volume");
-    options.number("--seed", seed_, {0, most_seed}, "Of the random numbers by which they are drawn");
+                   "Number of initial shapes: the case's own and generated ones, all of the same volume");
+    options.number("--seed", seed_, {0, most_seed}, "Seed of the random numbers that generate them");
     options.flag("--keep-sectors", plan_.keeps_sectors,
-                 "Draw only numbers of holes that are multiples of wheel.sectors");
+                 "Generate only numbers of holes that are multiples of wheel.sectors");
     options_.declare(options);
   }
 
   int run() override {
     Signals signals;
-    const auto c = read_or_tell(case_file_);
+    const auto c = read_or_report(case_file_);
     if (!c) return exit_usage;
-    if (!is_plane_or_tell(name(), *c, case_file_)) return exit_refused;
+    if (!is_plane_or_report(name(), *c, case_file_)) return exit_refused;
     if (!may_compute(name(), *c, case_file_, options_.threads)) return exit_refused;
     plan_.seed = static_cast<std::uint64_t>(seed_);
     plan_.quantities = options_.chosen_quantities(*c);
@@ -40,10 +39,10 @@ class ExploreCommand : public Subcommand {
     if (!session.may_begin()) return exit_refused;
     const auto designs = planned_designs(*c, plan_, session.drawing_settings(plan_.starts));
     if (const auto signal = signals.stop()) {
-      tell("stopped while starts were drawn; nothing was saved\n");
+      print_err("stopped while starts were being generated; nothing was saved\n");
       return exit_nothing_saved;
     }
-    if (!designs) return tell_failure(name(), designs.failure());
+    if (!designs) return report_failure(name(), designs.failure());
     const std::size_t n_runs = designs->size() + (designs->size() + 2) / 3;
     return session.run(n_runs, [&](const RunSettings& settings) {
       return wheelwright::explore(folder, *designs, plan_.quantities, settings);

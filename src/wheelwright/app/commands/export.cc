@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 constexpr const char *default_formats = "dxf,svg,stl", *default_formats_3d = "stl";
 constexpr double default_tolerance = 0.01, default_tolerance_3d = 0.1, least_tolerance = 0.001,
                  greatest_tolerance = 1000;  // [mm]
-constexpr double finest_share = 1e-6;        // of the outer radius, that the tolerance may be
+constexpr double finest_share = 1e-6;        // smallest tolerance, as a fraction of the outer radius
 
 using Formats = std::vector<const ExportFormat*>;
 
@@ -48,7 +48,7 @@ std::string joined_names(Formats&& formats) {
 
 std::string names_of_formats() { return joined_names(export_formats()); }
 
-/// Those that can hold a wheel of this kind.
+/// The formats that can hold a wheel of this kind.
 template <class Model>
 std::string names_of_formats_for() {
   return joined_names(export_formats() | std::views::filter([](const ExportFormat& format) {
@@ -56,7 +56,7 @@ std::string names_of_formats_for() {
                       }));
 }
 
-/// The formats of a list like "dxf,svg", each once; nothing if one of them is unknown or the list is empty.
+/// The formats in a list like "dxf,svg", without duplicates; nothing if one is unknown or the list is empty.
 std::optional<Formats> parse_formats(std::string_view list) {
   Formats formats;
   while (true) {
@@ -70,7 +70,7 @@ std::optional<Formats> parse_formats(std::string_view list) {
 }
 
 std::string check_formats(const std::string& list) {
-  return parse_formats(list) ? "" : fmt::format("must be some of {}, joined by commas", names_of_formats());
+  return parse_formats(list) ? "" : fmt::format("must be a comma-separated list of {}", names_of_formats());
 }
 
 std::optional<double> parse_tolerance(const std::string& text) {
@@ -90,24 +90,24 @@ std::string check_tolerance(const std::string& text) {
 class ExportCommand : public Subcommand {
  public:
   ExportCommand()
-      : Subcommand("export", "Write a shape for CAD, workshop and printing: DXF, STEP, STL and others") {}
+      : Subcommand("export",
+                   "Export a shape to CAD, workshop and printing formats: DXF, STEP, STL and others") {}
 
   void declare(Options& options) override {
     add_wheel(options, input_);
     options.text("--format", "NAME,NAME,...", formats_, check_formats,
                  fmt::format("Any of {}; without it {}, for a wheel in 3D {}", names_of_formats(),
                              default_formats, default_formats_3d));
-    options.text(
-        "--tolerance", "MM", tolerance_, check_tolerance,
-        fmt::format("Largest distance of the curves, in 3D of the triangles, from the shape's edges [mm]; "
-                    "without it {}, in 3D {}",
-                    default_tolerance, default_tolerance_3d));
-    add_output(options, output_, "Folder for the files; without it the current one");
+    options.text("--tolerance", "MM", tolerance_, check_tolerance,
+                 fmt::format("Maximum distance of the curves, in 3D of the triangles, from the shape's edges "
+                             "[mm]; default {}, in 3D {}",
+                             default_tolerance, default_tolerance_3d));
+    add_output(options, output_, "Folder for the files; default: the current one");
     options.flag("--force", force_, "Overwrite files that exist");
   }
 
   int run() override {
-    const auto wheel = read_wheel_or_tell(input_, {name(), {}});
+    const auto wheel = read_wheel_or_report(input_, {name(), {}});
     if (!wheel) return wheel.failure();
     return std::visit([this](const auto& input) { return export_wheel(input); }, *wheel);
   }
@@ -122,15 +122,15 @@ class ExportCommand : public Subcommand {
     return *parse_formats(formats_ ? *formats_ : without_option);
   }
 
-  /// Whether they can hold such a wheel; tells which cannot.
+  /// Whether all formats can hold such a wheel; prints those that cannot.
   template <class Model>
   bool can_hold_or_tell(const Formats& formats) const {
     for (const ExportFormat* format : formats) {
       if (can_hold(*format, static_cast<const Model*>(nullptr))) continue;
       constexpr bool is_solid = std::is_same_v<Model, SurfaceModel>;
-      tell("wheelwright {}: {} cannot hold {}; choose from {}\n", name(), format->name,
-           is_solid ? "a wheel in 3D, whose shape changes along the axle" : "a plane wheel",
-           names_of_formats_for<Model>());
+      print_err("wheelwright {}: {} cannot hold {}; choose from {}\n", name(), format->name,
+                is_solid ? "a wheel in 3D, whose shape changes along the axle" : "a plane wheel",
+                names_of_formats_for<Model>());
       return false;
     }
     return true;
@@ -141,8 +141,8 @@ class ExportCommand : public Subcommand {
     const Formats chosen = formats(default_formats);
     if (!can_hold_or_tell<WheelModel>(chosen)) return exit_usage;
     if (const double finest = finest_share * input.source.wheel.outer_radius; accuracy < finest) {
-      tell("wheelwright {}: the tolerance must be at least {:.3g} mm for a wheel of this size\n", name(),
-           finest * 1e3);
+      print_err("wheelwright {}: the tolerance must be at least {:.3g} mm for a wheel of this size\n", name(),
+                finest * 1e3);
       return exit_usage;
     }
     const auto outline = cad::fit_outline(input.shape, accuracy);
@@ -191,12 +191,12 @@ class ExportCommand : public Subcommand {
   }
 
   int refuse(const std::vector<cad::OutlineFault>& faults) const {
-    for (const cad::OutlineFault& fault : faults) tell("wheelwright {}: {}\n", name(), fault.what);
-    tell("Nothing was written.\n");
+    for (const cad::OutlineFault& fault : faults) print_err("wheelwright {}: {}\n", name(), fault.what);
+    print_err("Nothing was written.\n");
     return exit_refused;
   }
 
-  /// Makes all files before the first is written.
+  /// Creates the contents of all files before it writes the first.
   template <class Model>
   int write(const Model& wheel, const Formats& formats, const std::string& stem) const {
     const fs::path folder = output_ ? fs::path(*output_) : fs::path(".");
@@ -204,13 +204,13 @@ class ExportCommand : public Subcommand {
     for (const ExportFormat* format : formats) {
       const fs::path path = folder / fmt::format("{}.{}", stem, format->name);
       if (!force_ && has_entry(path)) {
-        tell("{}: exists already; choose another folder, or overwrite it with --force\n", path.string());
+        print_err("{}: exists already; choose another folder, or overwrite it with --force\n", path.string());
         return exit_refused;
       }
       try {
         files.emplace_back(path, file(*format, wheel));
       } catch (const MissingPlugin& missing) {
-        tell("wheelwright {}: {}: {}\n", name(), format->name, missing.what());
+        print_err("wheelwright {}: {}: {}\n", name(), format->name, missing.what());
         return exit_refused;
       }
     }

@@ -44,12 +44,12 @@ class InitCommand : public Subcommand {
     const int file = open(file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file < 0) {
       const int reason = errno;
-      tell("{}: {}\n", file_, std::strerror(reason));
+      print_err("{}: {}\n", file_, std::strerror(reason));
       return reason == EEXIST ? exit_refused : exit_input_output;
     }
     if (!write_and_close(file, preset_ ? std::string(find_preset(*preset_)->text) : case_template())) {
-      unlink(file_.c_str());  // it is new, and useless
-      tell("{}: cannot be written\n", file_);
+      unlink(file_.c_str());  // incomplete, and newly created
+      print_err("{}: cannot be written\n", file_);
       return exit_input_output;
     }
     print("wrote {0}; next: wheelwright check {0}\n", file_);
@@ -57,7 +57,7 @@ class InitCommand : public Subcommand {
   }
 
  private:
-  /// What is wrong with a name that no preset has.
+  /// The message for an unknown preset.
   static std::string unknown(const std::string& name) {
     std::vector<std::string_view> names;
     for (const Preset& preset : presets()) names.push_back(preset.name);

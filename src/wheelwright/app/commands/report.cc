@@ -18,7 +18,7 @@
 namespace wheelwright {
 namespace {
 
-/// Solves the given wheel and the last shape of a run again, for what its folder does not keep.
+/// Solves the given wheel and the last shape of a run again, for results that its folder does not keep.
 template <int dim>
 Expected<PageRun> report_of_run(const RunInput<dim>& run) {
   const auto study = make_study<dim>(run.source);
@@ -28,7 +28,7 @@ Expected<PageRun> report_of_run(const RunInput<dim>& run) {
   const StateSolver<dim>& solver = **made;
   const auto solved = [&](const LevelSet<dim>& shape) {
     return solver.states(shape, distinct_positions(solver, study->load_cases, shape),
-                         tell_contact_progress());
+                         print_contact_progress());
   };
   const LevelSet<dim>& given = study->initial;
   const OptimizationState<dim>& last = run.checkpoint.state;
@@ -36,7 +36,7 @@ Expected<PageRun> report_of_run(const RunInput<dim>& run) {
   if (!last_states) return last_states.failure();
   const auto summary =
       summarized_run(*study, run.checkpoint.initial,
-                     objective_as_given(*study, run.checkpoint.initial, tell_contact_progress()),
+                     objective_as_given(*study, run.checkpoint.initial, print_contact_progress()),
                      described(solver, study->load_cases, given, material_measure(given), solved(given)),
                      last, described(solver, study->load_cases, last.shape, last.measure, last_states));
   const SolvedShape<dim> shape{&last.shape, &solver, last_states->get()};
@@ -44,7 +44,7 @@ Expected<PageRun> report_of_run(const RunInput<dim>& run) {
                                          run.checkpoint.finished));
 }
 
-/// The page of an exploration or a sweep, whose points open the reports of its designs.
+/// The page of an exploration or a sweep; its points link to the reports of the designs.
 std::optional<std::filesystem::path> page_of_designs(const std::filesystem::path& folder) {
   for (const char* name : {"explore.html", "sweep.html"})
     if (is_there(folder / name)) return folder / name;
@@ -56,10 +56,10 @@ class ReportCommand : public Subcommand {
   ReportCommand() : Subcommand("report", "Write a page that explains one or more runs") {}
 
   void declare(Options& options) override {
-    options.arguments(
-        "RUN", folders_, 1,
-        "Folders of runs; several stand side by side. Of an exploration or a sweep its page is told");
-    options.text("--output", "FILE", output_, not_empty, "The page; without it report.html");
+    options.arguments("RUN", folders_, 1,
+                      "Folders of runs; several are shown side by side. For an exploration or a sweep, "
+                      "prints where its page is");
+    options.text("--output", "FILE", output_, not_empty, "The file to write; default report.html");
     add_threads(options, threads_);
   }
 
@@ -70,19 +70,19 @@ class ReportCommand : public Subcommand {
     }
     const std::string file = output_.value_or("report.html");
     if (is_there(file)) {
-      tell("{}: exists already; choose another file with --output, or remove it\n", file);
+      print_err("{}: exists already; choose another file with --output, or remove it\n", file);
       return exit_refused;
     }
     std::vector<PageRun> runs;
     std::vector<AnyRun> inputs;
     for (const std::string& folder : folders_) {
-      auto input = read_run_or_tell(folder, {name(), threads_});
+      auto input = read_run_or_report(folder, {name(), threads_});
       if (!input) return input.failure();
       inputs.push_back(*std::move(input));
     }
     for (const AnyRun& input : inputs) {
       auto report = std::visit([](const auto& run) { return report_of_run(run); }, input);
-      if (!report) return tell_failure(name(), report.failure());
+      if (!report) return report_failure(name(), report.failure());
       runs.push_back(*std::move(report));
     }
     write_atomically(file, report_page(runs));

@@ -25,11 +25,11 @@ class ResumeCommand : public Subcommand {
     Signals signals;
     const std::filesystem::path case_file = std::filesystem::path(folder_) / "case.toml";
     if (!is_there(case_file)) {
-      tell("{}: this folder holds no run: there is no {}, or it may not be read\n", folder_,
-           case_file.string());
+      print_err("{}: this folder contains no run: {} is missing or cannot be read\n", folder_,
+                case_file.string());
       return exit_usage;
     }
-    auto c = read_or_tell(case_file);
+    auto c = read_or_report(case_file);
     if (!c) return exit_usage;
     if (iterations_) c = with_iterations(*std::move(c), *iterations_);
     if (!may_compute(name(), *c, case_file, threads_)) return exit_refused;

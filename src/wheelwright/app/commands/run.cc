@@ -11,9 +11,10 @@
 namespace wheelwright {
 namespace {
 
-/// The case of a run whose initial shape is the run's last one. Nothing if there is none, which is told then.
+/// The case of a run, with the run's last shape as its initial one. Nothing, after a message, if there is
+/// none.
 std::optional<Case> case_from_run(const std::filesystem::path& folder) {
-  auto c = read_or_tell(folder / "case.toml");
+  auto c = read_or_report(folder / "case.toml");
   if (!c) return {};
   c->holes = {};
   c->shapes = {};
@@ -21,7 +22,7 @@ std::optional<Case> case_from_run(const std::filesystem::path& folder) {
   c->saved_shape = {.from = std::filesystem::absolute(folder).string(), .checksum = {}, .shape = {}};
   const auto problems = load_saved_shape(*c, {});
   for (const FileProblem& problem : problems)
-    tell("{}: {}; {}\n", folder.string(), problem.problem, problem.remedy);
+    print_err("{}: {}; {}\n", folder.string(), problem.problem, problem.remedy);
   if (!problems.empty()) return {};
   return c;
 }
@@ -31,8 +32,9 @@ class RunCommand : public Subcommand {
   RunCommand() : Subcommand("run", "Optimize a case and write the results to its folder") {}
 
   void declare(Options& options) override {
-    options.argument("CASE", case_file_,
-                     "case file, or the folder of a run: a new run with its case begins with its last shape");
+    options.argument(
+        "CASE", case_file_,
+        "case file, or the folder of a run: the new run has its case and starts from its last shape");
     add_output(options, output_, "Folder for the results, instead of the case's output.folder");
     add_iterations(options, iterations_);
     add_threads(options, threads_);
@@ -43,11 +45,11 @@ class RunCommand : public Subcommand {
     Signals signals;
     const bool from_run = is_folder(case_file_);
     if (from_run && !output_) {
-      tell("{}: give the new run's folder by --output; `wheelwright resume` goes on with this one\n",
-           case_file_);
+      print_err("{}: give the new run's folder by --output; `wheelwright resume` continues this one\n",
+                case_file_);
       return exit_usage;
     }
-    auto c = from_run ? case_from_run(case_file_) : read_or_tell(case_file_);
+    auto c = from_run ? case_from_run(case_file_) : read_or_report(case_file_);
     if (!c) return exit_usage;
     if (iterations_) c = with_iterations(*std::move(c), *iterations_);
     if (!may_compute(name(), *c, case_file_, threads_)) return exit_refused;

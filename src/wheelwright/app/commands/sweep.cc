@@ -19,9 +19,8 @@ namespace wheelwright {
 namespace {
 
 constexpr const char* form =
-    "KEY=A,B,... | KEY=FROM:TO:NUMBER | KEY=FROM:TO:NUMBER:log, with a unit behind a space if it is not that "
-    "of the "
-    "case file";
+    "KEY=A,B,... | KEY=FROM:TO:NUMBER | KEY=FROM:TO:NUMBER:log, followed by a space and a unit if it is not "
+    "that of the case file";
 
 std::optional<SweptKey> parse_swept_key(const std::string& text) {
   const std::size_t equals = text.find('=');
@@ -39,7 +38,7 @@ class SweepCommand : public Subcommand {
   void declare(Options& options) override {
     add_case(options, case_file_);
     options.arguments("KEYS", texts_, 1,
-                      fmt::format("Keys of the case with their numbers, e.g. load.mass=100:300:5 or "
+                      fmt::format("Keys of the case with their values, e.g. load.mass=100:300:5 or "
                                   "'constraint[1].at_least=6000,7000 "
                                   "N/mm'; each is {}",
                                   form));
@@ -52,17 +51,17 @@ class SweepCommand : public Subcommand {
     for (const std::string& text : texts_) {
       auto key = parse_swept_key(text);
       if (!key) {
-        tell("wheelwright {}: {}: must be {}\n", name(), text, form);
+        print_err("wheelwright {}: {}: must be {}\n", name(), text, form);
         return exit_usage;
       }
       keys.push_back(*std::move(key));
     }
-    const auto c = read_or_tell(case_file_);
+    const auto c = read_or_report(case_file_);
     if (!c) return exit_usage;
-    if (!is_plane_or_tell(name(), *c, case_file_)) return exit_refused;
+    if (!is_plane_or_report(name(), *c, case_file_)) return exit_refused;
     const auto designs = sweep_designs(*c, read_case(case_file_).given_cells, case_file_, keys);
     if (!designs) {
-      tell("wheelwright {}: {}\n", name(), designs.failure().text);
+      print_err("wheelwright {}: {}\n", name(), designs.failure().text);
       return exit_usage;
     }
     if (!may_compute(name(), *c, case_file_, options_.threads)) return exit_refused;

@@ -29,8 +29,7 @@ std::string orders_text(const GradientCheck& check) {
 bool report_gradients(const std::vector<GradientCheck>& checks) {
   size_t width = 8;
   for (const GradientCheck& check : checks) width = std::max(width, check.function.size());
-  print(
-      "Taylor tests of the shape gradients: what the derivative leaves of a change, as the step is halved\n");
+  print("Taylor tests of the shape gradients: error of the linear prediction as the step is halved\n");
   print("  {:<{}}  {:>14}  {:>14}  {:>12}  {:>9}  {:>9}\n", "function", width, "value", "derivative",
         "step [m]", "error", "order");
   bool passed = true, any_smoothed = false;
@@ -41,10 +40,11 @@ bool report_gradients(const std::vector<GradientCheck>& checks) {
     passed = passed && !check.failed();
     any_smoothed = any_smoothed || check.is_smoothed;
   }
-  print("  wanted: order > {}, and an error of the derivative below {} at the largest step\n",
+  print("  required: order > {}, and an error of the derivative below {} at the largest step\n",
         GradientCheck::wanted_order, GradientCheck::most_error);
   if (any_smoothed)
-    print("  not tested: a maximum, whose gradient is that of a p-norm or of a smooth maximum on purpose\n");
+    print(
+        "  not tested: a maximum, whose gradient is deliberately that of a p-norm or of a smooth maximum\n");
   return passed;
 }
 
@@ -55,7 +55,7 @@ bool report_balance(const State<dim>& solution, const RimControl& rim) {
   for (const auto& contact : solution.contacts())
     for (const FreeMotion& motion : rim.free)
       worst = std::max(worst, std::abs(work(contact.rim_force, motion.direction) / motion.force - 1));
-  print("Contact forces against loads, worst of {} positions: {:.2e}, wanted < {:.0e}: {}\n",
+  print("Contact forces against loads, worst of {} positions: {:.2e}, required < {:.0e}: {}\n",
         solution.contacts().size(), worst, balance_tolerance, verdict(worst < balance_tolerance));
   return worst < balance_tolerance;
 }
@@ -70,27 +70,27 @@ class VerifyCommand : public Subcommand {
   }
 
   int run() override {
-    const auto wheel = read_wheel_or_tell(input_, {name(), threads_});
+    const auto wheel = read_wheel_or_report(input_, {name(), threads_});
     if (!wheel) return wheel.failure();
     const auto passed =
         std::visit([](const auto& input) { return verify(input.source, input.shape); }, *wheel);
-    if (!passed) return tell_failure(name(), passed.failure());
+    if (!passed) return report_failure(name(), passed.failure());
     return *passed ? exit_done : exit_no_solution;
   }
 
  private:
-  /// Whether the case passes all tests at a shape.
+  /// Whether the case passes all tests for a shape.
   template <int dim>
   static Expected<bool> verify(const Case& c, const LevelSet<dim>& given) {
     const auto study = make_study<dim>(c);
     if (!study) return study.failure();
-    const auto gradients = check_gradients(*study, given, tell_contact_progress());
+    const auto gradients = check_gradients(*study, given, print_contact_progress());
     if (!gradients) return gradients.failure();
     const bool passed = report_gradients(*gradients);
     const StateSolver<dim>& solver = *study->solver;
     const auto& cases = study->load_cases;
     const auto states =
-        states_of_cases<dim>(solver, cases, given, solver.all_positions(), tell_contact_progress());
+        states_of_cases<dim>(solver, cases, given, solver.all_positions(), print_contact_progress());
     if (!states) return states.failure();
     bool balance = true;
     for (size_t k = 0; k < states->size(); ++k) {

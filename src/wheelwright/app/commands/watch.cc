@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether standard output is a file of a disk, which keeps what is printed.
+/// Whether the descriptor is a regular file, which keeps what is printed.
 bool is_kept(int descriptor) {
   struct stat status {};
   return ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
@@ -39,17 +39,16 @@ std::optional<std::string> content(const fs::path& file) {
 class WatchCommand : public Subcommand {
  public:
   WatchCommand()
-      : Subcommand("watch",
-                   "Optimize a case while a page in the browser shows the wheel and steers the run") {}
+      : Subcommand("watch", "Optimize a case while a page in the browser shows and steers the run") {}
 
   void declare(Options& options) override {
     options.argument("WHEEL", input_, not_empty,
-                     "A case file to begin with, or the folder of a run to go on with");
+                     "A case file to start from, or the folder of a run to continue");
     add_output(options, output_, "Folder for the results, instead of the case's output.folder");
-    options.number("--port", port_, {0, 65535}, "Port of the page on this machine; 0: any that is free");
+    options.number("--port", port_, {0, 65535}, "Port of the page on this machine; 0: any free port");
     options.flag("--no-browser", no_browser_, "Only print the address of the page");
     options.text("--replay", "FILE", replay_, not_empty,
-                 "Give the run the commands of a commands.jsonl again, without a page");
+                 "Replay the commands of a commands.jsonl, without a page");
     options.text("--designs", "DIR", designs_, not_empty,
                  "Offer the designs in the folder of an exploration or a sweep");
     add_threads(options, threads_);
@@ -59,7 +58,7 @@ class WatchCommand : public Subcommand {
     Signals signals;
     const bool is_run = is_folder(input_);
     const fs::path case_file = is_run ? fs::path(input_) / "case.toml" : fs::path(input_);
-    auto c = read_or_tell(case_file);
+    auto c = read_or_report(case_file);
     if (!c || !find_designs() || !read_replay()) return exit_usage;
     if (!may_compute(name(), *c, case_file, threads_)) return exit_refused;
     const fs::path folder = is_run ? fs::path(input_) : fs::path(output_.value_or(c->output.folder));
@@ -80,23 +79,23 @@ class WatchCommand : public Subcommand {
     if (found)
       offered_ = *std::move(found);
     else
-      tell("wheelwright watch: --designs: {}\n", found.failure().reason);
+      print_err("wheelwright watch: --designs: {}\n", found.failure().reason);
     return bool(found);
   }
 
-  /// Reads the commands that are obeyed again, before the run makes its folder.
+  /// Reads the commands to replay, before the run creates its folder.
   bool read_replay() {
     if (!replay_) return true;
     const auto text = content(*replay_);
     if (!text) {
-      tell("{}: cannot be read; check its name and permissions\n", *replay_);
+      print_err("{}: cannot be read; check its name and permissions\n", *replay_);
       return false;
     }
     auto log = parse_command_log(*text);
     if (log)
       log_ = *std::move(log);
     else
-      tell("{}: {}\n", *replay_, log.failure().reason);
+      print_err("{}: {}\n", *replay_, log.failure().reason);
     return bool(log);
   }
 

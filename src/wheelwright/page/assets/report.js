@@ -152,8 +152,8 @@
 
   // Holes that merged, vanished or reached a band on the way.
   const events = (run) => element("details", { id: `${run.id}-events` },
-    element("summary", {}, `What happened to the holes: ${run.events.length + run.events_left_out} shape` +
-      (run.events.length > 1 ? "s" : "") + (run.events_left_out ? `, of which the last ${run.events.length}` : "")),
+    element("summary", {}, `What happened to the holes: ${run.events.length + run.events_omitted} shape` +
+      (run.events.length > 1 ? "s" : "") + (run.events_omitted ? `, of which the last ${run.events.length}` : "")),
     element("ul", {}, ...run.events.map(({ shape, text }) => element("li", {}, `Shape ${shape}: ` +
       text.replaceAll("_", " ")))));
 
