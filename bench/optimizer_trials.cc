@@ -128,14 +128,14 @@ int run(const std::string& path, double best, int shapes, int starts) {
   fmt::print("median:  {:>4}             {:>4}            {:.4f}\n", count_text(median(to_percent)),
              count_text(median(to_tenth)), median(bests));
   const auto counts = [](const std::vector<int>& trials) {
-    const auto [least, most] = std::ranges::minmax(trials);
-    return least == most ? count_text(least)
-                         : fmt::format("{} ({} to {})", count_text(median(trials)), count_text(least),
-                                       count_text(most));
+    const auto [minimum, most] = std::ranges::minmax(trials);
+    return minimum == most ? count_text(minimum)
+                           : fmt::format("{} ({} to {})", count_text(median(trials)), count_text(minimum),
+                                         count_text(most));
   };
-  const auto [least_end, most_end] = std::ranges::minmax(ends);
+  const auto [min_end, max_end] = std::ranges::minmax(ends);
   fmt::print("row: {} | {} | {:.3f} | {:.3f} ({:.3f} to {:.3f}) | {:.2f} | {:.2f}\n", counts(to_percent),
-             counts(to_tenth), median(bests), median(ends), least_end, most_end, std::ranges::min(walls),
+             counts(to_tenth), median(bests), median(ends), min_end, max_end, std::ranges::min(walls),
              std::ranges::min(gaps));
   return 0;
 }

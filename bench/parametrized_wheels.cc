@@ -58,9 +58,9 @@ class Draw {
   }
 
  private:
-  double number(double least, double most) {
+  double number(double minimum, double most) {
     // Not std::uniform_real_distribution: the same wheels with every library.
-    return least + (most - least) * (static_cast<double>(engine_()) / 4294967296.0);
+    return minimum + (most - minimum) * (static_cast<double>(engine_()) / 4294967296.0);
   }
 
   HoleRange room_;
@@ -109,7 +109,7 @@ int run(const std::string& path, int wheels, int seed) {
   const Case& c = *read.value;
   Draw draw(c, seed);
   int kept = 0;
-  double least = std::numeric_limits<double>::infinity();
+  double minimum = std::numeric_limits<double>::infinity();
   std::string best = "none";
   for (int k = 0; k < wheels; ++k) {
     const Parameters p = draw();
@@ -126,11 +126,12 @@ int run(const std::string& path, int wheels, int seed) {
     std::fflush(stdout);
     if (!keeps) continue;
     ++kept;
-    if (judged->mass >= least) continue;
-    least = judged->mass;
+    if (judged->mass >= minimum) continue;
+    minimum = judged->mass;
     best = p.text();
   }
-  fmt::print("{} of {} wheels keep all bounds; the lightest has {:.3f} kg: {}\n", kept, wheels, least, best);
+  fmt::print("{} of {} wheels keep all bounds; the lightest has {:.3f} kg: {}\n", kept, wheels, minimum,
+             best);
   return 0;
 }
 

@@ -136,7 +136,7 @@ HoleRing random_ring(std::mt19937& random) {
 }
 
 struct Relation {
-  double least = 1e9, most = 0;  ///< azimuth from a hole of one ring to the nearest of the other
+  double minimum = 1e9, most = 0;  ///< azimuth from a hole of one ring to the nearest of the other
   bool inside = false, overlaps = true;
 };
 
@@ -155,7 +155,7 @@ Relation relation(const HoleRing& a, const HoleRing& b) {
       result.inside = result.inside || std::abs(p - q) + a.radius <= b.radius;
       overlaps = overlaps || std::abs(p - q) < a.radius + b.radius;
     }
-    result.least = std::min(result.least, nearest);
+    result.minimum = std::min(result.minimum, nearest);
     result.most = std::max(result.most, nearest);
     result.overlaps = result.overlaps && overlaps;
   }
@@ -169,7 +169,7 @@ TEST(HoleRings, AreComparedAsAllTheirHolesAre) {
     const HoleRing a = random_ring(random), b = random_ring(random);
     const Relation expected = relation(a, b);
     const AzimuthOffsets offsets = azimuth_offsets(a, b);
-    EXPECT_NEAR(offsets.least, expected.least, 1e-12);
+    EXPECT_NEAR(offsets.minimum, expected.minimum, 1e-12);
     EXPECT_NEAR(offsets.most, expected.most, 1e-12);
     EXPECT_EQ(lies_inside(a, b), expected.inside);
     EXPECT_EQ(overlaps_everywhere(a, b), expected.overlaps);

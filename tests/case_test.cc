@@ -764,11 +764,11 @@ TEST(Derived, TheHertzianPressureCarriesTheLoad) {
 
 TEST(Derived, LeastGammaAtThePapersThetas) {
   const Material material{.youngs_modulus = 200e6, .poissons_ratio = 0.48};
-  EXPECT_EQ(least_gamma_0(-1, material), 0);
-  EXPECT_NEAR(least_gamma_0(0, material), 10, 0.05);
-  EXPECT_NEAR(least_gamma_0(1, material), 100, 0.5);
+  EXPECT_EQ(minimum_gamma_0(-1, material), 0);
+  EXPECT_NEAR(minimum_gamma_0(0, material), 10, 0.05);
+  EXPECT_NEAR(minimum_gamma_0(1, material), 100, 0.5);
   const Material stiffer{.youngs_modulus = 1, .poissons_ratio = 0.48};
-  EXPECT_DOUBLE_EQ(least_gamma_0(1, stiffer), least_gamma_0(1, material));
+  EXPECT_DOUBLE_EQ(minimum_gamma_0(1, stiffer), minimum_gamma_0(1, material));
 }
 
 // At half of the least value the tread's stiffness is indefinite, for every aspect; the least one is enough.
@@ -782,10 +782,10 @@ TEST(Derived, LeastGammaFollowsTheAspectOfTheCells) {
     c.grid.tread_levels = 1;
     c.contact.theta = 1;
     ASSERT_GT(tread_cell_aspect(c), 2);
-    const double least = least_gamma_0(1, c.material, tread_cell_aspect(c));
-    EXPECT_GT(least, 1.2 * least_gamma_0(1, c.material));
+    const double minimum = minimum_gamma_0(1, c.material, tread_cell_aspect(c));
+    EXPECT_GT(minimum, 1.2 * minimum_gamma_0(1, c.material));
     for (const bool is_enough : {true, false}) {
-      c.contact.gamma_0 = (is_enough ? 1 : 0.5) * least;
+      c.contact.gamma_0 = (is_enough ? 1 : 0.5) * minimum;
       const auto solver = make_solver(rolling_model<2>(c));
       EXPECT_EQ(bool(solver), is_enough) << angular_cells;
     }
@@ -796,8 +796,9 @@ TEST(Derived, LeastGammaOfNearlyIncompressibleMaterialGrowsForPositiveThetaAlone
   const Material last{.youngs_modulus = 200e6, .poissons_ratio = 0.485},
       rubber{.youngs_modulus = 200e6, .poissons_ratio = 0.4999};
   for (const double theta : {-1.0, -0.5, 0.0})
-    EXPECT_NEAR(least_gamma_0(theta, rubber), least_gamma_0(theta, last), 0.01 * least_gamma_0(theta, last));
-  EXPECT_GT(least_gamma_0(0.24, rubber), 100 * least_gamma_0(0.24, last));
+    EXPECT_NEAR(minimum_gamma_0(theta, rubber), minimum_gamma_0(theta, last),
+                0.01 * minimum_gamma_0(theta, last));
+  EXPECT_GT(minimum_gamma_0(0.24, rubber), 100 * minimum_gamma_0(0.24, last));
 }
 
 TEST(Derived, InPlaneStressAreThoseOfTheEquivalentMaterial) {
@@ -807,7 +808,7 @@ TEST(Derived, InPlaneStressAreThoseOfTheEquivalentMaterial) {
   EXPECT_DOUBLE_EQ(sheet.material.contact_modulus(), 70e6);
   EXPECT_DOUBLE_EQ(hertz_half_width(sheet), hertz_half_width(equivalent));
   for (const double theta : {-1.0, 0.0, 0.3, 1.0})
-    EXPECT_DOUBLE_EQ(least_gamma_0(theta, sheet.material), least_gamma_0(theta, equivalent.material));
+    EXPECT_DOUBLE_EQ(minimum_gamma_0(theta, sheet.material), minimum_gamma_0(theta, equivalent.material));
 }
 
 TEST(Derived, HolesOfOneSector) {

@@ -103,11 +103,11 @@ bool has_event(const Trial<2>& trial, ShapeEventKind kind) {
 /// 48 holes, whose webs become thinner than a cell.
 TEST(FinalWidths, AreMendedOnceInAShapeOfItsOwn) {
   const Course course = course_of(case_text(start_named("Holes48On20x192"), 15));
-  std::vector<const Trial<2>*> mended;
+  std::vector<const Trial<2>*> repaired;
   for (const auto& trial : course.trials)
-    if (has_event(trial, ShapeEventKind::thin_wall_mended)) mended.push_back(&trial);
-  ASSERT_EQ(mended.size(), 1u);
-  const Trial<2>& first = *mended.front();
+    if (has_event(trial, ShapeEventKind::thin_wall_repaired)) repaired.push_back(&trial);
+  ASSERT_EQ(repaired.size(), 1u);
+  const Trial<2>& first = *repaired.front();
   EXPECT_EQ(first.verdict, Verdict::accepted);
   EXPECT_EQ(first.step, 0);
   EXPECT_GE(first.iteration, 1);

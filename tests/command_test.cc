@@ -23,7 +23,7 @@ class Recorder : public Observer<2> {
   struct Record {
     std::vector<int> accepted;       ///< iterations
     std::vector<double> objectives;  ///< of those
-    std::vector<std::string> obeyed, refused, changes;
+    std::vector<std::string> executed, refused, changes;
     std::vector<LevelSet<2>> shapes;
     int trials = 0, ended = 0;
     bool solutions_were_there = true;
@@ -34,7 +34,7 @@ class Recorder : public Observer<2> {
 
   void operator()(const Event<2>& event, const RunView<2>&) override {
     if (const auto* command = std::get_if<CommandDone>(&event))
-      (command->was_obeyed ? record_.obeyed : record_.refused).push_back(command->text);
+      (command->was_executed ? record_.executed : record_.refused).push_back(command->text);
     if (const auto* changed = std::get_if<CaseChanged>(&event)) record_.changes.push_back(changed->text);
     if (std::holds_alternative<RunEnded<2>>(event)) ++record_.ended;
     if (const auto* done = std::get_if<TrialDone<2>>(&event)) {
@@ -208,7 +208,7 @@ TEST_F(RunTest, SaveWritesACheckpointAndChangesNothing) {
     if (done.state.iteration == 5) was_there = fs::exists(saved / "checkpoints/shape_000004.checkpoint");
   });
   EXPECT_TRUE(was_there);
-  EXPECT_EQ(record.obeyed.size(), 1u);
+  EXPECT_EQ(record.executed.size(), 1u);
   expect_equal_results(folder() / "straight", saved);
 }
 
@@ -441,7 +441,7 @@ TEST_F(RunTest, ARefusedCommandChangesNothing) {
   });
   EXPECT_EQ(record.refused.size(), 5u);
   for (const std::string& reason : record.refused) EXPECT_FALSE(reason.empty());
-  EXPECT_TRUE(record.obeyed.empty());
+  EXPECT_TRUE(record.executed.empty());
   EXPECT_TRUE(record.changes.empty());
   expect_equal_results(folder() / "straight", run);
 }
@@ -452,7 +452,7 @@ TEST_F(RunTest, ARefusedCommandChangesNothing) {
 struct WritePostcard {
   fs::path file;
 
-  Obeyed obey(RunControl& run) const {
+  CommandResult execute(RunControl& run) const {
     std::ofstream(file) << "greetings from shape " << run.iteration();
     return std::string("wrote a postcard");
   }
@@ -463,9 +463,9 @@ TEST_F(RunTest, ObeysACommandOfItsUsers) {
   Recorder::Record record;
   const WritePostcard postcard{folder() / "postcard"};
   execute(TheRun::begin(the_case(small_case(4)), folder() / "run"), commands, record,
-          after_shape(2, commands, Custom{[=](RunControl& run) { return postcard.obey(run); }}));
+          after_shape(2, commands, Custom{[=](RunControl& run) { return postcard.execute(run); }}));
   EXPECT_EQ(content(postcard.file), "greetings from shape 2");
-  EXPECT_EQ(record.obeyed.size(), 1u);
+  EXPECT_EQ(record.executed.size(), 1u);
 }
 
 TEST(CommandQueue, KeepsTheOrderAndAsksItsSources) {

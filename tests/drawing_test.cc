@@ -111,7 +111,7 @@ TEST(Curve, TheDistanceFromAnEllipseIsThatOfItsNormal) {
     const Point foot{a * std::cos(t), b * std::sin(t)};
     const Point normal =
         1 / std::hypot(b * std::cos(t), a * std::sin(t)) * Point{b * std::cos(t), a * std::sin(t)};
-    const double least_radius = std::min(a * a / b, b * b / a), away = random.number(-0.9, 3) * least_radius;
+    const double min_radius = std::min(a * a / b, b * b / a), away = random.number(-0.9, 3) * min_radius;
     const Curve ellipse = Curve::arc({}, {a, 0}, {0, b}, 0, 2 * pi);
     EXPECT_NEAR(exact_distance(ellipse, foot + away * normal), std::abs(away), 1e-13);
   }

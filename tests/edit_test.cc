@@ -98,7 +98,7 @@ class EditTest : public TemporaryFolder {
   struct Seen {
     std::vector<LevelSet<2>> shapes, proposed;
     std::vector<double> measures, objectives;
-    std::vector<std::string> obeyed, refused;
+    std::vector<std::string> executed, refused;
   };
 
   class Watcher : public Observer<2> {
@@ -106,7 +106,7 @@ class EditTest : public TemporaryFolder {
     explicit Watcher(Seen& seen) : seen_(seen) {}
     void operator()(const Event<2>& event, const RunView<2>&) override {
       if (const auto* command = std::get_if<CommandDone>(&event))
-        (command->was_obeyed ? seen_.obeyed : seen_.refused).push_back(command->text);
+        (command->was_executed ? seen_.executed : seen_.refused).push_back(command->text);
       if (const auto* proposed = std::get_if<ShapeProposed<2>>(&event))
         seen_.proposed.push_back(proposed->shape);
       const auto* done = std::get_if<TrialDone<2>>(&event);
@@ -269,9 +269,9 @@ TEST_F(EditTest, UndoTellsWhatItUndid) {
   heavier.force *= 1.5;
   const Paint patch{.as = Fill::material, .path = {{hole_centre[0], hole_centre[1]}}, .radius = 0.01};
   const Seen seen = after({NewLoad{heavier}, patch, Reset{}, Undo{}, Undo{}, Undo{}});
-  ASSERT_EQ(seen.obeyed.size(), 8U);  // the first pauses, the last stops
+  ASSERT_EQ(seen.executed.size(), 8U);  // the first pauses, the last stops
   for (int k = 1; k <= 3; ++k)
-    EXPECT_TRUE(seen.obeyed[7 - k].ends_with(": " + seen.obeyed[k])) << seen.obeyed[7 - k];
+    EXPECT_TRUE(seen.executed[7 - k].ends_with(": " + seen.executed[k])) << seen.executed[7 - k];
 }
 
 /// A load of a wheel in 3D of which nothing is as by default.
@@ -299,7 +299,7 @@ class TakesAnyCase : public RunControl {
   void save() override {}
   void stop() override {}
   void pause(int) override {}
-  void go_on() override {}
+  void continue_run() override {}
   std::optional<Refusal> change_case(const Case& changed, const std::string&) override {
     case_ = changed;
     return {};
@@ -319,8 +319,8 @@ Expected<Case, Refusal> case_after(const Case& c, const std::string& json) {
   TakesAnyCase run(c);
   const auto command = parse_command(json);
   if (!command) return command.failure();
-  const Obeyed obeyed = std::visit([&](const auto& known) { return known.obey(run); }, *command);
-  if (!obeyed) return obeyed.failure();
+  const CommandResult executed = std::visit([&](const auto& known) { return known.execute(run); }, *command);
+  if (!executed) return executed.failure();
   return run.current_case();
 }
 
@@ -410,7 +410,7 @@ TEST(CommandJson, WhatIsNoCommandIsRefused) {
         "{\"do\":\"paint\",\"as\":\"air\",\"path_m\":[],\"radius_m\":1}", "[[[[[[[[[[[[[[[["})
     EXPECT_FALSE(parse_command(text)) << text;
   Paint longest{
-      .as = Fill::hole, .path = std::vector<std::array<double, 2>>(most_path_points + 1), .radius = 1};
+      .as = Fill::hole, .path = std::vector<std::array<double, 2>>(max_path_points + 1), .radius = 1};
   EXPECT_FALSE(parse_command(command_json(longest)));
   longest.path.pop_back();
   EXPECT_TRUE(parse_command(command_json(longest)));

@@ -121,7 +121,7 @@ TEST(Starts, OfOtherRingsAreValid) {
                       {0.7}, 5, 10);
 }
 
-const std::string least_mass = R"(
+const std::string min_mass = R"(
 [material]
 density = 1100
 [objective]
@@ -132,7 +132,7 @@ at_least = 40e6
 )";
 
 TEST(Starts, OfACaseWhoseVolumeIsFreeAreValid) {
-  expect_valid_starts(case_of(usual_wheel + least_mass), {0.66}, 1, 10);
+  expect_valid_starts(case_of(usual_wheel + min_mass), {0.66}, 1, 10);
 }
 
 TEST(Starts, CanBeHalvedAsOftenAsTheCoarseGridsNeed) {
@@ -140,7 +140,7 @@ TEST(Starts, CanBeHalvedAsOftenAsTheCoarseGridsNeed) {
 }
 
 TEST(Starts, AttemptsThatFailAreBoundedAndCounted) {
-  Case refused = case_of(usual_wheel + least_mass);
+  Case refused = case_of(usual_wheel + min_mass);
   refused.material.density.reset();
   const DrawnStart none = draw_start(refused, {0.66}, 1, 2);
   EXPECT_FALSE(none.start);

@@ -576,8 +576,8 @@ class Command(unittest.TestCase):
         self.assertGreater(turns, 1.5)
         warning = re.search(rf"warning: an edge turns {turns:.2f} times .* at (azimuth .*, radius .* mm): .*level_set_degree", told)
         self.assertIn(f"a cell, at {warning[1]}\n", told)
-        self.assertNotIn("an edge turns", wheelwright("export", drawn, "--output", self.fresh()))
-        self.assertNotIn("an edge turns", wheelwright("export", run_folder, "--output", self.fresh()))
+        self.assertNotIn("an edge makes", wheelwright("export", drawn, "--output", self.fresh()))
+        self.assertNotIn("an edge makes", wheelwright("export", run_folder, "--output", self.fresh()))
 
     def test_files_go_to_the_current_folder_unless_told_otherwise(self):
         folder = self.fresh()

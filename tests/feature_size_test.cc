@@ -148,7 +148,7 @@ TEST(FeatureSize, CornersAreRoundedToTheirRadius) {
       const auto psi = redistance(hexagonal_hole(grid, {0.27, at}, 0.04));
       const FeatureSize size{.radius = radius};
       ASSERT_FALSE(narrowest_places(psi, size).empty());
-      EXPECT_EQ(narrowest_places(psi, size)[0].kind, ShapeEventKind::sharp_corner_mended);
+      EXPECT_EQ(narrowest_places(psi, size)[0].kind, ShapeEventKind::sharp_corner_repaired);
       const auto rounded = with_feature_size(psi, size);
       EXPECT_TRUE(narrowest_places(rounded, size).empty());
       EXPECT_EQ(with_feature_size(rounded, size).values, rounded.values);
@@ -157,11 +157,11 @@ TEST(FeatureSize, CornersAreRoundedToTheirRadius) {
           ASSERT_LT(rounded.values[i], 0);
         }
       // A corner of 120 degrees loses (tan 30 - pi / 6) radius^2.
-      const double least = 6 * (std::tan(std::numbers::pi / 6) - std::numbers::pi / 6) * radius * radius;
+      const double minimum = 6 * (std::tan(std::numbers::pi / 6) - std::numbers::pi / 6) * radius * radius;
       const double filled = material_measure(rounded) - material_measure(psi);
-      EXPECT_GT(filled, 0.5 * least);
+      EXPECT_GT(filled, 0.5 * minimum);
       EXPECT_LT(filled,
-                (radius > 1.5 * grid.resolution() ? 4 : 6.5) * least);  // coarser cells, rounder corners
+                (radius > 1.5 * grid.resolution() ? 4 : 6.5) * minimum);  // coarser cells, rounder corners
     }
 }
 
@@ -266,9 +266,9 @@ TEST(FeatureSize, AnAcceptedShapeIsAcceptedUnchanged) {
     const auto again = evolver.measured(accepted->shape, size);
     ASSERT_TRUE(again) << again.failure().detail;
     EXPECT_TRUE(again->shape.values == accepted->shape.values);
-    const auto mended = evolver.measured(two_holes(grid, 0.9 * size.wall, azimuth), size);
-    ASSERT_TRUE(mended) << mended.failure().detail;
-    EXPECT_GT(wall_of(mended->shape), 0.99 * size.wall);
+    const auto repaired = evolver.measured(two_holes(grid, 0.9 * size.wall, azimuth), size);
+    ASSERT_TRUE(repaired) << repaired.failure().detail;
+    EXPECT_GT(wall_of(repaired->shape), 0.99 * size.wall);
   }
 }
 
@@ -331,14 +331,14 @@ TEST(FeatureSize, TheNarrowestPlacesAreNamed) {
   const auto grid = grid_of(28, 384);
   const auto places = narrowest_places(two_holes(grid, 0.006), {.wall = 0.010, .gap = 0.010});
   ASSERT_EQ(places.size(), 1u);
-  EXPECT_EQ(places[0].kind, ShapeEventKind::thin_wall_mended);
+  EXPECT_EQ(places[0].kind, ShapeEventKind::thin_wall_repaired);
   EXPECT_NEAR(places[0].place[0], 0.27, 1e-3);
   EXPECT_NEAR(places[0].place[1], 0.47 * grid.sector_angle(), 1e-2);
   EXPECT_NEAR(places[0].measure, M_PI * 0.003 * 0.003, 2e-6);
   EXPECT_TRUE(narrowest_places(two_holes(grid, 0.006), {.wall = 0.005, .gap = 0.010}).empty());
   const auto slit = narrowest_places(holes_with_slit(grid, 0.006), {.wall = 0.001, .gap = 0.010});
   ASSERT_EQ(slit.size(), 1u);
-  EXPECT_EQ(slit[0].kind, ShapeEventKind::narrow_gap_mended);
+  EXPECT_EQ(slit[0].kind, ShapeEventKind::narrow_gap_repaired);
 }
 
 TEST(FeatureSize, WallsOfA3DShapeBecomeThickToo) {

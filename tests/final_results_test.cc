@@ -91,7 +91,7 @@ class ResultsOfARun : public TemporaryFolder {
     return *make_study<2>(*result.value);
   }
 
-  FinalResults<2> results(Study<2> study, std::optional<int> most_solves) {
+  FinalResults<2> results(Study<2> study, std::optional<int> max_solves) {
     auto state =
         optimizer_of(study).start(study.initial, [](const Trial<2>&, const OptimizationState<2>&) {});
     EXPECT_TRUE(state);
@@ -99,7 +99,7 @@ class ResultsOfARun : public TemporaryFolder {
                                   state->measure};
     state->iteration = 1;
     state_ = *state;
-    if (most_solves) study.solver = std::make_shared<SolverOfOneLoad>(study.solver, *most_solves);
+    if (max_solves) study.solver = std::make_shared<SolverOfOneLoad>(study.solver, *max_solves);
     return final_results<2>(study, initial, *state, {}, Interrupt());
   }
 
@@ -205,12 +205,12 @@ TEST_F(ResultsOfARun, TellWhyWhatIsExpectedIsNotKnown) {
       "[[expect]]\nquantity = \"stiffness\"\nvalue = 1\n"
       "[[expect]]\nquantity = \"stiffness\"\nvalue = 1\nload_case = \"kerb\"\n"
       "[[expect]]\nquantity = \"stiffness\"\nvalue = 1\niteration = 9\n");
-  for (const int most_solves : {0, 2}) {
-    const FinalResults<2> some = results(study, most_solves);
+  for (const int max_solves : {0, 2}) {
+    const FinalResults<2> some = results(study, max_solves);
     const auto found =
         findings<2>(study.source.expectations, {}, *study.solver, study.load_cases, *state_, some.own);
     ASSERT_EQ(found.size(), 3u);
-    EXPECT_EQ(static_cast<bool>(found[0].found), most_solves > 0);
+    EXPECT_EQ(static_cast<bool>(found[0].found), max_solves > 0);
     ASSERT_FALSE(found[1].found);
     EXPECT_EQ(found[1].found.failure(), told);
     EXPECT_NE(found[1].text().find(told), std::string::npos);

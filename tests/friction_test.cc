@@ -165,10 +165,10 @@ TEST(Friction, AWheelAtAPrescribedTravelSlidesWhereItsForceIsTooSmall) {
   const auto psi = testing::generic_hole(model.grid);
   const auto free = RollingProblem<2>::create(model)->solve(psi);
   ASSERT_TRUE(free) << free.failure().detail;
-  double least = 1e300;
-  for (const auto& state : free->states) least = std::min(least, state.rim_force.towards_ground);
+  double minimum = 1e300;
+  for (const auto& state : free->states) minimum = std::min(minimum, state.rim_force.towards_ground);
   for (const double part : {0.9, 1.1}) {
-    model.torque = part * 0.3 * least * model.grid.outer_radius;
+    model.torque = part * 0.3 * minimum * model.grid.outer_radius;
     const auto driven = RollingProblem<2>::create(model)->solve(psi);
     if (part < 1) {
       EXPECT_TRUE(driven) << driven.failure().detail;

@@ -139,7 +139,7 @@ int newest_good(const fs::path& run) {
 class Killed : public TemporaryFolder {
  protected:
   static constexpr int every = 3;  // small_case's checkpoint_every
-  const std::vector<std::string> begin{"run", "case.toml"}, go_on{"resume", "run"};
+  const std::vector<std::string> begin{"run", "case.toml"}, resume{"resume", "run"};
   const std::string endless = small_case(1000);  // longer than any test waits
 
   fs::path workplace(const std::string& name, const std::string& case_text) {
@@ -170,7 +170,7 @@ class Killed : public TemporaryFolder {
   }
 
   void expect_resumes_to(const fs::path& expected, const fs::path& place) {
-    Program program(place, go_on);
+    Program program(place, resume);
     ASSERT_EQ(program.wait(), exit_done) << program.printed();
     expect_equal_results(expected / "run", place / "run");
   }
@@ -198,7 +198,7 @@ class Killed : public TemporaryFolder {
     for (int k = 0; k < kills; ++k) {
       if (place.empty()) place = workplace(fmt::format("killed-{}", k), case_text);
       const bool begun = fs::exists(place / "run/case.toml");
-      Program program(place, begun ? go_on : begin);
+      Program program(place, begun ? resume : begin);
       std::this_thread::sleep_for(duration<double>(moment(random)));
       program.send(SIGKILL);
       const int code = program.wait();
@@ -512,7 +512,7 @@ TEST_F(Killed, TwoRunsDoNotShareAFolder) {
   wait_for_shape(place, 1);
   first.send(SIGSTOP);
   EXPECT_EQ(Program(place, begin).wait(), exit_refused);
-  EXPECT_EQ(Program(place, go_on).wait(), exit_refused);
+  EXPECT_EQ(Program(place, resume).wait(), exit_refused);
   first.send(SIGKILL);
   EXPECT_EQ(first.wait(), -SIGKILL);
   expect_goes_on_as_if_never_stopped(place);

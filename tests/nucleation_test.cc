@@ -41,17 +41,17 @@ Costs costs_around(const PolarGrid<2>& grid, double radius, double azimuth, bool
 LevelSet<2> solid(const PolarGrid<2>& grid) { return make_level_set(Lattice<2>(grid, 2), {}); }
 
 HoleRules rules(const PolarGrid<2>& grid) {
-  return {.radius = 0.008, .wall = 0.01, .range = {0.21, 0.33}, .most_area = 1, .must_pay = true};
+  return {.radius = 0.008, .wall = 0.01, .range = {0.21, 0.33}, .max_area = 1, .must_pay = true};
 }
 
 double apart(const PolarGrid<2>& grid, const Circle& a, const Circle& b) {
-  double least = INFINITY;
+  double minimum = INFINITY;
   for (const int image : {-1, 0, 1}) {
     const Vec<2> x = cartesian<2>({a.centre_radius, a.centre_azimuth}),
                  y = cartesian<2>({b.centre_radius, b.centre_azimuth + image * grid.sector_angle()});
-    least = std::min(least, std::hypot(x[0] - y[0], x[1] - y[1]));
+    minimum = std::min(minimum, std::hypot(x[0] - y[0], x[1] - y[1]));
   }
-  return least;
+  return minimum;
 }
 
 TEST(HolePlaces, BeginWhereTheCostIsLeastAndKeepTheirDistance) {
@@ -92,7 +92,7 @@ TEST(HolePlaces, AreNoneWhereNoHolePaysAndKeepOffOtherHoles) {
   EXPECT_TRUE(best_places(solid(grid), costs, rules(grid)).empty());
   auto in_any_case = rules(grid);
   in_any_case.must_pay = false;
-  in_any_case.most_area = 0;
+  in_any_case.max_area = 0;
   EXPECT_EQ(best_places(solid(grid), costs, in_any_case).size(), 1u);
 }
 

@@ -358,7 +358,7 @@ TEST_F(BrokenOutline, WrongSense) {
   outline.loops[2].curves.front() = reversed(outline.loops[2].curves.front());
   EXPECT_NE(faults().find("the material is not on the left of the hole at"), std::string::npos) << faults();
   outline.loops[0].curves.front() = reversed(outline.loops[0].curves.front());
-  EXPECT_NE(faults().find("the outer_edge runs the wrong way round"), std::string::npos) << faults();
+  EXPECT_NE(faults().find("the outer_edge has the wrong orientation"), std::string::npos) << faults();
 }
 
 TEST_F(BrokenOutline, CrossingLoops) {

@@ -204,7 +204,7 @@ TEST_F(VtuFile, TensorsAreInterpolatedAndTheirVonMisesStressIsNeverNegative) {
   const auto von_mises = vtu_array<float>(vtu, "Name=\"von_mises_Pa\"");
   EXPECT_EQ(count(vtu, "ComponentName3=\"xy\""), 1);
   ASSERT_EQ(tensors.size(), 6 * von_mises.size());
-  double least = INFINITY;
+  double minimum = INFINITY;
   for (std::size_t k = 0; k < von_mises.size(); ++k) {
     const double xx = tensors[6 * k], yy = tensors[6 * k + 1], zz = tensors[6 * k + 2],
                  xy = tensors[6 * k + 3];
@@ -213,10 +213,10 @@ TEST_F(VtuFile, TensorsAreInterpolatedAndTheirVonMisesStressIsNeverNegative) {
     const double expected = std::sqrt(
         0.5 * ((xx - yy) * (xx - yy) + (yy - zz) * (yy - zz) + (zz - xx) * (zz - xx)) + 3 * xy * xy);
     EXPECT_NEAR(von_mises[k], expected, 1e-6 * expected + 1);
-    least = std::min<double>(least, von_mises[k]);
+    minimum = std::min<double>(minimum, von_mises[k]);
   }
-  EXPECT_GE(least, 0);
-  EXPECT_LT(least, 1e6);  // between nodes of opposite signs, where values at the nodes are above 3e6
+  EXPECT_GE(minimum, 0);
+  EXPECT_LT(minimum, 1e6);  // between nodes of opposite signs, where values at the nodes are above 3e6
 }
 
 TEST_F(VtuFile, CellsOfASectorShareTheirPoints) {
@@ -791,13 +791,13 @@ TEST(DeformedSvg, AWindowShowsThePartAtTheContact) {
   EXPECT_EQ(count(part, "peak 4 MPa"), 1);
   EXPECT_EQ(count(whole, "contact pressure"), 0);
   // The scale spans the radii in view: from 0.2 m for the wheel, from 0.34 - 1.78 * 0.03 m here.
-  const auto least = [](const std::string& svg) {
+  const auto minimum = [](const std::string& svg) {
     static const std::regex tick("h5\"/><text x=\"[0-9]+\" y=\"[0-9.]+\">([0-9.]+)</text>");
     std::smatch match;
     return std::regex_search(svg, match, tick) ? std::stod(match[1]) : NAN;
   };
-  EXPECT_NEAR(least(whole), 210, 11);
-  EXPECT_NEAR(least(part), 340 - 1.78 * 30 + 5, 5);
+  EXPECT_NEAR(minimum(whole), 210, 11);
+  EXPECT_NEAR(minimum(part), 340 - 1.78 * 30 + 5, 5);
 }
 
 TEST(VerticalField, IsTheComponentTowardsTheGround) {

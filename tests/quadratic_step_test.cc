@@ -247,7 +247,7 @@ TEST(CurvatureMemory, ForgetsTheOldestAndRefusesNegativeCurvature) {
   remember({{1}, {-1}}, 1, -1, 1, memory);
   EXPECT_TRUE(memory.empty());
   for (int k = 1; k <= 10; ++k) remember({{double(k)}, {1}}, double(k) * k, k, 1, memory);
-  ASSERT_EQ(memory.size(), most_curvature_pairs);
+  ASSERT_EQ(memory.size(), max_curvature_pairs);
   EXPECT_EQ(memory.back().move[0], 10);
   EXPECT_EQ(memory.front().move[0], 3);
 }

@@ -176,30 +176,30 @@ TEST(Quantities, FunctionsOfAllPositionsHaveTheSlopesOfTheirDifferences) {
 
 TEST(Quantities, ExtremesAreTrueOnesAndTheirSlopesSumToOne) {
   const std::vector<double> values{1.3, 0.7, 2.1, 1.9}, equal(4, 1.5);
-  EXPECT_EQ(greatest_of(values).value, 2.1);
-  EXPECT_EQ(least_of(values).value, 0.7);
+  EXPECT_EQ(maximum_of(values).value, 2.1);
+  EXPECT_EQ(minimum_of(values).value, 0.7);
   EXPECT_DOUBLE_EQ(peak_to_peak_of(values).value, 1.4);
   EXPECT_EQ(peak_to_peak_of(equal).value, 0);
   for (const auto& x : {values, equal}) {
-    const auto greatest = greatest_of(x), least = least_of(x);
+    const auto maximum = maximum_of(x), minimum = minimum_of(x);
     double up = 0, down = 0;
     for (size_t i = 0; i < x.size(); ++i) {
-      up += greatest.slopes[i];
-      down += least.slopes[i];
-      EXPECT_NEAR(greatest.slopes[i] - least.slopes[i], peak_to_peak_of(x).slopes[i], 1e-15);
+      up += maximum.slopes[i];
+      down += minimum.slopes[i];
+      EXPECT_NEAR(maximum.slopes[i] - minimum.slopes[i], peak_to_peak_of(x).slopes[i], 1e-15);
     }
     EXPECT_NEAR(up, 1, 1e-14);
     EXPECT_NEAR(down, 1, 1e-14);
   }
   // The extreme itself counts most.
-  const auto slopes = greatest_of(values).slopes;
+  const auto slopes = maximum_of(values).slopes;
   EXPECT_EQ(std::ranges::max_element(slopes) - slopes.begin(), 2);
-  EXPECT_GT(least_of(values).slopes[1], 0.9);
+  EXPECT_GT(minimum_of(values).slopes[1], 0.9);
   // Scale and offset change neither slopes nor meaning.
   std::vector<double> scaled;
   for (const double x : values) scaled.push_back(1e-3 * x - 7);
   for (size_t i = 0; i < values.size(); ++i)
-    EXPECT_NEAR(greatest_of(scaled).slopes[i], greatest_of(values).slopes[i], 1e-9);
+    EXPECT_NEAR(maximum_of(scaled).slopes[i], maximum_of(values).slopes[i], 1e-9);
 }
 
 /// A cosine's amplitude is found at its harmonic and nowhere else; a constant has none, and no slopes.
@@ -240,7 +240,7 @@ TEST(Quantities, AreTheNumbersOfTheAnalysis) {
     const auto relative = [](double a, double b) { return std::abs(a - b) / std::abs(b); };
     EXPECT_LT(relative(value(Quantity::mean_travel, Over::mean), summary.rolling.mean_travel), 1e-12);
     EXPECT_LT(relative(value(Quantity::stiffness, Over::mean), summary.stiffness), 1e-12);
-    EXPECT_LT(relative(value(Quantity::peak_pressure, Over::greatest), summary.rolling.peak_pressure), 1e-12);
+    EXPECT_LT(relative(value(Quantity::peak_pressure, Over::maximum), summary.rolling.peak_pressure), 1e-12);
     if (!model.travel) {
       EXPECT_LT(relative(value(Quantity::run_out, Over::mean), summary.rolling.run_out), 1e-12);
     }
@@ -250,8 +250,8 @@ TEST(Quantities, AreTheNumbersOfTheAnalysis) {
     EXPECT_LT(relative(value(Quantity::peak_pressure, Over::positions), contacts[2].peak_pressure), 1e-12);
     // The points of the two quadratures differ.
     EXPECT_LT(relative(value(Quantity::peak_von_mises, Over::positions), peaks.von_mises[2]), 0.05);
-    EXPECT_LE(value(Quantity::peak_von_mises_inside, Over::greatest),
-              (1 + 1e-12) * value(Quantity::peak_von_mises, Over::greatest));
+    EXPECT_LE(value(Quantity::peak_von_mises_inside, Over::maximum),
+              (1 + 1e-12) * value(Quantity::peak_von_mises, Over::maximum));
     if (model.torque != 0) {
       EXPECT_LT(relative(value(Quantity::tangential_stiffness, Over::positions),
                          -contacts[2].friction_force / contacts[2].travel_along_ground),

@@ -87,8 +87,8 @@ class RandomWheels {
 
   void draw_contact(Case& c) {
     c.contact.theta = chance(0.4) ? -1 : uniform(-1, 1);
-    const double least = least_gamma_0(c.contact.theta, c.material, tread_cell_aspect(c));
-    c.contact.gamma_0 = std::max(least, 0.01) * log_uniform(1, 1e3);
+    const double minimum = minimum_gamma_0(c.contact.theta, c.material, tread_cell_aspect(c));
+    c.contact.gamma_0 = std::max(minimum, 0.01) * log_uniform(1, 1e3);
     c.contact.quadrature_points = integer(1, 6);
     if (chance(0.1)) c.contact.method = ContactMethod::penalty;
     if (chance(0.5)) c.contact.friction = uniform(0, 1);
@@ -248,8 +248,8 @@ class AnyWheels {
 
   void draw_contact(Case& c) {
     c.contact.theta = chance(0.4) ? -1 : uniform(-1, 1);
-    const double least = least_gamma_0(c.contact.theta, c.material, tread_cell_aspect(c));
-    c.contact.gamma_0 = std::max(least, 0.01) * log_uniform(1, 1e4);
+    const double minimum = minimum_gamma_0(c.contact.theta, c.material, tread_cell_aspect(c));
+    c.contact.gamma_0 = std::max(minimum, 0.01) * log_uniform(1, 1e4);
     c.contact.quadrature_points = integer(1, c.wheel.dimension == 2 ? 8 : 4);
     if (chance(0.1)) c.contact.method = ContactMethod::penalty;
     if (chance(0.65)) c.contact.friction = log_uniform(1e-3, 10);

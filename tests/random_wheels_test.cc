@@ -47,7 +47,7 @@ bool follow(const std::string& remedy, Case& c) {
 }
 
 /// The case changed as all of its problems say at once.
-std::optional<Case> mended(Case c, const std::vector<Diagnostic>& problems) {
+std::optional<Case> repaired(Case c, const std::vector<Diagnostic>& problems) {
   for (const Diagnostic& problem : problems)
     if (!follow(problem.remedy + problem.problem, c)) return {};
   return c;
@@ -84,7 +84,7 @@ End end_of(const Case& drawn) {
   if (!read.value) {
     const std::string text = read.problems.front().text();
     if (read.problems.front().key.empty()) return {End::refused, "names no key: " + text};
-    const auto changed = mended(drawn, read.problems);
+    const auto changed = repaired(drawn, read.problems);
     if (!changed) return {End::refused, "no remedy that can be followed: " + text};
     const End after = end_of(*changed);
     if (after.kind == End::solved) return {End::refused, after.complaint};

@@ -56,8 +56,8 @@ TEST_F(LongRun, IsShownByEvenlyThinnedShapesEachWithItsOwnNumbers) {
     EXPECT_EQ(run.history[3].values[k], objective(static_cast<int>(iterations[k])));
   }
 
-  EXPECT_LE(run.outlines.size(), most_outlines + 1);
-  EXPECT_GE(run.outlines.size(), most_outlines / 2);
+  EXPECT_LE(run.outlines.size(), max_outlines + 1);
+  EXPECT_GE(run.outlines.size(), max_outlines / 2);
   EXPECT_EQ(run.outlines.front().shape, 0);
   EXPECT_EQ(run.outlines.back().shape, last_shape);
   for (const ShapeOutline& shown : run.outlines) {

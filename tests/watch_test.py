@@ -528,14 +528,14 @@ at_most = 1e-3
         self.element("take").send_keys(Keys.ENTER)
         self.watched.wait(lambda f: f["outline"] == outlines[0] and not f["is_proposed"])
         for _ in range(3):
-            self.assertTrue(self.watched.give({"do": "undo"})["obeyed"])
+            self.assertTrue(self.watched.give({"do": "undo"})["executed"])
         self.watched.wait(lambda f: f["outline"] == own)
 
     def test_a_page_names_designs_and_no_files(self):
         file = str(self.folder / "designs/designs/001/shape.levelset")
-        self.assertFalse(self.watched.give({"do": "take_shape", "file": file})["obeyed"])
+        self.assertFalse(self.watched.give({"do": "take_shape", "file": file})["executed"])
         for name in (file, "../designs/001", "", "/etc/passwd"):
-            self.assertFalse(json.loads(self.watched.ask("POST", "/take", name))["obeyed"], name)
+            self.assertFalse(json.loads(self.watched.ask("POST", "/take", name))["executed"], name)
 
 
 SOLID_CASE = """
@@ -806,7 +806,7 @@ class SolidPage(PageTest):
         self.assertEqual(float(first[objective]), shown)
         self.element("export").click()
         self.until(lambda: "design-1.stl is downloaded" in self.text("message"))
-        self.assertFalse(self.watched.give({"do": "move_hole", "at_m": [0.26, 0], "by_m": [0, 0.01], "scale": 1})["obeyed"])
+        self.assertFalse(self.watched.give({"do": "move_hole", "at_m": [0.26, 0], "by_m": [0, 0.01], "scale": 1})["executed"])
 
 
 class Design(unittest.TestCase):
@@ -969,11 +969,11 @@ class Folder(unittest.TestCase):
                         {"do": "move_hole", "at_m": hole, "by_m": [0.002, 0.001], "scale": 0.9},
                         {"do": "continue"}):
             answer = watched.give(command)
-            self.assertTrue(answer["obeyed"], (command, answer))
+            self.assertTrue(answer["executed"], (command, answer))
             if command["do"] == "step":
                 watched.wait(lambda f: f["activity"] == "paused")
         watched.wait(lambda f: f["activity"] == "settled")
-        self.assertTrue(watched.give({"do": "reset"})["obeyed"])
+        self.assertTrue(watched.give({"do": "reset"})["executed"])
         watched.wait(lambda f: f["activity"] == "settled")
         self.assertEqual(watched.end()[0], 130)
         log = self.folder / "first/commands.jsonl"
@@ -999,7 +999,7 @@ class Folder(unittest.TestCase):
         watched.wait(lambda f: f.get("shape", 0) >= 4)
         watched.give({"do": "pause"})
         hole = [0.27 * 0.92387953, 0.27 * 0.38268343]
-        self.assertTrue(watched.give({"do": "move_hole", "at_m": hole, "by_m": [0.001, 0.002], "scale": 1.1})["obeyed"])
+        self.assertTrue(watched.give({"do": "move_hole", "at_m": hole, "by_m": [0.001, 0.002], "scale": 1.1})["executed"])
         shown = watched.frame()["numbers"]["objective_J_per_m"]
         connection = watched.connect()
         for name, status in (("a-design", 200), ("a-design", 422), ("../up", 422), ("", 422), ("x" * 41, 422)):
@@ -1019,9 +1019,9 @@ class Folder(unittest.TestCase):
         watched = self.watch(self.folder / "case.toml", "--output", self.folder / "run")
         watched.wait(lambda f: f["activity"] == "settled")
         watched.give({"do": "pause"})
-        self.assertTrue(watched.give({"do": "reset"})["obeyed"])  # round holes, which have an outline on any grid
+        self.assertTrue(watched.give({"do": "reset"})["executed"])  # round holes, which have an outline on any grid
         dxf, report = watched.get("/export?format=dxf"), watched.get("/report")
-        self.assertEqual(json.loads(watched.get("/export?format=/etc/passwd"))["obeyed"], False)
+        self.assertEqual(json.loads(watched.get("/export?format=/etc/passwd"))["executed"], False)
         watched.end()
         subprocess.run([program, "export", self.folder / "run", "--format", "dxf", "--output", self.folder / "files"],
                        check=True, capture_output=True, timeout=300)
@@ -1034,26 +1034,26 @@ class Folder(unittest.TestCase):
     def test_a_settled_run_can_be_paused_for_several_changes(self):
         watched = self.watch(self.folder / "case.toml", "--output", self.folder / "run")
         settled = watched.wait(lambda f: f["activity"] == "settled")
-        self.assertTrue(watched.give({"do": "pause"})["obeyed"])
+        self.assertTrue(watched.give({"do": "pause"})["executed"])
         self.assertEqual(watched.frame()["activity"], "paused")
         load = {k: v for k, v in settled["settings"]["load"].items() if v is not None}
-        self.assertTrue(watched.give({"do": "load", **load, "force_N": 4000})["obeyed"])
+        self.assertTrue(watched.give({"do": "load", **load, "force_N": 4000})["executed"])
         paused = watched.wait(lambda f: f["activity"] == "paused" and f["settings"]["load"]["force_N"] == 4000)
         self.assertEqual(paused["outline"], settled["outline"])
-        self.assertTrue(watched.give({"do": "reset"})["obeyed"])
+        self.assertTrue(watched.give({"do": "reset"})["executed"])
         paused = watched.wait(lambda f: f["activity"] == "paused" and f["outline"] != settled["outline"])
         self.assertEqual(paused["shape"], settled["shape"])
-        self.assertTrue(watched.give({"do": "continue"})["obeyed"])
+        self.assertTrue(watched.give({"do": "continue"})["executed"])
         watched.wait(lambda f: f["activity"] == "settled" and f["shape"] > settled["shape"])
 
     def test_a_killed_run_goes_on(self):
         watched = self.watch(self.folder / "case.toml", "--output", self.folder / "run")
         watched.wait(lambda f: f["activity"] == "settled")
         load = {k: v for k, v in watched.frame()["settings"]["load"].items() if v is not None}
-        self.assertTrue(watched.give({"do": "pause"})["obeyed"])
-        self.assertTrue(watched.give({"do": "load", **load, "force_N": 4000})["obeyed"])
+        self.assertTrue(watched.give({"do": "pause"})["executed"])
+        self.assertTrue(watched.give({"do": "load", **load, "force_N": 4000})["executed"])
         hole = [0.27 * 0.92387953, 0.27 * 0.38268343]
-        self.assertTrue(watched.give({"do": "paint", "as": "hole", "path_m": [hole], "radius_m": 0.032})["obeyed"])
+        self.assertTrue(watched.give({"do": "paint", "as": "hole", "path_m": [hole], "radius_m": 0.032})["executed"])
         before = watched.frame()
         watched.end(signal.SIGKILL)
         again = self.watch(self.folder / "run")

@@ -141,8 +141,8 @@ TEST(Widths, AreThoseWithinReach) {
   const double width = narrow_widths(psi, {.wall = 3 * h}, 0)[0].value;
   for (const bool is_wall : {true, false}) {
     const auto& shape = is_wall ? psi : holes;
-    const auto size_of = [&](double least) {
-      return is_wall ? FeatureSize{.wall = least} : FeatureSize{.gap = least};
+    const auto size_of = [&](double minimum) {
+      return is_wall ? FeatureSize{.wall = minimum} : FeatureSize{.gap = minimum};
     };
     EXPECT_TRUE(narrow_widths(shape, size_of(0.97 * width), 0).empty());
     EXPECT_FALSE(narrow_widths(shape, size_of(0.97 * width), 0.05 * width).empty());

@@ -29,7 +29,7 @@ class ShapeOnly : public RunControl {
   void save() override {}
   void stop() override {}
   void pause(int) override {}
-  void go_on() override {}
+  void continue_run() override {}
   std::optional<Refusal> change_case(const Case&, const std::string&) override { return {}; }
   std::vector<Point> hole_at(const Point& point) const override { return hole_contour(shape_, point); }
   std::optional<Refusal> draw(std::span<const Stroke> strokes, const std::string&) override {
@@ -59,8 +59,8 @@ void try_edit(std::string_view text) {
   const auto command = parse_command(text);
   if (!command) return;
   ShapeOnly run;
-  const auto obeyed = std::visit([&](const auto& c) { return c.obey(run); }, *command);
-  require(obeyed || !obeyed.failure().reason.empty(), "a refusal has a reason");
+  const auto executed = std::visit([&](const auto& c) { return c.execute(run); }, *command);
+  require(executed || !executed.failure().reason.empty(), "a refusal has a reason");
 }
 
 /// What a replay reads.

@@ -13,9 +13,9 @@ struct PositionSource {
   bool is_image;  ///< whether its state must be reflected
 };
 
-/// The sources of all n load positions of a sector. Where a position was left out because another represents
-/// it, position i is the image of position n - i. (In the plane of azimuth 0, the image of position n - i
-/// lies a sector before position i.)
+/// The sources of all n load positions of a sector. If a position was omitted because another represents it,
+/// position i is the image of position n - i. (In the plane of azimuth 0, the image of position n - i lies a
+/// sector before position i.)
 std::vector<PositionSource> position_sources(const LoadPositions& solved, int n);
 
 }  // namespace wheelwright

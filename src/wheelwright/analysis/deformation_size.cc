@@ -19,7 +19,7 @@ Lattice<dim> displacement_lattice(const StateSolver<dim>& solver) {
   return {solver.model().grid, solver.model().degree};
 }
 
-/// The rotation about the axle in the middle of the cells of the ring that hold material.
+/// The rotation about the axle at the centres of the cells of the ring with material.
 template <int dim>
 class MiddleRotations {
  public:
@@ -166,7 +166,7 @@ bool any_cross(const std::vector<std::vector<Vec<2>>>& curves) {
 
 using Edge = std::vector<EdgePoint>;
 
-/// The edges of the material in 2D; a third dimension has none that are looked at.
+/// The edges of the material in 2D; not implemented in 3D.
 std::vector<Edge> edges(const LevelSet<2>& psi, const Lattice<2>& lattice) {
   std::vector<Edge> result;
   for (const Contour& contour : material_contours(psi, 2)) {
@@ -235,7 +235,7 @@ std::optional<Failure> material_overlaps(const StateSolver<dim>& solver, const L
   const double travel = travel_by_thickness(solver, state);
   if (travel < least_travel || !edges_overlap<dim>(solver, psi, state)) return {};
   return Failure{FailureReason::material_overlaps,
-                 fmt::format("deformed edges of holes cross each other where the rim travels {:.3g} % of the "
+                 fmt::format("deformed edges of holes cross each other at a rim travel of {:.3g} % of the "
                              "ring's thickness: the load is too large for this material and shape",
                              100 * travel)};
 }

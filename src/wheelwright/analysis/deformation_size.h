@@ -4,20 +4,20 @@
 
 namespace wheelwright {
 
-/// How far the states of a shape are from small deformation, which linear elasticity assumes: the greatest
-/// values over the solved load positions.
+/// How far the states of a shape are from the small deformations of linear elasticity: maxima over the solved
+/// load positions.
 struct DeformationSize {
   double strain;       ///< absolute value of a principal strain
   double rotation;     ///< of the material against the rim [rad]
   double travel;       ///< of the rim, by the thickness of the ring
-  bool edges_overlap;  ///< deformed edges of holes or tread cross each other or themselves; 2D alone
+  bool edges_overlap;  ///< deformed edges of holes or tread cross each other or themselves; only 2D
 };
 
 template <int dim>
 DeformationSize deformation_size(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                  const State<dim>& state);
 
-/// The greatest travel of the rim by the thickness of the ring; costs nothing.
+/// The maximum travel of the rim over the thickness of the ring; costs nothing.
 template <int dim>
 double travel_by_thickness(const StateSolver<dim>& solver, const State<dim>& state);
 

@@ -40,7 +40,7 @@ std::vector<double> values(const std::vector<ContactSummary>& positions, double 
   return result;
 }
 
-/// Equal weights for all positions of a sector, also where one of them stands for two.
+/// Equal weights for all positions of a sector, even if one of them represents two.
 double mean(const LoadPositions& solved, const std::vector<double>& values) {
   return rolling_variation(of_all(solved, values)).mean;
 }

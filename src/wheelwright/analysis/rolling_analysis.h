@@ -5,12 +5,12 @@
 
 namespace wheelwright {
 
-/// What the model holds at every load position.
+/// What the model prescribes at every load position.
 enum class Held { load, travel };
 
-/// All load positions of one sector under the model's load or travel, and what varies between them at a fixed
-/// load and at a fixed travel. Positions that a mirror image stands for have its values. Forces are per metre
-/// of width when dim = 2.
+/// All load positions of one sector under the model's load or travel, and their variation at a fixed load and
+/// at a fixed travel. Positions represented by a mirror image have its values. Forces are per metre of width
+/// when dim = 2.
 struct RollingAnalysis {
   Held held;
   std::vector<double> azimuths;           ///< of the ground positions, body frame [rad]
@@ -24,7 +24,7 @@ struct RollingAnalysis {
   double load;    ///< the model's, or the mean of the forces at its travel
   double travel;  ///< the model's, or the mean of the travels under its load
 
-  // Numbers at loads or travels that the model does not hold need further solves. These may fail.
+  // Numbers at loads or travels that the model does not prescribe need further solves. These may fail.
   /// By how far the axle descends at each position, from the mean height at which the wheel touches the
   /// ground without load; its variation is the run-out of the loaded radius.
   Expected<std::vector<double>> travel_at_load;

@@ -29,10 +29,10 @@ double centre_of_pressure(std::span<const GroundPoint> points) {
   return moment / sum;
 }
 
-/// The end of a lobe behind the last of its points that touches. The square of Hertz's pressure is a straight
-/// line over the square of the distance to the centre: here the one through the outer points with 0.1 to 0.6
-/// of the peak, because the discrete pressure is smeared in the last cell. Where this line ends more than a
-/// cell from the last point, the pressure is not Hertz's, and the end is halfway to the next point.
+/// The end of a lobe beyond its last point in contact. The square of Hertz's pressure is a straight line over
+/// the square of the distance to the centre: here the one through the outer points with 0.1 to 0.6 of the
+/// peak, because the discrete pressure is smeared in the last cell. Where this line ends more than a cell
+/// from the last point, the pressure is not Hertz's, and the end is halfway to the next point.
 double end_of_lobe(std::span<const GroundPoint> points) {
   constexpr std::ptrdiff_t points_of_cell = 5;  // as many as a contact face has by default
   const auto last = std::find_if(points.rbegin(), points.rend(), touches).base() - 1;
@@ -57,7 +57,7 @@ double end_of_lobe(std::span<const GroundPoint> points) {
   return std::abs(end - halfway) <= cell ? end : halfway;
 }
 
-/// Of the points across the ground at each place along it, the one that is pressed most.
+/// For each place along the ground, the point across the width with the highest pressure.
 std::vector<GroundPoint> most_pressed(std::vector<GroundPoint> points) {
   std::ranges::sort(points, {}, &GroundPoint::along);
   const double same = 1e-9 * (points.back().along - points.front().along);
@@ -71,7 +71,7 @@ std::vector<GroundPoint> most_pressed(std::vector<GroundPoint> points) {
   return result;
 }
 
-/// The places where contact begins and ends.
+/// The places where contact starts and ends.
 struct Lobe {
   double begin, end;  ///< along the ground [m]
 };
@@ -143,8 +143,8 @@ ContactSummary mirror_image(ContactSummary position) {
 
 RollingVariation rolling_variation(std::span<const double> values) {
   const int n = static_cast<int>(values.size());
-  const auto [least, greatest] = std::ranges::minmax(values);
-  RollingVariation variation{mean(values), least, greatest, {}};
+  const auto [minimum, maximum] = std::ranges::minmax(values);
+  RollingVariation variation{mean(values), minimum, maximum, {}};
   for (int k = 1; 2 * k < n; ++k) {
     std::complex<double> sum = 0;
     for (int j = 0; j < n; ++j)

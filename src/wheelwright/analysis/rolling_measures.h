@@ -10,8 +10,8 @@
 
 namespace wheelwright {
 
-/// One load position as seen from the rim and the ground. Forces are per metre of width when dim = 2. What
-/// acts or moves along the ground, and what turns, is positive towards larger azimuth.
+/// One load position, in terms of the rim and the ground. Forces are per metre of width when dim = 2. Forces
+/// and motions along the ground, torques and rotations are positive towards larger azimuth.
 struct ContactSummary {
   double travel;                   ///< of the rim towards the ground (ContactPatch::travel) [m]
   double radial_force;             ///< of the ground on the tread [N/m]
@@ -22,7 +22,7 @@ struct ContactSummary {
   double peak_friction = 0;        ///< largest size of its traction along the ground [Pa]
   double travel_along_ground = 0;  ///< of the rim [m]
   double wind_up = 0;              ///< the angle by which the rim turns [rad]
-  double descent = 0;              ///< of the axle, from where the wheel at rest without load has it [m]
+  double descent = 0;              ///< of the axle, from its place with the wheel at rest without load [m]
 };
 
 /// Each lobe of the patch, a part without gaps, ends where the square of the pressure, extrapolated from its
@@ -30,16 +30,16 @@ struct ContactSummary {
 template <int dim>
 ContactSummary contact_summary(const ContactPatch<dim>& contact);
 
-/// What the mirror image of a position shows: forces and motions along the ground, and turns, point the other
-/// way.
+/// The summary of a position's mirror image: forces and motions along the ground, and rotations, have the
+/// opposite sign.
 ContactSummary mirror_image(ContactSummary position);
 
-/// How a quantity varies while the wheel rolls.
+/// The variation of a quantity while the wheel rolls.
 struct RollingVariation {
-  double mean, least, greatest;
+  double mean, minimum, maximum;
   std::vector<double> harmonics;  ///< amplitudes of N_s, 2 N_s, ... waves per revolution
 
-  double peak_to_peak() const { return greatest - least; }
+  double peak_to_peak() const { return maximum - minimum; }
 };
 
 /// From values at N load positions that divide one sector evenly: only harmonics below N / 2 can be
@@ -50,8 +50,8 @@ RollingVariation rolling_variation(std::span<const double> values);
 struct RollingMeasures {
   double mean_travel;      ///< [m]
   double run_out;          ///< peak to peak of the axle's height at fixed load [m]
-  double peak_pressure;    ///< greatest over the positions [Pa]
-  double pressure_spread;  ///< of the positions' peaks: (greatest - least) / mean
+  double peak_pressure;    ///< maximum over the positions [Pa]
+  double pressure_spread;  ///< of the positions' peaks: (maximum - minimum) / mean
 };
 
 /// Which quantity each of them is: what history.csv records in this order.

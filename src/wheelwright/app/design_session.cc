@@ -76,8 +76,8 @@ void DesignOptions::declare(Options& options) {
                fmt::format("Quantities by which designs are ranked and plotted; default: what the case "
                            "minimizes, or stiffness, and run_out; known: {}",
                            fmt::join(known, ", ")));
-  constexpr int most_seconds = 10'000'000;
-  options.number("--seconds", seconds, {1, most_seconds},
+  constexpr int max_seconds = 10'000'000;
+  options.number("--seconds", seconds, {1, max_seconds},
                  "Start no further design after this time; default: no limit");
   add_threads(options, threads);
 }

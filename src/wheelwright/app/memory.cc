@@ -38,22 +38,22 @@ std::optional<double> number_of(const Path& file, std::string_view name) {
   return {};
 }
 
-void lower(std::optional<double>& least, std::optional<double> value) {
-  if (value) least = std::min(least.value_or(*value), *value);
+void lower(std::optional<double>& minimum, std::optional<double> value) {
+  if (value) minimum = std::min(minimum.value_or(*value), *value);
 }
 
 /// The memory left by a control group and its parent groups. A container may see its own group as the top
 /// one, so missing folders are skipped.
 std::optional<double> left_by_groups(const Path& top, const Path& group, const GroupFiles& files) {
-  std::optional<double> least;
+  std::optional<double> minimum;
   for (Path path = group.relative_path();; path = path.parent_path()) {
     const Path folder = top / path;
     if (const auto limit = number_in(folder / files.limit)) {
       const double used = number_in(folder / files.used).value_or(0);
       const double reclaimable = number_of(folder / "memory.stat", files.reclaimable_name).value_or(0);
-      lower(least, std::max(0.0, *limit - std::max(0.0, used - reclaimable)));
+      lower(minimum, std::max(0.0, *limit - std::max(0.0, used - reclaimable)));
     }
-    if (path.empty()) return least;
+    if (path.empty()) return minimum;
   }
 }
 
@@ -66,8 +66,8 @@ bool lists(std::string_view list, std::string_view word) {
 
 std::optional<double> available_memory(const Path& root) {
   constexpr double kibibyte = 1024;
-  std::optional<double> least = number_of(root / "proc/meminfo", "MemAvailable:");
-  if (least) *least *= kibibyte;
+  std::optional<double> minimum = number_of(root / "proc/meminfo", "MemAvailable:");
+  if (minimum) *minimum *= kibibyte;
   const Path top = root / "sys/fs/cgroup";
   std::ifstream groups(root / "proc/self/cgroup");
   for (std::string line; std::getline(groups, line);) {  // number:controllers:path
@@ -76,11 +76,11 @@ std::optional<double> available_memory(const Path& root) {
     const std::string controllers = line.substr(first + 1, second - first - 1),
                       group = line.substr(second + 1);
     if (controllers.empty())
-      lower(least, left_by_groups(top, group, version_2));
+      lower(minimum, left_by_groups(top, group, version_2));
     else if (lists(controllers, "memory"))
-      lower(least, left_by_groups(top / "memory", group, version_1));
+      lower(minimum, left_by_groups(top / "memory", group, version_1));
   }
-  return least;
+  return minimum;
 }
 
 std::optional<double> address_space_left(const Path& root) {

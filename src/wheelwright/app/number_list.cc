@@ -6,7 +6,7 @@
 namespace wheelwright {
 namespace {
 
-constexpr std::size_t most_numbers = 1000;
+constexpr std::size_t max_numbers = 1000;
 
 std::optional<std::vector<double>> parse_numbers(std::string_view text, char separator) {
   std::vector<double> numbers;
@@ -17,7 +17,7 @@ std::optional<std::vector<double>> parse_numbers(std::string_view text, char sep
     if (error != std::errc{} || !std::isfinite(number)) return {};
     numbers.push_back(number);
     if (rest == end) return numbers;
-    if (*rest != separator || numbers.size() == most_numbers) return {};
+    if (*rest != separator || numbers.size() == max_numbers) return {};
     p = rest + 1;
   }
 }
@@ -32,7 +32,7 @@ std::optional<std::vector<double>> parse_number_list(std::string_view text) {
   const auto parts = parse_numbers(text, ':');
   if (!parts || parts->size() != 3) return {};
   const double first = (*parts)[0], last = (*parts)[1], n = (*parts)[2];
-  if (n != std::floor(n) || n < 2 || n > most_numbers || (is_log && !(first > 0 && last > 0))) return {};
+  if (n != std::floor(n) || n < 2 || n > max_numbers || (is_log && !(first > 0 && last > 0))) return {};
   std::vector<double> numbers;
   for (int k = 0; k < n; ++k) {
     const double share = k / (n - 1);

@@ -21,10 +21,10 @@ void Options::argument(const std::string& name, std::string& value, const Check&
   app_.add_option(name, value, meaning)->required()->check(check);
 }
 
-void Options::arguments(const std::string& name, std::vector<std::string>& values, int least,
+void Options::arguments(const std::string& name, std::vector<std::string>& values, int minimum,
                         const std::string& meaning) {
   constexpr int most = 1000;
-  app_.add_option(name, values, meaning)->required()->expected(least, most);
+  app_.add_option(name, values, meaning)->required()->expected(minimum, most);
 }
 
 void Options::optional_argument(const std::string& name, std::string& value, const std::string& meaning) {

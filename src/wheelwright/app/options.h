@@ -29,7 +29,7 @@ class Options {
   void argument(const std::string& name, std::string& value, const std::string& meaning);
   void argument(const std::string& name, std::string& value, const Check& check, const std::string& meaning);
   /// At least `least` arguments.
-  void arguments(const std::string& name, std::vector<std::string>& values, int least,
+  void arguments(const std::string& name, std::vector<std::string>& values, int minimum,
                  const std::string& meaning);
   /// An optional argument; --help shows the current value as the default.
   void optional_argument(const std::string& name, std::string& value, const std::string& meaning);

@@ -16,9 +16,9 @@ Options::Limits limits_of_iterations() {
 void add_case(Options& options, std::string& file) { options.argument("CASE", file, "case file"); }
 
 void add_threads(Options& options, std::optional<int>& threads) {
-  constexpr int most_threads = 1024;
+  constexpr int max_threads = 1024;
   options.number(
-      "--threads", threads, {1, most_threads},
+      "--threads", threads, {1, max_threads},
       "Number of threads; default and maximum: the number of processors. Results do not depend on it");
 }
 

@@ -25,7 +25,7 @@ class TerminalObserver : public Observer<dim> {
     if (const auto* advanced = std::get_if<ContactAdvanced>(&event))
       progress_->show_step(text(advanced->progress), run.elapsed_seconds);
     if (const auto* command = std::get_if<CommandDone>(&event); command && !command->text.empty())
-      progress_->note((command->was_obeyed ? "" : "refused: ") + command->text);
+      progress_->note((command->was_executed ? "" : "refused: ") + command->text);
     if (const auto* ended = std::get_if<RunEnded<dim>>(&event)) end(*ended, run);
   }
 

@@ -23,7 +23,7 @@ enum class FailureReason {
   negative_energy,        ///< a strain energy came out negative
   empty_shape,            ///< no material, or no boundary to move
   objective_jumped,       ///< the objective changed by more than a small step can explain
-  too_narrow,             ///< walls or gaps stay narrower than the least width
+  too_narrow,             ///< walls or gaps remain below the minimum width
   unsupported_model,      ///< the solver has no equations for this model
   interrupted,            ///< the caller asked the computation to end early (base/interrupt.h)
   sliding,                ///< friction cannot hold the rim

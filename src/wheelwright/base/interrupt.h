@@ -11,9 +11,8 @@ struct ContactProgress {
   int newton_steps;           ///< taken at this position so far
 };
 
-/// What a long computation asks from time to time: whether it should end early, with the failure
-/// `interrupted`. The question is cheap; once the answer was yes it stays yes. Whoever asks also says how far
-/// the contact is.
+/// Polled by long computations: whether to end early, with the failure `interrupted`. Polling is cheap; once
+/// requested, an interrupt stays requested. The caller also reports the progress of the contact.
 class Interrupt {
  public:
   using Progress = std::function<void(const ContactProgress&)>;
@@ -30,7 +29,7 @@ class Interrupt {
     if (progress_) progress_(progress);
   }
 
-  /// The same for one of several load positions: what it is told counts for that position.
+  /// The same for one of several load positions: progress is reported for that position.
   Interrupt at_position(int position, int n_positions) const {
     if (!progress_) return *this;
     return Interrupt(requested_,

@@ -11,8 +11,9 @@ namespace wheelwright {
 
 namespace {
 
-/// Tells the thread sanitizer, which sees neither this file nor TBB, that all calls of one parallel_for()
-/// happen after the code before it and before the code after it, but in no order among themselves.
+/// Announces to the thread sanitizer, which sees neither this file nor TBB, that all calls of one
+/// parallel_for() happen after the code before it and before the code after it, but in no order among
+/// themselves.
 class ForkAndJoin {
 #ifdef WHEELWRIGHT_THREAD_SANITIZER
  public:

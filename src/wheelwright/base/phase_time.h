@@ -11,7 +11,7 @@ struct PhaseTime {
   double seconds;
 };
 
-/// The phases of one trial shape, in the order in which they come: the one place for their names.
+/// The phases of one trial shape in order: the only place of their names.
 namespace phase {
 inline constexpr const char *cut = "cut", *assembly = "assembly", *factorization = "factorization",
                             *contact = "contact", *recovery = "recovery", *functionals = "functionals",

@@ -10,7 +10,7 @@ namespace wheelwright {
 
 namespace {
 
-/// Whether the environment had it otherwise.
+/// Sets the variable; returns whether its value changed.
 bool set(const char* name, std::string_view value) {
   const char* before = std::getenv(name);
   if (before && before == value) return false;

@@ -2,9 +2,9 @@
 
 namespace wheelwright {
 
-/// For main(): freed memory stays with the process, for the matrices of the next shape, which have the same
-/// sizes. Giving it back and fetching it again costs a fifth of the time of a shape. Blocks above 32 MiB
-/// are given back.
+/// For main(): keeps freed memory in the process, for the matrices of the next shape, which have the same
+/// sizes. Returning and reallocating it costs a fifth of the time of a shape. Blocks above 32 MiB are
+/// returned.
 void keep_freed_memory();
 
 /// Gives the freed memory that the process keeps back to the system, from all threads. A program that
@@ -13,10 +13,9 @@ void keep_freed_memory();
 /// which takes about as long as one shape.
 void give_freed_memory_back();
 
-/// For the first line of main(): sees to it that BLAS computes with one thread and with its fastest kernels.
-/// BLAS reads that from the environment before main() begins. If it stands there otherwise, this starts the
-/// program again, in the same process and with the same arguments, which end with a null pointer, as those of
-/// main() do.
+/// For the first line of main(): makes BLAS compute with one thread and its fastest kernels. BLAS reads these
+/// settings from the environment before main(). If they differ, this restarts the program, in the same
+/// process and with the same null-terminated arguments.
 ///
 /// One thread, whatever the environment says: the library shares work out itself, and sums of BLAS would be
 /// taken in an order that depends on the number of its threads. OpenBLAS may take a processor that is younger

@@ -7,7 +7,7 @@
 
 namespace wheelwright {
 
-/// The interrupt for several threads at a time: they ask and tell one after the other.
+/// The interrupt for use by several threads, which poll and report one at a time.
 inline Interrupt shared_by_threads(const Interrupt& interrupt) {
   const auto mutex = std::make_shared<std::mutex>();
   return Interrupt(

@@ -45,7 +45,7 @@ void check_sides(const Outline& outline, const ZeroContour& zero, double toleran
   for (const Loop& loop : outline.loops) {
     if (is_circle_about_axle(loop)) {
       if ((signed_area(loop) > 0) != (loop.kind == LoopKind::outer_edge))
-        faults.push_back({fmt::format("the {} runs the wrong way round", name(loop.kind))});
+        faults.push_back({fmt::format("the {} has the wrong orientation", name(loop.kind))});
       continue;
     }
     for (const Curve& curve : loop.curves) {
@@ -98,8 +98,8 @@ struct Deviation {
   }
 };
 
-/// How far the edges of holes and islands are from the zero contour. A point that does not find the contour
-/// is infinitely far from it.
+/// The deviation of the edges of holes and islands from the zero contour; infinite for a point from which the
+/// contour is not found.
 Deviation of_curves(const Outline& outline, const ZeroContour& zero) {
   constexpr int points_per_cubic = 16;
   Deviation deviation;
@@ -147,7 +147,7 @@ struct DenseCorners {
   }
 };
 
-/// How far the points of the zero contour are from the edges.
+/// The deviation of the points of the zero contour from the edges.
 Deviation of_contour(const LevelSet<2>& psi, const std::vector<Polygon>& polygons) {
   const DenseCorners dense(polygons, step_of_deviation * psi.lattice.grid().outer_radius);
   const NearestPoint<2> nearest(dense.points);

@@ -10,7 +10,7 @@
 
 namespace wheelwright::cad {
 
-/// What was measured on an outline that is fit to be used.
+/// Measurements of a valid outline.
 struct OutlineReport {
   CurveCount curves;
   int bodies;         ///< separate pieces of material
@@ -22,8 +22,8 @@ struct OutlineReport {
   std::optional<Roughness> roughness;  ///< at a cell of the level set's grid; nothing without holes
 };
 
-/// Measures an outline of {psi < 0} and refuses it, with all faults that were found, unless
-/// - every curve begins where the one before it ends, to 1e-9 of the outer radius;
+/// Measures an outline of {psi < 0} and rejects it, with all faults found, unless
+/// - every curve starts where the previous one ends, to 1e-9 of the outer radius;
 /// - the material lies on the left of every curve;
 /// - no loop crosses or touches itself or another one;
 /// - the area deviates from that of the level set by at most 0.01 %, where the straight or parabolic outer
@@ -32,7 +32,7 @@ struct OutlineReport {
 Expected<OutlineReport, std::vector<OutlineFault>> check_outline(const Outline& outline,
                                                                  const LevelSet<2>& psi, double tolerance);
 
-/// The report for people, a line for each of its numbers.
+/// The report as text, one line per number.
 std::string text(const OutlineReport& report);
 
 }  // namespace wheelwright::cad

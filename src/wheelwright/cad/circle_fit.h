@@ -15,7 +15,7 @@ std::optional<Line> fit_line(std::span<const Vec<2>> points, double tolerance);
 /// From the first point to the last.
 std::optional<Arc> fit_arc(std::span<const Vec<2>> points, double tolerance);
 
-/// A whole circle through points that follow each other round it, in their sense of rotation.
+/// A full circle through points in order around it, with their orientation.
 std::optional<Arc> fit_circle(std::span<const Vec<2>> points, double tolerance);
 
 }  // namespace wheelwright::cad

@@ -90,10 +90,10 @@ std::vector<Vec<2>> positions(const std::vector<EdgePoint>& points) {
   return result;
 }
 
-/// The largest circle that touches an edge at one point and holds no other edge.
+/// The largest circle that touches an edge at one point and contains no other edge.
 struct TouchingCircle {
   double radius;
-  int touched;  ///< the other point that it touches; -1 if there is none
+  int touched;  ///< the other point of contact; -1 if there is none
 };
 
 /// Shrinks a circle that touches the edge at `p`, with its centre in the direction `n`, until no edge lies in
@@ -130,8 +130,8 @@ bool approach(const Outline& outline, EdgePoint& edge, const Vec<2>& target) {
   return moves;
 }
 
-/// Whether a way in this direction leaves the edge straight, as at the end of a shortest way. At a corner it
-/// may leave in any direction between the normals.
+/// Whether a path in this direction leaves the edge normally, as at the end of a shortest path. At a corner
+/// any direction between the normals is allowed.
 bool is_straight(const Outline& outline, const EdgePoint& edge, const Vec<2>& direction) {
   constexpr double cosine = 0.985;  // of ten degrees
   const Place& place = edge.place;
@@ -266,14 +266,15 @@ class Search {
             {2 * circle.centre[0] - circle.at[0], 2 * circle.centre[1] - circle.at[1]}};
   }
 
-  /// Of the circles about the axle a sector's part, of the other loops the one that begins in the sector.
+  /// One representative sector: the part of circles about the axle in it, and the other loops that start in
+  /// it.
   bool is_first_image(const EdgePoint& point) const {
     const Loop& loop = outline_.loops[point.place.loop];
     const bool about_axle = loop.kind == LoopKind::outer_edge || loop.kind == LoopKind::bore;
     return in_first_sector(about_axle ? point.position : start_of(loop.curves.front()));
   }
 
-  /// The sector begins where no point is likely to lie, lest rounding decide.
+  /// The sector starts at an unlikely place for points, to be robust to rounding.
   bool in_first_sector(const Vec<2>& p) const {
     constexpr double begin = 0.0123;  // sectors
     double azimuth = std::atan2(p[1], p[0]) - begin * sector_;

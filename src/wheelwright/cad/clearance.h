@@ -24,10 +24,10 @@ struct Clearances {
 /// A step that misses no neck, by the tread's radius.
 inline constexpr double clearance_step = 6e-4;
 
-/// Measures an outline whose loops are repeated in every sector. Every edge is walked along with steps of at
-/// most `step` [m]; at each the largest circle is found that touches it there, on one side, and holds no
-/// other edge. Where such a circle also touches on its opposite side there may be a neck, whose ends are then
-/// moved along the curves until their distance is least.
+/// Measures an outline whose loops are repeated in every sector. Follows every edge with steps of at most
+/// `step` [m], and at each finds the largest circle that touches it there on one side and contains no other
+/// edge. Where such a circle also touches on its opposite side there may be a neck, whose ends are then moved
+/// along the curves until their distance is least.
 Clearances clearances(const Outline& outline, int n_sectors, double step);
 
 }  // namespace wheelwright::cad

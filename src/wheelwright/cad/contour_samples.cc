@@ -18,7 +18,7 @@ double kink(const ZeroContour& zero, const Vec<2>& before, const Vec<2>& point, 
   return std::abs(std::atan2(a[0] * b[1] - a[1] * b[0], dot<2>(a, b)));
 }
 
-/// A point between two neighbours of the contour, on the zero contour if that is found where it must be.
+/// A point between two neighbours of the contour, on the zero contour if that is found between them.
 Vec<2> point_between(const ZeroContour& zero, const Vec<2>& a, const Vec<2>& b, double t) {
   const Vec<2> chord_point = between(a, b, t);
   const auto projected = zero.projection(chord_point);

@@ -7,7 +7,7 @@
 
 namespace wheelwright::cad {
 
-/// A closed contour by points that lie on {psi = 0} and follow each other at most at a given distance.
+/// A closed contour as points on {psi = 0}, at most a given distance apart.
 struct ContourSamples {
   std::vector<Vec<2>> points;
   /// Angle by which the direction of the contour jumps at each point [rad]: other than zero only where the

@@ -14,7 +14,7 @@
 namespace wheelwright::cad {
 namespace {
 
-/// Part of the tolerance that the fit may use at the samples; the rest is for what lies between them.
+/// Fraction of the tolerance for the fit at the samples; the rest is for the curve between them.
 constexpr double share_of_fit = 0.8;
 /// Distance of samples, in tolerances: a spline that rounds a kink of 20 degrees within the tolerance has
 /// knots about 40 tolerances apart.
@@ -22,7 +22,7 @@ constexpr double sample_distance = 3;
 /// A kink is a corner from this angle on [rad]. Polynomials of neighbouring cells meet at smaller angles
 /// everywhere; the spline rounds them.
 constexpr double corner_angle = 20 * std::numbers::pi / 180;
-/// A kink of this angle becomes a corner too, where no spline follows the contour otherwise [rad].
+/// A kink of this angle also becomes a corner if no spline follows the contour otherwise [rad].
 constexpr double least_corner_angle = std::numbers::pi / 180;
 
 Vec<2> centroid(const Contour& contour) {
@@ -124,7 +124,7 @@ Expected<std::vector<Curve>, NoFit> fit_between(const std::vector<int>& corners,
   return curves;
 }
 
-/// The sharpest kink near a place that is no corner yet; -1 if there is none.
+/// The sharpest kink near a place that is not a corner yet; -1 if there is none.
 int next_corner(const ContourSamples& samples, const std::vector<int>& corners, const Vec<2>& place,
                 double distance) {
   int sharpest = -1;
@@ -162,7 +162,7 @@ Loop rotated_loop(const Loop& loop, double angle) {
   return result;
 }
 
-/// The place where a hole leaves the ring, if one does.
+/// The place where a hole breaks through the edge of the ring, if any.
 std::optional<OutlineFault> broken_edge(const std::vector<Contour>& contours, const PolarGrid<2>& grid) {
   const auto has = [&](ContourKind kind) {
     return std::ranges::any_of(contours, [&](const Contour& c) { return c.kind == kind; });

@@ -14,8 +14,8 @@ enum class LoopKind { outer_edge, bore, hole, island };
 /// The name of a kind for layers and groups, e.g. "outer_edge".
 const char* name(LoopKind kind);
 
-/// A closed chain of curves, each of which begins where the one before it ends. The material is on the left:
-/// outer edge and islands run counter-clockwise, bore and holes clockwise.
+/// A closed chain of curves, each starting where the previous one ends. The material is on the left: outer
+/// edge and islands run counter-clockwise, bore and holes clockwise.
 struct Loop {
   LoopKind kind;
   std::vector<Curve> curves;

@@ -6,12 +6,12 @@
 
 namespace wheelwright::cad {
 
-/// Why an outline cannot be made or must not be used.
+/// Why an outline cannot be created or must not be used.
 struct OutlineFault {
   std::string what;  ///< one line, with the place
 };
 
-/// A Cartesian point for people, e.g. "azimuth 12.34 deg, radius 270.1 mm".
+/// A Cartesian point as text, e.g. "azimuth 12.34 deg, radius 270.1 mm".
 std::string place_of(const Vec<2>& point);
 
 }  // namespace wheelwright::cad

@@ -22,7 +22,7 @@ double distance(const Vec<2>& a, const Vec<2>& b) { return std::hypot(b[0] - a[0
 /// Angle from one direction to another.
 double angle(const Vec<2>& a, const Vec<2>& b) { return std::atan2(a[0] * b[1] - a[1] * b[0], dot<2>(a, b)); }
 
-/// A point of an edge, with how far the edge has come and turned since its start.
+/// A point of an edge, with the length and turning of the edge since its start.
 struct EdgePoint {
   double arc;   ///< [m]
   double turn;  ///< [rad], counter-clockwise

@@ -23,14 +23,14 @@ struct Bend {
   Vec<2> place;
 };
 
-/// How rough one edge is.
+/// The roughness of one edge.
 struct EdgeRoughness {
   /// 1 / (2 pi) times the integral of |mean kappa| along the edge, where that is more than one by the length.
   /// At most 1 if the edge bends only one way; every tooth adds up to a half.
   double turns;
   Bend sharpest;  ///< where |mean kappa| is largest
   /// The smallest mean radius with its centre in the void: a round tool in the hole must be smaller. Nothing
-  /// if the edge nowhere bends that way by more than 0.01 rad per length.
+  /// if the edge bends that way by at most 0.01 rad per length everywhere.
   std::optional<Bend> internal_corner;
   /// The smallest mean radius with its centre in the material, a tip of it.
   std::optional<Bend> external_corner;

@@ -18,12 +18,11 @@ constexpr int n_corrections = 3;
 /// none saves a first solution that deviates by so many tolerances.
 constexpr double hopeless = 1.1;
 
-/// Numbers of so many samples lie side by side, so that a loop over them is compiled to vector instructions.
+/// Number of samples stored side by side, so that loops over them are vectorized.
 constexpr int lanes = 32;
 using Lanes = std::array<double, lanes>;
 
-/// Samples that follow each other in one interval, with the four B-splines that are not zero there. Lanes
-/// without a sample hold zeros.
+/// Consecutive samples of one interval, with its four nonzero B-splines. Lanes without a sample are zero.
 struct Block {
   int interval, first, n_samples;
   std::array<Lanes, degree + 1> value, derivative;
@@ -54,7 +53,7 @@ class SplineSpace {
     return closed_ && function >= n_intervals() ? function - n_intervals() : function;
   }
 
-  /// The interval of a parameter; the search begins at a guess.
+  /// The interval of a parameter; the search starts at a guess.
   int interval(double u, int guess) const {
     if (breaks_[guess] <= u && u < breaks_[guess + 1]) return guess;
     const auto above = std::upper_bound(breaks_.begin() + 1, breaks_.end() - 1, u);
@@ -268,8 +267,8 @@ class NormalEquations {
   Matrix matrix_, right_;
 };
 
-/// The control points with the least sum of squared distances; ends of open curves are the end points. Empty
-/// if an interval holds too few points.
+/// The control points with the minimum sum of squared distances; ends of open curves are the end points.
+/// Empty if an interval contains too few points.
 std::optional<std::vector<Vec<2>>> least_squares(const SplineSpace& space, std::span<const Vec<2>> points,
                                                  const std::vector<Block>& blocks) {
   std::vector<Vec<2>> control(space.n_points());
@@ -292,7 +291,7 @@ std::optional<std::vector<Vec<2>>> least_squares(const SplineSpace& space, std::
   return control;
 }
 
-/// How samples lie beside the spline at their parameters.
+/// The distances of samples from the spline at their parameters.
 struct Misses {
   Lanes along;           ///< by which parameter they are off
   Lanes squared_across;  ///< squared distances
@@ -328,9 +327,9 @@ void correct(Fit& fit, std::span<const Vec<2>> points, const std::vector<Block>&
     double& largest_here = fit.deviation[block.interval];
     for (int l = 0; l < block.n_samples; ++l) {
       const int s = block.first + l;
-      const bool at_end = !fit.space.closed() && (s == 0 || s == last);
+      const bool on_end = !fit.space.closed() && (s == 0 || s == last);
       double& u = fit.parameters[s];
-      if (!at_end) u = std::clamp(u + miss.along[l], 0.0, 1.0);
+      if (!on_end) u = std::clamp(u + miss.along[l], 0.0, 1.0);
       largest_here = std::max(largest_here, miss.squared_across[l]);
       if (miss.squared_across[l] > fit.largest) {
         fit.largest = miss.squared_across[l];
@@ -342,7 +341,7 @@ void correct(Fit& fit, std::span<const Vec<2>> points, const std::vector<Block>&
   fit.largest = std::sqrt(fit.largest);
 }
 
-/// Empty where there is no fit, or where the first solution deviates by more than `most`.
+/// Empty if there is no fit, or if the first solution deviates by more than `most`.
 std::optional<Fit> fit_in(const SplineSpace& space, const Samples& samples, double most) {
   Fit fit{space, {}, samples.parameters, {}, 0, 0};
   for (int k = 0; k < n_corrections; ++k) {
@@ -376,7 +375,7 @@ std::optional<std::vector<double>> with_halved(const Fit& fit, const Samples& sa
   return finer;
 }
 
-/// Takes out breaks that are not needed, those first whose neighbourhood deviates least.
+/// Removes unnecessary breaks, starting with those whose neighbourhood deviates least.
 Fit with_fewer_breaks(Fit fit, const Samples& samples, double tolerance, int fewest_intervals) {
   std::vector<double> kept;  // breaks that were tried
   while (fit.space.n_intervals() > fewest_intervals) {

@@ -13,12 +13,12 @@ struct NoFit {
   double deviation;  ///< there [m]
 };
 
-/// The smoothest chain of points that a fit may follow: at least so many per interval of knots.
+/// Minimum number of points per knot interval of a fit.
 inline constexpr int samples_per_interval = 4;
 
-/// A spline with few knots that passes all points, which follow each other at about equal distances, within
-/// `tolerance` [m]. An open one begins at the first point and ends at the last; a closed one has continuous
-/// curvature where it closes, too, and `points` does not repeat its first point.
+/// A spline with few knots that passes all points, which are about equally spaced, within `tolerance` [m]. An
+/// open one starts at the first point and ends at the last; a closed one has continuous curvature where it
+/// closes, too, and `points` does not repeat its first point.
 Expected<Spline, NoFit> fit_spline(std::span<const Vec<2>> points, bool closed, double tolerance);
 
 }  // namespace wheelwright::cad

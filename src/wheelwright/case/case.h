@@ -23,7 +23,7 @@ struct Drawing;
 struct Picture;
 
 // A case: everything that defines one optimization, as plain data in SI units and radians. The initial values
-// here are the defaults of the case file; names, units, ranges and meanings are declared in case/*_keys.cc.
+// are the defaults of the case file; names, units, ranges and meanings are declared in case/*_keys.cc.
 
 struct Wheel {
   int dimension = 2;           ///< 2: the plane of the wheel; 3: the whole width
@@ -35,7 +35,7 @@ struct Wheel {
   bool operator==(const Wheel&) const = default;
 };
 
-/// One of several loads: what it changes of the section [load].
+/// One of several loads: the keys of the section [load] that it changes.
 struct CaseLoad {
   std::string name;
   double weight = 1;                    ///< of its terms in the objective
@@ -47,17 +47,18 @@ struct CaseLoad {
 };
 
 struct Load {
-  double force = 300 * 9.81;           ///< on the whole width [N]
-  std::optional<double> travel;        ///< of the rim towards the ground [m]; if given, the force is a result
+  double force = 300 * 9.81;  ///< on the whole width [N]
+  std::optional<double>
+      travel;  ///< prescribed travel of the rim towards the ground [m]; if given, the force is a result
   double horizontal_force = 0;         ///< on the rim, towards larger azimuth, on the whole width [N]
   double lateral_force = 0;            ///< on the rim, towards larger z; in 3D [N]
   double camber = 0;                   ///< the side at larger z nearer to the ground; in 3D [rad]
   double torque = 0;                   ///< on the rim, towards larger azimuth, on the whole width [N m]
   std::array<double, 2> body_force{};  ///< along the ground towards larger azimuth, and down [N/m^3]
   double hole_pressure = 0;            ///< in the holes [Pa]
-  double speed = 0;                    ///< of the axle along the ground, for the pull of rotation [m/s]
+  double speed = 0;                    ///< of the axle along the ground, for the centrifugal load [m/s]
   int positions = 8;                   ///< N_d, load positions per sector
-  std::vector<CaseLoad> cases = {};    ///< empty: this load alone
+  std::vector<CaseLoad> cases = {};    ///< empty: only this load
   bool operator==(const Load&) const = default;
 };
 
@@ -114,9 +115,9 @@ struct Holes {
   bool operator==(const Holes&) const = default;
 };
 
-// Shapes that are drawn over the ring, each over those before it: `order` is a shape's place among all of
-// them, from 1. Each is repeated `count` times, evenly spaced about the axle; `phase` is the azimuth of the
-// first one, if absent half the spacing.
+// Shapes drawn over the ring, each over the earlier ones: `order` is a shape's position among all of them,
+// from 1. Each is repeated `count` times, evenly spaced about the axle; `phase` is the azimuth of the first
+// one, by default half the spacing.
 
 struct CircleShape {
   int order = 0;
@@ -162,7 +163,7 @@ struct PolygonShape {
   bool operator==(const PolygonShape&) const = default;
 };
 
-/// What lies between two radii.
+/// Everything between two radii.
 struct AnnulusShape {
   int order = 0;
   Fill as = Fill::hole;
@@ -194,7 +195,7 @@ struct SpokeShape {
   bool operator==(const SpokeShape&) const = default;
 };
 
-/// What was read from a file that the case names. The case compares files by their checksums.
+/// The contents of a file named in the case. Cases compare files by their checksums.
 template <class Contents>
 struct Loaded {
   std::shared_ptr<const Contents> contents;
@@ -218,7 +219,7 @@ struct FileShape {
 };
 
 enum class PictureLayout {
-  wheel,   ///< the whole wheel as it is seen
+  wheel,   ///< the whole wheel as seen
   sector,  ///< one of `count` equal parts, unrolled
 };
 
@@ -240,8 +241,8 @@ struct PictureShape {
 /// A shape of a wheel in the plane or in three dimensions.
 using SavedLevelSet = std::variant<LevelSet<2>, LevelSet<3>>;
 
-/// The shape of an earlier run, to begin with instead of holes and drawn shapes. A wheel in three dimensions
-/// may begin with the shape of one in the plane, extruded.
+/// The shape of an earlier run to start from, instead of holes and drawn shapes. A 3D wheel may start from
+/// the extruded shape of a 2D one.
 struct SavedShape {
   std::string from;      ///< a run's folder or a file of its kind; relative to the case's file; empty: none
   std::string checksum;  ///< of the file; never empty in a case that was read from a file with `from`
@@ -263,25 +264,26 @@ struct Shapes {
 
 struct Grid {
   int radial_cells = 28;
-  int angular_cells = 384;              ///< round the full ring
+  int angular_cells = 384;              ///< around the full ring
   int axial_cells = 4;                  ///< along the axle; in 3D
   int degree = 2;                       ///< of the displacement
   std::optional<int> level_set_degree;  ///< absent: 2, in 3D 1
-  std::optional<int> tread_levels;      ///< halvings of the cells at the tread; absent: as the contact needs
+  std::optional<int>
+      tread_levels;  ///< halvings of the cells at the tread; absent: as many as the contact needs
   bool operator==(const Grid&) const = default;
 };
 
-/// The mean contact stress p_mean (73) that the uniformity functionals compare with.
+/// The mean contact stress p_mean (73) with which the uniformity functionals compare.
 enum class MeanStress {
   exact,  ///< that of the shape itself
   held,   ///< that of the last accepted shape, as the paper does
 };
 
-/// Weights of the functionals in J, and parameters of the functionals.
-/// Which load positions a bound, or what is minimized, is about.
+/// Weights of the functionals in J, and parameters of the functionals. How a bounded or minimized quantity is
+/// aggregated over the load positions.
 enum class OverPositions {
   mean,   ///< their mean
-  worst,  ///< the one with the worst value
+  worst,  ///< the worst of them
   each,   ///< every one
 };
 
@@ -329,31 +331,33 @@ enum class VelocityKind {
 };
 
 enum class OptimizerMethod {
-  automatic,  ///< descent where the volume or the velocity needs it, else sequential quadratic
+  automatic,  ///< descent if the volume or the velocity needs it, else sequential quadratic
   sequential_quadratic,
   descent,
 };
 
-/// When holes are made where none are.
+/// When new holes are created.
 enum class NucleationTime { never, converged };
 
 struct Optimizer {
   OptimizerMethod method = OptimizerMethod::automatic;
   int iterations = 100;
-  int coarse_levels = 0;  ///< on how many coarser grids the descent begins, one after the other
+  int coarse_levels = 0;  ///< number of coarser grids on which the descent starts, one after the other
   VelocityKind velocity = VelocityKind::automatic;
   std::optional<double> velocity_length;  ///< [cells]; absent: by the velocity
   std::optional<double> step;  ///< maximum move of the boundary per shape [cells]; absent: by the method
   int max_halvings = 6;
   double accepted_increase = 1e-4;
-  std::optional<double> tolerance;  ///< absent: by the method
+  std::optional<double> tolerance;  ///< absent: depends on the method
   int redistance_every = 5;
   double smoothing = 0;  ///< tau of (76) [cells^2]
   int smooth_every = 5;
-  std::optional<double> rim_band;                   ///< absent: 1/14 of the ring
-  std::optional<double> tread_band;                 ///< absent: see bands()
-  std::optional<double> minimum_wall, minimum_gap;  ///< of what is cut [m]; absent: any
-  std::optional<double> minimum_radius;             ///< of internal corners [m]; absent: any
+  std::optional<double> rim_band;    ///< absent: 1/14 of the ring
+  std::optional<double> tread_band;  ///< absent: see bands()
+  std::optional<double> minimum_wall,
+      minimum_gap;  ///< [m]; absent: of one cell and 1.5 cells in the last part of a run
+  std::optional<double>
+      minimum_radius;  ///< of internal corners [m]; absent: of 0.75 cells in the last part of a run
   NucleationTime nucleation = NucleationTime::never;
   bool operator==(const Optimizer&) const = default;
 };
@@ -367,13 +371,13 @@ struct Output {
   bool operator==(const Output&) const = default;
 };
 
-/// What a run is expected to find for one quantity of one accepted shape.
+/// The expected value of one quantity at one accepted shape.
 struct Expectation {
   Quantity quantity = Quantity::objective;
   double value = 0;              ///< in the unit of history.csv
   double margin = 0.01;          ///< relative to the value
   std::optional<int> iteration;  ///< number of the accepted shape; absent: the last one
-  std::string load_case = {};    ///< that it is about; empty: the first one
+  std::string load_case = {};    ///< to which it applies; empty: the first one
   bool operator==(const Expectation&) const = default;
 };
 

@@ -13,7 +13,7 @@ namespace {
 constexpr double coarse_tolerance = 5e-3;
 constexpr int most_tread_levels = 6;
 
-/// The thickness of a band that holds its full rows of cells.
+/// The thickness of a band, extended to its full rows of cells.
 double widened(const Band& band, double cell) { return std::max(band.thickness, band.full_rows * cell); }
 
 }  // namespace

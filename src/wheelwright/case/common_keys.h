@@ -7,11 +7,11 @@
 
 #include "wheelwright/case/keys.h"
 
-// Ranges, units and keys that sections of the case file have in common.
+// Ranges, units and keys shared by sections of the case file.
 
 namespace wheelwright {
 
-inline constexpr double standard_gravity = 9.81;  // as the paper takes it [m/s^2]
+inline constexpr double standard_gravity = 9.81;  // as in the paper [m/s^2]
 inline constexpr double degree_of_arc = std::numbers::pi / 180;
 inline constexpr Range length = between(1e-6, 1000);
 inline constexpr Range cell_count = between(1, 100000);
@@ -21,7 +21,7 @@ Key<Struct> fill_key(ChoiceField<Struct> field) {
   return {.name = "as",
           .unit = "",
           .field = std::move(field),
-          .meaning = "what is drawn: material or a hole, over the shapes before it"};
+          .meaning = "what is drawn over the earlier shapes: material or a hole"};
 }
 
 template <class Struct>
@@ -29,7 +29,7 @@ Key<Struct> count_key() {
   return {.name = "count",
           .unit = "",
           .field = IntegerField<Struct>{&Struct::count, between(1, 100000)},
-          .meaning = "how many, evenly spaced round the full wheel; a multiple of wheel.sectors",
+          .meaning = "how many, evenly spaced around the full wheel; a multiple of wheel.sectors",
           .presence = Presence::required};
 }
 

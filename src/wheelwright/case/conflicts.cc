@@ -48,14 +48,14 @@ void check_band(const Case& c, const Band& band, std::string_view place, const s
   if (is_given) {
     found.push_back({{key, "grid.radial_cells", "objective.annulus"},
                      "thinner than " + rows,
-                     fmt::format("take at least {:.6g} m, or more grid.radial_cells", advised)});
+                     fmt::format("use at least {:.6g} m, or more grid.radial_cells", advised)});
   } else {
     const double finer = std::ceil(band.full_rows * ring / band.thickness - 1e-9);
     found.push_back(
         {{"grid.radial_cells", key, "objective.annulus"},
-         fmt::format("{} {} thicker than the band at the {} that stays material, by default {:.6g} m", rows,
+         fmt::format("{} {} thicker than the band at the {} that remains material, by default {:.6g} m", rows,
                      band.full_rows == 1 ? "is" : "are", place, band.thickness),
-         fmt::format("take at least {:.0f}, or give {} = {:.6g} or more", finer, key, advised)});
+         fmt::format("use at least {:.0f}, or set {} = {:.6g} or more", finer, key, advised)});
   }
 }
 
@@ -64,7 +64,7 @@ void check_radii(const Case& c, Conflicts& found) {
   if (w.inner_radius >= w.outer_radius) {
     found.push_back({{"wheel.outer_radius", "wheel.inner_radius"},
                      fmt::format("must be larger than inner_radius = {} m", w.inner_radius),
-                     "give the radius of the rim as inner_radius and that of the tread as outer_radius" +
+                     "set the radius of the rim as inner_radius and that of the tread as outer_radius" +
                          if_in_millimetres(w.inner_radius, w.outer_radius)});
     return;
   }
@@ -72,7 +72,7 @@ void check_radii(const Case& c, Conflicts& found) {
   if (w.outer_radius - w.inner_radius < thinnest * w.outer_radius) {
     found.push_back({{"wheel.outer_radius", "wheel.inner_radius"},
                      fmt::format("the ring is thinner than {} times its radius", thinnest),
-                     fmt::format("take outer_radius >= {:.6g} m", w.inner_radius / (1 - 2 * thinnest))});
+                     fmt::format("use outer_radius >= {:.6g} m", w.inner_radius / (1 - 2 * thinnest))});
     return;
   }
   const auto [rim, tread] = bands(c);
@@ -83,7 +83,7 @@ void check_radii(const Case& c, Conflicts& found) {
         {with_ring_shape({"optimizer.rim_band", "optimizer.tread_band", "optimizer.minimum_wall"}),
          fmt::format("the bands at rim and tread, {:.6g} m and {:.6g} m, fill the whole ring of {:.6g} m",
                      rim.thickness, tread.thickness, w.outer_radius - w.inner_radius),
-         "take thinner bands (by default they are as thick as optimizer.minimum_wall at least) or a finer "
+         "use thinner bands (by default they are at least as thick as optimizer.minimum_wall) or a finer "
          "grid" +
              if_in_millimetres(std::max(rim.thickness, tread.thickness), w.outer_radius)});
   }
@@ -95,7 +95,7 @@ void check_size(const Case& c, Conflicts& found) {
   if (dof_bound(c) <= most) return;
   found.push_back({{"grid.radial_cells", "grid.angular_cells", "grid.axial_cells", "grid.degree"},
                    fmt::format("the grid has up to {} unknowns", dof_bound(c)),
-                   fmt::format("take a grid with at most {}", most)});
+                   fmt::format("use a grid with at most {}", most)});
 }
 
 void check_travel(const Case& c, Conflicts& found) {
@@ -103,7 +103,7 @@ void check_travel(const Case& c, Conflicts& found) {
   if (!c.load.travel || thickness <= 0 || *c.load.travel < thickness) return;
   found.push_back({{"load.travel", "wheel.outer_radius", "wheel.inner_radius"},
                    "the rim itself would be below the ground",
-                   fmt::format("take less than outer_radius - inner_radius = {:.6g} m", thickness) +
+                   fmt::format("use less than outer_radius - inner_radius = {:.6g} m", thickness) +
                        if_in_millimetres(*c.load.travel, c.wheel.outer_radius)});
 }
 
@@ -157,16 +157,16 @@ void check_hole_inside(const Case& c, double center_radius, double radius, std::
            if_in_millimetres(c.wheel.outer_radius, 2 * highest)});
 }
 
-/// Equal holes that touch all round the wheel cut the tread off from the rim.
+/// Equal holes that touch all around the wheel cut the tread off from the rim.
 void check_holes_apart(int count, double center_radius, double radius, std::vector<std::string> keys,
                        Conflicts& found) {
   const double half_distance = center_radius * std::sin(std::numbers::pi / count);
   if (count == 1 || radius < half_distance) return;
   found.push_back({std::move(keys), "neighbouring holes touch and cut the tread off from the rim",
-                   fmt::format("take a radius below {:.6g} m", half_distance)});
+                   fmt::format("use a radius below {:.6g} m", half_distance)});
 }
 
-/// The keys that say where the holes of a ring or circle are, its radius first.
+/// The keys for the positions of the holes of a ring or circle, its radius first.
 std::vector<std::string> place_keys(const std::string& name) {
   std::vector<std::string> keys;
   for (const char* key : {"radius", "center_radius", "center", "count", "phase"})
@@ -174,7 +174,7 @@ std::vector<std::string> place_keys(const std::string& name) {
   return keys;
 }
 
-/// A hole inside another one is nothing.
+/// A hole inside another one has no effect.
 void check_nested_holes(const Case& c, Conflicts& found) {
   constexpr std::size_t most_compared = 1000;
   const std::vector<NamedRing> rings = named_rings(c);
@@ -218,7 +218,7 @@ void check_holes(const Case& c, Conflicts& found) {
   }
 }
 
-/// A sphere must reach into the width.
+/// A sphere must intersect the wheel.
 void check_spheres(const Case& c, Conflicts& found) {
   for (std::size_t i = 0; i < c.holes.spheres.size(); ++i) {
     const HoleSphere& sphere = c.holes.spheres[i];
@@ -228,9 +228,9 @@ void check_spheres(const Case& c, Conflicts& found) {
     if (std::abs(sphere.z) < reach) continue;
     found.push_back(
         {{key("z"), key("radius"), "wheel.width"},
-         "the hole lies beside the wheel",
-         fmt::format("take a value between {:.6g} m and {:.6g} m: z is from the middle of the width", -reach,
-                     reach)});
+         "the hole lies outside the wheel",
+         fmt::format("use a value between {:.6g} m and {:.6g} m: z is measured from the middle of the width",
+                     -reach, reach)});
   }
 }
 
@@ -247,11 +247,11 @@ void check_tapered(const Case& c, Conflicts& found) {
     }
     if (!ascends)
       found.push_back({{key("profile")},
-                       "the places along the axle do not grow from point to point",
+                       "the positions along the axle do not increase from point to point",
                        "sort the points by their first number"});
     const std::vector<std::string> keys{key("profile"), key("center_radius")};
     if (widest <= 0) {
-      found.push_back({keys, "no radius is positive: there is no hole", "give radii > 0"});
+      found.push_back({keys, "no radius is positive, so there is no hole", "set radii > 0"});
       continue;
     }
     check_hole_inside(c, hole.center_radius, widest, keys, found);
@@ -264,8 +264,8 @@ template <int dim>
 void check_saved_grid(const Case& c, const PolarGrid<dim>& grid, Conflicts& found) {
   if (dim == 3 && c.wheel.dimension == 2) {
     found.push_back({{"shape.from", "wheel.dimension"},
-                     "a wheel in the plane cannot begin with a shape in three dimensions",
-                     "take wheel.dimension = 3, or the shape of a run in the plane"});
+                     "a 2D wheel cannot start from a 3D shape",
+                     "use wheel.dimension = 3, or the shape of a 2D run"});
     return;
   }
   const std::string problem = misfit(grid, polar_grid<dim>(c));
@@ -276,21 +276,20 @@ void check_saved_grid(const Case& c, const PolarGrid<dim>& grid, Conflicts& foun
     keys.push_back("wheel.width");
     width = fmt::format("wheel.width = {}, ", number_text(grid.width));
   }
-  found.push_back(
-      {std::move(keys), fmt::format("the saved shape does not fit: {}", problem),
-       fmt::format("give wheel.inner_radius = {}, wheel.outer_radius = {}, {}and for wheel.sectors "
-                   "one of {}",
-                   number_text(grid.inner_radius), number_text(grid.outer_radius), width,
-                   fmt::join(divisors(grid.n_sectors), ", "))});
+  found.push_back({std::move(keys), fmt::format("the saved shape does not fit: {}", problem),
+                   fmt::format("set wheel.inner_radius = {}, wheel.outer_radius = {}, {}and wheel.sectors to "
+                               "one of {}",
+                               number_text(grid.inner_radius), number_text(grid.outer_radius), width,
+                               fmt::join(divisors(grid.n_sectors), ", "))});
 }
 
-/// A saved shape takes the place of holes and drawn shapes, and must fit the ring and its sectors.
+/// A saved shape replaces holes and drawn shapes, and must fit the ring and its sectors.
 void check_saved_shape(const Case& c, Conflicts& found) {
   if (c.saved_shape.from.empty()) return;
   const auto refuse_besides = [&](const std::string& key) {
     found.push_back({{key, "shape.from"},
                      "holes and shapes cannot be drawn over the shape of another run",
-                     "keep the shape of the other run, or what is drawn"});
+                     "keep the shape of the other run, or the drawn ones"});
   };
   if (!c.holes.rings.empty()) refuse_besides("holes.ring[1]");
   if (!c.holes.circles.empty()) refuse_besides("holes.circle[1]");
@@ -305,7 +304,7 @@ void check_saved_shape(const Case& c, Conflicts& found) {
     check_saved_grid<2>(c, std::get<LevelSet<2>>(*shape).lattice.grid(), found);
 }
 
-/// The nearest sizes that can be halved, of those that cannot.
+/// For sizes that cannot be halved, the nearest that can.
 std::string halvable_cells(const Case& c, int times) {
   const int parts = 1 << times;
   std::vector<std::string> sizes;
@@ -318,8 +317,8 @@ std::string halvable_cells(const Case& c, int times) {
   return fmt::format("{}", fmt::join(sizes, ", "));
 }
 
-/// The coarser grids must have whole cells in each sector, room between their wider bands, and rows of cells
-/// that make up the annulus.
+/// The coarser grids must have whole cells in each sector, room between their wider bands, and whole rows in
+/// the annulus.
 void check_coarse_levels(const Case& c, Conflicts& found) {
   const int levels = c.optimizer.coarse_levels;
   if (levels == 0 || c.wheel.inner_radius >= c.wheel.outer_radius ||
@@ -335,24 +334,24 @@ void check_coarse_levels(const Case& c, Conflicts& found) {
     refuse({"grid.radial_cells", "grid.angular_cells", "wheel.sectors"},
            fmt::format("{} x {} cells of each sector cannot be doubled {} times", c.grid.radial_cells,
                        c.grid.angular_cells / c.wheel.sectors, levels),
-           fmt::format("take {}, or grids that can be: {}", possible, halvable_cells(c, levels)));
+           fmt::format("use {}, or grids that can be: {}", possible, halvable_cells(c, levels)));
     return;
   }
   const Case coarse = on_coarser_grid(c, levels);
   const double cell = (c.wheel.outer_radius - c.wheel.inner_radius) / coarse.grid.radial_cells;
   if (wants_annulus(c) && std::abs(annulus_thickness(c) - tread_rows(coarse) * cell) > 1e-6 * cell)
     refuse({"objective.annulus", "grid.radial_cells"},
-           fmt::format("the annulus of {:.6g} m is no whole number of the coarse cells of {:.6g} m",
+           fmt::format("the annulus of {:.6g} m is not a whole number of coarse cells of {:.6g} m",
                        annulus_thickness(c), cell),
-           fmt::format("take fewer coarse_levels, or objective.annulus = {:.6g}", tread_rows(coarse) * cell));
+           fmt::format("use fewer coarse_levels, or objective.annulus = {:.6g}", tread_rows(coarse) * cell));
   if (!has_room_between_bands(c, levels))
     refuse(with_ring_shape({}), "on the coarse grid the bands at rim and tread leave no room for holes",
-           "take fewer coarse_levels, or a finer grid");
+           "use fewer coarse_levels, or a finer grid");
 }
 
 void check_nitsche(const Case& c, Conflicts& found) {
   if (c.contact.method != ContactMethod::nitsche || c.wheel.inner_radius >= c.wheel.outer_radius) return;
-  const double least = least_gamma_0(c.contact.theta, c.material, tread_cell_aspect(c));
+  const double least = minimum_gamma_0(c.contact.theta, c.material, tread_cell_aspect(c));
   if (c.contact.gamma_0 >= least) return;
   found.push_back(
       {{"contact.gamma_0", "contact.theta", "contact.method", "material.poissons_ratio", "material.plane",
@@ -360,17 +359,17 @@ void check_nitsche(const Case& c, Conflicts& found) {
        fmt::format("too small for theta = {}, poissons_ratio = {} and cells that are {:.2g} times as long as "
                    "high: the stiffness may not be positive definite",
                    c.contact.theta, c.material.poissons_ratio, tread_cell_aspect(c)),
-       fmt::format("take gamma_0 >= {:.6g}, or theta = -1", rounded_up(least))});
+       fmt::format("use gamma_0 >= {:.6g}, or theta = -1", rounded_up(least))});
 }
 
-/// Whether a solid disc would be strained by a quarter and more.
+/// Whether a solid disc would be strained by a quarter or more.
 bool is_overloaded(const Case& c) {
   if (c.load.travel || c.contact.with == Counterpart::ring || c.wheel.inner_radius >= c.wheel.outer_radius)
     return false;
   return hertz_half_width(c) > 0.5 * c.wheel.outer_radius;
 }
 
-/// Whether that may be so because the modulus was given in MPa.
+/// Whether the reason may be a modulus given in MPa.
 bool is_overloaded_in_pascals(const Case& c) {
   return may_be_in_megapascals(c.material.youngs_modulus) && is_overloaded(c);
 }
@@ -391,7 +390,7 @@ void check_load(const Case& c, Conflicts& found) {
        fmt::format("too large: a solid disc would touch the ground on {:.3g} m and be strained by "
                    "about {:.0f} %, far beyond linear elasticity",
                    2 * half_width, 100 * half_width / (2 * c.wheel.outer_radius)),
-       fmt::format("take at most {:.3g} N, or a stiffer material", c.load.force * factor * factor)});
+       fmt::format("use at most {:.3g} N, or a stiffer material", c.load.force * factor * factor)});
 }
 
 /// The nominal strain of the walls between the holes of a ring: the load spreads below the patch by 45
@@ -402,8 +401,8 @@ double wall_strain(const Case& c, const HoleRing& ring) {
   return c.load.force / (c.wheel.width * c.material.contact_modulus() * spread * left);
 }
 
-/// Tells of loads that would crush the walls between holes. This is an estimate: a case that has no other
-/// problem is solved, which shows whether they are crushed.
+/// Reports loads that would crush the walls between holes. This is an estimate, used only if the case has
+/// other problems; otherwise a solve decides.
 void check_walls(const Case& c, Conflicts& found) {
   constexpr double largest = 0.25, advised = 0.05;
   if (c.load.travel || c.contact.with == Counterpart::ring || is_overloaded_in_pascals(c)) return;
@@ -415,7 +414,7 @@ void check_walls(const Case& c, Conflicts& found) {
        fmt::format("too large: the walls between the holes would be strained by about {:.0f} %, far "
                    "beyond linear elasticity",
                    100 * strain),
-       fmt::format("take at most {:.3g} N, smaller holes or a stiffer material",
+       fmt::format("use at most {:.3g} N, smaller holes or a stiffer material",
                    c.load.force * std::pow(advised / strain, 2))});
 }
 
@@ -433,8 +432,8 @@ void check_contact_points(const Case& c, Conflicts& found) {
   const int fewer = static_cast<int>(std::ceil(std::log2(n / most)));
   const std::string remedy =
       *shown.grid.tread_levels >= fewer
-          ? fmt::format("take grid.tread_levels = {}", *shown.grid.tread_levels - fewer)
-          : fmt::format("take contact.quadrature_points = {}",
+          ? fmt::format("use grid.tread_levels = {}", *shown.grid.tread_levels - fewer)
+          : fmt::format("use contact.quadrature_points = {}",
                         std::max(1, static_cast<int>(c.contact.quadrature_points * most / n)));
   found.push_back(
       {{"grid.tread_levels", "contact.quadrature_points", "grid.angular_cells", "load.force", "load.mass",
@@ -451,59 +450,59 @@ void check_incompressible(const Case& c, Conflicts& found) {
   if (!c.material.nearly_incompressible()) return;
   if (c.grid.degree == 1)
     found.push_back({{"grid.degree", "material.poissons_ratio", "material.plane"},
-                     fmt::format("elements of degree 1 are much too stiff for poissons_ratio = {}",
+                     fmt::format("elements of degree 1 are much too stiff at poissons_ratio = {}",
                                  c.material.poissons_ratio),
-                     "take degree = 2"});
+                     "use degree = 2"});
   constexpr double largest = 0.49999;
   if (c.material.poissons_ratio > largest)
     found.push_back({{"material.poissons_ratio", "material.plane"},
-                     "so near to 1/2 that rounding would spoil the solution",
-                     fmt::format("take at most {}: the difference to 1/2 does not matter", largest)});
+                     "so close to 1/2 that rounding would spoil the solution",
+                     fmt::format("use at most {}: the difference to 1/2 does not matter", largest)});
 }
 
-/// What one dimension knows and the other does not.
+/// Keys that exist only in 2D or only in 3D.
 void check_dimension(const Case& c, Conflicts& found) {
   if (c.wheel.dimension == 2) {
     if (c.wheel.side_faces != SideFaces::free)
       found.push_back({{"wheel.side_faces", "wheel.dimension"},
-                       "a wheel in 2D has no side faces; plane strain already holds them",
-                       "leave the key out, or take dimension = 3"});
+                       "a 2D wheel has no side faces; plane strain already fixes them",
+                       "omit the key, or use dimension = 3"});
     for (const auto& [key, value] :
          {std::pair("load.lateral_force", c.load.lateral_force), std::pair("load.camber", c.load.camber)})
       if (value != 0)
         found.push_back({{key, "wheel.dimension"},
-                         "a wheel in 2D knows nothing along its axle",
-                         "leave the key out, or take dimension = 3"});
+                         "a 2D wheel has no axial direction",
+                         "omit the key, or use dimension = 3"});
     for (const auto& [name, n] :
          {std::pair("sphere", c.holes.spheres.size()), std::pair("tapered", c.holes.tapered.size())})
       if (n > 0)
         found.push_back({{fmt::format("holes.{}[1].count", name), "wheel.dimension"},
-                         "such a hole needs the width of the wheel",
-                         "take dimension = 3, or [[holes.ring]]"});
+                         "such a hole exists only in 3D",
+                         "use dimension = 3, or [[holes.ring]]"});
     return;
   }
   if (c.material.plane == Plane::stress)
     found.push_back({{"material.plane", "wheel.dimension"},
-                     "plane stress is an assumption for two dimensions",
-                     "leave the key out: in 3D the side faces are free of stress"});
+                     "plane stress is a 2D assumption",
+                     "omit the key: in 3D the side faces are free of stress"});
   const bool leans = c.load.camber != 0, is_pushed = c.load.lateral_force != 0;
   if (c.wheel.side_faces == SideFaces::symmetric && (leans || is_pushed))
-    found.push_back({{"wheel.side_faces", leans ? "load.camber" : "load.lateral_force"},
-                     "symmetric side faces hold the wheel along the axle, so that it can neither lean nor be "
-                     "pushed",
-                     "take side_faces = \"free\""});
+    found.push_back(
+        {{"wheel.side_faces", leans ? "load.camber" : "load.lateral_force"},
+         "symmetric side faces fix the wheel along the axle, so it can neither lean nor be pushed",
+         "use side_faces = \"free\""});
   if (leans && (c.load.torque != 0 || c.load.hole_pressure != 0 || c.load.speed != 0 ||
                 c.load.body_force != std::array<double, 2>{}))
     found.push_back({{"load.camber", "load.torque", "load.body_force", "load.hole_pressure", "load.speed"},
-                     "a wheel that leans can carry forces on its rim alone",
-                     "leave out torque, body_force, hole_pressure and speed, or take camber = 0"});
+                     "a leaning wheel supports only forces on its rim",
+                     "omit torque, body_force, hole_pressure and speed, or use camber = 0"});
   constexpr double largest = 0.4;
   if (c.grid.degree == 1 && c.material.poissons_ratio > largest && !c.material.nearly_incompressible())
     found.push_back({{"grid.degree", "material.poissons_ratio", "wheel.dimension"},
                      fmt::format("elements of degree 1 lock: with poissons_ratio = {} the wheel would be "
-                                 "tens of percent too stiff, and its optimum another one",
+                                 "tens of percent too stiff, with a different optimum",
                                  c.material.poissons_ratio),
-                     fmt::format("take degree = 2, or poissons_ratio <= {}", largest)});
+                     fmt::format("use degree = 2, or poissons_ratio <= {}", largest)});
 }
 
 /// Friction must resist the force or torque that moves or turns the rim.
@@ -521,12 +520,12 @@ void check_friction(const Case& c, Conflicts& found) {
     if (c.contact.friction == 0)
       found.push_back({{key, "contact.friction"},
                        "without friction nothing holds the wheel",
-                       "give contact.friction > 0"});
+                       "set contact.friction > 0"});
     else if (!load.travel && load.body_force == std::array<double, 2>{} && std::abs(value) >= limit)
       found.push_back(
           {{key, "contact.friction", "load.force", "load.mass"},
            fmt::format("the wheel would slide: friction resists less than {:.6g} {}", limit, unit),
-           "take a smaller value, or more contact.friction"});
+           "use a smaller value, or more contact.friction"});
   };
   check("load.horizontal_force", load.horizontal_force, held, "N");
   check("load.torque", load.torque, held * arm, "N m");
@@ -538,42 +537,41 @@ void check_friction(const Case& c, Conflicts& found) {
                      fmt::format("the wheel would slide: both forces together are {:.6g} N, and friction "
                                  "resists less than {:.6g} N",
                                  along_ground, held),
-                     "take smaller values, or more contact.friction"});
+                     "use smaller values, or more contact.friction"});
 }
 
-/// A tread that is bonded all round neither slides nor has a patch that could be even.
+/// A fully bonded tread neither slides nor has a patch whose pressure could be uniform.
 void check_bonded(const Case& c, Conflicts& found) {
   if (c.contact.with != Counterpart::ring) return;
   if (c.wheel.dimension == 3)
     found.push_back({{"contact.with", "wheel.dimension"},
-                     "a tread that is bonded to a ring is computed in the plane only",
-                     "take wheel.dimension = 2"});
+                     "a tread bonded to a ring is supported only in 2D",
+                     "use wheel.dimension = 2"});
   if (c.contact.friction > 0)
     found.push_back({{"contact.friction", "contact.with"},
-                     "a tread that is bonded to a ring cannot slide",
-                     "remove friction, or take contact.with = \"ground\""});
+                     "a tread bonded to a ring cannot slide",
+                     "remove friction, or use contact.with = \"ground\""});
   if (wants_uniformity(c))
     found.push_back({{"objective.uniformity_dual", "objective.uniformity_annulus", "objective.uniformity_l2",
                       "objective.annulus_matches_dual", "objective.minimize", "contact.with"},
-                     "the uniformity of the contact stress is that of a patch on the ground",
-                     "take another objective, or contact.with = \"ground\""});
+                     "the uniformity of the contact stress is defined only for a patch on the ground",
+                     "use another objective, or contact.with = \"ground\""});
 }
 
-/// The strain by which the rim holds a ring that rotates, if nothing else holds it: the pull of all its mass
-/// by the area at the rim, by the modulus.
+/// The strain of a rotating ring held only at the rim: the centrifugal force of all its mass over the area at
+/// the rim and the modulus.
 double rotation_strain(const Case& c) {
   const double ratio = c.wheel.inner_radius / c.wheel.outer_radius;
   return 0.5 * *c.material.density * c.load.speed * c.load.speed * (1 - ratio * ratio) /
          c.material.contact_modulus();
 }
 
-/// The pull of rotation is that of a mass, and strains the wheel by less than a quarter.
+/// The centrifugal load needs a mass, and must strain the wheel by less than a quarter.
 void check_speed(const Case& c, Conflicts& found) {
   if (c.load.speed == 0) return;
   if (!c.material.density) {
-    found.push_back({{"load.speed", "material.density"},
-                     "a wheel without mass is not pulled away from the axle",
-                     "give material.density"});
+    found.push_back(
+        {{"load.speed", "material.density"}, "the centrifugal load needs a density", "set material.density"});
     return;
   }
   constexpr double largest = 0.25, advised = 0.05;
@@ -581,10 +579,10 @@ void check_speed(const Case& c, Conflicts& found) {
   if (strain <= largest) return;
   found.push_back({{"load.speed", "material.density", "material.youngs_modulus", "wheel.outer_radius",
                     "wheel.inner_radius", "material.poissons_ratio", "material.plane"},
-                   fmt::format("too large: the pull of rotation would strain the ring by about {:.0f} %, far "
+                   fmt::format("too large: the centrifugal load would strain the ring by about {:.0f} %, far "
                                "beyond linear elasticity",
                                100 * strain),
-                   fmt::format("take at most {:.3g} m/s, or a stiffer material",
+                   fmt::format("use at most {:.3g} m/s, or a stiffer material",
                                c.load.speed * std::sqrt(advised / strain))});
 }
 
@@ -599,7 +597,7 @@ bool changes(const CaseLoad& load, std::string_view name) {
   return name == "speed" && load.speed.has_value();
 }
 
-/// The keys of a conflict under one load case: its own in place of those of [load] that it changes.
+/// The keys of a conflict under one load case: its own replace those of [load] that it changes.
 std::vector<std::string> keys_in_load_case(const Case& c, int load_case, std::vector<std::string> keys) {
   constexpr std::string_view section = "load.";
   for (std::string& key : keys)
@@ -608,8 +606,8 @@ std::vector<std::string> keys_in_load_case(const Case& c, int load_case, std::ve
   return keys;
 }
 
-/// Calls check(case, conflicts) for some load cases, each as the only load. What several of them have in
-/// common is found once.
+/// Calls check(case, conflicts) for some load cases, each as the only load. Common conflicts are reported
+/// once.
 template <class Check>
 void check_load_cases(const Case& c, const std::vector<int>& load_cases, Conflicts& found, Check check) {
   if (c.load.cases.empty()) {
@@ -642,7 +640,7 @@ std::vector<int> weighted_load_cases(const Case& c) {
   return result;
 }
 
-/// The list of load cases itself, and who names them.
+/// Checks the list of load cases, and references to them.
 void check_names_of_load_cases(const Case& c, Conflicts& found) {
   const auto& cases = c.load.cases;
   const auto is_in_word = [](char x) {
@@ -652,16 +650,16 @@ void check_names_of_load_cases(const Case& c, Conflicts& found) {
   for (std::size_t k = 0; k < cases.size(); ++k) {
     const std::string key = fmt::format("load.case[{}].name", k + 1);
     if (cases[k].name.empty() || !std::ranges::all_of(cases[k].name, is_in_word))
-      found.push_back({{key}, "the name must be one word of letters, digits, - and _", "take another name"});
+      found.push_back({{key}, "the name must be one word of letters, digits, - and _", "use another name"});
     if (std::ranges::find(names, cases[k].name) != names.end())
-      found.push_back({{key}, "another load case has this name", "take a name of its own"});
+      found.push_back({{key}, "another load case has this name", "use a unique name"});
     names.push_back(cases[k].name);
   }
   const auto check_named = [&](std::string_view table, std::size_t i, const std::string& name) {
     if (name.empty() || std::ranges::find(names, name) != names.end()) return;
     found.push_back({{fmt::format("{}[{}].load_case", table, i + 1)},
-                     "there is no load case of this name",
-                     names.empty() ? "add a [[load.case]], or leave the key out"
+                     "there is no load case with this name",
+                     names.empty() ? "add a [[load.case]], or omit the key"
                                    : fmt::format("known: {}", fmt::join(names, ", "))});
   };
   for (std::size_t i = 0; i < c.constraints.size(); ++i)
@@ -672,15 +670,15 @@ void check_names_of_load_cases(const Case& c, Conflicts& found) {
   if (weighted_load_cases(c).empty())
     found.push_back({{"load.case[1].weight"},
                      "the weights of all load cases are 0: there is nothing to minimize",
-                     "give at least one weight > 0"});
+                     "set at least one weight > 0"});
   if (c.objective.mean == MeanStress::held)
     found.push_back({{"objective.mean", "load.case[1].name"},
-                     "the held mean of the contact stress is that of one load",
-                     "take mean = \"exact\", or one load"});
+                     "the held mean of the contact stress is defined for only one load",
+                     "use mean = \"exact\", or one load"});
   if (c.objective.annulus_matches_dual)
     found.push_back({{"objective.annulus_matches_dual", "load.case[1].name"},
-                     "(83) gives the weight of J_p1 under one load",
-                     "give uniformity_annulus, or take one load"});
+                     "(83) determines the weight of J_p1 for only one load",
+                     "set uniformity_annulus, or use one load"});
 }
 
 void check_annulus(const Case& c, Conflicts& found) {
@@ -704,13 +702,13 @@ void check_objective(const Case& c, Conflicts& found) {
     return;
   found.push_back({{"objective.strain_energy"},
                    "all weights are 0: there is nothing to minimize",
-                   "give at least one weight > 0"});
+                   "set at least one weight > 0"});
 }
 
 constexpr double square(double x) { return x * x; }
 
-/// The bands at rim and tread stay material, and the rest of the ring is not full: a hole of one cell in
-/// every sector is the least.
+/// The bands at rim and tread remain material, and the rest of the ring must not be full: there is at least a
+/// hole of one cell in every sector.
 void check_volume(const Case& c, Conflicts& found) {
   const Wheel& w = c.wheel;
   const auto [rim, tread] = bands(c);
@@ -719,7 +717,7 @@ void check_volume(const Case& c, Conflicts& found) {
   if (!has_holes(c) && c.optimizer.nucleation == NucleationTime::never) {
     found.push_back({{"volume.target"},
                      "there are no holes that could grow or shrink",
-                     "give holes, or optimizer.nucleation = \"converged\", or leave the key out"});
+                     "add holes, or set optimizer.nucleation = \"converged\", or omit the key"});
     return;
   }
   const double ring = square(w.outer_radius) - square(w.inner_radius);
@@ -728,52 +726,52 @@ void check_volume(const Case& c, Conflicts& found) {
   if (*c.volume.target <= least)
     found.push_back(
         {with_ring_shape({"volume.target"}),
-         fmt::format("the bands at rim and tread, which stay material, are {:.6g} of the ring", least),
-         fmt::format("take more than {:.3g}, or thinner bands", rounded_up(least))});
+         fmt::format("the bands at rim and tread, which remain material, are {:.6g} of the ring", least),
+         fmt::format("use more than {:.3g}, or thinner bands", rounded_up(least))});
   if (*c.volume.target > most)
     found.push_back({{"volume.target", "grid.radial_cells", "grid.angular_cells", "wheel.sectors"},
                      "holes of one cell in every sector leave less material than that",
-                     fmt::format("take at most {:.9g}, or a finer grid", std::floor(most * 1e9) / 1e9)});
+                     fmt::format("use at most {:.9g}, or a finer grid", std::floor(most * 1e9) / 1e9)});
 }
 
-/// The paper's own rules need the descent.
+/// The paper's rules need steepest descent.
 void check_method(const Case& c, Conflicts& found) {
   if (c.optimizer.velocity == VelocityKind::vector && optimizer_method(c) == OptimizerMethod::descent)
     found.push_back({{"optimizer.velocity", "optimizer.method", "volume.control"},
                      "steepest descent moves the boundary by a speed along its normal",
-                     "take velocity = \"h1\", or method = \"sequential_quadratic\" with volume.control = "
+                     "use velocity = \"h1\", or method = \"sequential_quadratic\" with volume.control = "
                      "\"exact\""});
   if (c.optimizer.method != OptimizerMethod::sequential_quadratic) return;
   const auto refuse = [&](const char* key, const char* other) {
     found.push_back({{key, "optimizer.method"},
-                     "it goes with steepest descent alone",
-                     fmt::format("take method = \"descent\" or omit the key, or take {}", other)});
+                     "it is valid only with steepest descent",
+                     fmt::format("use method = \"descent\" or omit the key, or use {}", other)});
   };
   if (c.optimizer.velocity == VelocityKind::harmonic) refuse("optimizer.velocity", "\"h1\"");
   if (c.volume.control == VolumeControl::paper) refuse("volume.control", "\"exact\"");
 }
 
-/// The derivative by which holes are made is that of a plane hole without load on its edge.
+/// The topological derivative is that of a plane hole without load on its edge.
 void check_nucleation(const Case& c, Conflicts& found) {
   if (c.optimizer.nucleation == NucleationTime::never) return;
   const auto refuse = [&](std::vector<std::string> keys, std::string problem) {
-    found.push_back({std::move(keys), std::move(problem), "take nucleation = \"never\""});
+    found.push_back({std::move(keys), std::move(problem), "use nucleation = \"never\""});
   };
   if (c.wheel.dimension == 3)
-    refuse({"optimizer.nucleation", "wheel.dimension"}, "holes are made in two dimensions alone");
+    refuse({"optimizer.nucleation", "wheel.dimension"}, "nucleation is supported only in 2D");
   const auto has_pressure = [](const Case& single) { return single.load.hole_pressure != 0; };
   if (std::ranges::any_of(single_load_cases(c), has_pressure))
     refuse({"optimizer.nucleation", "load.hole_pressure", "load.case"},
-           "whether a hole pays is not known under a pressure in the holes");
+           "nucleation does not support hole pressure");
 }
 
-/// Finds least widths that the bands or the ring contradict.
+/// Finds minimum widths that contradict the bands or the ring.
 void check_feature_size(const Case& c, Conflicts& found) {
   const double ring = c.wheel.outer_radius - c.wheel.inner_radius;
   const auto check = [&](const char* key, std::optional<double> width) {
     if (width && *width >= ring)
       found.push_back({with_ring_shape({key}), fmt::format("the ring is only {:.6g} m thick", ring),
-                       "take less" + if_in_millimetres(*width, ring)});
+                       "reduce it" + if_in_millimetres(*width, ring)});
   };
   check("optimizer.minimum_wall", c.optimizer.minimum_wall);
   check("optimizer.minimum_gap", c.optimizer.minimum_gap);
@@ -781,18 +779,18 @@ void check_feature_size(const Case& c, Conflicts& found) {
     if (2 * *radius >= ring)
       found.push_back({with_ring_shape({"optimizer.minimum_radius"}),
                        fmt::format("gaps are twice as wide, and the ring is only {:.6g} m thick", ring),
-                       "take less" + if_in_millimetres(*radius, 0.5 * ring)});
+                       "reduce it" + if_in_millimetres(*radius, 0.5 * ring)});
   const auto check_band_of = [&](const char* key, std::optional<double> band) {
     if (band && c.optimizer.minimum_wall && *band < *c.optimizer.minimum_wall)
       found.push_back({{"optimizer.minimum_wall", key},
                        fmt::format("the wall between a hole and this edge may be {:.6g} m", *band),
-                       "take a band at least as thick as the wall, or leave it out"});
+                       "use a band at least as thick as the wall, or omit it"});
   };
   check_band_of("optimizer.rim_band", c.optimizer.rim_band);
   check_band_of("optimizer.tread_band", c.optimizer.tread_band);
 }
 
-/// Finds a least width of gaps that none of the drawn holes has: to keep it would fill all of them.
+/// Finds a minimum width of gaps that would fill all drawn holes.
 void check_widest_gap(const Case& c, Conflicts& found) {
   const bool is_plane_drawing =
       c.holes.spheres.empty() && c.holes.tapered.empty() && !c.saved_shape.shape.contents;
@@ -804,27 +802,27 @@ void check_widest_gap(const Case& c, Conflicts& found) {
     const double fits = widths_of_a_gap * widest.diameter;
     found.push_back(
         {{key},
-         fmt::format("all holes would be filled: none is wider than {:.4g} m", widest.at_most),
-         fmt::format("take less than {:.4g}, or draw wider holes", fits) + if_in_millimetres(*given, fits)});
+         fmt::format("all holes would be filled, because none is wider than {:.4g} m", widest.at_most),
+         fmt::format("use less than {:.4g}, or draw wider holes", fits) + if_in_millimetres(*given, fits)});
   };
   check("optimizer.minimum_gap", c.optimizer.minimum_gap, 1);
   check("optimizer.minimum_radius", c.optimizer.minimum_radius, 0.5);
 }
 
-/// Finds a least radius of corners that the method or the shapes cannot have.
+/// Finds a minimum radius of corners that the method or the shapes do not support.
 void check_least_radius(const Case& c, Conflicts& found) {
   if (c.optimizer.minimum_radius.value_or(0) == 0) return;
   if (level_set_degree(c) == 1)
     found.push_back({{"optimizer.minimum_radius", "grid.level_set_degree"},
                      "edges of degree 1 have a corner in every cell",
-                     "take level_set_degree = 2, or leave the radius out"});
+                     "use level_set_degree = 2, or omit the radius"});
   if (optimizer_method(c) == OptimizerMethod::descent)
     found.push_back({{"optimizer.minimum_radius", "optimizer.method"},
-                     "steepest descent does not move splines, whose corners have a radius",
-                     "leave out optimizer.method, or the radius"});
+                     "steepest descent does not move splines, which have rounded corners",
+                     "omit optimizer.method, or the radius"});
 }
 
-/// What a quantity needs of the case to mean something.
+/// A key required by a quantity.
 struct Need {
   std::vector<Quantity> quantities;
   const char* key;
@@ -838,11 +836,11 @@ std::vector<Need> unmet_needs(const Case& c, Quantity quantity) {
       {{Quantity::force_variation, Quantity::force_variation_harmonic},
        "load.travel",
        c.load.travel.has_value(),
-       "the force varies at a held travel; under a load it is that load"},
+       "the force varies only at a prescribed travel; under a load it is that load"},
       {{Quantity::run_out, Quantity::run_out_harmonic},
        "load.travel",
        !c.load.travel,
-       "the travel varies under a load; here it is held"},
+       "the travel varies only under a load; here it is prescribed"},
       {{Quantity::tangential_stiffness},
        "load.horizontal_force",
        c.load.horizontal_force != 0,
@@ -869,45 +867,45 @@ std::optional<Constancy> constancy(const Case& c, Quantity quantity) {
   if (c.load.positions == 1 && is_one_of({Quantity::run_out, Quantity::run_out_harmonic,
                                           Quantity::force_variation, Quantity::force_variation_harmonic}))
     return Constancy{"load.positions", "with one load position it is 0 for every wheel",
-                     "take load.positions = 2 or more"};
+                     "use load.positions = 2 or more"};
   if (c.load.travel && is_one_of({Quantity::travel, Quantity::mean_travel}))
     return Constancy{"load.travel", "it is the prescribed travel for every wheel",
-                     "give a load in place of load.travel"};
+                     "set a load in place of load.travel"};
   if (!c.load.travel && quantity == Quantity::radial_force)
-    return Constancy{"load.force", "it is the load for every wheel", "give load.travel in place of a load"};
+    return Constancy{"load.force", "it is the load for every wheel", "set load.travel in place of a load"};
   return {};
 }
 
-/// What the optimizer has no derivative of, with what to do; empty for the others.
+/// The remedy for quantities without a derivative; empty for the others.
 std::string_view without_derivative(Quantity quantity) {
   switch (quantity) {
     case Quantity::objective:
       return "bound one of its terms, or another quantity";
     case Quantity::pressure_spread:
-      return "take uniformity_dual, run_out or peak_pressure";
+      return "use uniformity_dual, run_out or peak_pressure";
     case Quantity::minimum_wall:
-      return "give optimizer.minimum_wall, which every shape keeps";
+      return "set optimizer.minimum_wall, which every shape keeps";
     case Quantity::minimum_gap:
-      return "give optimizer.minimum_gap, which every shape keeps";
+      return "set optimizer.minimum_gap, which every shape keeps";
     default:
       return "";
   }
 }
 
-/// What is minimized in place of the weighted sum.
+/// Checks what is minimized instead of the weighted sum.
 void check_minimized(const Case& c, Conflicts& found) {
   const Objective& o = c.objective;
   if (o.minimize == Quantity::objective) {
     if (o.over != OverPositions::mean)
       found.push_back({{"objective.over", "objective.minimize"},
                        "the weighted sum is over all load positions",
-                       "give objective.minimize too, or omit the key"});
+                       "set objective.minimize too, or omit the key"});
     return;
   }
   if (optimizer_method(c) == OptimizerMethod::descent)
     found.push_back({{"objective.minimize", "optimizer.method"},
-                     "steepest descent minimizes the weighted sum alone",
-                     "take method = \"sequential_quadratic\", or omit the key"});
+                     "steepest descent minimizes only the weighted sum",
+                     "use method = \"sequential_quadratic\", or omit the key"});
   if (const auto remedy = without_derivative(o.minimize); !remedy.empty())
     found.push_back({{"objective.minimize"}, "the optimizer has no derivative of it", std::string(remedy)});
   check_load_cases(c, weighted_load_cases(c), found, [&](const Case& single, Conflicts& of_case) {
@@ -921,12 +919,11 @@ void check_minimized(const Case& c, Conflicts& found) {
   });
   if ((o.minimize == Quantity::volume_fraction || o.minimize == Quantity::mass) && c.constraints.empty())
     found.push_back({{"objective.minimize"},
-                     "nothing keeps the wheel from vanishing",
+                     "without a constraint the wheel would vanish",
                      "add a [[constraint]], for example on stiffness"});
 }
 
-/// A bound of a constraint: whichever positions it is about, one from below that exceeds one from above
-/// cannot be kept beside it.
+/// A bound of a constraint: regardless of the positions, a lower bound above an upper one contradicts it.
 struct OneBound {
   std::string key;
   double value;
@@ -952,7 +949,7 @@ std::optional<OneBound> upper_bound(const Case& c, std::size_t i) {
   return one_bound(c, i, constraint.equals ? "equals" : "at_most", *value);
 }
 
-/// Finds bounds of one quantity in two tables that no wheel can keep both.
+/// Finds contradictory bounds of one quantity in two tables.
 void check_bounds_together(const Case& c, Conflicts& found) {
   const auto meet = [&](const Constraint& a, const Constraint& b) {
     return a.quantity == b.quantity &&
@@ -962,10 +959,11 @@ void check_bounds_together(const Case& c, Conflicts& found) {
                          bool lower_is_later) {
     if (!lower || !upper || lower->value <= upper->value) return;
     const OneBound &later = lower_is_later ? *lower : *upper, &earlier = lower_is_later ? *upper : *lower;
-    found.push_back({.keys = {later.key, earlier.key},
-                     .problem = fmt::format("no wheel keeps this and {} = {} too", earlier.key, earlier.text),
-                     .remedy = "change one of them, or remove it",
-                     .other_place = earlier.key});
+    found.push_back(
+        {.keys = {later.key, earlier.key},
+         .problem = fmt::format("contradicts {} = {}: no wheel satisfies both", earlier.key, earlier.text),
+         .remedy = "change one of them, or remove it",
+         .other_place = earlier.key});
   };
   for (std::size_t i = 0; i < c.constraints.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
@@ -975,7 +973,7 @@ void check_bounds_together(const Case& c, Conflicts& found) {
     }
 }
 
-/// Bounds that no wheel can keep, or that the run cannot see.
+/// Bounds that no wheel can satisfy, or that a run cannot compute.
 void check_constraints(const Case& c, Conflicts& found) {
   for (std::size_t i = 0; i < c.constraints.size(); ++i) {
     const Constraint& constraint = c.constraints[i];
@@ -985,8 +983,8 @@ void check_constraints(const Case& c, Conflicts& found) {
     };
     if (optimizer_method(c) == OptimizerMethod::descent)
       found.push_back({{key("quantity"), "optimizer.method"},
-                       "steepest descent knows no bounds",
-                       "take method = \"sequential_quadratic\""});
+                       "steepest descent does not support constraints",
+                       "use method = \"sequential_quadratic\""});
     if (!constraint.at_least && !constraint.at_most && !constraint.equals)
       found.push_back({{key("quantity"), key("at_least"), key("at_most"), key("equals")},
                        "no bound is given",
@@ -997,11 +995,11 @@ void check_constraints(const Case& c, Conflicts& found) {
       refuse("at_least",
              fmt::format("must be less than at_most = {}",
                          shown_text(constraint.quantity, *constraint.at_most, c.wheel)),
-             "exchange them, or take equals");
+             "swap them, or use equals");
     if (constraint.over == OverPositions::worst &&
         (constraint.equals || (constraint.at_least && constraint.at_most)))
-      refuse("over", "which position is the worst depends on the side of the bound",
-             "give one bound, or over = \"each\"");
+      refuse("over", "the worst position depends on the side of the bound",
+             "set one bound, or over = \"each\"");
     if (const auto remedy = without_derivative(constraint.quantity); !remedy.empty())
       refuse("quantity", "the optimizer has no derivative of it", std::string(remedy));
     check_load_cases(c, load_cases_of(c, constraint), found, [&](const Case& single, Conflicts& of_case) {
@@ -1018,15 +1016,15 @@ void check_constraints(const Case& c, Conflicts& found) {
                                       {"equals", constraint.equals}})
       if (constraint.quantity == Quantity::volume_fraction && bound && *bound >= 1 &&
           std::string_view(name) != "at_most")
-        refuse(name, "more than the whole ring", "take a fraction below 1");
+        refuse(name, "more than the whole ring", "use a fraction below 1");
   }
   if (!holds_volume(c) && c.volume.target)
     found.push_back({{"volume.target"},
-                     "the volume is free, for a bound or what is minimized is about it",
+                     "the volume is free, because it is bounded or minimized",
                      "omit the key, or bound volume_fraction instead"});
 }
 
-/// Finds expected quantities that the run does not compute, and shapes that it does not reach.
+/// Finds expectations of quantities that the run does not compute, or of shapes that it does not reach.
 void check_expectations(const Case& c, Conflicts& found) {
   const Objective& o = c.objective;
   const std::map<Quantity, bool> computed{
@@ -1041,7 +1039,7 @@ void check_expectations(const Case& c, Conflicts& found) {
     if (functional != computed.end() && !functional->second)
       found.push_back({{key("quantity"), fmt::format("objective.{}", name(expectation.quantity))},
                        "it has no weight in the objective, so the run does not compute it",
-                       "give it a weight, however small, or expect another quantity"});
+                       "set a weight, however small, or expect another quantity"});
     for (const Need& need :
          unmet_needs(single_load_cases(c)[load_case_of(c, expectation)], expectation.quantity))
       found.push_back(
@@ -1049,7 +1047,7 @@ void check_expectations(const Case& c, Conflicts& found) {
     if (expectation.iteration && *expectation.iteration > c.optimizer.iterations)
       found.push_back({{key("iteration"), "optimizer.iterations"},
                        fmt::format("the run ends at shape {} at the latest", c.optimizer.iterations),
-                       "take an earlier shape, or omit the key for the last shape"});
+                       "use an earlier shape, or omit the key for the last shape"});
   }
 }
 

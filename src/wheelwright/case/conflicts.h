@@ -7,18 +7,18 @@
 
 namespace wheelwright {
 
-/// Values that are each in range but contradict each other.
+/// Values that are in range but contradict each other.
 struct Conflict {
   std::vector<std::string> keys;  ///< paths of all keys involved, the most likely cause first
   std::string problem;
   std::string remedy;
-  std::string other_place = {};  ///< a key whose line is told at the end of the problem
+  std::string other_place = {};  ///< a key whose line is appended to the problem
 };
 
 /// All conflicts of a case.
 std::vector<Conflict> conflicts(const Case& c);
 
-/// Whether a modulus [Pa] is smaller than that of any solid wheel, and the question whether MPa were meant.
+/// Whether a modulus [Pa] is smaller than that of any solid wheel; and the question whether MPa were meant.
 bool may_be_in_megapascals(double modulus);
 std::string question_of_megapascals(double modulus);
 

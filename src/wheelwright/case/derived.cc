@@ -79,7 +79,7 @@ int levels_for(const Case& c, double cells_per_patch, int most_points) {
   return levels;
 }
 
-/// As many as the load case with the narrowest contact needs.
+/// As many as needed by the load case with the narrowest contact.
 int most_levels_for(const Case& c, double cells_per_patch, int most_points) {
   int levels = 0;
   for (const Case& single : single_load_cases(c))
@@ -233,7 +233,7 @@ bool has_holes(const Case& c) {
 
 namespace {
 
-/// Calls add(azimuth) for the holes of one sector out of `count` evenly spaced ones.
+/// Calls add(azimuth) for those of `count` evenly spaced holes that lie in one sector.
 template <class Add>
 void for_each_in_sector(const Case& c, int count, const std::optional<double>& phase, Add add) {
   const double spacing = 2 * pi / count, first = phase.value_or(spacing / 2);
@@ -310,7 +310,7 @@ double contact_columns(const Case& c) {
 constexpr double square(double x) { return x * x; }
 constexpr double cube(double x) { return x * x * x; }
 
-/// Whether the profile of a tapered hole is its own mirror image in the middle of the width.
+/// Whether the profile of a tapered hole is symmetric about the middle of the width.
 bool is_even(const HoleTapered& hole) {
   const auto& profile = hole.profile;
   for (std::size_t k = 0; k < profile.size(); ++k) {
@@ -320,8 +320,8 @@ bool is_even(const HoleTapered& hole) {
   return true;
 }
 
-/// Whether wheel and loads are their own mirror images across the width, so that half of it is solved.
-/// Spheres outside of the middle count as if nothing mirrored them.
+/// Whether wheel and loads are symmetric across the width, so that half of it is solved. Spheres off the
+/// middle count as asymmetric.
 bool is_halved(const Case& c) {
   if (c.wheel.dimension != 3 || c.grid.axial_cells % 2 != 0) return false;
   for (const Case& single : single_load_cases(c))
@@ -330,8 +330,8 @@ bool is_halved(const Case& c) {
          std::ranges::all_of(c.holes.tapered, is_even);
 }
 
-/// Whether the holes of a case are their own mirror images in the plane of azimuth 0, so that its harmonics
-/// are real. Drawn shapes count as if they were not.
+/// Whether the holes of a case are symmetric about the plane of azimuth 0, so that its harmonics are real.
+/// Drawn shapes count as asymmetric.
 bool has_real_harmonics(const Case& c) {
   if (c.shapes != Shapes{} || !c.holes.circles.empty()) return false;
   const auto is_its_image = [](const auto& hole) {
@@ -343,20 +343,20 @@ bool has_real_harmonics(const Case& c) {
          std::ranges::all_of(c.holes.tapered, is_its_image);
 }
 
-/// The sizes that decide what a run needs. Of a wheel that is solved on half of its width, those of the half
-/// but for `dofs`, `cells` and `observed`.
+/// The sizes that determine memory and time of a run. For a wheel solved on half of its width, those of the
+/// half except `dofs`, `cells` and `observed`.
 struct ProblemSize {
   double sectors, positions;
   double columns, cells;          ///< of the full ring
   double dofs, sector_dofs;       ///< if every cell held material
   double radial_line, ring_line;  ///< dofs of a face between sectors, and of the core's outer line
   double tractions;               ///< components at the contact points of a column
-  double observed;                ///< numbers that a column of the tread observes
+  double observed;                ///< numbers observed per column of the tread
   double zone_columns, loaded_columns;
 
   double sector_line() const { return ring_line / sectors; }
   double boundary() const { return radial_line + sector_line(); }
-  /// Boundary unknowns of the harmonics if they are complex: of large interfaces the strong modes alone.
+  /// Boundary unknowns of the harmonics if they are complex: of large interfaces only the strong modes.
   double complex_boundary() const {
     return (has_strong_modes() ? radial_line / 3 : radial_line) + sector_line();
   }
@@ -388,13 +388,13 @@ ProblemSize problem_size(const Case& c) {
   return size;
 }
 
-/// How many of each array exist at the peak of memory, fitted to measurements.
+/// The number of copies of each array at the peak of memory, fitted to measurements.
 struct Copies {
   double condensed, harmonics, surface;
 };
 constexpr Copies in_the_plane{3.5, 0.55, 0.1}, in_space{3, 0.55, 4};
 
-/// The problem's size where a ghost penalty acts on all of the faces between sectors.
+/// The problem's size if a ghost penalty acts on all faces between sectors.
 ProblemSize problem_size_of_grooves(const Case& c) {
   ProblemSize size = problem_size(c);
   const double derivatives = size.radial_line * n_compared_derivatives(c.ghost_penalty, c.grid.degree);
@@ -428,7 +428,7 @@ double estimated_memory(const Case& c, const ProblemSize& n) {
   const double tread = number * (8 * square(2 * n.tractions) + 1.8 * n.observed * n.columns * n.positions);
   const double zones = number * 0.1 * n.positions * square(n.zone_columns * n.tractions);
   const double shape = number * 10 * holes;
-  // The dual norm has its own ring, and so has a finer tread of the results.
+  // The dual norm has its own ring, and so does a finer tread of the results.
   const double rings = 1 + wants_dual(c) + (tread_levels_of_results(c) > tread_levels(c));
   return libraries + fields + rings * (factor + condensed + harmonics) + responses + surface + tread + zones +
          shape;
@@ -456,10 +456,11 @@ double estimated_seconds_of_grooves_in_3d(const Case& c) {
   return estimated_seconds_in_3d(c, problem_size_of_grooves(c));
 }
 
-double least_gamma_0(double theta, const Material& material, double aspect) {
+double minimum_gamma_0(double theta, const Material& material, double aspect) {
   constexpr double reference = 8.8;  // (lambda + 2 mu) / E at nu = 0.48, where 10 and 100 were found
   const double stiffness = (material.lambda() + 2 * material.mu()) / material.scaling_modulus() / reference;
-  // Without the indefinite term a projected pressure needs no more than the last material without projection.
+  // Without the indefinite term, a projected pressure needs no more than the last material without
+  // projection.
   if (theta <= 0 && material.nearly_incompressible()) return 13.2 * (1 + theta) * (1 + theta);
   constexpr double per_aspect =
       0.8;  // 0.80, 0.69, 0.55 and 0.58 were found at the aspects 2.3, 4.6, 9.2 and 19

@@ -8,12 +8,12 @@
 
 namespace wheelwright {
 
-// Numbers that follow from a case without a solve. Per metre of width.
+// Numbers derived from a case without solving. Per metre of width.
 
 /// The case with one of its load cases, counted from 0, as its only load.
 Case with_load_case(Case c, int load_case);
 
-/// The case with each of its load cases as the only load, in their order; itself if it has one load alone.
+/// The case with each of its load cases as the only load, in their order; itself if it has only one load.
 std::vector<Case> single_load_cases(const Case& c);
 
 /// The load cases of a constraint, by their numbers: that of its name, or all.
@@ -22,12 +22,12 @@ std::vector<int> load_cases_of(const Case& c, const Constraint& constraint);
 /// The load case that an expectation is about: the first one, unless it names another.
 int load_case_of(const Case& c, const Expectation& expectation);
 
-// Numbers that depend on a load are those of the section [load], unless they say something else.
+// Numbers that depend on a load are those of the section [load], unless stated otherwise.
 
 /// P [N/m].
 double load_per_metre(const Case& c);
 
-/// a = 2 sqrt(P R_e / (pi E*)) [m]: half the contact patch of a solid disc under the load, an estimate for
+/// a = 2 sqrt(P R_e / (pi E*)) [m]: half the contact patch of a solid disc under the load, as an estimate for
 /// the wheel.
 double hertz_half_width(const Case& c);
 
@@ -38,7 +38,7 @@ double hertz_peak_pressure(const Case& c);
 /// given; half the circumference if the tread is bonded.
 double likely_half_width(const Case& c);
 
-/// The method of the case, or the one that its volume and velocity need; never automatic.
+/// The method of the case, or the one required by its volume and velocity; never automatic.
 OptimizerMethod optimizer_method(const Case& c);
 
 /// The relative gain below which a search has converged; 0: it never has.
@@ -47,7 +47,7 @@ double convergence_tolerance(const Case& c);
 /// The kind of the velocity, which is not `automatic`.
 VelocityKind velocity_kind(const Case& c);
 
-/// Over how many cells h1 and vector smooth the motion of the boundary.
+/// The number of cells over which h1 and vector smooth the motion of the boundary.
 double velocity_length(const Case& c);
 
 /// Degree of the level set: the case's own, or 2, in 3D 1.
@@ -59,10 +59,10 @@ int level_set_degree(const Case& c);
 int tread_levels(const Case& c);
 int tread_levels_of_results(const Case& c);
 
-/// The case with as many levels as its results have.
+/// The case with the levels of its results.
 Case with_levels_of_results(Case c);
 
-/// Arc length of the smallest cells, which are at the tread [m].
+/// Arc length of the smallest cells, at the tread [m].
 double tread_cell_width(const Case& c);
 
 /// Cells on the tread under the Hertz patch 2a.
@@ -71,8 +71,7 @@ double cells_per_contact_patch(const Case& c);
 /// Contact pressures are not resolved with fewer cells per patch than this.
 inline constexpr double least_cells_per_contact_patch = 6;
 
-/// Width of the smallest hole, as far as it has one, in units of the longer cell edge at mid-ring; infinite
-/// without holes.
+/// Width of the smallest hole in units of the longer cell edge at mid-ring; infinite without holes.
 double smallest_hole_in_cells(const Case& c);
 
 /// Smaller holes fray in an optimization without smoothing.
@@ -90,7 +89,7 @@ int tread_rows(const Case& c);
 /// Whether J_p1 is part of the objective.
 bool wants_annulus(const Case& c);
 
-/// Whether every shape has the same volume: not where a bound, or what is minimized, is about it.
+/// Whether the volume is fixed: not if it is bounded or minimized.
 bool holds_volume(const Case& c);
 
 /// Whether any functional compares the contact stress of the load positions.
@@ -104,31 +103,31 @@ double characteristic_length(const Case& c);
 template <int dim>
 PolarGrid<dim> polar_grid(const Case& c);
 
-/// The bands that stay material. Unless the case gives them, they are 1/14 of the ring's thickness, whatever
-/// the grid is; at the tread, they are also at least 1/28 of it thicker than the annulus of J_p1. The
-/// outermost rows of cells must be full because they are condensed once per run, and the row below them
-/// because it carries the ghost penalty of the cut cells.
+/// The bands that stay material. By default they are 1/14 of the ring's thickness, whatever the grid; at the
+/// tread also at least 1/28 of it thicker than the annulus of J_p1. The outermost rows of cells must be full
+/// because they are condensed once per run, and the row below them because it carries the ghost penalty of
+/// the cut cells.
 Bands bands(const Case& c);
 
 /// The radii [m] between the bands, where holes may be.
 HoleRange free_region(const Case& c);
 
-/// The same, in which holes may touch the bands: to be moved by a thousandth of a cell changes nothing.
+/// The same, but holes may touch the bands: a shift by a thousandth of a cell is negligible.
 HoleRange room_for_holes(const Case& c);
 
-/// Whether the initial shape has anything but the full ring.
+/// Whether the initial shape differs from the full ring.
 bool has_holes(const Case& c);
 
 /// The `[[holes.*]]` of one sector, from rings and circles; those of the other sectors are their rotations. A
 /// hole may lie in any sector and cross the interfaces between sectors.
 std::vector<Circle> sector_holes(const Case& c);
 
-/// The holes of one sector that only 3D has.
+/// The holes of one sector that exist only in 3D.
 std::vector<Sphere> sector_spheres(const Case& c);
 std::vector<TaperedHole> sector_tapered_holes(const Case& c);
 
-/// Number of displacement unknowns of the full ring if every cell held material: an upper bound. Those of
-/// rim and side faces that are held count too.
+/// Number of displacement unknowns of the full ring if every cell held material: an upper bound. Including
+/// those of fixed rims and side faces.
 long long dof_bound(const Case& c);
 
 /// Estimated peak memory of a run [bytes], within a factor of 1.25 (docs/performance.md): the libraries, the
@@ -138,11 +137,11 @@ long long dof_bound(const Case& c);
 double estimated_memory(const Case& c);
 
 /// Estimated time of one shape of a case in 3D on one core [s], within a factor of two: the harmonics, the
-/// sector's factor and the contact operator, whose sizes are known and whose speeds were measured.
+/// sector's factor and the contact operator, with known sizes and measured speeds.
 double estimated_seconds_in_3d(const Case& c);
 
-/// Bounds of the same for shapes whose edges cross all of the faces between sectors, as grooves round the
-/// wheel do: derivatives on the faces are unknowns then too.
+/// Bounds of the same for shapes whose edges cross all faces between sectors, such as grooves around the
+/// wheel: then derivatives on the faces are unknowns too.
 double estimated_memory_of_grooves(const Case& c);
 double estimated_seconds_of_grooves_in_3d(const Case& c);
 
@@ -153,7 +152,7 @@ double estimated_seconds_of_grooves_in_3d(const Case& c);
 /// elements project the pressure, that scale stays what it is at nu = 0.485 if theta <= 0. `aspect`: of the
 /// cells at the tread, length along it by height: gamma refers to their diameter, but what bounds the
 /// tractions is the height.
-double least_gamma_0(double theta, const Material& material, double aspect = 1);
+double minimum_gamma_0(double theta, const Material& material, double aspect = 1);
 
 /// The aspect of a case's cells at the tread.
 double tread_cell_aspect(const Case& c);

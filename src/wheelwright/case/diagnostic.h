@@ -15,18 +15,18 @@ struct Diagnostic {
     wrong_type,
     out_of_range,
     conflict,  ///< values that contradict each other
-    drawing,   ///< stands in a drawing: `file` and `line` are the drawing's
+    drawing,   ///< in a drawing: `file` and `line` are the drawing's
   };
 
   Kind kind;
   std::string file;
-  int line, column;   ///< from 1; 0 if the problem has no such position
+  int line, column;   ///< from 1; 0 if there is no such position
   std::string key;    ///< path, e.g. "wheel.sectors" or "holes.ring[2].count" (from 1); may be empty
   std::string value;  ///< as in the file; may be empty
   std::string problem;
   std::string remedy;  ///< what to do; may be empty
 
-  /// "file:line:column: key = value: problem; remedy", one line, without what is unknown.
+  /// "file:line:column: key = value: problem; remedy", one line, without unknown parts.
   std::string text() const;
 };
 

@@ -46,27 +46,27 @@ Outlines outlines(const AnnulusShape& s, const Case& c) {
   return {annulus_outline(s.inner_radius.value_or(low), s.outer_radius.value_or(high))};
 }
 
-/// A strip that goes on beyond its ends where they are not given, so that it meets rim and tread on its whole
+/// A strip that continues beyond ends that are not given, so that it meets rim and tread over its whole
 /// thickness.
 Outline spoke_strip(const SpokeShape& s, Point from, Point to, double bend) {
   const Point chord = to - from;
   const double length = norm<2>(chord), beyond = s.thickness;
   const Affine turned = Affine::rotation(0.5 * bend);
   const Affine back = Affine::rotation(-0.5 * bend);
-  // A curved strip turns further by this angle where it goes on.
+  // The angle by which a curved strip turns in its continuation.
   const double further =
       bend == 0 ? 0 : 2 * std::asin(std::min(1.0, std::abs(beyond / length * std::sin(0.5 * bend))));
   const double sign = bend < 0 ? -1 : 1, half = 0.5 * sign * further;
   const Point at_start = beyond / length * Affine::rotation(-half).linear(back.linear(chord));
-  const Point at_end = beyond / length * Affine::rotation(half).linear(turned.linear(chord));
+  const Point on_end = beyond / length * Affine::rotation(half).linear(turned.linear(chord));
   if (!s.inner_radius) from = from - at_start;
-  if (!s.outer_radius) to = to + at_end;
+  if (!s.outer_radius) to = to + on_end;
   return strip_outline(from, to, s.thickness, bend + sign * further * (!s.inner_radius + !s.outer_radius));
 }
 
 Outlines forked_spoke(const SpokeShape& s, const Point& foot, double outer, double end_azimuth, double fork) {
   const Point middle = polar(outer, end_azimuth);
-  // The stem points to the middle between the ends of the branches.
+  // The stem points midway between the ends of the branches.
   const double reach = (fork - norm<2>(foot)) / (outer - norm<2>(foot));
   const Point joint = foot + reach * (middle - foot);
   SpokeShape stem = s, branch = s;
@@ -112,10 +112,10 @@ Outlines outlines(const PictureShape& s, const Case& c) {
   return {outline.mapped(Affine::rotation(s.phase))};
 }
 
-/// Arc length at the tread that the picture of a sector shows [m].
+/// Arc length at the tread shown by the picture of a sector [m].
 double sector_width(const PictureShape& s, const Case& c) { return 2 * pi * c.wheel.outer_radius / s.count; }
 
-/// By how much a curve of a shape may be off [m].
+/// The accuracy of a shape's curves [m].
 template <class Shape>
 double accuracy(const Shape& shape, const Case& c) {
   constexpr double of_drawings = 1e-4;
@@ -164,8 +164,8 @@ constexpr Repetition repetition<FileShape> = Repetition::by_curves;
 template <>
 constexpr Repetition repetition<PictureShape> = Repetition::by_curves;
 
-/// The picture of a sector is drawn round the whole wheel at once, as its outlines cross from one to the
-/// next.
+/// The picture of a sector is drawn around the whole wheel at once, because its outlines cross the faces of
+/// sectors.
 template <class Shape>
 bool is_whole(const Shape& shape) {
   if constexpr (std::is_same_v<Shape, PictureShape>)

@@ -8,10 +8,10 @@
 
 namespace wheelwright {
 
-/// How the curves of a shape come round the wheel.
+/// How the curves of a shape repeat around the wheel.
 enum class Repetition {
-  by_count,   ///< what is given is drawn `count` times
-  by_curves,  ///< so too, and it may show more of the wheel than one of the sectors
+  by_count,   ///< the given curves are drawn `count` times
+  by_curves,  ///< likewise, but the curves may show more than one sector
   round,      ///< it is the same at all azimuths
 };
 
@@ -20,10 +20,10 @@ struct DrawnShape {
   int order;        ///< among the shapes of the case
   std::string key;  ///< e.g. "shape.slot[2]"
   Fill fill;
-  std::vector<Outline> first;  ///< what is repeated: the union of these [m]
+  std::vector<Outline> first;  ///< of which the union is repeated [m]
   Repetition repetition;
   int count;
-  bool may_leave_ring;  ///< material beyond rim and tread has no effect, and is meant
+  bool may_leave_ring;  ///< whether material beyond rim and tread is intended; it has no effect
   double accuracy;      ///< of its curves [m]
 };
 
@@ -33,10 +33,10 @@ std::vector<DrawnShape> drawn_shapes(const Case& c);
 /// The whole wheel of a case as figures: its `[[holes.*]]`, and over them its shapes.
 std::vector<Figure> figures(const Case& c);
 
-/// Curves of one shape, and of all shapes with their repetitions; more are refused.
+/// Limit on the curves of one shape, and of all shapes with their repetitions.
 inline constexpr long long most_curves = 200'000;
 
-/// A shape as it is drawn, with its repetitions.
+/// A shape with its repetitions.
 Figure figure_of(const DrawnShape& shape);
 
 /// Number of curves of a shape, with its repetitions.

@@ -23,7 +23,7 @@ bool fits_band(const Case& c, const Band& band) {
   return band.thickness >= band.full_rows * row_height(c) - 1e-9 * c.wheel.outer_radius;
 }
 
-/// Whether the annulus, if the case gives it, is a whole number of rows of so many halvings.
+/// Whether the annulus, if given, is a whole number of rows after that many halvings.
 bool fits_annulus(const Case& c, int halvings) {
   if (!wants_annulus(c) || !c.objective.annulus) return true;
   const double rows = *c.objective.annulus / row_height(c) / (1 << halvings);

@@ -13,7 +13,7 @@ const SectionArray<HoleRing>& ring_sections() {
       .keys = {{.name = "count",
                 .unit = "",
                 .field = IntegerField<HoleRing>{&HoleRing::count, between(1, 100000)},
-                .meaning = "number of holes round the full wheel, a multiple of wheel.sectors",
+                .meaning = "number of holes around the full wheel, a multiple of wheel.sectors",
                 .presence = Presence::required},
                {.name = "center_radius",
                 .unit = "m",
@@ -69,7 +69,7 @@ const SectionArray<HoleSphere>& sphere_sections() {
                {.name = "z",
                 .unit = "m",
                 .field = NumberField<HoleSphere>{&HoleSphere::z, between(-1000, 1000)},
-                .meaning = "place of the centres along the axle, from the middle of the width"},
+                .meaning = "position of the centres along the axle, from the middle of the width"},
                phase_key<HoleSphere>(phase_of_centre)}};
   return sections;
 }
@@ -98,9 +98,9 @@ const SectionArray<HoleTapered>& tapered_sections() {
                {.name = "profile",
                 .unit = "m",
                 .field = PointsField<HoleTapered>{&HoleTapered::profile, between(-1000, 1000)},
-                .meaning = "[[z, radius], ...]: the radius along the axle, straight from point to point and "
-                           "constant beyond the ends; z is from the middle of the width and grows from point "
-                           "to point; where the radius is negative there is no hole",
+                .meaning = "[[z, radius], ...]: the radius along the axle, linear between the points and "
+                           "constant beyond the ends; z is measured from the middle of the width and "
+                           "increases; where the radius is negative there is no hole",
                 .presence = Presence::required},
                phase_key<HoleTapered>(phase_of_centre)}};
   return sections;

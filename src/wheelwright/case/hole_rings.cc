@@ -13,7 +13,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// Beyond so many rings their pairs are too many to compare.
+/// Beyond this number of rings, pairs are too many to compare.
 constexpr std::size_t most_compared = 1000;
 
 double centre_distance(const HoleRing& a, const HoleRing& b, double azimuth) {
@@ -52,7 +52,7 @@ AzimuthOffsets azimuth_offsets(const HoleRing& a, const HoleRing& b) {
 bool lies_inside(const HoleRing& a, const HoleRing& b) {
   const double rounding = 1e-9 * b.radius;
   if (std::abs(a.center_radius - b.center_radius) + a.radius > b.radius + rounding) return false;
-  return centre_distance(a, b, azimuth_offsets(a, b).least) + a.radius <= b.radius + rounding;
+  return centre_distance(a, b, azimuth_offsets(a, b).minimum) + a.radius <= b.radius + rounding;
 }
 
 bool overlaps_everywhere(const HoleRing& a, const HoleRing& b) {
@@ -63,7 +63,7 @@ bool overlaps_everywhere(const HoleRing& a, const HoleRing& b) {
 double smallest_hole_width(const Case& c) {
   std::vector<NamedRing> rings = named_rings(c);
   std::ranges::sort(rings, std::greater{}, [](const NamedRing& named) { return named.ring.radius; });
-  std::vector<double> radii;  // that of the largest circle that is known to be part of each hole
+  std::vector<double> radii;  // of the largest circle known to be part of each hole
   for (const NamedRing& named : rings) {
     double radius = named.ring.radius;
     for (std::size_t j = 0; j < radii.size() && rings.size() <= most_compared; ++j)

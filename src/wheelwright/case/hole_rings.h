@@ -7,8 +7,8 @@
 
 namespace wheelwright {
 
-// How the holes of a case lie to one another. They are compared as rings: a circle is a ring with one hole
-// per sector.
+// The relative position of a case's holes. They are compared as rings: a circle is a ring with one hole per
+// sector.
 
 /// A ring of holes of the case, or a circle with its images.
 struct NamedRing {
@@ -19,10 +19,10 @@ struct NamedRing {
 /// All rings and circles, in the order of the file's arrays.
 std::vector<NamedRing> named_rings(const Case& c);
 
-/// The azimuth [rad] between a hole of one ring and the nearest of the other, for the hole of `a` that is
-/// nearest to one of `b` and for the one that is farthest.
+/// The azimuth [rad] from a hole of ring `a` to the nearest hole of ring `b`: its minimum and maximum over
+/// the holes of `a`.
 struct AzimuthOffsets {
-  double least, most;
+  double minimum, most;
 };
 AzimuthOffsets azimuth_offsets(const HoleRing& a, const HoleRing& b);
 
@@ -32,7 +32,7 @@ bool lies_inside(const HoleRing& a, const HoleRing& b);
 /// Whether every hole of `a` overlaps a hole of `b`.
 bool overlaps_everywhere(const HoleRing& a, const HoleRing& b);
 
-/// Diameter of the smallest hole [m]; infinite without holes. Circles that overlap are one hole, at least as
+/// Diameter of the smallest hole [m]; infinite without holes. Overlapping circles are one hole, at least as
 /// wide as the largest of them.
 double smallest_hole_width(const Case& c);
 

@@ -13,7 +13,7 @@
 namespace wheelwright {
 
 // The declaration of the case file. Reading, checking, the template, the reference page and the resolved case
-// all derive from it. A key binds a name to a field of the struct that its section fills.
+// all derive from it. A key binds a name to a field of its section's struct.
 
 /// The values that a key accepts, in the unit of the case file.
 struct Range {
@@ -55,16 +55,16 @@ template <class Struct>
 struct IntegerField {
   int Struct::*member;
   Range range;
-  std::string_view default_text = {};  ///< if an absent key does not simply have the member's default
+  std::string_view default_text = {};  ///< if an absent key does not simply mean the member's default
 };
 
-/// A whole number whose default is described by a text, or has a word of its own.
+/// A whole number whose default is described by a text, or has its own word.
 template <class Struct>
 struct OptionalIntegerField {
   std::optional<int> Struct::*member;
   Range range;
   std::string_view default_text;
-  std::string_view default_word = {};  ///< e.g. auto; empty: the default cannot be written
+  std::string_view default_word = {};  ///< e.g. auto; empty: the default cannot be written explicitly
 };
 
 enum class TextRule {
@@ -131,8 +131,8 @@ auto choice(std::vector<std::string_view> words) {
                              [](Struct& s, int i) { s.*member = static_cast<Enum>(i); }};
 }
 
-/// The unit of a key that is a value of its section's `quantity`: a plain number is in SI units, in 2D per
-/// metre of width, and one with a unit that of the whole wheel.
+/// The unit of a key whose value belongs to its section's `quantity`: a plain number is in SI units, in 2D
+/// per metre of width; a number with a unit is for the whole wheel.
 inline constexpr std::string_view unit_of_quantity = "SI";
 
 enum class Presence { has_default, required };
@@ -147,7 +147,7 @@ struct Key {
       field;
   std::string_view meaning;
   Presence presence = Presence::has_default;
-  std::string_view instead_of = {};  ///< the key of the same section that this one may replace
+  std::string_view instead_of = {};  ///< the key of the same section that this one can replace
 };
 
 /// A table of the file, [name]; the empty name is the file's top level.
@@ -205,7 +205,7 @@ const Section<Optimizer>& optimizer_section();
 const Section<Output>& output_section();
 const SectionArray<Expectation>& expectation_sections();
 
-/// Calls visit(section) for the arrays of shapes, whose tables count in the order in which they are written.
+/// Calls visit(section) for the arrays of shapes, whose tables are ordered as written.
 template <class Visitor>
 void for_each_shape_section(Visitor&& visit) {
   visit(circle_shape_sections());
@@ -251,7 +251,7 @@ const Key<Struct>* find_key(const std::vector<Key<Struct>>& keys, std::string_vi
   return nullptr;
 }
 
-/// Whether only one of two different keys may be given.
+/// Whether two different keys exclude each other.
 template <class Struct>
 bool are_alternatives(const Key<Struct>& a, const Key<Struct>& b) {
   const auto group = [](const Key<Struct>& key) {

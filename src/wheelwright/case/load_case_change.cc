@@ -8,7 +8,7 @@ bool is_load_of_a_case(const Load& section, const Load& load) {
 }
 
 CaseLoad changed_load_case(CaseLoad load_case, const Load& section, const Load& load) {
-  // What the section says too stays there.
+  // Values equal to the section's are not repeated.
   const auto change = [&](auto& place, const auto& of_section, const auto& value) {
     if (place || value != of_section) place = value;
   };

@@ -11,7 +11,7 @@
 namespace wheelwright {
 
 /// Reads the drawings and pictures of a case into it, from paths relative to `folder`, and sets their
-/// checksums. Leaves out the shapes, such as "shape.file[1]", that must not be read.
+/// checksums. Skips the given shapes, e.g. "shape.file[1]".
 std::vector<FileProblem> load_drawings(Case& c, const std::filesystem::path& folder,
                                        const std::function<bool(const std::string&)>& may_be_read);
 

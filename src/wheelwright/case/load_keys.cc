@@ -20,7 +20,7 @@ const Section<Load>& load_section() {
           {.name = "travel",
            .unit = "m",
            .field = OptionalNumberField<Load>{&Load::travel, above(0, 1000), "the rim carries the load"},
-           .meaning = "prescribed travel of the rim towards the ground; the force is a result",
+           .meaning = "prescribed travel of the rim towards the ground; the force is then a result",
            .instead_of = "mass"},
           {.name = "horizontal_force",
            .unit = "N",
@@ -35,8 +35,8 @@ const Section<Load>& load_section() {
           {.name = "camber",
            .unit = "deg",
            .field = NumberField<Load>{&Load::camber, between(-30, 30), degree_of_arc},
-           .meaning = "in 3D, the angle by which the wheel leans: its side at larger z is nearer to the "
-                      "ground"},
+           .meaning =
+               "in 3D, the angle by which the wheel leans: its side at larger z is closer to the ground"},
           {.name = "torque",
            .unit = "N m",
            .field = NumberField<Load>{&Load::torque, between(-1e10, 1e10)},
@@ -54,10 +54,9 @@ const Section<Load>& load_section() {
           {.name = "speed",
            .unit = "m/s",
            .field = NumberField<Load>{&Load::speed, between(0, 1000)},
-           .meaning =
-               "speed v of the axle along the ground: the material is pulled away from the axle by "
-               "density (v / R_e)^2 r per volume; travel and stiffness are measured from where the rotating "
-               "wheel stands without load; needs material.density"},
+           .meaning = "speed v of the axle along the ground: centrifugal load density (v / R_e)^2 r per "
+                      "volume; travel and stiffness are measured from where the rotating "
+                      "wheel stands without load; needs material.density"},
           {.name = "positions",
            .unit = "",
            .field = IntegerField<Load>{&Load::positions, between(1, 1000)},
@@ -81,9 +80,9 @@ const SectionArray<CaseLoad>& load_case_sections() {
       .parent = "load",
       .name = "case",
       .meaning =
-          "one of several loads under which the wheel is optimized, all of them with one "
-          "factorization; what it does not give is that of [load]; the first one is the load of "
-          "pictures, pressures and numbers without a load case ([several loads](optimization.md))",
+          "one of several loads under which the wheel is optimized, all with one factorization; missing keys "
+          "are taken from [load]; the first one is the load of pictures, pressures and numbers without a "
+          "load case ([several loads](optimization.md))",
       .in = [](Case& c) -> std::vector<CaseLoad>& { return c.load.cases; },
       .example = example_load_case(),
       .keys = {
@@ -96,7 +95,7 @@ const SectionArray<CaseLoad>& load_case_sections() {
           {.name = "weight",
            .unit = "",
            .field = NumberField<CaseLoad>{&CaseLoad::weight, between(0, 1e9)},
-           .meaning = "of what is minimized, under this load; 0: it counts in constraints alone"},
+           .meaning = "weight of this load in the objective; 0: it is used only in constraints"},
           {.name = "mass",
            .unit = "kg",
            .field = OptionalNumberField<CaseLoad>{&CaseLoad::force, between(1e-9, 1e9), "that of [load]",

@@ -34,15 +34,15 @@ std::vector<FileProblem> load_saved_shape(Case& c, const fs::path& folder) {
     file /= saved_shape_file;
     if (!fs::exists(file, error))
       return {{Kind::unreadable, key, "", 0,
-               fmt::format("the folder {} holds no saved shape, {}", (folder / saved.from).string(),
+               fmt::format("the folder {} contains no saved shape, {}", (folder / saved.from).string(),
                            saved_shape_file),
-               "give the folder of a run that has saved a shape; `wheelwright resume` goes on with one that "
-               "has not"}};
+               "set the folder of a run that has saved a shape; `wheelwright resume` continues one that has "
+               "not"}};
   }
   const auto bytes = read_named_file(file, key, most_bytes, problems);
   if (!bytes) return problems;
-  // The blocks of such a file end in their own checksums, after which that of the whole file no longer
-  // depends on what is in them. Read backwards it does.
+  // The blocks of such a file end in their own checksums, which makes the checksum of the whole file
+  // independent of their contents. Read backwards it is not.
   check_checksum(saved.checksum, {bytes->rbegin(), bytes->rend()}, table, problems);
   auto shape = parsed(*bytes);
   if (shape)
@@ -51,7 +51,7 @@ std::vector<FileProblem> load_saved_shape(Case& c, const fs::path& folder) {
     problems.push_back({Kind::unreadable, key, "", 0,
                         fmt::format("{} cannot be used: {}: {}", file.string(),
                                     to_string(shape.failure().fault), shape.failure().detail),
-                        fmt::format("give the folder of a run, or its file {}", saved_shape_file)});
+                        fmt::format("set the folder of a run, or its file {}", saved_shape_file)});
   return problems;
 }
 

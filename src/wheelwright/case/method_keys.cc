@@ -7,36 +7,35 @@ const Section<Contact>& contact_section() {
       .name = "contact",
       .meaning = "contact of the tread with the ground",
       .in = [](Case& c) -> Contact& { return c.contact; },
-      .keys = {
-          {.name = "with",
-           .unit = "",
-           .field = choice<&Contact::with>({"ground", "ring"}),
-           .meaning = "what the tread meets: flat ground on which it rolls, or a rigid ring to which all of "
-                      "it is bonded, as in a bushing; the load then presses the rim towards each load "
-                      "position"},
-          {.name = "method",
-           .unit = "",
-           .field = choice<&Contact::method>({"nitsche", "penalty"}),
-           .meaning = "Nitsche's method (28) or penalty (22)"},
-          {.name = "theta",
-           .unit = "",
-           .field = NumberField<Contact>{&Contact::theta, any_number},
-           .meaning = "Nitsche's parameter; -1 works with any gamma_0, 0 and 1 need a large one"},
-          {.name = "gamma_0",
-           .unit = "",
-           .field = NumberField<Contact>{&Contact::gamma_0, above(0, 1e9)},
-           .meaning = "gamma = gamma_0 E / h_T, where h_T is the diameter of the contact cell; in plane "
-                      "stress with E (1 + 2 nu) / (1 + nu)^2 for E"},
-          {.name = "friction",
-           .unit = "",
-           .field = NumberField<Contact>{&Contact::friction, between(0, 10)},
-           .meaning = "coefficient F of Coulomb's static friction (16)"},
-          {.name = "quadrature_points",
-           .unit = "",
-           .field = IntegerField<Contact>{&Contact::quadrature_points, between(1, 20)},
-           .meaning =
-               "number of Gauss points on each contact face; in 3D along the ground, and along the axle "
-               "at most degree + 1"}}};
+      .keys = {{.name = "with",
+                .unit = "",
+                .field = choice<&Contact::with>({"ground", "ring"}),
+                .meaning = "what the tread is in contact with: flat ground on which it rolls, or a rigid "
+                           "ring to which all of it is bonded, as in a bushing; the load then presses the "
+                           "rim towards each load position"},
+               {.name = "method",
+                .unit = "",
+                .field = choice<&Contact::method>({"nitsche", "penalty"}),
+                .meaning = "Nitsche's method (28) or penalty (22)"},
+               {.name = "theta",
+                .unit = "",
+                .field = NumberField<Contact>{&Contact::theta, any_number},
+                .meaning = "Nitsche's parameter; -1 works with any gamma_0, 0 and 1 need a large one"},
+               {.name = "gamma_0",
+                .unit = "",
+                .field = NumberField<Contact>{&Contact::gamma_0, above(0, 1e9)},
+                .meaning = "gamma = gamma_0 E / h_T, where h_T is the diameter of the contact cell; in plane "
+                           "stress with E (1 + 2 nu) / (1 + nu)^2 for E"},
+               {.name = "friction",
+                .unit = "",
+                .field = NumberField<Contact>{&Contact::friction, between(0, 10)},
+                .meaning = "coefficient F of Coulomb's static friction (16)"},
+               {.name = "quadrature_points",
+                .unit = "",
+                .field = IntegerField<Contact>{&Contact::quadrature_points, between(1, 20)},
+                .meaning =
+                    "number of Gauss points on each contact face; in 3D along the ground, and along the axle "
+                    "at most degree + 1"}}};
   return section;
 }
 
@@ -57,13 +56,13 @@ const Section<Grid>& grid_section() {
            .unit = "",
            .field =
                IntegerField<Grid>{&Grid::angular_cells, cell_count, "384, or the nearest number that fits"},
-           .meaning = "number of cells round the full ring, a multiple of wheel.sectors that can be halved "
+           .meaning = "number of cells around the full ring, a multiple of wheel.sectors that can be halved "
                       "optimizer.coarse_levels times in each sector"},
           {.name = "axial_cells",
            .unit = "",
            .field = IntegerField<Grid>{&Grid::axial_cells, cell_count, "4, or the nearest number that fits"},
-           .meaning = "number of cells along the axle; in 3D; if it is even, a wheel that is its own mirror "
-                      "image across the width is solved on half of it"},
+           .meaning = "in 3D, number of cells along the axle; if it is even, a wheel that is symmetric "
+                      "across the width is solved on half of it"},
           {.name = "degree",
            .unit = "",
            .field = IntegerField<Grid>{&Grid::degree, between(1, 2)},
@@ -87,7 +86,7 @@ const Section<Grid>& grid_section() {
 const Section<GhostPenalty>& ghost_penalty_section() {
   static const Section<GhostPenalty> section{
       .name = "ghost_penalty",
-      .meaning = "stabilization of the cells that the boundary cuts",
+      .meaning = "stabilization of the cut cells",
       .in = [](Case& c) -> GhostPenalty& { return c.ghost_penalty; },
       .keys = {
           {.name = "kind",

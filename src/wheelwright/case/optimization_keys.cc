@@ -17,13 +17,13 @@ const Section<Objective>& objective_section() {
           {.name = "minimize",
            .unit = "",
            .field = choice<&Objective::minimize>({quantity_names.begin(), quantity_names.end()}),
-           .meaning = "what is minimized; objective: the weighted sum; any other quantity takes its place, "
-                      "and the weights then only say which functionals history.csv has"},
+           .meaning = "what is minimized; objective: the weighted sum; any other quantity replaces it, and "
+                      "the weights then only select the functionals in history.csv"},
           {.name = "over",
            .unit = "",
            .field = choice<&Objective::over>({"mean", "worst"}),
-           .meaning = "which load positions `minimize` is about: their mean, or the one with the greatest "
-                      "value; not for the weighted sum"},
+           .meaning = "how `minimize` is aggregated over the load positions: mean, or the maximum; not for "
+                      "the weighted sum"},
           {.name = "strain_energy",
            .unit = "",
            .field = NumberField<Objective>{&Objective::strain_energy, between(0, 1e9)},
@@ -51,7 +51,7 @@ const Section<Objective>& objective_section() {
           {.name = "annulus",
            .unit = "m",
            .field = OptionalNumberField<Objective>{&Objective::annulus, above(0, 1000), "one radial cell"},
-           .meaning = "epsilon: thickness of the annulus of J_p1, a whole number of radial cells; it stays "
+           .meaning = "epsilon: thickness of the annulus of J_p1, a whole number of radial cells; it remains "
                       "material"},
           {.name = "length",
            .unit = "m",
@@ -67,7 +67,7 @@ const Section<Objective>& objective_section() {
            .field = choice<&Objective::dual_norm>({"elasticity", "poisson"}),
            .meaning =
                "the problem on the ring without holes that defines the H^-1/2 norm of J_p2; elasticity: "
-               "(68), as in the paper; poisson: Poisson's problem of Remark 7, with E in place of the "
+               "(68), as in the paper; poisson: Poisson's problem of Remark 7, with E instead of the "
                "elasticity tensor"}}};
   return section;
 }
@@ -88,10 +88,9 @@ const SectionArray<Constraint>& constraint_sections() {
       .parent = "",
       .name = "constraint",
       .meaning =
-          "a bound that the optimized wheel must keep, with method = \"sequential_quadratic\"; a run that "
-          "does "
-          "not keep it ends with exit code 9; give any number of them, ten bounds in all; the volume is free "
-          "when a bound, or what is minimized, is about volume_fraction or mass",
+          "a bound that the optimized wheel must satisfy, with method = \"sequential_quadratic\"; a run that "
+          "violates it ends with exit code 9; any number of tables with ten bounds in total; the volume is "
+          "free if volume_fraction or mass is bounded or minimized",
       .in = [](Case& c) -> std::vector<Constraint>& { return c.constraints; },
       .example = example_constraint(),
       .keys = {
@@ -103,9 +102,9 @@ const SectionArray<Constraint>& constraint_sections() {
           {.name = "at_least",
            .unit = unit_of_quantity,
            .field = OptionalNumberField<Constraint>{&Constraint::at_least, above(0, 1e15), "no such bound"},
-           .meaning = "lower bound. A plain number is in SI units; of forces, energies, masses and "
-                      "stiffnesses in 2D per metre of width, as in history.csv. With a unit, as in "
-                      "\"6000 N/mm\", it is that of the whole wheel, as in tables"},
+           .meaning = "lower bound. A plain number is in SI units, in 2D per metre of width for forces, "
+                      "energies, masses and stiffnesses, as in history.csv. With a unit, as in \"6000 "
+                      "N/mm\", it applies to the whole wheel, as in tables"},
           {.name = "at_most",
            .unit = unit_of_quantity,
            .field = OptionalNumberField<Constraint>{&Constraint::at_most, above(0, 1e15), "no such bound"},
@@ -113,16 +112,16 @@ const SectionArray<Constraint>& constraint_sections() {
           {.name = "equals",
            .unit = unit_of_quantity,
            .field = OptionalNumberField<Constraint>{&Constraint::equals, above(0, 1e15), "no such bound"},
-           .meaning = "the value to keep, in place of bounds"},
+           .meaning = "the required value, instead of bounds"},
           {.name = "over",
            .unit = "",
            .field = choice<&Constraint::over>({"mean", "worst", "each"}),
-           .meaning = "which load positions it is about: their mean, the worst one, or each one with a "
-                      "bound of its own"},
+           .meaning = "how the quantity is aggregated over the load positions: mean, worst, or each one with "
+                      "its own bound"},
           {.name = "load_case",
            .unit = "",
            .field = TextField<Constraint>{&Constraint::load_case, "every load case"},
-           .meaning = "the name of the [[load.case]] that it is about"}}};
+           .meaning = "the name of the [[load.case]] to which it applies"}}};
   return sections;
 }
 
@@ -135,13 +134,13 @@ const Section<Volume>& volume_section() {
           {.name = "control",
            .unit = "",
            .field = choice<&Volume::control>({"exact", "paper"}),
-           .meaning = "exact: every shape has the target volume, once it is reached; paper: the rule "
+           .meaning = "exact: every shape has the target volume once it is reached; paper: the rule "
                       "lambda_k of section 4.2, "
                       "which lets the volume drift"},
           {.name = "target",
            .unit = "",
            .field = OptionalNumberField<Volume>{&Volume::target, above(0, 1), "that of the initial shape"},
-           .meaning = "material as a fraction of the ring; the run moves the volume there from that of the "
+           .meaning = "material as a fraction of the ring; the run changes the volume to it from that of the "
                       "initial shape"},
           {.name = "rate",
            .unit = "",
@@ -159,8 +158,8 @@ std::vector<Key<Optimizer>> search_keys() {
       {.name = "method",
        .unit = "",
        .field = choice<&Optimizer::method>({"auto", "sequential_quadratic", "descent"}),
-       .meaning = "sequential_quadratic: steps of a quadratic model that learns the curvature from the "
-                  "shapes before; descent: along the gradient; auto: descent with volume.control = "
+       .meaning = "sequential_quadratic: steps of a quadratic model that learns the curvature from earlier "
+                  "shapes; descent: along the gradient; auto: descent with volume.control = "
                   "\"paper\" and "
                   "with velocity = \"harmonic\", which need it, else sequential_quadratic"},
       {.name = "iterations",
@@ -170,10 +169,10 @@ std::vector<Key<Optimizer>> search_keys() {
       {.name = "coarse_levels",
        .unit = "",
        .field = IntegerField<Optimizer>{&Optimizer::coarse_levels, between(0, 4)},
-       .meaning = "the descent begins on a grid whose cells are doubled so many times along each axis, and "
-                  "moves on to the next finer one when J has fallen by less than 0.5 % in 6 trials (with "
+       .meaning = "the descent starts on a grid whose cells are doubled this many times along each axis, and "
+                  "moves to the next finer one when J has fallen by less than 0.5 % in 6 trials (with "
                   "method = \"descent\" over 10 shapes), until "
-                  "it is on the case's own grid; 0: on the case's own grid from the beginning"},
+                  "it is on the case's own grid; 0: on the case's own grid from the start"},
       {.name = "velocity",
        .unit = "",
        .field = choice<&Optimizer::velocity>({"auto", "vector", "h1", "harmonic"}),
@@ -199,7 +198,7 @@ std::vector<Key<Optimizer>> search_keys() {
        .unit = "",
        .field = NumberField<Optimizer>{&Optimizer::accepted_increase, between(0, 1)},
        .meaning = "a shape is accepted if its J exceeds the best J so far by at most this fraction; before "
-                  "walls and gaps are mended also if it is at most the larger J of the last two shapes"},
+                  "walls and gaps are repaired also if it is at most the larger J of the last two shapes"},
       {.name = "tolerance",
        .unit = "",
        .field = OptionalNumberField<Optimizer>{&Optimizer::tolerance, between(0, 1),
@@ -209,7 +208,7 @@ std::vector<Key<Optimizer>> search_keys() {
       {.name = "redistance_every",
        .unit = "shapes",
        .field = IntegerField<Optimizer>{&Optimizer::redistance_every, between(0, 1000000)},
-       .meaning = "how often the level set is redistanced (made a signed distance again); 0 means never"},
+       .meaning = "how often the level set is redistanced (replaced by a signed distance); 0 means never"},
       {.name = "smoothing",
        .unit = "cells^2",
        .field = NumberField<Optimizer>{&Optimizer::smoothing, between(0, 1000)},
@@ -220,47 +219,45 @@ std::vector<Key<Optimizer>> search_keys() {
        .meaning = "how often the level set is smoothed by (76)"}};
 }
 
-/// What every shape keeps, and where there may be new holes.
+/// Minimum widths and new holes.
 std::vector<Key<Optimizer>> feature_keys() {
   return {
       {.name = "rim_band",
        .unit = "m",
        .field = OptionalNumberField<Optimizer>{&Optimizer::rim_band, between(0, 1000), "1/14 of the ring"},
-       .meaning = "thickness of the band at the rim that stays material, at least one radial cell; holes "
-                  "end on it, so that the "
-                  "optimum depends on it"},
+       .meaning = "thickness of the band at the rim that remains material, at least one radial cell; holes "
+                  "extend to it, so the optimum depends on it"},
       {.name = "tread_band",
        .unit = "m",
        .field = OptionalNumberField<Optimizer>{&Optimizer::tread_band, between(0, 1000),
                                                "1/14 of the ring, or 1/28 more than the annulus"},
        .meaning =
-           "thickness of the band at the tread that stays material, at least one radial cell more than "
+           "thickness of the band at the tread that remains material, at least one radial cell more than "
            "the annulus"},
       {.name = "minimum_wall",
        .unit = "m",
        .field = OptionalNumberField<Optimizer>{&Optimizer::minimum_wall, between(0, 1000),
                                                "any at first, one cell in the last part of a run"},
-       .meaning = "least thickness of the material between two edges: thinner walls are made as thick in "
-                  "every shape; the bands at rim and tread must be as thick; 0 means any to the end"},
+       .meaning = "minimum thickness of the material between two edges, in every shape; the bands at rim and "
+                  "tread must be at least as thick; 0 means no minimum to the end"},
       {.name = "minimum_gap",
        .unit = "m",
        .field = OptionalNumberField<Optimizer>{&Optimizer::minimum_gap, between(0, 1000),
                                                "any at first, 1.5 cells in the last part of a run"},
-       .meaning = "least width of a hole: narrower parts of holes, and smaller holes, are filled in every "
-                  "shape; 0 means any to the end"},
+       .meaning = "minimum width of a hole, in every shape: narrower parts of holes, and smaller holes, are "
+                  "filled; 0 means no minimum to the end"},
       {.name = "minimum_radius",
        .unit = "m",
        .field = OptionalNumberField<Optimizer>{&Optimizer::minimum_radius, between(0, 1000),
                                                "any at first, 0.75 cells in the last part of a run"},
-       .meaning = "least radius of internal corners, those of the holes: what a milling cutter needs, and "
-                  "what keeps stress low; gaps are at least twice as wide; 0 means any to the end"},
+       .meaning = "minimum radius of internal corners, those of the holes, for milling cutters and low "
+                  "stress; gaps are at least twice as wide; 0 means no minimum to the end"},
       {.name = "nucleation",
        .unit = "",
        .field = choice<&Optimizer::nucleation>({"never", "converged"}),
-       .meaning = "when holes are made where there are none: converged: where the search has converged, "
-                  "small holes are made where the topological derivative says that they lower J most; "
-                  "where J has not fallen when it has converged again, they are taken back and the run "
-                  "ends; in two dimensions"}};
+       .meaning = "when new holes are created. converged: when the search has converged, small holes are "
+                  "created where they lower J most according to the topological derivative; if J has not "
+                  "fallen when it has converged again, they are removed and the run ends; only in 2D"}};
 }
 
 std::vector<Key<Optimizer>> optimizer_keys() {

@@ -12,7 +12,7 @@ const Section<Output>& output_section() {
            .unit = "",
            .field = TextField<Output>{&Output::folder, "runs/ and the name of the case file",
                                       TextRule::path_below},
-           .meaning = "folder of the run, below the current one; the option --output takes any"},
+           .meaning = "folder of the run, below the current one; the option --output accepts any folder"},
           {.name = "vtu_every",
            .unit = "shapes",
            .field = IntegerField<Output>{&Output::vtu_every, between(0, 1000000)},
@@ -31,7 +31,7 @@ const Section<Output>& output_section() {
           {.name = "checkpoint_seconds",
            .unit = "s",
            .field = NumberField<Output>{&Output::checkpoint_seconds, between(0, 1e9)},
-           .meaning = "time after which the next shape is saved as well; 0 means never"}}};
+           .meaning = "time after which the next shape is saved too; 0 means never"}}};
   return section;
 }
 
@@ -52,8 +52,8 @@ const SectionArray<Expectation>& expectation_sections() {
       .parent = "",
       .name = "expect",
       .meaning =
-          "an expected result; a run that finds another value reports it and ends with exit "
-          "code 7; give any number of them",
+          "an expected result; a run that finds another value reports it and ends with exit code 7; any "
+          "number of tables",
       .in = [](Case& c) -> std::vector<Expectation>& { return c.expectations; },
       .example = example_expectation(),
       .keys = {{.name = "quantity",
@@ -78,7 +78,7 @@ const SectionArray<Expectation>& expectation_sections() {
                {.name = "load_case",
                 .unit = "",
                 .field = TextField<Expectation>{&Expectation::load_case, "the first one"},
-                .meaning = "the name of the [[load.case]] that it is about"}}};
+                .meaning = "the name of the [[load.case]] to which it applies"}}};
   return sections;
 }
 

@@ -34,13 +34,13 @@ namespace {
 
 using Kind = Diagnostic::Kind;
 
-/// Where a key stands in the file and what it says there.
+/// A key's position in the file and its value there.
 struct Entry {
   int line, column;
   std::string value;
 };
 
-/// What is known while one file is read.
+/// The state while a file is read.
 struct Reading {
   std::string file;
   std::map<std::string, Entry> entries;  ///< by key path
@@ -70,7 +70,7 @@ std::string shortened(const std::string& text) {
 
 std::string printable(const std::string& text) { return without_control_characters(shortened(text)); }
 
-/// A key as TOML writes it: in quotes unless it is a plain word.
+/// A key in TOML syntax: in quotes unless it is a plain word.
 std::string key_text(std::string_view name) {
   const bool plain = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
     return c < 0x80 && (std::isalnum(c) || c == '_' || c == '-');
@@ -79,7 +79,7 @@ std::string key_text(std::string_view name) {
   return plain ? text : fmt::format("\"{}\"", text);
 }
 
-/// With the fewest digits, and a point that tells it from a whole number.
+/// With the fewest digits, and a decimal point to distinguish it from a whole number.
 std::string float_text(double value) {
   const std::string text = number_text(value);
   return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
@@ -136,11 +136,11 @@ Complaint wrong_type(std::string_view wanted, std::string_view remedy) {
 }
 
 Complaint unknown_unit(const ValueWithUnit& given, const std::vector<std::string_view>& fitting) {
-  return {Kind::wrong_type, fmt::format("{} is no unit of it", printable(given.unit)),
+  return {Kind::wrong_type, fmt::format("{} is not a unit for it", printable(given.unit)),
           fmt::format("units that fit: {}", fmt::join(fitting, ", "))};
 }
 
-// One function a field type: the value is stored, or the complaint returned.
+// One function per field type: stores the value or returns the complaint.
 
 std::optional<Complaint> read_number(const toml::node& node, std::string_view unit, const Range& range,
                                      double& out) {
@@ -305,7 +305,7 @@ void read_value(Reading& reading, const std::string& path, const toml::node& nod
   if (auto complaint = std::visit(read, key.field)) complain(reading, path, std::move(*complaint));
 }
 
-/// Complains of a key that is given though an earlier one of the same alternatives is given too.
+/// Reports a key that is given in addition to an earlier one of the same alternatives.
 template <class Struct>
 void check_alternatives(Reading& reading, const std::string& parent, const std::vector<Key<Struct>>& keys) {
   for (const auto& key : keys) {
@@ -410,14 +410,14 @@ void read_section(Reading& reading, const toml::table& root, const SectionArray<
   }
 }
 
-/// Complains of what stands in a table that only holds arrays of tables.
+/// Reports keys in a table that may contain only arrays of tables.
 template <class Struct>
 void read_parent(Reading& reading, const toml::table& root, std::string_view name, Struct& out) {
   if (const toml::table* table = find_table(reading, root, name))
     read_table(reading, std::string(name), *table, std::vector<Key<Struct>>{}, out);
 }
 
-/// Values in quotes of what a section's `quantity` names, whose units depend on other keys.
+/// Quoted values of a section's `quantity`, whose units depend on other keys.
 template <class Struct>
 void read_quantities(Reading& reading, const toml::table& root, const SectionArray<Struct>& section,
                      Case& c) {
@@ -449,7 +449,7 @@ void read_quantities(Reading& reading, const toml::table& root, const SectionArr
     }
 }
 
-/// Numbers the shapes, which hold their places in the list so far, in the order of the file.
+/// Numbers the shapes, which so far contain their index in the list, in the order of the file.
 void put_shapes_in_order(const std::vector<std::pair<int, int>>& places, Case& c) {
   std::vector<std::pair<int, int>> sorted = places;
   std::sort(sorted.begin(), sorted.end());
@@ -471,13 +471,13 @@ Case read_root(Reading& reading, const toml::table& root) {
   return result;
 }
 
-/// Whether the key, or one in the table of that name, has a problem of its own.
+/// Whether the key, or one in the table of that name, has its own problem.
 bool is_faulty(const Reading& reading, const std::string& key) {
   const auto inside = reading.faulty.lower_bound(key + ".");
   return reading.faulty.contains(key) || (inside != reading.faulty.end() && inside->starts_with(key + "."));
 }
 
-/// Conflicts that involve a key with a problem of its own are left out: they may vanish with it.
+/// Conflicts that involve a key with its own problem are omitted: they may vanish with it.
 void check_conflicts(Reading& reading, const Case& c) {
   for (const Conflict& conflict : conflicts(c)) {
     const auto& keys = conflict.keys;
@@ -506,8 +506,8 @@ void check_conflicts(Reading& reading, const Case& c) {
 /// The table of a key: "shape.file[1]" of "shape.file[1].unit".
 std::string table_of(const std::string& key) { return key.substr(0, key.rfind('.')); }
 
-/// Loads the drawings of shapes without problems, and the saved shape. Returns the problems that stand in the
-/// drawings; those of the case's own lines are added to the reading's.
+/// Loads the drawings of shapes without problems, and the saved shape. Returns the problems inside the
+/// drawings; those on lines of the case are added to the reading's.
 std::vector<Diagnostic> load_drawings(Reading& reading, Case& c) {
   const auto may_be_read = [&](const std::string& key) { return !is_faulty(reading, key); };
   std::vector<Diagnostic> in_drawings;
@@ -553,8 +553,7 @@ Diagnostic diagnostic(const SyntaxError& error, const std::string& file) {
                     : error.remedy};
 }
 
-/// Leaves out what reading complains of on a line that is no TOML, and keys that are missing since such a
-/// line may hold them.
+/// Omits problems on lines that are not TOML, and missing keys, which such lines may contain.
 std::vector<Diagnostic> merged(const std::vector<Diagnostic>& syntax,
                                const std::vector<Diagnostic>& reading) {
   std::vector<Diagnostic> result = syntax;
@@ -567,7 +566,7 @@ std::vector<Diagnostic> merged(const std::vector<Diagnostic>& syntax,
   return result;
 }
 
-/// runs/ and the name of the file; "...toml" has the name "..", which is no folder of its own.
+/// runs/ and the name of the file; "...toml" has the name "..", which is not a subfolder.
 std::string default_folder(const std::filesystem::path& file) {
   const std::string name = without_control_characters(file.stem().string());
   return "runs/" + (name == "." || name == ".." ? "case" : name);
@@ -631,7 +630,7 @@ CaseResult parse_case(std::string_view text, const std::filesystem::path& file) 
 }
 
 CaseResult read_case(const std::filesystem::path& file) {
-  std::string text(most_case_bytes + 1, '\0');  // one byte too many tells that there is more
+  std::string text(most_case_bytes + 1, '\0');  // one extra byte detects longer files
   std::ifstream in(file, std::ios::binary);
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (in.bad() || (in.fail() && !in.eof()) || is_folder(file))

@@ -12,18 +12,17 @@
 
 namespace wheelwright {
 
-/// A case, or all problems of its file, in the order of the file, and then those of the drawings that it
-/// names.
+/// A case, or all problems of its file in the order of the file, followed by those of its drawings.
 struct CaseResult {
   std::optional<Case> value;  ///< present if and only if there are no problems
   std::vector<Diagnostic> problems;
-  GivenCells given_cells = {};  ///< the other sizes of the grid follow from the rest of the case
+  GivenCells given_cells = {};  ///< the other grid sizes follow from the rest of the case
 };
 
 /// Reads and checks a case file.
 CaseResult read_case(const std::filesystem::path& file);
 
-/// The same for a text; `file` names it in messages and determines the default of output.folder and the
+/// The same for a text; `file` is its name in messages and determines the default of output.folder and the
 /// folder of the drawings.
 CaseResult parse_case(std::string_view text, const std::filesystem::path& file);
 

@@ -15,13 +15,13 @@ namespace wheelwright {
 
 namespace {
 
-/// One overload per kind of field; whether the field takes the number.
+/// One overload per kind of field; returns whether the field accepts the number.
 template <class Struct, class Field>
 std::optional<std::string> set_field(Struct& out, const Key<Struct>& key, const Field& field, double value) {
   if constexpr (
       !requires { field.range; } || requires { out.*field.member = std::array<double, 2>{}; } ||
       requires { (out.*field.member).push_back({}); }) {
-    return fmt::format("{} is no number", key.name);
+    return fmt::format("{} is not a number", key.name);
   } else {
     if (!field.range.contains(value))
       return fmt::format("{} = {} is out of range: {}{}{}", key.name, number_text(value), field.range.text(),
@@ -55,7 +55,7 @@ std::vector<std::string_view> fitting_units(const Struct& table, const Key<Struc
   return units_like(key.unit);
 }
 
-/// Takes back the optional keys that another one is given instead of.
+/// Resets the optional keys that another one replaces.
 template <class Struct>
 void reset_alternatives(Struct& out, const std::vector<Key<Struct>>& keys, const Key<Struct>& given) {
   for (const Key<Struct>& key : keys) {
@@ -74,7 +74,7 @@ std::optional<std::optional<std::string>> set_in_table(Struct& out, const std::v
   if (!key) return {};
   const auto in_unit = in_unit_of_key(out, *key, given, wheel);
   if (!in_unit)
-    return fmt::format("{} is no unit of {}; units that fit: {}", given.unit, name,
+    return fmt::format("{} is not a unit of {}; units that fit: {}", given.unit, name,
                        fmt::join(fitting_units(out, *key), ", "));
   const double value = *in_unit;
   auto problem =
@@ -83,7 +83,7 @@ std::optional<std::optional<std::string>> set_in_table(Struct& out, const std::v
   return problem;
 }
 
-/// All paths that hold numbers, for suggestions.
+/// All paths of numbers, for suggestions.
 std::vector<std::string> known_paths(Case& c) {
   std::vector<std::string> paths;
   for_each_section([&](const auto& section) {
@@ -120,7 +120,7 @@ std::optional<std::string> set_number(Case& c, const std::string& path, double v
   if (outcome) return *outcome;
   const auto paths = known_paths(c);
   const auto near = did_you_mean(path, std::vector<std::string_view>(paths.begin(), paths.end()));
-  return fmt::format("{} is no key of this case{}", path,
+  return fmt::format("{} is not a key of this case{}", path,
                      near ? fmt::format("; did you mean {}?", *near) : "");
 }
 

@@ -20,7 +20,7 @@ using Conflicts = std::vector<Conflict>;
 
 std::string point_text(const Point& p) { return fmt::format("[{:.6g}, {:.6g}] m", p[0], p[1]); }
 
-/// ", of line 12, <path>" if the drawing says where.
+/// ", of line 12, <path>" if the place in the drawing is known.
 std::string place_text(const std::string& place) { return place.empty() ? "" : fmt::format(" ({})", place); }
 
 std::string shape_key(std::string_view section, std::size_t i, std::string_view name) {
@@ -44,12 +44,12 @@ void check_annuli(const Case& c, Conflicts& found) {
     if (low >= high || inner < outer) continue;
     found.push_back(
         {with_ring_shape({shape_key("annulus", i, "inner_radius"), shape_key("annulus", i, "outer_radius")}),
-         fmt::format("the annulus begins at {:.6g} m and ends at {:.6g} m", inner, outer),
-         "give inner_radius < outer_radius"});
+         fmt::format("the annulus starts at {:.6g} m and ends at {:.6g} m", inner, outer),
+         "set inner_radius < outer_radius"});
   }
 }
 
-/// Keys that say something which the kind of a spoke does not have.
+/// Keys that do not apply to the kind of a spoke.
 void check_kind_of_spoke(const SpokeShape& s, std::size_t i, Conflicts& found) {
   const auto key = [&](std::string_view name) { return shape_key("spoke", i, name); };
   const auto refuse = [&](bool is_wrong, std::string_view name, std::string problem, std::string remedy) {
@@ -57,17 +57,15 @@ void check_kind_of_spoke(const SpokeShape& s, std::size_t i, Conflicts& found) {
   };
   const bool curved = s.kind == SpokeKind::curved, forked = s.kind == SpokeKind::forked,
              pair = s.kind == SpokeKind::pair;
-  refuse(curved && s.bend == 0, "bend", "a curved spoke without bend is straight", "give its bend, e.g. 60");
-  refuse(!curved && s.bend != 0, "bend", "only curved spokes bend",
-         "take kind = \"curved\", or leave the key out");
-  refuse(forked && s.spread == 0, "spread", "the branches of the fork lie on each other",
-         "give a spread > 0");
+  refuse(curved && s.bend == 0, "bend", "a curved spoke without bend is straight", "set its bend, e.g. 60");
+  refuse(!curved && s.bend != 0, "bend", "only curved spokes bend", "use kind = \"curved\", or omit the key");
+  refuse(forked && s.spread == 0, "spread", "the branches of the fork coincide", "set a spread > 0");
   refuse(!forked && !pair && s.spread != 0, "spread", "only forked spokes and pairs have a spread",
-         "take another kind, or leave the key out");
+         "use another kind, or omit the key");
   refuse(!forked && s.fork_radius, "fork_radius", "only forked spokes divide",
-         "take kind = \"forked\", or leave the key out");
-  refuse(pair && s.spread == 0 && s.angle == 0, "angle", "the two spokes of the pair lie on each other",
-         "give an angle or a spread");
+         "use kind = \"forked\", or omit the key");
+  refuse(pair && s.spread == 0 && s.angle == 0, "angle", "the two spokes of the pair coincide",
+         "set an angle or a spread");
 }
 
 void check_spoke(const Case& c, std::size_t i, Conflicts& found) {
@@ -80,27 +78,27 @@ void check_spoke(const Case& c, std::size_t i, Conflicts& found) {
                                       "wheel.outer_radius"};
   if (c.wheel.inner_radius >= c.wheel.outer_radius) return;
   if (inner >= outer) {
-    found.push_back({ends, fmt::format("the spoke begins at {:.6g} m and ends at {:.6g} m", inner, outer),
-                     "give inner_radius < outer_radius"});
+    found.push_back({ends, fmt::format("the spoke starts at {:.6g} m and ends at {:.6g} m", inner, outer),
+                     "set inner_radius < outer_radius"});
     return;
   }
   if (s.thickness >= outer - inner)
     found.push_back({{key("thickness"), ends[0], ends[1], ends[2], ends[3]},
                      fmt::format("thicker than the spoke is long, {:.6g} m", outer - inner),
-                     "take thinner spokes"});
+                     "use thinner spokes"});
   if (s.fork_radius && (*s.fork_radius <= inner || *s.fork_radius >= outer))
     found.push_back({{key("fork_radius"), ends[0], ends[1], ends[2], ends[3]},
                      fmt::format("not between the ends of the spoke, at {:.6g} m and {:.6g} m", inner, outer),
-                     "take a radius between them"});
+                     "use a radius between them"});
   const double chord = std::sqrt(inner * inner + outer * outer - 2 * inner * outer * std::cos(s.angle));
   const double radius = s.bend == 0 ? HUGE_VAL : 0.5 * chord / std::abs(std::sin(0.5 * s.bend));
   if (s.kind == SpokeKind::curved && (std::abs(s.bend) > std::numbers::pi || radius <= s.thickness))
     found.push_back({{key("bend"), key("thickness"), key("angle")},
-                     "bent so much that the spoke meets itself",
-                     "take a bend between -180 and 180, or thinner spokes"});
+                     "bent so much that the spoke intersects itself",
+                     "use a bend between -180 and 180, or thinner spokes"});
 }
 
-/// Where an outline reaches farthest in and out.
+/// The innermost and outermost points of an outline.
 RadialExtent radial_extent(const DrawnShape& shape, std::string& lowest_place, std::string& highest_place) {
   RadialExtent all{HUGE_VAL, 0, {}, {}};
   for (const Outline& outline : shape.first)
@@ -114,7 +112,7 @@ RadialExtent radial_extent(const DrawnShape& shape, std::string& lowest_place, s
   return all;
 }
 
-/// What a drawing would reach in other units, if it is far too large or too small for the wheel.
+/// The size of a drawing in other units, if it is far too large or too small for the wheel.
 std::string unit_hint(const DrawnShape& shape, const Case& c, double reach) {
   constexpr double far_off = 8;
   const double ratio = reach / c.wheel.outer_radius;
@@ -124,17 +122,17 @@ std::string unit_hint(const DrawnShape& shape, const Case& c, double reach) {
   if (!drawing) return "";
   const double units = reach / drawing->metres_per_unit;
   return fmt::format(
-      "is its unit right? The drawing reaches {:.6g} of its units from the axle: {:.4g} m if they are "
+      "is its unit correct? The drawing extends to {:.6g} of its units from the axle: {:.4g} m if they are "
       "millimetres, {:.4g} m if they are inches, {:.4g} m if they are metres",
       units, units * 1e-3, units * 0.0254, units);
 }
 
-/// Advice for a drawing of holes that reaches the tread, which may show the material.
+/// Advice for a drawing of holes that extends to the tread, and may show the material.
 std::string whole_wheel_hint(const DrawnShape& shape, const Case& c, double reach) {
   constexpr double near = 0.01;
   const bool shows_tread = std::abs(reach - c.wheel.outer_radius) < near * c.wheel.outer_radius;
   if (!shape.key.starts_with("shape.file") || shape.fill != Fill::hole || !shows_tread) return "";
-  return "if it shows the whole wheel with its tread, put [[shape.annulus]] before it and give as = "
+  return "if it shows the whole wheel with its tread, put [[shape.annulus]] before it and set as = "
          "\"material\"";
 }
 
@@ -180,9 +178,9 @@ void check_pictures(const Case& c, Conflicts& found) {
     const bool is_wheel = picture.layout == PictureLayout::wheel;
     if (is_wheel == picture.width.has_value()) continue;
     found.push_back({{shape_key("picture", i, "width"), fmt::format("shape.picture[{}]", i + 1)},
-                     is_wheel ? "missing: a picture does not say how wide the wheel is"
-                              : "the picture of a sector has no width: it is as wide as the sector",
-                     is_wheel ? "give the width of the whole picture in metres" : "leave the key out"});
+                     is_wheel ? "missing: a picture has no scale"
+                              : "the picture of a sector needs no width: it is as wide as the sector",
+                     is_wheel ? "set the width of the whole picture in metres" : "omit the key"});
   }
 }
 
@@ -219,19 +217,19 @@ void check_number_of_curves(const std::vector<DrawnShape>& shapes, Conflicts& fo
     total += curve_count(shape);
     if (total <= most_curves) continue;
     found.push_back({{shape.key},
-                     fmt::format("the shapes up to this one have {} curves round the wheel", total),
-                     fmt::format("at most {} are accepted: simplify the drawing", most_curves)});
+                     fmt::format("the shapes up to this one have {} curves around the wheel", total),
+                     fmt::format("at most {} are accepted; simplify the drawing", most_curves)});
     return;
   }
 }
 
-/// Finds shapes that draw nothing but material where no hole is: the wheel would begin as a full ring.
+/// Finds shapes that draw only material where there are no holes: the wheel would start as a full ring.
 void check_material_on_the_ring(const Case& c, const std::vector<DrawnShape>& shapes, Conflicts& found) {
   const auto is_hole = [](const DrawnShape& shape) { return shape.fill == Fill::hole; };
   if (shapes.empty() || c.holes != Holes{} || std::ranges::any_of(shapes, is_hole)) return;
   found.push_back({{shapes.front().key},
-                   "it draws material where all is material: nothing is cut out of the ring",
-                   "put [[shape.annulus]] before it, or give as = \"hole\""});
+                   "it draws material on a full ring, so nothing is cut out of it",
+                   "put [[shape.annulus]] before it, or set as = \"hole\""});
 }
 
 }  // namespace

@@ -10,11 +10,11 @@ namespace wheelwright {
 /// drawings that are not the same in all sectors.
 std::vector<Conflict> shape_conflicts(const Case& c, const std::vector<DrawnShape>& shapes);
 
-/// The addition to a remedy where a length is so much larger than another one of the wheel that it may be in
-/// millimetres; empty elsewhere.
+/// The addition to a remedy if a length is so much larger than another one of the wheel that it may be in
+/// millimetres; otherwise empty.
 std::string if_in_millimetres(double length, double other);
 
-/// The keys that decide where holes may be, after `keys`.
+/// `keys`, followed by the keys that determine where holes may be.
 std::vector<std::string> with_ring_shape(std::vector<std::string> keys);
 
 }  // namespace wheelwright

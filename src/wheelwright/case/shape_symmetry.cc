@@ -11,7 +11,7 @@ namespace wheelwright {
 
 namespace {
 
-/// Drawings that repeat more often are not told from round ones.
+/// Drawings that repeat more often are considered round.
 constexpr int most_sectors = 360;
 
 bool is_drawing(const DrawnShape& shape) { return shape.repetition == Repetition::by_curves; }
@@ -37,7 +37,7 @@ Composition outlines_of(const Case& c, const DrawnShape& shape) {
   // Material on material has no edges.
   std::vector<Figure> figures{{Fill::hole, figure_of(shape).outlines}};
   if (shape.may_leave_ring) {
-    // The circles stay clear of edges along rim and tread.
+    // The circles keep clear of edges along rim and tread.
     constexpr double beside = 1e-3, beyond = 10;
     const double inner = (1 - beside) * c.wheel.inner_radius, outer = (1 + beside) * c.wheel.outer_radius;
     figures.push_back({Fill::material, {circle_outline({}, inner), annulus_outline(outer, beyond * outer)}});
@@ -99,7 +99,7 @@ std::vector<DrawingRepetition> drawing_repetitions(const Case& c) {
     const int n = most_sectors_of(c, shape);
     std::string text = n == 0   ? std::string("round")
                        : n == 1 ? std::string("does not repeat: one sector is the whole ring")
-                                : fmt::format("repeats {} times round the wheel", n);
+                                : fmt::format("repeats {} times around the wheel", n);
     if (const auto near = n == 0 ? std::nullopt : nearly_fitting(c, shape))
       text += fmt::format("; wheel.sectors = {} would be right within {:.3g} mm", near->sectors,
                           near->distance * 1e3);
@@ -114,10 +114,10 @@ std::vector<std::string> asymmetry_warnings(const Case& c) {
     if (!is_drawing(shape) || shape.count % c.wheel.sectors == 0) continue;
     const Asymmetry found = asymmetry(outlines_of(c, shape), c.wheel.sectors, accepted_asymmetry(c, shape));
     if (found.distance > shape.accuracy)
-      result.push_back(fmt::format(
-          "{} is not quite the same in {} sectors: edges differ by up to {:.3g} mm, at [{:.6g}, {:.6g}] m; "
-          "the sector from azimuth 0 is taken for all",
-          shape.key, c.wheel.sectors, found.distance * 1e3, found.at[0], found.at[1]));
+      result.push_back(
+          fmt::format("{} is not quite the same in {} sectors: edges differ by up to {:.3g} mm, at [{:.6g}, "
+                      "{:.6g}] m; the sector from azimuth 0 is used for all",
+                      shape.key, c.wheel.sectors, found.distance * 1e3, found.at[0], found.at[1]));
   }
   return result;
 }

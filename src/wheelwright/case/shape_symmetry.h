@@ -9,33 +9,32 @@
 
 namespace wheelwright {
 
-// How often the shapes of a case repeat round the wheel, and so in how many equal sectors.
+// How often the shapes of a case repeat around the wheel, and thus the number of equal sectors.
 
 std::vector<int> divisors(int n);
 
-/// What a shape draws in the ring with its repetitions, whether as material or as holes, with edges wherever
-/// it ends.
+/// A shape with its repetitions in the ring, as material or as holes, with all of its edges.
 Composition outlines_of(const Case& c, const DrawnShape& shape);
 
-/// The most equal sectors of what a drawing or picture draws, within its accuracy; 0 if it is round.
+/// The largest number of equal sectors of a drawing or picture, within its accuracy; 0 if it is round.
 int most_sectors_of(const Case& c, const DrawnShape& shape);
 
-/// The greatest common divisor of the counts of rings and of shapes that their count alone repeats; 0 without
-/// any.
+/// The greatest common divisor of the counts of rings and of shapes repeated only by their count; 0 if there
+/// are none.
 int common_count(const Case& c, const std::vector<DrawnShape>& shapes);
 
 /// The numbers of equal sectors of all holes and shapes together, drawings included; empty if any number
 /// fits.
 std::vector<int> fitting_sectors(const Case& c, const std::vector<DrawnShape>& shapes);
 
-/// The most equal sectors of a case that draws files or pictures; nothing if it has none, or if they are
-/// round and so is everything else.
+/// The largest number of equal sectors of a case with drawings or pictures; nothing if it has none, or if
+/// everything is round.
 std::optional<int> sectors_by_drawings(const Case& c);
 
-/// By how much a drawing may differ between the sectors of a case, which takes that of its first one [m].
+/// The accepted difference of a drawing between the sectors of a case, which uses that of the first one [m].
 double accepted_asymmetry(const Case& c, const DrawnShape& shape);
 
-/// A number of sectors between which a drawing differs by more than its accuracy, though not so much as to be
+/// A number of sectors between which a drawing differs by more than its accuracy, but not enough to be
 /// refused.
 struct NearlyFitting {
   int sectors;
@@ -45,13 +44,14 @@ struct NearlyFitting {
 /// The largest such number up to 60, if it is larger than those that fit.
 std::optional<NearlyFitting> nearly_fitting(const Case& c, const DrawnShape& shape);
 
-/// How often each drawing of a case repeats: its key and words for the number.
+/// How often each drawing of a case repeats: its key, and the number in words.
 struct DrawingRepetition {
   std::string key, text;
 };
 std::vector<DrawingRepetition> drawing_repetitions(const Case& c);
 
-/// Drawings that differ between the sectors by more than their accuracy, though not so much as to be refused.
+/// Warnings about drawings that differ between the sectors by more than their accuracy, but not enough to be
+/// refused.
 std::vector<std::string> asymmetry_warnings(const Case& c);
 
 }  // namespace wheelwright

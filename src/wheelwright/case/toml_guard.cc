@@ -12,7 +12,7 @@ namespace {
 
 constexpr int max_dots_in_key = 16;
 
-/// Position just after the string that begins at `begin`; an unterminated one ends with its line, or the
+/// Position just after the string that starts at `begin`; an unterminated one ends with its line, or the
 /// text.
 std::size_t end_of_string(std::string_view text, std::size_t begin) {
   const char quote = text[begin];
@@ -39,7 +39,7 @@ std::size_t end_of_line(std::string_view text, std::size_t begin) {
   return std::min(text.find('\n', begin), text.size());
 }
 
-/// The place behind some text that begins at `place`. Columns count characters.
+/// The place after some text that starts at `place`. Columns count characters.
 TextPlace behind(TextPlace place, std::string_view text) {
   for (const char c : text) {
     const bool begins_character = (static_cast<unsigned char>(c) & 0xc0) != 0x80;

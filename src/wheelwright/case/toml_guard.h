@@ -23,11 +23,11 @@ struct TextPlace {
   int line, column;  ///< from 1
 };
 
-/// Where the string begins that is open at this place of a text and has no end there: on its line, or,
+/// The start of the string that is open at this place of a text and is not terminated: on its line or,
 /// between triple quotes, in the text.
 std::optional<TextPlace> unclosed_string(std::string_view text, int line, int column);
 
-/// What a file is that is no UTF-8 but another Unicode encoding, e.g. "UTF-16".
+/// The encoding of a file that is not UTF-8 but another Unicode encoding, e.g. "UTF-16".
 std::optional<std::string> other_encoding(std::string_view text);
 
 }  // namespace wheelwright

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t most_wrong_lines = 20;
 
-/// Parses into `root`, or leaves it and returns the first error.
+/// Parses into `root`, or leaves it unchanged and returns the first error.
 std::optional<SyntaxError> parse(std::string_view text, toml::table& root) {
   try {
     root = toml::parse(text);
@@ -47,8 +47,8 @@ bool may_continue_on_next_line(std::string_view line) {
          line.find("\"\"\"") != std::string_view::npos || line.find("'''") != std::string_view::npos;
 }
 
-/// Takes the line of an error out of the text; false if the error may belong to other lines too. A table
-/// keeps a header, so that its keys do not fall to the table before it.
+/// Removes the line of an error from the text; false if the error may belong to other lines too. A table
+/// keeps a header, so that its keys do not end up in the table before it.
 bool take_out(std::string& text, int line) {
   const LineSpan span = find_line(text, line);
   const std::string_view wrong = std::string_view(text).substr(span.begin, span.length);
@@ -61,7 +61,7 @@ bool take_out(std::string& text, int line) {
   return true;
 }
 
-/// Replaces what is no UTF-8; returns where it stood, once a line.
+/// Replaces invalid UTF-8; returns its places, one per line.
 std::vector<SyntaxError> replace_wrong_bytes(std::string& text) {
   std::vector<SyntaxError> errors;
   int line = 1, column = 1;
@@ -80,12 +80,12 @@ std::vector<SyntaxError> replace_wrong_bytes(std::string& text) {
   return errors;
 }
 
-/// The parser complains of the end of a line, or of the whole text, where a quote is missing: the string's
-/// beginning is told instead.
+/// If a quote is missing, the parser reports the end of the line, or of the whole text: replaces that by the
+/// start of the string.
 void blame_unclosed_string(std::string_view text, SyntaxError& error) {
   const auto begin = unclosed_string(text, error.line, error.column);
   if (begin)
-    error = {begin->line, begin->column, "the string that begins here has no end",
+    error = {begin->line, begin->column, "the string that starts here is not terminated",
              "close it with the same quotes"};
 }
 

@@ -16,12 +16,12 @@ struct SyntaxError {
 
 /// The parts of a text that are valid TOML, and the errors in the rest.
 struct TomlLines {
-  toml::table root;  ///< all but the wrong lines; empty if the last error hides the rest of the text
+  toml::table root;  ///< without the faulty lines; empty if the last error hides the rest of the text
   std::vector<SyntaxError> errors;  ///< in the order of the file, at most one per line
 };
 
-/// Parses a text. A line with an error of its own, such as a unit after a number or a second value of a key,
-/// is skipped and the rest is parsed, so that several mistakes are found at once.
+/// Parses a text. A line with its own error, such as a unit after a number or a duplicate key, is skipped and
+/// the rest is parsed, so that several mistakes are found at once.
 TomlLines parse_toml_lines(std::string_view text);
 
 }  // namespace wheelwright

@@ -2,7 +2,7 @@
 
 namespace wheelwright {
 
-/// So many iterations are no end of their own: the maximum of optimizer.iterations.
+/// Practically unlimited: the maximum of optimizer.iterations.
 inline constexpr int unlimited_iterations = 1'000'000;
 
 }  // namespace wheelwright

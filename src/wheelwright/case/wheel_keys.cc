@@ -23,8 +23,7 @@ const Section<Wheel>& wheel_section() {
           {.name = "dimension",
            .unit = "",
            .field = IntegerField<Wheel>{&Wheel::dimension, between(2, 3)},
-           .meaning = "2: the plane of the wheel, the same over its whole width; 3: the wheel with its "
-                      "width"},
+           .meaning = "2: the plane of the wheel, constant over its width; 3: the wheel with its width"},
           {.name = "inner_radius",
            .unit = "m",
            .field = NumberField<Wheel>{&Wheel::inner_radius, length},
@@ -46,9 +45,9 @@ const Section<Wheel>& wheel_section() {
           {.name = "side_faces",
            .unit = "",
            .field = choice<&Wheel::side_faces>({"free", "symmetric"}),
-           .meaning = "in 3D; free: nothing acts on the side faces; symmetric: they do not move along "
-                      "the axle, as in a slice of a much wider wheel, which is plane strain where the "
-                      "shape does not change along the axle"}}};
+           .meaning = "in 3D; free: no forces act on the side faces; symmetric: they do not move along the "
+                      "axle, as in a slice of a much wider wheel, which is plane strain if the shape is "
+                      "constant along the axle"}}};
   return section;
 }
 
@@ -57,26 +56,25 @@ const Section<Material>& material_section() {
       .name = "material",
       .meaning = "linear isotropic elasticity",
       .in = [](Case& c) -> Material& { return c.material; },
-      .keys = {
-          {.name = "youngs_modulus",
-           .unit = "Pa",
-           .field = NumberField<Material>{&Material::youngs_modulus, above(0, 1e13)},
-           .meaning = "E: Young's modulus"},
-          {.name = "poissons_ratio",
-           .unit = "",
-           .field = NumberField<Material>{&Material::poissons_ratio, at_least_and_below(0, 0.5)},
-           .meaning = "nu: Poisson's ratio; at most 0.49999 and, above 0.485, with grid.degree = 2, "
-                      "if plane = \"strain\""},
-          {.name = "plane",
-           .unit = "",
-           .field = choice<&Material::plane>({"strain", "stress"}),
-           .meaning = "strain: no strain along the axle, for wide wheels; stress: no stress along the "
-                      "axle, for wheels cut from sheet"},
-          {.name = "density",
-           .unit = "kg/m^3",
-           .field = OptionalNumberField<Material>{&Material::density, above(0, 1e5), "no mass is shown"},
-           .meaning = "for the mass of the wheel, and where a case minimizes or bounds it; load.body_force "
-                      "has its weight"}}};
+      .keys = {{.name = "youngs_modulus",
+                .unit = "Pa",
+                .field = NumberField<Material>{&Material::youngs_modulus, above(0, 1e13)},
+                .meaning = "E: Young's modulus"},
+               {.name = "poissons_ratio",
+                .unit = "",
+                .field = NumberField<Material>{&Material::poissons_ratio, at_least_and_below(0, 0.5)},
+                .meaning = "nu: Poisson's ratio; at most 0.49999 and, above 0.485, with grid.degree = 2, "
+                           "if plane = \"strain\""},
+               {.name = "plane",
+                .unit = "",
+                .field = choice<&Material::plane>({"strain", "stress"}),
+                .meaning = "strain: no strain along the axle, for wide wheels; stress: no stress along the "
+                           "axle, for wheels cut from sheet"},
+               {.name = "density",
+                .unit = "kg/m^3",
+                .field = OptionalNumberField<Material>{&Material::density, above(0, 1e5), "no mass is shown"},
+                .meaning = "for the mass of the wheel, also if it is minimized or bounded, and for "
+                           "load.speed; the weight is set by load.body_force"}}};
   return section;
 }
 

@@ -24,7 +24,7 @@ WidestGap widest_gap(const Case& c) {
       const Point x{radius * std::cos(azimuth), radius * std::sin(azimuth)};
       if (shapes.is_hole(x)) largest = std::max(largest, 2 * shapes.distance(x, ring));
     }
-  // The centre of the largest circle is half a step from a point at most.
+  // The centre of the largest circle is at most half a step from a point.
   return {.diameter = largest, .at_most = largest + std::hypot(step, across)};
 }
 

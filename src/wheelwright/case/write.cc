@@ -44,7 +44,7 @@ std::string quotient_text(double value, double factor) {
   return best;
 }
 
-// One function per field type: the value as TOML, empty if the field holds none.
+// One function per field type: the value as TOML, empty if the field has none.
 
 template <class Struct>
 std::string value_text(const NumberField<Struct>& field, const Struct& s) {
@@ -135,13 +135,13 @@ std::string default_text(const Key<Struct>& key) {
       key.field);
 }
 
-/// Whether an absent key has a number that is fitted to other keys.
+/// Whether the default of an absent key is fitted to other keys.
 template <class Struct>
 bool is_fitted(const Key<Struct>& key) {
   return std::holds_alternative<IntegerField<Struct>>(key.field) && !default_text(key).empty();
 }
 
-/// Whether the resolved case leaves the key out because a later one of its alternatives has a value.
+/// Whether the resolved case omits the key because a later one of its alternatives has a value.
 template <class Struct>
 bool is_superseded(const std::vector<Key<Struct>>& keys, const Key<Struct>& key, const Struct& s) {
   return std::any_of(keys.begin(), keys.end(), [&](const auto& other) {
@@ -208,7 +208,7 @@ std::string resolved_text(const SectionArray<Struct>& section, const Case& c) {
   return result;
 }
 
-/// Whether the tables of a section count in the order in which they are written, among those of others.
+/// Whether the tables of a section are ordered as written, together with those of other sections.
 template <class SomeSection>
 constexpr bool has_order = false;
 template <class Struct>
@@ -314,7 +314,7 @@ std::string case_template() {
   c.holes.rings = {ring_sections().example};
   std::string result =
       "# A case for wheelwright. `wheelwright check FILE` checks it, `wheelwright run FILE` runs it.\n"
-      "# A key that is left out has the value shown here; holes and shapes have no defaults.\n\n";
+      "# Omitted keys have the values shown here; holes and shapes have no defaults.\n\n";
   for_each_section([&](const auto& section) { result += template_text(section, c); });
   return result;
 }
@@ -325,9 +325,9 @@ std::string case_reference_markdown() {
       "<!-- Written by `wheelwright reference` from the declarations in src/wheelwright/case/*_keys.cc: "
       "do not edit. -->\n\n"
       "A case is a [TOML](https://toml.io) file. `wheelwright init` writes one with comments. `wheelwright "
-      "check` reports\nevery problem of a case file with its line, and prints the numbers derived from it. A "
-      "key that is left out has its\ndefault value. Equation numbers are those of the paper that the method "
-      "comes from.\n\n";
+      "check` reports\nevery problem of a case file with its line, and prints the values derived from it. An "
+      "omitted "
+      "key has its\ndefault value. Equation numbers refer to the paper.\n\n";
   for_each_section([&](const auto& section) { result += reference_text(section); });
   return result;
 }

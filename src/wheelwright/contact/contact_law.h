@@ -59,7 +59,7 @@ ContactResponse<dim> contact_response(const Vec<dim>& z, double friction) {
 }
 
 /// Contact with given friction (Tresca's law): the tangential traction is z_t projected onto the ball of
-/// radius `threshold`, in contact or not. The problem is then monotone: it has one solution.
+/// radius `threshold`, in contact or not. The problem is then monotone, with a unique solution.
 template <int dim>
 ContactResponse<dim> given_friction_response(const Vec<dim>& z, double threshold) {
   ContactResponse<dim> r{};

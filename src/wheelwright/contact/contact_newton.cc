@@ -14,7 +14,7 @@ namespace {
 constexpr double tolerance = 1e-12, balance_tolerance = 1e-11;
 constexpr int max_iterations = 400;
 
-/// Full steps that are taken although they do not lower the number of points that change.
+/// Number of full steps accepted although they do not reduce the number of changing points.
 constexpr int patience = 8;
 
 template <int dim>
@@ -100,7 +100,7 @@ std::vector<int> changed_points(const ReducedContact<dim>& contact, const Contac
   return changed;
 }
 
-/// What resists a slow motion of the rim along the ground where all that touches slides: the sum of the
+/// The resistance to a slow motion of the rim along the ground if all contact points slide: the sum of the
 /// normal forces times 1 - s s^T, with s the direction of a point's friction, by their sum.
 template <int dim>
 Mat<dim> resistance_of_sliding(const ReducedContact<dim>& contact, const ContactUnknowns<dim>& x) {
@@ -119,7 +119,7 @@ Mat<dim> resistance_of_sliding(const ReducedContact<dim>& contact, const Contact
   return sum;
 }
 
-/// Whether friction must hold the rim, but no touching point sticks, and all slide along the same line: then
+/// Whether friction must hold the rim, but no contact point sticks, and all slide along the same line: then
 /// nothing resists a motion along it.
 template <int dim>
 bool slides(const ReducedContact<dim>& contact, const ContactUnknowns<dim>& x) {
@@ -151,9 +151,9 @@ double lack_of_friction(const ReducedContact<dim>& contact, int point, const Vec
   return tangential_norm<dim>(z) - tangential_norm<dim>(contact.response(point, z).traction);
 }
 
-/// Where every touching point of x slides, the tangent is singular: makes the one stick that lacks least. A
-/// point that stuck in the iterate before and is torn off keeps sliding if another can take over, one that
-/// slides against it.
+/// If every contact point of x slides, the tangent is singular: makes the point closest to sticking stick. A
+/// point that stuck in the previous iterate and was torn off keeps sliding if another one that slides against
+/// it can replace it.
 template <int dim>
 void stick_one(const ReducedContact<dim>& contact, const ContactUnknowns<dim>& before,
                ContactUnknowns<dim>& x) {
@@ -180,8 +180,7 @@ void stick_one(const ReducedContact<dim>& contact, const ContactUnknowns<dim>& b
   if (chosen >= 0) stick<dim>(x.augmented[chosen]);
 }
 
-/// Makes the points stick whose sliding direction a step reversed: between the two directions they come to
-/// rest.
+/// Makes points stick if a step reversed their sliding direction: in between they come to rest.
 template <int dim>
 void stick_turned(const ReducedContact<dim>& contact, const ContactUnknowns<dim>& before,
                   ContactUnknowns<dim>& x) {

@@ -14,7 +14,7 @@ struct NewtonEnd {
   bool converged = false;
 };
 
-/// What Newton's method does when full steps no longer lower the number of points that change.
+/// What Newton's method does if full steps no longer reduce the number of changing points.
 enum class Cycling { give_up, change_fewer };
 
 template <int dim>
@@ -25,8 +25,8 @@ bool touches(const ContactUnknowns<dim>& x);
 template <int dim>
 ContactUnknowns<dim> sticking_somewhere(const ReducedContact<dim>& contact, ContactUnknowns<dim> x);
 
-/// A semi-smooth Newton method. Its start touches the ground, or the rim is held. `interrupt` is polled and
-/// told of before every step, of which `steps_before` were taken by others.
+/// A semi-smooth Newton method. Its start touches the ground, or the rim is held. `interrupt` is polled
+/// before every step and receives the progress, including `steps_before` earlier steps.
 template <int dim>
 NewtonEnd<dim> newton(const ReducedContact<dim>& contact, ContactUnknowns<dim> start, Cycling when_cycling,
                       const Interrupt& interrupt, int steps_before = 0);

@@ -34,7 +34,7 @@ Piece piece_of(const Vec<2>& z, double friction) {
   return z[1] > 0 ? Piece::slide_forward : Piece::slide_backward;
 }
 
-/// The borders of a piece; of an open one, which ends where z_n = 0, `z` tells what lies beyond.
+/// The borders of a piece; for an open one, which ends where z_n = 0, `z` determines the piece beyond.
 std::vector<Border> borders(Piece piece, const Vec<2>& z, double friction) {
   switch (piece) {
     case Piece::open:
@@ -137,7 +137,7 @@ Crossing next_crossing(const std::vector<Piece>& pieces, double friction, const 
   return next;
 }
 
-/// Symmetric starts would lead many points to their borders at once: makes the start generic.
+/// Perturbs the start: from symmetric starts many points would reach their borders at once.
 void disturb(Unknowns& x) {
   constexpr double golden_ratio = 0.6180339887498949, relative = 1e-3;
   double fraction = 0;
@@ -168,8 +168,8 @@ class Path {
     return true;
   }
 
-  /// Goes on to the next piece. Returns false if the path leads to infinity, its direction is undefined, or
-  /// it no longer leaves the borders where many pieces meet: then rounding decides where it goes.
+  /// Continues to the next piece. Returns false if the path leads to infinity, its direction is undefined, or
+  /// it does not leave a place where many pieces meet, because rounding decides its direction.
   bool turn() {
     if (next_.point < 0) return false;
     if (tangent_.n_changes() >= most_changes) refresh();
@@ -266,7 +266,7 @@ class Path {
   std::vector<Piece> pieces_;
   ChangingTangent tangent_;
   Unknowns rate_;     ///< -dx/dt
-  double sense_ = 1;  ///< 1 where t grows along the path, -1 where it falls
+  double sense_ = 1;  ///< 1 if t increases along the path, -1 if it decreases
   Crossing next_;
 };
 

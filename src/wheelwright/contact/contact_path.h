@@ -5,7 +5,7 @@
 
 namespace wheelwright {
 
-/// This tells where a path of contact problems ended.
+/// The end of a path of contact problems.
 template <int dim>
 struct PathEnd {
   ContactUnknowns<dim> x;  ///< the solution, but for rounding errors; if the path does not arrive: its start

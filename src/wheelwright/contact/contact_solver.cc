@@ -12,8 +12,8 @@
 namespace wheelwright {
 namespace {
 
-/// Where Newton's method ended from the last start that was tried, with the steps of all, and the last
-/// iterates from those that led to no solution.
+/// The end of Newton's method from the last tried start, with the total number of steps, and the last
+/// iterates of all failed attempts.
 template <int dim>
 struct NewtonAttempts {
   NewtonEnd<dim> end;
@@ -66,8 +66,8 @@ NewtonEnd<dim> newton_by_given_friction(const ReducedContact<dim>& contact, Cont
   return end;
 }
 
-/// A path from x, without the rounding errors of its end. Where these hide the solution, Newton's method
-/// starts there.
+/// Follows a path from x, then removes the rounding errors at its end. If these hide the solution, Newton's
+/// method starts there.
 NewtonEnd<2> newton_by_path(const ReducedContact<2>& contact, const ContactUnknowns<2>& x,
                             const Interrupt& interrupt, int steps_before) {
   const PathEnd<2> path = follow_path(contact, sticking_somewhere(contact, x), interrupt, steps_before);
@@ -113,7 +113,7 @@ NewtonEnd<dim> newton_by_load_steps(const ReducedContact<dim>& contact, ContactU
   return end;
 }
 
-/// The unknowns of the contact whose rim is held along the ground, with the rim's motions along it: zero.
+/// The unknowns of the contact with the rim held along the ground, extended by zero motions along it.
 template <int dim>
 ContactUnknowns<dim> released(ContactUnknowns<dim> x, const RimControl& rim) {
   std::vector<double> all;
@@ -190,7 +190,7 @@ std::optional<double> pressing_force(const ReducedContact<dim>& contact) {
   return {};
 }
 
-/// What to say where no solution was found.
+/// The failure if no solution was found.
 template <int dim>
 ContactFailure failure_of(const ReducedContact<dim>& contact, const NewtonEnd<dim>& end,
                           const std::optional<FrictionLimit>& limit) {
@@ -198,10 +198,11 @@ ContactFailure failure_of(const ReducedContact<dim>& contact, const NewtonEnd<di
   if (!touches(end.x) || (limit && !(limit->normal_force > 0)))
     return {{FailureReason::no_contact, "the other loads lift the wheel off the ground"}, {}};
   if (limit && limit->needed >= at_the_limit * limit->available)
-    return {{FailureReason::sliding,
-             fmt::format("friction must hold {:.4g} and holds at most {:.4g} under a normal force of {:.4g}",
-                         limit->needed, limit->available, limit->normal_force)},
-            limit};
+    return {
+        {FailureReason::sliding,
+         fmt::format("friction must resist {:.4g} but resists at most {:.4g} under a normal force of {:.4g}",
+                     limit->needed, limit->available, limit->normal_force)},
+        limit};
   return {{FailureReason::newton_stalled,
            fmt::format("the contact problem of {} points was not solved in {} Newton steps",
                        contact.n_points(), end.iterations)},

@@ -7,8 +7,8 @@
 
 namespace wheelwright {
 
-/// What friction must hold in the rim's free motions along the ground, and what it holds at most: when all
-/// that touches slides. A torque counts as the force at the tread that has its moment about the axle; the
+/// The force that friction must resist in the rim's free motions along the ground, and its limit, when all
+/// contact points slide. A torque counts as the force at the tread that has its moment about the axle; the
 /// moment of the pressure, whose centre need not lie below the axle, adds to it.
 struct FrictionLimit {
   double needed, available;  ///< [N/m when dim = 2, N when dim = 3]

@@ -7,9 +7,9 @@
 
 namespace wheelwright {
 
-/// Newton's steps of one contact problem. The tangent is factored anew where the derivative of the contact
-/// law differs from that of the last step at some point. (Corrected for these points by Woodbury's formula it
-/// is found sooner, but its rounding errors left contacts unsolved that come to a corner of the law.)
+/// Newton's steps of one contact problem. The tangent is refactored if the derivative of the contact law
+/// changed at some point since the last step. (Updates by Woodbury's formula are faster, but their rounding
+/// errors left contacts at a corner of the law unsolved.)
 template <int dim>
 class NewtonTangent {
  public:

@@ -45,7 +45,7 @@ struct ContactState {
   double ground = 0;      ///< the ground position, in columns from the zone's first azimuth
 };
 
-/// What a function's adjoint problem (79) brings to the contact of one load position.
+/// The contribution of a function's adjoint problem (79) to the contact of one load position.
 template <int dim>
 struct ContactAdjointLoads {
   Matrix observations;                   ///< of p without the contact part, in the zone
@@ -106,8 +106,8 @@ class ReducedContact {
   /// The same problem with given friction (Tresca's law): one threshold per point [Pa].
   ReducedContact with_given_friction(std::vector<double> thresholds) const;
 
-  /// The same problem where all that touches slides, whatever the rim does along the ground: friction acts on
-  /// the wheel along `direction`, a vector of length 1 along the ground.
+  /// The same problem with all contact points sliding, regardless of the rim's motion along the ground:
+  /// friction acts on the wheel along `direction`, a unit vector along the ground.
   ReducedContact sliding_along(const Vec<dim>& direction) const;
 
   /// Whether the tread is bonded to a rigid ring: then the problem is linear, and the zone is the whole
@@ -145,8 +145,7 @@ class ReducedContact {
   ContactUnknowns<dim> start_from(const ContactState<dim>& other) const;
 
   /// The guess itself if it touches the ground, or if the travel of the rim is prescribed; else the guess in
-  /// which the point nearest to the ground carries the load: every load that presses the wheel down finds
-  /// the ground.
+  /// which the point nearest to the ground carries the load, so that every downward load reaches the ground.
   ContactUnknowns<dim> touching(ContactUnknowns<dim> guess) const;
 
   ContactUnknowns<dim> residual(const ContactUnknowns<dim>& x) const;
@@ -169,7 +168,7 @@ class ReducedContact {
   /// The contact state for a solution x under the full loads.
   ContactState<dim> state(const ContactUnknowns<dim>& x, int newton_iterations) const;
 
-  /// z where no point touches, under these coefficients of the rim's free motions.
+  /// z without contact, for these coefficients of the rim's free motions.
   std::vector<Vec<dim>> without_contact(const std::vector<double>& free) const;
 
   /// The minimum distance to the ground, if no point touches [m].
@@ -186,7 +185,7 @@ class ReducedContact {
   Expected<std::vector<ContactAdjoint>> adjoints(const ContactState<dim>& state,
                                                  std::span<const ContactAdjointLoads<dim>> functions) const;
 
-  /// What a solution looks like from outside.
+  /// Public view of a solution.
   ContactPatch<dim> patch(const ContactState<dim>& state) const;
 
  private:
@@ -197,12 +196,12 @@ class ReducedContact {
   int point_of_column(int point) const { return point % per_column(); }
   ObservationRows<dim> observation_rows() const { return {per_column(), 0}; }
   int n_free() const { return static_cast<int>(rim_.free.size()); }
-  /// This is where a point lies in its column.
+  /// The position of a point in its column.
   struct Place {
     double columns;     ///< of the azimuth, from 0 to 1
     double along_axle;  ///< [m]
   };
-  /// A point of a column so many columns ahead.
+  /// A point of a column a number of columns ahead.
   struct Neighbour {
     int columns, point;
   };
@@ -226,7 +225,7 @@ class ReducedContact {
   double ground_;                    ///< the ground position, in columns from the zone's first azimuth
   std::vector<Place> places_;        ///< of the points of a column
   std::vector<double> thresholds_;   ///< of given friction; empty: Coulomb's law
-  std::optional<Vec<dim>> sliding_;  ///< the direction of friction where all that touches slides
+  std::optional<Vec<dim>> sliding_;  ///< the direction of friction if all contact points slide
   std::vector<Point> points_;
   std::shared_ptr<const Matrix> flexibility_;
   std::vector<Vec<dim>> preload_;  ///< z_0; empty: zero

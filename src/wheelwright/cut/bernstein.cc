@@ -45,8 +45,8 @@ Powers divided(const Powers& p, double r, double s) {
   return b;
 }
 
-/// Of the zeros of a quartic the places of two that are zeros of a real quadratic, as the others then are:
-/// each other's conjugates, or real and close to each other. Of two such pairs it is the one closer to 0.
+/// The indices of two zeros of a quartic that are the zeros of a real quadratic, as the other two then are:
+/// conjugates, or real and close to each other. Of two such pairs, the one closer to 0.
 std::array<int, 2> real_pair(const std::vector<Complex>& zeros) {
   const auto distance = [&](int i, int j) {  // on the sphere, where infinity is a point
     return std::abs(zeros[i] - std::conj(zeros[j])) / ((1 + std::abs(zeros[i])) * (1 + std::abs(zeros[j])));
@@ -60,8 +60,8 @@ std::array<int, 2> real_pair(const std::vector<Complex>& zeros) {
   return {best[0], best[1]};
 }
 
-/// The zeros of a polynomial of degree 3 or 4. Two of them are made zeros of a real quadratic that divides
-/// the polynomial (Bairstow's method), which is known to rounding even if the two zeros are not.
+/// The zeros of a polynomial of degree 3 or 4. Two of them are refined as the zeros of a real quadratic
+/// factor (Bairstow's method), which is accurate to rounding even if the zeros are not.
 std::vector<Complex> paired_zeros(const Powers& p, int degree) {
   auto rough = rough_zeros(p, degree);
   if (degree == 3) rough.push_back(1e100);

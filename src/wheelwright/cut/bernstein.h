@@ -10,8 +10,8 @@
 
 namespace wheelwright {
 
-// Polynomials on [0, 1] in Bernstein form. Their coefficients bound them, and a reflection of the argument
-// reverses the coefficients, so that what is computed of them is reflected up to rounding.
+// Polynomials on [0, 1] in Bernstein form. The coefficients bound the polynomial, and a reflection of the
+// argument reverses them, so that results are reflected up to rounding.
 
 /// c0 (1-x)^2 + 2 c1 x (1-x) + c2 x^2
 using Quadratic = std::array<double, 3>;
@@ -39,11 +39,12 @@ struct Root {
   double x() const { return u / (u + v); }
 };
 
-/// Where the quadratic rises, or falls, through zero; `half_slope`: square root of its discriminant.
+/// The root at which the quadratic rises, or falls, through zero; `half_slope`: square root of its
+/// discriminant.
 Root root(const Quadratic& c, double half_slope, bool rising);
 
-/// The discriminant of a family of quadratics whose coefficients are the quadratics c[i] of a parameter
-/// themselves, in that parameter.
+/// The discriminant, as a polynomial in a parameter, of the quadratics whose coefficients are the quadratics
+/// c[i] of that parameter.
 Quartic discriminant_of(const std::array<Quadratic, 3>& c);
 
 /// The places in (0, 1) where the polynomial changes its sign, ascending.
@@ -53,11 +54,11 @@ std::vector<double> sign_changes(const Quadratic& c);
 std::array<std::complex<double>, 2> zeros_of(double r, double s);
 
 /// A polynomial as a product: leading * (x - zeros[0]) * (x - zeros[1]) ... Real zeros have no imaginary
-/// part, others come with their conjugates. The product agrees with the polynomial to rounding also where
-/// zeros are double and therefore known to the square root of that only.
+/// part; others come with their conjugates. The product agrees with the polynomial to rounding even if zeros
+/// are double and thus accurate only to the square root of rounding.
 struct Factors {
   double leading;
-  std::vector<std::complex<double>> zeros;  ///< without those that are next to infinity
+  std::vector<std::complex<double>> zeros;  ///< without those close to infinity
 };
 Factors factors_of(const Quartic& c);
 
@@ -76,7 +77,7 @@ class BernsteinForm {
   /// Bounds of the derivative along an axis, divided by the degree 2: its smallest and its largest
   /// coefficient.
   std::array<double, 2> derivative_bounds(int axis) const;
-  /// Sum of the coefficients' differences along an axis: how much the polynomial changes along it.
+  /// Sum of the coefficients' differences along an axis: a measure of the polynomial's change along it.
   double variation(int axis) const;
 
  private:

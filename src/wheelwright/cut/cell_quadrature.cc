@@ -23,8 +23,8 @@ bool is_monotone(const BernsteinForm<dim>& psi, int axis) {
   return low > 0 || high < 0;
 }
 
-/// A later axis is preferred to an earlier one only if its variation is larger by this factor. With 1, that
-/// of a shape with two equal ones would be chosen by rounding, which differs in its mirror image.
+/// A later axis is preferred to an earlier one only if its variation is larger by this factor. With 1,
+/// rounding would choose between equal ones, and differently for the mirror image.
 constexpr double preference = 1.05;
 
 /// All axes, those along which psi varies most first.
@@ -63,8 +63,8 @@ std::vector<double> reflected(int degree, std::span<const double> nodal_values,
   return result;
 }
 
-/// The reflection to that one of a cell's mirror images which stands for them all. What is computed of it and
-/// reflected back does not depend on the image that was given.
+/// The reflection to the representative of a cell's mirror images. Results computed for it and reflected back
+/// do not depend on the given image.
 template <int dim>
 Reflection<dim> to_standard(int degree, std::span<const double> nodal_values) {
   Reflection<dim> best{};
@@ -92,7 +92,7 @@ void reflect(CutCell<dim>& cell, const Reflection<dim>& reflection) {
   }
 }
 
-/// What the divergence theorem may be missed by: above the error of the rule on a smooth piece by far.
+/// The tolerance of the divergence theorem: far above the error of the rule on a smooth piece.
 double largest_defect(int points) { return 1e-3 + std::min(0.1, 1000 * std::pow(25.0, -points)); }
 
 /// Measure of {psi < 0} on a face, from its nodal values.

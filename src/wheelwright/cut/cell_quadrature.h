@@ -12,24 +12,23 @@ namespace wheelwright {
 template <int dim>
 class CellQuadrature {
  public:
-  /// `points` Gauss points a direction on every smooth piece; in 2D two more along the bases of the columns
-  /// that a cell is divided into, where integrands are no polynomials. `degree`: 1 or 2, that of the level
-  /// set.
+  /// `points` Gauss points a direction on every smooth piece; in 2D two more along the bases of a cell's
+  /// columns, where integrands are not polynomials. `degree`: 1 or 2, that of the level set.
   CellQuadrature(int degree, int points);
 
   /// Sign pattern of a cell's polynomial from its Bernstein coefficients: `inside` and `outside` are certain,
   /// `cut` means that the zero set may cross the cell.
   CellKind classify(std::span<const double> nodal_values) const;
 
-  /// Quadrature of a cell whose classify() is `cut`; its parts may be empty. Nothing when a value is not
-  /// finite or the parts do not fit together, so that the quadrature would be wrong. Mirror images of a
-  /// cell's values give the mirror images of its points, up to rounding. In 2D the boundary is divided where
-  /// it passes the lines through the level set's nodes, so that functions with kinks there are integrated as
+  /// Quadrature of a cell whose classify() is `cut`; its parts may be empty. Nothing if a value is not
+  /// finite, or if the parts are inconsistent and the quadrature would be wrong. Mirror images of a cell's
+  /// values give the mirror images of its points, up to rounding. In 2D the boundary is divided where it
+  /// passes the lines through the level set's nodes, so that functions with kinks there are integrated as
   /// well.
   std::optional<CutCell<dim>> split(int cell, std::span<const double> nodal_values) const;
 
-  /// By how much material, boundary and the material's part of the cell's faces miss the divergence theorem,
-  /// of the unit vectors and of the position; the faces are integrated on their own. NaN if they cannot be.
+  /// The error in the divergence theorem for material, boundary and the material's part of the cell's faces,
+  /// with the unit vectors and the position; the faces are integrated independently. NaN if that fails.
   double divergence_defect(const CutCell<dim>& cell, std::span<const double> nodal_values) const;
 
  private:
@@ -39,7 +38,7 @@ class CellQuadrature {
 
   int degree_;
   GaussRule rule_;
-  GaussRule base_rule_;              ///< for the bases of 2D columns, where integrands are no polynomials
+  GaussRule base_rule_;              ///< for the bases of 2D columns, where integrands are not polynomials
   std::vector<double> inner_nodes_;  ///< of the level set, on an axis
 };
 

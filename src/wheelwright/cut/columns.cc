@@ -10,7 +10,7 @@ namespace {
 /// Relative to the polynomial's magnitude: below this it is rounding.
 constexpr double rounding = 1e-14;
 
-/// In an interval of this width a zero's curve is taken for its chord, if it is not smooth even there.
+/// In an interval of this width a zero's curve is replaced by its chord, if it is not smooth even there.
 constexpr double smallest_width = 1e-13;
 
 /// A curve is divided into at most about this many pieces.
@@ -20,8 +20,8 @@ constexpr int max_pieces = 400;
 /// rule falls by its square with each point.
 constexpr double near_branch_point = 5;
 
-/// The same for poles, most of which are weak or belong to zeros outside of the square: samples show whether
-/// they matter, if they are not nearer than this.
+/// The same for poles, most of which are weak or belong to zeros outside the square: beyond this distance,
+/// samples show whether they matter.
 constexpr double near_pole = 1.3;
 
 /// Exponential, trigonometric and hyperbolic functions are resolved if their argument varies by less than
@@ -31,7 +31,7 @@ constexpr double largest_span = 2.2;
 /// Relative to the polynomial's magnitude: a column below this is small.
 constexpr double small_column = 1e-3;
 
-/// Singular points closer to each other than this are taken for this far.
+/// Minimum assumed distance between singular points.
 constexpr double smallest_scale = 1e-13;
 
 const Resolution& resolution() {
@@ -63,7 +63,7 @@ Quartic elevated(const Quadratic& c) {
   return {c[0], 0.5 * (c[0] + c[1]), ((c[0] + c[2]) + 4 * c[1]) / 6, 0.5 * (c[1] + c[2]), c[2]};
 }
 
-/// Whether a pole lies within the interval, where only a zero outside of the square has one.
+/// Whether a pole lies within the interval; only zeros outside the square have poles there.
 bool is_within(const Interval& interval, std::complex<double> place) {
   return std::abs(place.imag()) < 1e-6 && place.real() > interval.from() && place.real() < interval.to();
 }
@@ -123,8 +123,8 @@ Columns::Columns(const Slice& slice) : slice_(slice), magnitude_(0), discriminan
       append(breaks[i - 1], breaks[i], piece_on(breaks[i - 1].place, breaks[i].place));
 }
 
-/// Two zeros that are close to each other are known to the square root of rounding. Where the column there is
-/// small, that is much more than its discriminant; then they follow from the columns around it.
+/// Two zeros close to each other are accurate only to the square root of rounding. If the column there is
+/// small, that is much more than its discriminant; then they are computed from the columns around it.
 void Columns::sharpen_double_zeros() {
   auto& zeros = discriminant_.zeros;
   for (size_t i = 0; i + 1 < zeros.size(); i += 2) {
@@ -212,7 +212,7 @@ void Columns::append(const Break& from, const Break& to, Piece piece) {
 
 Columns::Piece Columns::piece_on(double from, double to) const {
   const Interval interval = Interval::linear(from, to);
-  // Where the zeros are farthest from merging: at a crossing of two curves rounding would decide.
+  // Where the zeros are farthest from merging, because at a crossing of two curves rounding would decide.
   Quadratic c = column(interval.at(0.5).x);
   for (const double u : {0.25, 0.75}) {
     const Quadratic other = column(interval.at(u).x);
@@ -283,8 +283,8 @@ Quadratic Columns::slope_along_base(double base) const {
           derivative(at_height(slice_.psi, 2), base)};
 }
 
-/// Square root of the discriminant of a column: as it stands unless digits cancel, and then by its factors
-/// over the base, of which those that vanish at the interval's ends are known to their last digits.
+/// Square root of the discriminant of a column: directly unless digits cancel, otherwise from its factors
+/// over the base, of which those that vanish at the interval's ends are exact to the last digits.
 double Columns::half_slope(const Interval::Place& place, const Quadratic& column) const {
   const double d = discriminant(column);
   if (d > 0.1 * std::max(column[1] * column[1], std::abs(column[0] * column[2])) ||

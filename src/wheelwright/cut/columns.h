@@ -9,9 +9,9 @@
 
 namespace wheelwright {
 
-/// A polynomial on the unit square of a base and a height: psi[i] is the quadratic in the height that belongs
-/// to the base's Bernstein polynomial i. It may be cut out of a cube: then `across` is, in the same form, the
-/// derivative along the third axis.
+/// A polynomial on the unit square of a base and a height: psi[i] is the quadratic in the height for the
+/// base's Bernstein polynomial i. If it is a slice of a cube, `across` is the derivative along the third
+/// axis, in the same form.
 struct Slice {
   std::array<Quadratic, 3> psi;
   std::array<Quadratic, 3> across;
@@ -30,7 +30,7 @@ class Columns {
  public:
   explicit Columns(const Slice& slice);
 
-  /// What the pieces cost in quadrature points.
+  /// The number of quadrature points of the pieces.
   int cost() const;
 
   /// Quadrature of {psi < 0}: points (base, height); `rule` along the heights, `base_rule` on every interval
@@ -53,7 +53,7 @@ class Columns {
   };
 
   using Gradient = std::array<double, 3>;
-  /// A straight line that stands for a curve: where it begins, and where it leads.
+  /// A straight line that replaces a curve: its start and its direction.
   void append_line(const GaussRule& rule, const Vec<2>& from, const Vec<2>& along,
                    std::vector<BoundaryPoint>& points) const;
 
@@ -65,9 +65,9 @@ class Columns {
   };
   void append(const Break& from, const Break& to, Piece piece);
   Piece piece_on(double from, double to) const;
-  /// With the substitution that suits the branch points and poles next to it.
+  /// With the substitution for the neighbouring branch points and poles.
   Interval substituted(const Break& from, const Break& to, const Piece& piece) const;
-  /// Whether the piece's zero goes to infinity at a pole, and not the other one.
+  /// Whether it is the piece's zero, not the other one, that goes to infinity at a pole.
   bool is_pole_of(const Piece& piece, std::complex<double> place) const;
   bool is_resolved(const Piece& piece) const;
   void sharpen_double_zeros();
@@ -80,13 +80,13 @@ class Columns {
   bool is_upright(double base) const;
   /// How far rounding may move a zero.
   double uncertainty(double base, double slope) const;
-  /// Heights of the zeros at an end of a curve. Where that is an edge of the square, they lie on it. NaN
-  /// where rounding hides them.
+  /// Heights of the zeros at an end of a curve. Where that is an edge of the square, they lie on it. NaN if
+  /// rounding hides them.
   std::array<double, 2> heights(const Piece& piece, double base) const;
   /// Values of the interval's u between which zeros' curves cross no kink.
   std::vector<double> parts_at(const Piece& piece, std::span<const double> kinks) const;
-  /// Points on the part of a zero's curve between two values of the interval's u. The normals are such that
-  /// they integrate the rise of the curve exactly.
+  /// Points on the part of a zero's curve between two values of the interval's u. The normals integrate the
+  /// rise of the curve exactly.
   void append_curve(const Piece& piece, int crossing, const GaussRule& rule, double first, double last,
                     std::vector<BoundaryPoint>& points) const;
   /// The height of the two zeros at a base where they merge.

@@ -84,8 +84,8 @@ std::optional<System> preconditioned(const System& f) {
   return result;
 }
 
-/// Whether the preconditioned system is so nearly linear that it has at most one zero in the box, to which
-/// Newton's method leads.
+/// Whether the preconditioned system is so nearly linear that it has at most one zero in the box, found by
+/// Newton's method.
 bool is_nearly_linear(const System& g) {
   for (int i = 0; i < 3; ++i) {
     double deviation = 0;

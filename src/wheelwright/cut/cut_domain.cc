@@ -98,13 +98,14 @@ std::optional<Failure> check_connected(const CutDomain<dim>& domain) {
   for (int cell = 0; cell < grid.n_cells(); ++cell) {
     if (!domain.active(cell) || reached[cell]) continue;
     if (grid.cell_position(cell)[0] + 1 == grid.cells[0])
-      return Failure{FailureReason::tread_cut_off, "holes join all round and cut the tread off from the rim"};
+      return Failure{FailureReason::tread_cut_off,
+                     "holes join all around and cut the tread off from the rim"};
     if (islands++ == 0) first = cell;
   }
   if (islands == 0) return {};
   return Failure{
       FailureReason::disconnected_material,
-      fmt::format("{} cells of a sector hold material that is not attached to the rim, the first at {}",
+      fmt::format("{} cells of a sector contain material that is not attached to the rim, the first at {}",
                   islands, place(grid, first))};
 }
 
@@ -208,8 +209,8 @@ CutCell<dim> reflected(CutCell<dim> cut, int image) {
   return cut;
 }
 
-/// In 3D, an earlier cell whose mirror image in the middle of the width a cell is, with the same shape; if
-/// there is one, that cell is not cut anew: both are then symmetric up to the last bit.
+/// In 3D, an earlier cell of the same shape that is the cell's mirror image in the middle of the width, if
+/// there is one. Reusing its quadrature makes both symmetric to the last bit.
 template <int dim>
 std::optional<int> earlier_image(const LevelSet<dim>& psi, int cell) {
   if constexpr (dim == 2) return {};

@@ -58,7 +58,7 @@ struct CutDomain {
   std::vector<CutCell<dim>> cut;  ///< in ascending order of the cells
   std::vector<GhostFace> ghost_faces;
 
-  /// Whether the cell holds material.
+  /// Whether the cell contains material.
   bool active(int cell) const { return kinds[cell] != CellKind::outside; }
 };
 
@@ -68,14 +68,14 @@ struct CutDomain {
 template <int dim>
 Expected<CutDomain<dim>> cut_domain(const LevelSet<dim>& psi, int points);
 
-/// Half of a domain with an even number of cells along the axle, which is its own mirror image in the middle
-/// of the width: the cells before the middle.
+/// The cells before the middle of the width, of a mirror-symmetric domain with an even number of cells along
+/// the axle.
 CutDomain<3> first_half(const CutDomain<3>& whole);
 
-/// Checks whether the shape can be computed. Returns protected_band if a cell of the innermost `rim_rows`
-/// rows or of the outermost `tread_rows` rows is not full, tread_cut_off if active cells of the outermost row
-/// are not connected to the rim through active cells, and disconnected_material if other active cells are
-/// not. Empty if all is well.
+/// Checks that the shape can be computed. Returns protected_band if a cell of the innermost `rim_rows` rows
+/// or of the outermost `tread_rows` rows is not full, tread_cut_off if active cells of the outermost row are
+/// not connected to the rim through active cells, and disconnected_material if other active cells are not.
+/// Empty if all is well.
 template <int dim>
 std::optional<Failure> check_attached(const CutDomain<dim>& domain, int rim_rows, int tread_rows);
 

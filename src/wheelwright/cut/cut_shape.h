@@ -4,12 +4,11 @@
 
 namespace wheelwright {
 
-/// A shape that is to be computed, with its cut cells if something before has made them: a level set alone is
-/// one too. Refers to both.
+/// A shape to compute, with its cut cells if they are known already. Refers to both.
 template <int dim>
 struct CutShape {
   const LevelSet<dim>& psi;
-  const CutDomain<dim>* domain;  ///< cut_domain() of psi; null: not made yet
+  const CutDomain<dim>* domain;  ///< cut_domain() of psi; null: not computed yet
 
   CutShape(const LevelSet<dim>& shape, const CutDomain<dim>* cells = nullptr) : psi(shape), domain(cells) {}
 };

@@ -9,9 +9,9 @@
 
 namespace wheelwright {
 
-/// An interval of integration with a substitution x(t) after which an integrand is smooth that was not: at
-/// the branch points of square roots, or close to singular points in the complex plane. On the interval, t is
-/// first + (last - first) u with u in [0, 1].
+/// An interval of integration with a substitution x(t) that makes the integrand smooth at branch points of
+/// square roots, or close to singular points in the complex plane. On the interval, t is first + (last -
+/// first) u with u in [0, 1].
 class Interval {
  public:
   /// x = t.
@@ -30,7 +30,7 @@ class Interval {
   double to() const { return to_; }
   double width() const { return to_ - from_; }
 
-  /// How much t varies, if x is a trigonometric or hyperbolic function of it.
+  /// The range of t, if x is a trigonometric or hyperbolic function of it.
   double span() const {
     return substitution_ == Substitution::linear || substitution_ == Substitution::power ? 0 : last_ - first_;
   }
@@ -47,7 +47,7 @@ class Interval {
   /// u of a place in the interval.
   double fraction(double x) const;
 
-  /// Whether a singular point is among those that the substitution is for.
+  /// Whether a singular point is one of those handled by the substitution.
   bool is_smooth_at(std::complex<double> place) const;
 
   /// Sum of the half axes of the ellipse through a singular point, around the interval of t as [-1, 1]: by
@@ -64,12 +64,12 @@ class Interval {
 
   Substitution substitution_;
   double from_, to_, centre_, scale_;
-  std::array<double, 2> roots_;  ///< where square roots vanish that are smooth after the substitution
+  std::array<double, 2> roots_;  ///< of square roots that are smooth after the substitution
   double first_, last_;
 };
 
-/// Tells from samples of a function whether a Gauss rule integrates it well: whether its Legendre series on
-/// the interval decays.
+/// Decides from samples of a function whether a Gauss rule integrates it accurately: whether its Legendre
+/// series on the interval decays.
 class Resolution {
  public:
   static constexpr int n_samples = 7;
@@ -80,9 +80,9 @@ class Resolution {
   /// Where to sample, in [0, 1].
   const std::vector<double>& places() const { return rule_.points; }
 
-  /// Whether the last terms are small beside those that vary, or below `negligible`.
+  /// Whether the last terms are small compared with the nonconstant ones, or below `negligible`.
   bool varies_smoothly(const Samples& f, double negligible) const;
-  /// Whether the last terms are small beside the mean, or below `negligible`.
+  /// Whether the last terms are small compared with the mean, or below `negligible`.
   bool is_smooth(const Samples& f, double negligible) const;
 
  private:

@@ -16,7 +16,7 @@ constexpr double smallest_thickness = 1e-8;
 /// Variations of a slice's measure below this are rounding.
 constexpr double negligible = 1e-13;
 
-/// With the substitution for the singularities at its ends; nothing if two of them need one each.
+/// With the substitution for the singularities at its ends; nothing if both ends need one of their own.
 std::optional<Interval> interval_of(const Slabs::Break& from, const Slabs::Break& to) {
   using enum Slabs::Singularity;
   const double width = to.place - from.place;
@@ -31,7 +31,7 @@ std::optional<Interval> interval_of(const Slabs::Break& from, const Slabs::Break
   return Interval::beyond_root(from.place, to.place, singular.place, singular.place + behind);
 }
 
-/// Where the zeros on a line along the slices' stack lie: a corner of the slice changes sign.
+/// The zeros on a line along the stack of slices, where a corner of the slice changes sign.
 void append_corners(const BernsteinForm<3>& psi, const std::array<int, 3>& axes,
                     std::vector<Slabs::Break>& breaks) {
   for (const int base : {0, 2})
@@ -48,7 +48,8 @@ void append_corners(const BernsteinForm<3>& psi, const std::array<int, 3>& axes,
     }
 }
 
-/// Where slices' edges, at the end of the axis `fixed` and along the axis `along`, touch the zero set.
+/// The places where edges of slices, at the end of the axis `fixed` and along the axis `along`, touch the
+/// zero set.
 void append_tangencies(const BernsteinForm<3>& psi, int fixed, int along, int across,
                        std::vector<Slabs::Break>& breaks) {
   for (const int end : {0, 2}) {

@@ -11,14 +11,15 @@ namespace wheelwright {
 /// {psi < 0} in the unit cube, by quadrature over parallel slices.
 class Slabs {
  public:
-  /// A place where slices change, and what vanishes there: a square root, or the argument of a logarithm.
+  /// A place where slices change, and the kind of singularity: a square root, or the argument of a logarithm
+  /// vanishes.
   enum class Singularity { none, square_root, logarithm };
   struct Break {
     double place;
     Singularity singularity;
   };
 
-  /// `axes`: base and height of the slices, then the axis that the slices are stacked along.
+  /// `axes`: base and height of the slices, then the axis along which they are stacked.
   Slabs(const BernsteinForm<3>& psi, const std::array<int, 3>& axes);
 
   std::vector<ReferencePoint<3>> material(const GaussRule& rule) const;

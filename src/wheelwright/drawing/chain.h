@@ -12,7 +12,7 @@ namespace wheelwright {
 /// Curves without length are left out, and a line closes a gap between the last and the first.
 Loop closed_loop(const std::vector<Curve>& curves, std::string place);
 
-/// Curves drawn one by one, and where each comes from.
+/// Individually drawn curves, each with its origin in the file.
 struct LooseCurve {
   Curve curve;
   std::string place;
@@ -25,7 +25,7 @@ struct OpenEnd {
   bool branches;  ///< more than two curves end here
 };
 
-/// What loose curves form when their ends are joined.
+/// The result of joining the ends of loose curves.
 struct Chains {
   std::vector<Loop> loops;
   std::vector<OpenEnd> open_ends;

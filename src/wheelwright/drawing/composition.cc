@@ -31,7 +31,7 @@ std::vector<std::vector<double>> cuts(const CurveTree& tree, const auto& are_of_
   return result;
 }
 
-/// The pieces of a curve between its cuts; cuts nearer to each other than 1e-9 of the curve are one.
+/// The pieces of a curve between its cuts; cuts closer than 1e-9 of the curve are merged.
 std::vector<Curve> pieces_between(const Curve& curve, std::vector<double> cuts) {
   cuts.push_back(1);
   std::sort(cuts.begin(), cuts.end());

@@ -22,7 +22,7 @@ double stated_unit(Sheet& sheet, const DrawingOptions& options) {
   const auto in_file = sheet.metres_per_unit, in_case = options.metres_per_unit;
   if (!in_file && !in_case)
     sheet.problems.push_back({0, "the file does not say the unit of its lengths",
-                              "give the unit of the drawing, e.g. unit = \"mm\"", Key::unit});
+                              "set the unit of the drawing, e.g. unit = \"mm\"", Key::unit});
   constexpr double rounding = 1e-6;
   if (in_file && in_case && std::abs(*in_file / *in_case - 1) > rounding)
     sheet.problems.push_back(
@@ -36,8 +36,7 @@ double stated_unit(Sheet& sheet, const DrawingOptions& options) {
 Point stated_axle(Sheet& sheet, const DrawingOptions& options) {
   if (!options.axle && !sheet.axle)
     sheet.problems.push_back({0, "the drawing has no page, whose centre could be the axle",
-                              "give the place of the axle in the drawing, e.g. axle = [340, 340]",
-                              Key::axle});
+                              "set the place of the axle in the drawing, e.g. axle = [340, 340]", Key::axle});
   return options.axle.value_or(sheet.axle.value_or(Point{}));
 }
 

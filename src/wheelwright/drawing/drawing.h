@@ -8,29 +8,29 @@
 
 namespace wheelwright {
 
-/// What is wrong with a drawing, and where.
+/// A problem in a drawing, with its place.
 struct DrawingProblem {
-  /// Which key of the case would solve it, if one does.
+  /// The key of the case that would solve it, if any.
   enum class Key { none, unit, axle };
 
-  int line = 0;  ///< from 1; 0 if it has none
+  int line = 0;  ///< from 1; 0 if unknown
   std::string problem;
   std::string remedy;
   Key key = Key::none;
 };
 
-/// How a file of curves is read.
+/// Options for reading a file of curves.
 struct DrawingOptions {
   std::optional<double> metres_per_unit;  ///< absent: as the file says
   std::optional<Point> axle;              ///< in the file's own unit and axes; absent: the usual place
 };
 
-/// What a file shows: the axle at the origin, x to the right as in the drawing and y upwards.
+/// The contents of a file: the axle at the origin, x to the right as in the drawing and y upwards.
 struct Drawing {
   std::string bytes;  ///< the whole file
   Outline outline;    ///< [m]
   double metres_per_unit = 1;
-  Point axle{};  ///< where the axle was taken to be, in the file's own unit and axes
+  Point axle{};  ///< the assumed place of the axle, in the file's own unit and axes
 };
 
 /// A drawing, or all of its problems.

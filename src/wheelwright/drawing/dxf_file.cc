@@ -81,7 +81,7 @@ class DxfReader {
         {record.line, fmt::format("{}: {}", shown(record.type), problem), std::move(remedy)});
   }
 
-  /// Complains of each that is none.
+  /// Reports each value that is not a number.
   bool has_numbers(const DxfRecord& record) {
     bool has_all = true;
     for (const DxfGroup& group : record.groups) {

@@ -14,10 +14,10 @@ struct DxfGroup {
   int code;
   std::string_view value;  ///< without the spaces about it; of the file's bytes
 
-  double number() const;  ///< NaN if it is none; "nan" and "inf" are none
+  double number() const;  ///< NaN if it is not a number; "nan" and "inf" are not
   bool is_malformed()
       const;            ///< whether a number belongs there by its code (10 to 59, 210 to 239), and is not
-  int integer() const;  ///< 0 if it is none
+  int integer() const;  ///< 0 if it is not an integer
 };
 
 /// A group with code 0 and those after it up to the next one: an entity, or a part of the file's structure.
@@ -34,8 +34,8 @@ struct DxfRecord {
   std::vector<double> numbers(int code) const;
 };
 
-/// All records of a file; those before the first group with code 0 are lost. Adds a problem where the file is
-/// not made of groups.
+/// All records of a file; those before the first group with code 0 are lost. Adds a problem where the file
+/// does not consist of groups.
 std::vector<DxfRecord> dxf_records(std::string_view bytes, std::vector<DrawingProblem>& problems);
 
 }  // namespace wheelwright

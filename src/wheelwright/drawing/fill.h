@@ -2,7 +2,7 @@
 
 namespace wheelwright {
 
-/// What an outline adds to a shape.
+/// How an outline fills its inside.
 enum class Fill { material, hole };
 
 }  // namespace wheelwright

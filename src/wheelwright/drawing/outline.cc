@@ -7,7 +7,7 @@ namespace wheelwright {
 
 namespace {
 
-/// Relative to the size of an outline: what is nearer counts as touching.
+/// Distance below which curves touch, relative to the size of an outline.
 constexpr double touching = 1e-9;
 
 /// Simple pieces of an outline, and to which loop each belongs.
@@ -27,7 +27,7 @@ Pieces pieces(const Outline& outline) {
   return result;
 }
 
-/// Where two neighbours of one loop join, which is no crossing.
+/// The points where two neighbours of a loop join, which are not crossings.
 std::vector<Point> joints(const Curve& a, const Curve& b) {
   std::vector<Point> result;
   if (a.end() == b.start()) result.push_back(a.end());
@@ -100,7 +100,7 @@ RadialExtent radial_extent(const Curve& curve) {
     add(piece.at(piece.nearest({0, 0}).parameter));
     add(piece.start());
     add(piece.end());
-    // The radius is largest inside where it grows at the start and falls at the end.
+    // The radius has an interior maximum if it grows at the start and falls at the end.
     const auto growth = [&](double s) { return dot<2>(piece.at(s), piece.derivative(s)); };
     if (growth(0) <= 0 || growth(1) >= 0) continue;
     double low = 0, high = 1;

@@ -7,7 +7,7 @@
 
 namespace wheelwright {
 
-/// A closed chain of curves: each begins where the one before it ends, and the first where the last ends.
+/// A closed chain of curves: each starts where the previous one ends, and the first where the last one ends.
 struct Loop {
   std::vector<Curve> curves;
   std::string place;  ///< where it comes from, for messages, e.g. "line 12, <path id=\"a\">"; may be empty
@@ -36,7 +36,7 @@ struct RadialExtent {
 };
 RadialExtent radial_extent(const Curve& curve);
 
-/// The smallest rectangle that holds the outline, or a little more.
+/// The smallest rectangle that contains the outline, or a slightly larger one.
 Box box(const Outline& outline);
 
 }  // namespace wheelwright

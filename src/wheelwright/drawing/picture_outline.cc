@@ -29,8 +29,8 @@ struct Edge {
 };
 
 /// Contours as closed chains of edges, by marching squares: between the four nodes of a cell the contour
-/// joins the crossed edges so that what is drawn lies on its left; where all four are crossed, by the mean of
-/// the nodes.
+/// joins the crossed edges so that the drawn region lies on its left; if all four are crossed, the mean of
+/// the nodes decides.
 class Contours {
  public:
   explicit Contours(const Samples& samples) : samples_(samples) {

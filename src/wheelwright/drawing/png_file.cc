@@ -32,7 +32,7 @@ PictureResult read_png(std::string bytes) {
   if (pixels > most_pixels) {
     png_image_free(&image);
     return refused(fmt::format("{} x {} pixels are too many", image.width, image.height),
-                   fmt::format("take at most {} pixels", most_pixels));
+                   fmt::format("use at most {} pixels", most_pixels));
   }
   image.format = PNG_FORMAT_RGBA;
   std::vector<std::uint8_t> rgba(PNG_IMAGE_SIZE(image));

@@ -9,13 +9,13 @@
 
 namespace wheelwright {
 
-/// What a file of curves shows, in the file's own unit and axes.
+/// The contents of a file of curves, in the file's own unit and axes.
 struct Sheet {
   std::vector<Loop> loops;
   std::vector<LooseCurve> loose;          ///< which may form more loops
   std::optional<double> metres_per_unit;  ///< if the file says it
   bool y_points_down = false;
-  std::optional<Point> axle;  ///< where the axle is unless the case says it: the page's centre, or the origin
+  std::optional<Point> axle;  ///< the axle's place unless given by the case: the page's centre, or the origin
   std::vector<DrawingProblem> problems;
 };
 

@@ -149,7 +149,7 @@ class SvgReader {
       const double down = metres_high ? *metres_high / (*box)[3] : 0;
       if (metres_wide && metres_high && std::abs(down / *sheet_.metres_per_unit - 1) > 1e-3)
         complain(root, "width and height stretch the viewBox differently",
-                 "give width and height the proportions of the viewBox");
+                 "set width and height to the proportions of the viewBox");
     } else if (metres_wide && metres_high) {
       sheet_.metres_per_unit = metres_per_inch / pixels_per_inch;
       sheet_.axle = 0.5 / *sheet_.metres_per_unit * Point{*metres_wide, *metres_high};
@@ -219,7 +219,7 @@ class SvgReader {
     else if (name == "text" || name == "flowRoot")
       complain(node, "text is no outline", "convert it to a path, or remove it");
     else if (name == "image")
-      complain(node, "a picture is no outline", "trace it, remove it, or give it as [[shape.picture]]");
+      complain(node, "a picture is not an outline", "trace it, remove it, or give it as [[shape.picture]]");
     else
       complain(node, "this element cannot be read", "convert it to a path, or remove it");
   }

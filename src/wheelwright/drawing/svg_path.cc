@@ -22,8 +22,8 @@ class Scanner {
   explicit Scanner(std::string_view text) : text_(text) {}
 
   std::size_t place() const { return at_; }
-  bool at_end() const { return at_ == text_.size(); }
-  char peek() const { return at_end() ? '\0' : text_[at_]; }
+  bool on_end() const { return at_ == text_.size(); }
+  char peek() const { return on_end() ? '\0' : text_[at_]; }
   char take() { return text_[at_++]; }
 
   void skip_spaces() {
@@ -110,10 +110,10 @@ class PathReader {
 
   SvgPath read() {
     scan_.skip_spaces();
-    while (!scan_.at_end() && !result_.mistake) {
+    while (!scan_.on_end() && !result_.mistake) {
       const char command = scan_.take();
       if (!is_letter(command) || (!has_begun_ && command != 'M' && command != 'm')) {
-        fail(1, has_begun_ ? "a command is expected" : "a path begins with the command M");
+        fail(1, has_begun_ ? "a command is expected" : "a path must start with the command M");
         break;
       }
       has_begun_ = true;
@@ -272,7 +272,7 @@ std::optional<Affine> parse_svg_transform(std::string_view text) {
   Scanner scan(text);
   scan.skip_spaces();
   if (text.substr(scan.place()) == "none") return result;
-  while (!scan.at_end()) {
+  while (!scan.on_end()) {
     const std::string name = scan.word();
     scan.skip_spaces();
     if (!scan.skip('(')) return {};
@@ -296,7 +296,7 @@ std::optional<std::vector<double>> parse_svg_numbers(std::string_view text) {
   std::vector<double> values;
   Scanner scan(text);
   scan.skip_spaces();
-  while (!scan.at_end()) {
+  while (!scan.on_end()) {
     const auto value = scan.number();
     if (!value) return {};
     values.push_back(*value);
@@ -312,7 +312,7 @@ std::optional<SvgLength> parse_svg_length(std::string_view text) {
   if (!value) return {};
   std::string unit = scan.skip('%') ? "%" : scan.word();
   scan.skip_spaces();
-  if (!scan.at_end()) return {};
+  if (!scan.on_end()) return {};
   return SvgLength{*value, std::move(unit)};
 }
 

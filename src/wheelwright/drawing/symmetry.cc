@@ -15,7 +15,7 @@ std::vector<Affine> generating_turns(int n) {
   return turns;
 }
 
-/// Points of a curve where it is compared.
+/// Points at which a curve is compared.
 constexpr double samples[]{0.5, 0.0, 0.25, 0.75};
 
 /// The curves in an order in which neighbours are far apart: a difference is soon met.
@@ -36,7 +36,7 @@ bool exchanges_sides(const Affine& turn, const Composition& shape, const Curve& 
     if (speed == 0) continue;
     for (const double side : {-1.0, 1.0}) {
       const Point beside = at + side * aside / speed * Point{-along[1], along[0]};
-      // Near other curves the distance may decide.
+      // Close to other curves the distance decides.
       if (shape.distance(beside, aside) > 0.5 * aside)
         return shape.is_hole(turn(beside)) != shape.is_hole(beside);
     }

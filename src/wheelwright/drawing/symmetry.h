@@ -6,7 +6,7 @@
 
 namespace wheelwright {
 
-/// How far a boundary lies from itself after a turn.
+/// The distance between a boundary and itself after a turn.
 struct Asymmetry {
   double distance = 0;  ///< [m]
   Point at{};           ///< the point of the boundary, before the turn, that ends up so far from it

@@ -2,7 +2,7 @@
 
 namespace wheelwright {
 
-/// How the contact conditions (11), (16) enter the weak form.
+/// The form in which the contact conditions (11), (16) enter the weak form.
 enum class ContactMethod {
   nitsche,  ///< (28): I_N, with the parameter theta
   penalty,  ///< (22): I_P
@@ -11,7 +11,7 @@ enum class ContactMethod {
 /// The body that the tread meets.
 enum class Counterpart {
   ground,  ///< flat and rigid, in unilateral contact
-  ring,    ///< a rigid ring round the tread, to which all of it is bonded: Phi(z) = z and g = 0
+  ring,    ///< a rigid ring around the tread, to which all of it is bonded: Phi(z) = z and g = 0
 };
 
 /// The contact terms, in one form for both methods. With the augmented traction

@@ -15,8 +15,8 @@ constexpr std::array<std::array<int, 2>, n_strains<dim>> voigt_indices() {
     return {{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
 }
 
-/// Variance of the linear functions, in units of h_T^2, below which a part of a cell is too thin to tell the
-/// slope of div u across it. Rounding of the variance is 1e-16.
+/// Variance of the linear functions, in units of h_T^2, below which a part of a cell is too thin to determine
+/// the slope of div u across it. Rounding of the variance is 1e-16.
 constexpr double smallest_variance = 1e-12;
 
 }  // namespace
@@ -279,7 +279,7 @@ typename ElasticElement<dim>::Point with_own_dilatation(const ElasticElement<dim
   return point;
 }
 
-/// `at` gives the map and strain of an element at a point of the unit cell.
+/// `at` returns the map and strain of an element at a point of the unit cell.
 template <int dim>
 std::vector<FaceTerm<dim>> face_terms(const ElasticElement<dim>& minus, const ElasticElement<dim>& plus,
                                       int axis, double angle, const Material& material,

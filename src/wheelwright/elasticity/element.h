@@ -33,10 +33,10 @@ Vec<dim> traction(const Voigt<dim>& stress, const Vec<dim>& normal);
 template <int dim>
 double von_mises(const Material& material, const Voigt<dim>& stress);
 
-/// The displacement element of the cells in one row of the grid, which hold one material. Its dofs are the
-/// nodal displacements in the polar components (radial, azimuthal[, axial]) at each node, numbered by dof().
-/// All results are in the Cartesian frame of the cell: its first axis is radial at the first azimuth of the
-/// cell.
+/// The displacement element of the cells in one row of the grid, which have the same material. Its dofs are
+/// the nodal displacements in the polar components (radial, azimuthal[, axial]) at each node, numbered by
+/// dof(). All results are in the Cartesian frame of the cell: its first axis is radial at the first azimuth
+/// of the cell.
 ///
 /// In a nearly incompressible material the strain of the element of degree 2 is that of u with its trace div
 /// u replaced by its L2 projection on the linear functions of x in the cell: the mixed element of quadratic

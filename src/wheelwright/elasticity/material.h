@@ -4,7 +4,7 @@
 
 namespace wheelwright {
 
-/// What is zero along the axle when dim = 2.
+/// The quantity that is zero along the axle when dim = 2.
 enum class Plane {
   strain,  ///< the strain: a wheel that is wide compared with its thickness
   stress,  ///< the stress: a wheel cut from sheet
@@ -16,10 +16,10 @@ struct Material {
   double youngs_modulus = 200e6;       ///< E [Pa]
   double poissons_ratio = 0.48;        ///< nu, 0 <= nu < 1/2
   Plane plane = Plane::strain;         ///< must be strain when dim = 3
-  std::optional<double> density = {};  ///< [kg/m^3]; where the mass or the wheel's rotation counts
+  std::optional<double> density = {};  ///< [kg/m^3]; needed for the mass and for rotation
 
-  /// The material that answers strains in the plane with the same stresses in plane strain: itself, or for
-  /// plane stress E' = E (1 + 2 nu) / (1 + nu)^2 and nu' = nu / (1 + nu).
+  /// The material that has the same in-plane stresses in plane strain: itself, or for plane stress E' = E (1
+  /// + 2 nu) / (1 + nu)^2 and nu' = nu / (1 + nu).
   Material plane_strain_equivalent() const {
     if (plane == Plane::strain) return *this;
     const double nu = poissons_ratio;

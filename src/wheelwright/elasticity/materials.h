@@ -4,8 +4,8 @@
 
 namespace wheelwright {
 
-/// The material at every place of the ring, one per radial row of cells, counted from the rim. What needs a
-/// material asks for it by place: nothing else knows that all rows hold the same one today.
+/// The material at every place of the ring, one per radial row of cells, counted from the rim. Materials are
+/// always looked up by place: no other code assumes that all rows have the same one, as they do today.
 class Materials {
  public:
   Materials() = default;

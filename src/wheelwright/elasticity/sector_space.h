@@ -40,7 +40,7 @@ class SectorSpace {
   /// Number of the node at such a position; -1 if it has no dofs.
   int number(const std::array<int, dim>& position) const { return numbers_[index(position)]; }
 
-  /// Whether the side faces hold a component of a node's displacement: that dof is zero.
+  /// Whether the side faces fix a component of a node's displacement: that dof is zero.
   bool is_held(int node, int component) const {
     return wheelwright::is_held<dim>(sides_, positions_[node][dim - 1], lattice_.nodes()[dim - 1] - 1,
                                      component);

@@ -5,8 +5,8 @@
 namespace wheelwright {
 namespace {
 
-/// The material whose stress the ghost penalty takes. It must control displacements on slivers, for which the
-/// stress of a compressible material is enough: that of lambda itself would stiffen cells far more, and J
+/// The material whose stress enters the ghost penalty. It must control displacements on slivers, for which
+/// the stress of a compressible material is enough: that of lambda itself would stiffen cells far more, and J
 /// would jump where faces with ghost penalty appear.
 Material for_ghost_penalty(Material material) {
   if (material.nearly_incompressible()) material.poissons_ratio = 0.48;

@@ -25,7 +25,7 @@ class ElementTable {
   const GhostPenalty& ghost() const { return ghost_; }
   SideFaces sides() const { return sides_; }
 
-  /// The stiffness of dofs that the side faces hold: so large that they are zero up to rounding [N/m].
+  /// The stiffness of dofs fixed by the side faces: so large that they are zero up to rounding [N/m].
   double held_stiffness() const {
     return 1e20 * materials_.at_tread().scaling_modulus() * grid_.resolution();
   }

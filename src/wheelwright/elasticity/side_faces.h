@@ -2,12 +2,11 @@
 
 namespace wheelwright {
 
-/// What the side faces of a wheel do when dim = 3.
+/// The boundary condition at the side faces of a wheel when dim = 3.
 enum class SideFaces {
   free,       ///< no traction
   symmetric,  ///< no displacement along the axle and no shear: the wheel is a slice of an endless one
-  // Half of such a wheel, whose last side face is the middle plane of the whole one: what lies beyond is its
-  // mirror image.
+  // Half of such a wheel, whose last side face is the middle plane of the whole one, its mirror plane.
   half_of_free,
   half_of_symmetric,
 };
@@ -22,8 +21,8 @@ constexpr SideFaces half_of(SideFaces whole) {
   return whole == SideFaces::free ? SideFaces::half_of_free : SideFaces::half_of_symmetric;
 }
 
-/// Whether side faces hold a component of the displacement of the node at this position among the nodes along
-/// the axle, of which `last` is the last one.
+/// Whether side faces fix a component of the displacement of the node at this position among the nodes along
+/// the axle, 0 to `last`.
 template <int dim>
 constexpr bool is_held(SideFaces sides, int axial_position, int last, int component) {
   if (dim == 2 || component != 2) return false;

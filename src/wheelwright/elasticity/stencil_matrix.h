@@ -41,18 +41,18 @@ class StencilMatrix {
 
   explicit StencilMatrix(Pattern pattern);
 
-  /// Adds a dense symmetric block whose dofs are those of ElasticElement on these nodes. Negative numbers are
-  /// skipped, and so are dofs that the side faces hold.
+  /// Adds a dense symmetric block whose dofs are those of ElasticElement on these nodes. Negative numbers,
+  /// and dofs fixed by the side faces, are skipped.
   void add(std::span<const int> nodes, const Matrix& block);
 
-  /// Gives the dofs that the side faces hold a stiffness of their own, which couples with nothing.
-  /// Derivatives on the last face get theirs in the next sector.
+  /// Gives the dofs fixed by the side faces an uncoupled stiffness. Derivatives on the last face get theirs
+  /// in the next sector.
   void hold(double stiffness);
 
   SparseSymmetric release() && { return std::move(matrix_); }
 
  private:
-  /// Whether the side faces hold a dof of these nodes.
+  /// Whether the side faces fix a dof of these nodes.
   bool holds_any(std::span<const int> nodes) const;
 
   /// Position of the coupling a -> b > a in the mask of a; it increases with b.

@@ -9,7 +9,7 @@
 namespace wheelwright {
 namespace {
 
-/// The length of the gradient of psi at a point of a cell, as the cell's map of the same degree has it.
+/// |grad psi| at a point of a cell, with the cell's map of the same degree.
 template <int dim>
 double steepness_at(const LevelSet<dim>& psi, const SurfacePoint<dim>& point) {
   const auto& grid = psi.lattice.grid();

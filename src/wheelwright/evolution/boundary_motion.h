@@ -9,7 +9,7 @@
 
 namespace wheelwright {
 
-/// A deformation is one of these; it moves the boundary along the outward normal n of the material.
+/// The kinds of deformations. They move the boundary along the outward normal n of the material.
 enum class DeformationKind {
   vector_field,  ///< theta, in polar directions (radial, azimuthal[, axial]); moves the boundary by theta . n
   normal_speed,  ///< v; moves the boundary by v
@@ -25,7 +25,7 @@ class BoundaryMotion {
  public:
   BoundaryMotion(const LevelSet<dim>& psi, std::span<const SurfacePoint<dim>> boundary, DeformationKind kind);
 
-  /// The motion in which the coefficients at these nodes stay as they are. One flag per node.
+  /// The motion with the coefficients at these nodes held fixed. One flag per node.
   BoundaryMotion holding(const std::vector<bool>& held) const;
 
   /// The same motion at other points of the boundary of the same shape.
@@ -34,8 +34,8 @@ class BoundaryMotion {
   /// The coefficients that move.
   const LevelSet<dim>& coefficients() const { return coefficients_; }
 
-  /// Speeds of the coefficients along their normals at the nodes, for Evolver::move(). Vector fields move
-  /// those not that are flat there.
+  /// Speeds of the coefficients along their normals at the nodes, for Evolver::move(). Vector fields do not
+  /// move coefficients whose gradient vanishes there.
   std::vector<double> speeds_at_nodes(std::span<const double> deformation) const;
 
   /// Speeds along the normal, one per point of the boundary. `deformation` has one component after the other,
@@ -47,7 +47,7 @@ class BoundaryMotion {
   std::vector<double> load(std::span<const double> density) const;
 
   /// The load l with l . deformation = the rate of a function of the coefficients, for every deformation.
-  /// Given is how the function depends on the coefficients.
+  /// `dependences`: how the function depends on the coefficients.
   std::vector<double> load(std::span<const Dependence> function) const;
 
  private:
@@ -74,8 +74,8 @@ class BoundaryMotion {
   int n_components() const { return kind_ == DeformationKind::vector_field ? dim : 1; }
 };
 
-/// How a point of the zero set of the interpolant of a level set moves along the outward normal with the
-/// coefficients of its spline. The point is in units of the node spacing of the lattice.
+/// The motion of a point of the zero set of a level set's interpolant along the outward normal, as a function
+/// of the coefficients of its spline. The point is in units of the node spacing of the lattice.
 template <int dim>
 std::vector<Dependence> displacement(const CubicInterpolant<dim>& psi, const Vec<dim>& point);
 

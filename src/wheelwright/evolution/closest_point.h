@@ -11,7 +11,7 @@ namespace wheelwright {
 template <int dim>
 double physical_distance(const Lattice<dim>& lattice, const Vec<dim>& a, const Vec<dim>& b);
 
-/// The point of {psi = 0} that Newton's method along the gradient reaches from `start`. Empty if it does not
+/// The point of {psi = 0} reached by Newton's method along the gradient from `start`. Empty if it does not
 /// converge within one node spacing of `start`. Points are in units of the node spacing of the lattice.
 template <int dim>
 std::optional<Vec<dim>> project_to_zero(const CubicInterpolant<dim>& psi, const Vec<dim>& start);

@@ -21,7 +21,7 @@ class CubicInterpolant {
   /// position p lies at the point p. The azimuth is periodic.
   Jet<dim> operator()(const Vec<dim>& point) const;
 
-  /// How the value at a point depends on the nodal values: a node and its weight each.
+  /// The nodes on which the value at a point depends, with their weights.
   std::vector<std::pair<int, double>> weights(const Vec<dim>& point) const;
 
   const LevelSet<dim>& level_set() const { return *psi_; }

@@ -30,7 +30,7 @@ std::vector<double> DeformationSpace<dim>::speeds(const LevelSet<dim>& psi,
   return restricted(motion_of(psi, {}).speeds_at_nodes(deformation));
 }
 
-/// With zeros at the fixed nodes.
+/// The values with zeros at the fixed nodes.
 template <int dim>
 std::vector<double> DeformationSpace<dim>::restricted(std::span<const double> component) const {
   std::vector<double> result(component.begin(), component.end());

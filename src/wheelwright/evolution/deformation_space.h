@@ -14,9 +14,8 @@ namespace wheelwright {
 /// grad w_d + t_d w_d over one sector.
 ///
 /// The edges of a thin wall have opposite normals. A smooth vector field moves the wall as a whole, which
-/// changes its stiffness little; a smooth speed moves its edges apart. Speeds at the nodes differ from those
-/// of the boundary where it bends sharply and deformations are vectors (docs/optimization.md says what is
-/// better where).
+/// changes its stiffness little; a smooth speed moves its edges apart. If deformations are vectors, speeds at
+/// the nodes differ from those of the boundary where it bends sharply (docs/optimization.md compares both).
 template <int dim>
 class DeformationSpace {
  public:
@@ -31,7 +30,7 @@ class DeformationSpace {
   /// The load l with l . w = (deformation, w) for all deformations w.
   std::vector<double> load(std::span<const double> deformation) const;
 
-  /// How a boundary moves under these deformations.
+  /// The motion of a boundary under these deformations.
   BoundaryMotion<dim> motion_of(const LevelSet<dim>& psi, std::span<const SurfacePoint<dim>> boundary) const {
     return {psi, boundary, kind_};
   }

@@ -11,8 +11,8 @@ namespace {
 /// Lines per cell along each axis.
 constexpr int fineness = 4;
 
-/// A cell of the spline: the coefficients around it, with the first axis the fastest, and their nodes. Those
-/// beyond the ends of an axis that is not periodic have weight zero.
+/// A cell of the spline: the surrounding coefficients, first axis fastest, and their nodes. Those beyond the
+/// ends of a nonperiodic axis have weight zero.
 template <int dim>
 struct SplineCell {
   static constexpr int n = power(4, dim);
@@ -34,10 +34,10 @@ struct SplineCell {
     }
   }
 
-  /// The spline lies between its coefficients, of which those beyond the ends are on a straight line.
+  /// The spline lies between its coefficients; those beyond the ends continue a straight line.
   bool may_be_cut() const {
-    const auto [least, largest] = std::ranges::minmax(coefficient);
-    return least < 0 && largest >= 0;
+    const auto [minimum, largest] = std::ranges::minmax(coefficient);
+    return minimum < 0 && largest >= 0;
   }
 };
 
@@ -66,8 +66,8 @@ double weight_of(const Weights<dim>& weights, const std::array<int, dim>& order,
   return product;
 }
 
-/// Value and partial derivatives of what derivative(order) returns, with one more derivative along `more`, if
-/// that is an axis.
+/// Value and partial derivatives of the function given by derivative(order), differentiated once more along
+/// `more` if that is an axis.
 template <int dim, class Derivative>
 PolarPartials<dim> partials_of(const PolarGrid<dim>& grid, int more, Derivative derivative) {
   const Vec<dim> size = grid.cell_size();
@@ -102,14 +102,14 @@ PolarPartials<dim> partials_at(const PolarGrid<dim>& grid, const SplineCell<dim>
   });
 }
 
-/// The derivatives of the same by one of the coefficients.
+/// Their derivatives with respect to one of the coefficients.
 template <int dim>
 PolarPartials<dim> partials_by(const PolarGrid<dim>& grid, const Weights<dim>& weights, int k) {
   return partials_of<dim>(
       grid, -1, [&](const std::array<int, dim>& order) { return -weight_of<dim>(weights, order, k); });
 }
 
-/// The rate of the curvature where the jet changes at this rate.
+/// The rate of the curvature if the jet changes at this rate.
 template <int dim>
 double rate(const PrincipalCurvature<dim>& curvature, const Jet<dim>& change) {
   double sum = 0;
@@ -120,7 +120,7 @@ double rate(const PrincipalCurvature<dim>& curvature, const Jet<dim>& change) {
   return sum;
 }
 
-/// The spline along a line parallel to an axis, by its four coefficients.
+/// The spline along a line parallel to an axis, given by its four coefficients.
 struct SplineLine {
   std::array<double, 4> coefficient;
 

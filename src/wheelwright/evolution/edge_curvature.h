@@ -7,8 +7,8 @@
 
 namespace wheelwright {
 
-/// The largest principal curvature of {f = 0} where f has this jet, and its derivatives; positive where the
-/// part with f < 0 is convex: 1 / r for f = |x| - r.
+/// The largest principal curvature of {f = 0} at a point where f has this jet, and its derivatives; positive
+/// where the part with f < 0 is convex: 1 / r for f = |x| - r.
 template <int dim>
 struct PrincipalCurvature {
   double value;          ///< [1/m]
@@ -18,8 +18,7 @@ struct PrincipalCurvature {
 template <int dim>
 PrincipalCurvature<dim> principal_curvature(const Jet<dim>& f);
 
-/// A point where the edge of the spline with some coefficients crosses a line that is parallel to an axis of
-/// the grid.
+/// A point where the edge of a spline crosses a line parallel to an axis of the grid.
 template <int dim>
 struct EdgePoint {
   std::array<int, dim> cell;
@@ -34,7 +33,7 @@ struct EdgePoint {
 template <int dim>
 std::vector<EdgePoint<dim>> internal_corners(const LevelSet<dim>& coefficients, double curvature);
 
-/// How the curvature at such a point, which stays on its line, depends on the coefficients.
+/// The dependence of the curvature at such a point, which stays on its line, on the coefficients.
 template <int dim>
 std::vector<Dependence> curvature_dependence(const LevelSet<dim>& coefficients, const EdgePoint<dim>& point);
 

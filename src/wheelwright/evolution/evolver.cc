@@ -23,15 +23,15 @@ namespace wheelwright {
 namespace {
 
 /// How much a velocity may differ from its mirror image, in units of its maximum. Mirror images of load
-/// positions are not computed but reflected; halves of the width are computed both.
+/// positions are reflected, not computed; both halves of the width are computed.
 constexpr double rounding_of(MirrorPlane plane) { return plane == MirrorPlane::azimuth ? 1e-9 : 1e-6; }
 
 template <int dim>
-Failure too_narrow(WidthKind kind, const Vec<dim>& place, double least) {
-  const char* what = kind == WidthKind::wall  ? "a wall at {} stays narrower than {:.4g} mm"
-                     : kind == WidthKind::gap ? "a gap at {} stays narrower than {:.4g} mm"
+Failure too_narrow(WidthKind kind, const Vec<dim>& place, double minimum) {
+  const char* what = kind == WidthKind::wall  ? "a wall at {} remains narrower than {:.4g} mm"
+                     : kind == WidthKind::gap ? "a gap at {} remains narrower than {:.4g} mm"
                                               : "a corner at {} keeps a radius below {:.4g} mm";
-  return {FailureReason::too_narrow, fmt::format(fmt::runtime(what), place_text<dim>(place), 1e3 * least)};
+  return {FailureReason::too_narrow, fmt::format(fmt::runtime(what), place_text<dim>(place), 1e3 * minimum)};
 }
 
 }  // namespace
@@ -81,15 +81,15 @@ std::vector<bool> Evolver<dim>::at_bands(std::span<const SurfacePoint<dim>> boun
   return result;
 }
 
-/// A coefficient that may still move by a quarter of what it would is not held: the band clips it.
+/// A coefficient that can make at least a quarter of its move is not held: the band clips it.
 template <int dim>
 bool Evolver<dim>::hold_at_bands(const LevelSet<dim>& coefficients, std::span<const double> velocity,
                                  double distance, std::vector<bool>& held) const {
-  constexpr double part = 0.25, least = 0.01;  // of the motion; of a cell
+  constexpr double part = 0.25, minimum = 0.01;  // of the motion; of a cell
   const double time = distance / largest_magnitude(velocity);
   bool is_more = false;
   for (std::size_t node = 0; node < velocity.size(); ++node) {
-    const double margin = std::max(-part * time * velocity[node], least * lattice_.grid().resolution());
+    const double margin = std::max(-part * time * velocity[node], minimum * lattice_.grid().resolution());
     if (held[node] || velocity[node] >= 0 ||
         !bands_.is_clipped(static_cast<int>(node), coefficients.values[node], margin))
       continue;
@@ -109,7 +109,7 @@ LevelSet<dim> Evolver<dim>::shape_of(LevelSet<dim> design) const {
                                                   : sub_cell_filter(design));
 }
 
-/// Clipping could hide an infinity, so that values are checked first.
+/// Clipping could hide an infinity, so the values are checked first.
 template <int dim>
 Expected<LevelSet<dim>> Evolver<dim>::finished(LevelSet<dim> design,
                                                const std::vector<MirrorPlane>& symmetries,
@@ -194,18 +194,18 @@ Expected<MeasuredShape<dim>> Evolver<dim>::with_measure(const LevelSet<dim>& psi
   });
 }
 
-/// Measures the shape, or shifts it to a measure, and widens what is narrow, until nothing is. Where much of
-/// a width is missing, or a hole is too small to be seen by its widths, balls are put in its place, and
-/// corners are rounded, first.
+/// Measures the shape, or shifts it to a measure, and widens narrow places until none is left. If much of a
+/// width is missing, or a hole is too small to be detected by its widths, first inserts balls and rounds
+/// corners.
 template <int dim>
 template <class Measure>
 Expected<MeasuredShape<dim>> Evolver<dim>::with_widths(LevelSet<dim> psi, const FeatureSize& size,
                                                        bool keeps_measure, Measure measure) const {
-  constexpr int most_turns = 12, most_mendings = 2;
+  constexpr int max_turns = 12, max_repairs = 2;
   constexpr double enough = 1e-3, far = 0.2;
   constexpr double sampled = 0.9;  // of a diameter: small holes are measured by samples
   const double reach = 0.5 * lattice_.grid().resolution();
-  int mendings = 0;
+  int repairs = 0;
   for (int turn = 0;; ++turn) {
     auto shape = measure(std::move(psi));
     if (!shape || !size.any()) return shape;
@@ -214,15 +214,15 @@ Expected<MeasuredShape<dim>> Evolver<dim>::with_widths(LevelSet<dim> psi, const 
     if (!std::isfinite(gap)) return Failure{FailureReason::not_finite, "a width of the shape"};
     const auto hole = gap <= enough ? small_hole(shape->shape, sampled * size.gap) : std::nullopt;
     if (gap <= enough && !hole) return shape;
-    if (mendings < most_mendings && (hole || (turn == 0 && gap > far))) {
-      ++mendings;
+    if (repairs < max_repairs && (hole || (turn == 0 && gap > far))) {
+      ++repairs;
       psi = with_features(shape->shape, size);
       continue;
     }
     if (hole) return too_narrow<dim>(WidthKind::gap, hole->place, size.gap);
-    if (turn == most_turns) {
+    if (turn == max_turns) {
       const auto& narrowest = *std::ranges::max_element(widths, {}, &Width<dim>::gap);
-      return too_narrow<dim>(narrowest.kind, narrowest.place, narrowest.least);
+      return too_narrow<dim>(narrowest.kind, narrowest.place, narrowest.minimum);
     }
     auto wider = widened(shape->shape, widths, keeps_measure);
     if (!wider) return wider.failure();
@@ -230,19 +230,19 @@ Expected<MeasuredShape<dim>> Evolver<dim>::with_widths(LevelSet<dim> psi, const 
   }
 }
 
-/// The shape after a deformation that gives it the widths, to first order, by which no point of its boundary
-/// moves farther than half a cell.
+/// The shape after a deformation that establishes the widths to first order and moves no boundary point by
+/// more than half a cell.
 template <int dim>
 Expected<LevelSet<dim>> Evolver<dim>::widened(const LevelSet<dim>& psi, const std::vector<Width<dim>>& widths,
                                               bool keeps_measure) const {
-  constexpr int most_turns = 3;
+  constexpr int max_turns = 3;
   constexpr double farthest = 0.5;
   const auto samples = boundary_samples<dim>(psi);
   const std::vector<SurfacePoint<dim>> boundary(samples.begin(), samples.end());
   const auto motion = deformations_.motion_of(psi, boundary);
   std::vector<bool> held(psi.values.size(), false);
   std::vector<double> velocity;
-  for (int turn = 0; turn < most_turns; ++turn) {
+  for (int turn = 0; turn < max_turns; ++turn) {
     const auto free = motion.holding(held);
     std::vector<std::vector<double>> kept;
     if (keeps_measure) kept.push_back(free.load(std::vector<double>(boundary.size(), 1.0)));

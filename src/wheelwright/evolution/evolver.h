@@ -15,7 +15,7 @@
 
 namespace wheelwright {
 
-/// The level sets of degree 2 that shapes move in.
+/// The space of level sets of degree 2 in which shapes move.
 enum class ShapeSpace {
   nodal,   ///< all nodal values, filtered below the cell (sub_cell_filter.h): what steepest descent moves
   spline,  ///< cubic B-splines (spline_level_set.h), whose motion BoundaryMotion predicts
@@ -26,17 +26,17 @@ struct EvolutionOptions {
   /// tau of (76), in units of the squared resolution of the grid. With 0, smooth() is the identity.
   double smoothing = 0;
   Bands bands;                ///< that stay material
-  FeatureSize features = {};  ///< the least widths of walls and gaps in every shape
+  FeatureSize features = {};  ///< the minimum widths of walls and gaps in every shape
   ShapeSpace space = ShapeSpace::nodal;
   DeformationKind deformation = DeformationKind::vector_field;  ///< in the space of deformations()
-  int cut_points = 4;  ///< Gauss points per direction in cut cells; those of a solver that uses them again
+  int cut_points = 4;  ///< Gauss points per direction in cut cells; as in a solver that reuses them
 };
 
 /// Moves shapes on one lattice. Matrices that depend only on the lattice are factored once. All returned
 /// shapes keep the protected bands. move(), redistance() and smooth() act on the design of a shape, its nodal
 /// values or the coefficients of its spline; the shapes that they return are of the ShapeSpace, and
-/// mirror-symmetric if the given shape and velocity are (geometry/mirror.h). A NaN or an infinity in the
-/// input or in the result of a stage is the failure not_finite.
+/// mirror-symmetric if the given shape and velocity are (geometry/mirror.h). A NaN or infinity in the input
+/// or in the result of a stage is the failure not_finite.
 template <int dim>
 class Evolver {
  public:
@@ -52,12 +52,11 @@ class Evolver {
   /// The deformations that vanish in the bands, with the inner product of velocity.length.
   const DeformationSpace<dim>& deformations() const { return deformations_; }
 
-  /// Which points of the boundary lie on the edge of a band.
+  /// For each boundary point, whether it lies on the edge of a band.
   std::vector<bool> at_bands(std::span<const SurfacePoint<dim>> boundary) const;
 
-  /// Adds to `held` the nodes whose coefficients a band stops when they move with this velocity, sooner or
-  /// later: those at the edge of a band that would move into it by more than they may. One flag per node.
-  /// Returns whether it added any.
+  /// Adds to `held` the nodes whose coefficients a band would stop under this velocity: those at the edge of
+  /// a band that would move into it by more than allowed. One flag per node. Returns whether it added any.
   bool hold_at_bands(const LevelSet<dim>& coefficients, std::span<const double> velocity, double distance,
                      std::vector<bool>& held) const;
 
@@ -73,25 +72,25 @@ class Evolver {
   /// The shape whose design is about a signed distance, with the same boundary.
   Expected<LevelSet<dim>> redistance(const LevelSet<dim>& psi) const;
 
-  /// The signed distance to the boundary of a level set that was not moved, but drawn: no spline, so that the
-  /// boundary stays as it is.
+  /// The signed distance to the boundary of a drawn level set that never moved: not a spline, so that the
+  /// boundary stays unchanged.
   Expected<LevelSet<dim>> distance(const LevelSet<dim>& psi) const;
 
   Expected<LevelSet<dim>> smooth(const LevelSet<dim>& psi) const;
   LevelSet<dim> keep_bands(const LevelSet<dim>& psi) const;
 
-  /// The least widths of walls and gaps in every shape.
+  /// The minimum widths of walls and gaps in every shape.
   const FeatureSize& features() const { return features_; }
 
-  /// The shape with these least widths: balls are put where walls are thinner, and narrower gaps are filled
+  /// The shape with these minimum widths: balls are added to thinner walls, and narrower gaps are filled
   /// (with_feature_size()).
   LevelSet<dim> with_features(const LevelSet<dim>& psi, const FeatureSize& size) const;
 
-  /// These do what the free functions with these names do, with the shape that has the given widths, or
-  /// features() where none are given: while one is missing, the boundary moves by the smallest deformation
-  /// that makes up for it (widening()); where much of one is missing, with_features() comes first. They fail
-  /// with too_narrow if a width is missed by more than a thousandth even so. A shape that misses none by more
-  /// stays as it is: what one evaluation accepted, the next one keeps to the last digit.
+  /// Like the free functions of the same names, but with the given widths enforced, or features() by default:
+  /// missing widths are restored by the smallest deformation of the boundary (widening()), after
+  /// with_features() if much of one is missing. Fail with too_narrow if a width is still missed by more than
+  /// a thousandth. A shape that misses none by more is not changed, so that an accepted shape stays the same
+  /// to the last digit.
   Expected<MeasuredShape<dim>> measured(LevelSet<dim> psi, const FeatureSize& size) const;
   Expected<MeasuredShape<dim>> with_measure(const LevelSet<dim>& psi, double target, double boundary_measure,
                                             const FeatureSize& size) const;
@@ -116,8 +115,7 @@ class Evolver {
   Expected<LevelSet<dim>> widened(const LevelSet<dim>& psi, const std::vector<Width<dim>>& widths,
                                   bool keeps_measure) const;
 
-  /// The stages act on the design of a shape. shape_of() returns the shape of a design, which keeps the
-  /// bands.
+  /// The stages act on the design of a shape. shape_of() returns the shape of a design, with the bands kept.
   LevelSet<dim> design_of(const LevelSet<dim>& psi) const;
   LevelSet<dim> shape_of(LevelSet<dim> design) const;
 

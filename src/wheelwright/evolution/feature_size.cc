@@ -15,27 +15,28 @@
 namespace wheelwright {
 namespace {
 
-/// How much smaller than the wanted radius a ball must be to count, relative: less than the curves of an
-/// outline may deviate.
+/// How much smaller than the required radius a ball must be to count, relative: less than the tolerance of an
+/// outline's curves.
 constexpr double rounding = 1e-3;
 
-/// How much thicker than asked a wall becomes, relative: the kink of the level set in its middle costs as
-/// much in walls of two cells, and the shift to a measure some more.
+/// How much thicker than required a wall becomes, relative: in walls of two cells the kink of the level set
+/// in the middle costs as much, and the shift to a measure some more.
 constexpr double margin = 0.02;
 
-/// Necks and gaps between the nodes may stay too narrow: each further pass puts larger balls there, by the
+/// Necks and gaps between the nodes may remain too narrow: each further pass adds larger balls there, by the
 /// margin for walls.
-constexpr int most_passes = 12;
+constexpr int max_passes = 12;
 
-/// Each further pass closes gaps that are wider by this part of the least gap.
+/// Each further pass closes gaps that are wider by this fraction of the minimum gap.
 constexpr double growth = 0.1;
 
-/// How far around the samples in a small hole the material that fills it reaches, by the resolution; as far
+/// How far the filling extends around the samples in a small hole, in units of the resolution; by as much
 /// again in each further pass.
 constexpr double reach = 1;
 
-/// What filling must add at a node to count, by the resolution: redistancing moves the boundary by less.
-constexpr double least_filling = 0.1;
+/// What filling must add at a node to count, in units of the resolution: redistancing moves the boundary by
+/// less.
+constexpr double min_filling = 0.1;
 
 template <int dim>
 std::vector<Vec<dim>> centres_of(const std::vector<MedialBall<dim>>& balls) {
@@ -51,7 +52,7 @@ double ball_measure(double radius) {
   return dim == 2 ? pi * radius * radius : 4 * pi / 3 * radius * radius * radius;
 }
 
-/// The distance of nodes to the nearest of some points, whose images in the neighbouring sectors count too.
+/// The distance of nodes to the nearest of some points, including their images in the neighbouring sectors.
 template <int dim>
 class DistanceToPoints {
  public:
@@ -78,7 +79,7 @@ class DistanceToPoints {
   NearestPoint<dim> nearest_;
 };
 
-/// The shape whose material is this one's holes.
+/// The complement: the shape whose material is this one's holes.
 template <int dim>
 LevelSet<dim> negative(LevelSet<dim> psi) {
   for (double& value : psi.values) value = -value;
@@ -91,7 +92,7 @@ LevelSet<dim> shifted(LevelSet<dim> psi, double shift) {
   return psi;
 }
 
-/// The shape closed by a gap near the centres of some balls.
+/// The closing of the shape by a gap, near the centres of some balls.
 template <int dim>
 LevelSet<dim> closed_near(const LevelSet<dim>& psi, const std::vector<MedialBall<dim>>& balls, double gap) {
   const DistanceToPoints<dim> distance(psi.lattice, centres_of(balls));
@@ -99,10 +100,10 @@ LevelSet<dim> closed_near(const LevelSet<dim>& psi, const std::vector<MedialBall
   const auto dilated = shifted(signed_distance, -0.5 * gap);
   const bool fills_all = std::ranges::all_of(dilated.values, [](double x) { return x < 0; });
   const auto closed = fills_all ? dilated : shifted(redistance(dilated), 0.5 * gap);
-  const double least = least_filling * psi.lattice.grid().resolution();
+  const double minimum = min_filling * psi.lattice.grid().resolution();
   LevelSet<dim> result = psi;
   for (int node = 0; node < psi.lattice.n_nodes(); ++node)
-    if (distance(node) < gap && closed.values[node] < signed_distance.values[node] - least)
+    if (distance(node) < gap && closed.values[node] < signed_distance.values[node] - minimum)
       result.values[node] = closed.values[node];
   return result;
 }
@@ -116,8 +117,8 @@ std::vector<Vec<dim>> sharp_places(const LevelSet<dim>& coefficients, double rad
   return places;
 }
 
-/// Coefficients after a step of diffusion, by a sixth of a cell squared, near some places and less and less
-/// up to the farthest distance from them, which adds material and takes none.
+/// Coefficients after a diffusion step of a sixth of a cell squared near some places, fading out with the
+/// distance from them. Only adds material.
 template <int dim>
 LevelSet<dim> blurred_near(LevelSet<dim> coefficients, const std::vector<Vec<dim>>& places, double farthest) {
   const DistanceToPoints<dim> distance(coefficients.lattice, places);
@@ -129,7 +130,7 @@ LevelSet<dim> blurred_near(LevelSet<dim> coefficients, const std::vector<Vec<dim
   return coefficients;
 }
 
-/// Which components are holes that are smaller than a ball of this diameter.
+/// Flags of the components that are holes smaller than a ball of this diameter.
 template <int dim>
 std::vector<bool> small_holes(const Components<dim>& found, double diameter) {
   const double ball = ball_measure<dim>(0.5 * diameter);
@@ -139,8 +140,7 @@ std::vector<bool> small_holes(const Components<dim>& found, double diameter) {
   return result;
 }
 
-/// Fills small holes with the balls of this radius around the samples in them; nodes in other holes stay as
-/// they are.
+/// Fills small holes by balls of this radius around the samples in them; nodes in other holes are unchanged.
 template <int dim>
 void fill(const Components<dim>& found, const std::vector<bool>& is_small, double radius,
           LevelSet<dim>& psi) {
@@ -159,11 +159,11 @@ void fill(const Components<dim>& found, const std::vector<bool>& is_small, doubl
   }
 }
 
-/// Without holes that are too small for a ball of this diameter. They lie between the nodes, where
-/// MedialBalls has too few seeds to see them.
+/// The shape without holes that are too small for a ball of this diameter. They lie between the nodes, where
+/// MedialBalls has too few seeds to detect them.
 template <int dim>
 LevelSet<dim> without_small_holes(LevelSet<dim> psi, double diameter) {
-  for (int pass = 0; pass < most_passes; ++pass) {
+  for (int pass = 0; pass < max_passes; ++pass) {
     const auto found = components(psi);
     const auto is_small = small_holes(found, diameter);
     if (std::ranges::none_of(is_small, [](bool small) { return small; })) break;
@@ -177,7 +177,7 @@ LevelSet<dim> without_small_holes(LevelSet<dim> psi, double diameter) {
 template <int dim>
 LevelSet<dim> with_thick_walls(const LevelSet<dim>& psi, double wall) {
   LevelSet<dim> result = psi;
-  for (int pass = 1; pass <= most_passes; ++pass) {
+  for (int pass = 1; pass <= max_passes; ++pass) {
     const auto balls = thin_walls(result, 0.5 * wall * (1 - rounding));
     if (balls.empty()) break;
     const DistanceToPoints<dim> distance(psi.lattice, centres_of(balls));
@@ -189,9 +189,9 @@ LevelSet<dim> with_thick_walls(const LevelSet<dim>& psi, double wall) {
 
 template <int dim>
 LevelSet<dim> without_narrow_gaps(const LevelSet<dim>& psi, double gap) {
-  // Small holes are filled first: closing could leave of them what is too small for the samples.
+  // Small holes are filled first: closing could leave remainders that are too small for the samples.
   LevelSet<dim> result = without_small_holes(psi, gap);
-  for (int pass = 0; pass < most_passes; ++pass) {
+  for (int pass = 0; pass < max_passes; ++pass) {
     const auto balls = narrow_gaps(result, 0.5 * gap * (1 - rounding));
     if (balls.empty()) break;
     result = closed_near(result, balls, gap * (1 + pass * growth));
@@ -201,13 +201,13 @@ LevelSet<dim> without_narrow_gaps(const LevelSet<dim>& psi, double gap) {
 
 template <int dim>
 LevelSet<dim> with_round_corners(const LevelSet<dim>& psi, double radius) {
-  constexpr int most_steps = 200;
+  constexpr int max_steps = 200;
   if (psi.lattice.degree() == 1) return psi;
   const double farthest = 2 * (radius + psi.lattice.grid().resolution());
   auto coefficients = spline_coefficients(psi);
   auto sharp = sharp_places(coefficients, radius);
   if (sharp.empty()) return psi;
-  for (int step = 0; step < most_steps && !sharp.empty(); ++step) {
+  for (int step = 0; step < max_steps && !sharp.empty(); ++step) {
     coefficients = blurred_near<dim>(std::move(coefficients), sharp, farthest);
     sharp = sharp_places(coefficients, radius);
   }
@@ -226,20 +226,20 @@ std::optional<ShapeEvent<dim>> small_hole(const LevelSet<dim>& psi, double gap) 
   const auto is_small = small_holes(found, gap);
   const auto first = std::ranges::find(is_small, true) - is_small.begin();
   if (first == std::ssize(is_small)) return {};
-  return ShapeEvent<dim>{ShapeEventKind::narrow_gap_mended, found.all[first].centre,
+  return ShapeEvent<dim>{ShapeEventKind::narrow_gap_repaired, found.all[first].centre,
                          found.all[first].measure};
 }
 
 namespace {
 
-/// The sharpest of the internal corners with less than this radius, if there is one.
+/// The sharpest internal corner with less than this radius, if there is one.
 template <int dim>
 std::optional<ShapeEvent<dim>> sharpest_corner(const LevelSet<dim>& psi, double radius) {
   if (radius <= 0 || psi.lattice.degree() == 1) return {};
   const auto corners = internal_corners(spline_coefficients(psi), 1 / (radius * (1 - rounding)));
   if (corners.empty()) return {};
   const auto& sharpest = *std::ranges::max_element(corners, {}, &EdgePoint<dim>::curvature);
-  return ShapeEvent<dim>{ShapeEventKind::sharp_corner_mended, sharpest.place,
+  return ShapeEvent<dim>{ShapeEventKind::sharp_corner_repaired, sharpest.place,
                          ball_measure<dim>(1 / sharpest.curvature)};
 }
 
@@ -253,14 +253,14 @@ std::vector<ShapeEvent<dim>> narrowest_places(const LevelSet<dim>& psi, const Fe
     if (width <= 0) return;
     const auto balls = medial.in(side, 0.5 * width * (1 - rounding));
     if (balls.empty()) return;
-    const auto& least = *std::ranges::min_element(balls, {}, &MedialBall<dim>::radius);
-    Vec<dim> place = polar<dim>(least.centre);
+    const auto& minimum = *std::ranges::min_element(balls, {}, &MedialBall<dim>::radius);
+    Vec<dim> place = polar<dim>(minimum.centre);
     if (place[1] < 0) place[1] += psi.lattice.grid().sector_angle();
-    result.push_back({kind, place, ball_measure<dim>(least.radius)});
+    result.push_back({kind, place, ball_measure<dim>(minimum.radius)});
   };
-  add(ShapeEventKind::thin_wall_mended, Side::material, size.wall);
+  add(ShapeEventKind::thin_wall_repaired, Side::material, size.wall);
   const std::size_t n_walls = result.size();
-  add(ShapeEventKind::narrow_gap_mended, Side::holes, size.gap);
+  add(ShapeEventKind::narrow_gap_repaired, Side::holes, size.gap);
   if (result.size() == n_walls)
     if (const auto hole = small_hole(psi, size.gap)) result.push_back(*hole);
   if (const auto corner = sharpest_corner(psi, size.radius)) result.push_back(*corner);

@@ -21,13 +21,14 @@ bool is_island(const Component<dim>& component) {
 template <int dim>
 std::optional<Failure> check(const Component<dim>& island, double largest) {
   if (island.at_tread)
-    return Failure{FailureReason::tread_cut_off,
-                   fmt::format("holes join all round and cut the tread off from the rim; the piece at the "
-                               "tread begins at {}",
-                               place_text<dim>(island.innermost))};
+    return Failure{
+        FailureReason::tread_cut_off,
+        fmt::format(
+            "holes join all around and cut the tread off from the rim; the piece at the tread begins at {}",
+            place_text<dim>(island.innermost))};
   if (island.measure > largest)
     return Failure{FailureReason::disconnected_material,
-                   fmt::format("an island of {} is not attached to the rim: {}; up to {} is removed",
+                   fmt::format("an island of {} is not attached to the rim: {}; islands up to {} are removed",
                                measure_text<dim>(island.measure), place_text<dim>(island.centre),
                                measure_text<dim>(largest))};
   return {};

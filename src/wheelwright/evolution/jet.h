@@ -25,7 +25,7 @@ struct PolarPartials {
 /// The jet of a function with these derivatives at this radius.
 template <int dim>
 Jet<dim> jet(const PolarPartials<dim>& f, double radius) {
-  Vec<dim> unit;  // what one unit of a coordinate is long
+  Vec<dim> unit;  // the length of one unit of each coordinate
   for (int i = 0; i < dim; ++i) unit[i] = i == 1 ? radius : 1;
   Jet<dim> result{f.value, {}, {}};
   for (int i = 0; i < dim; ++i) {
@@ -39,7 +39,7 @@ Jet<dim> jet(const PolarPartials<dim>& f, double radius) {
   return result;
 }
 
-/// The derivative of jet() by the radius while the partial derivatives stay as they are.
+/// The derivative of jet() with respect to the radius at fixed partial derivatives.
 template <int dim>
 Jet<dim> jet_by_radius(const PolarPartials<dim>& f, double radius) {
   const double r2 = radius * radius, r3 = r2 * radius;

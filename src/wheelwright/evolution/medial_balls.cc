@@ -9,12 +9,12 @@
 namespace wheelwright {
 namespace {
 
-/// The cosine between the normals of places that face each other, 130 degrees apart: the sides of a corner of
-/// 60 degrees are none. And that between their directions from the centre of a ball that lie opposite.
+/// Maximum cosine between the normals of places that face each other, 130 degrees apart: the sides of a
+/// corner of 60 degrees do not. And between opposite directions from the centre of a ball.
 constexpr double facing = -0.64, opposite = -0.8;
 
-/// How far beyond such a ball there is material if it lies in a neck and not in the tip of a corner: by its
-/// radius, and by the resolution.
+/// How far beyond such a ball there must be material for it to lie in a neck rather than the tip of a corner:
+/// in units of its radius, and of the resolution.
 constexpr double beyond_ball = 3, beyond_tip = 1.5;
 
 template <int dim>
@@ -56,15 +56,15 @@ Vec<dim> MedialBalls<dim>::outward(int point, Side side) const {
 
 template <int dim>
 std::vector<MedialBall<dim>> MedialBalls<dim>::in(Side side, double radius) const {
-  const int n = static_cast<int>(points_.size()) / 3;  // the images of the sector itself are in the middle
+  const int n = static_cast<int>(points_.size()) / 3;  // the sector itself is in the middle
   std::vector<MedialBall<dim>> balls;
   for (int seed = n; seed < 2 * n; ++seed)
     if (const auto ball = ball_at(seed, side, radius)) balls.push_back(*ball);
   return balls;
 }
 
-/// Whether there is more of this side at some distance from the ball, which touches a point besides its seed,
-/// where its neighbours become smaller: beyond a neck, but not beyond the tip of a corner.
+/// Whether this side continues beyond the ball in the direction in which neighbouring balls become smaller:
+/// true in a neck, false in the tip of a corner. The ball touches a point besides its seed.
 template <int dim>
 bool MedialBalls<dim>::opens_beyond(const MedialBall<dim>& ball, int touched, Side side) const {
   const auto& positions = nearest_->points();
@@ -85,12 +85,12 @@ bool MedialBalls<dim>::opens_beyond(const MedialBall<dim>& ball, int touched, Si
   return dot<dim>(difference<dim>(there, positions[nearest]), outward(nearest, side)) < 0;
 }
 
-/// The ball of less than `radius` that touches the boundary at a seed and holds no other, if it lies between
-/// places that face each other: when it was hardly larger it touched a point that faces the first. (In a
-/// small round hole such a ball touches everywhere at last.)
+/// The ball smaller than `radius` that touches the boundary at a seed and contains no other seed, if it lies
+/// between opposite places: slightly larger, it touched a point opposite the first. (In a small round hole
+/// such a ball finally touches everywhere.)
 template <int dim>
 std::optional<MedialBall<dim>> MedialBalls<dim>::ball_at(int seed, Side side, double radius) const {
-  constexpr int most_steps = 30;
+  constexpr int max_steps = 30;
   constexpr double hardly_larger = 1.1;
   const Vec<dim>& p = nearest_->points()[seed];
   const Vec<dim> normal = outward(seed, side);
@@ -101,7 +101,7 @@ std::optional<MedialBall<dim>> MedialBalls<dim>::ball_at(int seed, Side side, do
   };
   double facing_radius = 0, opposite_radius = 0;
   int touched = seed, across = seed;
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < max_steps; ++step) {
     const Vec<dim> centre = centre_of(radius);
     const int nearest = nearest_->index_of_nearest(centre);
     const Vec<dim>& other = nearest_->points()[nearest];
@@ -111,7 +111,7 @@ std::optional<MedialBall<dim>> MedialBalls<dim>::ball_at(int seed, Side side, do
     if (!(smaller > 0 && smaller < radius)) break;
     radius = smaller;
     touched = nearest;
-    // At the tip of a sharp neck the boundary's own normal says nothing, but the direction from the centre.
+    // At the tip of a sharp neck the boundary's normal is meaningless; the direction from the centre is used.
     Vec<dim> towards;
     for (int d = 0; d < dim; ++d) towards[d] = apart[d] / radius + normal[d];
     if (dot<dim>(normal, outward(nearest, side)) < facing) facing_radius = radius;

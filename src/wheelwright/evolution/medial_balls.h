@@ -14,17 +14,17 @@ template <int dim>
 struct MedialBall {
   Vec<dim> centre;  ///< Cartesian, body frame [m]
   double radius;
-  /// The places, as points of the MedialBalls that found it: a seed of the sector itself, and the last one
-  /// across that the ball touched while it shrank.
+  /// The places, as points of the MedialBalls that found it: a seed of the sector itself, and the last
+  /// opposite one that the ball touched while shrinking.
   std::array<int, 2> touched = {};
 };
 
 enum class Side { material, holes };
 
-/// Finds the balls in walls, or in holes, of one shape: those that touch the boundary at two places which
-/// face each other (their normals are more than 130 degrees apart). They are found by shrinking, at every
-/// seed on {psi = 0}, a ball that touches the boundary there until it holds no other seed (Ma, Bae, Choi
-/// 2012). It refers to the level set, which must outlive it.
+/// Finds the balls in walls, or in holes, of one shape that touch the boundary at two opposite places
+/// (normals more than 130 degrees apart). They are found by shrinking, at every seed on {psi = 0}, a ball
+/// that touches the boundary there until it holds no other seed (Ma, Bae, Choi 2012). It refers to the level
+/// set, which must outlive it.
 template <int dim>
 class MedialBalls {
  public:
@@ -32,8 +32,8 @@ class MedialBalls {
   MedialBalls(const MedialBalls&) = delete;
   MedialBalls& operator=(const MedialBalls&) = delete;
 
-  /// The balls of less than `radius`, at most one for every seed of the sector: the middle of walls, or of
-  /// gaps, that are narrower than 2 `radius`.
+  /// The balls smaller than `radius`, at most one per seed of the sector: the middle of walls, or gaps,
+  /// narrower than 2 `radius`.
   std::vector<MedialBall<dim>> in(Side side, double radius) const;
 
   const CubicInterpolant<dim>& interpolant() const { return psi_; }
@@ -56,7 +56,7 @@ class MedialBalls {
   std::optional<NearestPoint<dim>> nearest_;  ///< of the points in the body frame; empty without points
 };
 
-/// The balls of less than `radius` in the walls of a shape.
+/// The balls smaller than `radius` in the walls of a shape.
 template <int dim>
 std::vector<MedialBall<dim>> thin_walls(const LevelSet<dim>& psi, double radius) {
   return MedialBalls<dim>(psi).in(Side::material, radius);

@@ -4,7 +4,7 @@ namespace wheelwright {
 
 namespace {
 
-/// How near a boundary counts as lying on the edge of the range, in units of the resolution.
+/// How close to the edge of the range a boundary counts as lying on it, in units of the resolution.
 constexpr double near_edge = 0.1;
 
 }  // namespace

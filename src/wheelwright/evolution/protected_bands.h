@@ -24,7 +24,7 @@ class ProtectedBands {
   /// overlapping hole of `before` did. The place of the event is at the band.
   std::vector<ShapeEvent<dim>> contacts(const Components<dim>& before, const Components<dim>& after) const;
 
-  /// Whether less than `margin` [m] is missing for the value of a node to be clipped by keep().
+  /// Whether keep() would clip the value of a node, or its value is within `margin` [m] of that.
   bool is_clipped(int node, double value, double margin) const { return value > upper_bound_[node] - margin; }
 
   /// Whether a boundary point lies where keep() stops the boundary, up to a tenth of the resolution.

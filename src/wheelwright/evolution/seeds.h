@@ -16,7 +16,7 @@ std::vector<Vec<dim>> zero_seeds(const CubicInterpolant<dim>& psi);
 template <int dim>
 std::vector<Vec<dim>> with_images(const Lattice<dim>& lattice, const std::vector<Vec<dim>>& points);
 
-/// A point in units of the node spacing in the body frame [m].
+/// Converts a point in units of the node spacing to the body frame [m].
 template <int dim>
 Vec<dim> cartesian_position(const Lattice<dim>& lattice, const Vec<dim>& point);
 

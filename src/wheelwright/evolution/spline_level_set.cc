@@ -8,7 +8,7 @@
 namespace wheelwright {
 namespace {
 
-/// Values along one axis, and which lie beyond its ends: the same ones again, or those of a straight line.
+/// Values along one axis, and how they continue beyond its ends: periodically, or along a straight line.
 struct Line {
   std::vector<double> value;
   bool is_periodic;
@@ -114,8 +114,8 @@ LevelSet<dim> spline_level_set(const LevelSet<dim>& coefficients) {
 
 namespace {
 
-/// Weights of the vertices around a cell, where the vertices beyond the ends of an axis that is not periodic
-/// continue a straight line.
+/// Weights of the vertices around a cell; vertices beyond the ends of a nonperiodic axis continue a straight
+/// line.
 std::array<double, 4> within(std::array<double, 4> weight, int cell, int n_vertices, bool is_periodic) {
   const auto continue_linearly = [&](int beyond, int end, int before) {
     weight[end] += 2 * weight[beyond];

@@ -8,10 +8,10 @@
 namespace wheelwright {
 
 // Quadratic level sets that move are tensor-product cubic B-splines over the polar grid, with knots at the
-// vertices of the cells: they are smooth, and their edges bend over about a cell. What is designed are the
-// coefficients. Without this the nodes between the vertices are variables of their own, and edges grow teeth
-// below the size of a cell, which the discrete energy rewards and the true one does not. Level sets of degree
-// 1 have vertices only: both functions return them as they are.
+// vertices of the cells: they are smooth, and their edges bend over about a cell. The coefficients are the
+// design variables. Otherwise the nodes between the vertices are independent variables, and edges grow teeth
+// smaller than a cell, which the discrete energy rewards and the true one does not. Level sets of degree 1
+// have vertices only: both functions return them as they are.
 
 /// The coefficients of the spline that has the values of psi at the vertices. At its ends along the radius
 /// (and the width) it is linear. The nodes between the vertices have values for transport(), by cubic
@@ -19,8 +19,8 @@ namespace wheelwright {
 template <int dim>
 LevelSet<dim> spline_coefficients(const LevelSet<dim>& psi);
 
-/// The spline with these coefficients, at all nodes. It is nowhere larger than another one whose coefficients
-/// are larger.
+/// The spline with these coefficients, at all nodes. Monotone: larger coefficients give a spline that is
+/// nowhere smaller.
 template <int dim>
 LevelSet<dim> spline_level_set(const LevelSet<dim>& coefficients);
 
@@ -29,18 +29,18 @@ LevelSet<dim> spline_level_set(const LevelSet<dim>& coefficients);
 /// degree 1 the weights of the vertices' values.
 std::array<double, 4> spline_weights(int degree, int cell, double xi, int n_vertices, bool is_periodic);
 
-/// The derivatives of order 0 to 3 by xi of the spline itself, of which a level set of degree 2 has the
-/// values at the nodes: weights of the same coefficients, by order.
+/// Weights of the same coefficients for the derivatives of order 0 to 3 in xi of the spline itself, which a
+/// level set of degree 2 interpolates at the nodes.
 std::array<std::array<double, 4>, 4> spline_derivative_weights(int cell, double xi, int n_vertices,
                                                                bool is_periodic);
 
-/// How something depends on one of the coefficients: its node, and the derivative by it.
+/// The dependence on one of the coefficients: its node, and the derivative.
 struct Dependence {
   int node;
   double weight;
 };
 
-/// Adds how the level set at a point of the unit cell depends on its coefficients, times a factor.
+/// Adds the dependence of the level set at a point of the unit cell on its coefficients, times a factor.
 template <int dim>
 void add_dependences(const Lattice<dim>& lattice, const std::array<int, dim>& cell, const Vec<dim>& xi,
                      double factor, std::vector<Dependence>& to);

@@ -15,9 +15,9 @@ template <int dim>
 LevelSet<dim> transport(const LevelSet<dim>& psi, std::span<const double> velocity, double time);
 
 /// transport() with the derivative -V |grad phi| by central differences (gradients_at_nodes()) at time 0, in
-/// which it is linear in V. Godunov's scheme takes one-sided differences there, and other ones for -V: at the
-/// kinks of a distance function its derivative jumps with the sign of V. The difference, to first order in
-/// time, is taken back from short moves; from about a cell on the scheme is Godunov's, which thin webs need.
+/// which it is linear in V. Godunov's scheme takes one-sided differences there, and different ones for -V: at
+/// the kinks of a distance function its derivative jumps with the sign of V. For short moves the difference
+/// is removed to first order in time; beyond about a cell the scheme is Godunov's, which thin webs need.
 template <int dim>
 LevelSet<dim> smooth_transport(const LevelSet<dim>& psi, std::span<const double> velocity, double time);
 

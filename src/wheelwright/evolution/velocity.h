@@ -46,7 +46,7 @@ Expected<std::vector<double>> measure_preserving_velocity(const Lattice<dim>& la
                                                           const VelocityExtension<dim>& extension,
                                                           std::span<const SurfaceSample<dim>> gradient);
 
-/// The samples of a gradient that can move with a velocity: all but those on the edge of a band that would
+/// The samples of a gradient that can move with a velocity: all except those on the edge of a band that would
 /// move into it.
 template <int dim>
 std::vector<SurfaceSample<dim>> movable_samples(const Lattice<dim>& lattice, const ProtectedBands<dim>& bands,

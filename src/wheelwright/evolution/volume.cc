@@ -58,9 +58,9 @@ Expected<MeasuredShape<dim>> with_measure(const LevelSet<dim>& psi, const Protec
     if (!bracket.contains(shift)) shift = bracket.middle();
     if (bracket.too_large - bracket.too_small < 1e-12 * reach) break;
   }
-  const bool at_end = bracket.too_large == reach || bracket.too_small == -reach;
+  const bool on_end = bracket.too_large == reach || bracket.too_small == -reach;
   return Failure{
-      at_end ? FailureReason::empty_shape : FailureReason::cut_quadrature,
+      on_end ? FailureReason::empty_shape : FailureReason::cut_quadrature,
       fmt::format("no shift of the level set gives the measure {:.6g}; the nearest is off by {:.2g}", target,
                   last_error)};
 }

@@ -5,10 +5,9 @@
 
 namespace wheelwright {
 
-/// The deformation of least norm under which, to first order, no width is less than it may be, and under
-/// which the sum of `kept`, derivatives of what must not change, is zero: a step of Newton's method. Where
-/// the widths contradict each other, it does what it can. `motion`: of the shape. `kept`:
-/// loads, e.g. that of the measure.
+/// The deformation of minimum norm under which, to first order, no width is below its minimum and all of
+/// `kept`, derivatives of quantities that must not change, are zero: a step of Newton's method. Contradictory
+/// widths are satisfied as far as possible. `motion`: of the shape. `kept`: loads, e.g. that of the measure.
 template <int dim>
 std::vector<double> widening(const DeformationSpace<dim>& space, const BoundaryMotion<dim>& motion,
                              const std::vector<Width<dim>>& widths,

@@ -14,11 +14,11 @@
 namespace wheelwright {
 namespace {
 
-/// How far the places of widths of a kind are apart, by the resolution.
+/// Minimum distance between places of widths of a kind, in units of the resolution.
 constexpr double apart(WidthKind kind) { return kind == WidthKind::corner ? 0.5 : 1; }
 
-/// Widths that exceed the least one by more than this part of it are not needed to the last digit; corners
-/// are not needed at all.
+/// Widths that exceed the minimum by more than this fraction of it need not be exact; such corners are not
+/// needed at all.
 constexpr double critical = 0.2;
 
 template <int dim>
@@ -30,27 +30,28 @@ struct NarrowPlace {
   EdgePoint<dim> corner;  ///< of a corner
 };
 
-/// Whether a width grows as its ends move along the outward normals of the material, or shrinks.
+/// The sign of a width's change as its ends move along the outward normals of the material.
 double outward_of(WidthKind kind) { return kind == WidthKind::wall ? 1 : -1; }
 
 Side side_of(WidthKind kind) { return kind == WidthKind::wall ? Side::material : Side::holes; }
 
-/// The balls of both sides that are smaller than the least width and the reach allow.
+/// The balls of a side whose diameter is below the minimum width plus the reach.
 template <int dim>
-void add_balls(const MedialBalls<dim>& medial, WidthKind kind, double least, double reach,
+void add_balls(const MedialBalls<dim>& medial, WidthKind kind, double minimum, double reach,
                std::vector<NarrowPlace<dim>>& places) {
-  for (const auto& ball : medial.in(side_of(kind), 0.5 * (least + reach)))
-    places.push_back({kind, ball.centre, 1 - 2 * ball.radius / least, ball, {}});
+  for (const auto& ball : medial.in(side_of(kind), 0.5 * (minimum + reach)))
+    places.push_back({kind, ball.centre, 1 - 2 * ball.radius / minimum, ball, {}});
 }
 
-/// The internal corners whose radius is smaller than the least one and the reach allow.
+/// The internal corners whose radius is below the minimum plus the reach.
 template <int dim>
-void add_corners(const LevelSet<dim>& coefficients, double least, double reach,
+void add_corners(const LevelSet<dim>& coefficients, double minimum, double reach,
                  std::vector<NarrowPlace<dim>>& places) {
-  if (least <= 0 || coefficients.lattice.degree() == 1) return;
-  for (const auto& corner : internal_corners(coefficients, 1 / (least + std::min(reach, critical * least))))
+  if (minimum <= 0 || coefficients.lattice.degree() == 1) return;
+  for (const auto& corner :
+       internal_corners(coefficients, 1 / (minimum + std::min(reach, critical * minimum))))
     places.push_back(
-        {WidthKind::corner, cartesian<dim>(corner.place), corner.curvature * least - 1, {}, corner});
+        {WidthKind::corner, cartesian<dim>(corner.place), corner.curvature * minimum - 1, {}, corner});
 }
 
 /// The planes of symmetry between different nodes: in 2D everything is symmetric along the width.
@@ -83,8 +84,8 @@ std::vector<Vec<dim>> images_of(const PolarGrid<dim>& grid, const std::vector<Mi
   return result;
 }
 
-/// The first of the places, and each of the others that is not near one of its kind that comes before it, or
-/// near an image of one.
+/// The first of the places, and each other that is not close to an earlier one of its kind or an image of
+/// one.
 template <int dim>
 std::vector<NarrowPlace<dim>> thinned_out(const PolarGrid<dim>& grid, const std::vector<MirrorPlane>& planes,
                                           const std::vector<NarrowPlace<dim>>& places) {
@@ -119,18 +120,18 @@ Vec<dim> in_units(const Lattice<dim>& lattice, const Vec<dim>& x) {
 template <int dim>
 using Chord = std::array<Vec<dim>, 2>;
 
-/// The shortest chord between two sides of the boundary near a given one, by moving each end in turn to the
-/// place nearest to the other; empty if there is none within half a cell, and where the sides meet at a
-/// corner.
+/// The shortest chord between two sides of the boundary near a given one, found by alternately moving each
+/// end to the place nearest to the other; empty if there is none within half a cell, or if the sides meet at
+/// a corner.
 template <int dim>
 std::optional<Chord<dim>> shortest_near(const CubicInterpolant<dim>& psi, const Chord<dim>& given) {
-  constexpr int most_turns = 400;
+  constexpr int max_turns = 400;
   constexpr double still = 1e-6, hardly_shorter = 0.9;
   const Lattice<dim>& lattice = psi.lattice();
   const double resolution = lattice.grid().resolution(),
-               least = hardly_shorter * physical_distance<dim>(lattice, given[0], given[1]);
+               minimum = hardly_shorter * physical_distance<dim>(lattice, given[0], given[1]);
   Chord<dim> chord = given;
-  for (int turn = 0; turn < most_turns; ++turn) {
+  for (int turn = 0; turn < max_turns; ++turn) {
     double moved = 0;
     for (int end = 0; end < 2; ++end) {
       const auto nearest = closest_zero<dim>(psi, chord[1 - end], chord[end]);
@@ -138,14 +139,14 @@ std::optional<Chord<dim>> shortest_near(const CubicInterpolant<dim>& psi, const 
       moved = std::max(moved, physical_distance<dim>(lattice, *nearest, chord[end]));
       chord[end] = *nearest;
     }
-    if (physical_distance<dim>(lattice, chord[0], chord[1]) < least) return {};
+    if (physical_distance<dim>(lattice, chord[0], chord[1]) < minimum) return {};
     if (moved < still * resolution) return chord;
   }
   return {};
 }
 
-/// How the value depends on the coefficients whose derivatives by the speeds of two ends of the boundary
-/// along their normals are these.
+/// The dependence on the coefficients of a value with the given derivatives with respect to the normal speeds
+/// of two boundary points.
 template <int dim>
 std::vector<Dependence> dependence_on_ends(const CubicInterpolant<dim>& psi, const Chord<dim>& ends,
                                            const std::array<double, 2>& by_speed) {
@@ -156,7 +157,7 @@ std::vector<Dependence> dependence_on_ends(const CubicInterpolant<dim>& psi, con
   return result;
 }
 
-/// The width at the shortest chord, without the least one.
+/// The width at the shortest chord; its minimum is not set.
 template <int dim>
 Width<dim> width_of(const CubicInterpolant<dim>& psi, WidthKind kind, const Chord<dim>& chord) {
   const Vec<dim> p = cartesian_position<dim>(psi.lattice(), chord[0]),
@@ -169,12 +170,12 @@ Width<dim> width_of(const CubicInterpolant<dim>& psi, WidthKind kind, const Chor
   }
   return {.kind = kind,
           .value = norm<dim>(across),
-          .least = 0,
+          .minimum = 0,
           .place = polar<dim>(middle),
           .slopes = dependence_on_ends<dim>(psi, chord, {outward, outward})};
 }
 
-/// The ball that touches the boundary at a point with this outward normal, and passes through another one.
+/// The ball that touches the boundary at a point with this outward normal and passes through another point.
 template <int dim>
 struct TangentBall {
   Vec<dim> centre;
@@ -195,9 +196,9 @@ TangentBall<dim> tangent_ball(const Vec<dim>& p, const Vec<dim>& normal, const V
   return ball;
 }
 
-/// The same at a ball that touches seeds, where the sides are not parallel: the ball is made to touch the
-/// boundary itself at the second place, if that still faces the first one. While its first end moves by v
-/// along the side's outward normal n there, and the second one by w along its own normal e, its radius r
+/// The same for a ball that touches seeds, if the sides are not parallel: the ball is adjusted to touch the
+/// boundary itself at the second place, if that is still opposite the first one. While its first end moves by
+/// v along the side's outward normal n there, and the second one by w along its own normal e, its radius r
 /// changes by dr with w + n.e (dr - v) - dr = 0, up to the turning of n.
 template <int dim>
 Width<dim> width_of_ball(const MedialBalls<dim>& medial, WidthKind kind, const MedialBall<dim>& given) {
@@ -221,7 +222,7 @@ Width<dim> width_of_ball(const MedialBalls<dim>& medial, WidthKind kind, const M
   const double slope = outward * 2 / (1 - ball.cosine);
   return {.kind = kind,
           .value = 2 * ball.radius,
-          .least = 0,
+          .minimum = 0,
           .place = polar<dim>(ball.centre),
           .slopes = dependence_on_ends<dim>(medial.interpolant(), {medial.point(seed), second},
                                             {-ball.cosine * slope, slope})};
@@ -237,14 +238,14 @@ Width<dim> width_at(const MedialBalls<dim>& medial, const NarrowPlace<dim>& narr
                : width_of_ball<dim>(medial, narrow.kind, narrow.ball);
 }
 
-/// The radius at an internal corner, without the least one.
+/// The radius at an internal corner; its minimum is not set.
 template <int dim>
 Width<dim> radius_at(const LevelSet<dim>& coefficients, const EdgePoint<dim>& corner) {
   auto slopes = curvature_dependence(coefficients, corner);
   for (auto& [node, weight] : slopes) weight *= -1 / (corner.curvature * corner.curvature);
   return {.kind = WidthKind::corner,
           .value = 1 / corner.curvature,
-          .least = 0,
+          .minimum = 0,
           .place = corner.place,
           .slopes = std::move(slopes)};
 }
@@ -266,7 +267,7 @@ Width<dim> mirror_image(const Lattice<dim>& lattice, Width<dim> width, MirrorPla
   return width;
 }
 
-double least_of(WidthKind kind, const FeatureSize& size) {
+double minimum_of(WidthKind kind, const FeatureSize& size) {
   switch (kind) {
     case WidthKind::wall:
       return size.wall;
@@ -299,7 +300,7 @@ std::vector<Width<dim>> narrow_widths(const LevelSet<dim>& psi, const FeatureSiz
                                                      : width_at<dim>(*medial, place));
     Width<dim>& width = widths.back();
     width.place[1] -= std::floor(width.place[1] / grid.sector_angle()) * grid.sector_angle();
-    width.least = least_of(place.kind, size);
+    width.minimum = minimum_of(place.kind, size);
   }
   for (const MirrorPlane plane : planes)
     for (std::size_t k = widths.size(); k-- > 0;)
@@ -318,7 +319,7 @@ double largest_gap(const std::vector<Width<dim>>& widths) {
 template <int dim>
 std::vector<double> gap_load(const BoundaryMotion<dim>& motion, const Width<dim>& width) {
   const double by_value =
-      width.kind == WidthKind::corner ? -width.least / (width.value * width.value) : -1 / width.least;
+      width.kind == WidthKind::corner ? -width.minimum / (width.value * width.value) : -1 / width.minimum;
   std::vector<Dependence> gap = width.slopes;
   for (auto& [node, weight] : gap) weight *= by_value;
   return motion.load(gap);

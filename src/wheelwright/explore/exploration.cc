@@ -31,9 +31,9 @@ Expected<double> weight_of_evenness(Case c) {
   const auto value = [&](std::string_view name) {
     return std::ranges::find(evaluated->evaluation.terms, name, &TermValue::name)->value;
   };
-  constexpr double least_share = 1e-8;
+  constexpr double min_share = 1e-8;
   const double energy = value("strain_energy"), unevenness = value("uniformity_dual");
-  return unevenness > least_share * energy ? energy / unevenness : 0;
+  return unevenness > min_share * energy ? energy / unevenness : 0;
 }
 
 /// The case as a design runs it: without the many output files that nobody opens.

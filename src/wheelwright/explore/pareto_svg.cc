@@ -14,7 +14,7 @@ namespace {
 constexpr double frame_width = 560, frame_height = 360, left = 92, top = 56, bottom = 66, gap = 30;
 constexpr double panel_height = frame_height + bottom;
 constexpr double wheel_size = 92, wheels_left = left + frame_width + gap, wheels_width = 390;
-constexpr int most_wheels = 8, wheels_per_row = 3;
+constexpr int max_wheels = 8, wheels_per_row = 3;
 
 constexpr std::string_view style = R"(<style>
 text{font-family:"Helvetica Neue",Helvetica,Arial,"DejaVu Sans",sans-serif;font-size:13px;fill:#24292f}
@@ -46,13 +46,13 @@ struct Axis {
 };
 
 void draw_axes(const Axis& x, const Axis& y, std::string& svg) {
-  constexpr int most_ticks = 8;
-  for (const double t : axis_ticks(x.low, x.high, most_ticks))
+  constexpr int max_ticks = 8;
+  for (const double t : axis_ticks(x.low, x.high, max_ticks))
     svg += fmt::format(
         "<line class=\"grid\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1:.1f}\" y2=\"{2:.1f}\"/><text "
         "class=\"middle\" x=\"{0:.1f}\" y=\"{3:.1f}\">{4:.6g}</text>\n",
         x.pixel(t), y.to, y.from, y.from + 20, t);
-  for (const double t : axis_ticks(y.low, y.high, most_ticks))
+  for (const double t : axis_ticks(y.low, y.high, max_ticks))
     svg += fmt::format(
         "<line class=\"grid\" x1=\"{1:.1f}\" x2=\"{2:.1f}\" y1=\"{0:.1f}\" y2=\"{0:.1f}\"/><text "
         "class=\"end\" x=\"{3:.1f}\" y=\"{4:.1f}\">{5:.6g}</text>\n",
@@ -76,7 +76,7 @@ void draw_points(const Axis& x, const Axis& y, const std::vector<RankedDesign>& 
         "<circle class=\"design{}{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"><title>{}</title></circle>\n",
         is_best ? " best" : "", one.result.progression == Progression::preview ? " preview" : "", px, py,
         is_best ? 6 : 4, escape_xml(one.design.name + ": " + one.design.text));
-    if (is_best && i < most_wheels)
+    if (is_best && i < max_wheels)
       svg +=
           fmt::format("<text class=\"number\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", px + 8, py - 6, i + 1);
   }
@@ -92,7 +92,7 @@ std::vector<std::string> caption_lines(const std::string& text) {
 }
 
 void draw_wheels(const std::vector<RankedDesign>& designs, std::string& svg) {
-  for (int i = 0; i < std::min(most_wheels, static_cast<int>(designs.size())); ++i) {
+  for (int i = 0; i < std::min(max_wheels, static_cast<int>(designs.size())); ++i) {
     const RankedDesign& one = designs[i];
     if (one.front != 1 || one.outline.empty()) continue;
     const double x = wheels_left + (i % wheels_per_row + 0.5) * wheels_width / wheels_per_row,

@@ -151,7 +151,7 @@ std::string designs_json(const std::vector<RankedDesign>& designs,
 }
 
 std::string designs_table(const std::vector<RankedDesign>& designs,
-                          const std::vector<RankedQuantity>& quantities, int most_rows) {
+                          const std::vector<RankedQuantity>& quantities, int max_rows) {
   std::vector<std::vector<std::string>> rows{{"rank", "design", "start"}};
   std::vector<ShownNumber> shown;
   for (const RankedQuantity& quantity : quantities)
@@ -163,7 +163,7 @@ std::string designs_table(const std::vector<RankedDesign>& designs,
         shown.push_back({fmt::format("{} in {} [{}]", quantity.word, load_case, quantity.shown.name),
                          key_in_case(quantity.key, load_case), quantity.shown.factor});
   for (const ShownNumber& number : shown) rows[0].push_back(number.heading);
-  for (int i = 0; i < std::min(most_rows, static_cast<int>(designs.size())); ++i) {
+  for (int i = 0; i < std::min(max_rows, static_cast<int>(designs.size())); ++i) {
     const RankedDesign& one = designs[i];
     std::vector<std::string> row{fmt::format("{}{}", i + 1, one.front == 1 ? "*" : ""), one.design.name,
                                  one.result.violation == 0

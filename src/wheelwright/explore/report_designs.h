@@ -28,7 +28,7 @@ std::string designs_json(const std::vector<RankedDesign>& designs,
 
 /// For display: the first rows, with the requested quantities.
 std::string designs_table(const std::vector<RankedDesign>& designs,
-                          const std::vector<RankedQuantity>& quantities, int most_rows);
+                          const std::vector<RankedQuantity>& quantities, int max_rows);
 
 /// Plots of the designs by the first quantity and each of the others (by itself, if it is the only one):
 /// points, large on the front, next to the wheels of its first designs. An SVG document.

@@ -10,7 +10,7 @@
 namespace wheelwright {
 namespace {
 
-constexpr std::size_t most_designs = 999;
+constexpr std::size_t max_designs = 999;
 
 /// With the grid sizes that a case file with the other keys would have by default.
 Case with_default_grid(Case c, const GivenCells& given) {
@@ -48,8 +48,8 @@ Expected<std::vector<Design>, SweepProblem> sweep_designs(const Case& c, const G
                                                           const std::vector<SweptKey>& keys) {
   std::size_t n = 1;
   for (const SweptKey& swept : keys) n *= swept.values.size();
-  if (n > most_designs)
-    return SweepProblem{fmt::format("{} designs; at most {} are run in one folder", n, most_designs)};
+  if (n > max_designs)
+    return SweepProblem{fmt::format("{} designs; at most {} are run in one folder", n, max_designs)};
   std::vector<Design> designs;
   for (std::size_t i = 0; i < n; ++i) {
     Case source = c;

@@ -11,7 +11,7 @@
 namespace wheelwright {
 namespace {
 
-constexpr double mm = 1e3, most_volume_error = 1e-3;
+constexpr double mm = 1e3, max_volume_error = 1e-3;
 constexpr int gauss_points = 4;
 
 std::string place(const Vec<3>& polar) {
@@ -47,7 +47,7 @@ Expected<FittedSurface, SurfaceRefusal> fit_surface(const LevelSet<3>& psi, int 
   if (!domain) return SurfaceRefusal{domain.failure().detail};
   const double volume = psi.lattice.grid().n_sectors * material_measure(*domain, map_degree);
   fitted.volume_error = report->volume / (volume * mm * mm * mm) - 1;
-  if (!(std::abs(fitted.volume_error) < most_volume_error))
+  if (!(std::abs(fitted.volume_error) < max_volume_error))
     return SurfaceRefusal{fmt::format(
         "the volume of the surface differs by {:.3g} % from the level set's; decrease --tolerance",
         100 * fitted.volume_error)};

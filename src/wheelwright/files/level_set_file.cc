@@ -8,7 +8,7 @@ constexpr std::uint32_t version = 1;
 constexpr std::string_view tag = "LSET";
 
 /// Far more than any grid has, but few enough that numbers of nodes do not overflow 64 bits in 3D.
-constexpr int most_cells = 1'000'000;
+constexpr int max_cells = 1'000'000;
 
 template <int dim>
 void append(const PolarGrid<dim>& grid, ByteWriter& writer) {
@@ -24,9 +24,9 @@ PolarGrid<dim> read_grid(ByteReader& reader) {
     *length = reader.finite_number("a length of the grid");
   if (!(0 < grid.inner_radius && grid.inner_radius < grid.outer_radius && grid.width > 0))
     reader.fail("the grid's radii or width do not form a ring");
-  grid.n_sectors = static_cast<int>(reader.integer(1, most_cells, "the number of sectors"));
+  grid.n_sectors = static_cast<int>(reader.integer(1, max_cells, "the number of sectors"));
   for (int& cells : grid.cells)
-    cells = static_cast<int>(reader.integer(1, most_cells, "a number of cells of the grid"));
+    cells = static_cast<int>(reader.integer(1, max_cells, "a number of cells of the grid"));
   return grid;
 }
 

@@ -11,7 +11,7 @@ namespace wheelwright {
 /// A functional at one shape and its states.
 template <int dim>
 struct FunctionalValue {
-  /// The part that depends on the shape alone, and the density of its shape derivative at State::boundary();
+  /// The part that depends only on the shape, and the density of its shape derivative at State::boundary();
   /// empty: zero.
   double of_shape = 0;
   std::vector<double> gradient_of_shape = {};
@@ -33,9 +33,9 @@ struct FunctionalValue {
 };
 
 /// A functional of the form (36): integrals over the material and over its boundary. It depends on the shape
-/// itself, and on the states of the load positions through the strain energy, through what the tread observes
-/// and through integrals over the material. To add one, write a file with a class like this and its Taylor
-/// test, and add its line to objective_terms() (run/study.cc).
+/// itself, and on the states of the load positions through the strain energy, the observations of the tread
+/// and integrals over the material. To add one, write a file with a class like this and its Taylor test, and
+/// add its line to objective_terms() (run/study.cc).
 template <int dim>
 class Functional {
  public:
@@ -49,8 +49,8 @@ class Functional {
   virtual FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                         const State<dim>& state, const Matrix& mean) const = 0;
 
-  /// What a small round hole in every sector changes of the part that depends on the shape alone, per its
-  /// area (volume when dim = 3). `x`: its centre, Cartesian, in the body frame [m]; `radius` [m].
+  /// The change by a small round hole in every sector of the part that depends only on the shape, per area of
+  /// the hole (volume when dim = 3). `x`: its centre, Cartesian, in the body frame [m]; `radius` [m].
   virtual double of_small_hole(const PolarGrid<dim>& /*grid*/, const Vec<dim>& /*x*/,
                                double /*radius*/) const {
     return 0;

@@ -5,8 +5,8 @@
 
 namespace wheelwright {
 
-/// int_Omega M(u_i) dx (36) of every load position i, with M a function of the strain: what derives from this
-/// gives M and its derivative, at() of MaterialDensity.
+/// int_Omega M(u_i) dx (36) of every load position i, with M a function of the strain: derived classes
+/// implement M and its derivative, at() of MaterialDensity.
 template <int dim>
 class MaterialDensityIntegral : public Functional<dim>, MaterialDensity<dim> {
  public:

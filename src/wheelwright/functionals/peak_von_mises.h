@@ -29,7 +29,7 @@ class VonMisesPower : public MaterialDensity<dim> {
 
 /// The largest von Mises stress at every load position [Pa]: a p-norm over the material of the whole ring.
 /// Near the tread the contact's own peak dominates, which the holes hardly change: rows of cells that reach
-/// nearer to the tread than a given distance do not count.
+/// closer to the tread than a given distance are excluded.
 template <int dim>
 class PeakVonMises : public Functional<dim> {
  public:
@@ -47,7 +47,7 @@ class PeakVonMises : public Functional<dim> {
   VonMisesPower<dim> power_;
 };
 
-/// Whether a radial row of cells lies at least so far inside the tread, up to rounding.
+/// Whether a radial row of cells lies at least this far inside the tread, up to rounding.
 template <int dim>
 bool row_is_inside(const PolarGrid<dim>& grid, int row, double from_tread);
 

@@ -9,15 +9,15 @@
 namespace wheelwright {
 namespace {
 
-/// By the range of the values: what lies the range below the greatest counts e^-10 of it.
+/// In units of the inverse range of the values: the minimum has e^-10 of the weight of the maximum.
 constexpr double relative_sharpness = 10;
 
 OfPositions extreme(std::span<const double> values, double sign) {
-  const auto [least, greatest] = std::ranges::minmax(values);
-  OfPositions result = greatest > least
-                           ? smooth_maximum(values, sign * relative_sharpness / (greatest - least))
+  const auto [minimum, maximum] = std::ranges::minmax(values);
+  OfPositions result = maximum > minimum
+                           ? smooth_maximum(values, sign * relative_sharpness / (maximum - minimum))
                            : mean_of(values);
-  result.value = sign > 0 ? greatest : least;
+  result.value = sign > 0 ? maximum : minimum;
   return result;
 }
 
@@ -29,8 +29,8 @@ OfPositions mean_of(std::span<const double> values) {
 }
 
 OfPositions smooth_maximum(std::span<const double> values, double sharpness) {
-  const auto [least, greatest] = std::ranges::minmax(values);
-  const double extreme = sharpness > 0 ? greatest : least;
+  const auto [minimum, maximum] = std::ranges::minmax(values);
+  const double extreme = sharpness > 0 ? maximum : minimum;
   OfPositions result{0, {}};
   for (const double x : values) result.slopes.push_back(std::exp(sharpness * (x - extreme)));
   const double sum = std::accumulate(result.slopes.begin(), result.slopes.end(), 0.0);
@@ -39,15 +39,15 @@ OfPositions smooth_maximum(std::span<const double> values, double sharpness) {
   return result;
 }
 
-OfPositions greatest_of(std::span<const double> values) { return extreme(values, 1); }
+OfPositions maximum_of(std::span<const double> values) { return extreme(values, 1); }
 
-OfPositions least_of(std::span<const double> values) { return extreme(values, -1); }
+OfPositions minimum_of(std::span<const double> values) { return extreme(values, -1); }
 
 OfPositions peak_to_peak_of(std::span<const double> values) {
-  OfPositions result = greatest_of(values);
-  const OfPositions least = least_of(values);
-  result.value -= least.value;
-  for (std::size_t i = 0; i < result.slopes.size(); ++i) result.slopes[i] -= least.slopes[i];
+  OfPositions result = maximum_of(values);
+  const OfPositions minimum = minimum_of(values);
+  result.value -= minimum.value;
+  for (std::size_t i = 0; i < result.slopes.size(); ++i) result.slopes[i] -= minimum.slopes[i];
   return result;
 }
 

@@ -16,24 +16,24 @@ struct OfPositions {
 
 OfPositions mean_of(std::span<const double> values);
 
-/// (1/s) ln(mean exp(s (x_i - greatest))) + greatest: between the mean and the greatest value, which it
-/// approaches as the sharpness s grows [1/unit of x]. With s < 0 between the mean and the least value.
+/// (1/s) ln(mean exp(s (x_i - max))) + max: between the mean and the maximum, which it approaches as the
+/// sharpness s grows [1/unit of x]. With s < 0 between the mean and the minimum.
 OfPositions smooth_maximum(std::span<const double> values, double sharpness);
 
-/// The greatest value, with the slopes of a smooth maximum whose sharpness is 10 by the range of the values:
-/// the difference between the two is held within one shape. Where all values are equal the slopes are those
-/// of the mean.
-OfPositions greatest_of(std::span<const double> values);
+/// The maximum, with the slopes of a smooth maximum of sharpness 10 over the range of the values: the
+/// difference between the two is treated as constant. If all values are equal, the slopes are those of the
+/// mean.
+OfPositions maximum_of(std::span<const double> values);
 
-/// The same for the least value.
-OfPositions least_of(std::span<const double> values);
+/// The same for the minimum.
+OfPositions minimum_of(std::span<const double> values);
 
 /// greatest_of() minus least_of(): the run-out when the values are travels.
 OfPositions peak_to_peak_of(std::span<const double> values);
 
-/// The amplitude of harmonic k >= 1 of the values, those of k N_s waves per revolution: 2/n |sum_j x_j
-/// exp(-2 pi i k j / n)|, as RollingVariation::harmonics has it; n values show those with 2 k < n. It has a
-/// kink at zero, where the slopes given are zero; its square is smooth.
+/// The amplitude of harmonic k >= 1 of the values, those of k N_s waves per revolution: 2/n |sum_j x_j exp(-2
+/// pi i k j / n)|, as in RollingVariation::harmonics; n values determine those with 2 k < n. It has a kink at
+/// zero, where the slopes given are zero; its square is smooth.
 OfPositions harmonic_amplitude(std::span<const double> values, int harmonic);
 
 }  // namespace wheelwright

@@ -18,7 +18,7 @@ using Pointer = std::shared_ptr<const Functional<dim>>;
 template <int dim>
 Pointer<dim> over_positions(std::string name, Pointer<dim> functional, Over over) {
   if (over == Over::positions) return functional;
-  const auto function = over == Over::mean ? mean_of : over == Over::greatest ? greatest_of : least_of;
+  const auto function = over == Over::mean ? mean_of : over == Over::maximum ? maximum_of : minimum_of;
   return std::make_shared<FunctionOfPositions<dim>>(std::move(name), std::move(functional), function);
 }
 
@@ -97,7 +97,7 @@ Over usual_positions(Quantity quantity) {
     case Quantity::peak_pressure:
     case Quantity::peak_von_mises:
     case Quantity::peak_von_mises_inside:
-      return Over::greatest;
+      return Over::maximum;
     default:
       return Over::mean;
   }

@@ -8,11 +8,11 @@ namespace wheelwright {
 enum class Over {
   positions,  ///< each of them: the functional has one value per position
   mean,       ///< their mean; of a stiffness: the mean force by the mean motion
-  greatest,   ///< the one with the greatest value
-  least,      ///< the one with the least value
+  maximum,    ///< the maximum
+  minimum,    ///< the minimum
 };
 
-/// What some quantities depend on besides the shape and its states.
+/// Parameters of some quantities.
 struct QuantityParameters {
   double density = 0;         ///< of the mass [kg/m^3]
   double from_tread = 0.025;  ///< peak_von_mises_inside: how far the stresses are from the tread [m]

@@ -7,8 +7,8 @@ namespace wheelwright {
 /// The rim's ways to move (RimMotion), and what does work on each of them.
 enum class RimWay { towards_ground, along_ground, rotation };
 
-/// How far the rim moves in one of its ways at every load position, from where it is without any load
-/// [m, or rad].
+/// The motion of the rim in one of its directions at every load position, from its place without load [m, or
+/// rad].
 template <int dim>
 class RimTravel : public Functional<dim> {
  public:
@@ -33,9 +33,10 @@ class Travel : public Functional<dim> {
                                 const State<dim>& state, const Matrix& mean) const override;
 };
 
-/// What the wheel exerts on the ground in one of the rim's ways at every load position: the force towards it,
-/// the force along it, the torque about the axle [N/m, N/m and N when dim = 2]. Without loads on the
-/// structure itself these are the loads on the rim, and the reactions in ways in which it cannot move.
+/// The action of the wheel on the ground in one of the rim's directions at every load position: the force
+/// towards it, the force along it, the torque about the axle [N/m, N/m and N when dim = 2]. Without loads on
+/// the structure itself these are the loads on the rim, and the reactions in directions in which it cannot
+/// move.
 template <int dim>
 class GroundForce : public Functional<dim> {
  public:

@@ -9,7 +9,7 @@ namespace wheelwright {
 /// A band along the rim or the tread that stays material.
 struct Band {
   double thickness = 0;  ///< [m]
-  int full_rows = 0;     ///< rows of cells at this edge that the solver cannot cut; they lie in the band
+  int full_rows = 0;     ///< rows of cells at this edge that the solver cannot cut; they are inside the band
 };
 
 struct Bands {
@@ -21,9 +21,9 @@ struct HoleRange {
   double inner, outer;
 };
 
-/// A hole stays a thousandth of the resolution outside of the bands: a boundary on a line of the grid would
-/// be on either side of it by rounding. It stays a tenth of the resolution outside of the full rows: a
-/// quadratic level set may overshoot into a row between a node on its edge and the next node.
+/// Holes keep a distance of a thousandth of the resolution from the bands: rounding would decide on which
+/// side of a grid line a boundary lies. They keep a tenth of the resolution from the full rows: a quadratic
+/// level set may overshoot into a row between a node on its edge and the next node.
 template <int dim>
 HoleRange hole_range(const PolarGrid<dim>& grid, const Bands& bands) {
   const double h = grid.resolution();

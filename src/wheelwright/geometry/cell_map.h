@@ -51,7 +51,7 @@ class CellMap {
   std::array<Vec<dim>, power(3, dim)> nodes_;
 };
 
-/// The physical surface element that a reference surface element is mapped to.
+/// The physical surface element to which a reference surface element is mapped.
 template <int dim>
 struct SurfaceElement {
   Vec<dim> normal;  ///< unit normal

@@ -29,7 +29,7 @@ class Samples {
   const Lattice<dim>& lattice() const { return lattice_; }
   bool is_material(int sample) const { return material_[sample]; }
 
-  /// Whether psi < 0 at the centre of the square that p spans with its neighbours along the axes a and b.
+  /// Whether psi < 0 at the centre of the square spanned by p and its neighbours along the axes a and b.
   bool is_material_between(std::array<int, dim> p, int a, int b, int step_a, int step_b) const {
     const int period = lattice_.nodes()[1];
     p[1] = wrap(p[1], period);
@@ -79,8 +79,8 @@ class FloodFill {
   Components<dim> result() && { return std::move(result_); }
 
  private:
-  /// Azimuthal positions are not wrapped at the faces of the sector, so that an image stays in one piece; the
-  /// index is that of the sample in the sector.
+  /// Azimuthal positions are not wrapped at the faces of the sector, so that an image remains in one piece;
+  /// the index is that of the sample in the sector.
   struct Place {
     std::array<int, dim> position;
     int index;
@@ -178,8 +178,8 @@ class FloodFill {
     const Vec<dim> x = polar_point(p);
     double share = x[0];
     for (int d = 0; d < dim; ++d) {
-      const bool at_end = d != 1 && (p[d] == 0 || p[d] + 1 == lattice_.nodes()[d]);
-      share *= spacing_[d] * (at_end ? 0.5 : 1);
+      const bool on_end = d != 1 && (p[d] == 0 || p[d] + 1 == lattice_.nodes()[d]);
+      share *= spacing_[d] * (on_end ? 0.5 : 1);
     }
     component.measure += share;
     for (int d = 0; d < dim; ++d) component.centre[d] += share * x[d];

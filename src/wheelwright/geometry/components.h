@@ -11,8 +11,8 @@ namespace wheelwright {
 template <int dim>
 struct Component {
   bool is_material;
-  /// Area of one image [m^2], or volume [m^3] when dim = 3; the error is about the share of one sample per
-  /// sample on the edge of the component.
+  /// Area of one image [m^2], or volume [m^3] when dim = 3; the error is about one sample's area per sample
+  /// on the edge of the component.
   double measure;
   Vec<dim> centre;        ///< mean (radius, azimuth[, axial]) of one image, with the azimuth in the sector
   Vec<dim> innermost;     ///< sample nearest to the rim, (radius, azimuth[, axial])
@@ -28,8 +28,8 @@ struct Components {
   std::vector<Component<dim>> all;
 };
 
-/// Number of samples of psi per cell and axis. A piece that is thinner than the distance of two samples may
-/// be lost, and pieces that are closer to each other than that may be taken for one.
+/// Number of samples of psi per cell and axis. A piece thinner than the distance of two samples may be lost,
+/// and pieces closer to each other than that may be merged.
 constexpr int component_samples = 4;
 
 /// Finds the components by a flood fill over samples of the polynomial of each cell, periodic in azimuth: a

@@ -7,7 +7,7 @@
 
 namespace wheelwright {
 
-/// The curve that a contour follows: the whole rim circle, the whole tread circle, or {psi = 0}. Where a hole
+/// The curve followed by a contour: the whole rim circle, the whole tread circle, or {psi = 0}. Where a hole
 /// breaks through the rim or the tread, parts of a free contour follow these circles.
 enum class ContourKind { rim, tread, free };
 
@@ -19,8 +19,8 @@ struct Contour {
   std::vector<Vec<2>> points;
 };
 
-/// Number of squares per cell and axis that makes a contour accurate enough for cutting the shape out: with
-/// degree 2 and 28 x 384 cells the polyline deviates by at most 3 micrometres from a hole of radius 4 cm.
+/// Number of squares per cell and axis for contours accurate enough to cut the shape out: with degree 2 and
+/// 28 x 384 cells the polyline deviates by at most 3 micrometres from a hole of radius 4 cm.
 constexpr int contour_subdivisions(int degree) { return 4 * degree; }
 
 /// Returns all boundary curves of {psi < 0} in the full ring, on the isoparametric cells of the lattice of

@@ -33,7 +33,7 @@ struct SurfacePoint {
   double weight;    ///< boundary measure dS [m, or m^2 when dim = 3]
 };
 
-/// A value at such a point, e.g. the density G of the shape derivative (42).
+/// A value at a boundary point, e.g. the density G of the shape derivative (42).
 template <int dim>
 struct SurfaceSample : SurfacePoint<dim> {
   double value;

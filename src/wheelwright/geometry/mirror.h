@@ -30,8 +30,8 @@ std::vector<MirrorPlane> symmetries(const LevelSet<dim>& psi);
 template <int dim>
 LevelSet<dim> mirror_symmetric_part(const LevelSet<dim>& psi, MirrorPlane plane = MirrorPlane::azimuth);
 
-/// The shape with the mirror symmetries that another one has, to the last bit: what a stage makes of a
-/// symmetric shape is symmetric up to rounding alone.
+/// The shape with the mirror symmetries of another one, to the last bit: a stage keeps symmetry only up to
+/// rounding.
 template <int dim>
 LevelSet<dim> with_symmetries_of(const LevelSet<dim>& other, LevelSet<dim> psi);
 

@@ -10,12 +10,12 @@
 
 namespace wheelwright {
 
-/// Finds the nearest of many points of R^dim with nanoflann's k-d tree. If several points are equally near,
-/// the one that comes first among the points is found, whatever the shape of the tree.
+/// Finds the nearest of many points of R^dim with nanoflann's k-d tree. Of several equally near points, finds
+/// the first one, whatever the structure of the tree.
 template <int dim>
 class NearestPoint {
  public:
-  /// Takes at least one point.
+  /// Requires at least one point.
   explicit NearestPoint(std::vector<Vec<dim>> points) : cloud_{std::move(points)}, tree_(dim, cloud_) {}
 
   const std::vector<Vec<dim>>& points() const { return cloud_.points; }
@@ -28,7 +28,7 @@ class NearestPoint {
   }
 
  private:
-  /// The points as nanoflann wants to see them.
+  /// The points in the form that nanoflann requires.
   struct Cloud {
     std::vector<Vec<dim>> points;
     std::size_t kdtree_get_point_count() const { return points.size(); }
@@ -39,9 +39,8 @@ class NearestPoint {
     }
   };
 
-  /// What a search has found so far. The tree skips a branch whose distance, up to rounding, exceeds
-  /// worstDist(), and points that do not fall below it. The margin lets it see all of the points that are
-  /// equally near.
+  /// The result of a search so far. The tree skips branches whose distance, up to rounding, exceeds
+  /// worstDist(), and points that are not below it. The margin lets it visit all equally near points.
   class FirstOfTheNearest {
    public:
     double worstDist() const {
@@ -49,7 +48,7 @@ class NearestPoint {
       return (1 + margin) * distance2_ + std::numeric_limits<double>::min();
     }
     bool full() const { return index_ >= 0; }
-    /// Returns true: the search goes on.
+    /// Returns true: the search continues.
     bool addPoint(double distance2, int index) {
       if (distance2 < distance2_ || (distance2 == distance2_ && index < index_)) {
         distance2_ = distance2;

@@ -35,8 +35,8 @@ struct PolarGrid {
     return size;
   }
 
-  /// The length h [m] that steps and bands are measured in: the shortest edge of a cell at the mean radius of
-  /// the ring.
+  /// The length h [m] in which steps and bands are measured: the shortest edge of a cell at the mean radius
+  /// of the ring.
   double resolution() const {
     const Vec<dim> size = cell_size();
     double h = std::min(size[0], size[1] * 0.5 * (inner_radius + outer_radius));
@@ -72,7 +72,7 @@ struct PolarGrid {
   }
 };
 
-/// The grid of the first half of the width of another, which has an even number of cells along the axle.
+/// The grid of the first half of a wheel's width; the number of cells along the axle must be even.
 inline PolarGrid<3> first_half(PolarGrid<3> grid) {
   grid.width /= 2;
   grid.cells[2] /= 2;

@@ -12,7 +12,7 @@ LevelSet<2> mid_plane_section(const LevelSet<dim>& psi);
 /// The lattice of such sections.
 Lattice<2> section_lattice(const Lattice<3>& lattice);
 
-/// The shape whose sections are all the same: of a section on section_lattice(lattice).
+/// The shape with the same section everywhere, given on section_lattice(lattice).
 LevelSet<3> extruded(const LevelSet<2>& section, const Lattice<3>& lattice);
 
 }  // namespace wheelwright

@@ -32,12 +32,12 @@ double signed_distance(const PolarGrid<3>& grid, const Sphere& hole, const Vec<3
 double signed_distance(const PolarGrid<3>& grid, const TaperedHole& hole, const Vec<3>& polar);
 
 /// Signed distance [m] to the boundary of the union of `holes` and of their images in all sectors; positive
-/// inside a hole. Inside overlapping holes it is a lower bound of the distance. Without holes it is minus the
+/// inside a hole. Inside overlapping holes it is a lower bound of the distance. Without holes, minus the
 /// thickness of the ring.
 template <int dim>
 double signed_distance(const PolarGrid<dim>& grid, std::span<const Circle> holes, const Vec<dim>& polar);
 
-/// Adds a hole to a shape that is given by signed distances.
+/// Adds a hole to a shape given by signed distances.
 template <class Hole>
 LevelSet<3> with_hole(LevelSet<3> psi, const Hole& hole) {
   for (int node = 0; node < psi.lattice.n_nodes(); ++node)

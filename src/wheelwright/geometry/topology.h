@@ -7,18 +7,18 @@
 
 namespace wheelwright {
 
-/// Changes of a shape besides the motion of its boundary.
+/// Changes of a shape other than the motion of its boundary.
 enum class ShapeEventKind {
   hole_appeared,
   hole_vanished,
   holes_merged,
   hole_split,
-  hole_at_rim_band,     ///< a hole reached the protected band at the rim
-  hole_at_tread_band,   ///< a hole reached the protected band at the tread
-  island_removed,       ///< material that was not attached to the rim was removed
-  thin_wall_mended,     ///< a wall thinner than the least width was made thicker, or taken out
-  narrow_gap_mended,    ///< a gap narrower than the least width was filled
-  sharp_corner_mended,  ///< an internal corner with less than the least radius was rounded
+  hole_at_rim_band,       ///< a hole reached the protected band at the rim
+  hole_at_tread_band,     ///< a hole reached the protected band at the tread
+  island_removed,         ///< material that was not attached to the rim was removed
+  thin_wall_repaired,     ///< a wall below the minimum width was thickened or removed
+  narrow_gap_repaired,    ///< a gap below the minimum width was filled
+  sharp_corner_repaired,  ///< an internal corner below the minimum radius was rounded
 };
 
 /// The kind as a word for logs and files, e.g. "holes_merged".
@@ -38,11 +38,11 @@ constexpr const char* to_string(ShapeEventKind kind) {
       return "hole_at_tread_band";
     case ShapeEventKind::island_removed:
       return "island_removed";
-    case ShapeEventKind::thin_wall_mended:
+    case ShapeEventKind::thin_wall_repaired:
       return "thin_wall_mended";
-    case ShapeEventKind::narrow_gap_mended:
+    case ShapeEventKind::narrow_gap_repaired:
       return "narrow_gap_mended";
-    case ShapeEventKind::sharp_corner_mended:
+    case ShapeEventKind::sharp_corner_repaired:
       return "sharp_corner_mended";
   }
   return "unknown";
@@ -65,10 +65,10 @@ std::string text(const ShapeEvent<dim>& event);
 template <int dim>
 std::vector<std::set<int>> overlapping_holes(const Components<dim>& of, const Components<dim>& with);
 
-/// Describes how the holes of one shape became those of another on the same grid. Holes that overlap are
-/// taken for the same hole. There is one event for each hole of `after` that joins several holes or is new,
-/// and for each hole of `before` that split or vanished. A hole that moved by more than its own size counts
-/// as vanished and appeared.
+/// The changes of the holes from one shape to another on the same grid. Overlapping holes are considered the
+/// same hole. There is one event for each hole of `after` that joins several holes or is new, and for each
+/// hole of `before` that split or vanished. A hole that moved by more than its own size counts as vanished
+/// and appeared.
 template <int dim>
 std::vector<ShapeEvent<dim>> topology_changes(const Components<dim>& before, const Components<dim>& after);
 

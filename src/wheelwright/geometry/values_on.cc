@@ -8,7 +8,7 @@
 namespace wheelwright {
 namespace {
 
-/// How much lengths of equal rings may differ, relative to the outer radius.
+/// Allowed difference between lengths of equal rings, relative to the outer radius.
 constexpr double rounding = 1e-9;
 
 template <int dim>

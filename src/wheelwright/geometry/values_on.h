@@ -6,13 +6,12 @@
 
 namespace wheelwright {
 
-/// Why a shape of one grid cannot stand on another one, in words; empty if it can. The rings must be equal
-/// (in 2D of any width), and the new sector a whole number of the shape's own: the new number of sectors must
-/// divide the shape's.
+/// Why a shape cannot be transferred to another grid, as text; empty if it can. The rings must be equal (in
+/// 2D with any width), and the new number of sectors must divide that of the shape.
 template <int dim>
 std::string misfit(const PolarGrid<dim>& of_shape, const PolarGrid<dim>& grid);
 
-/// Whether two lattices have the same nodes round the full ring.
+/// Whether two lattices have the same nodes around the full ring.
 template <int dim>
 bool have_same_nodes(const Lattice<dim>& a, const Lattice<dim>& b);
 

@@ -11,9 +11,9 @@ ZeroContour::ZeroContour(const LevelSet<2>& psi) : grid_(psi.lattice.grid()), de
 }
 
 Vec<2> ZeroContour::unit_cell_point(const Vec<2>& in_cell_frame, int row, Vec<2> guess) const {
-  constexpr int most_steps = 8;
+  constexpr int max_steps = 8;
   constexpr double tolerance = 1e-13;
-  for (int k = 0; k < most_steps; ++k) {
+  for (int k = 0; k < max_steps; ++k) {
     const ShapeFunctions<2> shape(degree_, guess);
     const Vec<2> x = maps_[row].position(shape);
     const Mat<2> back = inverse<2>(maps_[row].jacobian(shape));
@@ -41,7 +41,7 @@ ZeroContour::Place ZeroContour::place(const Vec<2>& point) const {
     found.xi = unit_cell_point(in_cell_frame, found.row, {radial - found.row, azimuthal - found.column});
   };
   enter();
-  // The sides of a cell are no arcs: near them the point may lie in the next row.
+  // The sides of a cell are not arcs: near them the point may lie in the next row.
   const int row = std::clamp(found.row + static_cast<int>(std::floor(found.xi[0])), 0, grid_.cells[0] - 1);
   if (row != found.row) {
     found.row = row;
@@ -66,10 +66,10 @@ ZeroContour::Value ZeroContour::at(const Vec<2>& point) const {
 }
 
 std::optional<Vec<2>> ZeroContour::projection(const Vec<2>& point) const {
-  constexpr int most_steps = 20;
+  constexpr int max_steps = 20;
   const double converged = 1e-12 * grid_.outer_radius, farthest = grid_.resolution();
   Vec<2> x = point;
-  for (int k = 0; k < most_steps; ++k) {
+  for (int k = 0; k < max_steps; ++k) {
     const Value value = at(x);
     const double slope2 = dot<2>(value.gradient, value.gradient);
     const Vec<2> step{-value.psi / slope2 * value.gradient[0], -value.psi / slope2 * value.gradient[1]};

@@ -8,8 +8,8 @@
 
 namespace wheelwright {
 
-/// {psi = 0} in the full ring, seen from any point of the plane: on the isoparametric cells of the lattice of
-/// psi, in Cartesian coordinates [m] of the body frame.
+/// {psi = 0} in the full ring, evaluated at any point of the plane: on the isoparametric cells of the lattice
+/// of psi, in Cartesian coordinates [m] of the body frame.
 class ZeroContour {
  public:
   explicit ZeroContour(const LevelSet<2>& psi);
@@ -21,12 +21,12 @@ class ZeroContour {
   /// Outside the ring the polynomials of its outermost cells are continued.
   Value at(const Vec<2>& point) const;
 
-  /// The point of the contour that Newton's method along the gradient reaches from a nearby point; to second
+  /// The point of the contour reached by Newton's method along the gradient from a nearby point; to second
   /// order in its distance it is the nearest one. Empty if the iteration does not converge within a cell.
   std::optional<Vec<2>> projection(const Vec<2>& point) const;
 
  private:
-  /// A point in the cell that holds it: position in the unit cell, and the column of the ring.
+  /// A point in the cell that contains it: position in the unit cell, and the column of the ring.
   struct Place {
     int row, column;
     Vec<2> xi;

@@ -41,7 +41,7 @@ std::vector<double> gradient(const BoxProgram& p, const std::vector<double>& x) 
   return g;
 }
 
-/// What is left of the gradient's terms by rounding.
+/// The rounding error of the gradient.
 std::vector<double> uncertainty(const BoxProgram& p, const std::vector<double>& x) {
   std::vector<double> u(x.size());
   double largest = 0;
@@ -152,7 +152,7 @@ Direction direction(const BoxProgram& program, const std::vector<int>& free, con
   return {std::move(p), infinite};
 }
 
-/// The unknown whose bound holds it back most without need.
+/// The unknown with the largest multiplier of the wrong sign.
 std::optional<int> to_be_freed(const BoxProgram& program, const std::vector<bool>& is_free,
                                const std::vector<double>& x, const std::vector<double>& g,
                                const std::vector<double>& uncertain) {

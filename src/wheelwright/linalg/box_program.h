@@ -18,13 +18,13 @@ struct BoxSolution {
   bool is_bounded;  ///< false: the program has no minimum; x is a point on the way down
 };
 
-/// By active sets: the unknowns that are free are moved to their minimum, or until one meets a bound; then
-/// one whose bound holds it back without need is set free. Q may be singular: along its null directions the
-/// program goes downhill until a bound.
+/// By active sets: moves the free unknowns to their minimum, or until one meets a bound; then frees one whose
+/// multiplier has the wrong sign. Q may be singular: along its null directions the unknowns move downhill to
+/// a bound.
 BoxSolution solve(const BoxProgram& program);
 
-/// How far x is from a minimum: the largest component of x - clamp(x - gradient, lower, upper), where all
-/// unknowns are scaled such that the diagonal of Q is one.
+/// The distance of x from a minimum: the largest component of x - clamp(x - gradient, lower, upper), where
+/// all unknowns are scaled such that the diagonal of Q is one.
 double residual(const BoxProgram& program, const std::vector<double>& x);
 
 }  // namespace wheelwright

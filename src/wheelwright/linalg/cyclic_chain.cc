@@ -23,15 +23,15 @@ Failure not_positive_definite() {
 
 /// Limit on the number of pivots. The pivots converge like the square of the spectral radius of step, so that
 /// a chain that needs more is numerically singular.
-constexpr int most_pivots = 10000;
+constexpr int max_pivots = 10000;
 
 /// A change of the pivot below this fraction of the diagonal is rounding once the changes no longer decrease.
 constexpr double nearly_converged = 1e-12;
 
 /// So is a change below this one, in badly conditioned links such as thin sheets, once this many changes were
-/// not the least so far. The changes of a singular chain decrease to the end.
+/// not the smallest so far. The changes of a singular chain decrease to the end.
 constexpr double badly_conditioned = 1e-8;
-constexpr int most_stalls = 10;
+constexpr int max_stalls = 10;
 
 /// Powers of step whose entries are all below this bound are neglected.
 constexpr double negligible = 1e-17;
@@ -44,11 +44,11 @@ Expected<CyclicChain> CyclicChain::factor(const Matrix& diagonal, const Matrix& 
   chain.n_links_ = n_links;
   Matrix pivot = diagonal, pivot_factor, coupling;
   const double largest = largest_entry(diagonal);
-  double last_change = std::numeric_limits<double>::infinity(), least_change = last_change;
+  double last_change = std::numeric_limits<double>::infinity(), min_change = last_change;
   int stalls = 0;
   for (int k = 0;; ++k) {
     pivot_factor = pivot;
-    if (k == most_pivots || !cholesky(pivot_factor)) return not_positive_definite();
+    if (k == max_pivots || !cholesky(pivot_factor)) return not_positive_definite();
     coupling = next;
     cholesky_solve(pivot_factor, coupling);
     Matrix following = diagonal;
@@ -56,11 +56,11 @@ Expected<CyclicChain> CyclicChain::factor(const Matrix& diagonal, const Matrix& 
     double change = 0;
     for (size_t i = 0; i < pivot.entries().size(); ++i)
       change = std::max(change, std::abs(following.entries()[i] - pivot.entries()[i]));
-    if (change >= least_change) ++stalls;
+    if (change >= min_change) ++stalls;
     if (change >= last_change && change <= nearly_converged * largest) break;
-    if (stalls >= most_stalls && change <= badly_conditioned * largest) break;
+    if (stalls >= max_stalls && change <= badly_conditioned * largest) break;
     last_change = change;
-    least_change = std::min(least_change, change);
+    min_change = std::min(min_change, change);
     pivot = std::move(following);
   }
   chain.inverse_pivot_ = identity(n);

@@ -137,7 +137,7 @@ std::vector<Circle> best_places(const LevelSet<2>& psi, const HoleCosts& costs, 
     if (added.empty() || !is_apart(grid, holes, candidate.polar, rules.radius, rules.wall) ||
         !is_apart_from_its_images(grid, added.front(), rules.wall))
       continue;
-    if (!holes.empty() && static_cast<double>(holes.size() + added.size()) * area > rules.most_area) continue;
+    if (!holes.empty() && static_cast<double>(holes.size() + added.size()) * area > rules.max_area) continue;
     holes.insert(holes.end(), added.begin(), added.end());
   }
   return holes;

@@ -12,11 +12,11 @@ namespace wheelwright {
 
 /// Rules for new holes.
 struct HoleRules {
-  double radius;     ///< of every hole [m]
-  double wall;       ///< the minimum width of material between a hole and other holes [m]
-  HoleRange range;   ///< radii between which holes lie [m]
-  double most_area;  ///< of all new holes of one sector, except the first and its mirror image [m^2]
-  bool must_pay;     ///< whether to create only holes that lower the function
+  double radius;    ///< of every hole [m]
+  double wall;      ///< the minimum width of material between a hole and other holes [m]
+  HoleRange range;  ///< radii between which holes lie [m]
+  double max_area;  ///< of all new holes of one sector, except the first and its mirror image [m^2]
+  bool must_pay;    ///< whether to create only holes that lower the function
 };
 
 /// The centres of the full cells of the core, which has the given number of rows.

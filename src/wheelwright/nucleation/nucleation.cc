@@ -26,8 +26,8 @@ bool has_paid(const OptimizerOptions& options, const typename Nucleation<dim>::B
   if (!before.is_comparable) return true;
   const double violation = largest_violation(bound_constraints(now));
   if (violation > std::max(feasible_violation, before.violation)) return false;
-  const double least = (options.accepted_increase + options.tolerance) * std::abs(before.objective);
-  return now.function(options.objective).value < before.objective - least;
+  const double minimum = (options.accepted_increase + options.tolerance) * std::abs(before.objective);
+  return now.function(options.objective).value < before.objective - minimum;
 }
 
 template <int dim>
@@ -71,7 +71,7 @@ std::vector<Circle> paying_holes(const OptimizerOptions& options, const Evolver<
   rules.must_pay = gain || !is_held;
   if (is_held && !gain) {
     if (excess <= measure_tolerance * state.target_measure) return {};
-    rules.most_area = std::min(rules.most_area, excess);
+    rules.max_area = std::min(rules.max_area, excess);
   }
   std::vector<double> costs(points.size(), is_held && gain ? -*gain : 0.0);
   for (size_t f = 0; f < derivatives.size(); ++f)

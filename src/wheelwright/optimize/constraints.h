@@ -12,10 +12,10 @@ namespace wheelwright {
 /// One side of the bounds of a function, at one shape. Values and violations are relative to the bound, or
 /// absolute where the bound is zero.
 struct BoundConstraint {
-  int function;      ///< its place in Evaluation::functions
+  int function;      ///< its index in Evaluation::functions
   double sign;       ///< 1: at most the bound, -1: at least
   double scale;      ///< by which values and gradients are divided
-  double gap;        ///< sign (value - bound) / scale: positive where it is violated
+  double gap;        ///< sign (value - bound) / scale: positive if violated
   bool is_equality;  ///< both bounds are the same
 
   double violation() const { return is_equality ? std::abs(gap) : std::max(gap, 0.0); }
@@ -29,15 +29,15 @@ std::vector<BoundConstraint> bound_constraints(const Evaluation<dim>& evaluation
 double merit(double objective, const std::vector<BoundConstraint>& constraints,
              const std::vector<double>& penalties);
 
-/// A bound that is violated by less counts as kept, relative.
+/// A bound with a smaller relative violation counts as kept.
 inline constexpr double feasible_violation = 1e-3;
 
-/// A bound of a function, for people and files.
+/// A bound of a function, for display and files.
 struct BoundState {
   std::string name;  ///< of the function
   double value;      ///< of the function
   double bound;
-  char relation;      ///< '<', '>' or '=': what the value must be to the bound
+  char relation;      ///< '<', '>' or '=': the required relation of value and bound
   double multiplier;  ///< by how much the objective would fall per unit by which the bound is relaxed; NaN
                       ///< before the first step
   double violation;   ///< relative to the bound

@@ -32,7 +32,8 @@ bool is_slow(const OptimizerOptions& options, double tolerance, std::span<const 
   if (tolerance <= 0 || history.size() <= shapes_of_descent) return false;
   const double before = history[history.size() - 1 - shapes_of_descent].objective;
   double fall = before - history.back().objective;
-  // The paper's rule lets the measure drift, and the objective rise with it; so do bounds that are violated.
+  // The paper's rule lets the measure drift, and the objective rises with it; violated bounds have the same
+  // effect.
   if (options.measure_control == MeasureControl::proportional || has_bounds) fall = std::abs(fall);
   return fall < tolerance * std::abs(before);
 }

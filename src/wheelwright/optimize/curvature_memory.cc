@@ -7,24 +7,24 @@
 namespace wheelwright {
 namespace {
 
-constexpr double least_curvature = 1e-3;  // cosine between move and change
+constexpr double min_curvature = 1e-3;  // cosine between move and change
 
 }  // namespace
 
 void remember(CurvaturePair pair, double move_square, double move_change, double change_square,
               CurvatureMemory& memory) {
-  if (!(move_change > least_curvature * std::sqrt(move_square * change_square))) return;
-  if (memory.size() == most_curvature_pairs) memory.erase(memory.begin());
+  if (!(move_change > min_curvature * std::sqrt(move_square * change_square))) return;
+  if (memory.size() == max_curvature_pairs) memory.erase(memory.begin());
   memory.push_back(std::move(pair));
 }
 
 double ShiftedHessian::scale(const Matrix& products, int first_move, int n_pairs) {
-  double least = std::numeric_limits<double>::infinity();
+  double minimum = std::numeric_limits<double>::infinity();
   for (int move = first_move; move < first_move + n_pairs; ++move) {
     const int change = move + n_pairs;
-    least = std::min(least, products(change, change) / products(move, change));
+    minimum = std::min(minimum, products(change, change) / products(move, change));
   }
-  return n_pairs == 0 ? 0 : least;
+  return n_pairs == 0 ? 0 : minimum;
 }
 
 // B = scale - W M^-1 W^T with W = (scale S, Y) and M = ((scale S.S, L), (L^T, -D)), where L is the strict
@@ -51,7 +51,7 @@ ShiftedHessian::ShiftedHessian(const Matrix& products, int first_move, int n_pai
     }
   for (int i = 0; i < 2 * k; ++i) inverse_(i, i) = 1;
   const bool is_regular = k == 0 || lu_solve(small, inverse_);
-  if (!is_regular) n_pairs_ = 0;  // pairs that depend on each other to rounding
+  if (!is_regular) n_pairs_ = 0;  // pairs that are linearly dependent up to rounding
 }
 
 std::vector<double> ShiftedHessian::solve(const std::vector<double>& coefficients) const {

@@ -15,10 +15,10 @@ struct CurvaturePair {
 /// The pairs that a quasi-Newton method remembers, the oldest first.
 using CurvatureMemory = std::vector<CurvaturePair>;
 
-inline constexpr size_t most_curvature_pairs = 8;
+inline constexpr size_t max_curvature_pairs = 8;
 
-/// Adds a pair if it has positive curvature: (move, change) > least * |move| |change| in the inner product
-/// in which the products are given. The oldest pair makes room.
+/// Adds a pair if it has positive curvature: (move, change) > least * |move| |change| in the inner product in
+/// which the products are given. Drops the oldest pair if the memory is full.
 void remember(CurvaturePair pair, double move_square, double move_change, double change_square,
               CurvatureMemory& memory);
 
@@ -27,14 +27,14 @@ void remember(CurvaturePair pair, double move_square, double move_change, double
 class ShiftedHessian {
  public:
   /// `products`: inner products of the vectors of the span. The moves of the n_pairs pairs are its vectors
-  /// from `first_move` on, the changes follow them. Without pairs B is zero.
+  /// from `first_move` on, followed by the changes. Without pairs B is zero.
   ShiftedHessian(const Matrix& products, int first_move, int n_pairs, double shift);
 
   /// (B + shift)^-1 of a vector.
   std::vector<double> solve(const std::vector<double>& coefficients) const;
 
-  /// The eigenvalue of B on what is orthogonal to all pairs: the least curvature of the pairs, (change,
-  /// change) / (move, change).
+  /// The eigenvalue of B on the orthogonal complement of all pairs: the minimum curvature of the pairs,
+  /// (change, change) / (move, change).
   static double scale(const Matrix& products, int first_move, int n_pairs);
 
  private:

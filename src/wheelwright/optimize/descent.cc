@@ -44,8 +44,8 @@ Expected<Move<dim>> DescentProposals<dim>::move(double step) const {
                    .model_decrease = -change};
 }
 
-/// First-order change of the objective under the motion by the velocity and the shift to the next measure,
-/// by which all of the boundary moves as far.
+/// First-order change of the objective under the motion by the velocity and the uniform shift of the boundary
+/// to the next measure.
 template <int dim>
 double DescentProposals<dim>::predicted_change(double step) const {
   const auto gradient = state_.evaluation.gradient(options_.objective);
@@ -68,7 +68,7 @@ bool DescentProposals<dim>::accepts(const Move<dim>&, const Evaluation<dim>& eva
   return evaluation.function(options_.objective).value <= best + options_.accepted_increase * std::abs(best);
 }
 
-/// A step that raised the objective, if within bounds, went past the minimum along its direction.
+/// An accepted step that raised the objective went past the minimum along its direction.
 template <int dim>
 double DescentProposals<dim>::next_step(const Move<dim>& move, const Evaluation<dim>& evaluation) const {
   const bool overshot =

@@ -5,14 +5,14 @@
 namespace wheelwright {
 
 /// The velocity of steepest descent from a state: that of its gradient, with the correction for the measure
-/// that the options ask for.
+/// selected by the options.
 template <int dim>
 Expected<std::vector<double>> descent_velocity(const Evolver<dim>& evolver, const OptimizerOptions& options,
                                                const OptimizationState<dim>& state);
 
 /// Steepest descent. Objectives at different measures are not compared: until the target is reached, every
-/// shape is accepted. For the next shape the step is halved when the objective rose within bounds; it grows
-/// back by half after a fall.
+/// shape is accepted. For the next shape the step is halved if the objective rose by an accepted amount;
+/// after a decrease it grows by half.
 template <int dim>
 class DescentProposals final : public Proposals<dim> {
  public:

@@ -20,14 +20,15 @@ namespace {
 
 constexpr double step_reduction = 0.5;  // after a rejected trial
 constexpr int max_removals = 4;
-constexpr int halvings_before_rest = 2;  // they mend most failures; then the step 0 tells whether others can
+constexpr int halvings_before_rest =
+    2;  // usually enough; then the step 0 shows whether further ones can help
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Quadratic steps need shapes whose motion they can predict.
+/// Quadratic steps require shapes whose motion can be predicted.
 EvolutionOptions in_space_of(Method method, EvolutionOptions evolution) {
   evolution.space = method == Method::sequential_quadratic ? ShapeSpace::spline : ShapeSpace::nodal;
   return evolution;
@@ -51,19 +52,19 @@ bool is_finite(const Evaluation<dim>& evaluation) {
   return std::isfinite(sum);
 }
 
-/// Whether final widths are asked for that the state's shape may not have.
+/// Whether there are final widths that the state's shape may not have.
 template <int dim>
-bool may_be_mended(const OptimizerOptions& options, const OptimizationState<dim>& state) {
+bool may_be_repaired(const OptimizerOptions& options, const OptimizationState<dim>& state) {
   return options.final_widths.any() && state.final_widths == FinalWidths::not_yet &&
          !is_approaching(options, state);
 }
 
-/// When the descent is slow, or a third of the shapes is left.
+/// Whether the descent is slow, or only a third of the shapes is left.
 template <int dim>
-bool is_to_be_mended(const OptimizerOptions& options, const OptimizationState<dim>& state) {
+bool needs_repair(const OptimizerOptions& options, const OptimizationState<dim>& state) {
   constexpr double slow = 5e-3;
   const bool is_last_part = 3 * (options.iterations - state.iteration) <= options.iterations;
-  return may_be_mended(options, state) && state.iteration < options.iterations &&
+  return may_be_repaired(options, state) && state.iteration < options.iterations &&
          (is_last_part || is_slow(options, std::max(slow, options.tolerance), state.history,
                                   !bound_constraints(state.evaluation).empty()));
 }
@@ -77,8 +78,8 @@ double merit_of(const Evaluation<dim>& evaluation, const std::string& objective,
   return merit(value, constraints, penalties);
 }
 
-/// A change of the objective is a jump when it is more than this many times what the gradient predicts, and
-/// by more than this factor besides: near a minimum the gradient predicts nothing.
+/// A change of the objective is a jump if it exceeds this multiple of what the gradient predicts and also
+/// this factor: near a minimum the gradient predicts nothing.
 constexpr double largest_surprise = 3, largest_factor = 4;
 
 std::optional<Failure> check_jump(double before, double after, double predicted) {
@@ -86,11 +87,11 @@ std::optional<Failure> check_jump(double before, double after, double predicted)
   if (std::abs(after - before) <= largest_surprise * std::abs(predicted) || large <= largest_factor * small)
     return {};
   return Failure{FailureReason::objective_jumped,
-                 fmt::format("the objective went from {:.6g} to {:.6g}, where its gradient predicted {:.6g}",
+                 fmt::format("the objective changed from {:.6g} to {:.6g}, but its gradient predicted {:.6g}",
                              before, after, before + predicted)};
 }
 
-/// A trial that has no shape of its own yet.
+/// A trial that does not have its own shape yet.
 template <int dim>
 Trial<dim> failed_trial(const OptimizationState<dim>& state, int halvings, double step,
                         std::optional<Failure> failure) {
@@ -105,7 +106,7 @@ Trial<dim> failed_trial(const OptimizationState<dim>& state, int halvings, doubl
           .failure = std::move(failure)};
 }
 
-/// The trial of a shape that did not move.
+/// The trial of an unmoved shape.
 template <int dim>
 Trial<dim> trial_at_rest(int iteration, LevelSet<dim> shape) {
   return {.iteration = iteration,
@@ -123,9 +124,10 @@ bool was_interrupted(const Trial<dim>& trial) {
   return trial.failure && trial.failure->reason == FailureReason::interrupted;
 }
 
-/// Makes a stage's result the trial's shape, or its failure the trial's; whether it is a shape.
+/// Stores a stage's result as the trial's shape, or its failure as the trial's; returns whether it is a
+/// shape.
 template <int dim>
-bool take(Expected<LevelSet<dim>> shape, Trial<dim>& trial) {
+bool store(Expected<LevelSet<dim>> shape, Trial<dim>& trial) {
   if (shape)
     trial.shape = *std::move(shape);
   else
@@ -135,7 +137,7 @@ bool take(Expected<LevelSet<dim>> shape, Trial<dim>& trial) {
 
 /// The same; the shape's cells.
 template <int dim>
-std::optional<CutDomain<dim>> take(Expected<MeasuredShape<dim>> measured, Trial<dim>& trial) {
+std::optional<CutDomain<dim>> store(Expected<MeasuredShape<dim>> measured, Trial<dim>& trial) {
   if (!measured) {
     trial.failure = measured.failure();
     return {};
@@ -233,41 +235,42 @@ std::optional<StopReason> ShapeOptimizer<dim>::advance(OptimizationState<dim>& s
                                                        const Observer& observer,
                                                        const std::function<bool()>& stop_requested) const {
   if (state.iteration < options_.iterations && stop_requested()) return StopReason::stop_requested;
-  const auto mending = is_to_be_mended(options_, state) ? mend(state, observer) : Mending::nothing;
-  if (mending == Mending::interrupted) return StopReason::stop_requested;
-  if (mending == Mending::done) return std::nullopt;
+  const auto repair = needs_repair(options_, state) ? repair_widths(state, observer) : Repair::nothing;
+  if (repair == Repair::interrupted) return StopReason::stop_requested;
+  if (repair == Repair::done) return std::nullopt;
   const auto reason = descend(state, observer, stop_requested);
   const bool goes_no_further =
       reason == StopReason::converged || reason == StopReason::no_descent || reason == StopReason::gave_up;
-  if (!goes_no_further || !may_be_mended(options_, state)) return reason;
-  const auto at_last = mend(state, observer);
-  if (at_last == Mending::interrupted) return StopReason::stop_requested;
-  return at_last == Mending::done ? std::nullopt : reason;
+  if (!goes_no_further || !may_be_repaired(options_, state)) return reason;
+  const auto at_last = repair_widths(state, observer);
+  if (at_last == Repair::interrupted) return StopReason::stop_requested;
+  return at_last == Repair::done ? std::nullopt : reason;
 }
 
-/// Gives the state's shape the final widths, if it does not have them. The best of the mended shapes goes on.
+/// Gives the state's shape the final widths if it lacks them. The run continues from the best of the repaired
+/// shapes.
 template <int dim>
-typename ShapeOptimizer<dim>::Mending ShapeOptimizer<dim>::mend(OptimizationState<dim>& state,
-                                                                const Observer& observer) const {
+typename ShapeOptimizer<dim>::Repair ShapeOptimizer<dim>::repair_widths(OptimizationState<dim>& state,
+                                                                        const Observer& observer) const {
   OptimizationState<dim> next = state;
   next.final_widths = FinalWidths::kept;
   if (has_widths(state.shape, widths_after(next))) {
     state = std::move(next);
-    return Mending::nothing;
+    return Repair::nothing;
   }
-  const std::vector<Trial<dim>> trials = mended(next);
-  if (std::ranges::any_of(trials, was_interrupted<dim>)) return Mending::interrupted;
+  const std::vector<Trial<dim>> trials = repaired(next);
+  if (std::ranges::any_of(trials, was_interrupted<dim>)) return Repair::interrupted;
   const bool is_possible = trials.back().verdict == Verdict::accepted;
   if (!is_possible) state.final_widths = FinalWidths::impossible;
   for (std::size_t k = 0; k + 1 < trials.size(); ++k) observer(trials[k], state);
-  if (is_possible) state = begun_anew(std::move(next), trials.back());
+  if (is_possible) state = restarted(std::move(next), trials.back());
   observer(trials.back(), state);
-  return is_possible ? Mending::done : Mending::nothing;
+  return is_possible ? Repair::done : Repair::nothing;
 }
 
-/// A free descent splits holes that are only about two cells wide into slits to which no width can be given:
-/// a shape with such holes keeps the final widths from the beginning, if it has them. Corners that are
-/// somewhat sharper, as splines make them of small disks, are rounded in the next shape.
+/// A free descent splits holes that are only about two cells wide into slits that cannot be repaired: a shape
+/// with such holes keeps the final widths from the start, if it has them. Slightly sharper corners, which
+/// splines produce from small disks, are rounded in the next shape.
 template <int dim>
 FinalWidths ShapeOptimizer<dim>::first_widths(const LevelSet<dim>& shape) const {
   constexpr double small = 1.8, almost = 2.0 / 3;  // of the final widths
@@ -283,14 +286,14 @@ bool ShapeOptimizer<dim>::has_widths(const LevelSet<dim>& shape, const FeatureSi
   return narrowest_places(shape, widths).empty();
 }
 
-/// The state's shape with the widths of the shapes that follow it, in two ways: with walls that are too thin
-/// made thicker, and without them. The better one comes last, and is accepted if it could be evaluated.
+/// The state's shape with the widths of the following shapes, repaired in two ways: with its thin walls
+/// thickened, and with them removed. The better one comes last, and is accepted if it could be evaluated.
 template <int dim>
-std::vector<Trial<dim>> ShapeOptimizer<dim>::mended(const OptimizationState<dim>& state) const {
+std::vector<Trial<dim>> ShapeOptimizer<dim>::repaired(const OptimizationState<dim>& state) const {
   const FeatureSize widths = widths_after(state);
-  std::vector<Trial<dim>> trials{mended(state, state.shape)};
+  std::vector<Trial<dim>> trials{repaired(state, state.shape)};
   const LevelSet<dim> cut = without_thin_walls(state.shape, widths.wall);
-  if (cut.values != state.shape.values) trials.push_back(mended(state, cut));
+  if (cut.values != state.shape.values) trials.push_back(repaired(state, cut));
   const auto merit_or_worst = [&](const Trial<dim>& trial) {
     return trial.failure ? std::numeric_limits<double>::infinity()
                          : merit_of(*trial.evaluation, options_.objective, state.memory.penalties);
@@ -305,10 +308,10 @@ std::vector<Trial<dim>> ShapeOptimizer<dim>::mended(const OptimizationState<dim>
   return trials;
 }
 
-/// The trial of a shape with the widths of the shapes that follow the state.
+/// The trial of a shape with the widths of the shapes after the state.
 template <int dim>
-Trial<dim> ShapeOptimizer<dim>::mended(const OptimizationState<dim>& state,
-                                       const LevelSet<dim>& shape) const {
+Trial<dim> ShapeOptimizer<dim>::repaired(const OptimizationState<dim>& state,
+                                         const LevelSet<dim>& shape) const {
   const auto start = std::chrono::steady_clock::now();
   Trial<dim> trial = trial_at_rest<dim>(state.iteration + 1, evolver_.keep_bands(shape));
   auto cells =
@@ -321,8 +324,8 @@ Trial<dim> ShapeOptimizer<dim>::mended(const OptimizationState<dim>& state,
 
 /// The state at the trial's shape, whose objective is not compared with those before.
 template <int dim>
-OptimizationState<dim> ShapeOptimizer<dim>::begun_anew(OptimizationState<dim> state,
-                                                       const Trial<dim>& trial) const {
+OptimizationState<dim> ShapeOptimizer<dim>::restarted(OptimizationState<dim> state,
+                                                      const Trial<dim>& trial) const {
   state.shape = trial.shape;
   state.evaluation = *trial.evaluation;
   state.measure = trial.measure;
@@ -364,7 +367,7 @@ std::optional<StopReason> ShapeOptimizer<dim>::descend(OptimizationState<dim>& s
     if (trial.verdict == Verdict::accepted) state = successor(state, **proposals, *move, trial);
     observer(trial, state);
     if (trial.verdict == Verdict::accepted) return std::nullopt;
-    // A shape that cannot have its widths is not allowed, but it is no fault.
+    // A shape that cannot have its widths is rejected, but is not an error.
     const bool is_narrow = trial.failure && trial.failure->reason == FailureReason::too_narrow;
     all_failed =
         all_failed && trial.verdict == Verdict::failed && (!is_narrow || is_approaching(options_, state));
@@ -372,7 +375,7 @@ std::optional<StopReason> ShapeOptimizer<dim>::descend(OptimizationState<dim>& s
         !predicts_gain(options_, state, move->model_decrease))
       return StopReason::converged;
     if (stop_requested()) return StopReason::stop_requested;
-    // What redistancing or smoothing spoilt is tried again without them.
+    // A trial spoilt by redistancing or smoothing is repeated without them.
     const bool was_reshaped = halvings == 0 && options_.method == Method::sequential_quadratic &&
                               (is_due(options_.redistance_every, state.since_redistance, 0) ||
                                is_due(options_.smooth_every, state.since_smoothing, 0));
@@ -401,8 +404,7 @@ Trial<dim> ShapeOptimizer<dim>::attempt_at_rest(const OptimizationState<dim>& st
   move.model_decrease = 0;
   Trial<dim> trial = attempt(state, proposals, move, halvings);
   if (trial.failure)
-    trial.failure->detail +=
-        "; it fails even where the boundary does not move, so that no smaller step helps";
+    trial.failure->detail += "; it fails even if the boundary does not move, so no smaller step helps";
   return trial;
 }
 
@@ -446,7 +448,7 @@ Trial<dim> ShapeOptimizer<dim>::attempt(const OptimizationState<dim>& state, con
   return trial;
 }
 
-/// Tells in the failure of a trial that its measure was to change, if it was [m^2, or m^3 when dim = 3].
+/// Adds to the failure of a trial that its measure was to change, if it was [m^2, or m^3 when dim = 3].
 template <int dim>
 void ShapeOptimizer<dim>::name_target(double from, double to, double target, Failure& failure) const {
   if (options_.measure_control != MeasureControl::exact || failure.reason == FailureReason::interrupted ||
@@ -455,7 +457,7 @@ void ShapeOptimizer<dim>::name_target(double from, double to, double target, Fai
   const double whole = sector_measure<dim>(lattice_.grid());
   failure.detail += fmt::format(
       "; the volume was to change from {:.6g} to {:.6g} of the ring, on its way to volume.target = {:.6g}: "
-      "take a target nearer to these, or a smaller volume.rate",
+      "choose a target closer to these, or a smaller volume.rate",
       from / whole, to / whole, target / whole);
 }
 
@@ -466,22 +468,22 @@ bool ShapeOptimizer<dim>::is_in_reach(double measure) const {
   return options_.target_measure && std::abs(*options_.target_measure - measure) <= most;
 }
 
-/// Makes the trial's shape from the state's; where a stage fails, the shape stays what the stage before made.
+/// Builds the trial's shape from the state's; if a stage fails, the shape remains that of the stage before.
 template <int dim>
 typename ShapeOptimizer<dim>::MadeCells ShapeOptimizer<dim>::evolve(const OptimizationState<dim>& state,
                                                                     const Move<dim>& move,
                                                                     Trial<dim>& trial) const {
   const bool redistances = is_due(options_.redistance_every, state.since_redistance, trial.halvings),
              smooths = is_due(options_.smooth_every, state.since_smoothing, trial.halvings);
-  if (take(evolver_.move(state.shape, move.velocity, move.distance * lattice_.grid().resolution()), trial) &&
-      (!redistances || take(evolver_.redistance(trial.shape), trial)) &&
-      (!smooths || take(evolver_.smooth(trial.shape), trial)))
+  if (store(evolver_.move(state.shape, move.velocity, move.distance * lattice_.grid().resolution()), trial) &&
+      (!redistances || store(evolver_.redistance(trial.shape), trial)) &&
+      (!smooths || store(evolver_.smooth(trial.shape), trial)))
     return finish(trial, move.measure, boundary_measure(state.evaluation.boundary), widths_after(state));
   return {};
 }
 
-/// Gives the trial's shape the target measure, if that is held exactly, and removes islands: one after the
-/// other, for the shift makes up for islands that were removed, and can make new ones.
+/// Gives the trial's shape the target measure, if that is controlled exactly, and removes islands;
+/// repeatedly, because the shift compensates for removed islands and can create new ones.
 template <int dim>
 typename ShapeOptimizer<dim>::MadeCells ShapeOptimizer<dim>::finish(Trial<dim>& trial,
                                                                     std::optional<double> target,
@@ -492,7 +494,7 @@ typename ShapeOptimizer<dim>::MadeCells ShapeOptimizer<dim>::finish(Trial<dim>& 
     trial.measure = unknown;
     MadeCells cells;
     if (target && options_.measure_control == MeasureControl::exact)
-      cells = take(evolver_.with_measure(trial.shape, *target, boundary_measure, widths), trial);
+      cells = store(evolver_.with_measure(trial.shape, *target, boundary_measure, widths), trial);
     if (trial.failure) return {};
     auto attached = evolver_.without_islands(trial.shape, largest);
     if (!attached) {
@@ -504,7 +506,7 @@ typename ShapeOptimizer<dim>::MadeCells ShapeOptimizer<dim>::finish(Trial<dim>& 
     trial.events.insert(trial.events.end(), attached->removed.begin(), attached->removed.end());
   }
   trial.failure = Failure{FailureReason::disconnected_material,
-                          fmt::format("islands come back as often as they are removed, the last at {}",
+                          fmt::format("islands reappear whenever they are removed, most recently at {}",
                                       place_text<dim>(trial.events.back().place))};
   return {};
 }
@@ -514,11 +516,11 @@ void ShapeOptimizer<dim>::add_changes(const LevelSet<dim>& before, Trial<dim>& t
   for (const auto& event : evolver_.changes(before, trial.shape)) trial.events.push_back(event);
 }
 
-/// The trial's shape is cut and measured unless the shift to the target has done so.
+/// Cuts and measures the trial's shape unless the shift to the target has done so.
 template <int dim>
 void ShapeOptimizer<dim>::evaluate(Trial<dim>& trial, MadeCells cells, const Evaluation<dim>* previous,
                                    const FeatureSize& widths) const {
-  if (!cells) cells = take(evolver_.measured(trial.shape, widths), trial);
+  if (!cells) cells = store(evolver_.measured(trial.shape, widths), trial);
   if (trial.failure) return;
   auto evaluated = evaluate_({trial.shape, &*cells}, previous);
   if (!evaluated) {

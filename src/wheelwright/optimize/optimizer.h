@@ -15,10 +15,10 @@
 namespace wheelwright {
 
 enum class StopReason {
-  iterations,      ///< the number asked for is done
+  iterations,      ///< the requested number is done
   converged,       ///< the objective hardly decreases any more
   no_descent,      ///< no shape, with the step halved max_halvings times, is better and has its widths
-  gave_up,         ///< no step, halved max_halvings times, gave a shape that could be evaluated, or not
+  gave_up,         ///< no step, halved max_halvings times, gave a shape that could be evaluated; or not
                    ///< even the step 0 did
   failed_start,    ///< the initial shape could not be evaluated
   stop_requested,  ///< by the caller
@@ -42,25 +42,24 @@ constexpr const char* to_string(StopReason reason) {
   return "unknown";
 }
 
-/// Why a run with these options goes no further than this state, if its number of shapes or its objectives
-/// tell.
+/// Why a run with these options ends at this state, if that follows from its number of shapes or its
+/// objectives.
 template <int dim>
 std::optional<StopReason> reason_to_stop(const OptimizerOptions& options,
                                          const OptimizationState<dim>& state);
 
 /// Gradient descent on shapes: velocity, transport, redistancing and smoothing when due, measure, removal of
-/// islands, evaluation.
-/// A measure that is not the target's moves towards it in every shape by measure_rate at most, in proportion
-/// to the step. Objectives at different measures are not compared: until the target is reached, every shape
-/// that can be evaluated, and whose objective does not jump, is accepted.
-/// The step is halved when a trial is rejected, and for the next shape when the objective rose within bounds;
-/// it grows back by half after a fall. Redistancing and smoothing wait for the next shape when a trial with
-/// them is rejected.
+/// islands, evaluation. A measure that differs from the target approaches it by at most measure_rate per
+/// shape, in proportion to the step. Objectives at different measures are not compared: until the target is
+/// reached, every shape that can be evaluated, and whose objective does not jump, is accepted. The step is
+/// halved if a trial is rejected, and for the next shape if the objective rose by an accepted amount; after a
+/// decrease it grows by half. If a trial with redistancing or smoothing is rejected, they are postponed to
+/// the next shape.
 template <int dim>
 class ShapeOptimizer {
  public:
-  /// `previous` is the evaluation of the last accepted shape; null for the first. A failure `interrupted` is
-  /// no failed trial: the trial is forgotten and the loop stops as if asked to.
+  /// `previous` is the evaluation of the last accepted shape; null for the first. The failure `interrupted`
+  /// does not count as a failed trial: the trial is discarded and the loop stops as if requested.
   using Evaluate =
       std::function<Expected<Evaluated<dim>>(const CutShape<dim>&, const Evaluation<dim>* previous)>;
   /// Sees every trial, accepted or rejected, and the state after it.
@@ -69,18 +68,18 @@ class ShapeOptimizer {
   ShapeOptimizer(const Lattice<dim>& lattice, const EvolutionOptions& evolution,
                  const OptimizerOptions& options, Evaluate evaluate);
 
-  /// Evaluates the initial shape, cut off at the protected bands. It is shifted to the target measure, if
-  /// that is given, held exactly, and no farther than measure_rate. The observer sees it as iteration 0.
+  /// Evaluates the initial shape, clipped at the protected bands. It is shifted to the target measure if that
+  /// is given, controlled exactly, and within measure_rate. The observer sees it as iteration 0.
   Expected<OptimizationState<dim>> start(const LevelSet<dim>& initial, const Observer& observer) const;
 
-  /// The state's shape evaluated by this objective, in place of another one under which the shape was found.
-  /// Step and history begin anew. The observer sees it as a trial of the same iteration.
+  /// The state's shape evaluated with this objective, instead of the one with which it was found. Step and
+  /// history are reset. The observer sees it as a trial of the same iteration.
   Expected<OptimizationState<dim>> restart(const OptimizationState<dim>& state,
                                            const Observer& observer) const;
 
-  /// Proceeds to the next accepted shape, by a step or by mending the final widths; a reason when there is
-  /// none, the state then stays as it is. `stop_requested` is asked before every trial. The observer sees a
-  /// failure of the velocity as a trial without a shape of its own.
+  /// Proceeds to the next accepted shape, by a step or by repairing the final widths; if there is none,
+  /// returns the reason and leaves the state unchanged. `stop_requested` is called before every trial. The
+  /// observer sees a failure of the velocity as a trial without its own shape.
   std::optional<StopReason> advance(OptimizationState<dim>& state, const Observer& observer,
                                     const std::function<bool()>& stop_requested) const;
 
@@ -94,14 +93,14 @@ class ShapeOptimizer {
   double objective_of(const Evaluation<dim>& evaluation) const;
 
  private:
-  using MadeCells = std::optional<CutDomain<dim>>;  ///< of the trial's shape; empty: not made yet
-  enum class Mending { nothing, done, interrupted };
-  Mending mend(OptimizationState<dim>& state, const Observer& observer) const;
+  using MadeCells = std::optional<CutDomain<dim>>;  ///< of the trial's shape; empty: not computed yet
+  enum class Repair { nothing, done, interrupted };
+  Repair repair_widths(OptimizationState<dim>& state, const Observer& observer) const;
   FinalWidths first_widths(const LevelSet<dim>& shape) const;
   bool has_widths(const LevelSet<dim>& shape, const FeatureSize& widths) const;
-  std::vector<Trial<dim>> mended(const OptimizationState<dim>& state) const;
-  Trial<dim> mended(const OptimizationState<dim>& state, const LevelSet<dim>& shape) const;
-  OptimizationState<dim> begun_anew(OptimizationState<dim> state, const Trial<dim>& trial) const;
+  std::vector<Trial<dim>> repaired(const OptimizationState<dim>& state) const;
+  Trial<dim> repaired(const OptimizationState<dim>& state, const LevelSet<dim>& shape) const;
+  OptimizationState<dim> restarted(OptimizationState<dim> state, const Trial<dim>& trial) const;
   std::optional<StopReason> descend(OptimizationState<dim>& state, const Observer& observer,
                                     const std::function<bool()>& stop_requested) const;
   Trial<dim> attempt(const OptimizationState<dim>& state, const Proposals<dim>& proposals,

@@ -34,9 +34,9 @@ double violation(const LinearConstraint& c, double left) {
 
 }  // namespace
 
-// With the multipliers x, d = -(B + shift)^-1 (g + sum x_i sign_i a_i), and x minimizes the dual program
-// x.A (B + shift)^-1 A^T x / 2 + x.(A (B + shift)^-1 g - gap), A the rows sign_i a_i, for 0 <= x <= penalty,
-// or -penalty <= x <= penalty where there is an equality.
+// With the multipliers x, d = -(B + shift)^-1 (g + sum x_i sign_i a_i), and x minimizes the dual program x.A
+// (B + shift)^-1 A^T x / 2 + x.(A (B + shift)^-1 g - gap), A the rows sign_i a_i, for 0 <= x <= penalty, or
+// -penalty <= x <= penalty for an equality.
 QuadraticStep quadratic_step(const QuadraticModel& model, double shift) {
   const int n = model.products.rows(), m = static_cast<int>(model.constraints.size());
   const ShiftedHessian hessian(model.products, model.first_move, model.n_pairs, shift);
@@ -89,7 +89,7 @@ QuadraticStep quadratic_step(const QuadraticModel& model, double shift) {
 QuadraticStep trust_region_step(const QuadraticModel& model, double radius,
                                 const std::function<double(const std::vector<double>&)>& length) {
   constexpr double near = 0.97, farthest_shift = 1e12;
-  constexpr int most_searches = 60;
+  constexpr int max_searches = 60;
   std::vector<double> gradient(model.products.rows(), 0.0);
   gradient[0] = 1;
   const double natural = std::max(length(gradient) / radius,
@@ -107,7 +107,7 @@ QuadraticStep trust_region_step(const QuadraticModel& model, double radius,
   std::optional<Point> too_small, enough;
   std::optional<QuadraticStep> best;
   double shift = natural;
-  for (int k = 0; k < most_searches; ++k) {
+  for (int k = 0; k < max_searches; ++k) {
     const auto step = quadratic_step(model, shift);
     const double reached = length(step.coefficients);
     const Point point{shift, 1 / reached - 1 / (std::sqrt(near) * radius)};

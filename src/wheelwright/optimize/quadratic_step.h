@@ -12,18 +12,18 @@ namespace wheelwright {
 struct LinearConstraint {
   int vector;   ///< a in the span
   double sign;  ///< 1 or -1
-  double gap;   ///< at d = 0: how far the constraint is violated; negative: how far it is from that
+  double gap;   ///< violation at d = 0; negative: distance from violation
   bool is_equality;
-  /// What a unit of violation costs in the merit function; infinite: the constraint is met at any cost. A
-  /// multiplier that reaches it says that the constraint is relaxed.
+  /// The cost per unit of violation in the merit function; infinite: a hard constraint. A multiplier that
+  /// reaches it means that the constraint is relaxed.
   double penalty = std::numeric_limits<double>::infinity();
-  /// Whether violations count in the merit function, and so in QuadraticStep::decrease.
+  /// Whether violations count in the merit function, and thus in QuadraticStep::decrease.
   bool is_in_merit = true;
 };
 
 /// The model (g, d) + (d, B d) / 2 + sum penalty * violation of a merit function, and the constraints, in the
-/// span of some vectors of an inner product space, in this order: g, others that constraints name, then from
-/// first_move on the moves and the changes of the n_pairs pairs that make B (curvature_memory.h).
+/// span of some vectors of an inner product space, in this order: g, the vectors of constraints, then from
+/// first_move on the moves and the changes of the n_pairs pairs that define B (curvature_memory.h).
 struct QuadraticModel {
   Matrix products;
   std::vector<LinearConstraint> constraints;
@@ -44,8 +44,8 @@ struct QuadraticStep {
 
 QuadraticStep quadratic_step(const QuadraticModel& model, double shift);
 
-/// The step with the smallest shift for which length(d) <= radius; up to 3 % below it. Where constraints of
-/// infinite penalty do not allow one, the shortest.
+/// The step with the smallest shift for which length(d) <= radius, to within 3 %. If hard constraints do not
+/// allow one, the shortest step.
 QuadraticStep trust_region_step(const QuadraticModel& model, double radius,
                                 const std::function<double(const std::vector<double>&)>& length);
 

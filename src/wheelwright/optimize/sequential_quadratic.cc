@@ -46,10 +46,10 @@ std::vector<Nodal> loads(const BoundaryMotion<dim>& motion, const LevelSet<dim>&
   return result;
 }
 
-/// The largest objective that is accepted is the best one so far, increased by the noise, or the last one if
-/// that is larger. Before the final widths, a web that is thinner than a cell makes the objective jump when
-/// it breaks, however small the step: there it may also be the one before the last (the nonmonotone descent
-/// of Grippo, Lampariello and Lucidi 1986), which leads past the jump.
+/// The largest accepted objective is the best one so far, increased by the noise, or the last one if that is
+/// larger. Before the final widths, a web thinner than a cell makes the objective jump when it breaks,
+/// however small the step: then it may also be the one before the last (the nonmonotone descent of Grippo,
+/// Lampariello and Lucidi 1986), which leads past the jump.
 template <int dim>
 double largest_objective(const OptimizerOptions& options, const OptimizationState<dim>& state, double noise) {
   const auto& history = state.history;
@@ -105,18 +105,18 @@ typename SequentialQuadraticProposals<dim>::Span SequentialQuadraticProposals<di
   return span;
 }
 
-/// Holds the coefficients that would move into a band: the move is sought without them, and again if others
-/// must then be held too.
+/// Holds the coefficients that would move into a band: repeats the search for the move without them until no
+/// others must be held.
 template <int dim>
 Expected<Move<dim>> SequentialQuadraticProposals<dim>::move(double step) const {
-  constexpr int most_turns = 5;
+  constexpr int max_turns = 5;
   std::vector<bool> held(state_.shape.values.size(), false);
   const double resolution = state_.shape.lattice.grid().resolution();
   const auto hold_more = [&](const Move<dim>& move) {
     return evolver_.hold_at_bands(motion_.coefficients(), move.velocity, move.distance * resolution, held);
   };
   auto move = move_with(held, step);
-  for (int turn = 0; turn < most_turns && hold_more(move); ++turn) move = move_with(held, step);
+  for (int turn = 0; turn < max_turns && hold_more(move); ++turn) move = move_with(held, step);
   if (!std::isfinite(move.step)) return Failure{FailureReason::not_finite, "the velocity"};
   return move;
 }
@@ -146,13 +146,13 @@ Move<dim> SequentialQuadraticProposals<dim>::move_with(const std::vector<bool>& 
           .penalties = penalties};
 }
 
-/// Raises penalties until the linearized violation falls by at least half of what it could fall by.
+/// Raises penalties until the linearized violation decreases by at least half of its possible decrease.
 template <int dim>
 QuadraticStep SequentialQuadraticProposals<dim>::step_in(const BoundaryMotion<dim>& motion, const Span& span,
                                                          double gap, double step,
                                                          std::vector<double>& penalties) const {
   constexpr double raise = 4, beyond = 1e6, enough = 0.5, small = 1e-9, comes_first = 10;
-  constexpr int most_raises = 10;
+  constexpr int max_raises = 10;
   const int n_pairs = static_cast<int>(state_.memory.pairs.size());
   QuadraticModel model{.products = span.products(),
                        .constraints = {},
@@ -191,8 +191,8 @@ QuadraticStep SequentialQuadraticProposals<dim>::step_in(const BoundaryMotion<di
   for (const auto& c : constraints_) now += c.violation();
   auto found = with(1);
   if (constraints_.empty() || total(found) <= small) return found;
-  const double least = total(with(beyond));
-  for (int k = 0; k < most_raises && now - total(found) < enough * (now - least) - small; ++k) {
+  const double minimum = total(with(beyond));
+  for (int k = 0; k < max_raises && now - total(found) < enough * (now - minimum) - small; ++k) {
     for (size_t i = 0; i < penalties.size(); ++i)
       if (found.violations[first + i] > 0) penalties[i] *= raise;
     found = with(1);
@@ -200,7 +200,7 @@ QuadraticStep SequentialQuadraticProposals<dim>::step_in(const BoundaryMotion<di
   return found;
 }
 
-/// At first such that a violation of one percent costs as much as one percent of the objective.
+/// Initially a violation of one percent costs as much as one percent of the objective.
 template <int dim>
 std::vector<double> SequentialQuadraticProposals<dim>::penalties() const {
   if (state_.memory.penalties.size() == constraints_.size()) return state_.memory.penalties;
@@ -208,7 +208,7 @@ std::vector<double> SequentialQuadraticProposals<dim>::penalties() const {
                              std::abs(state_.evaluation.function(options_.objective).value));
 }
 
-/// What the objective changes by for no reason: details of the cut cells.
+/// The noise of the objective, from details of the cut cells.
 template <int dim>
 double SequentialQuadraticProposals<dim>::noise() const {
   return options_.accepted_increase * std::abs(state_.evaluation.function(options_.objective).value);
@@ -229,7 +229,7 @@ template <int dim>
 double SequentialQuadraticProposals<dim>::next_step(const Move<dim>& move,
                                                     const Evaluation<dim>& evaluation) const {
   constexpr double poor = 0.25, good = 0.75, shrink = 0.5, grow = 2, near = 0.8;
-  const double least = std::ldexp(options_.step, -options_.max_halvings);
+  const double minimum = std::ldexp(options_.step, -options_.max_halvings);
   const auto merit_of = [&](const Evaluation<dim>& e) {
     return merit(e.function(options_.objective).value, bound_constraints(e), move.penalties);
   };
@@ -240,7 +240,7 @@ double SequentialQuadraticProposals<dim>::next_step(const Move<dim>& move,
     next = shrink * move.step;
   else if (quality > good && move.step >= near * move.radius)
     next = grow * move.radius;
-  return std::clamp(next, least, options_.step);
+  return std::clamp(next, minimum, options_.step);
 }
 
 /// The pair of the move and the change of the Lagrangian's derivative.

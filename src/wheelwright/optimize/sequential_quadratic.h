@@ -11,10 +11,10 @@ namespace wheelwright {
 /// DJ(theta) + (theta, B theta) / 2 of the merit function under the linearized measure and bounds of
 /// functions, where B is the L-BFGS matrix of the Lagrangian in the inner product of deformations
 /// (evolution/deformation_space.h), and no point of the boundary moves farther than the step. The step
-/// shrinks where the model predicts badly, and grows where it predicts well. Bounds that cannot be met
-/// within a step are relaxed; their penalties grow until the step does about as much for them as one can.
-/// Widths that a step could bring below their least one are constraints too, with a penalty so large that
-/// they come first.
+/// shrinks if the model predicts poorly and grows if it predicts well. Bounds that cannot be met within a
+/// step are relaxed; their penalties grow until the step does about as much for them as possible. Widths that
+/// a step could bring below their minimum are constraints too, with a penalty so large that they take
+/// priority.
 template <int dim>
 class SequentialQuadraticProposals final : public Proposals<dim> {
  public:
@@ -47,7 +47,7 @@ class SequentialQuadraticProposals final : public Proposals<dim> {
   const OptimizerOptions& options_;
   const OptimizationState<dim>& state_;
   std::vector<BoundConstraint> constraints_;
-  std::vector<Width<dim>> widths_;  ///< that a step may bring below the least one
+  std::vector<Width<dim>> widths_;  ///< that a step could bring below their minimum
   BoundaryMotion<dim> motion_;      ///< of the state's shape
   Span pairs_;                      ///< of the state's memory
 };

@@ -69,9 +69,9 @@ Handle(Geom_BSplineCurve) whole_curve(const cad::Spline& spline) {
 /// Splits a long spline into several edges at its knots: the default quadrature by which programs compute
 /// areas and volumes has too few points for an edge of many cubics.
 std::vector<TopoDS_Edge> edges(const cad::Spline& spline) {
-  constexpr int most_cubics = 4;
+  constexpr int max_cubics = 4;
   const Handle(Geom_BSplineCurve) whole = whole_curve(spline);
-  const int n_cubics = whole->NbKnots() - 1, parts = (n_cubics + most_cubics - 1) / most_cubics;
+  const int n_cubics = whole->NbKnots() - 1, parts = (n_cubics + max_cubics - 1) / max_cubics;
   std::vector<TopoDS_Edge> edges;
   for (int i = 0; i < parts; ++i) {
     const Handle(Geom_BSplineCurve) part = Handle(Geom_BSplineCurve)::DownCast(whole->Copy());

@@ -15,9 +15,9 @@ namespace wheelwright {
 namespace {
 
 constexpr double bar_width = 18, bar_height = 320;
-constexpr int most_ticks = 6;
+constexpr int max_ticks = 6;
 
-/// The least round number that is not below the value, > 0.
+/// The smallest round number not below the value, which must be > 0.
 double rounded_up(double value) {
   const double decade = std::pow(10, std::floor(std::log10(value)));
   for (const double digits : {1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0})
@@ -31,18 +31,18 @@ std::vector<double> finite(std::span<const double> values) {
   return result;
 }
 
-/// The value that has so many smaller ones. Reorders them.
+/// The value with the given number of smaller ones. Reorders them.
 double with_smaller(std::vector<double>& values, std::size_t n) {
   const auto place = values.begin() + static_cast<std::ptrdiff_t>(n);
   std::ranges::nth_element(values, place);
   return *place;
 }
 
-/// Round numbers in the unit with its prefix; the value itself where there is only one.
+/// Round numbers in the unit with its prefix; the value itself if there is only one.
 std::vector<double> ticks(const ColourScale& scale, const SiPrefix& prefix) {
   const double lower = scale.lower / prefix.factor, upper = scale.upper / prefix.factor;
   if (!(upper > lower)) return {lower};
-  return axis_ticks(lower, upper, most_ticks);
+  return axis_ticks(lower, upper, max_ticks);
 }
 
 }  // namespace
@@ -72,10 +72,10 @@ std::string value_text(double value, const std::string& unit) {
 ColourScale colour_scale(std::span<const double> values, double outliers) {
   std::vector<double> all = finite(values);
   if (all.empty()) return {0, 0};
-  const auto [least, greatest] = std::ranges::minmax(all);
+  const auto [minimum, maximum] = std::ranges::minmax(all);
   const auto out = static_cast<std::size_t>(outliers * static_cast<double>(all.size()));
   const double lower = with_smaller(all, out), upper = with_smaller(all, all.size() - 1 - out);
-  return {lower, upper, least<lower, greatest> upper};
+  return {lower, upper, minimum<lower, maximum> upper};
 }
 
 ColourScale colour_scale_from_zero(std::span<const double> values, double outliers) {

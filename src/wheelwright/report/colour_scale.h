@@ -11,13 +11,13 @@ struct SiPrefix {
   const char* symbol;
 };
 
-/// The prefix with which stresses and lengths are usual: 0.8 MPa, 0.58 mm; none for 0.
+/// The usual prefix for stresses and lengths: 0.8 MPa, 0.58 mm; none for 0.
 SiPrefix si_prefix(double value);
 
 /// Three digits and the unit with its prefix, e.g. "2.46 MPa".
 std::string value_text(double value, const std::string& unit);
 
-/// What the colours of a picture stand for. Values beyond the ends have the colours of the ends.
+/// The values that the colours of a picture represent. Values beyond the ends have the colours of the ends.
 struct ColourScale {
   double lower, upper;
   bool cut_below = false, cut_above = false;  ///< whether there are such values
@@ -27,10 +27,10 @@ struct ColourScale {
   double fraction(double value) const { return upper > lower ? (value - lower) / (upper - lower) : 0.5; }
 };
 
-/// Spans the finite values without that fraction of them at each end.
+/// Spans the finite values, except for that fraction of them at each end.
 ColourScale colour_scale(std::span<const double> values, double outliers);
 
-/// The same for values that are never negative: it begins at 0 and ends at a round number.
+/// The same for values that are never negative: it starts at 0 and ends at a round number.
 ColourScale colour_scale_from_zero(std::span<const double> values, double outliers);
 
 /// Colour of what lies between two levels, from 0.

@@ -15,13 +15,13 @@ using Value = std::optional<KnownNumber>;
 bool is_known(const Value& value) { return value && *value; }
 bool is_missing(const Value& value) { return value && !*value; }
 
-/// Empty where the first value is next to nothing compared with the other.
+/// Empty if the first value is negligible compared with the other.
 std::string change(const Value& first_value, const Value& other) {
-  constexpr double most_percents = 1e5;
+  constexpr double max_percents = 1e5;
   if (!is_known(first_value) || !is_known(other)) return "";
   const double first = **first_value, value = **other;
   const double percents = 100 * (value / first - 1);
-  if (!(std::abs(percents) < most_percents)) return "";
+  if (!(std::abs(percents) < max_percents)) return "";
   if (std::abs(percents) < 0.005) return "0 %";
   return fmt::format("{:+.2f} %", percents);
 }
@@ -67,16 +67,16 @@ std::vector<MissingNumbers> missing_numbers(const std::vector<std::string>& whee
 }
 
 std::string text(const MissingNumbers& missing) {
-  constexpr std::size_t most_named = 4;
+  constexpr std::size_t max_named = 4;
   const auto& labels = missing.labels;
   std::string names;
-  for (std::size_t k = 0; k < std::min(labels.size(), most_named); ++k)
+  for (std::size_t k = 0; k < std::min(labels.size(), max_named); ++k)
     names += (k > 0 ? ", " : "") + labels[k];
-  if (labels.size() > most_named) names += fmt::format(" and {} more", labels.size() - most_named);
+  if (labels.size() > max_named) names += fmt::format(" and {} more", labels.size() - max_named);
   return fmt::format("not computed ({}): {}: {}", missing.wheels, names, missing.reason);
 }
 
-/// Null wheels have no value.
+/// Null wheels have no values.
 template <int dim>
 void add_row(const WheelNumber<dim>& number, const std::string& in_case,
              const std::vector<const DescribedWheel<dim>*>& wheels, std::vector<ComparedRow>& rows) {

@@ -8,23 +8,23 @@
 
 namespace wheelwright {
 
-/// A quantity of several wheels, in the unit that its label names.
+/// A quantity of several wheels, in the unit named by its label.
 struct ComparedRow {
   std::string label;
-  std::vector<std::optional<KnownNumber>> values;  ///< one per wheel; nothing where it has none
+  std::vector<std::optional<KnownNumber>> values;  ///< one per wheel; nothing if it has none
 };
 
-/// The numbers of wheels (wheel_numbers) that at least one of them has or should have; then those that depend
-/// on the load under every other load case.
+/// The numbers (wheel_numbers) that at least one of the wheels has or should have; then, for every other load
+/// case, those that depend on the load.
 template <int dim>
 std::vector<ComparedRow> compared_rows(const std::vector<const DescribedWheel<dim>*>& wheels);
 
-/// The numbers that could not be computed: of which wheels, which ones, and why; one line per reason.
+/// The numbers that could not be computed, with wheels and reason; one line per reason.
 std::vector<std::string> missing_lines(const std::vector<std::string>& wheels,
                                        const std::vector<ComparedRow>& rows);
 
 /// One line per quantity: the value of every wheel and, from the second wheel on, its relative change from
-/// the first. A change that is not finite is left out. The missing_lines are below.
+/// the first. A change that is not finite is omitted. Followed by the missing_lines.
 std::string comparison_table(const std::vector<std::string>& wheels, const std::vector<ComparedRow>& rows);
 
 }  // namespace wheelwright

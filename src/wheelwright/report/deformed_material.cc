@@ -27,7 +27,7 @@ Vec<2> interpolated(const RingField& field, const Lattice<2>& lattice, const std
                       std::span(shape.data(), nodes_per_cell<2>(lattice.degree())));
 }
 
-/// How far magnified displacements carry the tread below the ground, at equal azimuths.
+/// How far magnified displacements move the tread below the ground, at equally spaced azimuths.
 std::vector<double> press_of_tread(const Lattice<2>& lattice, const RingField& displacement,
                                    double magnification, double contact_azimuth) {
   const PolarGrid<2>& grid = lattice.grid();
@@ -45,7 +45,7 @@ std::vector<double> press_of_tread(const Lattice<2>& lattice, const RingField& d
   return press;
 }
 
-/// A polygon in parts x parts squares if it is a whole cell.
+/// A polygon, divided into parts x parts squares if it is a whole cell.
 std::vector<MaterialPolygon> divided(const MaterialPolygon& polygon, int parts) {
   if (polygon != MaterialPolygon{{0, 0}, {1, 0}, {1, 1}, {0, 1}}) return {polygon};
   std::vector<MaterialPolygon> result;
@@ -69,7 +69,7 @@ DeformedMaterial::DeformedMaterial(const LevelSet<2>& psi, const Lattice<2>& lat
       press_(below == Below::ground ? press_of_tread(lattice, displacement, magnification, contact_azimuth)
                                     : std::vector<double>()) {}
 
-double DeformedMaterial::greatest_press() const { return press_.empty() ? 0 : std::ranges::max(press_); }
+double DeformedMaterial::max_press() const { return press_.empty() ? 0 : std::ranges::max(press_); }
 
 Vec<2> DeformedMaterial::undeformed(const Vec<2>& x) const {
   const Vec<2> turned = to_picture_.forward(x);

@@ -13,33 +13,33 @@ namespace wheelwright {
 /// A point of the loaded wheel as it is drawn.
 struct DrawnPoint {
   Vec<2> place;   ///< picture coordinates (report/picture_view.h) [m]
-  double scalar;  ///< what is shown there
+  double scalar;  ///< the displayed value there
 };
 
 /// A convex polygon of material.
 using DrawnPiece = std::vector<DrawnPoint>;
 
-/// These things may be below a wheel.
+/// What can be below a wheel.
 enum class Below {
   ground,
-  nothing  ///< a tread that is bonded to a rigid ring does not move
+  nothing  ///< a tread bonded to a rigid ring does not move
 };
 
-/// The loaded wheel as a picture shows it: turned so that the contact is below, its displacement multiplied
-/// by `magnification`.
+/// The loaded wheel as shown in a picture: turned so that the contact is at the bottom, its displacement
+/// multiplied by `magnification`.
 ///
-/// Multiplied displacements would carry the tread through the ground beside the contact, because the gap
-/// there is not multiplied. Points of the tread below the ground are drawn on it, and the material between
-/// them and the rim is moved up by a share of that: all of it at the tread, nothing at the rim. It is what a
-/// wheel that deforms so much looks like. Where nothing crosses, at magnification 1, nothing is moved.
+/// Magnified displacements would move the tread through the ground next to the contact, because the gap there
+/// is not magnified. Points of the tread below the ground are drawn on it, and the material between them and
+/// the rim is moved up by a share of that: all of it at the tread, nothing at the rim. It is what a wheel
+/// that deforms so much looks like. Where nothing crosses, at magnification 1, nothing is moved.
 class DeformedMaterial {
  public:
   /// `lattice` carries the fields. All must outlive this.
   DeformedMaterial(const LevelSet<2>& psi, const Lattice<2>& lattice, const RingField& displacement,
                    double magnification, double contact_azimuth, Below below);
 
-  /// The material of every sector, its cells divided into parts x parts squares, cut ones clipped. Cells that
-  /// lie outside of the circle about `centre` (picture coordinates) before they are deformed are left out.
+  /// The material of every sector, its cells divided into parts x parts squares, cut ones clipped. Cells
+  /// whose undeformed position is outside the circle about `centre` (picture coordinates) are omitted.
   std::vector<DrawnPiece> pieces(const NamedField& scalar, int parts, const Vec<2>& centre,
                                  double radius) const;
 
@@ -47,8 +47,8 @@ class DeformedMaterial {
   Vec<2> undeformed(const Vec<2>& x) const;
   Vec<2> drawn(const Vec<2>& x) const;
 
-  /// How far the tread is moved up, at most [m].
-  double greatest_press() const;
+  /// The maximum by which the tread is moved up [m].
+  double max_press() const;
 
  private:
   /// A point of a cell in sector 0.
@@ -75,7 +75,7 @@ class DeformedMaterial {
   const Lattice<2>& lattice_;
   const RingField& displacement_;
   double magnification_;
-  AxleRotation to_picture_;  ///< by which the contact comes to lie below, before the second axis is reversed
+  AxleRotation to_picture_;    ///< that moves the contact to the bottom, before the second axis is reversed
   std::vector<double> press_;  ///< of the tread, at equal azimuths round the ring [m]; empty: nothing below
 };
 

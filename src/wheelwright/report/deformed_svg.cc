@@ -26,7 +26,7 @@ constexpr double point_tolerance = 0.12 * units_per_pixel;
 constexpr int parts_of_cell = 2, parts_in_window = 4;  // along each axis
 constexpr double outliers = 0.01;                      // fraction of the pieces beyond a scale without tail
 
-/// The whole wheel with room for the ground and for bulges, or a square that the ground nearly closes below.
+/// The whole wheel with room for the ground and for bulges, or a square with the ground near its lower edge.
 PictureView view_of(const PolarGrid<2>& grid, const std::optional<double>& window) {
   constexpr double whole = 1.07;   // half the view over the radius
   constexpr double ground = 0.78;  // its height in a window, from -1 above to 1 below
@@ -52,7 +52,7 @@ bool is_shown(const DrawnPiece& piece, const PictureView& view) {
 
 std::vector<DrawnPiece> shown_pieces(const DeformedMaterial& material, const DeformedPicture<2>& picture,
                                      const PictureView& view) {
-  // The corner of a window, and what displacements carry into it.
+  // The corner of a window, and what displacements move into it.
   const double reach = picture.window ? 1.5 * view.half + 0.1 * std::abs(view.centre[1]) : 2 * view.half;
   auto pieces =
       material.pieces(picture.scalar, picture.window ? parts_in_window : parts_of_cell, view.centre, reach);
@@ -97,8 +97,8 @@ std::string level_path(int level, const std::vector<PicturePolygon>& outlines) {
   return path.empty() ? "" : fmt::format("<path fill=\"{}\" d=\"{}\"/>\n", level_colour(level), path);
 }
 
-/// The whole material in the colour of its median, over it what lies above that colour's range and what lies
-/// below, each level over the one before: the edge of the material appears in few paths.
+/// The whole material in the colour of its median, overlaid by the levels above and below that colour's
+/// range, one after the other: thus the edge of the material appears in few paths.
 std::string coloured_paths(const PictureScalar& scalar, const ColourScale& scale) {
   const int last = ColourScale::levels - 1;
   const int middle =
@@ -127,7 +127,7 @@ std::string material_svg(const PictureScalar& scalar, const ColourScale& scale, 
 
 std::string footnote_svg(const DeformedMaterial& material, const DeformedPicture<2>& picture,
                          const PictureView& view) {
-  if (material.greatest_press() * view.pixels_per_metre() < 0.5) return "";
+  if (material.max_press() * view.pixels_per_metre() < 0.5) return "";
   return fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"12\" fill=\"#57606a\">{}</text>\n", margin,
                      picture_height - 12, footnote(picture.magnification));
 }
@@ -186,7 +186,7 @@ std::string facts(const DeformedPicture<dim>& picture) {
 }
 
 std::string footnote(double magnification) {
-  return fmt::format("The tread lies on the ground where {:g} times the displacement would cross it.",
+  return fmt::format("The tread is drawn on the ground where {:g} times the displacement would cross it.",
                      magnification);
 }
 

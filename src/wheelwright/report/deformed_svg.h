@@ -11,9 +11,9 @@
 
 namespace wheelwright {
 
-/// How the colours of a picture span its values.
+/// How the colours of a picture cover its values.
 enum class ScaleKind {
-  all,          ///< from the least to the greatest
+  all,          ///< from the minimum to the maximum
   without_tail  ///< values >= 0: from 0 to a round number that at most 1 % of the drawn pieces exceed
 };
 
@@ -37,8 +37,8 @@ struct DeformedPicture {
   std::optional<DrawnPeak<dim>> peak;
 };
 
-/// The largest of 1, 2, 5, 10, 20, ... that draws no displacement larger than 5 % of the wheel's radius, at
-/// least 1. NaN are passed over.
+/// The largest of 1, 2, 5, 10, 20, ... with which no displacement is drawn larger than 5 % of the wheel's
+/// radius, at least 1. NaN is ignored.
 double picture_magnification(const RingField& displacement, double outer_radius);
 
 /// The picture as an SVG document: the material with colours between level lines, their scale, the ground as
@@ -47,14 +47,14 @@ double picture_magnification(const RingField& displacement, double outer_radius)
 std::string deformed_svg(const LevelSet<2>& psi, const Lattice<2>& lattice,
                          const DeformedPicture<2>& picture);
 
-/// What a picture says of load, position and magnification.
+/// The text of a picture about load, position and magnification.
 template <int dim>
 std::string facts(const DeformedPicture<dim>& picture);
 
-/// What it says where the tread was laid on the ground.
+/// The note for pictures whose tread was moved onto the ground.
 std::string footnote(double magnification);
 
-/// The beginning of such a picture, of this size in pixels: its title and facts.
+/// The start of such a picture, of this size in pixels: its title and facts.
 template <int dim>
 std::string picture_beginning(const DeformedPicture<dim>& picture, double width, double height,
                               double margin);

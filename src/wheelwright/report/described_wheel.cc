@@ -23,7 +23,7 @@ std::vector<double> of_positions(const LoadedWheel<dim>& wheel, double ContactSu
   return values;
 }
 
-/// The amplitude of the lowest harmonic that a wheel of equal sectors can have.
+/// The amplitude of the lowest harmonic possible for a wheel of equal sectors.
 double first_harmonic(const std::vector<double>& values) {
   const auto harmonics = rolling_variation(values).harmonics;
   return harmonics.empty() ? 0 : harmonics.front();
@@ -40,10 +40,10 @@ std::optional<double> mass(const StateSolver<dim>& solver, double volume_fractio
   return *density * volume_fraction * area * (dim == 3 ? grid.width : 1);
 }
 
-/// How far the curves may be from the edge, by the tread's radius: as exported outlines are.
+/// Tolerance of the curves relative to the tread's radius: that of exported outlines.
 constexpr double curve_tolerance = 3e-5;
 
-/// What a wheel may have a value of; nothing where it has none by its nature.
+/// A number of a wheel; nothing if the wheel cannot have one.
 using Number = std::optional<KnownNumber>;
 
 std::string reason(const Failure& failure) {
@@ -57,7 +57,7 @@ Number under_load(const DescribedWheel<dim>& wheel, const Value& value) {
   return value(*wheel.loaded);
 }
 
-/// A value of a curve over the load positions, by a factor.
+/// A value of a curve over the load positions, times a factor.
 template <int dim, class Value>
 Number of_curve(const DescribedWheel<dim>& wheel, Expected<std::vector<double>> RollingAnalysis::*curve,
                 double factor, const Value& value) {
@@ -82,7 +82,7 @@ Number width_of(const DescribedWheel<dim>& wheel, std::optional<cad::Clearance> 
   return clearance ? Number(clearance->width) : std::nullopt;
 }
 
-/// Nothing where there are no holes.
+/// Nothing if there are no holes.
 template <int dim>
 Number of_edges(const DescribedWheel<dim>& wheel, Number (*value)(const cad::Roughness&)) {
   if (!wheel.outline) return wheel.outline.failure().what;

@@ -14,15 +14,15 @@
 
 namespace wheelwright {
 
-/// What a load does to a wheel, in numbers. Forces of the analysis are per metre of width when dim = 2.
+/// The response of a wheel to a load, as numbers. Forces of the analysis are per metre of width when dim = 2.
 template <int dim>
 struct LoadedWheel {
   ShapeSummary<dim> summary;
   RollingAnalysis rolling;
 };
 
-/// What is measured on the curves that follow the edges of a shape. Nothing when dim = 3, whose edges are no
-/// plane curves.
+/// Measurements on the curves fitted to the edges of a shape. Nothing when dim = 3, where edges are not plane
+/// curves.
 struct OutlineMeasures {
   cad::Clearances clearances = {};
   std::optional<cad::Roughness> roughness = {};  ///< at a cell of the grid; nothing without holes
@@ -36,10 +36,10 @@ struct DescribedWheel {
   PolarGrid<dim> grid;
   double volume_fraction;      ///< material area over the area of the full ring
   std::optional<double> mass;  ///< [kg, per metre of width when dim = 2], if the material has a density
-  Expected<OutlineMeasures, cad::OutlineFault> outline;  ///< fails where no curves can be fitted
-  Expected<LoadedWheel<dim>> loaded;                     ///< fails as the contact problem does
-  std::string load_case = {};                            ///< under which; empty: the wheel has one load alone
-  std::vector<DescribedWheel> others = {};               ///< the same wheel under its other load cases
+  Expected<OutlineMeasures, cad::OutlineFault> outline;  ///< fails if no curves can be fitted
+  Expected<LoadedWheel<dim>> loaded;                     ///< fails like the contact problem
+  std::string load_case = {};               ///< of these numbers; empty: the wheel has only one load
+  std::vector<DescribedWheel> others = {};  ///< the same wheel under its other load cases
 };
 
 /// States of a shape, or why there are none.
@@ -57,11 +57,11 @@ DescribedWheel<dim> described_wheel(const StateSolver<dim>& solver, const LevelS
 template <int dim>
 const DescribedWheel<dim>* under_load_case(const DescribedWheel<dim>& wheel, const std::string& load_case);
 
-/// Fails where no curves can be fitted.
+/// Fails if no curves can be fitted.
 template <int dim>
 Expected<OutlineMeasures, cad::OutlineFault> outline_measures(const LevelSet<dim>& psi);
 
-/// Of a wheel; nothing where it has none or no curves could be fitted.
+/// The clearances of a wheel; nothing if it has none or no curves could be fitted.
 template <int dim>
 std::optional<cad::Roughness> roughness(const DescribedWheel<dim>& wheel);
 
@@ -74,19 +74,19 @@ struct WheelNumber {
   const char* label;
   UnitKind kind;
   const char* key;  ///< for programs, with the SI unit
-  /// In SI units, on the whole width: nothing where a wheel has no such number, such as a mass without a
-  /// density; the reason where it could not be computed.
+  /// In SI units, on the whole width: nothing if the wheel has no such number, e.g. a mass without a density;
+  /// the reason if it could not be computed.
   std::optional<KnownNumber> (*value)(const DescribedWheel<dim>&);
   bool is_of_shape = false;  ///< the same under every load
 
   ShownUnit shown() const { return shown_unit(kind, dim); }
 };
 
-/// The numbers by which wheels are judged and compared, in the order in which they are told.
+/// The numbers by which wheels are judged and compared, in the order of tables.
 template <int dim>
 const std::vector<WheelNumber<dim>>& wheel_numbers();
 
-/// In SI units, on the whole width; nothing where the wheel has no such number, whatever the reason.
+/// In SI units, on the whole width; nothing if the wheel has no such number, for whatever reason.
 template <int dim>
 std::optional<double> known_value(const WheelNumber<dim>& number, const DescribedWheel<dim>& wheel);
 

@@ -9,7 +9,7 @@ namespace wheelwright {
 /// The scalar at every point, of components [component][point].
 std::vector<float> scalars(const std::vector<std::vector<float>>& components, const PointScalar& scalar);
 
-/// Points of sector 0 at which fields are evaluated there and in all other sectors.
+/// Points of sector 0 at which fields are evaluated in all sectors.
 template <int dim>
 class FieldPoints {
  public:
@@ -24,7 +24,7 @@ class FieldPoints {
   /// The components of a field at the points: [component][point + size() * sector].
   std::vector<std::vector<float>> components(const RingField& field) const;
 
-  /// The same, or its scalar if it has one.
+  /// The components, or the field's scalar if it has one.
   std::vector<std::vector<float>> values(const NamedField& field) const;
 
  private:
@@ -38,7 +38,7 @@ class FieldPoints {
 
   Lattice<dim> lattice_;
   std::array<int, dim> last_cell_{};
-  std::vector<RingCellNodes<dim>> cells_;  ///< of points that follow each other
+  std::vector<RingCellNodes<dim>> cells_;  ///< of consecutive points
   std::vector<Point> points_;
 };
 

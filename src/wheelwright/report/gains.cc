@@ -11,22 +11,22 @@
 namespace wheelwright {
 namespace {
 
-/// Words for a value that became larger, smaller, or stayed.
+/// Words for a value that increased, decreased, or stayed the same.
 struct Words {
   const char *larger, *smaller, *same;
 };
 
-/// Nothing where there is no relative change, as from a run-out of 0.
+/// Nothing if there is no relative change, as from a run-out of 0.
 std::optional<std::string> change(double before, double after, const Words& words) {
   const double percents = 100 * (after / before - 1);
-  constexpr double least = 0.05, most = 1000;
+  constexpr double minimum = 0.05, most = 1000;
   if (!std::isfinite(percents)) return {};
-  if (std::abs(percents) < least) return words.same;
+  if (std::abs(percents) < minimum) return words.same;
   if (percents > most) return fmt::format("more than ten times {}", words.larger);
   return fmt::format("{:.1f} % {}", std::abs(percents), percents > 0 ? words.larger : words.smaller);
 }
 
-/// The number with this key for programs.
+/// The number with this key in summary.json.
 template <int dim>
 std::optional<double> value(const DescribedWheel<dim>& wheel, std::string_view key) {
   for (const WheelNumber<dim>& number : wheel_numbers<dim>())

@@ -6,7 +6,7 @@
 
 namespace wheelwright {
 
-/// A picture of pixels, row by row from above, each of red, green and blue.
+/// An image of pixels, row by row from the top, each of red, green and blue.
 struct Image {
   int width, height;
   std::vector<std::uint8_t> rgb;

@@ -35,7 +35,7 @@ struct Fans {
   }
 };
 
-/// Normals as the camera sees them, of the triangles' size and of length 1.
+/// Normals in the camera's frame, scaled by the triangles' areas and of length 1.
 struct Normals {
   std::vector<Vec<3>> sized, unit;
 
@@ -51,7 +51,8 @@ struct Normals {
     }
   }
 
-  /// The normal at a triangle's corner: the mean of the triangles there that make no sharp edge with it.
+  /// The normal at a triangle's corner: the mean over the triangles there that do not form a sharp edge with
+  /// it.
   Vec<3> at_corner(int triangle, int vertex, const Fans& fans) const {
     Vec<3> sum{};
     for (int k = fans.begin[vertex]; k < fans.begin[vertex + 1]; ++k) {
@@ -63,15 +64,15 @@ struct Normals {
   }
 };
 
-/// The share of a colour that a surface with this normal shows: light from above, from the camera's left, and
-/// less from all sides.
+/// The brightness of a surface with this normal: light from above, from the camera's left, and weaker from
+/// all sides.
 double brightness(const Vec<3>& normal) {
   const Vec<3> key = unit_vector({-0.45, 0.65, 0.75}), fill = unit_vector({0.9, -0.1, 0.4});
   return 0.52 + 0.16 * 0.5 * (1 + normal[1]) + 0.50 * std::max(0.0, dot<3>(normal, key)) +
          0.12 * std::max(0.0, dot<3>(normal, fill));
 }
 
-/// How much white a shiny surface adds.
+/// The amount of white added by a shiny surface.
 double highlight(const Vec<3>& normal) {
   const Vec<3> half = unit_vector({-0.26, 0.38, 1});
   return 0.10 * std::pow(std::max(0.0, dot<3>(normal, half)), 24);

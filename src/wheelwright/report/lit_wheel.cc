@@ -19,11 +19,11 @@ namespace {
 constexpr double wheel_size = 640, margin = 40, top = 76, bar_space = 150, foot = 64;
 constexpr double picture_width = wheel_size + 2 * margin + bar_space,
                  picture_height = wheel_size + top + foot;
-constexpr int image_pixels = 1040;  // on screens with more than one for each of the picture's
+constexpr int image_pixels = 1040;  // for screens with several pixels per unit of the picture
 constexpr double outliers = 0.01;   // fraction of the vertices beyond a scale without tail
 constexpr double half_view = 1.1;   // over the wheel's radius
 
-/// How far magnified displacements carry the tread below the ground, if there is one, at the displacement's
+/// How far magnified displacements move the tread below the ground, if there is one, at the displacement's
 /// nodes there.
 class Press {
  public:
@@ -44,9 +44,9 @@ class Press {
     }
   }
 
-  double greatest() const { return std::ranges::max(depths_); }
+  double maximum() const { return std::ranges::max(depths_); }
 
-  /// Of a point of the material, by its share of the way from the rim to the tread.
+  /// The value at a point of the material, in proportion to its distance from the rim.
   double at(const Vec<3>& x) const {
     const double share =
         (std::hypot(x[0], x[1]) - grid_.inner_radius) / (grid_.outer_radius - grid_.inner_radius);
@@ -161,7 +161,7 @@ std::string deformed_svg(const SurfaceMesh& surface, const Lattice<3>& lattice,
                                 margin, top, wheel_size, data_url(image)) +
                     colour_bar(scale, picture.scalar.name, picture.scalar.unit, bar_x, bar_y) +
                     peak_text(picture);
-  if (Press(lattice, picture).greatest() > 0.002 * grid.outer_radius)
+  if (Press(lattice, picture).maximum() > 0.002 * grid.outer_radius)
     svg += fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"12\" fill=\"#57606a\">{}</text>\n", margin,
                        picture_height - 12, footnote(picture.magnification));
   return svg + "</svg>\n";

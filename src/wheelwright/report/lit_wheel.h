@@ -9,7 +9,7 @@
 
 namespace wheelwright {
 
-/// Points of the body frame as a scene (Camera): the contact's azimuth points down, the axle is along z, and
+/// Points of the body frame in a scene (Camera): the contact's azimuth points down, the axle is along z, and
 /// the origin is in the middle of the axle.
 std::vector<Vec<3>> standing_on_the_ground(std::vector<Vec<3>> points, const PolarGrid<3>& grid,
                                            double contact_azimuth);
@@ -20,9 +20,9 @@ Camera wheel_camera(const PolarGrid<3>& grid);
 /// A surface without load, in one colour, in the scene of that view.
 LitBody lit_wheel(const SurfaceMesh& surface, const PolarGrid<3>& grid);
 
-/// Where a picture's displacement takes points of the body frame: `displacement` [component][point],
-/// magnified. Like DeformedMaterial it lays on the ground what magnified displacements would carry through
-/// it: points of the tread, and the material between them and the rim by a share of that.
+/// Points of the body frame, displaced for a picture: `displacement` [component][point], magnified. Like
+/// DeformedMaterial, moves onto the ground points of the tread that magnified displacements would move
+/// through it, and proportionally the material between them and the rim.
 std::vector<Vec<3>> displaced(const std::vector<Vec<3>>& points,
                               const std::vector<std::vector<float>>& displacement, const Lattice<3>& lattice,
                               const DeformedPicture<3>& picture);

@@ -15,7 +15,7 @@ constexpr const char* ink = "#24292f";
 constexpr const char* force_colour = "#c2185b";
 constexpr double longest_arrow = 64, shortest_arrow = 26, hatch_spacing = 9, hatch_depth = 9;
 constexpr double pressure_height = 46;  // of the peak
-constexpr double least_share = 1e-3;    // of a force that is worth an arrow
+constexpr double min_share = 1e-3;      // of forces that are drawn
 
 /// Text with a white edge, readable on any ground.
 std::string label(double x, double y, const char* anchor, const char* colour, const std::string& content) {
@@ -25,7 +25,7 @@ std::string label(double x, double y, const char* anchor, const char* colour, co
       x, y, anchor, colour, content);
 }
 
-/// The head of an arrow that ends at `end` and comes along the unit vector `d`.
+/// The head of an arrow that ends at `end` and points along the unit vector `d`.
 std::string arrow_head(const Vec<2>& end, const Vec<2>& d) {
   constexpr double length = 11, half_width = 4.5;
   const Vec<2> base{end[0] - length * d[0], end[1] - length * d[1]};
@@ -103,19 +103,19 @@ std::string force_marks(const PictureView& view, const Vec<2>& axle, const RimFo
   const double size = std::max(
       {std::abs(force.towards_ground), std::abs(force.along_ground), std::abs(force.torque) / outer_radius});
   std::string svg;
-  if (std::abs(force.towards_ground) > least_share * size) {
+  if (std::abs(force.towards_ground) > min_share * size) {
     const double sign = std::copysign(1, force.towards_ground);
     svg += arrow({at[0], at[1] - sign * length}, {0, sign}, length);
     svg += label(at[0] + 10, at[1] - sign * 0.7 * length + 5, "start", force_colour,
                  force_text(std::abs(force.towards_ground), "N"));
   }
-  if (std::abs(force.along_ground) > least_share * size) {
+  if (std::abs(force.along_ground) > min_share * size) {
     const double sign = std::copysign(1, force.along_ground);
     svg += arrow(at, {sign, 0}, length);
     svg += label(at[0] + sign * (length + 6), at[1] + 5, sign > 0 ? "start" : "end", force_colour,
                  force_text(std::abs(force.along_ground), "N"));
   }
-  if (std::abs(force.torque) > least_share * size * outer_radius) {
+  if (std::abs(force.torque) > min_share * size * outer_radius) {
     svg += torque_arc(at, std::copysign(1, force.torque), 0.7 * length);
     svg += label(at[0], at[1] + 0.7 * length + 20, "middle", force_colour,
                  force_text(std::abs(force.torque), "N m"));

@@ -10,18 +10,19 @@
 
 namespace wheelwright {
 
-// What a picture of the loaded wheel shows besides the material, as SVG in pixels.
+// Marks in a picture of the loaded wheel besides the material, as SVG in pixels.
 
 /// The ground as a hatched line from edge to edge of the view, `depth` below the axle of the undeformed wheel
 /// [m].
 std::string ground_mark(const PictureView& view, double depth);
 
-/// The rigid ring round a bonded tread: a circle about the axle of the undeformed wheel, hatched outside, as
-/// far as it lies in the view.
+/// The rigid ring around a bonded tread: a circle about the axle of the undeformed wheel, hatched outside,
+/// clipped to the view.
 std::string ring_mark(const PictureView& view, double radius);
 
 /// The forces on the rim on the whole width [N, N m] as arrows at the axle, with their values. Forces along
-/// the ground and torques that are small beside the load, reactions of a rim that is held, are left out.
+/// the ground and torques that are small compared with the load, reactions of a rim that is held, are
+/// omitted.
 std::string force_marks(const PictureView& view, const Vec<2>& axle, const RimForce& force,
                         const PolarGrid<2>& grid);
 

@@ -73,7 +73,7 @@ class SideCounts {
     counted.surplus += from < to ? 1 : -1;
   }
 
-  /// Those that have a surplus, in the order of their points.
+  /// The sides with a surplus, in the order of their points.
   std::vector<CountedSide> left() && {
     std::erase_if(sides_, [](const CountedSide& side) { return side.surplus == 0; });
     std::ranges::sort(sides_);
@@ -148,7 +148,7 @@ std::vector<PicturePolygon> union_outlines(const std::vector<PicturePolygon>& po
 }
 
 PicturePolygon simplified(const PicturePolygon& curve, double tolerance) {
-  constexpr std::size_t longest = 40;  // points that one chord replaces
+  constexpr std::size_t longest = 40;  // points replaced by one chord
   if (curve.size() < 4) return curve;
   PicturePolygon result{curve[0]};
   for (std::size_t from = 0; from + 1 < curve.size();) {

@@ -15,8 +15,8 @@ namespace {
 constexpr double frame_width = 560, frame_height = 340, left = 92, top = 56, right = 28, bottom = 66;
 constexpr double legend_width = 132, legend_line = 20;
 constexpr double picture_height = top + frame_height + bottom;
-constexpr int most_x_ticks = 9, most_y_ticks = 8;
-constexpr size_t most_marked = 40;  ///< points of a curve that are marked by dots
+constexpr int max_x_ticks = 9, max_y_ticks = 8;
+constexpr size_t max_marked = 40;  ///< points of a curve that are marked by dots
 
 constexpr std::string_view style = R"(<style>
 text{font-family:"Helvetica Neue",Helvetica,Arial,"DejaVu Sans",sans-serif;font-size:13px;fill:#24292f}
@@ -39,7 +39,7 @@ struct Interval {
   double low, high;
 };
 
-/// What the finite values span; nothing is wider than rounding.
+/// The range of the finite values, if it is wider than rounding.
 Interval span_of(const std::vector<PlotCurve>& curves, std::vector<double> PlotCurve::*coordinate) {
   double low = INFINITY, high = -INFINITY;
   for (const PlotCurve& curve : curves)
@@ -61,11 +61,11 @@ Interval widened(Interval data, double fraction) {
 }
 
 double tick_step(double low, double high, int most) {
-  const double least = (high - low) / most;
-  double power = std::pow(10, std::floor(std::log10(least)));
+  const double minimum = (high - low) / most;
+  double power = std::pow(10, std::floor(std::log10(minimum)));
   while (true) {
     for (const double factor : {1, 2, 5})
-      if (factor * power >= least * (1 - 1e-9)) return factor * power;
+      if (factor * power >= minimum * (1 - 1e-9)) return factor * power;
     power *= 10;
   }
 }
@@ -88,13 +88,12 @@ std::string text(double x, double y, std::string_view kind, std::string_view con
 
 std::string axes(const LinePlot& plot, const Scale& x, const Scale& y) {
   std::string grid, labels;
-  const double x_step = tick_step(x.low, x.high, most_x_ticks),
-               y_step = tick_step(y.low, y.high, most_y_ticks);
-  for (const double value : axis_ticks(x.low, x.high, most_x_ticks)) {
+  const double x_step = tick_step(x.low, x.high, max_x_ticks), y_step = tick_step(y.low, y.high, max_y_ticks);
+  for (const double value : axis_ticks(x.low, x.high, max_x_ticks)) {
     grid += fmt::format("M{:.1f} {}v{}", x(value), top, frame_height);
     labels += text(x(value), top + frame_height + 20, "x", tick_text(value, x_step));
   }
-  for (const double value : axis_ticks(y.low, y.high, most_y_ticks)) {
+  for (const double value : axis_ticks(y.low, y.high, max_y_ticks)) {
     grid += fmt::format("M{} {:.1f}h{}", left, y(value), frame_width);
     labels += text(left - 8, y(value) + 4.5, "y", tick_text(value, y_step));
   }
@@ -123,7 +122,7 @@ std::string curve_svg(const PlotCurve& curve, const Scale& x, const Scale& y, st
     const double px = x(curve.x[i]), py = y(curve.y[i]);
     path += fmt::format("{}{:.2f} {:.2f}", command, px, py);
     command = 'L';
-    if (n <= most_marked)
+    if (n <= max_marked)
       dots += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"2.4\" fill=\"{}\"/>\n", px, py, colour);
   }
   return fmt::format("<path class=\"curve\" stroke=\"{}\" d=\"{}\"/>\n{}", colour, path, dots);

@@ -5,13 +5,13 @@
 
 namespace wheelwright {
 
-/// What an axis shows; values come in the unit that it names.
+/// An axis; values are in its unit.
 struct PlotAxis {
   std::string name;
   std::string unit;
 };
 
-/// A line through points; NaN interrupts it.
+/// A line through points; interrupted by NaN.
 struct PlotCurve {
   std::string label;  ///< in the legend
   std::vector<double> x, y;
@@ -23,12 +23,12 @@ struct LinePlot {
   std::vector<PlotCurve> curves;  ///< several get a legend
 };
 
-/// The plot as an SVG document, whatever the locale. Axes span the data and need not begin at zero; data that
+/// The plot as an SVG document, whatever the locale. Axes span the data and need not start at zero; data that
 /// vary by less than 1e-6 of their size are drawn as constant.
 std::string plot_svg(const LinePlot& plot);
 
-/// The multiples in [low, high] of the least step that divides it into at most `most` parts and is 1, 2 or 5
-/// times a power of ten.
+/// The multiples in [low, high] of the smallest step that divides it into at most `most` parts and is 1, 2 or
+/// 5 times a power of ten.
 std::vector<double> axis_ticks(double low, double high, int most);
 
 }  // namespace wheelwright

@@ -9,7 +9,7 @@ namespace wheelwright {
 
 namespace {
 
-/// What only files of 3D have.
+/// The additional columns in 3D.
 template <int dim>
 std::vector<std::string> with_axle(std::vector<std::string> cells, const std::string& z,
                                    const std::string& friction) {

@@ -11,7 +11,7 @@ struct ContactPoint {
   int position;               ///< load position
   double azimuth;             ///< from the contact point [rad]
   double x;                   ///< along the ground, from the point below the axle [m]
-  double weight;              ///< length of tread that the point stands for [m], in 3D its area [m^2]
+  double weight;              ///< length of tread represented by the point [m], in 3D its area [m^2]
   double pressure;            ///< contact pressure of the law, >= 0 [Pa]
   double friction;            ///< the ground's tangential traction on the tread, of the law [Pa]
   double normal_stress;       ///< sigma_n of the displacement, tension positive [Pa]

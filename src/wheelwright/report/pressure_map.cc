@@ -17,9 +17,9 @@ namespace {
 
 constexpr double box_width = 560, box_height = 300, left = 90, top = 90, bar_space = 170,
                  foot = 70;  // [pixels]
-constexpr int most_ticks = 6;
+constexpr int max_ticks = 6;
 
-/// Contact points of one place along the axle, by their place along the ground.
+/// Contact points at one place along the axle, in order along the ground.
 using Line = std::vector<ContactPoint>;
 
 std::vector<Line> lines(std::span<const ContactPoint> points) {
@@ -41,8 +41,8 @@ std::vector<double> edges(const std::vector<double>& middles, double first, doub
   return result;
 }
 
-/// From metres to pixels: the axle to the right, larger azimuths up. Each axis has its own scale, for the
-/// contact is often much shorter than it is wide.
+/// From metres to pixels: the axle to the right, larger azimuths up. Each axis has its own scale, because the
+/// contact is often much shorter than wide.
 struct MapView {
   double half_width, half_length;
 
@@ -87,12 +87,12 @@ std::string axes(const MapView& view) {
   std::string svg =
       fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#24292f\"/>\n",
                   left, top, box_width, box_height);
-  for (const double tick : axis_ticks(-view.half_width * mm, view.half_width * mm, most_ticks))
+  for (const double tick : axis_ticks(-view.half_width * mm, view.half_width * mm, max_ticks))
     svg += fmt::format(
         "<path stroke=\"#24292f\" d=\"M{0:.2f} {1}v5\"/>"
         "<text x=\"{0:.2f}\" y=\"{2}\" text-anchor=\"middle\">{3:.6g}</text>\n",
         view.x(tick / mm), bottom, bottom + 20, tick + 0.0);
-  for (const double tick : axis_ticks(-view.half_length * mm, view.half_length * mm, most_ticks))
+  for (const double tick : axis_ticks(-view.half_length * mm, view.half_length * mm, max_ticks))
     svg += fmt::format(
         "<path stroke=\"#24292f\" d=\"M{0} {1:.2f}h-5\"/>"
         "<text x=\"{2}\" y=\"{3:.2f}\" text-anchor=\"end\">{4:.6g}</text>\n",

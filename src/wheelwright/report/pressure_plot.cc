@@ -8,9 +8,9 @@
 namespace wheelwright {
 namespace {
 
-constexpr size_t most_curves = 8;
+constexpr size_t max_curves = 8;
 
-/// The points in contact and the open ones beside them, along the ground.
+/// The points in contact and the open ones next to them, along the ground.
 std::vector<ContactPoint> contact_patch(std::span<const ContactPoint> points, int position) {
   std::vector<ContactPoint> patch;
   std::ranges::copy_if(points, std::back_inserter(patch),
@@ -31,7 +31,7 @@ LinePlot pressure_plot(std::span<const ContactPoint> points, std::span<const dou
                        const std::string& title) {
   constexpr double mm = 1e3, MPa = 1e-6, degree = 180 / std::numbers::pi;
   LinePlot plot{title, {"along the ground", "mm"}, {"contact pressure", "MPa"}, {}};
-  const size_t stride = (azimuths.size() + most_curves - 1) / most_curves;
+  const size_t stride = (azimuths.size() + max_curves - 1) / max_curves;
   for (size_t i = 0; i < azimuths.size(); i += stride) {
     PlotCurve curve{fmt::format("{:.2f}\u00b0", azimuths[i] * degree), {}, {}};
     for (const ContactPoint& p : contact_patch(points, static_cast<int>(i))) {

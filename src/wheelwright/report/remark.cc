@@ -5,7 +5,7 @@
 namespace wheelwright {
 namespace {
 
-/// Every line after some spaces.
+/// The lines, indented.
 std::string indented(const std::string& lines) {
   std::string result = "    ";
   for (const char c : lines) result += c == '\n' ? "\n    " : std::string(1, c);

@@ -10,9 +10,9 @@ namespace wheelwright {
 namespace {
 
 constexpr double mm = 1e3, MPa = 1e-6, N_per_mm = 1e-3, degree = 180 / std::numbers::pi;
-constexpr size_t most_harmonics_shown = 4;
+constexpr size_t max_harmonics_shown = 4;
 
-/// What turns forces of the analysis into those on the whole width.
+/// The factor from forces of the analysis to those on the whole width.
 double forces(const RollingReport& report) { return whole_width(report.dimension, report.width); }
 
 /// A quantity over the positions.
@@ -37,7 +37,7 @@ std::vector<double> peak_pressures(const std::vector<ContactSummary>& positions)
   return result;
 }
 
-/// Of the axle's height, about the mean travel.
+/// The variation of the axle's height, about the mean travel.
 RollingVariation travel_variation(const std::vector<ContactSummary>& positions) {
   std::vector<double> descent;
   double growth = 0;
@@ -96,7 +96,7 @@ std::string position_lines(const RollingReport& report) {
   return table;
 }
 
-/// Whether anything acts along the ground or turns.
+/// Whether there are forces along the ground or torques.
 bool has_friction(const RollingReport& report) {
   return std::ranges::any_of(report.analysis.positions, [](const ContactSummary& p) {
     return p.peak_friction > 0 || p.wind_up != 0 || p.travel_along_ground != 0;
@@ -133,7 +133,7 @@ std::string gap_lines(const RollingReport& report) {
 std::string variation_lines(const RollingReport& report) {
   std::string waves;
   const auto all = quantities(report);
-  const size_t shown = std::min(most_harmonics_shown, (report.analysis.positions.size() - 1) / 2);
+  const size_t shown = std::min(max_harmonics_shown, (report.analysis.positions.size() - 1) / 2);
   for (size_t k = 0; k < shown; ++k)
     waves += fmt::format("{:>11}", fmt::format("{} waves", (k + 1) * report.n_sectors));
   std::string table =
@@ -167,8 +167,8 @@ std::string stress_line(const RollingReport& report) {
       "largest von Mises stress {:.4g} MPa at radius {:.1f} mm, azimuth {:.2f} deg, with the ground at "
       "{:.2f} "
       "deg\n",
-      a.peak_von_mises[a.most_stressed] * MPa, a.peak_radius * mm, a.peak_azimuth * degree,
-      a.azimuths[a.most_stressed] * degree);
+      a.peak_von_mises[a.max_stressed] * MPa, a.peak_radius * mm, a.peak_azimuth * degree,
+      a.azimuths[a.max_stressed] * degree);
 }
 
 std::string load_lines(const RollingReport& report) {
@@ -180,7 +180,7 @@ std::string load_lines(const RollingReport& report) {
     const RollingVariation travel = travel_variation(*report.under_loads[k]);
     const double load = report.loads[k] * forces(report);
     table += fmt::format("{:11.2f}{:12.6f}{:12.6f}{:12.6f}{:12.2f}\n", load, travel.mean * mm,
-                         travel.least * mm, travel.greatest * mm, load / travel.mean * N_per_mm);
+                         travel.minimum * mm, travel.maximum * mm, load / travel.mean * N_per_mm);
   }
   return table;
 }
@@ -199,8 +199,8 @@ Json variation_json(const Expected<RollingVariation>& variation, double factor, 
     harmonics.push_back(
         {{"waves_per_revolution", (k + 1) * n_sectors}, {"amplitude", v.harmonics[k] * factor}});
   return {{"mean", v.mean * factor},
-          {"least", v.least * factor},
-          {"greatest", v.greatest * factor},
+          {"least", v.minimum * factor},
+          {"greatest", v.maximum * factor},
           {"peak_to_peak", v.peak_to_peak() * factor},
           {"harmonics", harmonics}};
 }
@@ -254,7 +254,7 @@ Json loads_json(const RollingReport& report) {
   return loads;
 }
 
-/// One value a position over the angle, with the first repeated a sector later.
+/// One value per position over the angle, with the first repeated a sector later.
 LinePlot sector_plot(const RollingReport& report, const std::string& title, PlotAxis axis,
                      const std::vector<double>& values, double factor) {
   PlotCurve curve;
@@ -292,10 +292,10 @@ std::string rolling_json(const RollingReport& report) {
             {"travel_m", a.travel},
             {"positions", positions_json(report)},
             {"peak_von_mises",
-             {{"value_Pa", a.peak_von_mises[a.most_stressed]},
+             {{"value_Pa", a.peak_von_mises[a.max_stressed]},
               {"radius_m", a.peak_radius},
               {"azimuth_rad", a.peak_azimuth},
-              {"load_position_rad", a.azimuths[a.most_stressed]}}},
+              {"load_position_rad", a.azimuths[a.max_stressed]}}},
             {"travel_at_load_m", variation(all[0], 1)},
             {"force_at_travel_N", variation(all[1], forces(report))},
             {"peak_pressure_Pa", variation(all[2], 1)}};
@@ -328,7 +328,7 @@ LinePlot load_plot(const RollingReport& report) {
   for (size_t k = 0; k < report.loads.size(); ++k) {
     if (!report.under_loads[k]) continue;
     const RollingVariation travel = travel_variation(*report.under_loads[k]);
-    const double travels[] = {travel.greatest, travel.mean, travel.least};
+    const double travels[] = {travel.maximum, travel.mean, travel.minimum};
     for (size_t i = 0; i < plot.curves.size(); ++i) {
       plot.curves[i].x.push_back(report.loads[k] * forces(report));
       plot.curves[i].y.push_back(travels[i] * mm);

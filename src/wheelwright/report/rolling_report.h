@@ -8,27 +8,27 @@
 
 namespace wheelwright {
 
-/// What is told about one shape. Forces are shown on the whole width.
+/// The analysis of one shape. Forces are shown on the whole width.
 struct RollingReport {
   std::string title;
   double width;  ///< w_r [m]
   int n_sectors;
   RollingAnalysis analysis;
-  std::vector<double> loads;  ///< as in the analysis, ascending; empty: none were asked for
+  std::vector<double> loads;  ///< as in the analysis, ascending; empty: none were requested
   std::vector<Expected<std::vector<ContactSummary>>> under_loads;  ///< [load][position]
   int dimension = 2;                                               ///< of the analysis
 };
 
-/// For people: one line per load position, another one where there is friction or torque, what varies in
+/// For display: one line per load position, another one if there is friction or torque, variations in
 /// rolling, one line per load, and what could not be computed and why.
 std::string rolling_table(const RollingReport& report);
 
-/// For programs: the same in SI units, which the names of the keys end in. Numbers read back to the same
-/// double; what could not be computed is null, and `missing` has its name with the reason.
+/// For programs: the same in SI units, named at the end of the keys. Numbers read back to the same double;
+/// missing numbers are null, and `missing` has their names with the reason.
 std::string rolling_json(const RollingReport& report);
 
 /// One turn of the wheel by one sector, closed: travel of the rim at fixed load, force of the ground at fixed
-/// travel, and the peak of the contact pressure. Not to be called where the values could not be computed.
+/// travel, and the peak of the contact pressure. Must not be called if the values could not be computed.
 LinePlot travel_plot(const RollingReport& report);
 LinePlot force_plot(const RollingReport& report);
 LinePlot peak_pressure_plot(const RollingReport& report);

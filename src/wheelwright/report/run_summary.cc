@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What numbers alone do not tell of the load.
+/// Facts about the load that the numbers do not contain.
 template <int dim>
 void add_details(const LoadedWheel<dim>& loaded, Json& json) {
   const ShapeSummary<dim>& summary = loaded.summary;
@@ -44,7 +44,7 @@ Json shape_json(const SummarizedShape<dim>& shape, const std::string& minimized)
   return json;
 }
 
-/// Where the stress of the last shape is largest; empty where it is not known.
+/// Where the stress of the last shape is largest; empty if unknown.
 template <int dim>
 std::string stress_line(const DescribedWheel<dim>& wheel) {
   if (!wheel.loaded) return "";

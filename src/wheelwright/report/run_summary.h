@@ -9,7 +9,7 @@
 
 namespace wheelwright {
 
-/// A shape of a run, in numbers.
+/// A shape of a run, as numbers.
 template <int dim>
 struct SummarizedShape {
   int iteration;          ///< 0: the initial shape
@@ -17,8 +17,8 @@ struct SummarizedShape {
   DescribedWheel<dim> wheel;
 };
 
-/// A bound of a quantity that the run was to keep, at the last shape. In SI units; in 2D forces, energies,
-/// masses and stiffnesses per metre of width.
+/// A bound on a quantity, at the last shape. In SI units; in 2D forces, energies, masses and stiffnesses per
+/// metre of width.
 struct SummarizedBound {
   std::string name;
   double value, bound;
@@ -29,36 +29,36 @@ struct SummarizedBound {
   ShownUnit shown;   ///< as tables show them
 };
 
-/// What a run made of the wheel that its case gives. Both shapes are solved alike: on a tread of the same
-/// resolution.
+/// The result of a run, compared with the wheel that its case gives. Both shapes are solved on a tread of the
+/// same resolution.
 template <int dim>
 struct RunSummary {
   std::string title;
   SummarizedShape<dim> before, after;
   std::vector<SummarizedBound> bounds = {};
-  /// What is minimized in place of the weighted sum, with its unit; empty for the sum.
+  /// What is minimized instead of the weighted sum, with its unit; empty for the sum.
   std::string minimized = {};
   ShownUnit objective = shown_unit(UnitKind::energy, dim);
   std::vector<Remark> remarks = {};  ///< what got clearly worse
   std::string changed_start = {};    ///< how the run's first shape differs from the given wheel, if it does
 };
 
-/// What could not be computed of the two shapes, and why: one line per reason.
+/// The numbers of the two shapes that could not be computed, and why: one line per reason.
 template <int dim>
 std::vector<std::string> missing_lines(const RunSummary<dim>& summary);
 
-/// For people: one line per quantity with both values and the change, what could not be computed and why, the
-/// place of the peak stress, what got clearly worse, and how the run's first shape differs from the given
+/// For display: one line per quantity with both values and the change, what could not be computed and why,
+/// the place of the peak stress, what got clearly worse, and how the run's first shape differs from the given
 /// wheel. Forces are shown on the whole width.
 template <int dim>
 std::string summary_table(const RunSummary<dim>& summary);
 
-/// For programs: the same in SI units, which the names of the keys end in. Numbers read back to the same
-/// double; one that could not be computed is null.
+/// For programs: the same in SI units, named at the end of the keys. Numbers read back to the same double;
+/// one that could not be computed is null.
 template <int dim>
 std::string summary_json(const RunSummary<dim>& summary);
 
-/// The same of a run that has no shape, because its initial one cannot be computed: its title, and why.
+/// The same for a run without a shape, because its initial one cannot be computed: its title, and why.
 std::string failure_json(const std::string& title, const Failure& failure);
 
 }  // namespace wheelwright

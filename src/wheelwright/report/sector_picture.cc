@@ -29,7 +29,7 @@ std::string SectorPicture::grid_lines() const {
   const double angle = grid_.sector_angle();
   for (int i = 0; i <= grid_.cells[0]; ++i) {
     const double radius = grid_.inner_radius + i * grid_.cell_size()[0];
-    for (int half = 0; half <= 2; ++half) {  // in two, as no arc of SVG can be a full circle
+    for (int half = 0; half <= 2; ++half) {  // two arcs, because an SVG arc cannot be a full circle
       const PicturePoint p = point(cartesian<2>({radius, 0.5 * half * angle}));
       path += half == 0 ? fmt::format("M{} {}", p[0], p[1])
                         : fmt::format("A{0} {0} 0 0 0 {1} {2}", std::lround(radius * scale_), p[0], p[1]);

@@ -8,8 +8,8 @@
 
 namespace wheelwright {
 
-/// Draws what is equal in all sectors of an undeformed wheel: on the first sector, whose first azimuth points
-/// to the right; azimuth grows upwards.
+/// Draws the content common to all sectors of an undeformed wheel in the first sector, whose first azimuth
+/// points to the right; azimuth grows upwards.
 class SectorPicture {
  public:
   /// Size of the picture's parts [pixels]. The wheel leaves `top` for the title and `foot` for a legend.

@@ -47,7 +47,7 @@ MaterialPolygon part_of_cell(int parts, int radial, int azimuthal) {
   return {{a, c}, {b, c}, {b, d}, {a, d}};
 }
 
-/// One path a colour; a hairline of the same colour closes the seams between them.
+/// One path per colour; a hairline of the same colour closes the seams between them.
 std::string coloured_cells(const SectorPicture& picture, const SectorScalar& scalar,
                            const SymmetricScale& scale) {
   std::array<std::vector<PicturePolygon>, colour_levels> polygons;

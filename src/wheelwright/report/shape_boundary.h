@@ -7,8 +7,8 @@ namespace wheelwright {
 /// Cubes per cell and axis of surfaces in pictures and files of a run.
 inline constexpr int surface_parts = 2;
 
-/// The boundary of a shape for pictures and files of a run. In 2D it lies on the cells of the level set, in
-/// 3D on those of the displacement, of this degree.
+/// The boundary of a shape for pictures and files of a run. In 2D on the cells of the level set, in 3D on
+/// those of the displacement, of this degree.
 inline std::vector<Contour> shape_boundary(const LevelSet<2>& psi, int) {
   return material_contours(psi, contour_subdivisions(psi.lattice.degree()));
 }

@@ -45,7 +45,7 @@ Expected<SurfaceReport, SurfaceFault> check_solid(const SolidMesh& mesh) {
 
 std::string stl_file(const SolidMesh& mesh, std::string_view header) {
   constexpr std::size_t header_size = 80, bytes_per_triangle = 50;
-  // A header that begins with "solid" would be taken for that of a text file.
+  // A header that starts with "solid" would indicate a text file.
   std::string bytes = without_control_characters(header);
   bytes.resize(header_size, ' ');
   bytes.reserve(header_size + 4 + bytes_per_triangle * mesh.triangles.size());

@@ -210,7 +210,7 @@ std::vector<ContactPoint> points_of_solved(const StateSolver<dim>& solver, const
   return result;
 }
 
-/// What the mirror image of a load position shows, in the same order along the ground.
+/// The contact of the mirror image of a load position, in the same order along the ground.
 std::vector<ContactPoint> mirror_images(std::vector<ContactPoint> points) {
   std::ranges::reverse(points);
   for (ContactPoint& p : points) {

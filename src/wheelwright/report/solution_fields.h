@@ -21,7 +21,7 @@ struct DrawnPeak {
 template <int dim>
 inline constexpr int stress_components = dim == 2 ? 4 : 6;
 
-/// What is drawn of one load position.
+/// The fields of one load position.
 template <int dim>
 struct PositionFields {
   Lattice<dim> lattice;  ///< of the fields
@@ -54,8 +54,8 @@ std::vector<PositionFields<dim>> all_position_fields(const StateSolver<dim>& sol
 template <int dim>
 std::vector<NamedField> named_fields(const PositionFields<dim>& fields);
 
-/// The von Mises stress of stresses as in PositionFields. What is interpolated is the stress, so that it is
-/// never negative.
+/// The von Mises stress of stresses as in PositionFields. The stress is interpolated, so that it is never
+/// negative.
 NamedField von_mises_field(const RingField& stress);
 
 /// The lattice that carries these fields.
@@ -82,8 +82,8 @@ RingField repeated_field(const RollingModel<dim>& model, const LevelSet<dim>& se
 template <int dim>
 std::vector<ContactPoint> contact_points(const StateSolver<dim>& solver, const State<dim>& solution);
 
-/// Those of them that a curve along the ground shows: in 2D all, in 3D the line nearest to the middle of the
-/// width, sorted along the ground.
+/// The points for a curve along the ground: all in 2D, in 3D the line nearest to the middle of the width,
+/// sorted along the ground.
 template <int dim>
 std::vector<ContactPoint> curve_points(std::vector<ContactPoint> points);
 

@@ -54,7 +54,7 @@ PicturePoint PictureScalar::crossing(const Corner& from, const Corner& to, doubl
           static_cast<int>(std::lround(std::lerp(double(a.place[1]), double(b.place[1]), t)))};
 }
 
-/// For every level the sides that cut off what is below it, triangle by triangle.
+/// For every level, the sides that cut off the part below it, triangle by triangle.
 std::vector<std::vector<PictureSide>> PictureScalar::level_lines(const std::vector<double>& levels) const {
   std::vector<std::vector<PictureSide>> lines(levels.size());
   for (const auto& t : triangles_) {

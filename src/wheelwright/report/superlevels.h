@@ -7,8 +7,8 @@
 
 namespace wheelwright {
 
-/// A scalar over a region of a picture: linear in triangles, whose corners are points of the picture. Where
-/// several values are given for one point the first counts, so that the scalar is continuous.
+/// A scalar over a region of a picture: linear in triangles, whose corners are points of the picture. If
+/// several values are given for one point, the first one counts, so that the scalar is continuous.
 class PictureScalar {
  public:
   using Corners = std::array<PicturePoint, 3>;

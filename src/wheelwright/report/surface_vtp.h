@@ -12,9 +12,9 @@ namespace wheelwright {
 /// the surface's points.
 FieldPoints<3> field_points(const SurfaceMesh& surface, const Lattice<3>& lattice);
 
-/// The surface as a ParaView file with fields at its vertices, and for every triangle what it lies on
-/// (`part`: 0 the rim, 1 the tread, 2 a side face, 3 a hole). `lattice` carries the fields. The numbers are
-/// written as they are.
+/// The surface as a ParaView file with fields at its vertices, and for every triangle the part of the
+/// boundary (`part`: 0 the rim, 1 the tread, 2 a side face, 3 a hole). `lattice` carries the fields. The
+/// numbers are written as they are.
 std::string surface_vtp(const SurfaceMesh& surface, const Lattice<3>& lattice,
                         std::span<const NamedField> fields);
 

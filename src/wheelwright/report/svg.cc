@@ -51,7 +51,7 @@ std::string signed_percentage(double fraction) {
   return fmt::format("{}{:.1f} %", fraction < 0 ? "\u2212" : "+", 100 * std::abs(fraction));
 }
 
-/// Free contours in units of the picture, thinned to points that the eye can tell apart.
+/// Free contours in units of the picture, thinned to visibly distinct points.
 std::vector<PicturePolygon> thinned(const std::vector<Contour>& contours, double pixels_per_metre) {
   std::vector<PicturePolygon> result;
   for (const Contour& contour : contours) {
@@ -118,7 +118,7 @@ std::string wheel_panel(const PolarGrid<2>& grid, const WheelState<2>& wheel, do
 }
 
 std::string wheel_panel(const PolarGrid<3>& grid, const WheelState<3>& wheel, double centre_x) {
-  constexpr int pixels = 720;  // on screens with more than one for each of the picture's
+  constexpr int pixels = 720;  // for screens with several pixels per unit of the picture
   const Image image = lit_image({lit_wheel(wheel.boundary, grid)}, wheel_camera(grid), pixels);
   return fmt::format("<image x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{2}\" href=\"{3}\"/>\n",
                      centre_x - 0.5 * wheel_diameter, top, wheel_diameter, data_url(image));

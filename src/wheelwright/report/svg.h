@@ -10,17 +10,17 @@
 
 namespace wheelwright {
 
-/// Text as XML 1.0 takes it, on one line: & < > " ' as entities, tabs and line ends as spaces, and '?' for
-/// what XML excludes or controls a terminal.
+/// Text for XML 1.0, on one line: & < > " ' as entities, tabs and line ends as spaces, and '?' for characters
+/// that XML excludes or that control a terminal.
 std::string escape_xml(std::string_view text);
 
 /// The `d` attribute of a path along the material's boundary, to be filled with the even-odd rule: exact arcs
-/// for rim and tread, polylines for the rest. y points down. Points nearer than `spacing` [m] to the last one
-/// drawn are left out.
+/// for rim and tread, polylines for the rest. y points down. Points closer than `spacing` [m] to the last one
+/// drawn are omitted.
 std::string material_path(const PolarGrid<2>& grid, std::span<const Contour> contours, double units_per_metre,
                           int decimals, double spacing);
 
-/// The shape for cutting: an SVG document in true scale, one user unit = 1 mm, rounded to 0.1 micrometre,
+/// The shape for cutting: an SVG document at true scale, one user unit = 1 mm, rounded to 0.1 micrometre,
 /// with the axle at the origin.
 std::string shape_svg(const PolarGrid<2>& grid, std::span<const Contour> contours, std::string_view title);
 

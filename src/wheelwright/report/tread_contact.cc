@@ -53,8 +53,8 @@ void set_traction(const Vec<dim>& traction, double ground, TreadContactPoint<dim
   point.friction = traction[1];
 }
 
-/// Under a position that was solved for: all points of the columns in the contact zone, and of any other the
-/// middle one, which stands for the whole column.
+/// Under a position that was solved for: all points of the columns in the contact zone, and the middle one of
+/// every other column, representing all of it.
 TreadContact<2> tread_of_solved(const StateSolver<2>& solver, const State<2>& state, int position) {
   const TreadSurface<2>& surface = solver.tread_surface();
   const int n_points = static_cast<int>(surface.points.size());
@@ -114,7 +114,7 @@ TreadContact<3> tread_of_solved(const StateSolver<3>& solver, const State<3>& st
   return tread;
 }
 
-/// What the image of a load position shows: reflected in the middle plane of sector 0, which takes position i
+/// The contact of a mirror-image position: reflected in the middle plane of sector 0, which maps position i
 /// of n to n - i.
 template <int dim>
 TreadContact<dim> mirror_image(TreadContact<dim> tread, double sector_angle) {
@@ -156,7 +156,7 @@ std::vector<std::vector<float>> values(const TreadContact<dim>& tread,
   return result;
 }
 
-/// What joins the points of a tread: the corners of all cells, and those of one.
+/// The cells of a tread: the corners of all cells, and the number per cell.
 struct TreadCells {
   std::vector<std::int32_t> corners;
   int per_cell;

@@ -16,13 +16,12 @@ struct TreadContactPoint {
   double pressure;        ///< its part towards the axle, >= 0 [Pa]
   double friction;        ///< its part along the ground, positive towards larger azimuth [Pa]
   double gap;             ///< distance to the ground in the deformed state, negative: penetration [m]
-  double weight;          ///< length of tread that the point stands for [m]; in 3D its area [m^2]
+  double weight;          ///< length of tread represented by the point [m]; in 3D its area [m^2]
 };
 
 /// The whole tread. In 2D by azimuth: in the contact zone there are all quadrature points, elsewhere, where
-/// tractions are zero, one point per column of cells. In 3D all quadrature points, in lines round the tread
-/// from one side face to the other: the points of a line have the same z and follow each other round the
-/// wheel.
+/// tractions are zero, one point per column of cells. In 3D all quadrature points, in lines around the tread
+/// from one side face to the other: the points of a line have the same z and are in order around the wheel.
 template <int dim>
 using TreadContact = std::vector<TreadContactPoint<dim>>;
 

@@ -15,7 +15,7 @@
 namespace wheelwright {
 namespace {
 
-/// What one sector's cells are cut into; the others repeat it.
+/// The pieces of one sector's cells; the other sectors repeat them.
 template <int dim>
 struct SectorCells {
   struct Corner {
@@ -76,7 +76,7 @@ class PlaneCells {
     return parts;
   }
 
-  /// Adds polygons of the unit cell, with their points that are not there yet.
+  /// Adds polygons of the unit cell, with those of their points that are new.
   void append_cells(int cell, const std::vector<MaterialPolygon>& polygons, std::uint8_t type) {
     const PolarGrid<2>& grid = psi_.lattice.grid();
     const auto c = grid.cell_position(cell);

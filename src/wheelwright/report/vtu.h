@@ -24,8 +24,8 @@ inline constexpr int vtu_cut_subdivisions = dim == 2 ? 4 : 2;
 template <int dim>
 class VtuMesh {
  public:
-  /// `lattice` carries the fields, on psi's grid. The numbers of grid and psi are written as they are:
-  /// `length_unit` is theirs.
+  /// `lattice` carries the fields, on psi's grid. The numbers of grid and psi are written unchanged, in
+  /// `length_unit`.
   VtuMesh(const LevelSet<dim>& psi, const Lattice<dim>& lattice, int cut_subdivisions,
           std::string_view length_unit = "m");
 
@@ -38,7 +38,7 @@ class VtuMesh {
 
  private:
   FieldPoints<dim> points_;
-  std::string beginning_;  ///< of every file: what it says of the cells and psi
+  std::string beginning_;  ///< of every file: the part about the cells and psi
   std::string arrays_;     ///< their numbers
 };
 

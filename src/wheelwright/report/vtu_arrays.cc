@@ -10,8 +10,7 @@ namespace {
 
 constexpr std::array<const char*, 6> tensor_components{"xx", "yy", "zz", "xy", "yz", "xz"};
 
-/// The components as ParaView has them: the numbers say which, -1 is zero.
-/// The components that are shown, each point's behind each other; 0 for a negative one.
+/// The selected components, interleaved by point; a negative index gives 0.
 template <std::size_t n>
 std::vector<float> interleaved(const std::vector<std::vector<float>>& components,
                                const std::array<int, n>& shown) {

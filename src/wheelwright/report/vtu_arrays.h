@@ -24,10 +24,10 @@ inline constexpr const char* vtk_type<std::int32_t> = "Int32";
 template <>
 inline constexpr const char* vtk_type<std::uint8_t> = "UInt8";
 
-/// The bytes of a VTU file's arrays, which follow the XML as they are: each array behind its size.
+/// The bytes of a VTU file's arrays, appended to the XML in raw form: each array after its size.
 class AppendedArrays {
  public:
-  /// `begin`: bytes of other arrays that come before.
+  /// `begin`: number of preceding bytes of other arrays.
   explicit AppendedArrays(std::size_t begin) : begin_(begin) {}
 
   /// Adds an array of vectors with that many components; its tag for the XML.
@@ -49,7 +49,7 @@ class AppendedArrays {
   std::string bytes_;
 };
 
-/// Adds points (x, y, z in turn) and cells; their tags.
+/// Adds points (x, y, z alternating) and cells; returns their tags.
 std::string add_mesh(const std::vector<float>& points, const std::vector<std::int32_t>& connectivity,
                      const std::vector<std::int32_t>& offsets, const std::vector<std::uint8_t>& types,
                      AppendedArrays& arrays);
@@ -64,7 +64,7 @@ std::string add_field(const std::string& name, const std::vector<std::vector<flo
 template <int dim>
 std::string add_field(const NamedField& field, const FieldPoints<dim>& points, AppendedArrays& arrays);
 
-/// A field's name in files: the unit, made a word, follows it.
+/// A field's name in files, followed by the unit as a word.
 std::string vtu_name(std::string_view name, std::string_view unit);
 
 /// Adds points and the polygons of a surface, for a VTP file; their tags.

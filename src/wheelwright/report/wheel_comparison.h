@@ -8,20 +8,19 @@
 
 namespace wheelwright {
 
-/// A wheel beside others. In 2D: outlines are plane.
+/// A wheel to compare with others; 2D only, because outlines are plane.
 struct ComparedWheel {
   DescribedWheel<2> numbers;
   std::vector<Contour> contours;
 };
 
-/// For people: every quantity of every wheel, with its change from the first wheel.
+/// For display: every quantity of every wheel, with its change from the first wheel.
 std::string wheels_table(const std::vector<ComparedWheel>& wheels);
 
-/// For programs: the same in SI units, which the names of the keys end in. Numbers read back to the same
-/// double.
+/// For programs: the same in SI units, named at the end of the keys. Numbers read back to the same double.
 std::string wheels_json(const std::vector<ComparedWheel>& wheels);
 
-/// The outlines of all wheels over each other, in one scale: the first filled, the others as coloured lines.
+/// The overlaid outlines of all wheels, to the same scale: the first filled, the others as coloured lines.
 std::string overlay_svg(const std::vector<ComparedWheel>& wheels);
 
 }  // namespace wheelwright

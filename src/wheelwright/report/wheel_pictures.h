@@ -11,16 +11,16 @@ namespace wheelwright {
 /// The load position with the largest strain energy.
 int worst_position(std::span<const double> strain_energy);
 
-/// What the pictures of a shape are called, and the wheel's width, to which forces refer.
+/// The names of a shape's pictures, and the wheel's width, to which forces refer.
 struct PictureNames {
   std::string prefix;  ///< of the files
   std::string title;
   double width;  ///< [m]
 };
 
-/// Draws a solved shape in one load position: PREFIXstress.svg, PREFIXstress_contact.svg (the contact in true
+/// Draws a solved shape in one load position: PREFIXstress.svg, PREFIXstress_contact.svg (the contact at true
 /// scale, with its pressure), PREFIXdisplacement.svg (towards the ground) and PREFIXmesh.svg (the cut grid,
-/// `domain`). Where the whole wheel is drawn its displacement is magnified. Throws OutputError.
+/// `domain`). In pictures of the whole wheel the displacement is magnified. Throws OutputError.
 void write_wheel_pictures(const std::filesystem::path& folder, const PictureNames& names,
                           const LevelSet<2>& shape, const CutDomain<2>& domain,
                           const PositionFields<2>& fields);

@@ -68,7 +68,7 @@ DenseMatrix<Scalar> stacked(const DenseMatrix<Scalar>& top, const DenseMatrix<Sc
   return result;
 }
 
-/// Finding the strong modes takes as long as about four complex factors. On small interfaces most modes are
+/// Finding the strong modes takes about as long as four complex factors. On small interfaces most modes are
 /// strong, and the harmonics take little time.
 InterfaceRoute best_route(const BoundarySymmetry& symmetry, const SectorHarmonics& harmonics) {
   constexpr int fewest_harmonics = 6, smallest_interface = 1000;
@@ -119,7 +119,7 @@ Expected<CyclicStiffness<dim>> CyclicStiffness<dim>::factor(SectorStiffness<dim>
   const int n_interface = dim * static_cast<int>(interface_index.size());
   ring.n_outer_ = dim * period * axial_nodes;
   ring.n_boundary_ = n_interface + ring.n_outer_;
-  /// The first unknown of a node at a position in the sector's own period; -1 if it is none of the boundary.
+  /// The first unknown of a node at a position in the sector's own period; -1 if it is not on the boundary.
   const auto first_unknown = [&](const std::array<int, dim>& p) {
     if (is_on_outer_line<dim>(own_space, p)) {
       int line = p[1];
@@ -197,7 +197,7 @@ Expected<std::vector<HarmonicFactor>> CyclicStiffness<dim>::factor_harmonics(
     if (!factors[h])
       return Failure{
           FailureReason::not_positive_definite,
-          fmt::format("the ring's stiffness is not positive definite for harmonic {}: take a larger "
+          fmt::format("the ring's stiffness is not positive definite for harmonic {}: use a larger "
                       "contact.gamma_0, or another grid.angular_cells{}",
                       h,
                       dim == 3 ? "; cells that are 40 times as high as thick need more radial cells" : "")};

@@ -15,7 +15,7 @@ namespace wheelwright {
 /// InterfaceModes.
 enum class InterfaceRoute {
   all_unknowns,
-  strong_modes,  ///< all of them too where most modes are strong
+  strong_modes,  ///< also all of them if most modes are strong
 };
 
 /// The factored stiffness of the ring's core plus the contribution of the tread on its outer line, by cyclic
@@ -60,8 +60,8 @@ class CyclicStiffness {
   /// shared by sectors may carry its load in any of them.
   Matrix boundary_loads(const Matrix& trailing_loads) const;
 
-  /// The loads that elimination leaves on the interface unknowns; only boundary_displacements() reads them.
-  /// They are empty where no loads act on these unknowns.
+  /// The loads on the interface unknowns after elimination; only boundary_displacements() reads them. Empty
+  /// if no loads act on these unknowns.
   struct InterfaceLoads {
     std::vector<ComplexMatrix> by_harmonic;
     Matrix weak_modes;  ///< InterfaceModes::eliminate()

@@ -10,7 +10,7 @@
 
 namespace wheelwright {
 
-/// What the stiffness of a ring's boundary is symmetric in, whatever the loads are.
+/// The symmetries of the stiffness of a ring's boundary, regardless of the loads.
 struct BoundarySymmetry {
   int n_interface = 0;                    ///< the first of the unknowns
   std::vector<SymmetryClass> classes;     ///< even and odd fields across the width, or all

@@ -13,8 +13,8 @@
 namespace wheelwright {
 namespace {
 
-/// The length of what a random combination of all columns leaves beyond the strong modes, where their own
-/// stiffness is 1. The coupling of a single weak mode is smaller still, and its third power is neglected.
+/// The norm of the remainder of a random combination of all columns beyond the strong modes, with respect to
+/// their own stiffness. The coupling of a single weak mode is even smaller, and its third power is neglected.
 constexpr double weak = 1e-3;
 
 /// Columns of a product that one thread computes.

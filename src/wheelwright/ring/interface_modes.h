@@ -24,7 +24,7 @@ namespace wheelwright {
 /// Vectors have one column per (right-hand side, sector): column = rhs * n_sectors + sector.
 class InterfaceModes {
  public:
-  /// Empty where the strong modes would be more than half of the interface, or if the link is not positive
+  /// Empty if the strong modes would be more than half of the interface, or if the link is not positive
   /// definite.
   static std::optional<InterfaceModes> find(const Matrix& link, const Matrix& next, int n_interface);
 

@@ -9,7 +9,7 @@
 namespace wheelwright {
 namespace {
 
-/// Right-hand sides that are solved together: enough for fast products, and few enough to take little memory.
+/// Number of right-hand sides solved together: enough for fast products, few enough to save memory.
 constexpr int rhs_together = 192;
 
 /// Neighbouring seams whose compliance is computed together: they share most of the outer line.
@@ -63,7 +63,7 @@ void solve_for_seams(const CyclicStiffness<dim>& ring, const Tread<dim>& tread, 
   const SeamMap<dim> map(tread);
   const int n_sectors = ring.n_sectors(), per_sector = tread.columns_per_sector(), n_unknowns = map.n_seam(),
             n_base = map.per_column(), reach = map.reach(), n_seams = static_cast<int>(seams.size());
-  // The field repeats itself after the sectors of the factored ring.
+  // The field is periodic with the sectors of the factored ring.
   const auto sector = [&](int column) { return column / per_sector % n_sectors; };
   const auto row = [&](int column) { return n_base * (column % per_sector); };
   Matrix loads(ring.n_outer(), n_seams * n_unknowns * n_sectors);

@@ -5,7 +5,7 @@
 
 namespace wheelwright {
 
-/// How the compliance of the seams is computed from the factored ring. Both ways have one result, up to
+/// How the compliance of the seams is computed from the factored ring. Both ways have the same result up to
 /// rounding errors.
 enum class ComplianceRoute {
   solve_seams,        ///< the ring is solved for a unit load on every unknown of a seam

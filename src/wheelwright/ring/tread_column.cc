@@ -89,7 +89,7 @@ class ColumnNodes {
     return map;
   }
 
-  /// The free dofs that the side faces hold.
+  /// The free dofs fixed by the side faces.
   std::vector<int> held_dofs(SideFaces sides) const {
     std::vector<int> dofs;
     for (const auto& [place, number] : numbers_)
@@ -218,7 +218,7 @@ std::vector<int> mirror_images(const std::vector<ReferencePoint<dim>>& rule, int
 }
 
 /// The Gauss points of a contact face. Along the axle the pressure is as smooth as the displacement, and
-/// degree + 1 points resolve it; along the ground it begins and ends inside of faces.
+/// degree + 1 points resolve it; along the ground it starts and ends inside faces.
 template <int dim>
 std::vector<ReferencePoint<dim - 1>> contact_rule(int points, int degree) {
   if constexpr (dim == 2) return unit_cell_rule<1>(points);
@@ -321,9 +321,9 @@ class ColumnAssembly {
   }
 
   /// The penalty of the traction's jump on the faces between a cell at the tread and the next ones in the
-  /// column, and its mirror image beyond the middle of the wheel. Where contact holds the normal
-  /// displacement, pressures that rise by the same slope in every cell and fall back between them do no work
-  /// on it: without the penalty they grow with lambda.
+  /// column, and its mirror image beyond the middle of the wheel. Where contact fixes the normal
+  /// displacement, pressures that rise with the same slope in every cell and drop between cells do no work on
+  /// it: without the penalty they grow with lambda.
   void add_pressure_jumps(const ColumnCell<dim>& cell, int layer, int row, int across,
                           const PolarGrid<dim>& fine) {
     constexpr double weight = 0.1;

@@ -21,8 +21,8 @@ struct TreadForces {
 struct TreadLoads {
   int n_fields;              ///< columns of the whole tread, for all right-hand sides
   std::vector<int> columns;  ///< those with loads, ascending
-  Matrix on_observations;    ///< the loads there; without columns when there are none
-  Matrix on_nodes;           ///< the loads there; without columns when there are none
+  Matrix on_observations;    ///< the loads there; without columns if there are none
+  Matrix on_nodes;           ///< the loads there; without columns if there are none
   Matrix on_retained;        ///< both of them and those on the base, on the retained unknowns
 };
 template <int dim>

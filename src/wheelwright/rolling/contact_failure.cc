@@ -35,7 +35,7 @@ Failure sliding(const FrictionLimit& limit, const RollingModel<dim>& model) {
   return {
       FailureReason::sliding,
       fmt::format("the wheel slides: friction must hold {:.4g} {} at this position and can hold {:.4g} {} "
-                  "under the ground's normal force of {:.4g} N{}: take less {}, or more contact.friction or "
+                  "under the ground's normal force of {:.4g} N{}: use less {}, or more contact.friction or "
                   "{}",
                   scale * limit.needed, unit, scale * std::max(limit.available, 0.0), unit,
                   width * limit.normal_force,
@@ -46,14 +46,13 @@ Failure sliding(const FrictionLimit& limit, const RollingModel<dim>& model) {
 template <int dim>
 Failure lifted(const RollingModel<dim>& model) {
   if (model.travel)
-    return {
-        FailureReason::no_contact,
-        fmt::format("the wheel does not touch the ground at the travel of {:.4g} m: take more load.travel",
-                    *model.travel)};
+    return {FailureReason::no_contact,
+            fmt::format("the wheel does not touch the ground at the travel of {:.4g} m: increase load.travel",
+                        *model.travel)};
   return {
       FailureReason::no_contact,
       fmt::format("the loads on the structure itself lift the wheel off the ground, on which load.force = "
-                  "{:.4g} N presses it: take more load.force, or less load.body_force",
+                  "{:.4g} N presses it: increase load.force, or reduce load.body_force",
                   whole_width(model) * model.load)};
 }
 
@@ -66,7 +65,7 @@ Failure overload(const RollingModel<dim>& model, const std::string& what) {
   if (model.distributed.angular_speed != 0) keys.emplace_back("load.speed");
   if (model.distributed.hole_pressure != 0) keys.emplace_back("load.hole_pressure");
   return {FailureReason::overload,
-          fmt::format("{}, far beyond linear elasticity: take less {}, or a larger material.youngs_modulus",
+          fmt::format("{}, far beyond linear elasticity: use less {}, or a larger material.youngs_modulus",
                       what, fmt::join(keys, ", "))};
 }
 
@@ -98,11 +97,11 @@ std::optional<Failure> overdetermined(const RollingModel<dim>& model) {
   return Failure{
       FailureReason::inaccurate_solution,
       fmt::format("contact.gamma_0 = {:.4g} forbids even the gaps between the points of a cell, and leaves "
-                  "their pressures undetermined: take contact.theta = -1 with contact.gamma_0 = {:g}",
+                  "their pressures undetermined: use contact.theta = -1 with contact.gamma_0 = {:g}",
                   form.gamma_0, enough_gamma_0)};
 }
 
-/// What the contact without friction, `smooth`, tells of why there is no solution with it.
+/// The reason for the missing solution that follows from `smooth`, the contact without friction.
 template <int dim>
 std::optional<Failure> reason_in(const ContactState<dim>& smooth, const RollingModel<dim>& model,
                                  const ReducedContact<dim>& contact) {
@@ -117,7 +116,7 @@ std::optional<Failure> reason_in(const ContactState<dim>& smooth, const RollingM
     return overload(model, fmt::format("even without friction the pressure on the ground is {:.0f} % of the "
                                        "material's modulus",
                                        100 * strain));
-  // Friction is at least so many times as large as the pressure.
+  // Minimum ratio of friction to pressure.
   if (const double ratio = limit.needed / limit.normal_force; ratio * strain > largest_strain)
     return overload(model, fmt::format("the loads along the ground need friction of {:.0f} % of the "
                                        "material's modulus",
@@ -125,7 +124,7 @@ std::optional<Failure> reason_in(const ContactState<dim>& smooth, const RollingM
   return {};
 }
 
-/// Why there is no solution, as far as it can be told.
+/// Why there is no solution, as far as known.
 template <int dim>
 Failure unexplained(const ContactFailure& failure, const RollingModel<dim>& model,
                     const ReducedContact<dim>& contact) {
@@ -135,7 +134,7 @@ Failure unexplained(const ContactFailure& failure, const RollingModel<dim>& mode
   if (const auto reason = overdetermined(model)) return *reason;
   if (!smooth) return overload(model, "even without friction the contact has no state of equilibrium");
   return {failure.reason,
-          failure.detail + ": take another contact.gamma_0, less contact.friction, or another grid"};
+          failure.detail + ": try another contact.gamma_0, less contact.friction, or another grid"};
 }
 
 }  // namespace

@@ -9,9 +9,9 @@ namespace wheelwright {
 /// third from point to point.
 constexpr double enough_gamma_0 = 14, largest_smooth_gamma_0 = 300;
 
-/// The failure of a load position's contact problem in the words of the case: which load cannot be carried
-/// and why, with the keys that would help. Where the contact found no reason, one is looked for: whether the
-/// load deforms the wheel without friction too far for linear elasticity.
+/// The failure of a load position's contact problem in terms of the case: which load cannot be carried and
+/// why, with the keys that would help. If the contact gives no reason, checks whether without friction the
+/// load deforms the wheel beyond linear elasticity.
 template <int dim>
 Failure contact_failure(const ContactFailure& failure, const RollingModel<dim>& model,
                         const ReducedContact<dim>& contact);
@@ -20,8 +20,8 @@ Failure contact_failure(const ContactFailure& failure, const RollingModel<dim>& 
 template <int dim>
 std::optional<Failure> rim_under_ground(const RollingModel<dim>& model, const RimMotion& rim);
 
-/// A solution whose contact touches nowhere: a prescribed travel may be too small to reach the ground, or to
-/// be seen by the contact's quadrature points.
+/// A solution without contact: a prescribed travel may be too small to reach the ground, or to be detected by
+/// the contact's quadrature points.
 template <int dim>
 std::optional<Failure> no_contact(const RollingModel<dim>& model, const ReducedContact<dim>& contact,
                                   const ContactState<dim>& state);

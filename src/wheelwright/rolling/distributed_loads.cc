@@ -122,7 +122,7 @@ RimForce turned(const RimForce& force, double angle) {
   return {v[0], v[1], force.torque, force.along_axle};
 }
 
-/// What a body force does on the rim's motions: `moment` is int x dx in the ground frame.
+/// The work of a body force on the rim's motions: `moment` is int x dx in the ground frame.
 template <int dim>
 RimForce body_resultant(const Vec<dim>& force, double volume, const Vec<dim>& moment) {
   return {volume * force[0], volume * force[1], moment[0] * force[1] - moment[1] * force[0],

@@ -24,8 +24,8 @@ std::vector<double> by_growth(const RollingSolution<dim>& s, const FunctionalDer
   return factors;
 }
 
-/// The derivatives of all functions with respect to what the treads of the wheel without load observe. Empty
-/// if none of them owes anything to growth.
+/// The derivatives of all functions with respect to the observations of the wheel without load. Empty if none
+/// of them depends on growth.
 template <int dim>
 std::vector<FunctionalDerivative<dim>> by_states_without_load(
     const RollingSolution<dim>& s, std::span<const FunctionalDerivative<dim>> functions,

@@ -7,10 +7,9 @@
 
 namespace wheelwright {
 
-/// Solves a wheel that is its own mirror image in the middle plane of its width, with loads that are too, on
-/// half of the width: half of the unknowns, a quarter of the matrices' entries, an eighth of the flops of
-/// dense matrices. Other shapes and loads are solved on the whole width, by a RollingProblem that is made
-/// when it is needed.
+/// Solves a wheel that is symmetric about the middle plane of its width, with symmetric loads, on half of the
+/// width: half of the unknowns, a quarter of the matrices' entries, an eighth of the flops of dense matrices.
+/// Other shapes and loads are solved on the whole width, by a RollingProblem created on demand.
 class HalfWidthSolver : public StateSolver<3> {
  public:
   /// Whether the loads of a model are their own mirror image and its grid can be halved.

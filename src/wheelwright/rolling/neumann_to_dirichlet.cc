@@ -4,7 +4,7 @@ namespace wheelwright {
 
 namespace {
 
-/// E alone takes part in Poisson's problem: a material without Poisson's ratio needs no element of its own.
+/// Poisson's problem depends only on E: a material with zero Poisson's ratio avoids a special element.
 template <int dim>
 std::shared_ptr<const ElementTable<dim>> elements_of(const RollingModel<dim>& model, DualNorm norm) {
   if (norm == DualNorm::elasticity)

@@ -28,14 +28,14 @@ std::vector<double> case_multiplicities(const RollingSolution<dim>& solution) {
 
 template <int dim>
 SectorFields complete_displacement(const RollingSolution<dim>& solution) {
-  // Loads in the core stand on all of it: then the sweep has visited all unknowns.
+  // Loads in the core act on all of it: then the sweep has visited all unknowns.
   return solution.core_loads.empty() ? completed(solution.ring, solution.displacement)
                                      : solution.displacement;
 }
 
 namespace {
 
-/// Of interior_residual(): rounding leaves about 1e-15.
+/// Largest accepted interior_residual(); rounding gives about 1e-15.
 constexpr double largest_residual = 1e-10;
 
 /// sum_i factors_i x_i^2 over some columns of x.
@@ -163,8 +163,8 @@ Expected<RollingProblem<dim>> RollingProblem<dim>::create(const RollingModel<dim
 
 namespace {
 
-/// What a model does to its rim at a load position. A prescribed travel begins where the rotating wheel
-/// touches the ground without load, in the mean of all positions.
+/// The prescribed motion of a model's rim at a load position. A prescribed travel is measured from where the
+/// rotating wheel touches the ground without load, in the mean of all positions.
 template <int dim>
 RimControl rim_control(const RollingModel<dim>& model, const Preload& preload) {
   RimControl rim = rim_control(model);
@@ -313,7 +313,7 @@ typename RollingProblem<dim>::WithoutGround RollingProblem<dim>::without_ground(
   return result;
 }
 
-/// From what the tread observes of rotation alone, at any one position.
+/// From the observations of the tread under rotation without load, at any position.
 template <int dim>
 void RollingProblem<dim>::find_standing_points(const Matrix& observed, RollingSolution<dim>& s) const {
   double sum = 0, count = 0;

@@ -7,7 +7,7 @@
 
 namespace wheelwright {
 
-/// What the direct problems of one shape have in common, under whatever load.
+/// Data shared by the direct problems of one shape under all loads.
 template <int dim>
 struct FactoredShape {
   CutDomain<dim> domain;
@@ -44,7 +44,7 @@ struct RollingSolution {
   std::vector<PhaseTime> phases;
 };
 
-/// How many of a sector's positions each load case stands for.
+/// How many of a sector's positions each load case represents.
 template <int dim>
 std::vector<double> case_multiplicities(const RollingSolution<dim>& solution);
 
@@ -83,7 +83,7 @@ class RollingProblem : public StateSolver<dim> {
                                        const Interrupt& interrupt = {}) const;
 
   /// The direct problems of the same shape and positions under another model, which differs from the
-  /// solution's in loads alone: with the same factor. It fails as solve() does.
+  /// solution's only in loads, with the same factor. Fails like solve().
   Expected<RollingSolution<dim>> solve_under(const RollingModel<dim>& model,
                                              const RollingSolution<dim>& solution,
                                              const Interrupt& interrupt = {}) const;
@@ -139,9 +139,9 @@ struct RolledContact {
   ContactState<dim> state;
 };
 
-/// The contact of one load position alone, on a ring that solve() has factored. The zone is widened until it
-/// holds the contact; of a bonded tread it is all of it. `neighbour`: a solution to start from; `preload`:
-/// the effect of all loads but the ground's.
+/// The contact of a single load position, on a ring factored by solve(). The zone is widened until it
+/// contains the contact; for a bonded tread it is the whole tread. `neighbour`: a solution to start from;
+/// `preload`: the effect of all loads but the ground's.
 template <int dim>
 Expected<RolledContact<dim>> roll_to(const RollingModel<dim>& model, const Tread<dim>& tread,
                                      const CyclicStiffness<dim>& ring, const SurfaceCompliance<dim>& surface,

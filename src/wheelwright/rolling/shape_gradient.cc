@@ -200,11 +200,11 @@ class Densities {
     return densities;
   }
 
-  /// What the projection of div u in a cut cell changes in energy_and_work(), whose strains have the trace t.
-  /// The energy of the cell is the maximum, over linear pressures K q, of the integral of K (q div u - q^2 /
-  /// 2) over its material, with K = lambda + 2 mu / dim. At the maximum q is the projection of div u, and the
-  /// derivative to the shape is that of the integral for this q: K (q_u div p + q_p div u - q_u q_p) takes
-  /// the place of K t_u t_p.
+  /// The effect of the projection of div u in a cut cell on energy_and_work(), whose strains have the trace
+  /// t. The energy of the cell is the maximum, over linear pressures K q, of the integral of K (q div u - q^2
+  /// / 2) over its material, with K = lambda + 2 mu / dim. At the maximum q is the projection of div u, and
+  /// the derivative to the shape is that of the integral for this q: K (q_u div p + q_p div u - q_u q_p)
+  /// takes the place of K t_u t_p.
   void add_projection(const std::vector<double>& energy, const Material& material, const Matrix& u,
                       const Matrix& p, const Matrix& dilatations, std::vector<double>& densities) const {
     const double bulk = material.lambda() + 2 * material.mu() / dim;

@@ -6,7 +6,7 @@
 
 namespace wheelwright {
 
-/// The point of the tread on which a wheel that rotates without load stands.
+/// The point of the tread on which a rotating wheel without load stands.
 template <int dim>
 struct StandingPoint {
   int column;         ///< of the ring

@@ -94,7 +94,7 @@ MaterialPoint<dim> mirror_image(const PolarGrid<dim>& grid, MaterialPoint<dim> p
   return point;
 }
 
-/// Why the derivative of such functions is not known.
+/// Why the derivative of such functions is unknown.
 template <int dim>
 std::optional<Failure> unsupported(const RollingModel<dim>& model,
                                    std::span<const FunctionalDerivative<dim>> functions) {

@@ -19,7 +19,7 @@ class WidthHalves {
   /// `half`: what the tread of the half wheel observes.
   WidthHalves(const PolarGrid<3>& whole, const TreadSurface<3>& half);
 
-  /// What the tread of the whole wheel observes.
+  /// The observed points of the tread of the whole wheel.
   const TreadSurface<3>& surface() const { return surface_; }
 
   Matrix observations(const Matrix& of_half) const;

@@ -13,8 +13,8 @@
 namespace wheelwright {
 namespace {
 
-/// Whether a quantity is per metre of width in 2D, and hardly differs by an order of magnitude between wheels
-/// for the same load.
+/// Whether a quantity is per metre of width in 2D, and varies by less than an order of magnitude between
+/// wheels for the same load, so that a value of the whole width is recognized.
 bool is_distinguishable(Quantity quantity) {
   switch (quantity) {
     case Quantity::strain_energy:
@@ -31,9 +31,8 @@ bool is_distinguishable(Quantity quantity) {
 
 std::string warning(const BoundState& bound, Quantity quantity, const Wheel& wheel) {
   return fmt::format(
-      "constraint {} = {:.4g}: plain numbers are per metre of width in 2D, so that this is {} on the whole "
-      "width "
-      "of {:g} m, where the initial shape has {}; a bound of the whole width has its unit: \"{}\"",
+      "constraint {} = {:.4g}: plain numbers are per metre of width in 2D, so this is {} on the whole width "
+      "of {:g} m, where the initial shape has {}; write a bound on the whole width with its unit: \"{}\"",
       bound.name, bound.bound, shown_text(quantity, bound.bound, wheel), wheel.width,
       shown_text(quantity, bound.value, wheel), shown_text(quantity, bound.bound / wheel.width, wheel));
 }

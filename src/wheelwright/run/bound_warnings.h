@@ -8,8 +8,8 @@
 namespace wheelwright {
 
 /// Bounds of a 2D case that look like values of the whole width, whereas bounds are per metre of width: those
-/// that are nearer to what the initial shape has on its whole width than to what it has per metre, computed
-/// on a coarse grid. Empty in 3D, and if the shape cannot be computed.
+/// that are closer to the initial shape's value on the whole width than to that per metre, computed on a
+/// coarse grid. Empty in 3D, and if the shape cannot be computed.
 std::vector<std::string> bound_warnings(const Case& c);
 
 }  // namespace wheelwright

@@ -43,7 +43,7 @@ Expected<WeightedFunctional<dim>> term(const Case& c, const StateSolver<dim>& so
   }
 }
 
-/// Whether the quantity has a value of its own in every load position.
+/// Whether the quantity has a separate value at every load position.
 bool is_by_position(Quantity quantity) {
   switch (quantity) {
     case Quantity::strain_energy:
@@ -70,7 +70,7 @@ Bounds bounds(const Constraint& c) {
   return result;
 }
 
-/// For every bound of its own the weights of the positions: one position, or the mean of it and its image.
+/// The weights of the positions for every separate bound: one position, or the mean of it and its image.
 std::vector<std::vector<double>> single_positions(int n, bool are_images_alike) {
   std::vector<std::vector<double>> weights;
   for (int i = 0; i < n; ++i) {
@@ -83,7 +83,7 @@ std::vector<std::vector<double>> single_positions(int n, bool are_images_alike) 
   return weights;
 }
 
-/// Whether a quantity is another one under another load.
+/// Whether a quantity depends on the load.
 bool depends_on_the_load(Quantity quantity) {
   return quantity != Quantity::volume_fraction && quantity != Quantity::mass &&
          quantity != Quantity::perimeter;
@@ -92,7 +92,7 @@ bool depends_on_the_load(Quantity quantity) {
 Over positions_of(const Constraint& constraint) {
   if (!is_by_position(constraint.quantity) || constraint.over == OverPositions::mean) return Over::mean;
   if (constraint.over == OverPositions::each) return Over::positions;
-  return constraint.at_most ? Over::greatest : Over::least;
+  return constraint.at_most ? Over::maximum : Over::minimum;
 }
 
 template <int dim>
@@ -105,14 +105,14 @@ void add_named(ShapeFunction<dim> function, std::vector<ShapeFunction<dim>>& fun
   functions.push_back(std::move(function));
 }
 
-/// Adds the functions of a constraint in one load case, which `in_case` names.
+/// Adds the functions of a constraint in one load case, named by `in_case`.
 template <int dim>
 void add_bounded(const Constraint& constraint, const WeightedFunctional<dim>& term,
                  const std::string& in_case, const StateSolver<dim>& solver, bool are_images_alike,
                  std::vector<ShapeFunction<dim>>& functions) {
   const std::string quantity(name(constraint.quantity));
   const Over over = positions_of(constraint);
-  const bool is_worst = over == Over::greatest || over == Over::least;
+  const bool is_worst = over == Over::maximum || over == Over::minimum;
   const ShapeFunction<dim> function{.name = (is_worst ? quantity + " worst" : quantity) + in_case,
                                     .terms = {term},
                                     .bounds = bounds(constraint)};
@@ -144,7 +144,7 @@ WeightedSum<dim> in_load_cases(const Case& c, WeightedSum<dim> terms) {
 
 template <int dim>
 Expected<WeightedSum<dim>> minimized_terms(const Case& c, const StateSolver<dim>& solver) {
-  const Over over = c.objective.over == OverPositions::worst ? Over::greatest : Over::mean;
+  const Over over = c.objective.over == OverPositions::worst ? Over::maximum : Over::mean;
   auto only = term(c, solver, c.objective.minimize, over);
   if (!only) return only.failure();
   WeightedSum<dim> terms{*std::move(only)};

@@ -30,7 +30,7 @@ std::string load_report(const Case& c) {
   const std::string speed = c.load.speed > 0 ? line("speed", fmt::format("{:.6g} m/s", c.load.speed)) : "";
   return load + speed +
          line("load positions",
-              fmt::format("{} per sector, {} round the wheel", c.load.positions, total_load_positions(c)));
+              fmt::format("{} per sector, {} around the wheel", c.load.positions, total_load_positions(c)));
 }
 
 std::string material_report(const Case& c) {
@@ -52,11 +52,10 @@ std::string contact_report(const Case& c) {
 
 std::string time_report(const Case& c) {
   return line("time", fmt::format("about {:.2g} s for one shape on one core", estimated_seconds_in_3d(c))) +
-         line("with grooves",
-              fmt::format("at most about {:.0f} MB and {:.2g} s, once edges cross all of the faces "
-                          "between sectors",
-                          std::ceil(estimated_memory_of_grooves(c) / 1e6),
-                          estimated_seconds_of_grooves_in_3d(c)));
+         line("with grooves", fmt::format("at most about {:.0f} MB and {:.2g} s, once edges cross all faces "
+                                          "between sectors",
+                                          std::ceil(estimated_memory_of_grooves(c) / 1e6),
+                                          estimated_seconds_of_grooves_in_3d(c)));
 }
 
 std::string drawing_report(const Case& c) {
@@ -77,7 +76,7 @@ std::string size_report(const Case& c) {
          (c.wheel.dimension == 3 ? time_report(c) : "");
 }
 
-/// Lengths in millimetres make a wheel of hundreds of metres.
+/// Lengths given in millimetres yield a wheel of hundreds of metres.
 std::vector<std::string> doubtful_lengths(const Case& c) {
   constexpr double largest_radius = 10, widest = 10;  // [m], and in outer radii
   const auto doubt = [](const char* key, double value) {
@@ -92,16 +91,16 @@ std::vector<std::string> doubtful_lengths(const Case& c) {
   return result;
 }
 
-/// Moduli in megapascals make a wheel of jelly.
+/// Moduli given in megapascals yield a wheel of jelly.
 std::vector<std::string> doubtful_modulus(const Case& c) {
   if (!may_be_in_megapascals(c.material.youngs_modulus)) return {};
   return {fmt::format("material.youngs_modulus = {} Pa: {}", number_text(c.material.youngs_modulus),
                       question_of_megapascals(c.material.youngs_modulus))};
 }
 
-/// Says what a patch of too few cells means and what would help. Below the grid, the contact is a line load
-/// on a cell, whose indentation has the logarithm of the cell's width where the true one has that of the
-/// patch.
+/// Explains the effect of a patch of too few cells, and what would help. Below the grid scale the contact is
+/// a line load on a cell, whose indentation contains the logarithm of the cell's width instead of the
+/// patch's.
 std::string coarse_contact_warning(const Case& c, double cells) {
   Case finest = c;
   finest.grid.tread_levels.reset();
@@ -176,9 +175,8 @@ std::vector<std::string> warnings(const Case& c) {
     result.push_back(coarse_contact_warning(narrowest, cells));
   if (wants_uniformity(c) && c.grid.angular_cells % total_load_positions(c) != 0)
     result.push_back(fmt::format(
-        "load positions between columns of cells see other points of the tread: the uniformity functionals "
-        "also "
-        "measure that; with grid.angular_cells a multiple of sectors * positions = {} they do not",
+        "load positions between columns of cells use different points of the tread, which affects the "
+        "uniformity functionals; with grid.angular_cells a multiple of sectors * positions = {} they do not",
         total_load_positions(c)));
   if (!has_holes(c) && c.optimizer.nucleation == NucleationTime::never)
     result.push_back("there are no holes, so no boundary can move");
@@ -210,7 +208,7 @@ std::vector<std::string> warnings(const Case& c) {
         "optimizer.velocity = \"harmonic\" without optimizer.smoothing lets fingers one cell wide "
         "grow; smoothing = 0.3 with smooth_every = 1, or velocity = \"h1\", prevents this");
   if (c.volume.control == VolumeControl::paper)
-    result.push_back("volume.control = \"paper\" lets the volume drift; \"exact\" holds it");
+    result.push_back("volume.control = \"paper\" lets the volume drift; \"exact\" keeps it fixed");
   return result;
 }
 

@@ -8,13 +8,13 @@
 
 namespace wheelwright {
 
-/// The numbers that follow from a case, one a line.
+/// The numbers derived from a case, one per line.
 std::string derived_report(const Case& c);
 
-/// The least widths that an outline has, one a line.
+/// The minimum widths of an outline, one per line.
 std::string clearance_report(const cad::Clearances& clearances);
 
-/// What is allowed but doubtful about a case.
+/// Warnings about a case that is valid but doubtful.
 std::vector<std::string> warnings(const Case& c);
 
 }  // namespace wheelwright

@@ -12,8 +12,8 @@ constexpr std::uint32_t version = 8;
 
 constexpr int largest_int = std::numeric_limits<int>::max();
 
-// Every value is taken apart by a structured binding: a member that is added to one of these types and not
-// saved does not compile.
+// Every value is decomposed by a structured binding: adding a member to one of these types without saving it
+// does not compile.
 
 /// The number of the values, then each as append_one(value) writes it.
 template <class Value, class AppendOne>
@@ -22,7 +22,7 @@ void append_all(const std::vector<Value>& values, ByteWriter& writer, AppendOne 
   for (const Value& value : values) append_one(value);
 }
 
-/// What append_all() wrote, each value as read_one(value) reads it from `least_bytes_each` or more.
+/// Reads what append_all() wrote, each value by read_one(value) from at least `least_bytes_each` bytes.
 template <class Value, class ReadOne>
 std::vector<Value> read_all(ByteReader& reader, std::size_t least_bytes_each, ReadOne read_one) {
   std::vector<Value> values(reader.count(least_bytes_each));
@@ -234,7 +234,7 @@ void append(const OptimizationState<dim>& state, ByteWriter& writer) {
   writer.integer(static_cast<int>(final_widths));
 }
 
-/// What is wrong with the parts of a state taken together; empty when they fit.
+/// The inconsistency between the parts of a state; empty if they fit.
 template <int dim>
 std::string_view misfit(const OptimizationState<dim>& state) {
   const int n_cells = state.shape.lattice.grid().n_cells();

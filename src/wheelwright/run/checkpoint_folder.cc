@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view prefix = "shape_", extension = ".checkpoint";
 constexpr std::size_t most_kept = 2;
 
-/// Nothing when the file is no checkpoint.
+/// Nothing if the file is not a checkpoint.
 std::optional<int> iteration_of(const fs::path& file) {
   const std::string name = file.filename().string();
   if (!name.starts_with(prefix) || !name.ends_with(extension)) return {};
@@ -27,13 +27,13 @@ std::optional<int> iteration_of(const fs::path& file) {
   return error == std::errc{} && end == last ? std::optional(iteration) : std::nullopt;
 }
 
-/// A folder, or a link, with the name of a checkpoint is none.
+/// Folders and links with the name of a checkpoint do not count.
 bool is_file(const fs::path& path) {
   std::error_code ignored;
   return fs::symlink_status(path, ignored).type() == fs::file_type::regular;
 }
 
-/// Empty when there is no such folder.
+/// Empty if there is no such folder.
 std::vector<fs::path> entries(const fs::path& folder) {
   std::vector<fs::path> result;
   std::error_code error;
@@ -67,7 +67,7 @@ void CheckpointFolder::save(int iteration, std::string_view bytes) {
   remove_all_but_good();
 }
 
-/// One file too many does no harm: errors are ignored. What the program did not write stays.
+/// Errors are ignored, because extra files do no harm. Only files written by the program are removed.
 void CheckpointFolder::remove_all_but_good() const {
   const WrittenFiles written(folder_);
   std::error_code ignored;

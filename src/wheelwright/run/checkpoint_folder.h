@@ -9,7 +9,7 @@ namespace wheelwright {
 /// The files checkpoints/shape_NNNNNN.checkpoint of a run's folder, named by their shape.
 class CheckpointFolder {
  public:
-  /// `folder` is the run's. Touches no file.
+  /// `folder` is the run's. Does not access any file.
   explicit CheckpointFolder(const std::filesystem::path& folder) : folder_(folder / "checkpoints") {}
 
   /// All checkpoints, the newest first.
@@ -21,8 +21,8 @@ class CheckpointFolder {
   /// Marks a file as good after it was read: the next save() keeps it and the one before it.
   void keep(const std::filesystem::path& good);
 
-  /// Writes a checkpoint, then removes all but it and the last good one of another shape. A good one
-  /// exists at every moment. Throws OutputError.
+  /// Writes a checkpoint, then removes all others except the last good one of another shape. A good one
+  /// exists at all times. Throws OutputError.
   void save(int iteration, std::string_view bytes);
 
  private:

@@ -6,7 +6,7 @@
 
 namespace wheelwright {
 
-/// Saves a run: the first shape, then as often as the case says, when it is asked to, and as finished at the
+/// Saves a run: after the first shape, then as often as the case says, on request, and as finished at the
 /// end.
 template <int dim>
 class Checkpointer : public Observer<dim> {

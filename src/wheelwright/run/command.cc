@@ -13,7 +13,7 @@
 namespace wheelwright {
 namespace {
 
-Obeyed changed(RunControl& run, const Case& c, const std::string& what) {
+CommandResult changed(RunControl& run, const Case& c, const std::string& what) {
   if (auto refusal = run.change_case(c, what)) return *std::move(refusal);
   return what;
 }
@@ -34,32 +34,32 @@ std::string load_text(const Load& load) {
 
 }  // namespace
 
-Obeyed Save::obey(RunControl& run) const {
+CommandResult Save::execute(RunControl& run) const {
   run.save();
   return fmt::format("shape {} is saved", run.iteration());
 }
 
-Obeyed Stop::obey(RunControl& run) const {
+CommandResult Stop::execute(RunControl& run) const {
   run.stop();
   return fmt::format("stopping after shape {}, whose results are written now", run.iteration());
 }
 
-Obeyed Pause::obey(RunControl& run) const {
+CommandResult Pause::execute(RunControl& run) const {
   run.pause(0);
   return fmt::format("paused after shape {}", run.iteration());
 }
 
-Obeyed Continue::obey(RunControl& run) const {
-  run.go_on();
+CommandResult Continue::execute(RunControl& run) const {
+  run.continue_run();
   return std::string("continued");
 }
 
-Obeyed Step::obey(RunControl& run) const {
+CommandResult Step::execute(RunControl& run) const {
   run.pause(1);
   return fmt::format("one more shape after shape {}", run.iteration());
 }
 
-Obeyed NewWeights::obey(RunControl& run) const {
+CommandResult NewWeights::execute(RunControl& run) const {
   Case c = run.current_case();
   std::vector<std::string> words;
   const auto set = [&](Quantity quantity, const std::optional<double>& weight, double& place) {
@@ -74,7 +74,7 @@ Obeyed NewWeights::obey(RunControl& run) const {
   return changed(run, c, fmt::format("new weights: {}", fmt::join(words, ", ")));
 }
 
-Obeyed NewLoad::obey(RunControl& run) const {
+CommandResult NewLoad::execute(RunControl& run) const {
   Case c = run.current_case();
   if (!load_case) {
     if (!c.load.cases.empty()) return Refusal{"the case has several loads: say which load case changes"};
@@ -90,7 +90,7 @@ Obeyed NewLoad::obey(RunControl& run) const {
   return changed(run, c, fmt::format("new load in {}: {}", *load_case, load_text(load)));
 }
 
-Obeyed NewWidths::obey(RunControl& run) const {
+CommandResult NewWidths::execute(RunControl& run) const {
   Case c = run.current_case();
   std::vector<std::string> words;
   const auto set = [&](const char* what, const std::optional<double>& width, std::optional<double>& place) {
@@ -104,7 +104,7 @@ Obeyed NewWidths::obey(RunControl& run) const {
   return changed(run, c, fmt::format("new least widths: {}", fmt::join(words, ", ")));
 }
 
-Obeyed NewBound::obey(RunControl& run) const {
+CommandResult NewBound::execute(RunControl& run) const {
   Case c = run.current_case();
   if (constraint < 0 || constraint >= static_cast<int>(c.constraints.size()))
     return Refusal{"the case has no such bound"};
@@ -121,24 +121,24 @@ Obeyed NewBound::obey(RunControl& run) const {
   return changed(run, c, fmt::format("new bound: {} {}", name(bound.quantity), fmt::join(words, ", ")));
 }
 
-Obeyed TakeShape::obey(RunControl& run) const {
+CommandResult TakeShape::execute(RunControl& run) const {
   const std::string what = fmt::format("the shape of {}", file);
   if (auto refusal = run.take_shape(file, what)) return *std::move(refusal);
   return what;
 }
 
-Obeyed NewVolume::obey(RunControl& run) const {
+CommandResult NewVolume::execute(RunControl& run) const {
   Case c = run.current_case();
   c.volume.target = target;
   return changed(run, c, fmt::format("new target of the volume: {:.6g} of the ring", target));
 }
 
-Obeyed Reset::obey(RunControl& run) const {
+CommandResult Reset::execute(RunControl& run) const {
   if (auto refusal = run.reset()) return *std::move(refusal);
   return std::string("back to the initial shape");
 }
 
-Obeyed Undo::obey(RunControl& run) const {
+CommandResult Undo::execute(RunControl& run) const {
   auto undone = run.undo();
   if (!undone) return undone.failure();
   return "undid: " + *undone;

@@ -14,12 +14,12 @@
 
 namespace wheelwright {
 
-/// Why a command was not obeyed: one line. It has then changed nothing.
+/// Why a command was refused: one line. It has then changed nothing.
 struct Refusal {
   std::string reason;
 };
 
-/// What a command may do to a run, between two trial shapes.
+/// The operations that a command can perform on a run, between two trial shapes.
 class RunControl {
  public:
   virtual ~RunControl() = default;
@@ -28,150 +28,149 @@ class RunControl {
   /// Number of the last accepted shape.
   virtual int iteration() const = 0;
 
-  /// Saves the last accepted shape, unless it is saved.
+  /// Saves the last accepted shape, unless it is saved already.
   virtual void save() = 0;
-  /// Ends the run, saved.
+  /// Saves and ends the run.
   virtual void stop() = 0;
-  /// Waits for further commands, from now on or after so many more accepted shapes.
+  /// Waits for further commands, now or after this number of further accepted shapes.
   virtual void pause(int after_shapes) = 0;
-  virtual void go_on() = 0;
-  /// Proceeds with another case: it is checked as a case file is, the current shape is evaluated under it,
-  /// and the run's folder follows. `what` says what changes, for people and for history.csv.
+  virtual void continue_run() = 0;
+  /// Continues with another case: it is checked like a case file, the current shape is evaluated under it,
+  /// and the run's folder is updated. `what` describes the change, for display and for history.csv.
   virtual std::optional<Refusal> change_case(const Case& changed, const std::string& what) = 0;
 
-  /// The edge of the hole that this point of the ring is in, as a closed polyline round it (Cartesian, body
-  /// frame [m]); empty where the point is in no hole, or in one that is not enclosed by material.
+  /// The edge of the hole that contains this point of the ring, as a closed polyline (Cartesian, body frame
+  /// [m]); empty if the point is not in a hole, or in one that is not enclosed by material.
   virtual std::vector<Point> hole_at(const Point& point) const = 0;
-  /// Draws strokes over the current shape, each over those before it and in all sectors, and evaluates it.
-  /// The run proceeds from there.
+  /// Draws strokes over the current shape, each over the earlier ones and in all sectors, and evaluates it.
+  /// The run continues from there.
   virtual std::optional<Refusal> draw(std::span<const Stroke> strokes, const std::string& what) = 0;
-  /// Takes the shape in a file (files/level_set_file.h) of a wheel of the same radii, width and number of
-  /// sectors, on the run's own grid. The run proceeds from there.
+  /// Replaces the shape by that in a file (files/level_set_file.h) of a wheel with the same radii, width and
+  /// number of sectors, transferred to the run's grid. The run continues from there.
   virtual std::optional<Refusal> take_shape(const std::filesystem::path& file, const std::string& what) = 0;
-  /// Back to the initial shape, under the case as it is.
+  /// Returns to the initial shape, under the current case.
   virtual std::optional<Refusal> reset() = 0;
-  /// Back to the case and the shape before the last change_case(), draw(), take_shape() or reset() that is
-  /// not undone. Returns what that change was, as it was told.
+  /// Returns to the case and shape before the last change_case(), draw(), take_shape() or reset() that is not
+  /// undone. Returns the description of that change.
   virtual Expected<std::string, Refusal> undo() = 0;
 };
 
-/// What was done, one line; empty where there is nothing to say.
-using Obeyed = Expected<std::string, Refusal>;
+/// What was done, one line; empty if there is nothing to report.
+using CommandResult = Expected<std::string, Refusal>;
 
 /// Saves a checkpoint.
 struct Save {
-  Obeyed obey(RunControl& run) const;
+  CommandResult execute(RunControl& run) const;
 };
 
-/// Ends the run, saved. Interrupts the evaluation of a trial shape, but no command before it.
+/// Saves and ends the run. Interrupts the evaluation of a trial shape, but not an earlier command.
 struct Stop {
-  Obeyed obey(RunControl& run) const;
+  CommandResult execute(RunControl& run) const;
 };
 
 /// Waits until Continue, Step or Stop.
 struct Pause {
-  Obeyed obey(RunControl& run) const;
+  CommandResult execute(RunControl& run) const;
 };
 
 struct Continue {
-  Obeyed obey(RunControl& run) const;
+  CommandResult execute(RunControl& run) const;
 };
 
 /// One more accepted shape, then a pause.
 struct Step {
-  Obeyed obey(RunControl& run) const;
+  CommandResult execute(RunControl& run) const;
 };
 
-/// Other weights of the objective's terms; weights that are absent do not change.
+/// New weights of the objective's terms; absent weights do not change.
 struct NewWeights {
   std::optional<double> strain_energy = {}, uniformity_annulus = {}, uniformity_dual = {}, uniformity_l2 = {};
 
-  Obeyed obey(RunControl& run) const;
+  CommandResult execute(RunControl& run) const;
 };
 
-/// Another load: the section `load` of a case with one load, or that of a load case. Load cases share the
-/// lateral force, the camber and the load positions, which it must not change there.
+/// A new load: the section `load` of a case with one load, or the load of a load case. Load cases share the
+/// lateral force, the camber and the load positions, which it must not change.
 struct NewLoad {
-  Load load;                                  ///< complete; without load cases of its own
+  Load load;                                  ///< complete; without load cases
   std::optional<std::string> load_case = {};  ///< its name
 
-  Obeyed obey(RunControl& run) const;
+  CommandResult execute(RunControl& run) const;
 };
 
-/// Another target of the volume, as a fraction of the ring: the run moves there by volume.rate per shape.
+/// A new target of the volume, as a fraction of the ring: the run approaches it by volume.rate per shape.
 struct NewVolume {
   double target;
 
-  Obeyed obey(RunControl& run) const;
+  CommandResult execute(RunControl& run) const;
 };
 
-/// Another thinnest wall, narrowest gap and smallest radius of internal corners [m]; 0 allows any. What is
-/// absent does not change.
+/// New minimum widths of walls and gaps and minimum radius of internal corners [m]; 0 allows any. Absent
+/// values do not change.
 struct NewWidths {
   std::optional<double> minimum_wall = {}, minimum_gap = {}, minimum_radius = {};
 
-  Obeyed obey(RunControl& run) const;
+  CommandResult execute(RunControl& run) const;
 };
 
-/// Another value of a bound that the case has, in the units of its `[[constraint]]`.
+/// A new value of an existing bound, in the units of its `[[constraint]]`.
 struct NewBound {
-  int constraint;  ///< its place in the case, from 0
+  int constraint;  ///< its index in the case
   std::optional<double> at_least = {}, at_most = {}, equals = {};
 
-  Obeyed obey(RunControl& run) const;
+  CommandResult execute(RunControl& run) const;
 };
 
-/// Draws a line with a round tip, as with a brush, in every sector: a hole or material. A single point is a
-/// disc. What is larger than the wheel or misses it is refused (edit_bounds.h).
+/// Draws a line with a round brush in every sector, as a hole or material. A single point is a disc. A line
+/// that is larger than the wheel or misses it is refused (edit_bounds.h).
 struct Paint {
   Fill as = Fill::hole;
   std::vector<std::array<double, 2>> path;  ///< Cartesian, body frame [m]
-  double radius = 0;                        ///< of the tip [m]
+  double radius = 0;                        ///< of the brush [m]
 
-  Obeyed obey(RunControl& run) const;
+  CommandResult execute(RunControl& run) const;
 };
 
-/// Moves a hole, and its images in the other sectors, and multiplies its size about its centre, by 0.01 to
-/// 100.
+/// Moves a hole and its images in the other sectors, and scales it about its centre by 0.01 to 100.
 struct MoveHole {
   std::array<double, 2> at{};  ///< a point in the hole: Cartesian, body frame [m]
   std::array<double, 2> by{};  ///< [m]
   double scale = 1;
 
-  Obeyed obey(RunControl& run) const;
+  CommandResult execute(RunControl& run) const;
 };
 
 /// Fills a hole, and its images in the other sectors, with material.
 struct FillHole {
   std::array<double, 2> at{};  ///< a point in the hole: Cartesian, body frame [m]
 
-  Obeyed obey(RunControl& run) const;
+  CommandResult execute(RunControl& run) const;
 };
 
-/// Takes the shape of another run, e.g. of a design of a sweep.
+/// Replaces the shape by that of another run, e.g. of a design of a sweep.
 struct TakeShape {
   std::string file;  ///< its level set
 
-  Obeyed obey(RunControl& run) const;
+  CommandResult execute(RunControl& run) const;
 };
 
 /// Back to the initial shape.
 struct Reset {
-  Obeyed obey(RunControl& run) const;
+  CommandResult execute(RunControl& run) const;
 };
 
-/// Back to what was before the last change of case or shape by a command.
+/// Undoes the last change of case or shape by a command.
 struct Undo {
-  Obeyed obey(RunControl& run) const;
+  CommandResult execute(RunControl& run) const;
 };
 
 /// A command from outside the program, such as a script or a test.
 struct Custom {
-  std::function<Obeyed(RunControl& run)> obey;
+  std::function<CommandResult(RunControl& run)> execute;
 };
 
-/// The commands that a run obeys. To add one: a struct with obey() as above, in a file of its own, and its
-/// name in this list.
+/// The commands that a run executes. To add one, add a struct with execute() as above, its keys in
+/// command_json.cc, and its name to this list.
 using Command = std::variant<Save, Stop, Pause, Continue, Step, NewWeights, NewLoad, NewVolume, NewWidths,
                              NewBound, Paint, MoveHole, FillHole, TakeShape, Reset, Undo, Custom>;
 

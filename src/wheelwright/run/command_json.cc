@@ -29,7 +29,7 @@ void fields(Is<NewWeights> auto& c, Visit&& visit) {
   visit("uniformity_l2", c.uniformity_l2);
 }
 
-/// All of a load but its load cases.
+/// All of a load except its load cases.
 template <class Visit>
 void load_fields(Is<Load> auto& load, Visit&& visit) {
   visit("force_N", load.force);
@@ -140,14 +140,14 @@ struct Writer {
   void operator()(const char* key, Fill fill) { json[key] = fill == Fill::hole ? "hole" : "material"; }
 };
 
-/// Takes the keys away that it reads; the first problem stays.
+/// Removes the keys that it reads, and keeps the first problem.
 struct Reader {
   Json& json;
   std::string problem = {};
 
   void operator()(const char* key, auto& value) {
-    if (!json.contains(key)) return complain("{}: is missing", key);
-    if (!read(json[key], value)) complain("{}: is not what belongs there", key);
+    if (!json.contains(key)) return complain("{}: missing", key);
+    if (!read(json[key], value)) complain("{}: has the wrong type or value", key);
     json.erase(key);
   }
   template <class T>

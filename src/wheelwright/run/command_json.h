@@ -7,20 +7,20 @@
 
 namespace wheelwright {
 
-/// A command as one line of JSON, which reads back to the same command. A Custom command is only named.
+/// A command as one line of JSON, which reads back to the same command. For a Custom command only its name.
 std::string command_json(const Command& command);
 
 /// The members of a NewLoad that are its load, as an object.
 std::string load_json(const Load& load);
 
 /// A command from JSON, or what is wrong with the text. Numbers must be finite, a path has at most
-/// most_path_points points, and no other keys are taken. Whether a run obeys is another question.
+/// most_path_points points, and no other keys are accepted. A run may still refuse the command.
 Expected<Command, Refusal> parse_command(std::string_view json);
 
 inline constexpr std::size_t most_path_points = 500;
 
-/// Whether brackets are nested more deeply in a text than this: no command has more than 4 levels, and to
-/// read more would only cost memory and stack.
+/// Whether brackets in a text are nested more deeply than this: no command has more than 4 levels, and
+/// parsing more would only cost memory and stack.
 bool is_nested_deeper(std::string_view json, int levels);
 
 }  // namespace wheelwright

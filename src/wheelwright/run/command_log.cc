@@ -50,7 +50,7 @@ Expected<std::vector<LoggedCommand>, Refusal> parse_command_log(std::string_view
     auto logged = parse_line(std::string(text.substr(0, end)));
     if (!logged) return Refusal{fmt::format("line {}: {}", number, logged.failure().reason)};
     if (!log.empty() && logged->moment < log.back().moment)
-      return Refusal{fmt::format("line {}: comes before the line above it", number)};
+      return Refusal{fmt::format("line {}: is earlier than the line above it", number)};
     log.push_back(*std::move(logged));
     text.remove_prefix(end + 1);
   }
@@ -61,7 +61,7 @@ void CommandLog<dim>::operator()(const Event<dim>& event, const RunView<dim>& ru
   const auto path = run.folder / command_log_file;
   if (const auto* started = std::get_if<RunStarted>(&event); started && !started->resumed_after)
     write_atomically(path, "");
-  if (const auto* done = std::get_if<CommandDone>(&event); done && done->was_obeyed && done->command) {
+  if (const auto* done = std::get_if<CommandDone>(&event); done && done->was_executed && done->command) {
     std::ofstream stream(path, std::ios::app | std::ios::binary);
     if (!(stream << log_line({moments_.now(), *done->command})).flush()) throw OutputError(path, errno);
   }

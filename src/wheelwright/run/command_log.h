@@ -10,12 +10,12 @@
 
 namespace wheelwright {
 
-/// The file of a run's folder with the commands that it obeyed, one line each.
+/// The file in a run's folder with the commands that it executed, one per line.
 inline constexpr const char* command_log_file = "commands.jsonl";
 
-/// When a run obeyed a command: after how many trials of its own, not of commands, and after how often it had
-/// waited for commands. A run of the same case that is given the same commands at the same moments makes the
-/// same shapes.
+/// When a run executed a command: after how many of its own trials, not those of commands, and after how many
+/// waits for commands. A run of the same case with the same commands at the same moments produces the same
+/// shapes.
 struct Moment {
   int trials = 0, waits = 0;
   auto operator<=>(const Moment&) const = default;
@@ -26,7 +26,7 @@ struct LoggedCommand {
   Command command;
 };
 
-/// Counts the moments of a run by its events.
+/// Determines the moments of a run from its events.
 class MomentCounter {
  public:
   template <int dim>
@@ -45,10 +45,10 @@ class MomentCounter {
 
 std::string log_line(const LoggedCommand& logged);
 
-/// The commands of a log, or what is wrong with it. A last line that a kill cut off is left out.
+/// The commands of a log, or what is wrong with it. An incomplete last line, as after a kill, is ignored.
 Expected<std::vector<LoggedCommand>, Refusal> parse_command_log(std::string_view text);
 
-/// Writes the log: each command that was obeyed, on the disk's way before the next one.
+/// Writes the log: each executed command is flushed before the next one.
 template <int dim>
 class CommandLog : public Observer<dim> {
  public:
@@ -58,8 +58,8 @@ class CommandLog : public Observer<dim> {
   MomentCounter moments_;
 };
 
-/// Gives a run the commands of a log at their moments, and Stop when all are obeyed and the run waits. As an
-/// observer it counts; its source of commands goes into the run's queue.
+/// Replays the commands of a log at their moments, then Stop when all are executed and the run waits. It
+/// counts moments as an observer; its source of commands must be added to the run's queue.
 template <int dim>
 class CommandReplay : public Observer<dim> {
  public:

@@ -12,25 +12,25 @@
 
 namespace wheelwright {
 
-/// Commands on their way to a run. Any thread may push them; the run takes them between its trial shapes, in
-/// their order.
+/// Pending commands to a run. Any thread may push them; the run takes them between its trial shapes, in
+/// order.
 class CommandQueue {
  public:
-  /// Something that is asked for a command from time to time: at least before every trial shape, and several
-  /// times a second while a shape is evaluated or the run is paused.
+  /// A source that is polled for commands: at least before every trial shape, and several times a second
+  /// while a shape is evaluated or the run is paused.
   using Source = std::function<std::optional<Command>()>;
 
   void push(Command command);
-  /// The source is asked at the next call of any of the functions below. It must not touch the queue.
+  /// The source is polled at the next call of any of the functions below. It must not access the queue.
   void add_source(Source source);
 
   /// The next command, if there is one.
   std::optional<Command> take();
 
-  /// The next command; waits for it without using the processor.
+  /// The next command; blocks until there is one.
   Command wait();
 
-  /// How many commands to stop are waiting. To be called often while a shape is evaluated.
+  /// The number of waiting commands to stop. To be called often while a shape is evaluated.
   int waiting_stops();
 
  private:
@@ -41,7 +41,8 @@ class CommandQueue {
   std::condition_variable pushed_;
   std::deque<Command> commands_;
   std::vector<Source> sources_;
-  Clock::time_point ask_again_ = Clock::time_point::min();  ///< from when on waiting_stops() asks the sources
+  Clock::time_point ask_again_ =
+      Clock::time_point::min();  ///< from when waiting_stops() polls the sources again
 };
 
 }  // namespace wheelwright

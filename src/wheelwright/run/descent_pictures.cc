@@ -23,7 +23,7 @@ class Pictures {
                                 fmt::format("{}, shape {}", run_title(run_.study.source), state_.iteration)));
   }
 
-  /// Nothing where the velocity could not be computed.
+  /// Draws nothing if the velocity could not be computed.
   void draw_extended(const char* what, const char* name,
                      const Expected<std::vector<double>>& velocity) const {
     if (!velocity) return;

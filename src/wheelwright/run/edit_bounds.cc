@@ -8,7 +8,7 @@
 namespace wheelwright {
 namespace {
 
-/// Whether a place is at most so far from the axle; false for what is no number.
+/// Whether a place is within a radius of the axle; false for NaN.
 bool is_within(const Point& at, double radius) { return std::hypot(at[0], at[1]) <= radius; }
 
 std::optional<std::string> refused_places(const Wheel& wheel, std::span<const Point> places) {
@@ -20,7 +20,7 @@ std::optional<std::string> refused_places(const Wheel& wheel, std::span<const Po
                      1e3 * wheel.outer_radius);
 }
 
-/// Between the axle and the nearest place of a line between two points.
+/// Distance between the axle and the segment between two points.
 double distance_of_axle(const Point& a, const Point& b) {
   const Point along = b - a;
   const double squared = dot<2>(along, along);

@@ -9,17 +9,16 @@
 
 namespace wheelwright {
 
-/// Why a line drawn with a round tip is refused on a wheel, in words, before anything is made of it: its tip
-/// is not above 0 or larger than the wheel, a point of it is further from the axle than the diameter of the
-/// wheel, or it misses the ring between rim and tread. Empty where it is not refused. The numbers may be any,
-/// also not finite.
+/// Why a line drawn with a round brush is refused for a wheel, as text: the brush is not above 0 or is larger
+/// than the wheel, a point is farther from the axle than the wheel's diameter, or the line misses the ring
+/// between rim and tread. Empty if it is accepted. Numbers may be arbitrary, even not finite.
 std::optional<std::string> refused_line(const Wheel& wheel, std::span<const Point> path, double radius);
 
-/// The same of a polygon that a hole is to become, by its corners: all must be within the diameter of the
-/// wheel.
+/// The same for the corners of a polygon that is to become a hole: all must be within the wheel's diameter of
+/// the axle.
 std::optional<std::string> refused_hole(const Wheel& wheel, std::span<const Point> corners);
 
-/// `(x, y) mm` of a place in metres.
+/// A place in metres as `(x, y) mm`.
 std::string place_text(const Point& at);
 
 }  // namespace wheelwright

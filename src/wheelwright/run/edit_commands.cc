@@ -7,10 +7,10 @@
 namespace wheelwright {
 namespace {
 
-/// Material by which a hole is filled beyond its edge, so that no trace of the edge stays [m].
+/// How far filling extends beyond the edge of a hole, so that no trace of the edge remains [m].
 constexpr double overlap = 5e-4;
 
-Obeyed drawn(RunControl& run, std::span<const Stroke> strokes, const std::string& what) {
+CommandResult drawn(RunControl& run, std::span<const Stroke> strokes, const std::string& what) {
   if (auto refusal = run.draw(strokes, what)) return *std::move(refusal);
   return what;
 }
@@ -38,7 +38,7 @@ std::vector<Outline> brush_outlines(const Paint& paint) {
 
 }  // namespace
 
-Obeyed Paint::obey(RunControl& run) const {
+CommandResult Paint::execute(RunControl& run) const {
   if (auto refused = refused_line(run.current_case().wheel, path, radius))
     return Refusal{*std::move(refused)};
   const Stroke stroke{{as, brush_outlines(*this)}, 0};
@@ -47,11 +47,11 @@ Obeyed Paint::obey(RunControl& run) const {
       fmt::format("{} painted at {}", as == Fill::hole ? "a hole" : "material", place_text(path.front())));
 }
 
-Obeyed MoveHole::obey(RunControl& run) const {
+CommandResult MoveHole::execute(RunControl& run) const {
   constexpr double most = 100;
   if (!(scale >= 1 / most && scale <= most))
-    return Refusal{fmt::format("a hole can be made {:.6g} to {:.6g} times as wide, not {:.6g} times",
-                               1 / most, most, scale)};
+    return Refusal{
+        fmt::format("a hole can be scaled by {:.6g} to {:.6g}, not by {:.6g}", 1 / most, most, scale)};
   const std::vector<Point> edge = run.hole_at(at);
   if (edge.empty()) return no_hole(at);
   const Point centre = centroid(edge);
@@ -64,7 +64,7 @@ Obeyed MoveHole::obey(RunControl& run) const {
                fmt::format("the hole at {} moved by {}{}", place_text(at), place_text(by), size));
 }
 
-Obeyed FillHole::obey(RunControl& run) const {
+CommandResult FillHole::execute(RunControl& run) const {
   const std::vector<Point> edge = run.hole_at(at);
   if (edge.empty()) return no_hole(at);
   const Stroke stroke = filling(edge);

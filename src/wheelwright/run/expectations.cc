@@ -32,7 +32,7 @@ KnownNumber clearance(Quantity quantity, const LevelSet<dim>& shape) {
   return clearance->width;
 }
 
-/// What no history has: from the solution.
+/// Quantities that histories do not contain, from the solution.
 template <int dim>
 KnownNumber computed(Quantity quantity, const StateSolver<dim>& solver, const LevelSet<dim>& shape,
                      const State<dim>& solution) {
@@ -43,14 +43,14 @@ KnownNumber computed(Quantity quantity, const StateSolver<dim>& solver, const Le
   return value.over_positions.value_or(value.of_shape);
 }
 
-/// The place of a load case of that name; the first one's if there is none.
+/// The index of the load case of that name; 0 if there is none.
 template <int dim>
 int place_of(const LoadCases<dim>& cases, const std::string& load_case) {
   const auto found = std::ranges::find(cases, load_case, &LoadCase<dim>::name);
   return found == cases.end() ? 0 : static_cast<int>(found - cases.begin());
 }
 
-/// The quantity under a load case, as history.csv names it.
+/// The quantity under a load case, named as in history.csv.
 template <int dim>
 std::string quantity_name(const Expectation& expectation, const LoadCases<dim>& cases) {
   return name_in_case(std::string(name(expectation.quantity)), cases, place_of(cases, expectation.load_case));
@@ -99,7 +99,7 @@ std::string Finding::text() const {
   const std::string quantity = fmt::format("{}{} of {}", name(expectation.quantity), in_case, shape);
   const std::string expected =
       fmt::format("{:.6g} within {:.3g} %", expectation.value, 100 * expectation.margin);
-  if (!found) return fmt::format("{}: not known ({}), expected {}", quantity, found.failure(), expected);
+  if (!found) return fmt::format("{}: unknown ({}), expected {}", quantity, found.failure(), expected);
   return fmt::format("{}: {:.6g}, {} {}", quantity, *found, met() ? "as expected," : "expected", expected);
 }
 
@@ -155,7 +155,7 @@ std::vector<Finding> findings(const std::vector<Expectation>& expectations,
     });
     const KnownNumber missing = last.iteration < *expectation.iteration
                                     ? fmt::format("the run ended with shape {}", last.iteration)
-                                    : std::string("it could not be computed of this shape");
+                                    : std::string("it could not be computed for this shape");
     result.push_back({expectation, noted == found.end() ? missing : noted->value});
   }
   return result;

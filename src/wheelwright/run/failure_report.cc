@@ -33,8 +33,7 @@ std::string volume_hint(const InitialShape<dim>& initial, const OptimizationStat
   if (std::abs(to - from) < near) return "";
   return fmt::format(
       "volume.target = {:.6g} may be the reason: the volume was {:.6g} of the ring at first and {:.6g} at "
-      "last; "
-      "a target nearer to the first may succeed, or a smaller volume.rate",
+      "last; a target closer to the first may succeed, or a smaller volume.rate",
       to, from, volume_fraction(grid, last.measure));
 }
 
@@ -69,11 +68,11 @@ std::string report(const RunEnded<dim>& failure, const RunView<dim>& run) {
          "rejected.svg        the shape that failed last; in 3D its mid-plane\n"
          "rejected.levelset   its level set; the format is in src/wheelwright/files/level_set_file.h\n"
          "accepted.levelset   that of the last accepted shape, if there is one\n"
-         "case.toml           the case with every key; `wheelwright check` tells what follows from it\n"
+         "case.toml           the case with every key; `wheelwright check` prints the derived values\n"
          "../history.csv      every trial of the run\n";
 }
 
-/// The shape as it can be drawn: its mid-plane section, nodes without a finite value as holes.
+/// A drawable version of the shape: its mid-plane section, with nodes that are not finite as holes.
 template <int dim>
 LevelSet<2> drawable(const LevelSet<dim>& shape) {
   LevelSet<2> psi = mid_plane_section(shape);

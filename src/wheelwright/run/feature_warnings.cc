@@ -13,7 +13,7 @@ namespace {
 
 constexpr double mm = 1e3;
 
-/// What curves and quadratic level sets may deviate, relative.
+/// Relative tolerance for curves and quadratic level sets.
 constexpr double tolerated = 0.01;
 
 bool is_too_narrow(const std::optional<cad::Clearance>& measured, std::optional<double> least) {
@@ -49,10 +49,10 @@ std::vector<std::string> feature_warnings(const Case& c, const cad::Clearances& 
     result.push_back(too_narrow("the narrowest gap", *measured.gap, "minimum_gap", *c.optimizer.minimum_gap));
   const double cell = polar_grid<2>(c).resolution();
   if (measured.wall && measured.wall->width < least_cells_per_wall * cell && !is_a_band(c, *measured.wall))
-    result.push_back(fmt::format(
-        "the thinnest wall, {:.4g} mm at {}, is only {:.1f} cells thick: what it carries is not resolved; "
-        "optimizer.minimum_wall keeps walls thick, a finer grid resolves thinner ones",
-        measured.wall->width * mm, place(*measured.wall), measured.wall->width / cell));
+    result.push_back(
+        fmt::format("the thinnest wall, {:.4g} mm at {}, is only {:.1f} cells thick: its stress is not "
+                    "resolved; optimizer.minimum_wall keeps walls thick, a finer grid resolves thinner ones",
+                    measured.wall->width * mm, place(*measured.wall), measured.wall->width / cell));
   return result;
 }
 

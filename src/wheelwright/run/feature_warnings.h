@@ -10,15 +10,15 @@
 
 namespace wheelwright {
 
-/// Below so many cells a wall is computed too coarsely.
+/// Minimum number of cells across a wall for an accurate stress.
 inline constexpr double least_cells_per_wall = 3;
 
-/// What is measured on an outline, judged: a wall or a gap that is more than 1 % narrower than the case
-/// allows, with its place, and a wall of less than three cells that is no band at rim or tread.
+/// Warnings about an outline: a wall or gap more than 1 % narrower than the case allows, with its place, and
+/// a wall of less than three cells that is not a band at rim or tread.
 std::vector<std::string> feature_warnings(const Case& c, const cad::Clearances& measured);
 
 /// The thinnest wall and the narrowest gap of the initial shape; in 3D of its section in the middle of the
-/// width. Fails where no curves can be fitted.
+/// width. Fails if no curves can be fitted.
 Expected<cad::Clearances, cad::OutlineFault> initial_clearances(const Case& c);
 
 }  // namespace wheelwright

@@ -31,7 +31,7 @@ class Solutions {
   bool is_interrupted_ = false;
 };
 
-/// The solver of the results; null where it is the study's own.
+/// The solver of the results; null if it is the study's own.
 template <int dim>
 std::shared_ptr<const StateSolver<dim>> finer_solver(const Study<dim>& study) {
   const Case c = study.computed();

@@ -10,27 +10,26 @@
 
 namespace wheelwright {
 
-/// What a loop has solved already of the shapes that its results show; empty where it would have to be solved
-/// again.
+/// Solutions that a loop already has for its results; empty if they must be computed again.
 template <int dim>
 struct SolvedShapes {
   std::optional<DescribedWheel<dim>> initial;  ///< the shape that the run began with, by the study's solver
   std::shared_ptr<const State<dim>> last;      ///< by the study's solver, of the last accepted shape
 };
 
-/// The last shape of a run, as its results show it.
+/// The last shape of a run, for its results.
 template <int dim>
 struct FinalResults {
   SolvedStates<dim> own;                           ///< by the study's solver
   std::shared_ptr<const StateSolver<dim>> solver;  ///< of `shown`
-  /// On the tread of the results, which is finer where the case lets the program choose it; else `own`.
+  /// On the tread of the results, which is finer if the case leaves it to the program; else `own`.
   std::shared_ptr<const State<dim>> shown;
   RunSummary<dim>
-      summary;  ///< of the given wheel and the last shape by `solver`; without what has no solution
-  bool is_interrupted = false;  ///< and therefore without some of this
+      summary;  ///< of the given wheel and the last shape by `solver`; without numbers that have no solution
+  bool is_interrupted = false;  ///< and therefore incomplete
 };
 
-/// Solves what is not solved yet.
+/// Computes the missing solutions.
 template <int dim>
 FinalResults<dim> final_results(const Study<dim>& study, const InitialShape<dim>& initial,
                                 const OptimizationState<dim>& state, const SolvedShapes<dim>& solved,

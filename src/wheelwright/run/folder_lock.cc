@@ -20,7 +20,7 @@ namespace {
 /// 0, or the errno.
 int lock(int file) { return ::flock(file, LOCK_EX | LOCK_NB) == 0 ? 0 : errno; }
 
-/// What the holder of a lock wrote to its file.
+/// The holder of a lock, as written to its file.
 FolderInUse holder(const std::filesystem::path& path) {
   std::ifstream file(path);
   long process = 0;
@@ -28,7 +28,7 @@ FolderInUse holder(const std::filesystem::path& path) {
   return {};
 }
 
-/// Writes the id of this process to the file. What cannot be written is lost: the lock holds all the same.
+/// Writes the id of this process to the file. Errors are ignored: the lock holds regardless.
 void sign(int file) {
   const std::string text = fmt::format("{}\n", ::getpid());
   if (::ftruncate(file, 0) == 0 && ::pwrite(file, text.data(), text.size(), 0) < 0) return;

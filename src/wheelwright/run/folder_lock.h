@@ -19,13 +19,13 @@ struct FolderInUse {
 /// "process 1234", or "another process".
 std::string to_string(const FolderInUse& in_use);
 
-/// The right of one process to write to a folder. It ends with this object or with the process, however that
-/// ends, so that no dead process blocks a folder.
+/// The exclusive right of a process to write to a folder. It ends with this object or with the process,
+/// however that ends, so that a dead process never blocks a folder.
 class FolderLock {
  public:
   /// Creates the folder, if it does not exist, and the file run.lock in it. Locks both: somebody may remove
-  /// the file, and on some file systems of networks a folder cannot be locked. The file tells the id of this
-  /// process. Fails if another process holds either lock. Throws OutputError.
+  /// the file, and some network file systems cannot lock folders. The file contains the id of this process.
+  /// Fails if another process holds either lock. Throws OutputError.
   static Expected<FolderLock, FolderInUse> acquire(const std::filesystem::path& folder);
 
   FolderLock(FolderLock&& other) noexcept;

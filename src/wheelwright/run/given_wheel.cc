@@ -9,7 +9,7 @@
 namespace wheelwright {
 namespace {
 
-/// A number that changed; empty where it did not, by what people would tell.
+/// A number that changed; empty if the change is negligible.
 std::string change(const char* label, double factor, const char* unit, double from, double to) {
   constexpr double told = 1e-3;
   if (std::abs(to - from) <= told * std::abs(from)) return "";
@@ -49,9 +49,8 @@ std::string changed_start(const Study<dim>& study, const InitialShape<dim>& star
   if (from && to)
     changes += change("thinnest wall", from->clearances.wall, to->clearances.wall) +
                change("narrowest gap", from->clearances.gap, to->clearances.gap);
-  return "\"before\" is the wheel as the case gives it. The run began with a changed one, which has the "
-         "volume "
-         "and the widths that the case asks for and no loose pieces" +
+  return "\"before\" is the wheel as the case gives it. The run started from a modified one, with the volume "
+         "and the widths that the case requires and without loose pieces" +
          changes + ".";
 }
 

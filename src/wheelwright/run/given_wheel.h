@@ -7,12 +7,12 @@
 
 namespace wheelwright {
 
-// The wheel as the case gives it is what a run is compared with. The run itself begins with a shape that has
-// no loose pieces, and the widths and the volume that the case asks for: with another wheel, where the given
-// one has them not.
+// A run is compared with the wheel as given by the case. The run itself starts from a shape without loose
+// pieces, with the widths and the volume that the case requires: a different wheel if the given one does not
+// have these.
 
-/// Whether a run begins with the given wheel as it is. After a stop on a coarser grid, where the wheel is
-/// given anew, it does.
+/// Whether a run starts from the given wheel unchanged. True after a stop on a coarser grid, where the wheel
+/// is given again.
 template <int dim>
 bool begins_as_given(const Study<dim>& study, const InitialShape<dim>& start);
 
@@ -21,8 +21,8 @@ template <int dim>
 Expected<double> objective_as_given(const Study<dim>& study, const InitialShape<dim>& start,
                                     const Interrupt& interrupt);
 
-/// How the wheel that a run begins with differs from the given one, in one line for people; empty if it
-/// begins as given.
+/// How the wheel from which a run starts differs from the given one, in one readable line; empty if it does
+/// not.
 template <int dim>
 std::string changed_start(const Study<dim>& study, const InitialShape<dim>& start);
 

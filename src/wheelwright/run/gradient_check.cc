@@ -14,12 +14,12 @@ namespace {
 constexpr int n_directions = 4;
 constexpr int halvings = 3;
 
-/// The largest step, by the resolution of the grid. In 3D the cut quadrature is less exact, so that the last
-/// remainders of smaller steps would be its own.
+/// The largest step, in units of the resolution. In 3D the cut quadrature is less accurate, so that the last
+/// remainders of smaller steps would be quadrature errors.
 template <int dim>
 constexpr double largest_step = dim == 2 ? 1e-3 : 4e-3;
 
-/// A field with several wave lengths, equal in all sectors, of size 1.
+/// A field with several wavelengths, equal in all sectors, of size 1.
 template <int dim>
 std::vector<double> smooth_field(const Lattice<dim>& lattice, int number) {
   const PolarGrid<dim>& grid = lattice.grid();
@@ -66,7 +66,7 @@ std::optional<Cuts<dim>> cuts(const LevelSet<dim>& psi) {
   return result;
 }
 
-/// The cells that two shapes cut differently.
+/// The cells that are cut differently by two shapes.
 template <int dim>
 std::set<int> differing_cells(const Cuts<dim>& a, const Cuts<dim>& b) {
   std::set<int> cells;
@@ -114,8 +114,7 @@ std::set<std::tuple<int, int, int, bool>> contact_status(const Evaluated<dim>& e
 template <int dim>
 using EvaluateShape = std::function<Expected<Evaluated<dim>>(const LevelSet<dim>&)>;
 
-/// The largest step within which no point changes its contact status, of some that are tried, or the smallest
-/// of them.
+/// The largest tried step within which no point changes its contact status, or else the smallest one.
 template <int dim>
 Expected<double> step_of_one_status(const EvaluateShape<dim>& evaluate, const Evaluated<dim>& start,
                                     const LevelSet<dim>& psi, const std::vector<double>& direction,
@@ -143,7 +142,7 @@ bool is_maximum(Quantity quantity, OverPositions over) {
   }
 }
 
-/// Whether a function of a case has the gradient of a smooth neighbour.
+/// Whether a function of a case has the gradient of a smooth approximation.
 bool is_smoothed(const Case& c, const std::string& function) {
   if (function == "objective") return is_maximum(c.objective.minimize, c.objective.over);
   if (function == "volume") return false;
@@ -208,15 +207,14 @@ Expected<std::vector<GradientCheck>> check_gradients(const Study<dim>& study, co
                                       study.load_cases);
   };
   std::vector<GradientCheck> best;
-  Failure failure{
-      FailureReason::empty_shape,
-      "the wheel has no boundary that can move: no holes, or only such as lie on protected bands"};
+  Failure failure{FailureReason::empty_shape,
+                  "the wheel has no boundary that can move: no holes, or only holes on protected bands"};
   for (int k = 0; k < n_directions && (best.empty() || std::ranges::any_of(best, &GradientCheck::failed));
        ++k) {
     double step = largest_step<dim> * shape.lattice.grid().resolution();
     const std::vector<double> direction = test_direction(shape, k, 3 * step);
     if (!moves_boundary(shape, direction)) continue;
-    // At the shape itself edges may lie on nodes, and a symmetric wheel is solved as a part of it.
+    // At the shape itself edges may lie on nodes, and a symmetric wheel is solved only in part.
     const LevelSet<dim> beside = moved(shape, direction, 2 * step);
     const auto start = evaluate(beside);
     if (!start) {

@@ -37,7 +37,7 @@ std::string phase_cell(const std::vector<PhaseTime>& phases, const std::string& 
 constexpr std::size_t cells_before_terms = 5;  // up to the objective
 constexpr const char* volume_fraction_column = "volume fraction";
 
-/// What the file's header says between the objective and the column `next`.
+/// The columns of the file's header between the objective and the column `next`.
 std::vector<HistoryColumns::Quantity> term_columns(const std::filesystem::path& path,
                                                    const std::string& next) {
   std::ifstream file(path);
@@ -68,7 +68,7 @@ bool begins_with(const std::filesystem::path& path, const HistoryMark& mark) {
          checksum(start) == mark.checksum;
 }
 
-/// The history that the mark was taken of, back in its place if other columns were added since.
+/// Restores the history of the mark if columns were added since.
 const std::filesystem::path& put_back(const std::filesystem::path& path, const HistoryMark& mark) {
   if (begins_with(path, mark)) return path;
   std::error_code error;
@@ -82,8 +82,8 @@ std::filesystem::path claimed(std::filesystem::path path) {
   return path;
 }
 
-/// CSV with other cells behind the first `place` cells of each line, which must hold no quotes; the header
-/// gets `names`, other lines empty cells.
+/// CSV with additional cells after the first `place` cells of each line, which must not contain quotes; the
+/// header gets `names`, other lines empty cells.
 std::string with_cells(std::string_view csv, std::size_t place, const std::string& names) {
   const std::string empty(static_cast<std::size_t>(std::ranges::count(names, ',')), ',');
   std::string result;

@@ -26,10 +26,10 @@ struct HistoryColumns {
   std::vector<std::string> phases = {};  ///< one column each, in seconds, by the names of Evaluation::phases
 };
 
-/// One trial shape, accepted or not. NaN, and values that a failed evaluation did not reach, are written as
-/// empty cells.
+/// One trial shape, accepted or not. NaN, and values not reached by a failed evaluation, are written as empty
+/// cells.
 struct HistoryRow {
-  int iteration;  ///< number of the shape that this trial wants to become
+  int iteration;  ///< number that the shape gets if accepted
   int trial;      ///< counts the step halvings of one iteration
   bool accepted;
   std::string reason;  ///< why it was rejected, e.g. "newton_stalled"; empty when accepted
@@ -37,49 +37,49 @@ struct HistoryRow {
   std::vector<TermValue> terms;
   std::vector<MeasureValue> measures;
   double volume_fraction;               ///< material area over the area of the full ring
-  double step;                          ///< farthest that the boundary travelled [m]
+  double step;                          ///< maximum motion of the boundary [m]
   double max_velocity;                  ///< largest normal velocity, in units of the gradient density [Pa]
   int max_newton_iterations;            ///< over the load positions
-  std::vector<BoundState> bounds = {};  ///< in the order of the columns; empty: none was evaluated
+  std::vector<BoundState> bounds = {};  ///< in the order of the columns; empty: not evaluated
   std::vector<PhaseTime> phases;
   double trial_seconds;                  ///< wall time of this trial
   double elapsed_seconds;                ///< wall time since the run began
-  std::vector<std::string> events = {};  ///< what happened to the shape besides the motion of its boundary
+  std::vector<std::string> events = {};  ///< changes of the shape other than the motion of its boundary
 };
 
 /// The name of the file in a run's folder.
 inline constexpr const char* history_file = "history.csv";
 
-/// A place in a history file: the number of bytes before it, and their checksum.
+/// A position in a history file: the number of bytes before it, and their checksum.
 struct HistoryMark {
   std::uint64_t bytes = 0;
   std::uint32_t checksum = 0;
 };
 
-/// history.csv: a header that names the units, then one row per trial, on disk as soon as it is added.
-/// Numbers have as few digits as read back to the same double.
+/// history.csv: a header with units, then one row per trial, written to disk immediately. Numbers have the
+/// fewest digits that read back to the same double.
 class History {
  public:
   /// Replaces the file. Throws OutputError.
   History(std::filesystem::path path, HistoryColumns columns);
 
-  /// Continues at a place of the file, for which holds() is true, and drops the rows behind it. The columns
-  /// of terms are those of the file, whatever `columns` says. Throws OutputError.
+  /// Continues at a position of the file, for which holds() is true, and drops the rows after it. The columns
+  /// of terms are those of the file, whatever `columns` contains. Throws OutputError.
   History(std::filesystem::path path, HistoryColumns columns, const HistoryMark& end);
 
-  /// Adds empty columns behind those of the terms. The file as it was is kept beside it, for a checkpoint
-  /// that was written before. Throws OutputError.
+  /// Adds empty columns after those of the terms. Keeps a copy of the old file, for checkpoints written
+  /// before. Throws OutputError.
   void add_terms(const std::vector<HistoryColumns::Quantity>& terms);
 
   const HistoryColumns& columns() const { return columns_; }
 
-  /// Whether the file, or the one that add_terms() kept, begins with what the mark was taken of.
+  /// Whether the file, or the copy kept by add_terms(), starts with the bytes of the mark.
   static bool holds(const std::filesystem::path& path, const HistoryMark& mark);
 
   /// Throws OutputError.
   void add(const HistoryRow& row);
 
-  /// The end of the file as it is now.
+  /// The current end of the file.
   const HistoryMark& end() const { return end_; }
 
   /// Returns when all rows are on the disk. Throws OutputError.

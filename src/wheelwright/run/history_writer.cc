@@ -22,7 +22,7 @@ constexpr std::array<std::pair<const char*, const char*>, 5> peak_columns{{{"pea
                                                                            {"peak_von_mises_position", "deg"},
                                                                            {"largest_strain", "-"}}};
 
-/// The unit of a functional; what is no quantity of its own is an energy, or the material's volume.
+/// The unit of a functional; one that is not a Quantity is an energy, or the material's volume.
 template <int dim>
 const char* unit_of(const std::string& functional) {
   if (functional == "volume") return dim == 2 ? "m^2" : "m^3";

@@ -7,9 +7,9 @@
 
 namespace wheelwright {
 
-/// Writes history.csv: one row per trial shape. A change of the case, of the grid, or of the shape by a
-/// command is an event of the row of the shape that is evaluated then; a functional that it adds gets a
-/// column, which is empty in the rows before.
+/// Writes history.csv: one row per trial shape. A change of the case, the grid, or the shape by a command is
+/// an event in the row of the shape evaluated next; a functional that it adds gets a column, which is empty
+/// in earlier rows.
 template <int dim>
 class HistoryWriter : public Observer<dim> {
  public:

@@ -17,9 +17,9 @@ std::vector<std::string> loose_pieces(const Case& c) {
   if (!attached) return {attached.failure().detail};
   std::vector<std::string> pieces;
   for (const ShapeEvent<dim>& piece : attached->removed)
-    pieces.push_back(fmt::format(
-        "material of {} at {} is connected with nothing: join it to the rim by material, or remove it",
-        measure_text<dim>(piece.measure), place_text<dim>(piece.place)));
+    pieces.push_back(
+        fmt::format("material of {} at {} is loose: connect it to the rim by material, or remove it",
+                    measure_text<dim>(piece.measure), place_text<dim>(piece.place)));
   return pieces;
 }
 

@@ -7,8 +7,8 @@
 
 namespace wheelwright {
 
-/// The pieces of material of a case's initial shape that nothing connects with the rim, each with its place
-/// and size; a wheel with them cannot be computed.
+/// The pieces of material of a case's initial shape that are not connected to the rim, with place and size; a
+/// wheel with such pieces cannot be computed.
 std::vector<std::string> loose_material(const Case& c);
 
 }  // namespace wheelwright

@@ -12,9 +12,9 @@ HoleRules hole_rules(const Study<2>& study) {
   constexpr double cells_per_radius = 1.5, cells_per_wall = 2, wider = 1.02, most_share = 0.03;
   const PolarGrid<2>& grid = study.grid();
   const double h = grid.resolution();
-  const FeatureSize& least = study.evolution.features;
-  return {.radius = std::max(cells_per_radius * h, 0.5 * wider * least.gap),
-          .wall = std::max(cells_per_wall * h, least.wall),
+  const FeatureSize& minimum = study.evolution.features;
+  return {.radius = std::max(cells_per_radius * h, 0.5 * wider * minimum.gap),
+          .wall = std::max(cells_per_wall * h, minimum.wall),
           .range = hole_range(grid, study.evolution.bands),
           .most_area = most_share * sector_measure<2>(grid),
           .must_pay = true};

@@ -15,15 +15,15 @@
 
 namespace wheelwright {
 
-// What happens in a run, as its observers are told. References and pointers are valid during the call only.
+// The events of a run, as passed to its observers. References and pointers are valid only during the call.
 
-/// The run begins, or is resumed after this shape.
+/// The run starts, or is resumed after this shape.
 struct RunStarted {
   std::optional<int> resumed_after;
 };
 
-/// A shape was tried. `state` is the last accepted one, this trial's if it was accepted. When the case of the
-/// run changed, the current shape is evaluated anew, as an accepted trial of the same iteration.
+/// A shape was tried. `state` is the last accepted one, this trial's if it was accepted. If the case of the
+/// run changed, the current shape is evaluated again, as an accepted trial of the same iteration.
 template <int dim>
 struct TrialDone {
   const Trial<dim>& trial;
@@ -31,7 +31,7 @@ struct TrialDone {
   double seconds;  ///< of this trial
 };
 
-/// The contact of a shape is being solved; told every few seconds, so that long solves show that they go on.
+/// The contact of a shape is being solved; sent every few seconds, to show the progress of long solves.
 struct ContactAdvanced {
   ContactProgress progress;
 };
@@ -42,24 +42,25 @@ struct SaveRequested {
   const OptimizationState<dim>& state;
 };
 
-/// A command was obeyed, or refused.
+/// A command was executed or refused.
 struct CommandDone {
-  const Command* command;  ///< null where the run gave it to itself
+  const Command* command;  ///< null if issued by the run itself
   std::string text;        ///< what was done, or why it was refused; may be empty
-  bool was_obeyed;
+  bool was_executed;
 };
 
-/// The case is another one from now on (RunView::study); the current shape is evaluated anew next.
+/// The case has changed (RunView::study); the current shape is evaluated again next.
 struct CaseChanged {
   std::string text;  ///< what changed
 };
 
-/// A command, or the making of holes, replaced the current shape; the new one is evaluated next.
+/// A command, or nucleation, replaced the current shape; the new one is evaluated next.
 struct ShapeReplaced {
   std::string text;  ///< by what
 };
 
-/// A command drew another shape, which is evaluated next: ShapeReplaced follows, or a refusal of the command.
+/// A command drew a new shape, which is evaluated next: followed by ShapeReplaced, or by a refusal of the
+/// command.
 template <int dim>
 struct ShapeProposed {
   const LevelSet<dim>& shape;
@@ -67,13 +68,14 @@ struct ShapeProposed {
 
 /// The run waits for commands, saved.
 struct RunWaits {
-  std::optional<StopReason> reason;  ///< why there is nothing to do; empty: it was told to pause
+  std::optional<StopReason> reason;  ///< why there is nothing to do; empty: paused by a command
 };
 
-/// A run that waited proceeds.
+/// A waiting run continues.
 struct RunProceeds {};
 
-/// The descent proceeds on another grid (RunView::study); the current shape, moved there, is evaluated next.
+/// The descent continues on another grid (RunView::study); the current shape, transferred to it, is evaluated
+/// next.
 struct GridChanged {
   std::string text;  ///< the grid
 };
@@ -89,8 +91,8 @@ struct RunEnded {
   std::span<const Trial<dim>> failed_trials;  ///< after the last accepted shape
 };
 
-/// One load position of the last shape of a run: all of them are told before RunEnded, in their order, where
-/// the shape has a solution.
+/// One load position of the last shape of a run: if the shape has a solution, all of them are sent before
+/// RunEnded, in order.
 template <int dim>
 struct PositionShown {
   const RunEnded<dim>& ended;
@@ -117,14 +119,14 @@ struct RunView {
   const Evolver<dim>& evolver;       ///< the loop's
   const InitialShape<dim>* initial;  ///< null before the first shape
   const Nucleation<dim>& nucleation;
-  double elapsed_seconds;           ///< computed so far, before a resumption too
+  double elapsed_seconds;           ///< of computation so far, including before a resumption
   bool can_undo;                    ///< whether there is something for the command Undo
-  const Observers<dim>& observers;  ///< all of them, for whom a checkpoint asks
+  const Observers<dim>& observers;  ///< all of them; they contribute to checkpoints
 };
 
-/// Watches a run. The run knows nothing of what its observers do; none of them solves or factors anything. To
-/// add one: a class like this in a file of its own, and its line in make_observers() (run/observers.cc), or
-/// in a call of Run::add() from outside.
+/// Observes a run. The run does not know what its observers do; none of them solves or factors anything. To
+/// add one, write a class like this in its own file, and add a line to make_observers() (run/observers.cc),
+/// or call Run::add() from outside.
 template <int dim>
 class Observer {
  public:
@@ -133,8 +135,8 @@ class Observer {
   /// Throws OutputError if it writes files.
   virtual void operator()(const Event<dim>& event, const RunView<dim>& run) = 0;
 
-  /// Adds to a checkpoint what this observer needs when the run is resumed after the last accepted shape;
-  /// files that it refers to are on the disk then. Throws OutputError.
+  /// Adds to a checkpoint what this observer needs to resume after the last accepted shape; files that it
+  /// refers to are on disk when it returns. Throws OutputError.
   virtual void add_to(Checkpoint<dim>&) {}
 };
 

@@ -5,9 +5,8 @@
 
 namespace wheelwright {
 
-/// The observers of every run, in the order in which they are told: the one that writes checkpoints comes
-/// last, so that what it says about the others is done. Pictures of the descent are
-/// written in 2D only: they are plane.
+/// The observers of every run, in the order of notification: the one that writes checkpoints is last, so that
+/// they reflect the finished work of the others. Pictures of the descent are plane, and written only in 2D.
 template <int dim>
 Observers<dim> make_observers(const Case& c, const CheckpointFolder& checkpoints,
                               const std::optional<Checkpoint<dim>>& resumed);

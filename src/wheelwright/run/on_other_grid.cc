@@ -7,7 +7,7 @@
 namespace wheelwright {
 namespace {
 
-/// How the holes of a shape changed on its way to another grid.
+/// Changes of the holes of a shape by its transfer to another grid.
 template <int dim>
 std::vector<ShapeEvent<dim>> changes_by_grid(const LevelSet<dim>& before, const LevelSet<dim>& after) {
   PolarGrid<dim> fine = after.lattice.grid();

@@ -8,11 +8,11 @@
 
 namespace wheelwright {
 
-/// A state whose shape stands on another grid; its evaluation is still that of the shape that it was.
+/// A state whose shape was transferred to another grid; its evaluation is still that of the original shape.
 template <int dim>
 struct OnOtherGrid {
   OptimizationState<dim> state;
-  std::vector<ShapeEvent<dim>> events;  ///< how the grid changed its holes
+  std::vector<ShapeEvent<dim>> events;  ///< changes of its holes by the transfer
 };
 
 /// The state's shape on the lattice, with the same measure and the evolver's bands. Fails as

@@ -13,12 +13,12 @@
 namespace wheelwright {
 namespace {
 
-/// What a plane may differ from three dimensions by.
+/// Accepted difference between 2D and 3D.
 constexpr double tolerable = 0.1;
 
 constexpr int most_cells_of_a_section = 3'500, least_rows = 6, axial_cells = 4, positions = 2;
 
-/// The case in three dimensions with few cells, as wide as it is, its side faces free.
+/// The case in 3D with few cells, with its width and free side faces.
 Case coarse_solid(Case c) {
   if (!c.load.cases.empty()) c = with_load_case(c, 0);
   c.load.cases.clear();
@@ -104,14 +104,13 @@ std::optional<std::string> plane_warning(const Case& c, const PlaneComparison& c
   const auto better = comparison.recommended();
   const Plane other = c.material.plane == Plane::strain ? Plane::stress : Plane::strain;
   const double ring = c.wheel.outer_radius - c.wheel.inner_radius;
-  const std::string remedy =
-      better ? fmt::format("with material.plane = \"{}\" it is {}", word(*better),
-                           difference(comparison.error(*better)))
-             : fmt::format("plane {} is {}; wheel.dimension = 3 computes the wheel as it is", word(other),
-                           difference(comparison.error(other)));
+  const std::string remedy = better ? fmt::format("with material.plane = \"{}\" it is {}", word(*better),
+                                                  difference(comparison.error(*better)))
+                                    : fmt::format("plane {} is {}; use wheel.dimension = 3", word(other),
+                                                  difference(comparison.error(other)));
   return fmt::format(
-      "plane {}: the wheel is {} than in three dimensions on {}, as its width is {:.2g} times the ring's "
-      "thickness; {}",
+      "plane {}: the wheel is {} than in 3D on {}, because its width is {:.2g} times the ring's thickness; "
+      "{}",
       word(c.material.plane), difference(error), comparison.grid, c.wheel.width / ring, remedy);
 }
 

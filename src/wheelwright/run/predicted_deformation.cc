@@ -12,7 +12,7 @@
 namespace wheelwright {
 namespace {
 
-/// Cells of a grid that is solved in about a tenth of a second.
+/// Number of cells that is solved in about a tenth of a second.
 constexpr int most_cells = 6'000;
 constexpr int least_rows = 6;
 
@@ -24,7 +24,7 @@ bool is_prismatic(const Case& c) {
   return c.holes.spheres.empty() && c.holes.tapered.empty() && !(saved && saved->index() == 1);
 }
 
-/// The wheel in the plane, which the middle of its width shows.
+/// The wheel in 2D, as in the middle of its width.
 Case in_the_plane(Case c) {
   c.wheel.dimension = 2;
   c.load.lateral_force = c.load.camber = 0;
@@ -45,7 +45,7 @@ Expected<DeformationSize> deformation_of(const Case& c, const Interrupt& interru
   return deformation_size(**solver, shape, **state);
 }
 
-/// Under the one load of a case.
+/// Under the only load of a case.
 std::optional<std::string> predicted_under_load(const Case& source, const Interrupt& interrupt) {
   if (!is_prismatic(source)) return {};
   const Case coarse = on_predicting_grid(in_the_plane(source));

@@ -8,8 +8,8 @@ namespace wheelwright {
 /// The version of the program, its commit and its compiler, as one line.
 std::string program_text();
 
-/// What a run of the case depends on. Title, output, expectations and keys that only end a run
-/// (optimizer.iterations and tolerance) are left out: they may change before a run is resumed.
+/// Everything that a run of the case depends on, except title, output, expectations and keys that only end a
+/// run (optimizer.iterations and tolerance): these may change before a run is resumed.
 Provenance provenance(const Case& c);
 
 }  // namespace wheelwright

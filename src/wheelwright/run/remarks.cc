@@ -14,20 +14,22 @@ namespace {
 
 using Value = std::optional<double> JudgedWheel::*;
 
-/// Changes below a tenth are no remark, nor are variations that grew by less than a hundredth of what varies.
+/// No remark for changes below a tenth, or for variations that grew by less than a hundredth of the varying
+/// quantity.
 constexpr double clearly = 0.1, least_variation = 0.01;
 
-/// A number by which wheels are judged, and how it is bounded.
+/// A number by which wheels are judged, and the quantity that bounds it.
 struct Measure {
   Value value;
   std::string_view key, label;
   UnitKind kind;
   bool is_larger_better;
-  Value varies_about;                  ///< what a variation is compared with; null for others
-  std::string_view meaning;            ///< of the change
-  std::array<Quantity, 2> bounded_by;  ///< the first one that the case may bound; the same twice if one only
+  Value varies_about;        ///< reference of a variation; null for others
+  std::string_view meaning;  ///< of the change
+  std::array<Quantity, 2>
+      bounded_by;  ///< the first one that the case may bound; twice the same if there is only one
   OverPositions over;
-  std::vector<Quantity> bounded_as;  ///< quantities whose bounds hold this one too
+  std::vector<Quantity> bounded_as;  ///< quantities whose bounds also bound this one
 };
 
 const std::vector<Measure>& measures() {
@@ -38,7 +40,7 @@ const std::vector<Measure>& measures() {
        UnitKind::stiffness,
        true,
        nullptr,
-       "the wheel gives way more",
+       "the wheel is softer",
        {Quantity::stiffness, Quantity::stiffness},
        OverPositions::mean,
        {Quantity::stiffness, Quantity::mean_travel, Quantity::travel, Quantity::strain_energy}},
@@ -68,7 +70,7 @@ const std::vector<Measure>& measures() {
        UnitKind::stress,
        false,
        nullptr,
-       "tread and floor are pressed harder",
+       "tread and ground carry a higher pressure",
        {Quantity::peak_pressure, Quantity::peak_pressure},
        OverPositions::worst,
        {Quantity::peak_pressure}},
@@ -103,7 +105,7 @@ bool is_clearly_worse(const Measure& m, const JudgedWheel& before, const JudgedW
   return to > (1 + clearly) * from && to - from > least_variation * varies_about;
 }
 
-/// Whether the case bounds one of the quantities to that side, under that load case.
+/// Whether the case bounds one of the quantities on that side, under that load case.
 bool is_bounded(const Case& c, const Measure& m, const std::string& load_case) {
   return std::ranges::any_of(c.constraints, [&](const Constraint& bound) {
     const bool is_this = std::ranges::find(m.bounded_as, bound.quantity) != m.bounded_as.end() &&
@@ -113,7 +115,7 @@ bool is_bounded(const Case& c, const Measure& m, const std::string& load_case) {
   });
 }
 
-/// Rounded to three digits, away from what it bounds.
+/// Rounded to three digits, towards the less strict side.
 double rounded(double value, bool is_upper) {
   const double digit = std::pow(10.0, std::floor(std::log10(value)) - 2);
   const double multiple = is_upper ? std::ceil(value / digit) : std::floor(value / digit);
@@ -125,8 +127,8 @@ const Measure& measure_of(Quantity quantity) {
   return *std::ranges::find_if(measures(), [&](const Measure& m) { return m.bounded_by[0] == quantity; });
 }
 
-/// A bound that keeps the quantity at its value from before; empty where the case may not bound it or does so
-/// already, or where there is no such value.
+/// A bound that keeps the quantity at its earlier value; empty if the case cannot bound it or already does,
+/// or if there is no such value.
 std::optional<Constraint> bound(const Case& c, const Measure& m, const std::string& load_case,
                                 const JudgedWheel& before) {
   for (const Quantity quantity : m.bounded_by) {
@@ -146,7 +148,7 @@ std::optional<Constraint> bound(const Case& c, const Measure& m, const std::stri
   return {};
 }
 
-/// As it stands in a case file.
+/// As written in a case file.
 std::string lines(const Constraint& constraint, const Wheel& wheel, const JudgedWheel& before) {
   const Measure& m = measure_of(constraint.quantity);
   std::string text = fmt::format("[[constraint]]\nquantity = \"{}\"\n", name(constraint.quantity));
@@ -200,7 +202,7 @@ std::vector<Remark> remarks(const Case& c, const std::string& load_case, const J
     if (same != result.end()) {
       remark.constraint.clear();
       remark.text.pop_back();
-      remark.text += "; the bound above holds it too.";
+      remark.text += "; the bound above also bounds it.";
     }
     result.push_back(std::move(remark));
   }

@@ -10,7 +10,8 @@
 
 namespace wheelwright {
 
-/// What a wheel is judged by under one load: in SI units, on the whole width; nothing where it is not known.
+/// The numbers by which a wheel is judged under one load: in SI units, on the whole width; nothing if
+/// unknown.
 struct JudgedWheel {
   std::optional<double> load = {}, mean_travel = {}, stiffness = {}, run_out = {}, force_variation = {},
                         peak_pressure = {}, peak_von_mises = {}, largest_strain = {};
@@ -20,10 +21,10 @@ template <int dim>
 JudgedWheel judged(const DescribedWheel<dim>& wheel);
 
 /// The numbers that are worse by a tenth or more after an optimization: a lower stiffness; a larger run-out
-/// or force variation, by at least 1 % of the travel or the load; a larger pressure, stress or strain. What
-/// the case bounds is left out. Walls and gaps are the matter of feature_warnings(). The constraints hold the
-/// value from before, and the case with them is valid. `load_case`: the name of the case's load case; empty
-/// if it has one load.
+/// or force variation, by at least 1 % of the travel or the load; a larger pressure, stress or strain.
+/// Quantities bounded by the case are omitted. Walls and gaps are covered by feature_warnings(). The
+/// constraints keep the earlier value, and the case with them is valid. `load_case`: the name of the case's
+/// load case; empty if it has one load.
 std::vector<Remark> remarks(const Case& c, const std::string& load_case, const JudgedWheel& before,
                             const JudgedWheel& after);
 

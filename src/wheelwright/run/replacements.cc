@@ -33,7 +33,7 @@ Expected<LevelSet<dim>, Refusal> read_shape(const std::filesystem::path& file) {
   return *std::move(shape);
 }
 
-/// Whether shapes of one grid are shapes of the other: their sectors are equal rings.
+/// Whether shapes on one grid fit the other: same ring and same sectors.
 template <int dim>
 bool is_same_wheel(const PolarGrid<dim>& a, const PolarGrid<dim>& b) {
   constexpr double near = 1e-9;

@@ -17,7 +17,7 @@ constexpr const char* page_file = "report.html";
 constexpr double least_seconds_between_pages = 5;
 constexpr double most_share_of_time = 0.01;
 
-/// Keeps the lines of the shapes up to the one that the run goes on from.
+/// Keeps the lines of the shapes up to the one from which the run continues.
 void keep_outlines(const std::filesystem::path& folder, std::optional<int> resumed_after) {
   std::string kept;
   std::ifstream stream(folder / outline_file);

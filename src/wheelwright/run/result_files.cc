@@ -66,7 +66,7 @@ void write_shapes(const RunView<dim>& run, const OptimizationState<dim>& last,
                                      .after = after}));
 }
 
-/// The wheel under every load case but the first one: its pictures in its worst position, in the folder
+/// The wheel under every load case except the first: its pictures at its worst position, in the folder
 /// load_cases.
 template <int dim>
 void write_other_load_cases(const RunView<dim>& run, const StateSolver<dim>& solver,

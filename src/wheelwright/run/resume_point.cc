@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Why a checkpoint cannot be used, in words.
+/// Why a checkpoint is unusable, as text.
 struct Unusable {
   std::string reason;
 };
@@ -40,7 +40,7 @@ std::string first_difference(const std::string& then, const std::string& now) {
   return "it has other keys";
 }
 
-/// Whether the remembered moves are vectors, or speeds, as this velocity needs.
+/// Whether the remembered moves are vectors or speeds, as required by this velocity.
 template <int dim>
 bool has_moves_of(VelocityKind velocity, const OptimizationState<dim>& state) {
   const size_t per_node = velocity == VelocityKind::vector ? dim : 1;
@@ -61,11 +61,12 @@ Expected<Checkpoint<dim>, Unusable> read_checkpoint(const fs::path& file, const 
   const std::string &then = checkpoint->provenance.resolved_case, now = provenance(c).resolved_case;
   if (then != now) return Unusable{fmt::format("written for another case: {}", first_difference(then, now))};
   if (!level_of(c, checkpoint->state.shape) || level_of(c, checkpoint->initial.shape) != 0)
-    return Unusable{"its shape stands on another grid than the case's"};
+    return Unusable{"its shape is on another grid than the case's"};
   if (!has_moves_of(velocity_kind(c), checkpoint->state))
     return Unusable{"its moves of the boundary are not of the case's kind"};
   if (!History::holds(history, checkpoint->history))
-    return Unusable{fmt::format("{} does not hold the rows that were written before it", history.string())};
+    return Unusable{
+        fmt::format("{} does not contain the rows that were written before it", history.string())};
   return *std::move(checkpoint);
 }
 

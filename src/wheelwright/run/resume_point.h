@@ -11,21 +11,21 @@
 
 namespace wheelwright {
 
-/// A checkpoint that cannot be used.
+/// An unusable checkpoint.
 struct UnusableCheckpoint {
   std::filesystem::path file;
   std::string reason;
 };
 
-/// What a run's folder holds to continue from.
+/// The checkpoints in a run's folder from which it can continue.
 template <int dim>
 struct ResumePoint {
   CheckpointFolder checkpoints;
-  std::optional<Checkpoint<dim>> newest;     ///< that can be used
-  std::vector<UnusableCheckpoint> unusable;  ///< that are newer
+  std::optional<Checkpoint<dim>> newest;     ///< usable one
+  std::vector<UnusableCheckpoint> unusable;  ///< newer ones
 };
 
-/// The newest checkpoint of this case whose history is there.
+/// The newest checkpoint of this case with an existing history.
 template <int dim>
 ResumePoint<dim> resume_point(const std::filesystem::path& folder, const Case& c);
 

@@ -19,7 +19,7 @@ class RollingFiles {
 
   void write(int position, const PositionFields<dim>& fields);
 
-  /// rolling.pvd: the positions that were written, at the azimuth of the contact in degrees.
+  /// rolling.pvd: the written positions, at the azimuth of the contact in degrees.
   void write_collection() const;
 
  private:

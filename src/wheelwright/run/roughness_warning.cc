@@ -36,9 +36,8 @@ std::string roughness_warning(const Case& c, const std::optional<cad::Roughness>
   const double allowed = std::max(most_turns, is_drawn ? initial->edge.turns + turns_beyond_drawing : 0);
   if (!measured || measured->edge.turns <= allowed) return {};
   return fmt::format(
-      "an edge turns {:.2f} times where its radius is below {:.3g} mm, a cell, most sharply at {}: it has "
-      "teeth "
-      "or ripples of that size, which cannot be cut; {}",
+      "an edge makes {:.2f} turns where its radius is below {:.3g} mm, one cell, most sharply at {}: it has "
+      "teeth or ripples of that size, which cannot be cut; {}",
       measured->edge.turns, measured->length * mm, cad::place_of(measured->edge.sharpest.place), remedy(c));
 }
 

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether the history tells of trials after the initial shape, which is saved before them.
+/// Whether the history contains trials after the initial shape, which is saved before them.
 bool has_trials(const fs::path& history) {
   constexpr std::ptrdiff_t header_and_initial_shape = 2;
   std::ifstream file(history, std::ios::binary);
@@ -36,7 +36,7 @@ bool is_finished(const Checkpoint<dim>& checkpoint, const Case& c) {
   return is_done || reason_to_stop(options, checkpoint.state);
 }
 
-/// What the case expects of a run that ended there.
+/// The expectations of the case for a run that ended there.
 template <int dim>
 Expected<std::vector<Finding>> findings_at(const Case& c, const Checkpoint<dim>& end) {
   if (c.expectations.empty()) return std::vector<Finding>{};
@@ -63,8 +63,8 @@ bool fits(const OptimizationState<dim>& state, const StateSolver<dim>& solver) {
   return mean.rows() == tread.rows().size() && mean.columns() == tread.n_columns;
 }
 
-/// Where only the list of a run's files is missing, lists what a checkpoint proves to be this run's: the
-/// case, the history and the checkpoints.
+/// If only the list of a run's files is missing, restores the entries that a checkpoint proves to be this
+/// run's: the case, the history and the checkpoints.
 template <int dim>
 void restore_list(const Case& c, const fs::path& folder) {
   if (has_entry(folder / list_of_written_files)) return;
@@ -91,7 +91,7 @@ Run<dim>::Run(FolderLock lock, fs::path folder, Study<dim> study, Resumption res
 template <int dim>
 Expected<Run<dim>, NotBegun<dim>> Run<dim>::begin(const Case& c, const fs::path& folder) {
   auto foreign = foreign_files(folder);
-  if (StopFile(folder).exists()) foreign.emplace_back(stop_file);  // it would be obeyed and removed
+  if (StopFile(folder).exists()) foreign.emplace_back(stop_file);  // it would stop the run and be removed
   if (is_there(folder / "analysis.json"))
     foreign.emplace_back("analysis.json");  // its pictures are in the way
   if (!foreign.empty()) return NotBegun<dim>(ForeignFiles{std::move(foreign)});
@@ -132,8 +132,8 @@ Expected<Run<dim>, NotBegun<dim>> Run<dim>::resume(const Case& c, const fs::path
 }
 
 template <int dim>
-RunResult<dim> Run<dim>::execute(CommandQueue& commands, AtEnd at_end) {
-  RunLoop<dim> loop(folder_, study_, observers_, commands, at_end);
+RunResult<dim> Run<dim>::execute(CommandQueue& commands, OnEnd on_end) {
+  RunLoop<dim> loop(folder_, study_, observers_, commands, on_end);
   return checkpoint_ ? loop.resume(*checkpoint_) : loop.begin();
 }
 

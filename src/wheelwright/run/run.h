@@ -15,13 +15,13 @@
 
 namespace wheelwright {
 
-// Why a run did not begin or resume.
+// Why a run did not start or resume.
 struct FolderHoldsARun {};
-/// The run would replace files that no run wrote.
+/// The run would replace files not written by a run.
 struct ForeignFiles {
   std::vector<std::string> names;
 };
-struct CheckpointsGone {};  ///< its history holds trials, but there is no checkpoint
+struct CheckpointsGone {};  ///< its history contains trials, but there is no checkpoint
 struct NoUsableCheckpoint {
   std::vector<UnusableCheckpoint> unusable;
 };
@@ -31,24 +31,24 @@ struct CheckpointMisfit {
 template <int dim>
 struct AlreadyFinished {
   Checkpoint<dim> end;
-  std::vector<Finding> findings;             ///< for what the case expects
+  std::vector<Finding> findings;             ///< for the expectations of the case
   std::vector<UnusableCheckpoint> unusable;  ///< checkpoints that are newer
 };
 template <int dim>
 using NotBegun = std::variant<FolderInUse, FolderHoldsARun, ForeignFiles, CheckpointsGone, NoUsableCheckpoint,
                               CheckpointMisfit, AlreadyFinished<dim>, Failure>;
 
-/// What a run is resumed from; all empty for one that begins.
+/// What a run is resumed from; all empty for a new run.
 struct Resumption {
   std::vector<UnusableCheckpoint> unusable;  ///< checkpoints that are newer
-  std::optional<int> shape;                  ///< empty: no checkpoint yet, the run begins
-  std::optional<std::string> other_program;  ///< which saved the checkpoint, if it is another one
+  std::optional<int> shape;                  ///< empty: no checkpoint yet, the run starts from the beginning
+  std::optional<std::string> other_program;  ///< that saved the checkpoint, if it differs from this one
 };
 
-/// What a run does where it has a reason to stop by itself.
-enum class AtEnd {
+/// What a run does when it has a reason to end by itself.
+enum class OnEnd {
   finish,  ///< writes its results
-  wait,    ///< waits for commands; only Stop ends it. Continue and Step look for better shapes once more
+  wait,    ///< waits for commands; only Stop ends it. Continue and Step search for better shapes again
 };
 
 /// How a run ended.
@@ -57,36 +57,36 @@ struct RunResult {
   StopReason reason;
   std::optional<OptimizationState<dim>> state;  ///< the last accepted shape; empty after a failed start
   std::optional<InitialShape<dim>> initial;
-  std::vector<Trial<dim>> failed_trials;   ///< after the last accepted shape
-  std::vector<Finding> findings;           ///< for what the case expects; of a run that ended by itself
+  std::vector<Trial<dim>> failed_trials;  ///< after the last accepted shape
+  std::vector<Finding> findings;          ///< for the expectations of the case; of a run that ended by itself
   std::optional<RunSummary<dim>> summary;  ///< empty after a failed start
   double elapsed_seconds;
   bool is_approaching = false;  ///< whether the volume has not reached its target yet
 };
 
-/// One optimization of a case in its folder, from its beginning or from its newest checkpoint to its end. The
-/// folder is locked as long as this lives.
+/// One optimization of a case in its folder, from its start or from its newest checkpoint to its end. Locks
+/// the folder for the lifetime of this object.
 template <int dim>
 class Run {
  public:
-  /// Refuses a folder that holds a run, or something of the user's that the run would replace; it leaves such
-  /// a folder as it is. Throws OutputError.
+  /// Refuses a folder that contains a run, or files of the user that the run would replace, and leaves such a
+  /// folder unchanged. Throws OutputError.
   static Expected<Run, NotBegun<dim>> begin(const Case& c, const std::filesystem::path& folder);
 
-  /// The run in this folder, whose case this is; begins it if it was killed before its first checkpoint.
-  /// Throws OutputError.
+  /// The run in this folder with this case; starts from the beginning if it was killed before its first
+  /// checkpoint. Throws OutputError.
   static Expected<Run, NotBegun<dim>> resume(const Case& c, const std::filesystem::path& folder);
 
   const std::filesystem::path& folder() const { return folder_; }
   const Study<dim>& study() const { return study_; }
   const Resumption& resumption() const { return resumption_; }
 
-  /// Besides make_observers(), and told after them.
+  /// In addition to make_observers(), and notified after them.
   void add(std::unique_ptr<Observer<dim>> observer) { observers_.push_back(std::move(observer)); }
 
-  /// Optimizes until there is a reason to stop, obeying commands between the trial shapes. To be called once.
-  /// Throws OutputError.
-  RunResult<dim> execute(CommandQueue& commands, AtEnd at_end = AtEnd::finish);
+  /// Optimizes until there is a reason to stop, executing commands between the trial shapes. Must be called
+  /// only once. Throws OutputError.
+  RunResult<dim> execute(CommandQueue& commands, OnEnd on_end = OnEnd::finish);
 
  private:
   Run(FolderLock lock, std::filesystem::path folder, Study<dim> study, Resumption resumption,

@@ -9,11 +9,11 @@
 
 namespace wheelwright {
 
-/// The folder of the shapes that were saved as cases while a run was watched.
+/// The folder of the shapes saved as cases while a run was watched.
 inline constexpr const char* designs_folder = "designs";
 
-/// What a run may write to its folder: whoever adds a file or a subfolder adds its name here, so that a run
-/// is refused at once, not at its end, where the name is taken.
+/// The names that a run may write to its folder. Add the names of new files and subfolders here, so that a
+/// run is refused at its start, not its end, if the name is in use.
 inline constexpr std::string_view names_in_a_run_folder[] = {"case.toml",
                                                              "history.csv",
                                                              "history.csv.before",
@@ -46,7 +46,7 @@ inline constexpr std::string_view names_in_a_run_folder[] = {"case.toml",
                                                              "checkpoints",
                                                              "failure"};
 
-/// Those of them that stand in the folder though no run wrote them.
+/// Those of them that exist in the folder but were not written by a run.
 inline std::vector<std::string> foreign_files(const std::filesystem::path& folder) {
   return WrittenFiles(folder).foreign(names_in_a_run_folder);
 }

@@ -19,7 +19,7 @@
 namespace wheelwright {
 namespace {
 
-/// Between two notices of a contact problem that takes long.
+/// Between two progress notices of a slow contact problem.
 constexpr double seconds_between_signs = 2;
 
 constexpr const char* case_file = "case.toml";
@@ -41,11 +41,11 @@ Trial<dim> failed_trial(int iteration, const LevelSet<dim>& shape, const Failure
 
 template <int dim>
 RunLoop<dim>::RunLoop(const std::filesystem::path& folder, Study<dim> study, const Observers<dim>& observers,
-                      CommandQueue& commands, AtEnd at_end)
+                      CommandQueue& commands, OnEnd on_end)
     : folder_(folder),
       observers_(observers),
       commands_(commands),
-      at_end_(at_end),
+      on_end_(on_end),
       stop_file_(std::make_shared<StopFile>(folder)),
       work_(make_work(std::move(study))) {
   commands_.add_source([file = stop_file_] { return (*file)(); });
@@ -92,7 +92,7 @@ RunResult<dim> RunLoop<dim>::resume(const Checkpoint<dim>& checkpoint) {
   nucleation_ = checkpoint.nucleation;
   elapsed_ = checkpoint.elapsed_seconds;
   notify(RunStarted{.resumed_after = state_->iteration});
-  if (at_end_ == AtEnd::wait) search_anew();  // a checkpoint has no solution to show
+  if (on_end_ == OnEnd::wait) restart_search();  // a checkpoint has no solution to show
   return advance();
 }
 
@@ -103,7 +103,7 @@ RunResult<dim> RunLoop<dim>::advance() {
   };
   if (begins_on_coarser_grid()) begin_on_coarser_grid();
   while (!is_stopped_) {
-    const auto work = work_;  // a command may replace it while the loop is in it
+    const auto work = work_;  // a command may replace it while it is in use
     const auto reason = work->optimizer.advance(*state_, observer, [this] { return must_yield(); });
     if (!reason) continue;
     if (*reason == StopReason::stop_requested) {
@@ -111,12 +111,12 @@ RunResult<dim> RunLoop<dim>::advance() {
       continue;
     }
     if (nucleates(*reason)) continue;
-    if (work_->study.level == 0 && at_end_ == AtEnd::finish) return end(*reason);
+    if (work_->study.level == 0 && on_end_ == OnEnd::finish) return end(*reason);
     if (work_->study.level == 0) {
       wait_for_more(*reason);
       continue;
     }
-    // Where no shapes are left for finer grids, the results still are those of the case's own.
+    // If no shapes are left for finer grids, the results are still those of the case's own grid.
     const auto failure = move_to_grid(*reason == StopReason::iterations ? 0 : work_->study.level - 1);
     if (failure && failure->reason != FailureReason::interrupted) return end_between_grids(*failure);
     if (failure) must_yield();
@@ -124,8 +124,8 @@ RunResult<dim> RunLoop<dim>::advance() {
   return end(StopReason::stop_requested);
 }
 
-/// At the end of a search: judges the newest holes, and makes others where they pay. Whether the search goes
-/// on.
+/// At the end of a search: judges the newest holes, and creates others where they pay. Returns whether the
+/// search continues.
 template <int dim>
 bool RunLoop<dim>::nucleates(StopReason reason) {
   const Study<dim>& study = work_->study;
@@ -142,14 +142,14 @@ bool RunLoop<dim>::makes_holes() {
     const Study<2>& study = work_->study;
     const Evolver<2>& evolver = work_->optimizer.evolver();
     auto made = nucleated_shape(study, work_->evaluate, evolver, *state_);
-    if (!made) return goes_on_after(made.failure());
+    if (!made) return continues_after(made.failure());
     if (!*made) {
       nucleation_.is_over = true;
       return false;
     }
     std::optional<Trial<2>> trial;
     auto anew = state_at(work_->optimizer, (*made)->shape, trial);
-    if (!anew) return goes_on_after(anew.failure());
+    if (!anew) return continues_after(anew.failure());
     trial->events = evolver.changes(state_->shape, anew->shape);
     nucleation_.before = before_nucleation(study.optimizer, *state_);
     state_ = *std::move(anew);
@@ -160,13 +160,13 @@ bool RunLoop<dim>::makes_holes() {
   return false;
 }
 
-/// Back to the shape before the newest holes, with which the search ends. Holes that had not all the shapes
-/// that they needed may be made again when the run is extended.
+/// Returns to the shape before the newest holes, with which the search ends. Holes that ran out of shapes may
+/// be created again if the run is extended.
 template <int dim>
 bool RunLoop<dim>::undo_nucleation(StopReason reason) {
   std::optional<Trial<dim>> trial;
   auto anew = state_at(work_->optimizer, nucleation_.before->shape, trial);
-  if (!anew) return goes_on_after(anew.failure());
+  if (!anew) return continues_after(anew.failure());
   trial->events = work_->optimizer.evolver().changes(state_->shape, anew->shape);
   const std::string text =
       fmt::format("nucleation undone: it ended at {:.6g}, not below {:.6g}",
@@ -178,10 +178,10 @@ bool RunLoop<dim>::undo_nucleation(StopReason reason) {
   return false;
 }
 
-/// Where holes could not be made or undone: whether it was because of a command to stop. Else no more are
-/// made.
+/// After a failure to create or undo holes: whether it was due to a command to stop. Otherwise no more are
+/// created.
 template <int dim>
-bool RunLoop<dim>::goes_on_after(const Failure& failure) {
+bool RunLoop<dim>::continues_after(const Failure& failure) {
   if (failure.reason == FailureReason::interrupted) {
     must_yield();
     return true;
@@ -192,7 +192,7 @@ bool RunLoop<dim>::goes_on_after(const Failure& failure) {
   return false;
 }
 
-/// Also true for a run that was stopped before the descent began.
+/// Also true for a run that was stopped before the descent started.
 template <int dim>
 bool RunLoop<dim>::begins_on_coarser_grid() const {
   const Case& c = work_->study.source;
@@ -217,7 +217,7 @@ void RunLoop<dim>::begin_on_coarser_grid() {
   }
 }
 
-/// Proceeds with the current shape on the grid of a level. If that fails, nothing has changed.
+/// Continues with the current shape on the grid of a level. If that fails, nothing has changed.
 template <int dim>
 std::optional<Failure> RunLoop<dim>::move_to_grid(int level) {
   auto study = make_study<dim>(work_->study.source, level);
@@ -271,7 +271,7 @@ RunResult<dim> RunLoop<dim>::end_without_a_shape(const Failure& failure) {
   return result(StopReason::failed_start);
 }
 
-/// The shape cannot be computed on the next grid: the run gives up with the one that it has.
+/// The shape cannot be computed on the next grid: the run gives up with the current one.
 template <int dim>
 RunResult<dim> RunLoop<dim>::end_between_grids(const Failure& failure) {
   failed_trials_ = {failed_trial(state_->iteration, state_->shape, failure)};
@@ -353,15 +353,15 @@ void RunLoop<dim>::write_case_file() const {
                    fmt::format("# {}\n\n{}", program_text(), to_toml(work_->study.source)));
 }
 
-/// Obeys the commands that wait; whether the loop must return: to end, or to proceed with another case or
-/// shape.
+/// Executes the waiting commands; returns whether the loop must return, to end or to continue with another
+/// case or shape.
 template <int dim>
 bool RunLoop<dim>::must_yield() {
   const int changes = changes_;
   while (!is_stopped_) {
     const auto command = commands_.take();
     if (!command) break;
-    obey(*command);
+    execute(*command);
   }
   wait_while_paused();
   return is_stopped_ || changes_ != changes;
@@ -378,13 +378,13 @@ void RunLoop<dim>::wait_while_paused() {
   elapsed_ += watch_.lap();
   save();
   notify(RunWaits{});
-  while (is_paused()) obey(commands_.wait());
+  while (is_paused()) execute(commands_.wait());
   notify(RunProceeds{});
   watch_.lap();  // the pause does not count
 }
 
-/// Waits, where the loop has a reason to end, until a command gives it something to do. A command to pause
-/// keeps it waiting through the next changes.
+/// When the loop has a reason to end, waits until a command gives it something to do. After a command to
+/// pause it keeps waiting through further changes.
 template <int dim>
 void RunLoop<dim>::wait_for_more(StopReason reason) {
   elapsed_ += watch_.lap();
@@ -393,7 +393,7 @@ void RunLoop<dim>::wait_for_more(StopReason reason) {
   notify(RunWaits{reason});
   while (!is_stopped_ && has_ended_by_itself_) {
     const bool was_paused = is_paused();
-    obey(commands_.wait());
+    execute(commands_.wait());
     if (has_ended_by_itself_ && is_paused() && !was_paused) notify(RunWaits{});
   }
   has_ended_by_itself_ = false;
@@ -402,31 +402,31 @@ void RunLoop<dim>::wait_for_more(StopReason reason) {
 }
 
 template <int dim>
-void RunLoop<dim>::obey(const Command& command) {
-  const Obeyed obeyed = std::visit(
-      [this](const auto& c) -> Obeyed { return c.obey(static_cast<RunControl&>(*this)); }, command);
-  if (obeyed)
-    notify(CommandDone{&command, *obeyed, true});
+void RunLoop<dim>::execute(const Command& command) {
+  const CommandResult executed = std::visit(
+      [this](const auto& c) -> CommandResult { return c.execute(static_cast<RunControl&>(*this)); }, command);
+  if (executed)
+    notify(CommandDone{&command, *executed, true});
   else
-    notify(CommandDone{&command, obeyed.failure().reason, false});
+    notify(CommandDone{&command, executed.failure().reason, false});
 }
 
 template <int dim>
 void RunLoop<dim>::pause(int after_shapes) {
   const int from = after_shapes > 0 ? std::max(state_->iteration, pause_at_.value_or(0)) : state_->iteration;
   pause_at_ = from + after_shapes;
-  if (after_shapes > 0 && has_ended_by_itself_) search_anew();
+  if (after_shapes > 0 && has_ended_by_itself_) restart_search();
 }
 
 template <int dim>
-void RunLoop<dim>::go_on() {
+void RunLoop<dim>::continue_run() {
   pause_at_.reset();
-  if (has_ended_by_itself_) search_anew();
+  if (has_ended_by_itself_) restart_search();
 }
 
-/// Forgets how the objective fell so far, and with it the reason why the run waits.
+/// Discards the history of the objective, and thus the reason why the run waits.
 template <int dim>
-void RunLoop<dim>::search_anew() {
+void RunLoop<dim>::restart_search() {
   replace_shape(state_->shape, "one more search for better shapes");
 }
 
@@ -497,23 +497,23 @@ void RunLoop<dim>::remember(Past past) {
   if (past_.size() > most) past_.pop_front();
 }
 
-/// The present state at another shape, evaluated by that optimizer; its trial.
+/// Evaluates another shape from the present state with that optimizer; returns its trial.
 template <int dim>
 Expected<OptimizationState<dim>> RunLoop<dim>::state_at(const ShapeOptimizer<dim>& optimizer,
                                                         const LevelSet<dim>& shape,
                                                         std::optional<Trial<dim>>& trial) const {
   OptimizationState<dim> from = *state_;
-  from.shape = regrid(shape, state_->shape.lattice);  // a shape of the past may stand on another grid
+  from.shape = regrid(shape, state_->shape.lattice);  // an earlier shape may be on another grid
   return optimizer.restart(from,
                            [&](const Trial<dim>& seen, const OptimizationState<dim>&) { trial = seen; });
 }
 
-/// Proceeds from another shape under the same case.
+/// Continues from another shape under the same case.
 template <int dim>
 std::optional<Refusal> RunLoop<dim>::replace_shape(const LevelSet<dim>& shape, const std::string& what) {
   if (shape.values != state_->shape.values) notify(ShapeProposed<dim>{shape});
   std::optional<Trial<dim>> trial;
-  stops_before_ = std::numeric_limits<int>::max();  // a command to stop that comes later is obeyed later
+  stops_before_ = std::numeric_limits<int>::max();  // later commands to stop are executed afterwards
   auto anew = state_at(work_->optimizer, shape, trial);
   stops_before_ = 0;
   if (!anew) return refusal(anew.failure());
@@ -526,7 +526,7 @@ std::optional<Refusal> RunLoop<dim>::replace_shape(const LevelSet<dim>& shape, c
   return {};
 }
 
-/// Proceeds under another case, from a shape that may be another one too.
+/// Continues under another case, possibly also from another shape.
 template <int dim>
 std::optional<Refusal> RunLoop<dim>::work_on(const Case& changed, const LevelSet<dim>& shape,
                                              const std::string& what) {
@@ -534,12 +534,12 @@ std::optional<Refusal> RunLoop<dim>::work_on(const Case& changed, const LevelSet
   if (!c) return c.failure();
   const int level = work_->study.level;
   if (level_of(*c, initial_->shape) != 0 || level_of(*c, state_->shape) != level)
-    return Refusal{"the shape stands on another grid than the case's"};
+    return Refusal{"the shape is on another grid than the case's"};
   auto study = make_study<dim>(*c, level);
   if (!study) return refusal(study.failure());
   const auto of_initial = level == 0 ? study : make_study<dim>(*c);
   if (!of_initial) return refusal(of_initial.failure());
-  // Without interruption: a command to stop that comes later is obeyed later.
+  // Without interruption: later commands to stop are executed afterwards.
   const auto first = evaluate_of(*of_initial)(initial_->shape, nullptr);
   if (!first) return refusal(first.failure());
   std::optional<Trial<dim>> trial;

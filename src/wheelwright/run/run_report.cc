@@ -35,8 +35,7 @@ double number(const std::string& cell) {
   return !cell.empty() && *end == '\0' ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Rows that come one after the other, evenly thinned to at most twice `most`, with the first and the last
-/// one.
+/// Consecutive rows, evenly thinned to at most twice `most`, including the first and the last one.
 class ThinnedRows {
  public:
   static constexpr std::size_t most = 1000;
@@ -63,7 +62,7 @@ class ThinnedRows {
   std::vector<double> last_;
 };
 
-/// The newest of what happened to the holes.
+/// The newest events of the holes.
 class NewestEvents {
  public:
   static constexpr std::size_t most = 400;
@@ -83,8 +82,8 @@ class NewestEvents {
   int left_out_ = 0;
 };
 
-/// The columns of the accepted shapes that hold numbers, thinned where there are thousands of them, how many
-/// trials there were, why some were rejected, and what happened to the holes lately.
+/// The numeric columns of the accepted shapes, thinned if there are thousands, the number of trials, the
+/// reasons of rejections, and recent events of the holes.
 template <int dim>
 void read_history(const fs::path& file, ReportRun<dim>& run) {
   std::ifstream stream(file);
@@ -168,29 +167,26 @@ std::vector<std::string> flags(const Case& c, const RunSummary<dim>& summary,
         "The run ended by its number of shapes before it converged: more shapes may improve the wheel.");
   if (reason == StopReason::gave_up)
     result.push_back(
-        "The run gave up: the file failure/report.txt says why. The shape is the last one that was "
-        "accepted.");
+        "The run gave up: the file failure/report.txt says why. The shape shown is the last accepted one.");
   if (!reason || reason == StopReason::stop_requested)
     result.push_back("The run has not ended by itself: more shapes may improve the wheel.");
   return result;
 }
 
-/// What the numbers do not tell.
+/// The limitations of the numbers.
 template <int dim>
 std::vector<std::string> limits(const Case& c, const DescribedWheel<dim>& wheel) {
   const Case shown = with_levels_of_results(c);
   std::vector<std::string> result{
-      "The material is linear elastic: no creep, no heat, no fatigue. Whether it bears the peak stress is "
-      "not "
-      "judged."};
-  result.push_back(
-      fmt::format("Rolling is a row of {} load positions per sector, each at rest: no inertia, no "
-                  "rolling resistance.",
-                  c.load.positions));
+      "The material is linear elastic: no creep, no heat, no fatigue. Whether it withstands the peak stress "
+      "is not assessed."};
+  result.push_back(fmt::format(
+      "Rolling is a sequence of {} static load positions per sector: no inertia, no rolling resistance.",
+      c.load.positions));
   if (dim == 2)
     result.push_back(
-        fmt::format("The wheel and its load are the same over the whole width ({}): forces along the "
-                    "axle and the ends of the width are left out.",
+        fmt::format("The wheel and its load are constant over the width ({}): forces along the axle and "
+                    "effects of the side faces are neglected.",
                     c.material.plane == Plane::stress ? "plane stress" : "plane strain"));
   std::string cells =
       fmt::format("It was computed on {} x {} cells", c.grid.radial_cells, c.grid.angular_cells);

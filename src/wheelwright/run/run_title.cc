@@ -6,7 +6,7 @@ namespace wheelwright {
 
 std::string run_title(const Case& c) {
   if (!c.title.empty()) return c.title;
-  // Whether or not the folder ends in a slash.
+  // Works with and without a trailing slash.
   return (std::filesystem::path(c.output.folder) / "").parent_path().filename().string();
 }
 

@@ -20,7 +20,7 @@ Composition in_all_sectors(const std::vector<Outline>& outlines, int n_sectors) 
   return Composition({figure});
 }
 
-/// How often a closed polyline goes round a point, counter-clockwise.
+/// The counter-clockwise winding number of a closed polyline about a point.
 int turns_round(std::span<const Point> corners, const Point& x) {
   int turns = 0;
   for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -54,7 +54,7 @@ std::vector<Point> hole_contour(const LevelSet<2>& psi, const Point& point) {
     if (contour.kind != ContourKind::free || signed_area(contour) >= 0) continue;
     std::vector<Point> corners(contour.points.begin(), contour.points.end());
     if (turns_round(corners, point) == 0 || turns_round(corners, Point{}) != 0) continue;
-    // An island of material in the hole is no part of it.
+    // An island of material in the hole is not part of it.
     const bool is_on_island = std::ranges::any_of(contours, [&](const Contour& other) {
       return other.kind == ContourKind::free && signed_area(other) > 0 &&
              signed_area(other) < -signed_area(contour) &&

@@ -19,7 +19,7 @@ bool is_due(const TrialDone<dim>& done, int every) {
          done.state.iteration % every == 0;
 }
 
-/// The extended shape gradient at the nodes, in the unit of its density; nothing where it cannot be computed.
+/// The extended shape gradient at the nodes, in the unit of its density; nothing if it cannot be computed.
 template <int dim>
 std::optional<LevelSet<dim>> shape_gradient_field(const OptimizationState<dim>& state,
                                                   const Evolver<dim>& evolver) {

@@ -9,16 +9,16 @@
 namespace wheelwright {
 namespace {
 
-/// The page holds no more fields of one load of a wheel in 3D.
+/// Maximum bytes of fields for one load of a 3D wheel in the page.
 constexpr double most_page_bytes = 8e6;
 
-/// Bytes that the fields of so many positions take in the page.
+/// Size in the page of the fields of the given number of positions.
 double page_bytes(const SurfaceMesh& surface, int positions) {
   constexpr double bytes_per_vertex = (3 * 2 + 1) * 4.0 / 3;
   return bytes_per_vertex * static_cast<double>(surface.points.size()) * positions;
 }
 
-/// The surface, as fine as the page holds it with so many positions, but at least with one cube per cell.
+/// The finest surface that fits the page with this number of positions, with at least one cube per cell.
 SurfaceMesh page_surface(const SolvedShape<3>& solved, int positions) {
   const int degree = solved.solver->model().degree;
   SurfaceMesh surface = shape_boundary(*solved.shape, degree);

@@ -8,7 +8,7 @@
 
 namespace wheelwright {
 
-/// A shape that was solved for results.
+/// A solved shape for results.
 template <int dim>
 struct SolvedShape {
   const LevelSet<dim>* shape;
@@ -16,8 +16,8 @@ struct SolvedShape {
   const State<dim>* solution;
 };
 
-/// Collects what the page shows of the load positions of a shape, one after the other. In 3D, where all of
-/// them are too many for the page, it keeps the worst one.
+/// Collects the load positions of a shape for the page, one after the other. In 3D, if all of them are too
+/// large for the page, keeps only the worst one.
 template <int dim>
 class ShownPositions;
 
@@ -42,14 +42,14 @@ class ShownPositions<3> {
  private:
   ShownWheel<3> wheel_;
   FieldPoints<3> points_;    ///< the vertices of the surface
-  std::optional<int> only_;  ///< the position that is kept; all without it
+  std::optional<int> only_;  ///< the only position to keep; absent: all
 };
 
-/// The shape in all of its load positions.
+/// The shape at all of its load positions.
 template <int dim>
 ShownWheel<dim> shown_wheel(const SolvedShape<dim>& solved);
 
-/// The loaded wheel in one of its load positions, as the page holds it.
+/// The loaded wheel at one of its load positions, in the form of the page.
 template <int dim>
 std::string loaded_wheel(const SolvedShape<dim>& solved, int position);
 

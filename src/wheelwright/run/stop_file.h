@@ -9,8 +9,8 @@ namespace wheelwright {
 
 inline constexpr const char* stop_file = "STOP";
 
-/// The file STOP in a run's folder, by which anyone who can write there stops the run. A folder of that name,
-/// or a link, is none.
+/// The file STOP in a run's folder, with which anyone who can write there stops the run. Folders and links of
+/// that name do not count.
 class StopFile {
  public:
   explicit StopFile(const std::filesystem::path& folder) : file_(folder / stop_file) {}

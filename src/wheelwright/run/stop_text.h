@@ -6,10 +6,10 @@
 
 namespace wheelwright {
 
-/// Why a run ended, for people, e.g. "converged"; to_string() is for programs.
+/// Why a run ended, as readable text, e.g. "converged"; to_string() is for programs.
 std::string text(StopReason reason);
 
-/// The same where the reason is known by its name for programs; any other text stays as it is.
+/// The same for a reason given by its to_string(); any other text is returned unchanged.
 std::string text_of_stop(const std::string& name);
 
 }  // namespace wheelwright

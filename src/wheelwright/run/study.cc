@@ -27,7 +27,7 @@
 namespace wheelwright {
 namespace {
 
-/// What is given on the whole width as the model of this dimension takes it.
+/// Converts a value for the whole width to that of the model of this dimension.
 template <int dim>
 double on_model_width(double on_whole_width, const Case& c) {
   return on_whole_width / whole_width(dim, c.wheel.width);
@@ -37,7 +37,7 @@ double on_model_width(double on_whole_width, const Case& c) {
 
 namespace {
 
-/// The loads of a case with one load alone.
+/// The loads of a case with only one load.
 template <int dim>
 void set_loads(const Case& c, RollingModel<dim>& model) {
   model.load = on_model_width<dim>(c.load.force, c);
@@ -178,10 +178,10 @@ const ShapeFunction<dim>& Study<dim>::objective() const {
 
 namespace {
 
-/// The shape of another run that a case begins with, on its own grid; nothing if the case draws its own.
+/// The shape of another run from which a case starts, on its own grid; null if the case draws its own.
 const SavedLevelSet* saved_shape(const Case& c) { return c.saved_shape.shape.contents.get(); }
 
-/// What `on_lattice(shape, lattice)` makes of a saved shape; shapes of wheels in the plane are extruded.
+/// The result of `on_lattice(shape, lattice)` for a saved shape; 2D shapes are extruded.
 template <int dim, class OnLattice>
 LevelSet<dim> saved_on(const Lattice<dim>& lattice, const SavedLevelSet& saved, OnLattice on_lattice) {
   if constexpr (dim == 3)
@@ -190,14 +190,14 @@ LevelSet<dim> saved_on(const Lattice<dim>& lattice, const SavedLevelSet& saved, 
   return on_lattice(std::get<LevelSet<dim>>(saved), lattice);
 }
 
-/// Of a saved shape, as a share of its ring.
+/// The volume of a saved shape as a fraction of its ring.
 double volume_fraction_of(const SavedLevelSet& saved) {
   return std::visit(
       [](const auto& shape) { return volume_fraction(shape.lattice.grid(), material_measure(shape)); },
       saved);
 }
 
-/// The shape that a case draws, at the nodes of a lattice.
+/// The shape drawn by a case, at the nodes of a lattice.
 template <int dim>
 LevelSet<dim> drawn_on(const Lattice<dim>& lattice, const Case& c) {
   LevelSet<dim> psi = c.shapes == Shapes{} ? make_level_set(lattice, sector_holes(c))
@@ -231,7 +231,7 @@ std::optional<VolumeChange> volume_change_of_saved_shape(const Case& c) {
 
 std::string text(const VolumeChange& change) {
   return fmt::format(
-      "volume of the saved shape: {:.6g} % of the ring there, {:.6g} % on the grid here ({:+.2g} %)",
+      "volume of the saved shape: {:.6g} % of the ring on its grid, {:.6g} % on this grid ({:+.2g} %)",
       100 * change.there, 100 * change.here, 100 * (change.here / change.there - 1));
 }
 
@@ -262,9 +262,9 @@ EvolutionOptions evolution_options(const Case& c) {
   return options;
 }
 
-/// Walls of a cell, and some more for what shapes miss of it, gaps of one and a half cells and internal
-/// corners of half their width, where the case does not give these for all shapes. A gap that is given must
-/// have room for such corners. Level sets of degree 1 have no radius there, and gaps of about a cell.
+/// Unless the case gives them for all shapes: walls of a cell plus a margin, gaps of one and a half cells and
+/// internal corners of half that width. A given gap must have room for such corners. For level sets of degree
+/// 1, no radius and gaps of about a cell.
 template <int dim>
 FeatureSize final_widths(const Case& c) {
   constexpr double wall = 1.05, round_gap = 1.5, gap_of_degree_1 = 1.12;

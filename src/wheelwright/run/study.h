@@ -12,45 +12,45 @@
 
 namespace wheelwright {
 
-// From a case to what the solver, the evolution and the optimizer work on. In 2D, forces, torques and
-// energies are those of one metre of width.
+// From a case to the structures of the solver, the evolution and the optimizer. In 2D, forces, torques and
+// energies are per metre of width.
 
 /// With several load cases, under the first of them.
 template <int dim>
 RollingModel<dim> rolling_model(const Case& c);
 
-/// The models of all load cases of a case; empty if it has one load alone.
+/// The models of all load cases of a case; empty if it has only one load.
 template <int dim>
 LoadCases<dim> load_cases(const Case& c);
 
-/// The shape of a case before its optimization, cut off at the bands that stay material.
+/// The initial shape of a case, clipped at the bands that remain material.
 template <int dim>
 LevelSet<dim> initial_shape(const Case& c);
 
-/// The volume of the saved shape that a case begins with: on its own grid, and on the case's, where it is cut
-/// off at the case's bands; as fractions of the ring.
+/// The volume of the saved shape from which a case starts: on its own grid, and on the case's, clipped at the
+/// case's bands; as fractions of the ring.
 struct VolumeChange {
   double there, here;
 };
 
-/// Empty for a case that begins with no saved shape.
+/// Empty for a case without a saved shape.
 template <int dim>
 std::optional<VolumeChange> volume_change_of_saved_shape(const Case& c);
 
-/// One line for people.
+/// One readable line.
 std::string text(const VolumeChange& change);
 
 EvolutionOptions evolution_options(const Case& c);
 template <int dim>
 OptimizerOptions optimizer_options(const Case& c);
 
-/// What solves the states of a model's shapes. Fails with not_positive_definite when theta and gamma_0 do not
-/// go together, and with unsupported_model for what the solver has no equations for.
+/// The solver for the states of a model's shapes. Fails with not_positive_definite if theta and gamma_0 are
+/// incompatible, and with unsupported_model if the solver does not support the model.
 template <int dim>
 Expected<std::shared_ptr<const StateSolver<dim>>> make_solver(const RollingModel<dim>& model);
 
-/// The functions of the shape that a case asks for: the objective, and the volume of the material. Solves the
-/// initial shape when (83) is to choose a weight. Fails as the solver does.
+/// The functions of the shape required by a case: the objective, its bounds and the volume of the material.
+/// Solves the initial shape if (83) determines a weight. Fails like the solver.
 template <int dim>
 Expected<std::vector<ShapeFunction<dim>>> shape_functions(const Case& c, const StateSolver<dim>& solver);
 
@@ -63,17 +63,17 @@ std::vector<ShapeEvent<dim>> lost_on_the_grid(const Case& c);
 template <int dim>
 double volume_fraction(const PolarGrid<dim>& grid, double measure);
 
-/// The load of a model for people: "rim travel 2 mm", or its force in the model's unit.
+/// The load of a model as text: "rim travel 2 mm", or its force in the model's unit.
 template <int dim>
 std::string load_text(const RollingModel<dim>& model);
 
-/// Everything that follows from a case before a shape is solved: the optimization problem, ready to run.
+/// The optimization problem of a case, ready to run; no shape has been solved yet.
 template <int dim>
 struct Study {
   Case source;
-  int level;  ///< of the grid on which it is computed: 0 is the case's own (case/coarse_grid.h)
+  int level;  ///< of the grid used: 0 is the case's own (case/coarse_grid.h)
   std::shared_ptr<const StateSolver<dim>> solver;  ///< with the load of the first load case
-  LoadCases<dim> load_cases;                       ///< empty: one load alone
+  LoadCases<dim> load_cases;                       ///< empty: only one load
   std::vector<ShapeFunction<dim>> functions;
   LevelSet<dim> initial;
   EvolutionOptions evolution;
@@ -82,14 +82,14 @@ struct Study {
   const RollingModel<dim>& model() const { return solver->model(); }
   const PolarGrid<dim>& grid() const { return solver->model().grid; }
 
-  /// The case as it is computed: on the grid of the level.
+  /// The case on the grid of the level.
   Case computed() const { return on_coarser_grid(source, level); }
 
   /// The function that is minimized.
   const ShapeFunction<dim>& objective() const;
 };
 
-/// On the grid of that level. Fails as make_solver() and shape_functions() do.
+/// On the grid of that level. Fails like make_solver() and shape_functions().
 template <int dim>
 Expected<Study<dim>> make_study(const Case& c, int level = 0);
 
@@ -97,9 +97,8 @@ Expected<Study<dim>> make_study(const Case& c, int level = 0);
 template <int dim>
 std::optional<int> level_of(const Case& c, const LevelSet<dim>& shape);
 
-/// Evaluates the study's functions at a shape, for the loop. With `objective.mean = "held"` it compares with
-/// the mean contact stress of the previous shape, otherwise with that of the shape itself. Keeps what it
-/// needs of the study.
+/// Evaluates the study's functions at a shape, for the loop. With `objective.mean = "held"` uses the mean
+/// contact stress of the previous shape, otherwise that of the shape itself. Does not refer to the study.
 template <int dim>
 typename ShapeOptimizer<dim>::Evaluate evaluate_of(const Study<dim>& study, Interrupt interrupt = {});
 

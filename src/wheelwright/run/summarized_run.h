@@ -6,8 +6,8 @@
 
 namespace wheelwright {
 
-/// What a run that began with `start` made of the wheel that its case gives. `before` and `after` describe
-/// that wheel and the one of the state, solved alike; `objective` is that of the given wheel.
+/// The summary of a run that started from `start`. `before` and `after` describe the wheel given by the case
+/// and that of the state, solved in the same way; `objective` is that of the given wheel.
 template <int dim>
 RunSummary<dim> summarized_run(const Study<dim>& study, const InitialShape<dim>& start,
                                const Expected<double>& objective, DescribedWheel<dim> before,

@@ -4,7 +4,7 @@
 
 namespace wheelwright {
 
-/// Writes summary.json: what the run made of the initial shape, in numbers, or why that cannot be computed.
+/// Writes summary.json: the numbers of the run, before and after, or why they cannot be computed.
 template <int dim>
 class SummaryFile : public Observer<dim> {
  public:

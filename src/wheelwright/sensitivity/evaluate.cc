@@ -11,14 +11,14 @@
 namespace wheelwright {
 namespace {
 
-/// What the functionals of one load case are evaluated on.
+/// The arguments of the functionals in one load case.
 template <int dim>
 struct CaseStates {
   const State<dim>& state;
   Matrix mean_observations;
 };
 
-/// Every functional of the functions at one shape, each evaluated once per load case.
+/// The values of all functionals at one shape, each evaluated once per load case.
 template <int dim>
 class FunctionalValues {
  public:
@@ -74,8 +74,8 @@ struct WeightedValues {
   std::vector<FunctionalDerivative<dim>> derivatives;  ///< one per load case
 };
 
-/// Whether the deviations from the positions' own mean, and with them a term's loads, sum to zero: then the
-/// mean's derivative vanishes.
+/// Whether the deviations from the positions' own mean, and thus a term's loads, sum to zero: then the mean's
+/// derivative vanishes.
 template <int dim>
 bool deviations_sum_to_zero(const ShapeFunction<dim>& function, const FunctionalValue<dim>& term,
                             const LoadPositions& positions) {
@@ -174,7 +174,7 @@ template <int dim>
 struct ByStates {
   std::vector<FunctionValue> values;
   std::vector<std::vector<FunctionalDerivative<dim>>> derivatives;  ///< [load case]
-  std::vector<std::vector<size_t>> functions;                       ///< that they are of, [load case]
+  std::vector<std::vector<size_t>> functions;  ///< the functions that they belong to, [load case]
 };
 
 template <int dim>

@@ -6,7 +6,7 @@
 
 namespace wheelwright {
 
-/// The evaluation of one shape, and the states that it was made from.
+/// The evaluation of one shape, and the states on which it is based.
 template <int dim>
 struct Evaluated {
   Evaluation<dim> evaluation;
@@ -32,10 +32,10 @@ Expected<Evaluation<dim>> differentiate(const StateSolver<dim>& solver, const Lo
                                         const LevelSet<dim>& psi, std::span<const State<dim>* const> states,
                                         const Matrix* held_mean = nullptr);
 
-/// What a small round hole in every sector changes of the functions, per its area (volume when dim = 3):
-/// their topological derivatives at points of the core that lie in full cells, [function][point]. `radius`:
-/// of the hole, for functions of the shape alone that depend on it [m]. Functions that compare with the mean
-/// contact stress do so with the shape's own. Fails as State::topological_derivatives() does.
+/// The topological derivatives of the functions at points of the core in full cells, [function][point]: their
+/// change by a small round hole in every sector, per area of the hole (volume when dim = 3). `radius`: of the
+/// hole, for functions of the shape alone that depend on it [m]. Functions that compare with the mean contact
+/// stress do so with the shape's own. Fails as State::topological_derivatives() does.
 template <int dim>
 Expected<std::vector<std::vector<double>>> topological_derivatives(
     const StateSolver<dim>& solver, const LoadCases<dim>& cases,

@@ -29,34 +29,34 @@ struct FunctionValue {
   std::vector<double> edge_gradient = {};  ///< density at Evaluation::edges
 };
 
-/// A number that is watched but not optimized, over the load positions of one sector.
+/// A quantity that is monitored but not optimized, over the load positions of one sector.
 struct MeasureValue {
   std::string name;  ///< e.g. "peak_pressure"
   double value;      ///< in SI units
 };
 
-/// What the physics says about one shape: its functions with their gradients, and how the solution went.
+/// The evaluation of one shape: its functions with their gradients, and statistics of the solution.
 template <int dim>
 struct Evaluation {
   std::vector<FunctionValue> functions;     ///< in the order of the problem's functions
-  std::vector<TermValue> terms;             ///< the functionals that they are made of, each once
+  std::vector<TermValue> terms;             ///< the functionals of which they consist, each once
   std::vector<SurfacePoint<dim>> boundary;  ///< DJ(Theta) = sum weight gradient Theta.n over these points,
                                             ///< for a Theta that is equal in all sectors
   std::vector<int> newton_iterations;       ///< one per position that was solved for
   Matrix mean_observations;  ///< of the tread over the positions (functionals/mean_contact_stress.h)
   std::vector<PhaseTime> phases;
   std::vector<MeasureValue> measures;  ///< RollingMeasures, by its names
-  /// DJ(Theta) is as much more as the sum of weight edge_gradient Theta.n over these points of the edges of
-  /// the boundary in side faces, in 3D.
+  /// In 3D, DJ(Theta) also includes the sum of weight edge_gradient Theta.n over these points on the edges of
+  /// the boundary in side faces.
   std::vector<SurfacePoint<dim>> edges = {};
 
-  /// The function of that name, which there must be.
+  /// The function of that name, which must exist.
   const FunctionValue& function(std::string_view name) const;
 
   /// Its gradient at the points of the boundary.
   std::vector<SurfaceSample<dim>> gradient(std::string_view name) const;
 
-  /// The part of it at the edges.
+  /// Its part at the edges.
   std::vector<SurfaceSample<dim>> edge_gradient(std::string_view name) const;
 };
 

@@ -78,7 +78,7 @@ Expected<TaylorTest> taylor_test(
   if (!tests) return tests.failure();
   for (size_t i = 0; i < tests->size(); ++i)
     if (start->functions[i].name == name) return (*tests)[i];
-  return Failure{FailureReason::unsupported_model, "there is no function of the name " + std::string(name)};
+  return Failure{FailureReason::unsupported_model, "there is no function named " + std::string(name)};
 }
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                   \

@@ -15,7 +15,7 @@ template <int dim>
 double directional_derivative(const std::vector<SurfaceSample<dim>>& gradient, const LevelSet<dim>& psi,
                               std::span<const double> direction, int map_degree);
 
-/// How well the derivative predicts a function: |J(t) - J(0) - t J'(0)| for t = step, step/2, ...
+/// The error of the linear prediction: |J(t) - J(0) - t J'(0)| for t = step, step/2, ...
 struct TaylorTest {
   double value, derivative;
   std::vector<double> steps;

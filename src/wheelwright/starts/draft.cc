@@ -18,9 +18,9 @@ constexpr double degree = pi / 180;
 /// The number of equal features around the wheel, uniform in its logarithm.
 int draw_count(const DraftSpace& space, Random& random, int low, int high) {
   const int s = space.sectors;
-  const int fewest_copies = std::max(1, (low + s - 1) / s), most_copies = std::max(fewest_copies, high / s);
-  const double copies = random.log_uniform(fewest_copies - 0.5, most_copies + 0.5);
-  return s * std::clamp(static_cast<int>(std::lround(copies)), fewest_copies, most_copies);
+  const int fewest_copies = std::max(1, (low + s - 1) / s), max_copies = std::max(fewest_copies, high / s);
+  const double copies = random.log_uniform(fewest_copies - 0.5, max_copies + 0.5);
+  return s * std::clamp(static_cast<int>(std::lround(copies)), fewest_copies, max_copies);
 }
 
 /// A ring of holes of unknown size: its radii are `share` times the size.
@@ -91,7 +91,7 @@ std::optional<Draft> draft_rings(const DraftSpace& space, Random& random, int n_
   if (largest < space.wall) return {};
   return Draft{.text = rings_text(rings, staggered),
                .sectors = count,
-               .least = 0.5 * space.wall,
+               .minimum = 0.5 * space.wall,
                .most = largest,
                .draw = [rings](Case& c, double size) {
                  for (const RingDraft& ring : rings)
@@ -147,7 +147,7 @@ std::optional<Draft> draft_as(std::vector<Shape> Shapes::*shapes, const char* na
       holes->angle == 0 ? "" : fmt::format(", tilted by {:.0f} deg", holes->angle / degree);
   return Draft{.text = fmt::format("{} {}{}", holes->count, name, tilt),
                .sectors = holes->count,
-               .least = space.wall,
+               .minimum = space.wall,
                .most = largest,
                .draw = [h = *holes, shapes](Case& c, double length) {
                  (c.shapes.*shapes)
@@ -205,7 +205,7 @@ std::optional<Draft> draft_spokes(const DraftSpace& space, Random& random, Spoke
   if (largest <= space.wall) return {};
   return Draft{.text = fmt::format("{} {}", count, words),
                .sectors = count,
-               .least = space.wall,
+               .minimum = space.wall,
                .most = largest,
                .draw = [spoke](Case& c, double thickness) {
                  c.shapes.annuli.push_back({.order = 1, .inner_radius = {}, .outer_radius = {}});

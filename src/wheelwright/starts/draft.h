@@ -15,7 +15,7 @@ namespace wheelwright {
 struct Draft {
   std::string text;
   int sectors;
-  double least, most;                              ///< sizes that leave walls and gaps of at least one cell
+  double minimum, most;                            ///< sizes that leave walls and gaps of at least one cell
   std::function<void(Case& c, double size)> draw;  ///< on a case without holes and shapes
 };
 

@@ -18,9 +18,9 @@
 namespace wheelwright {
 namespace {
 
-constexpr int most_attempts = 200;
+constexpr int max_attempts = 200;
 /// Refused cases mostly have the same fault, which other holes do not repair.
-constexpr int most_refused = 10;
+constexpr int max_refused = 10;
 constexpr double volume_tolerance = 1e-3;
 
 /// The kinds take turns, so that even a few starts include several; rings are the most frequent.
@@ -81,7 +81,7 @@ Case drawn(const Case& c, const StartRange& range, const Draft& draft, double si
 
 /// The size at which the draft has the volume of the range; nothing if no size between its bounds has it.
 std::optional<double> matching_size(const Case& c, const StartRange& range, const Draft& draft) {
-  double low = draft.least, high = draft.most;
+  double low = draft.minimum, high = draft.most;
   const auto excess = [&](double size) {
     return initial_volume(drawn(c, range, draft, size)) - range.volume;
   };
@@ -152,7 +152,7 @@ DrawnStart draw_start(const Case& c, const StartRange& range, std::uint64_t seed
   Random random(seed, static_cast<std::uint64_t>(number));
   const DraftSpace space = draft_space(c, range);
   FailedAttempts failed;
-  while (failed.total() < most_attempts && failed.refused < most_refused && !must_end()) {
+  while (failed.total() < max_attempts && failed.refused < max_refused && !must_end()) {
     // If a kind finds no room, the next one is tried.
     DrawnStart drawing = attempt(c, range, draft(space, random, number + failed.total() / 20));
     failed += drawing.failed;

@@ -7,8 +7,8 @@
 
 namespace wheelwright {
 
-/// The contact at one load position: what the ground does to the wheel near the point where it touches.
-/// Vectors are in the ground frame: component 0 along n_y, towards the ground, 1 along it.
+/// The contact at one load position: the action of the ground on the wheel near the contact point. Vectors
+/// are in the ground frame: component 0 along n_y, towards the ground, 1 along it.
 template <int dim>
 struct ContactPatch {
   /// A contact quadrature point of the tread.
@@ -27,11 +27,11 @@ struct ContactPatch {
   RimMotion rim;
   RimForce rim_force;     ///< on the rim: its load, and the reaction in motions that are not free
   int newton_iterations;  ///< of all attempts
-  /// By how much rotation alone lifts the rim: the rotating wheel without load touches the ground where the
-  /// rim has moved towards it by -growth [m].
+  /// By how much rotation without load lifts the rim: the rotating wheel without load touches the ground
+  /// where the rim has moved towards it by -growth [m].
   double growth = 0;
 
-  /// Of the rim towards the ground, from where the rotating wheel without load touches it [m].
+  /// Travel of the rim towards the ground, from where the rotating wheel without load touches it [m].
   double travel() const { return rim.towards_ground + growth; }
 };
 

@@ -26,8 +26,8 @@ class MaterialDensity {
   virtual bool covers(const PolarGrid<dim>&, int) const { return true; }
 };
 
-/// How the values J_i of one function depend on the states u_i of the load positions that were solved for:
-/// all that an adjoint problem (79) and a shape derivative (42) need to know about the function.
+/// The derivative of the values J_i of one function with respect to the states u_i of the solved load
+/// positions: everything that an adjoint problem (79) and a shape derivative (42) need from the function.
 ///   dJ_i = energy_i dJ_e,i - tread_loads . d(observations) + density_i d(int M(u_i) dx)
 ///          + rim_i . d(motion of the rim) + tractions_i . d(traction of the ground)
 ///          + growth_i d(growth)

@@ -6,7 +6,7 @@ namespace wheelwright {
 
 /// The frame of the ground as seen from a frame of the body whose first axis is radial: component 0 along
 /// n_y, into the ground, 1 along the ground, and 2 across. The wheel leans by the camber: its side at larger
-/// z is nearer to the ground.
+/// z is closer to the ground.
 struct GroundFrame {
   double angle;       ///< azimuth of the body's frame minus that of the ground [rad]
   double camber = 0;  ///< when dim = 3 [rad]

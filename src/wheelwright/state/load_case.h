@@ -11,10 +11,10 @@ namespace wheelwright {
 template <int dim>
 struct LoadCase {
   std::string name;
-  RollingModel<dim> model;  ///< differs from the solver's in its loads alone
+  RollingModel<dim> model;  ///< differs from the solver's only in its loads
 };
 
-/// The load cases of a problem: the first has the load of the solver's own model. Empty: that load alone.
+/// The load cases of a problem: the first has the load of the solver's own model. Empty: only that load.
 template <int dim>
 using LoadCases = std::vector<LoadCase<dim>>;
 

@@ -14,7 +14,7 @@ class MaterialRule {
   MaterialRule(const CutDomain<dim>& domain, int degree)
       : domain_(domain), full_(unit_cell_rule<dim>(degree + 2)) {}
 
-  /// Calls visit(cell, points) for every cell that holds material.
+  /// Calls visit(cell, points) for every cell that contains material.
   template <class Visit>
   void for_each_cell(Visit visit) const {
     auto cut = domain_.cut.begin();

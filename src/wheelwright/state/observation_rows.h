@@ -2,12 +2,12 @@
 
 namespace wheelwright {
 
-/// What one column of the tread (one angular cell) observes of a displacement u, as rows of a vector: for
-/// every contact quadrature point u and the traction sigma(u)n on Gamma_C; then, for every quadrature point
-/// of the annulus Gamma_C^epsilon (60), sigma(u)n with n radial; then the integral of u over the column. Each
-/// of these is a vector of dim rows, Cartesian in the column's frame, whose first axis is radial at the
-/// column's first azimuth. The last row, if there is one, is a number: the integral of density u . x, with x
-/// the place relative to the axle, in the wheel's plane. A load on the tread is a combination of
+/// The observations of a displacement u by one column of the tread (one angular cell), as rows of a vector:
+/// for every contact quadrature point u and the traction sigma(u)n on Gamma_C; then, for every quadrature
+/// point of the annulus Gamma_C^epsilon (60), sigma(u)n with n radial; then the integral of u over the
+/// column. Each of these is a vector of dim rows, Cartesian in the column's frame, whose first axis is radial
+/// at the column's first azimuth. The last row, if there is one, is a number: the integral of density u . x,
+/// with x the place relative to the axle, in the wheel's plane. A load on the tread is a combination of
 /// observations, in the same rows.
 template <int dim>
 struct ObservationRows {

@@ -26,7 +26,8 @@ struct FreeMotion {
   double force;
 };
 
-/// How the rim is held and loaded: its motion is the prescribed one plus any combination of the free motions.
+/// The support and loads of the rim: its motion is the prescribed one plus any combination of the free
+/// motions.
 struct RimControl {
   RimMotion prescribed;
   std::vector<FreeMotion> free;

@@ -37,10 +37,10 @@ struct NamedField {
   RingField field;
   /// The scalar that is shown, of the components at a point; absent: the components themselves.
   PointScalar scalar = {};
-  std::vector<NamedScalar> beside = {};  ///< scalars that files hold beside it
+  std::vector<NamedScalar> beside = {};  ///< additional scalars in files
 };
 
-/// The index of a node of the full ring: its azimuthal position counts from azimuth 0 round the ring.
+/// The index of a node of the full ring: its azimuthal position counts from azimuth 0 around the ring.
 template <int dim>
 std::size_t ring_node(const Lattice<dim>& lattice, std::array<int, dim> position) {
   const int per_sector = lattice.nodes()[1];
@@ -50,7 +50,7 @@ std::size_t ring_node(const Lattice<dim>& lattice, std::array<int, dim> position
          static_cast<std::size_t>(lattice.n_nodes()) * (azimuthal / per_sector);
 }
 
-/// Where the nodes of an azimuth begin, which follow each other.
+/// The start of the consecutive nodes of an azimuth.
 template <int dim>
 std::size_t ring_line(const Lattice<dim>& lattice, int azimuthal) {
   return ring_node<dim>(lattice, {0, azimuthal});
@@ -81,7 +81,7 @@ RingField mirror_image(const Lattice<dim>& lattice, const RingField& field) {
 template <int dim>
 using RingCellNodes = std::array<std::size_t, ShapeFunctions<dim>::max_nodes>;
 
-/// cell[1] counts columns round the ring.
+/// cell[1] counts columns around the ring.
 template <int dim>
 RingCellNodes<dim> ring_cell_nodes(const Lattice<dim>& lattice, const std::array<int, dim>& cell) {
   std::array<std::size_t, 3> lines;  // the first nodes of the cell's azimuths

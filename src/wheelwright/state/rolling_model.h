@@ -58,7 +58,7 @@ struct RollingModel {
   double lateral_force =
       0;  ///< on the rim along the axle, towards larger z; if not 0, it moves; when dim = 3 [N]
   double camber =
-      0;  ///< by which the wheel leans, its side at larger z nearer to the ground; when dim = 3 [rad]
+      0;  ///< by which the wheel leans, its side at larger z closer to the ground; when dim = 3 [rad]
   double torque = 0;             ///< M on the rim about the axle; if not 0, it turns
   std::optional<double> travel;  ///< of the rim towards the ground [m], instead of the load
   DistributedLoads<dim> distributed;
@@ -67,7 +67,7 @@ struct RollingModel {
   int points_in_cut_cells() const { return cut_points.value_or(degree + 2); }
 };
 
-/// What a model does to its rim.
+/// The motion prescribed to a model's rim.
 template <int dim>
 RimControl rim_control(const RollingModel<dim>& model);
 

@@ -58,7 +58,7 @@ class State {
  public:
   virtual ~State() = default;
 
-  /// What was solved: the load, and everything that the solver's own model has in common with it.
+  /// The solved model: the load, and everything that it shares with the solver's own model.
   virtual const RollingModel<dim>& model() const = 0;
 
   virtual const CutDomain<dim>& domain() const = 0;
@@ -72,8 +72,8 @@ class State {
   /// J_e (3) of every position [J/m when dim = 2, J when dim = 3].
   virtual const std::vector<double>& strain_energy() const = 0;
 
-  /// What the tread observes of the displacement without the rim's motion: rows as in ObservationRows, one
-  /// column per (position, ring column).
+  /// The observations of the tread of the displacement without the rim's motion: rows as in ObservationRows,
+  /// one column per (position, ring column).
   virtual const Matrix& observations() const = 0;
 
   /// Wall times of the solution's phases.
@@ -100,9 +100,9 @@ class State {
   virtual Expected<ShapeGradients> shape_gradients(
       std::span<const FunctionalDerivative<dim>> functions) const = 0;
 
-  /// What a small round hole without traction in every sector changes of several functions, per its area
-  /// (volume when dim = 3), at some points of the core: the topological derivatives, [function][point], each
-  /// summed over its positions (as often as they count) and over the sectors:
+  /// The topological derivatives of several functions at points of the core, [function][point]: their change
+  /// by a small round traction-free hole in every sector, per area (volume when dim = 3), each summed over
+  /// its positions (with multiplicity) and over the sectors:
   ///   -sigma(p) : A eps(u) + f.p, and removed_density() of what is integrated over the material,
   /// with A of strain_of_hole(). Fails as shape_gradients() does; with unsupported_model under a pressure in
   /// the holes, and in three dimensions for functions with integrals.
@@ -110,21 +110,21 @@ class State {
       std::span<const FunctionalDerivative<dim>> functions,
       std::span<const MaterialPoint<dim>> points) const = 0;
 
-  /// The contacts of the same shape and positions under other models, which may differ from the solver's in
-  /// the loads or the travel of the rim alone: [model][position]. Each starts from the one before. Fails as
-  /// the contact problem does.
+  /// The contacts of the same shape and positions under other models, which may differ from the solver's only
+  /// in the loads or the travel of the rim: [model][position]. Each starts from the one before. Fails as the
+  /// contact problem does.
   virtual Expected<std::vector<std::vector<ContactPatch<dim>>>> contacts_under(
       std::span<const RollingModel<dim>> models) const = 0;
 
-  /// The states of the same shape and positions under another model, which may differ from this one's in its
-  /// loads alone. They share what does not depend on the load: the factorization. If the model rotates, the
+  /// The states of the same shape and positions under another model, which may differ from this one's only in
+  /// its loads. They share the factorization, which does not depend on the load. If the model rotates, the
   /// solver's must rotate or observe the spin (TreadGrid). Fails as StateSolver::states() does.
   virtual Expected<std::shared_ptr<const State<dim>>> under(const RollingModel<dim>& model,
                                                             const Interrupt& interrupt) const = 0;
 };
 
-/// Solves the states of shapes: all that a run knows of the mechanics. What does not
-/// depend on the shape is built once.
+/// Solves the states of shapes: the only interface of a run to the mechanics. Everything independent of the
+/// shape is built once.
 template <int dim>
 class StateSolver {
  public:

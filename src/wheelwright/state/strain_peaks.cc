@@ -32,7 +32,7 @@ struct SquaredPeaks {
   std::vector<double> principal;
 };
 
-/// Squares and compares first: roots are taken where the peak so far may be exceeded.
+/// Compares squares first: computes roots only if the current peak may be exceeded.
 template <int dim>
 double larger_squared_principal(double so_far, const double* strain, double axial_strain_ratio) {
   double square = 0;

@@ -44,7 +44,7 @@ struct TreadSurface {
 
   /// All observations but the integrals, by their lines of points.
   std::vector<FaceRow> face_rows;
-  int n_columns = 0;      ///< round the whole ring
+  int n_columns = 0;      ///< around the whole ring
   bool has_spin = false;  ///< whether ObservationRows::spin() is observed
 
   ObservationRows<dim> rows() const {

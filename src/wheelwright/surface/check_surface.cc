@@ -47,15 +47,16 @@ Vec<3> doubled_area(Points points, const std::array<int, 3>& t) {
 std::optional<SurfaceFault> find_bad_side(Points points, const std::vector<Side>& sides) {
   for (std::size_t i = 0; i < sides.size(); ++i) {
     if (i > 0 && sides[i].key() == sides[i - 1].key())
-      return SurfaceFault{"more than two triangles meet at an edge, or two of them run the same way",
-                          points[sides[i].from]};
+      return SurfaceFault{
+          "more than two triangles meet at an edge, or two of them have the same direction there",
+          points[sides[i].from]};
     if (find(sides, sides[i].to, sides[i].from) == nullptr)
       return SurfaceFault{"the surface is open at an edge", points[sides[i].from]};
   }
   return {};
 }
 
-/// The triangles that a walk round a vertex reaches must be all that have the vertex.
+/// A walk around a vertex must reach all triangles at it.
 std::optional<SurfaceFault> find_bad_vertex(Points points, Triangles triangles,
                                             const std::vector<Side>& sides) {
   for (std::size_t begin = 0; begin < sides.size();) {

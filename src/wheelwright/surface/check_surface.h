@@ -20,15 +20,15 @@ struct SurfaceReport {
   int handles() const { return bodies + cavities - euler_characteristic / 2; }
 };
 
-/// Why a surface bounds no solid.
+/// Why a surface does not bound a solid.
 struct SurfaceFault {
   std::string what;  ///< one sentence
   Vec<3> place;      ///< in the unit of the points
 };
 
-/// Checks that triangles bound a solid: every side of a triangle is the side of exactly one other one, which
-/// runs the other way; the triangles round a vertex are one fan; no triangle has the area 0; no two vertices
-/// are at the same place; all vertices are used; every piece encloses a volume other than 0.
+/// Checks that triangles bound a solid: every side of a triangle is shared with exactly one other one, in the
+/// opposite direction; the triangles around a vertex form one fan; no triangle has the area 0; no two
+/// vertices are at the same place; all vertices are used; every piece encloses a volume other than 0.
 Expected<SurfaceReport, SurfaceFault> check_surface(std::span<const Vec<3>> points,
                                                     std::span<const std::array<int, 3>> triangles);
 

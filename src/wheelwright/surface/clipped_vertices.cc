@@ -21,8 +21,8 @@ ClippedVertices::Number ClippedVertices::number(const std::array<FineLattice::Po
   const int columns = lattice_.cubes()[1];
   const bool in_next_sector = a[1] == columns && b[1] == columns;
   if (in_next_sector) a[1] = b[1] = 0;
-  // The first node of an edge is that of the material. Where it is the next sector's, its number is that of
-  // its image in this one, but the direction tells the two apart.
+  // The first node of an edge is the one in the material. If it belongs to the next sector, it has the number
+  // of its image in this one, but the direction distinguishes the two.
   const auto [entry, is_new] = numbers_.try_emplace(key(lattice_, a, b), static_cast<int>(points_.size()));
   if (is_new) {
     const double share = corner.is_node() ? 0 : lattice_.crossing(a, b);

@@ -9,13 +9,13 @@
 
 namespace wheelwright {
 
-/// A place in a cell of a sector's grid, or of the ring if cell[1] counts columns round it.
+/// A place in a cell of a sector's grid, or of the ring if cell[1] counts columns around it.
 struct CellPoint {
   std::array<int, 3> cell;
   Vec<3> xi;  ///< in the unit cell
 };
 
-/// The corners of the cubes that a sector's cells are divided into: `parts` along each axis of every cell.
+/// The corners of the cubes into which a sector's cells are divided: `parts` along each axis of every cell.
 /// Nodes of the first azimuth of the next sector belong to it too. A node is material where psi < 0; where
 /// psi is exactly 0 it is not.
 class FineLattice {
@@ -46,12 +46,12 @@ class FineLattice {
   /// A number of the node, the same for a node and its image at the first azimuth of the next sector.
   int index_in_sector(const Position& node) const;
 
-  /// Where the boundary crosses the edge between two nodes of a cube: a share in (0, 1) of the way from the
-  /// material `inside` to `outside`. It keeps a distance of 1/256 from both nodes, so that no triangle that
-  /// ends there has the area 0.
+  /// The crossing of the boundary with the edge between two nodes of a cube: a fraction in (0, 1) of the way
+  /// from the material `inside` to `outside`. It keeps a distance of 1/256 from both nodes, so that no
+  /// triangle that ends there has the area 0.
   double crossing(const Position& inside, const Position& outside) const;
 
-  /// The cell that holds both ends of an edge, and the place there at a share of the way between them.
+  /// The cell that contains both ends of an edge, and the place in it at a fraction of the way between them.
   CellPoint point(const Position& a, const Position& b, double share) const;
 
  private:

@@ -10,8 +10,8 @@ namespace wheelwright {
 
 enum class MaterialCellKind : std::uint8_t { tetrahedron, wedge, hexahedron };
 
-/// The material of one sector as cells. Their corners are those of VTK: a hexahedron's go round its face z =
-/// 0 and then round z = 1; a wedge has two triangles, the first of which runs clockwise when seen from the
+/// The material of one sector as cells. Their corners are those of VTK: a hexahedron's go around its face z =
+/// 0 and then around z = 1; a wedge has two triangles, the first of which runs clockwise when seen from the
 /// second.
 struct MaterialCells {
   std::vector<CellPoint> places;  ///< of the vertices, on the grid

@@ -28,7 +28,7 @@ struct SectorTriangle {
   SurfacePart part;
 };
 
-/// The surface of one sector, which is open where the next ones begin.
+/// The surface of one sector, open at its faces to the neighbouring sectors.
 class SectorSurface {
  public:
   explicit SectorSurface(const FineLattice& lattice) : lattice_(lattice), vertices_(lattice) {

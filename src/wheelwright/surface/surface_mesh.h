@@ -9,7 +9,7 @@
 
 namespace wheelwright {
 
-/// What a triangle of the surface lies on.
+/// The part of the boundary on which a triangle lies.
 enum class SurfacePart : std::uint8_t { rim, tread, side, hole };
 
 /// The closed surface of the material of the full ring, by triangles whose corners run counter-clockwise when

@@ -9,10 +9,9 @@ namespace wheelwright {
 /// 1). The vectors from the first corner to the other three are right-handed.
 using Tetrahedron = std::array<int, 4>;
 
-/// Kuhn's division of a cube into six tetrahedra along a diagonal of the cube, reflected along some axes.
-/// Every face of the cube is divided by the diagonal that the reflections along the other two axes give.
-/// Therefore cubes of a lattice fit together if each reflection depends on the position along its own axis
-/// alone.
+/// Kuhn's division of a cube into six tetrahedra along a diagonal of the cube, reflected along some axes. The
+/// diagonal of each face depends on the reflections along the other two axes. Therefore cubes of a lattice
+/// fit together if each reflection depends only on the position along its own axis.
 std::array<Tetrahedron, 6> tetrahedra_of_cube(const std::array<bool, 3>& reflected);
 
 /// The corners of the face opposite to each corner; seen from outside they run counter-clockwise.

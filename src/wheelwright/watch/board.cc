@@ -9,7 +9,7 @@ namespace wheelwright {
 namespace {
 
 /// Maximum number of points of a curve that a page draws.
-constexpr std::size_t most_points = 4000;
+constexpr std::size_t max_points = 4000;
 
 template <int dim>
 double measure_named(const WatchedShape<dim>& shape, std::string_view name) {
@@ -33,7 +33,7 @@ void Board<dim>::show(std::shared_ptr<const WatchedShape<dim>> shape) {
     view.shape = std::move(shape);
     point.version = view.shape_version = view.version + 1;
     curve_.push_back(point);
-    if (curve_.size() > most_points) curve_.pop_front();
+    if (curve_.size() > max_points) curve_.pop_front();
   });
 }
 

@@ -26,7 +26,7 @@ void BoardObserver<dim>::operator()(const Event<dim>& event, const RunView<dim>&
     board_->update([&](BoardView<dim>& view) {
       view.proposed.reset();
       view.message = done->text;
-      view.is_refusal = !done->was_obeyed;
+      view.is_refusal = !done->was_executed;
       view.can_undo = run.can_undo;
     });
   if (const auto* ended = std::get_if<RunEnded<dim>>(&event))

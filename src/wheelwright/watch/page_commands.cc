@@ -10,9 +10,9 @@ bool PageCommands::is_for_pages(const Command& command) {
 }
 
 std::optional<long> PageCommands::give(Command command) {
-  constexpr long most_waiting = 32;
+  constexpr long max_waiting = 32;
   const std::scoped_lock lock(mutex_);
-  if (given_ - done_ >= most_waiting) return {};
+  if (given_ - done_ >= max_waiting) return {};
   queue_.push(std::move(command));
   return ++given_;
 }
@@ -26,12 +26,12 @@ std::optional<PageCommands::Answer> PageCommands::answer(long ticket, std::chron
 }
 
 void PageCommands::note(const CommandDone& done) {
-  constexpr std::size_t most_answers = 256;
+  constexpr std::size_t max_answers = 256;
   if (!done.command || !is_for_pages(*done.command)) return;
   {
     const std::scoped_lock lock(mutex_);
-    answers_.push_back({++done_, done.was_obeyed, done.text});
-    if (answers_.size() > most_answers) answers_.pop_front();
+    answers_.push_back({++done_, done.was_executed, done.text});
+    if (answers_.size() > max_answers) answers_.pop_front();
   }
   answered_.notify_all();
 }

@@ -18,7 +18,7 @@ class PageCommands {
  public:
   struct Answer {
     long ticket;
-    bool was_obeyed;
+    bool was_executed;
     std::string text;
   };
 

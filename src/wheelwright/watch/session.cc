@@ -31,8 +31,8 @@ long parameter(const PageRequest& request, const std::string& name) {
   return std::max(0L, value);
 }
 
-PageAnswer message(int status, bool was_obeyed, const std::string& text) {
-  const nlohmann::ordered_json json{{"obeyed", was_obeyed}, {"text", text}};
+PageAnswer message(int status, bool was_executed, const std::string& text) {
+  const nlohmann::ordered_json json{{"executed", was_executed}, {"text", text}};
   return {.status = status,
           .body = json.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace)};
 }
@@ -127,7 +127,7 @@ PageAnswer WatchSession<dim>::command(const PageRequest& request) {
   if (!parsed) return message(400, false, parsed.failure().reason);
   if (!PageCommands::is_for_pages(*parsed) || std::holds_alternative<TakeShape>(*parsed))
     return message(400, false, "not a command of a page");
-  return obeyed(*parsed);
+  return executed(*parsed);
 }
 
 /// The shape of an offered design: a page passes its name, never a file.
@@ -135,16 +135,16 @@ template <int dim>
 PageAnswer WatchSession<dim>::take(const PageRequest& request) {
   const auto found = designs_.shapes.find(request.body);
   if (found == designs_.shapes.end()) return message(422, false, "there is no such design");
-  return obeyed(TakeShape{found->second.string()});
+  return executed(TakeShape{found->second.string()});
 }
 
 template <int dim>
-PageAnswer WatchSession<dim>::obeyed(Command command) {
+PageAnswer WatchSession<dim>::executed(Command command) {
   const auto ticket = commands_->give(std::move(command));
   if (!ticket) return message(429, false, "too many commands are waiting");
   const auto answer = commands_->answer(*ticket, patience);
   if (!answer) return message(202, false, "not executed yet");
-  return message(200, answer->was_obeyed, answer->text);
+  return message(200, answer->was_executed, answer->text);
 }
 
 template <int dim>

@@ -43,7 +43,7 @@ class WatchSession {
   PageAnswer report() const;
   PageAnswer save(const PageRequest& request) const;
   PageAnswer take(const PageRequest& request);
-  PageAnswer obeyed(Command command);
+  PageAnswer executed(Command command);
 
   std::filesystem::path folder_;  ///< of the run
   OfferedDesigns designs_;

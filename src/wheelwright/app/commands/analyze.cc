@@ -82,9 +82,9 @@ class AnalyzeCommand : public Subcommand {
   AnalyzeCommand() : Subcommand("analyze", "Report stiffness, contact, stress and run-out of one shape") {}
 
   void declare(Options& options) override {
-    constexpr int most_positions = 1000;
+    constexpr int max_positions = 1000;
     add_wheel(options, input_);
-    options.number("--positions", positions_, {1, most_positions}, "Load positions per sector");
+    options.number("--positions", positions_, {1, max_positions}, "Load positions per sector");
     options.text("--loads", "P1,P2,... | FROM:TO:NUMBER", loads_, check_loads,
                  "Report the deflection under these loads on the whole width [N]");
     options.text(

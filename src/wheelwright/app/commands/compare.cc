@@ -39,10 +39,10 @@ class CompareCommand : public Subcommand {
   CompareCommand() : Subcommand("compare", "Compare wheels: their numbers and overlaid outlines") {}
 
   void declare(Options& options) override {
-    constexpr int most_positions = 1000;
+    constexpr int max_positions = 1000;
     options.arguments("WHEEL", inputs_, 2,
                       "Case files, for their initial shapes, or runs' folders, for their last shapes");
-    options.number("--positions", positions_, {1, most_positions}, "Load positions per sector");
+    options.number("--positions", positions_, {1, max_positions}, "Load positions per sector");
     add_output(options, output_,
                "Folder for comparison.txt, .json and .svg; without it the table is printed");
     options.flag("--json", json_, "Print JSON instead of the table");

@@ -16,11 +16,11 @@ class ExploreCommand : public Subcommand {
   ExploreCommand() : Subcommand("explore", "Optimize a case from many starts, and show the best designs") {}
 
   void declare(Options& options) override {
-    constexpr int most_starts = 999, most_seed = 1'000'000'000;
+    constexpr int max_starts = 999, max_seed = 1'000'000'000;
     add_case(options, case_file_);
-    options.number("--starts", plan_.starts, {1, most_starts},
+    options.number("--starts", plan_.starts, {1, max_starts},
                    "Number of initial shapes: the case's own and generated ones, all of the same volume");
-    options.number("--seed", seed_, {0, most_seed}, "Seed of the random numbers that generate them");
+    options.number("--seed", seed_, {0, max_seed}, "Seed of the random numbers that generate them");
     options.flag("--keep-sectors", plan_.keeps_sectors,
                  "Generate only numbers of holes that are multiples of wheel.sectors");
     options_.declare(options);

@@ -27,9 +27,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char *default_formats = "dxf,svg,stl", *default_formats_3d = "stl";
-constexpr double default_tolerance = 0.01, default_tolerance_3d = 0.1, least_tolerance = 0.001,
-                 greatest_tolerance = 1000;  // [mm]
-constexpr double finest_share = 1e-6;        // smallest tolerance, as a fraction of the outer radius
+constexpr double default_tolerance = 0.01, default_tolerance_3d = 0.1, min_tolerance = 0.001,
+                 max_tolerance = 1000;  // [mm]
+constexpr double finest_share = 1e-6;   // smallest tolerance, as a fraction of the outer radius
 
 using Formats = std::vector<const ExportFormat*>;
 
@@ -77,14 +77,14 @@ std::optional<double> parse_tolerance(const std::string& text) {
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
   const bool is_number = end != text.c_str() && *end == '\0';
-  if (!is_number || !(value >= least_tolerance && value <= greatest_tolerance)) return {};
+  if (!is_number || !(value >= min_tolerance && value <= max_tolerance)) return {};
   return value;
 }
 
 std::string check_tolerance(const std::string& text) {
   return parse_tolerance(text)
              ? ""
-             : fmt::format("must be a length from {} to {} mm", least_tolerance, greatest_tolerance);
+             : fmt::format("must be a length from {} to {} mm", min_tolerance, max_tolerance);
 }
 
 class ExportCommand : public Subcommand {

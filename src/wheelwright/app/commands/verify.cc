@@ -41,7 +41,7 @@ bool report_gradients(const std::vector<GradientCheck>& checks) {
     any_smoothed = any_smoothed || check.is_smoothed;
   }
   print("  required: order > {}, and an error of the derivative below {} at the largest step\n",
-        GradientCheck::wanted_order, GradientCheck::most_error);
+        GradientCheck::wanted_order, GradientCheck::max_error);
   if (any_smoothed)
     print(
         "  not tested: a maximum, whose gradient is deliberately that of a p-norm or of a smooth maximum\n");

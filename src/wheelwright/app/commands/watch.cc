@@ -106,7 +106,7 @@ class WatchCommand : public Subcommand {
     const LocalServer server(session.routes(), port_);
     const AddressFile address(server.address());
     tell_address(server, address);
-    const auto result = run.execute(commands_, AtEnd::wait);
+    const auto result = run.execute(commands_, OnEnd::wait);
     session.close();
     return report_result(result, run.folder(), signals);
   }
@@ -127,7 +127,7 @@ class WatchCommand : public Subcommand {
     commands_.add_source(replay->source());
     run.add(std::make_unique<CommandLog<dim>>());
     run.add(std::move(replay));
-    return report_result(run.execute(commands_, AtEnd::wait), run.folder(), signals);
+    return report_result(run.execute(commands_, OnEnd::wait), run.folder(), signals);
   }
 
   std::string input_;

@@ -25,8 +25,8 @@
   async function give(command) {
     try {
       const answer = await (await ask("/command", { method: "POST", body: JSON.stringify(command) })).json();
-      tell(answer.text, !answer.obeyed);
-      return answer.obeyed;
+      tell(answer.text, !answer.executed);
+      return answer.executed;
     } catch {
       tell("the program does not answer", true);
       return false;
@@ -498,7 +498,7 @@
   at("save").addEventListener("click", async () => {
     try {
       const answer = await (await ask("/save", { method: "POST", body: at("name").value })).json();
-      tell(answer.obeyed ? `saved: ${answer.text}` : answer.text, !answer.obeyed);
+      tell(answer.executed ? `saved: ${answer.text}` : answer.text, !answer.executed);
     } catch {
       tell("the program does not answer", true);
     }
@@ -531,7 +531,7 @@
     const takeDesign = async () => {
       front.update("none");
       const answer = await (await ask("/take", { method: "POST", body: at("design").value })).json();
-      tell(answer.text, !answer.obeyed);
+      tell(answer.text, !answer.executed);
     };
     at("design").addEventListener("change", () => front.update("none"));
     at("take").addEventListener("click", takeDesign);
