@@ -69,7 +69,7 @@ std::vector<double> objectives(const OptimizationState<2>& state) {
 constexpr auto accepted = Verdict::accepted, rose = Verdict::objective_rose;
 
 // Every value but the last is within 1 % of the shape before it; the last one is not within 1 % of the best.
-TEST(Acceptance, SmallRisesDoNotAddUp) {
+TEST(Acceptance, SmallIncreasesDoNotAccumulate) {
   const ScriptedRun r = run_with({1, 0.9, 0.908, 0.916, 0.905}, 3);
   EXPECT_EQ(r.verdicts, (std::vector{accepted, accepted, accepted, rose, accepted}));
   EXPECT_EQ(objectives(r.state), (std::vector<double>{1, 0.9, 0.908, 0.905}));
@@ -89,7 +89,7 @@ TEST(Acceptance, TheMarginIsRelativeToTheMagnitudeOfTheBest) {
   EXPECT_EQ(negative.verdicts, (std::vector{accepted, accepted, rose, accepted}));
 }
 
-TEST(Acceptance, ThePapersRuleAcceptsEveryRise) {
+TEST(Acceptance, PapersRuleAcceptsEveryIncrease) {
   const ScriptedRun r = run_with({1, 1.2, 1.5, 1.7}, 3, MeasureControl::proportional);
   EXPECT_EQ(r.verdicts, (std::vector{accepted, accepted, accepted, accepted}));
   EXPECT_EQ(r.steps, (std::vector<double>{0, 0.5, 0.5, 0.5}));

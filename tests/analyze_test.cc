@@ -96,7 +96,7 @@ ContactPatch<2> hertz_patch(double a, double c, double h) {
   return patch;
 }
 
-TEST(Analysis, ThePatchEndsWhereTheSquareOfThePressureIsZero) {
+TEST(Analysis, PatchEndsWhereSquaredPressureVanishes) {
   for (const double points : {20, 37, 80})
     EXPECT_NEAR(contact_summary(hertz_patch(6e-3, 0.3e-3, 12e-3 / points)).patch_length, 12e-3, 0.002 * 12e-3)
         << points;
@@ -118,7 +118,7 @@ ContactPatch<2> two_patches(double a, double b, double gap, double h) {
   return patch;
 }
 
-TEST(Analysis, ThePatchIsAsLongAsWhatTouchesWithoutTheGapsBetween) {
+TEST(Analysis, PatchLengthExcludesGaps) {
   const double a = 6e-3, b = 3e-3;
   for (const double gap : {8e-3, 1e-3}) {
     const ContactSummary found = contact_summary(two_patches(a, b, gap, 0.1e-3));
@@ -148,7 +148,7 @@ TEST(Analysis, PrincipalStrainsAreTheEigenvalues) {
 }
 
 // Of a mirror-symmetric wheel one of each pair of positions is solved; its analysis is that of all.
-TEST(Analysis, OfSolvedPositionsIsThatOfAll) {
+TEST(Analysis, SolvedPositionsRepresentAll) {
   auto model = paper_model(14, 192);
   model.contact.friction = 0.3;
   const auto problem = RollingProblem<2>::create(model);
@@ -215,7 +215,7 @@ TEST(Analysis, RingRunsTrueAtThePositionsOfColumns) {
 }
 
 /// Seven positions a column, all harmonics of a sector but those of a column vanish.
-TEST(Analysis, BetweenColumnsTheRingRunsOutByTheGridAlone) {
+TEST(Analysis, BetweenColumnsRunOutIsGridError) {
   std::vector<double> run_out;
   for (int refinement : {1, 2}) {
     RollingModel<2> model = testing::paper_model(14 * refinement, 192 * refinement);
@@ -248,7 +248,7 @@ TEST(Analysis, MirrorSymmetricShapeGivesMirrorSymmetricCurves) {
   }
 }
 
-TEST(Analysis, TravelThatCameFromALoadTakesThatForce) {
+TEST(Analysis, TravelOfALoadNeedsThatForce) {
   const RollingModel<2> model = coarse_model(6);
   const auto [problem, state, a] = analyzed(model, one_hole);
   for (size_t i = 0; i < a.positions.size(); ++i) {
@@ -261,7 +261,7 @@ TEST(Analysis, TravelThatCameFromALoadTakesThatForce) {
   }
 }
 
-TEST(Analysis, HeldTravelAndLoadGiveTheSameCurves) {
+TEST(Analysis, FixedTravelAndLoadGiveTheSameCurves) {
   RollingModel<2> model = coarse_model(6);
   const auto loaded = analyzed(model, one_hole);
   EXPECT_EQ(loaded.analysis.held, Held::load);
@@ -450,7 +450,7 @@ TEST(Report, JsonReadsBackToTheSameNumbers) {
 }
 
 // What a second solve would give is missing; everything else is there.
-TEST(Report, WithoutTheForceAtFixedTravelHasEverythingElse) {
+TEST(Report, MissingForceAtFixedTravelLeavesTheRest) {
   const RollingModel<2> model = coarse_model(5);
   auto [problem, state, a] = analyzed(model, one_hole);
   const Failure failure{FailureReason::newton_stalled, "on purpose"};

@@ -40,20 +40,20 @@ void expect_failure(const CutDomain<dim>& domain, FailureReason reason) {
   EXPECT_EQ(failure->reason, reason) << failure->detail;
 }
 
-TEST(CheckAttached, MaterialIsHeldThroughTheSectorFaceOnEitherSide) {
+TEST(CheckAttached, MaterialIsAttachedAcrossEitherSectorFace) {
   expect_attached(step_across_the_sector_face<2>(0, 4));
   expect_attached(step_across_the_sector_face<2>(4, 0));
   expect_attached(step_across_the_sector_face<3>(0, 4));
   expect_attached(step_across_the_sector_face<3>(4, 0));
 }
 
-TEST(CheckAttached, ColumnsThatAreNoNeighboursDoNotHoldEachOther) {
+TEST(CheckAttached, NonadjacentColumnsAreNotConnected) {
   expect_failure(step_across_the_sector_face<2>(0, 3), FailureReason::tread_cut_off);
   expect_failure(step_across_the_sector_face<2>(1, 4), FailureReason::tread_cut_off);
   expect_failure(step_across_the_sector_face<3>(2, 4), FailureReason::tread_cut_off);
 }
 
-TEST(CheckAttached, CellsThatShareOnlyAnEdgeDoNotHoldEachOther) {
+TEST(CheckAttached, CellsSharingOnlyAnEdgeAreNotConnected) {
   expect_failure(domain_of<2>([](const std::array<int, 2>& p) {
                    return p[0] == 5 || (p[0] <= 2 && p[1] == 0) || (p[0] >= 3 && p[1] == 4);
                  }),

@@ -153,7 +153,7 @@ TEST(BetweenColumns, GradientsPassTheTaylorTest) {
   }
 }
 
-TEST(BetweenColumns, AHeldMeanPassesTheTaylorTest) {
+TEST(BetweenColumns, FixedMeanPassesTheTaylorTest) {
   const auto problem = RollingProblem<2>::create(model_with(8));
   ASSERT_TRUE(problem);
   const auto psi = generic_hole(problem->model().grid);

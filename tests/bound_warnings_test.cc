@@ -20,7 +20,7 @@ std::vector<std::string> warnings_with(const std::string& constraint) {
 }
 
 /// The wheel has 6300 N/mm: 5.3e7 N/m per metre of width, and 6.3e6 N/m on its whole width of 0.12 m.
-TEST(BoundWarnings, TellBoundsOfTheWholeWidth) {
+TEST(BoundWarnings, DetectBoundsOfTheWholeWidth) {
   EXPECT_TRUE(warnings_with("quantity = \"stiffness\"\nat_least = 58e6\n").empty());
   EXPECT_TRUE(warnings_with("quantity = \"stiffness\"\nat_least = 25e6\n").empty());
   const auto whole = warnings_with("quantity = \"stiffness\"\nat_least = 6e6\n");
@@ -30,7 +30,7 @@ TEST(BoundWarnings, TellBoundsOfTheWholeWidth) {
   EXPECT_TRUE(warnings_with("quantity = \"stiffness\"\nat_least = " + quoted + "\n").empty()) << quoted;
 }
 
-TEST(BoundWarnings, ConcernWhatDependsOnTheWidthAlone) {
+TEST(BoundWarnings, ConcernOnlyQuantitiesPerWidth) {
   EXPECT_EQ(warnings_with("quantity = \"mass\"\nat_most = 20\n").size(), 1u);
   EXPECT_TRUE(warnings_with("quantity = \"mass\"\nat_most = 180\n").empty());
   // A tenth of the initial run-out is a bound to ask for, and stresses do not depend on the width.

@@ -33,7 +33,7 @@ Evaluation<2> evaluated(const Case& c) {
 
 // The same quantity in its three forms: the mean and the greatest of the single positions. Positions 1 and 3
 // are mirror images and share a bound.
-TEST(BoundedFunctions, AreTheMeanTheWorstOrEachOfTheLoadPositions) {
+TEST(BoundedFunctions, AggregateMeanWorstOrEachPosition) {
   Case c = small_case();
   for (const auto over : {OverPositions::mean, OverPositions::worst, OverPositions::each})
     c.constraints.push_back({.quantity = Quantity::stiffness, .at_most = 1e9, .over = over});
@@ -52,7 +52,7 @@ TEST(BoundedFunctions, AreTheMeanTheWorstOrEachOfTheLoadPositions) {
   EXPECT_EQ(quantity_of("stiffness at 1"), Quantity::stiffness);
 }
 
-TEST(BoundedFunctions, AreEveryPositionOfAWheelThatIsNotItsMirrorImage) {
+TEST(BoundedFunctions, CoverEveryPositionOfAnAsymmetricWheel) {
   Case c = small_case();
   c.contact.friction = 0.3;
   c.load.torque = 50;
@@ -79,7 +79,7 @@ TEST(BoundedFunctions, AreShownOnTheWholeWidthInTheUnitsOfTables) {
   EXPECT_NEAR(limit, 600, 1e-9);
 }
 
-TEST(BoundedFunctions, LetALighterWheelBeFound) {
+TEST(BoundedFunctions, PermitALighterWheel) {
   Case c = small_case();
   c.constraints = {{.quantity = Quantity::stiffness, .at_least = 1}};
   c.constraints[0].at_least = 1.02 * evaluated(c).function("stiffness").value;

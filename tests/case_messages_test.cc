@@ -34,7 +34,7 @@ Place first_place(std::string_view text) {
   return {d.line, d.column};
 }
 
-TEST(CaseMessages, AnUnclosedStringIsReportedWhereItBegins) {
+TEST(CaseMessages, UnterminatedStringIsReportedAtItsStart) {
   for (const std::string quotes : {"\"\"\"", "\'\'\'"}) {
     EXPECT_EQ(
         first_place("[wheel]\nsectors = 8\n[output]\nfolder = " + quotes + "runs\n\n[load]\nmass = 1\n"),
@@ -77,7 +77,7 @@ TEST(CaseMessages, OtherEncodingsAreNamed) {
   EXPECT_TRUE(says("title = \"gr\xfc\xdf\"\n", "as UTF-8"));
 }
 
-TEST(CaseMessages, ValuesArePrintedAsPeopleWriteThem) {
+TEST(CaseMessages, ValuesArePrintedInNaturalForm) {
   EXPECT_TRUE(says("[wheel]\nsectors = 0.1\n", "2:11 0.1 "));
   EXPECT_TRUE(says("[wheel]\nsectors = 16.0\n", "2:11 16.0 "));
   EXPECT_TRUE(says("[wheel]\nwidth = -0.3\n", "2:9 -0.3 "));
@@ -101,7 +101,7 @@ TEST(CaseMessages, LengthsInMillimetresAreRecognized) {
   EXPECT_FALSE(says("[contact]\nfriction = 300\n", "mm"));
 }
 
-TEST(CaseMessages, AWheelOfHundredsOfMetresIsDoubted) {
+TEST(CaseMessages, WheelOfHundredsOfMetresGivesAWarning) {
   Case c;
   const auto doubts = [&] {
     return std::ranges::count_if(warnings(c), [](const std::string& text) {
@@ -116,7 +116,7 @@ TEST(CaseMessages, AWheelOfHundredsOfMetresIsDoubted) {
   EXPECT_EQ(doubts(), 1) << "the width fits the radius";
 }
 
-TEST(CaseMessages, BothPlacesOfANestedHoleAreTold) {
+TEST(CaseMessages, BothPlacesOfANestedHoleAreReported) {
   const std::string rings =
       "[[holes.ring]]\ncount = 16\ncenter_radius = 0.27\nradius = 0.03\n"
       "[[holes.ring]]\ncount = 16\ncenter_radius = 0.27\nradius = ";

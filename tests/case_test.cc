@@ -129,7 +129,7 @@ Case with_holes() {
   return c;
 }
 
-TEST(Syntax, WrongBytesAreReportedOnceALineWhereTheyStand) {
+TEST(Syntax, InvalidBytesAreReportedOncePerLine) {
   const auto problems = parse_case("[wheel]\n# caf\xe9 \xe9\n# fine\n#  \xff\n", "case.toml").problems;
   std::vector<std::pair<int, int>> places;
   for (const Diagnostic& d : problems)
@@ -180,7 +180,7 @@ TEST(CaseFile, HolesOfThePapersWheel) {
   EXPECT_DOUBLE_EQ(holes[0].centre_azimuth, sector_angle(*result.value) / 2);
 }
 
-TEST(CaseFile, KeysThatAreLeftOutTakeTheirDefaults) {
+TEST(CaseFile, OmittedKeysHaveTheirDefaults) {
   Case expected;
   expected.output.folder = "runs/short";
   const CaseResult result = parse_case("[wheel]", "some/short.toml");
@@ -293,7 +293,7 @@ TEST(CaseFile, TheReferencePageIsFresh) {
       << "write it again: wheelwright reference > docs/case-reference.md";
 }
 
-TEST(CaseFile, WhatCannotBeReadIsUnreadable) {
+TEST(CaseFile, UnreadableFilesAreReported) {
   const std::filesystem::path folder = source / "cases", fails_when_read = "/proc/self/mem";
   for (const auto& file : {folder / "no_such_file.toml", folder, folder / "holes16.toml" / "x",
                            std::filesystem::path(), fails_when_read}) {
@@ -303,7 +303,7 @@ TEST(CaseFile, WhatCannotBeReadIsUnreadable) {
   }
 }
 
-TEST(CaseFile, AFileWithoutEndIsTooLong) {
+TEST(CaseFile, EndlessFileIsTooLong) {
   const auto problems = read_case("/dev/zero").problems;
   ASSERT_EQ(problems.size(), 1u);
   EXPECT_EQ(problems[0].kind, Kind::syntax);
@@ -594,7 +594,7 @@ TEST(TomlGuard, DepthCountsOutsideStringsAndCommentsOnly) {
   EXPECT_TRUE(exceeded_parser_limit(std::string(1 << 21, ' ')));
 }
 
-TEST(TomlGuard, HostileTextsGiveProblemsNotCrashes) {
+TEST(TomlGuard, HostileTextsGiveProblemsInsteadOfCrashes) {
   std::string keys, tables = "a = ";
   for (int i = 0; i < 50000; ++i) keys += "a.";
   for (int i = 0; i < 50000; ++i) tables += "{a=";
@@ -762,7 +762,7 @@ TEST(Derived, TheHertzianPressureCarriesTheLoad) {
   EXPECT_NEAR(half_ellipse, load_per_metre(c), 1e-12 * load_per_metre(c));
 }
 
-TEST(Derived, LeastGammaAtThePapersThetas) {
+TEST(Derived, MinimumGammaAtThePapersThetas) {
   const Material material{.youngs_modulus = 200e6, .poissons_ratio = 0.48};
   EXPECT_EQ(minimum_gamma_0(-1, material), 0);
   EXPECT_NEAR(minimum_gamma_0(0, material), 10, 0.05);
@@ -772,7 +772,7 @@ TEST(Derived, LeastGammaAtThePapersThetas) {
 }
 
 // At half of the least value the tread's stiffness is indefinite, for every aspect; the least one is enough.
-TEST(Derived, LeastGammaFollowsTheAspectOfTheCells) {
+TEST(Derived, MinimumGammaFollowsTheAspectOfTheCells) {
   for (const int angular_cells : {62, 124, 248}) {
     Case c;
     c.wheel = {.inner_radius = 0.02516, .outer_radius = 0.03102, .width = 0.0367, .sectors = 31};
@@ -792,7 +792,7 @@ TEST(Derived, LeastGammaFollowsTheAspectOfTheCells) {
   }
 }
 
-TEST(Derived, LeastGammaOfNearlyIncompressibleMaterialGrowsForPositiveThetaAlone) {
+TEST(Derived, MinimumGammaOfNearlyIncompressibleMaterialGrowsOnlyForPositiveTheta) {
   const Material last{.youngs_modulus = 200e6, .poissons_ratio = 0.485},
       rubber{.youngs_modulus = 200e6, .poissons_ratio = 0.4999};
   for (const double theta : {-1.0, -0.5, 0.0})
@@ -834,7 +834,7 @@ TEST(Conflicts, HolesMayTouchTheBandsButNotEnterThem) {
 }
 
 // A default band is thinner than the rows of cells that must be full on coarse grids alone.
-TEST(Conflicts, CoarseGridsNeedBandsOfTheirOwn) {
+TEST(Conflicts, CoarseGridsNeedTheirOwnBands) {
   const auto n = [](int radial_cells, std::optional<double> rim, std::optional<double> tread) {
     Case c;
     c.grid.radial_cells = radial_cells;
@@ -911,7 +911,7 @@ TEST(Conflicts, NearlyIncompressibleMaterialNeedsDegreeTwo) {
 }
 
 // Only splines have such a radius, and only holes and rings that are wide enough leave room for it.
-TEST(Conflicts, ALeastRadiusNeedsEdgesAndHolesThatCanHaveIt) {
+TEST(Conflicts, MinimumRadiusNeedsSuitableEdgesAndHoles) {
   Case c =
       parse_case(
           "[[holes.ring]]\ncount = 16\ncenter_radius = 0.27\nradius = 0.04\n[optimizer]\nminimum_radius = "
@@ -954,7 +954,7 @@ TEST(Conflicts, NitscheNeedsALargeGammaForThetaZeroAndOneOnly) {
 
 // Where the load is given, friction holds less than its share of it, and that at the tread's radius a torque;
 // where the travel is given, or a body force adds to the load, what it holds is not known beforehand.
-TEST(Conflicts, FrictionMustHoldWhatMovesTheRim) {
+TEST(Conflicts, FrictionMustResistLoadsOnTheRim) {
   Case c;
   c.load.force = 1000;
   c.contact.friction = 0.5;
@@ -978,7 +978,7 @@ TEST(Conflicts, FrictionMustHoldWhatMovesTheRim) {
 }
 
 // Neighbouring holes that touch all round cut the tread off; a single hole has no neighbour.
-TEST(Conflicts, HolesMustNotTouchAllRound) {
+TEST(Conflicts, HolesMustNotTouchAllAround) {
   Case c;
   const double centre = 0.25, touching = centre * std::sin(std::numbers::pi / 32);
   c.wheel.sectors = 32;

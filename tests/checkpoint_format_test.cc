@@ -24,14 +24,14 @@ std::string round_trip(const std::string& bytes) {
   return parsed ? checkpoint_file(*parsed) : parsed.failure().detail;
 }
 
-TEST(CheckpointFormat, ComesBackBitForBitIn2DAnd3D) {
+TEST(CheckpointFormat, RoundTripIsExactIn2DAnd3D) {
   const std::string flat = checkpoint_file(some_checkpoint<2>()),
                     solid = checkpoint_file(some_checkpoint<3>());
   EXPECT_EQ(round_trip<2>(flat), flat);
   EXPECT_EQ(round_trip<3>(solid), solid);
 }
 
-TEST(CheckpointFormat, HoldsTheWholeState) {
+TEST(CheckpointFormat, ContainsTheWholeState) {
   const auto written = some_checkpoint<2>();
   const auto parsed = parse_checkpoint_file<2>(checkpoint_file(written));
   ASSERT_TRUE(parsed);
@@ -110,7 +110,7 @@ TEST(CheckpointFormat, RejectsEveryTruncationAndEveryFlippedBit) {
   expect_every_damage_is_seen(checkpoint_file(some_checkpoint<2>()), parse_checkpoint_file<2>);
 }
 
-TEST(LevelSetFile, ComesBackExactlyAndRejectsEveryDamage) {
+TEST(LevelSetFile, RoundTripIsExactAndCorruptionIsRejected) {
   Random random;
   const auto psi = some_level_set<3>(random, 2);
   const std::string bytes = level_set_file(psi);
@@ -148,7 +148,7 @@ std::string reframed(const std::string& good, std::size_t block, Change change) 
 
 // Checksums do not protect from files that were made to harm: sizes and values are checked too.
 
-TEST(CheckpointFormat, RejectsWhatDoesNotFitThoughItsChecksumsAreRight) {
+TEST(CheckpointFormat, RejectsInconsistentDataWithValidChecksums) {
   const std::string good = checkpoint_file(some_checkpoint<2>());
   int rejected = 0;
   for (std::size_t block = 0; block < checkpoint_tags.size(); ++block) {
@@ -171,7 +171,7 @@ TEST(CheckpointFormat, RejectsWhatDoesNotFitThoughItsChecksumsAreRight) {
   EXPECT_GT(rejected, 1000);
 }
 
-TEST(CheckpointFormat, AllocatesNothingForSizesThatTheFileOnlyClaims) {
+TEST(CheckpointFormat, AllocatesNothingForClaimedSizes) {
   for (const std::int64_t claim : {std::int64_t{1} << 40, std::numeric_limits<std::int64_t>::max(),
                                    std::int64_t{-1}, std::numeric_limits<std::int64_t>::min()}) {
     ByteWriter writer;
@@ -194,7 +194,7 @@ bool accepts(Change change) {
   return bool(parse_checkpoint_file<2>(checkpoint_file(checkpoint)));
 }
 
-TEST(CheckpointFormat, RejectsStatesThatNoRunHas) {
+TEST(CheckpointFormat, RejectsImpossibleStates) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(accepts([](auto&) {}));
   EXPECT_FALSE(accepts([](auto& c) { c.state.evaluation.boundary[0].cell = 6; }));

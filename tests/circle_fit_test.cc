@@ -10,7 +10,7 @@ namespace wheelwright::cad {
 namespace {
 
 // In the sense of the points, wherever the circle lies and whichever point is the first.
-TEST(CircleFit, BeginsAtTheFirstPointAndGoesRoundOnce) {
+TEST(CircleFit, StartsAtTheFirstPointAndTurnsOnce) {
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> uniform(-1, 1);
   for (int k = 0; k < 200; ++k) {

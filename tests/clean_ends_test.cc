@@ -101,7 +101,7 @@ bool has_event(const Trial<2>& trial, ShapeEventKind kind) {
 }
 
 /// 48 holes, whose webs become thinner than a cell.
-TEST(FinalWidths, AreMendedOnceInAShapeOfItsOwn) {
+TEST(FinalWidths, AreRepairedOnceInASeparateShape) {
   const Course course = course_of(case_text(start_named("Holes48On20x192"), 15));
   std::vector<const Trial<2>*> repaired;
   for (const auto& trial : course.trials)
@@ -130,7 +130,7 @@ TEST(FinalWidths, AreMendedOnceInAShapeOfItsOwn) {
   }
 }
 
-TEST(FinalWidths, ShapesThatHaveThemStayAsTheyAre) {
+TEST(FinalWidths, ShapesThatHaveThemAreUnchanged) {
   const Course course = course_of(case_text(start_named("Holes16On14x192"), 9));
   EXPECT_EQ(course.last.final_widths, FinalWidths::kept);
   EXPECT_EQ(course.last.history_begin, 0);
@@ -138,7 +138,7 @@ TEST(FinalWidths, ShapesThatHaveThemStayAsTheyAre) {
 }
 
 /// Holes of two cells become slits that cannot be mended: such shapes keep the widths, if they have them.
-TEST(FinalWidths, AreKeptFromTheBeginningWhereHolesAreSmall) {
+TEST(FinalWidths, AreEnforcedFromTheStartForSmallHoles) {
   int n_small = 0;
   for (const Start& start : starts) {
     const Course course = course_of(case_text(start, 2));
@@ -163,7 +163,7 @@ TEST(FinalWidths, AreKeptFromTheBeginningWhereHolesAreSmall) {
   EXPECT_GE(n_small, 1);
 }
 
-TEST(FinalWidths, AreNotAskedForWhereTheCaseGivesWidths) {
+TEST(FinalWidths, AreNotUsedIfTheCaseGivesWidths) {
   const Start& start = start_named("Holes48On20x192");
   const Course any = course_of(case_text(start, 15, "minimum_wall = 0\nminimum_gap = 0\n"));
   EXPECT_EQ(any.last.final_widths, FinalWidths::not_yet);

@@ -174,7 +174,7 @@ constexpr const char* wrong_command_lines[] = {"",
                                                "analyze CASE --loads 1N",
                                                "analyze CASE --loads 1 --loads 2"};
 
-TEST_F(CommandLine, WrongUsageIsTwoSaysSoAndLeavesNothing) {
+TEST_F(CommandLine, WrongUsageExitsWithCode2AndWritesNothing) {
   for (const std::string line : wrong_command_lines) {
     const std::string arguments =
         std::regex_replace(line, std::regex("CASE"), path_of_case("cases/holes16.toml"));
@@ -197,7 +197,7 @@ TEST_F(CommandLine, CheckAcceptsAGoodCaseAndRefusesABadOne) {
   }
 }
 
-TEST_F(CommandLine, NoBadCaseLeavesAnything) {
+TEST_F(CommandLine, BadCasesWriteNothing) {
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(source / "tests" / "bad_cases")) {
     const Outcome outcome = wheelwright(fmt::format("run '{}'", entry.path().string()), folder());
@@ -208,7 +208,7 @@ TEST_F(CommandLine, NoBadCaseLeavesAnything) {
   EXPECT_GE(files, 100);
 }
 
-TEST_F(CommandLine, CasesThatCannotBeReadAreTwo) {
+TEST_F(CommandLine, UnreadableCaseExitsWithCode2) {
   for (const char* command : {"check ", "run ", "verify ", "analyze "})
     for (const std::string& file :
          {in_folder("none.toml"), in_folder(""), std::string("''"), std::string("/dev/null")})
@@ -260,7 +260,7 @@ TEST_F(CommandLine, ThousandsOfProblemsAreCountedAndNotAllShown) {
 }
 
 // With less address space than its buffers need, BLAS would try for ever to get it.
-TEST_F(CommandLine, WithoutAddressSpaceItIsFourAndDoesNotHang) {
+TEST_F(CommandLine, MissingAddressSpaceExitsWithCode4) {
   std::ofstream(folder() / "c.toml") << small_case(0);
   const auto within = [&](int kilobytes) {
     const std::string command =
@@ -278,7 +278,7 @@ TEST_F(CommandLine, WithoutAddressSpaceItIsFourAndDoesNotHang) {
   EXPECT_EQ(within(64 * 1024 * 1024), exit_done) << content(folder() / "printed");
 }
 
-TEST_F(CommandLine, FilesThatCannotBeWrittenAreFive) {
+TEST_F(CommandLine, UnwritableFileExitsWithCode5) {
   EXPECT_EQ(wheelwright("init " + in_folder("no/folder.toml")).code, exit_input_output);
   EXPECT_EQ(wheelwright("reference > /dev/full").code, exit_input_output);
   EXPECT_EQ(wheelwright("check " + path_of_case("cases/holes16.toml") + " > /dev/full").code,
@@ -313,7 +313,7 @@ rim_band = 0.0175
 tread_band = 0.035
 )";
 
-TEST_F(CommandLine, AShapeThatCannotBeSolvedIsThree) {
+TEST_F(CommandLine, UnsolvableShapeExitsWithCode3) {
   std::ofstream(folder() / "cut.toml") << unsolvable_case;
   for (const char* command : {"run cut.toml --output cut", "resume cut", "analyze cut.toml"})
     EXPECT_EQ(wheelwright(command, folder()).code, exit_no_solution) << command;
@@ -321,7 +321,7 @@ TEST_F(CommandLine, AShapeThatCannotBeSolvedIsThree) {
 
 // The volume at which a run ends may not be its target's yet, or a target that no wheel survives: the end
 // names the key.
-TEST_F(CommandLine, AVolumeThatIsNotReachedIsNamed) {
+TEST_F(CommandLine, UnreachedVolumeIsReported) {
   const auto run = [&](const std::string& name, const std::string& volume, int iterations = 2) {
     std::ofstream(folder() / (name + ".toml"))
         << "[[holes.ring]]\ncount = 16\ncenter_radius = 0.27\nradius = 0.028\n"
@@ -364,7 +364,7 @@ TEST_F(CommandLine, VerifyTestsTheGradientOfTheCasesShape) {
 }
 
 // Exploring the least mass once drew starts without end, and neither time nor a signal ended it.
-TEST_F(CommandLine, ExploreEndsWhileItDraws) {
+TEST_F(CommandLine, ExploreStopsWhileGeneratingStarts) {
   std::ofstream(folder() / "mass.toml") << R"([[holes.ring]]
 count = 16
 center_radius = 0.27
@@ -390,7 +390,7 @@ at_least = 40e6
   EXPECT_EQ(WEXITSTATUS(status), exit_nothing_saved);
 }
 
-TEST_F(CommandLine, AFolderInWhichDesignsAreRunIsRefusedWithItsHolder) {
+TEST_F(CommandLine, FolderInUseIsRefusedWithItsProcess) {
   const auto held = FolderLock::acquire(folder() / "designs");
   ASSERT_TRUE(held);
   for (const char* command : {"explore", "sweep"}) {
@@ -425,7 +425,7 @@ TEST_F(CommandLine, PositionsNeedNotStandOnColumns) {
 }
 
 // Where the rule on cut cells is too coarse for the test, one that is not shows the gradient's order.
-TEST_F(CommandLine, VerifyTellsTheGradientFromTheQuadratureOfCutCells) {
+TEST_F(CommandLine, VerifyUsesTheQuadratureOfARun) {
   std::ofstream(folder() / "coarse.toml") << R"([[holes.ring]]
 count = 16
 center_radius = 0.255
@@ -443,7 +443,7 @@ positions = 1
   EXPECT_EQ(outcome.code, exit_done) << outcome.output;
 }
 
-TEST_F(CommandLine, ABugIsOne) {
+TEST_F(CommandLine, BugExitsWithCode1) {
   EXPECT_EQ(guarded("test", []() -> int { throw std::logic_error("a bug"); }), exit_bug);
 }
 
@@ -456,7 +456,7 @@ radial_cells = 10000
 angular_cells = 10000
 )";
 
-TEST_F(CommandLine, WhatDoesNotFitTheMemoryIsRefusedBeforeAnythingIsWritten) {
+TEST_F(CommandLine, CaseBeyondMemoryIsRefusedBeforeWriting) {
   std::ofstream(folder() / "huge.toml") << case_beyond_any_memory;
   EXPECT_EQ(wheelwright("check huge.toml", folder()).code, exit_done);
   for (const char* command : {"run huge.toml", "analyze huge.toml --output out --positions 1000",
@@ -516,7 +516,7 @@ std::string case_that_expects(double energy, const char* margin) {
   return text;
 }
 
-TEST_F(CommandLine, ARunThatDiffersFromWhatItsCaseExpectsIsSeven) {
+TEST_F(CommandLine, UnmetExpectationExitsWithCode7) {
   const auto run = [&](const std::string& name, const std::string& text, const std::string& options) {
     std::ofstream(folder() / (name + ".toml")) << text;
     return wheelwright(
@@ -563,7 +563,7 @@ std::size_t n_pieces(const std::filesystem::path& file) {
 }
 
 // Far too little material is asked for: the holes grow until there is nothing left that holds the tread.
-TEST_F(CommandLine, ARunThatGivesUpIsThreeAndLeavesWhatIsNeededToSeeWhy) {
+TEST_F(CommandLine, GivingUpExitsWithCode3AndLeavesAReport) {
   std::ofstream(folder() / "c.toml") << case_with_thin_spokes("control = \"paper\"\ntarget = 0.24", 1);
   const Outcome run = wheelwright(fmt::format("run {} --output {}", in_folder("c.toml"), in_folder("run")));
   EXPECT_EQ(run.code, exit_no_solution);
@@ -578,7 +578,7 @@ TEST_F(CommandLine, ARunThatGivesUpIsThreeAndLeavesWhatIsNeededToSeeWhy) {
 }
 
 // It goes on from the last accepted shape, tries the next as before and fails as before.
-TEST_F(CommandLine, ResumeOfARunThatGaveUpGivesUpTheSame) {
+TEST_F(CommandLine, ResumedRunGivesUpInTheSameWay) {
   std::ofstream(folder() / "c.toml") << case_with_thin_spokes("control = \"paper\"\ntarget = 0.24", 1);
   ASSERT_EQ(wheelwright("run c.toml --output run", folder()).code, exit_no_solution);
   const auto before = results(folder() / "run");
@@ -590,7 +590,7 @@ TEST_F(CommandLine, ResumeOfARunThatGaveUpGivesUpTheSame) {
   EXPECT_EQ(results(folder() / "run"), before);
 }
 
-TEST_F(CommandLine, AnInitialShapeThatFallsApartIsThreeAndIsDrawn) {
+TEST_F(CommandLine, DisconnectedInitialShapeExitsWithCode3AndIsDrawn) {
   std::ofstream(folder() / "c.toml") << case_with_thin_spokes("target = 0.3\nrate = 1", 1);
   const Outcome run = wheelwright(fmt::format("run {} --output {}", in_folder("c.toml"), in_folder("run")));
   EXPECT_EQ(run.code, exit_no_solution);
@@ -599,7 +599,7 @@ TEST_F(CommandLine, AnInitialShapeThatFallsApartIsThreeAndIsDrawn) {
 }
 
 // With large steps every pair of holes joins, and reaches the band at the rim.
-TEST_F(CommandLine, ARunTellsOfHolesThatJoinOnTheTerminalAndInItsHistory) {
+TEST_F(CommandLine, MergingHolesAreReportedOnTerminalAndInHistory) {
   std::ofstream(folder() / "c.toml") << case_with_thin_spokes("control = \"exact\"", 2);
   const Outcome run =
       wheelwright(fmt::format("run {} --output {} --verbose", in_folder("c.toml"), in_folder("run")));
@@ -610,7 +610,7 @@ TEST_F(CommandLine, ARunTellsOfHolesThatJoinOnTheTerminalAndInItsHistory) {
       EXPECT_NE(text->find(to_string(kind)), std::string::npos) << *text;
 }
 
-TEST_F(CommandLine, ARunDrawsEverySoManyShapes) {
+TEST_F(CommandLine, PicturesAreDrawnAtTheGivenInterval) {
   std::ofstream(folder() / "c.toml") << small_case(3, "pictures_every = 2\n");
   ASSERT_EQ(wheelwright("run c.toml --output run", folder()).code, exit_done);
   for (const int shape : {0, 1, 2, 3})
@@ -621,7 +621,7 @@ TEST_F(CommandLine, ARunDrawsEverySoManyShapes) {
     }
 }
 
-TEST_F(CommandLine, AnalyzeWritesItsFolderOnceAndNothingWithoutOne) {
+TEST_F(CommandLine, AnalyzeWritesOnlyToAGivenFolder) {
   const std::string analyze =
       "analyze " + path_of_case("cases/holes16.toml") + " --positions 3 --loads 3000,1000,1000";
   EXPECT_EQ(wheelwright(analyze).code, exit_done);
@@ -637,7 +637,7 @@ TEST_F(CommandLine, AnalyzeWritesItsFolderOnceAndNothingWithoutOne) {
   EXPECT_EQ(wheelwright(analyze + " --output /proc/none").code, exit_input_output);
 }
 
-TEST_F(CommandLine, OutputThatIsNotATerminalHasNoEscapeCodes) {
+TEST_F(CommandLine, RedirectedOutputHasNoEscapeCodes) {
   EXPECT_EQ(wheelwright("check " + path_of_case("cases/holes16.toml")).output.find('\x1b'),
             std::string::npos);
 }
@@ -651,7 +651,7 @@ TEST_F(CommandLine, TheProgramLoadsFewLibraries) {
 }
 
 // A stiffness that no wheel of this volume has, and one that every wheel has.
-TEST_F(CommandLine, ARunThatDoesNotKeepABoundHasAnExitCodeOfItsOwn) {
+TEST_F(CommandLine, ViolatedBoundExitsWithCode9) {
   for (const bool can_be_kept : {false, true}) {
     std::ofstream(folder() / "bound.toml")
         << "[[holes.ring]]\ncount = 16\ncenter_radius = 0.265\nradius = 0.03\n"

@@ -84,7 +84,7 @@ Recorder::Reaction after_shape(int shape, CommandQueue& commands, const Command&
   };
 }
 
-TEST_F(RunTest, StopsSavedAndResumesWithTheSameBytes) {
+TEST_F(RunTest, StopSavesAndResumeGivesTheSameBytes) {
   const std::string text = small_case(8);
   straight(text);
   for (int shape : {0, 3, 5}) {
@@ -121,7 +121,7 @@ class StopBeforeTheResults : public Observer<2> {
 };
 
 // They are on a finer tread than the loop's, and so have to be solved.
-TEST_F(RunTest, StopInterruptsTheResultsWhichAResumedRunCompletes) {
+TEST_F(RunTest, InterruptedResultsAreCompletedByResume) {
   constexpr int last_shape = 2;
   std::string text = small_case(last_shape);
   const std::string own = "tread_levels = 0";
@@ -213,7 +213,7 @@ TEST_F(RunTest, SaveWritesACheckpointAndChangesNothing) {
 }
 
 // Pause, three steps, continue: from another thread, which sees how far the run has come.
-TEST_F(RunTest, PausesStepsAndContinuesWithTheSameBytes) {
+TEST_F(RunTest, PauseStepAndContinueGiveTheSameBytes) {
   straight(small_case(8));
   CommandQueue commands;
   Recorder::Record record;
@@ -292,7 +292,7 @@ double objective_under(const Case& c, const LevelSet<2>& shape) {
   return evaluated->evaluation.function("objective").value;
 }
 
-TEST_F(RunTest, NewLoadIsThatOfACaseWithIt) {
+TEST_F(RunTest, NewLoadEqualsACaseWithThatLoad) {
   Case c = the_case(small_case(8));
   Load load = c.load;
   load.force *= 1.5;
@@ -458,7 +458,7 @@ struct WritePostcard {
   }
 };
 
-TEST_F(RunTest, ObeysACommandOfItsUsers) {
+TEST_F(RunTest, ExecutesCustomCommands) {
   CommandQueue commands;
   Recorder::Record record;
   const WritePostcard postcard{folder() / "postcard"};
@@ -468,7 +468,7 @@ TEST_F(RunTest, ObeysACommandOfItsUsers) {
   EXPECT_EQ(record.executed.size(), 1u);
 }
 
-TEST(CommandQueue, KeepsTheOrderAndAsksItsSources) {
+TEST(CommandQueue, KeepsTheOrderAndPollsItsSources) {
   CommandQueue queue;
   int asked = 0;
   queue.add_source([&]() -> std::optional<Command> {
@@ -485,7 +485,7 @@ TEST(CommandQueue, KeepsTheOrderAndAsksItsSources) {
 }
 
 // However short ago the others were asked: a stop that waits when a run begins is known from the beginning.
-TEST(CommandQueue, ANewSourceIsAskedAtOnce) {
+TEST(CommandQueue, NewSourceIsPolledAtOnce) {
   CommandQueue queue;
   EXPECT_EQ(queue.waiting_stops(), 0);
   for (int stops = 1; stops <= 2; ++stops) {

@@ -105,7 +105,7 @@ TEST(NewtonsMethod, NeedsFewStepsUpToTheLimitOfFriction) {
         }
 }
 
-TEST(ContactPath, StopsWhenAsked) {
+TEST(ContactPath, StopsOnRequest) {
   const auto model = driven_model();
   const auto problem = RollingProblem<2>::create(model);
   const auto s = problem->solve(one_hole(model));

@@ -28,7 +28,7 @@ TEST(Convergence, CountsGainsOfNegativeObjectives) {
   EXPECT_EQ(trials_since({{-100, 0, 1}, {-100.5, 0, 1}, {-102, 0, 1}, {-102.5, 0, 0}}), 1);
 }
 
-TEST(Convergence, TakesOnlyShapesThatKeepTheirBoundsForGains) {
+TEST(Convergence, CountsOnlyShapesThatKeepTheirBounds) {
   EXPECT_EQ(trials_since({{90, violated, 3}, {100, 0, 0}}), 0);
   EXPECT_EQ(trials_since({{100, 0, 2}, {90, violated, 1}, {99.9, 0, 0}}), 3);
   EXPECT_EQ(trials_since({{100, violated, 2}, {90, violated, 1}, {80, violated, 0}}), 3);

@@ -58,7 +58,7 @@ TEST(Cut, AreaAndPerimeterOfTheHoles) {
 
 // Material below a parabola whose vertex lies outside the unit cell: on the edge there its zeros are close to
 // each other. The area is a sum of two integrals of a polynomial, which the rule knows exactly.
-TEST(Cut, BoundaryThatLeavesTheCellAndComesBackIsIntegratedExactly) {
+TEST(Cut, ReenteringBoundaryIsIntegratedExactly) {
   const double curvature = 0.8;
   for (const double vertex : {0.29, 0.5, 0.86})
     for (const double half_gap : {0.12, 0.08, 0.03, 0.01}) {
@@ -255,7 +255,7 @@ TEST(RandomCells, MeetTheDivergenceTheoremAndFillTheCell) { expect_identities(10
 TEST(RandomCells, SlowMeetTheDivergenceTheoremAndFillTheCell) { expect_identities(25000); }
 
 // The discriminant of the zeros along an axis vanishes exactly in the middle of the cell, simply or twice.
-TEST(Cut, ZerosThatMergeInTheMiddleOfACellAreFound) {
+TEST(Cut, MergingZerosInsideACellAreFound) {
   for (const std::vector<double>& values : {std::vector<double>{1, -1, 2, 1, 1, 1, 2, 2, 1e-9},
                                             {-2, 2, 1, -1, 2, -1, -2, 2, -2},
                                             {0.25, -0.33, -0.25, 0.33, 0, 0.33, -0.25, -0.33, 0.25},

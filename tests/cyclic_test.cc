@@ -212,7 +212,7 @@ double relative_difference_of(const Matrix& a, const Matrix& b) {
 }
 
 // With and without symmetry, which the strong modes do not use.
-TEST(Cyclic, StrongModesGiveWhatAllUnknownsOfTheInterfaceGive) {
+TEST(Cyclic, StrongModesAgreeWithAllInterfaceUnknowns) {
   const auto model = four_sectors();
   const SectorHarmonics harmonics(n_sectors);
   const ElementTable<2> table(model.grid, 2, model.materials, model.ghost);
@@ -252,7 +252,7 @@ LevelSet<2> turned(const LevelSet<2>& psi, int columns) {
 
 // A mirror-symmetric wheel has real harmonics; turned by a column it has complex ones. The loads need no
 // symmetry.
-TEST(Cyclic, RealHarmonicsGiveWhatComplexOnesGive) {
+TEST(Cyclic, RealHarmonicsAgreeWithComplexOnes) {
   auto model = four_sectors();
   model.n_positions = model.grid.columns();
   model.contact.friction = 0.3;
@@ -387,7 +387,7 @@ SectorStiffness<2> stiffness_with_a_hole(const ElementTable<2>& table) {
 }
 
 // Nested dissection of a plane grid of n nodes takes O(n^1.5) flops (George 1973), line after line O(n^2).
-TEST(NestedDissection, TakesTheWorkThatTheoryPromises) {
+TEST(NestedDissection, HasTheTheoreticalCost) {
   std::vector<double> flops, flops_by_line, nodes;
   for (int cells : {24, 48, 96}) {
     auto model = paper_model();
@@ -412,7 +412,7 @@ TEST(NestedDissection, TakesTheWorkThatTheoryPromises) {
   EXPECT_GT(exponent(flops_by_line), 1.8);
 }
 
-TEST(NestedDissection, SeparatesWhatGhostFacesCouple) {
+TEST(NestedDissection, SeparatesNodesCoupledByGhostFaces) {
   auto model = paper_model();
   model.grid.cells = {48, 48};
   const ElementTable<2> table(model.grid, model.degree, model.materials, model.ghost);

@@ -148,7 +148,7 @@ TEST(SvgTransform, IsTheProductOfItsParts) {
 /// Whether a point of the drawing, in its own unit with y up, is drawn.
 bool is_drawn(const Composition& shape, double x, double y) { return shape.is_hole({x * 1e-3, y * 1e-3}); }
 
-TEST(Svg, ADrawingOfInkscapeIsReadAsItIsSeen) {
+TEST(Svg, InkscapeDrawingIsReadAsDisplayed) {
   const Drawing drawing = drawing_of(DrawingFormat::svg, content(drawings / "inkscape.svg"));
   EXPECT_DOUBLE_EQ(drawing.metres_per_unit, 1e-3);
   EXPECT_EQ(drawing.axle, (Point{340, 340}));
@@ -191,7 +191,7 @@ TEST(Svg, UnitsComeFromThePage) {
   }
 }
 
-TEST(Svg, AnAxleElsewhereAndAStatedUnitAreTaken) {
+TEST(Svg, GivenAxleAndUnitAreUsed) {
   const std::string svg = "<svg viewBox='0 0 100 100'><circle cx='70' cy='20' r='5'/></svg>";
   const Drawing drawing = drawing_of(DrawingFormat::svg, svg, {0.01, Point{40, 60}});
   const Composition shape = region(drawing);
@@ -218,7 +218,7 @@ TEST(Svg, PiecesOfOneOutlineAreJoined) {
   EXPECT_NEAR(area(drawing.outline), 64e-6, 1e-15);
 }
 
-TEST(Dxf, ADrawingOfLibreCadIsReadAsItIsSeen) {
+TEST(Dxf, LibreCadDrawingIsReadAsDisplayed) {
   const Drawing drawing = drawing_of(DrawingFormat::dxf, content(drawings / "librecad.dxf"));
   EXPECT_DOUBLE_EQ(drawing.metres_per_unit, 1e-3);
   ASSERT_EQ(drawing.outline.loops.size(), 8u);
@@ -261,7 +261,7 @@ TEST(Dxf, ADrawingOfLibreCadIsReadAsItIsSeen) {
   is_edge(205, -140);
 }
 
-TEST(Dxf, ADrawingOfFreeCadIsReadAsItIsSeen) {
+TEST(Dxf, FreeCadDrawingIsReadAsDisplayed) {
   const DrawingResult silent = read_drawing(DrawingFormat::dxf, content(drawings / "freecad.dxf"), {});
   ASSERT_EQ(silent.problems.size(), 1u);
   EXPECT_EQ(silent.problems[0].key, DrawingProblem::Key::unit);
@@ -478,7 +478,7 @@ std::string png(int columns, int rows, const std::function<bool(double, double)>
   return bytes;
 }
 
-TEST(Picture, OfAWheelIsReadAsItIsSeen) {
+TEST(Picture, WheelIsReadAsDisplayed) {
   // A disc to the right of the axle and above it, and a ring to the left.
   const int n = 400;
   const double pixel = 0.7 / n;
@@ -499,7 +499,7 @@ TEST(Picture, OfAWheelIsReadAsItIsSeen) {
   EXPECT_NEAR(shape.distance({-0.27, 0.1}, 1), 0.05, 0.5 * pixel);
 }
 
-TEST(Picture, OfASectorIsWoundRoundTheWheel) {
+TEST(Picture, SectorIsRepeatedAroundTheWheel) {
   // The hole crosses the side of the picture.
   const int columns = 120, rows = 100, count = 5;
   const double inner = 0.2, outer = 0.34, middle = 0.28, azimuth = 0.05, radius = 0.04;
@@ -560,7 +560,7 @@ TEST(Symmetry, FindsTheNumbersOfEqualSectors) {
   EXPECT_EQ(repetitions(wheel({0.3}), 2000, 5e-3), (std::vector{1}));
 }
 
-TEST(Symmetry, SeesWhichSideIsMaterial) {
+TEST(Symmetry, DistinguishesMaterialFromHoles) {
   // Four quarters of an annulus, of which the second and the fourth are filled again: the edges repeat four
   // times.
   const auto quarter = [](int i) {
@@ -577,7 +577,7 @@ TEST(Symmetry, SeesWhichSideIsMaterial) {
   EXPECT_FALSE(repeats(quarters, 4, 1e-5));
 }
 
-TEST(Symmetry, IsMissedByTheLargestDistanceAndThere) {
+TEST(Symmetry, ReportsTheLargestDistanceAndItsPlace) {
   // One of twelve circles is 3 mm farther out: turned by any multiple of 30 degrees it is off by that.
   const double off = 3e-3;
   const Point odd = polar(0.27 + off, 2 * pi * 5 / 12);
@@ -631,7 +631,7 @@ TEST_F(DrawingInACase, IsTheShapeThatItShows) {
   for (std::size_t i = 0; i < a.values.size(); ++i) EXPECT_NEAR(a.values[i], b.values[i], 1e-12);
 }
 
-TEST_F(DrawingInACase, ThatDoesNotRepeatTellsTheSectorsThatFit) {
+TEST_F(DrawingInACase, NonRepeatingOneIsRefusedWithFittingSectors) {
   std::string svg = "<svg width='680mm' height='680mm' viewBox='-340 -340 680 680'>";
   for (int i = 0; i < 12; ++i)
     svg += fmt::format("<circle cx='270' cy='0' r='30' transform='rotate({})'/>", 30 * i);
@@ -726,7 +726,7 @@ TEST_F(DrawingInACase, GivesTheNumberOfSectorsWhereTheCaseDoesNot) {
   EXPECT_FALSE(read(spokes).value);  // without a drawing there are 16 sectors
 }
 
-TEST_F(DrawingInACase, ThatNearlyRepeatsIsTakenWithAWordAndOtherwiseRefused) {
+TEST_F(DrawingInACase, NearlyRepeatingOneGivesAWarningOrIsRefused) {
   const auto spokes = [&](double off) {
     std::vector<double> offsets(18, 0);
     offsets[7] = off / 0.315 * 180 / pi;  // at the ends of the spokes
@@ -924,7 +924,7 @@ TEST_F(DrawingInACase, BadFilesAreRefusedWithTheirPlace) {
   }
 }
 
-TEST_F(DrawingInACase, BadFilesEndTheProgramWithCode2TheirPlaceAndNothingWritten) {
+TEST_F(DrawingInACase, BadFilesExitWithCode2AndWriteNothing) {
   const auto program = fs::read_symlink("/proc/self/exe").parent_path() / "wheelwright";
   const auto code = [&](const std::string& command) {
     return WEXITSTATUS(std::system(fmt::format("cd '{}' && '{}' {} case.toml >out.txt 2>&1",
@@ -1020,7 +1020,7 @@ TEST_F(DrawingInACase, AWholeWheelThatIsDrawnAsHolesIsRecognized) {
   }
 }
 
-TEST_F(DrawingInACase, WhatIsNoFileIsUnreadable) {
+TEST_F(DrawingInACase, NonFilesAreUnreadable) {
   for (const char* path : {"missing.svg", ".svg", "/dev/zero", "../.."}) {
     const CaseResult result = read(fmt::format("[[shape.file]]\npath = \"{}\"\n", path));
     ASSERT_EQ(result.problems.size(), 1u) << path;

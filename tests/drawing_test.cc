@@ -77,7 +77,7 @@ TEST(Curve, PiecesAndReversedAndMappedCurvesAreThoseOfTheWhole) {
   }
 }
 
-TEST(Curve, ItsBoxHoldsItAndTouchesLinesAndArcs) {
+TEST(Curve, BoxContainsTheCurve) {
   Random random;
   for (int k = 0; k < 200; ++k) {
     const Curve curve = random.curve();

@@ -57,7 +57,7 @@ double area_of(const std::vector<Point>& corners) {
   return std::abs(signed_area({ContourKind::free, {corners.begin(), corners.end()}}));
 }
 
-TEST(Strokes, AHoleTakesTheAreaOfItsDiscInEverySector) {
+TEST(Strokes, HoleRemovesItsDiscInEverySector) {
   const LevelSet<2> ring = full_ring(initial_shape<2>(the_case()).lattice);
   const double whole = material_measure(ring);
   const Point at = polar(0.27, 0.9);
@@ -135,7 +135,7 @@ class EditTest : public TemporaryFolder {
   }
 };
 
-TEST_F(EditTest, AMovedHoleIsAsLargeAndWhereItWasMoved) {
+TEST_F(EditTest, MovedHoleKeepsItsSize) {
   const Point by{0.004, -0.006};
   const Seen seen = after({MoveHole{.at = hole_centre, .by = by}});
   ASSERT_EQ(seen.shapes.size(), 2U);
@@ -147,7 +147,7 @@ TEST_F(EditTest, AMovedHoleIsAsLargeAndWhereItWasMoved) {
   EXPECT_NE(seen.objectives[1], seen.objectives[0]);
 }
 
-TEST_F(EditTest, AScaledHoleHasTheSquareOfTheAreaRoundItsCentre) {
+TEST_F(EditTest, ScaledHoleHasTheScaledArea) {
   const Seen seen = after({MoveHole{.at = hole_centre, .by = {}, .scale = 0.7}});
   ASSERT_EQ(seen.shapes.size(), 2U);
   const auto before = hole_contour(seen.shapes[0], hole_centre),
@@ -187,7 +187,7 @@ TEST_F(EditTest, ShapesAreProposedBeforeTheyAreSolved) {
   EXPECT_EQ(seen.proposed[1].values, seen.shapes[2].values);
 }
 
-TEST_F(EditTest, TheShapeOfAnotherRunIsTakenToTheLastBit) {
+TEST_F(EditTest, ShapeOfAnotherRunIsExact) {
   const Paint hole{.as = Fill::hole, .path = {polar(0.262, 0.95)}, .radius = 0.015};
   const Seen other = after({hole});
   ASSERT_EQ(other.shapes.size(), 2U);
@@ -210,7 +210,7 @@ TEST_F(EditTest, TheShapeOfAnotherRunIsTakenToTheLastBit) {
   EXPECT_EQ(seen.shapes[2].values, seen.shapes[0].values);
 }
 
-TEST_F(EditTest, WidthsAndBoundsThatACaseCouldNotHaveAreRefused) {
+TEST_F(EditTest, InvalidWidthsAndBoundsAreRefused) {
   const Seen seen = after({NewWidths{.minimum_wall = 0.004, .minimum_gap = 0.003},
                            NewWidths{.minimum_wall = 10}, NewWidths{.minimum_gap = -1},
                            NewWidths{.minimum_radius = 10}, NewBound{.constraint = 0, .at_most = 1},
@@ -220,7 +220,7 @@ TEST_F(EditTest, WidthsAndBoundsThatACaseCouldNotHaveAreRefused) {
   EXPECT_EQ(seen.objectives[1], seen.objectives[0]);
 }
 
-TEST_F(EditTest, WhatCannotBeIsRefusedAndChangesNothing) {
+TEST_F(EditTest, ImpossibleEditsAreRefusedWithoutEffect) {
   Paint cut{.as = Fill::hole, .path = {}, .radius = 0.012};  // all round the wheel
   for (int k = 0; k <= 40; ++k) cut.path.push_back(polar(0.265, 2 * pi / 5 * k / 40));
   const Seen seen = after({Undo{}, FillHole{polar(0.262, 0.95)}, MoveHole{.at = {}, .by = {}},
@@ -230,7 +230,7 @@ TEST_F(EditTest, WhatCannotBeIsRefusedAndChangesNothing) {
 }
 
 // What is so far off or so large that drawing it would not end.
-TEST_F(EditTest, WhatIsDrawnFitsTheWheel) {
+TEST_F(EditTest, StrokesMustFitTheWheel) {
   const double far = 1e5, outer = the_case().wheel.outer_radius;
   const Point beside = polar(1.2 * outer, 1), opposite = polar(1.2 * outer, 3), on = polar(0.262, 0.95);
   const Seen seen = after(
@@ -245,7 +245,7 @@ TEST_F(EditTest, WhatIsDrawnFitsTheWheel) {
   EXPECT_FALSE(refused_line(the_case().wheel, std::vector<Point>{beside, opposite}, 0.001));  // goes across
 }
 
-TEST(EditBounds, NoNumberIsDrawn) {
+TEST(EditBounds, NonFiniteStrokesAreRefused) {
   const double nan = std::nan(""), infinite = HUGE_VAL;
   for (const double bad : {nan, infinite, -infinite}) {
     EXPECT_TRUE(refused_line({}, std::vector<Point>{{0.26, 0}}, bad));
@@ -254,7 +254,7 @@ TEST(EditBounds, NoNumberIsDrawn) {
   }
 }
 
-TEST_F(EditTest, UndoBringsTheCaseBackToo) {
+TEST_F(EditTest, UndoRestoresTheCase) {
   Load heavier = the_case().load;
   heavier.force *= 1.5;
   const Seen seen = after({NewLoad{heavier}, NewVolume{0.9}, Undo{}, Undo{}});
@@ -264,7 +264,7 @@ TEST_F(EditTest, UndoBringsTheCaseBackToo) {
   EXPECT_EQ(seen.objectives[4], seen.objectives[0]);
 }
 
-TEST_F(EditTest, UndoTellsWhatItUndid) {
+TEST_F(EditTest, UndoReportsWhatItUndid) {
   Load heavier = the_case().load;
   heavier.force *= 1.5;
   const Paint patch{.as = Fill::material, .path = {{hole_centre[0], hole_centre[1]}}, .radius = 0.01};
@@ -401,7 +401,7 @@ TEST(CommandJson, EveryCommandReadsBackTheSame) {
   EXPECT_EQ(back.load_case, "kerb");
 }
 
-TEST(CommandJson, WhatIsNoCommandIsRefused) {
+TEST(CommandJson, InvalidCommandsAreRefused) {
   for (const char* text :
        {"", "[]", "{", "null", "{\"do\":1}", "{\"do\":\"bogus\"}", "{\"do\":\"custom\"}",
         "{\"do\":\"pause\",\"x\":1}", "{\"do\":\"volume\"}", "{\"do\":\"volume\",\"target\":\"0.5\"}",
@@ -416,7 +416,7 @@ TEST(CommandJson, WhatIsNoCommandIsRefused) {
   EXPECT_TRUE(parse_command(command_json(longest)));
 }
 
-TEST(CommandLogs, AreReadUpToALineThatAKillCutOff) {
+TEST(CommandLogs, AreReadUpToAnIncompleteLine) {
   const std::string lines =
       log_line({{3, 0}, Pause{}}) + log_line({{3, 1}, Continue{}}) + log_line({{9, 1}, NewVolume{0.5}});
   for (std::size_t size = 0; size <= lines.size(); ++size) {

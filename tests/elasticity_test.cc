@@ -330,7 +330,7 @@ struct Face {
   }
 };
 
-TYPED_TEST(Element, GhostPenaltyDoesNotFeelLinearFields) {
+TYPED_TEST(Element, GhostPenaltyVanishesForLinearFields) {
   constexpr int dim = TypeParam::value;
   const auto grid = coarse_grid<dim>();
   const Mat<dim> a = some_gradient<dim>();
@@ -348,7 +348,7 @@ TYPED_TEST(Element, GhostPenaltyDoesNotFeelLinearFields) {
 }
 
 // The penalty of a face between sectors is the minimum of its halves over the derivatives on the face.
-TYPED_TEST(Element, TheHalvesOfAGhostPenaltyAreTheWhole) {
+TYPED_TEST(Element, HalvesOfAGhostPenaltySumToTheWhole) {
   constexpr int dim = TypeParam::value;
   const auto grid = coarse_grid<dim>();
   for (const auto& [degree, made_of] : elements)

@@ -216,7 +216,7 @@ TEST(Transport, MovesACircleAtUnitSpeedWithSecondOrder) {
   }
 }
 
-TEST(Transport, LeavesNodesWithoutVelocityAlone) {
+TEST(Transport, KeepsNodesWithoutVelocity) {
   const auto lattice = lattice_of(2);
   const auto psi = make_level_set<2>(lattice, one_hole);
   EXPECT_EQ(transport<2>(psi, std::vector<double>(lattice.n_nodes()), 1).values, psi.values);
@@ -259,7 +259,7 @@ void expect_the_first_of_the_nearest(int n_points) {
   }
 }
 
-TEST(NearestPoint, IsTheFirstOfThePointsThatAreEquallyNear) {
+TEST(NearestPoint, IsTheFirstOfEquallyNearPoints) {
   for (const int n_points : {1, 2, 11, 100, 1000}) {
     expect_the_first_of_the_nearest<2>(n_points);
     expect_the_first_of_the_nearest<3>(n_points);
@@ -463,7 +463,7 @@ TEST(ProtectedBands, ChangeNoShapeThatRespectsThem) {
   }
 }
 
-TEST(ProtectedBands, StopTheBoundaryThatWouldGoIntoThem) {
+TEST(ProtectedBands, StopTheBoundary) {
   const auto lattice = lattice_of(2);
   const Evolver<2> evolver(lattice, {{ExtensionKind::h1, 2}, 0, {{0.04, 1}, {0.01, 1}}, {}});
   const auto psi = evolver.keep_bands(make_level_set<2>(lattice, one_hole));
@@ -532,7 +532,7 @@ TEST(SubCellFilter, IsAProjection) {
   EXPECT_EQ(sub_cell_filter(linear).values, linear.values);
 }
 
-TEST(Evolution, DoesNotSeeWhereTheSectorBegins) {
+TEST(Evolution, IsIndependentOfTheStartOfTheSector) {
   const auto lattice = lattice_of(2);
   const Evolver<2> evolver(lattice, {{ExtensionKind::h1, 2}, 0.25, {{0.01, 1}, {0.01, 1}}, {}});
   const int n_cells = 7;

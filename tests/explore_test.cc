@@ -139,7 +139,7 @@ TEST(Starts, CanBeHalvedAsOftenAsTheCoarseGridsNeed) {
   expect_valid_starts(case_of(usual_wheel + "[optimizer]\ncoarse_levels = 2\n"), {0.66}, 1, 10);
 }
 
-TEST(Starts, AttemptsThatFailAreBoundedAndCounted) {
+TEST(Starts, FailedAttemptsAreBoundedAndCounted) {
   Case refused = case_of(usual_wheel + min_mass);
   refused.material.density.reset();
   const DrawnStart none = draw_start(refused, {0.66}, 1, 2);
@@ -202,7 +202,7 @@ TEST(Pareto, TheOrderHoldsTheBestOfEachCostFirstAndEveryFrontBeforeTheNext) {
   }
 }
 
-TEST(Pareto, WhatMissesItsBoundsIsWorseThanWhatKeepsThem) {
+TEST(Pareto, ViolatedBoundsRankLast) {
   const std::vector<RatedPoint> designs{{{1, 1}, 0.02}, {{5, 5}}, {{0, 0}, 0.01}, {{6, 4}}, {{7, 7}}};
   EXPECT_EQ(fronts(designs), (std::vector<int>{4, 1, 3, 1, 2}));
   EXPECT_EQ(spread_order(designs), (std::vector<int>{1, 3, 4, 2, 0}));
@@ -247,7 +247,7 @@ TEST(NumberList, OfAllForms) {
     EXPECT_FALSE(parse_number_list(bad)) << bad;
 }
 
-TEST(SetNumber, GivesAKeyItsValueInTheUnitOfTheFile) {
+TEST(SetNumber, SetsAKeyInTheUnitOfTheFile) {
   Case c = case_of(usual_wheel);
   EXPECT_FALSE(set_number(c, "load.mass", 100));
   EXPECT_DOUBLE_EQ(c.load.force, 981);
@@ -378,7 +378,7 @@ TEST_F(Exploration, IsTheSameForAnyNumberOfThreadsAndAfterAStop) {
       expect_equal_results(entry.path(), folder() / "stopped" / "designs" / entry.path().filename());
 }
 
-TEST_F(Exploration, OfTheLeastMassEndsAndRanksWhatKeepsItsBoundFirst) {
+TEST_F(Exploration, OfMinimumMassRanksFeasibleDesignsFirst) {
   Case lightest = small;
   lightest.material.density = 1100;
   lightest.objective.minimize = Quantity::mass;
@@ -404,7 +404,7 @@ TEST_F(Exploration, OfTheLeastMassEndsAndRanksWhatKeepsItsBoundFirst) {
   EXPECT_LT(order.front().result.numbers.at("volume_fraction"), initial);
 }
 
-TEST_F(Exploration, DrawsAsManyStartsAsThereIsTimeFor) {
+TEST_F(Exploration, GeneratesStartsWithinTheTimeLimit) {
   DrawingSettings settings;
   int n_starts = 0;
   bool has_ended = false;
@@ -424,7 +424,7 @@ TEST_F(Exploration, DrawsAsManyStartsAsThereIsTimeFor) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ((*some)[i].source, (*four)[i].source);
 }
 
-TEST_F(Exploration, WithoutAnyStartTellsWhatFailed) {
+TEST_F(Exploration, WithoutAnyStartReportsTheFailures) {
   Case refused = small;
   refused.holes = {};
   refused.volume.target = 0.66;
@@ -435,7 +435,7 @@ TEST_F(Exploration, WithoutAnyStartTellsWhatFailed) {
   EXPECT_NE(designs.failure().detail.find("grid.degree"), std::string::npos) << designs.failure().detail;
 }
 
-TEST_F(Exploration, ADesignWhoseFolderIsInUseIsNoResult) {
+TEST_F(Exploration, DesignWithFolderInUseHasNoResult) {
   const auto designs =
       planned_designs(small, {.starts = 2, .seed = 3, .keeps_sectors = false, .quantities = quantities});
   ASSERT_TRUE(designs);
@@ -457,7 +457,7 @@ TEST_F(Exploration, ADesignWhoseFolderIsInUseIsNoResult) {
   EXPECT_FALSE(fs::exists(folder() / "all" / "designs" / "002.full.json"));
 }
 
-TEST_F(Exploration, WhatIsKnownIsNotRunAgain) {
+TEST_F(Exploration, KnownResultsAreReused) {
   explored(folder() / "one", {.threads = 1});
   int n_runs = 0;
   RunSettings settings{.threads = 1};

@@ -152,7 +152,7 @@ const std::vector<std::pair<FailureReason, FaultyObjective::Fault>> faults{
     {FailureReason::objective_jumped, [](Evaluation<2>& e) { e.functions[0].value *= 50; }},
 };
 
-TEST(FaultyObjective, IsRejectedAndTheRunGoesOn) {
+TEST(FaultyObjective, IsRejectedAndTheRunContinues) {
   OptimizerOptions options;
   options.iterations = 6;
   const Course sound = run(one_hole(), options, FaultyObjective({-1}, {}));
@@ -174,7 +174,7 @@ TEST(FaultyObjective, IsRejectedAndTheRunGoesOn) {
     }
 }
 
-TEST(FaultyObjective, ThatStaysFaultyMakesTheRunGiveUp) {
+TEST(FaultyObjective, PersistentFaultMakesTheRunGiveUp) {
   OptimizerOptions options;
   options.max_halvings = 4;
   for (const auto& [reason, fault] : faults) {

@@ -72,7 +72,7 @@ LevelSet<2> hexagonal_hole(const PolarGrid<2>& grid, const Vec<2>& polar_centre,
 
 double wall_of(const LevelSet<2>& psi) { return outline_measures(psi)->clearances.wall->width; }
 
-TEST(FeatureSize, ShapesThatHaveItStayAsTheyAre) {
+TEST(FeatureSize, ShapesThatHaveItAreUnchanged) {
   for (const auto& grid : {grid_of(14, 192), grid_of(28, 384)}) {
     const auto psi = two_holes(grid, 0.014);
     EXPECT_EQ(with_feature_size(psi, {.wall = 0.013, .gap = 0.02}).values, psi.values);
@@ -82,7 +82,7 @@ TEST(FeatureSize, ShapesThatHaveItStayAsTheyAre) {
 }
 
 /// What the fitted curves of the outline show, which know nothing of how the shape was made.
-TEST(FeatureSize, ThinWallsBecomeAsThickAsAsked) {
+TEST(FeatureSize, ThinWallsGetTheMinimumThickness) {
   for (const auto& grid : {grid_of(28, 384)})
     for (const double wall : {0.010, 0.013}) {
       for (const auto& psi : {two_holes(grid, 0.006), holes_across_the_face(grid, 0.006)}) {
@@ -102,7 +102,7 @@ TEST(FeatureSize, ThinWallsBecomeAsThickAsAsked) {
 
 /// The neck between small holes is thin over less than the distance of two nodes: wherever it lies between
 /// them.
-TEST(FeatureSize, NecksBetweenNodesBecomeAsThickAsAsked) {
+TEST(FeatureSize, NecksBetweenNodesGetTheMinimumThickness) {
   const auto grid = grid_of(28, 384);
   const double cell = grid.resolution(), wall = 1.05 * cell, r = 2 * cell;
   for (const double rows : {0.0, 0.125, 0.25, 0.375})
@@ -273,7 +273,7 @@ TEST(FeatureSize, AnAcceptedShapeIsAcceptedUnchanged) {
 }
 
 /// The opening takes out the wall between two holes, which become one.
-TEST(FeatureSize, ThinWallsAreTakenOut) {
+TEST(FeatureSize, ThinWallsAreRemoved) {
   const auto grid = grid_of(28, 384);
   const auto psi = two_holes(grid, 0.006);
   const auto without = without_thin_walls(psi, 0.010);
@@ -301,7 +301,7 @@ LevelSet<2> slice(const PolarGrid<2>& grid, double angle, double direction, cons
 }
 
 /// However they lie between the nodes.
-TEST(FeatureSize, CornersAreNoNarrowPlaces) {
+TEST(FeatureSize, CornersAreNotNarrowPlaces) {
   std::mt19937 random(5);
   const auto between = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);

@@ -130,7 +130,7 @@ TEST(StressField, RotationsHaveNoStress) {
 
 // u = (x y, x^2 - 3 y^2) k has a stress that differs from point to point, and from a point to its mirror
 // image.
-TEST(StressField, FollowsTheStressFromPlaceToPlace) {
+TEST(StressField, FollowsTheVaryingStress) {
   const auto [problem, solution] = solved(2);
   const double k = 0.02;
   const RingField u = displacement_of(problem, [&](const Vec<2>& x) {

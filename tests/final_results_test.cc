@@ -106,7 +106,7 @@ class ResultsOfARun : public TemporaryFolder {
   std::optional<OptimizationState<2>> state_;
 };
 
-TEST_F(ResultsOfARun, AreToldWithoutWhatOtherSolvesWouldGive) {
+TEST_F(ResultsOfARun, AreShownWithoutFailedNumbers) {
   const std::string two_loads =
       "[[load.case]]\nname = \"straight\"\n[[load.case]]\nname = \"kerb\"\nmass = 400\n";
   const Study<2> study = this->study(two_loads);
@@ -169,7 +169,7 @@ TEST_F(ResultsOfARun, CompareWithTheGivenWheel) {
   EXPECT_EQ(run.given->contours, shape_outline(0, 0, study.initial).contours);
 }
 
-TEST_F(ResultsOfARun, HaveAPageThatTellsWhatIsMissing) {
+TEST_F(ResultsOfARun, HaveAPageThatNamesMissingNumbers) {
   const Study<2> study = this->study("");
   const FinalResults<2> some = results(study, 2);
   const SolvedShape<2> shape{&state_->shape, some.solver.get(), some.shown.get()};
@@ -188,7 +188,7 @@ TEST_F(ResultsOfARun, AreASummaryWithoutAnySolution) {
   EXPECT_EQ(json["after"]["missing"]["run_out_m"], told);
 }
 
-TEST_F(ResultsOfARun, ThatBeginNearZeroAreNotToldInPercents) {
+TEST_F(ResultsOfARun, NearZeroAreNotShownInPercent) {
   RunSummary<2> summary = results(study(""), {}).summary;
   const auto objective_told = [&](double times) {
     summary.after.objective = times * *summary.before.objective;
@@ -199,7 +199,7 @@ TEST_F(ResultsOfARun, ThatBeginNearZeroAreNotToldInPercents) {
   EXPECT_EQ(objective_told(1e5).find('%'), std::string::npos) << objective_told(1e5);
 }
 
-TEST_F(ResultsOfARun, TellWhyWhatIsExpectedIsNotKnown) {
+TEST_F(ResultsOfARun, ReportWhyAnExpectationIsUnknown) {
   const Study<2> study = this->study(
       "[[load.case]]\nname = \"straight\"\n[[load.case]]\nname = \"kerb\"\nmass = 400\n"
       "[[expect]]\nquantity = \"stiffness\"\nvalue = 1\n"

@@ -83,7 +83,7 @@ TEST_F(FirstRun, RejectedTrialsAreDetails) {
     EXPECT_EQ(n_lines_with(brief, file), 1u) << file;
 }
 
-TEST_F(FirstRun, AGoodEndDoesNotSoundLikeAFailure) {
+TEST_F(FirstRun, GoodEndIsNotReportedAsAFailure) {
   write("case.toml", small_case_with("step = 10\nmax_halvings = 0\n"));
   const Outcome outcome = wheelwright("run case.toml");
   EXPECT_EQ(outcome.code, exit_done) << text(outcome);
@@ -96,7 +96,7 @@ TEST_F(FirstRun, AGoodEndDoesNotSoundLikeAFailure) {
 }
 
 // The wheel is 120 mm wide: per metre it would have 8.3 times this mass.
-TEST_F(FirstRun, ProgressTellsTheMassThatTheTableTells) {
+TEST_F(FirstRun, ProgressShowsTheMassOfTheTable) {
   write("case.toml", small_case(1) +
                          "[material]\ndensity = 1200\n[objective]\nminimize = \"mass\"\n"
                          "[[constraint]]\nquantity = \"stiffness\"\nat_least = 1e6\n");
@@ -113,7 +113,7 @@ TEST_F(FirstRun, ProgressTellsTheMassThatTheTableTells) {
 }
 
 // A table that is longer than a buffer, with warnings on standard error.
-TEST_F(FirstRun, WarningsStandOutsideOfTheTableAndNameTheirWheel) {
+TEST_F(FirstRun, WarningsAreOutsideTheTableAndNameTheirWheel) {
   // So thin a wheel under so small a load that the contact is narrower than a cell.
   write("one.toml", small_case(0) + "[material]\nyoungs_modulus = 2e11\n");
   write("two.toml", small_case(0) + "[material]\nyoungs_modulus = 1e11\n");
@@ -136,7 +136,7 @@ TEST_F(FirstRun, WarningsStandOutsideOfTheTableAndNameTheirWheel) {
 }
 
 // Names that the system refuses to look at, in every place where a command takes one.
-TEST_F(FirstRun, PathsThatCannotBeReadAreToldInOwnWords) {
+TEST_F(FirstRun, UnreadablePathsHaveAClearMessage) {
   write("case.toml", small_case(0));
   ASSERT_EQ(wheelwright("run case.toml").code, exit_done);
   const std::string long_name(300, 'n');

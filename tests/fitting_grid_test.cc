@@ -75,7 +75,7 @@ TEST(FittingGrid, TheTemplateLeavesTheSizesToTheProgram) {
   EXPECT_EQ(result.value->grid.angular_cells % 18, 0);
 }
 
-TEST(Modulus, InMegapascalsIsAskedFor) {
+TEST(Modulus, InMegapascalsIsSuspected) {
   const CaseResult result = read(with_sectors(16, "[material]\nyoungs_modulus = 25\n"));
   ASSERT_FALSE(result.value);
   EXPECT_EQ(result.problems.size(), 1u);

@@ -109,7 +109,7 @@ RollingModel<2> lopsided_model() {
 }
 
 // Up to 99 % of what friction holds, by forces and torques in both directions.
-TEST(Friction, HoldsTheWheelUpToItsLimit) {
+TEST(Friction, ResistsSlidingUpToItsLimit) {
   for (const double friction : {0.05, 0.3, 1.0})
     for (const double part : {-0.99, -0.82, 0.9, 0.99})
       for (const bool is_torque : {false, true}) {

@@ -126,7 +126,7 @@ TEST(Functions, TheStrainEnergyAsAnIntegralIsTheStrainEnergy) {
 }
 
 // As one block of right-hand sides the adjoints are what they are one by one.
-TEST(Functions, SeveralTogetherAreEachAlone) {
+TEST(Functions, SeveralTogetherEqualEachAlone) {
   const auto model = lopsided_model();
   const auto problem = RollingProblem<2>::create(model);
   ASSERT_TRUE(problem);
@@ -224,7 +224,7 @@ TEST(Functions, WeightsPerPositionAreFactorsOfTheirPositions) {
   }
 }
 
-TEST(Functions, AWeightOnOnePositionIsThatPositionAlone) {
+TEST(Functions, WeightOnOnePositionIsOnlyThatPosition) {
   const auto model = lopsided_model();
   const auto problem = RollingProblem<2>::create(model);
   ASSERT_TRUE(problem);
@@ -247,7 +247,7 @@ TEST(Functions, AWeightOnOnePositionIsThatPositionAlone) {
   }
 }
 
-TEST(Functions, BoundsAreHandedOn) {
+TEST(Functions, BoundsArePassedOn) {
   const auto model = paper_model(14, 192);
   const auto problem = RollingProblem<2>::create(model);
   ASSERT_TRUE(problem);

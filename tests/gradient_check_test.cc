@@ -150,7 +150,7 @@ TEST(GradientCheck, FindsAWrongDerivative) {
 }
 
 // A quantity that the case prescribes does not change with the shape.
-TEST(GradientCheck, AConstantIsNoFailure) {
+TEST(GradientCheck, ConstantIsNotAFailure) {
   const GradientCheck check{
       "travel", {.value = 1, .derivative = 0, .steps = {1e-3, 5e-4}, .remainders = {0, 0}, .orders = {0}}};
   EXPECT_TRUE(check.passed());

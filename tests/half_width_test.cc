@@ -177,7 +177,7 @@ WeightedSum<3> all_functionals(const RollingModel<3>& model) {
           {1, std::make_shared<UniformityDual<3>>(*std::move(map))}};
 }
 
-TEST(HalfWidth, GivesWhatTheWholeWidthGives) {
+TEST(HalfWidth, AgreesWithTheWholeWidth) {
   const auto model = wheel(1, 4);
   expect_the_same(model, waisted_hole(model.grid), all_functionals(model));
 }
@@ -214,7 +214,7 @@ TEST(HalfWidth, OfShapesThatAreMirrorSymmetricInAzimuthToo) {
 }
 
 // Other shapes and loads are solved on the whole width.
-TEST(HalfWidth, IsLeftWhereTheSymmetryEnds) {
+TEST(HalfWidth, IsNotUsedWithoutSymmetry) {
   auto model = wheel(1, 2);
   model.contact.friction = 0.5;  // it holds the wheel that is pushed along the axle
   const auto whole = RollingProblem<3>::create(model);

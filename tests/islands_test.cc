@@ -110,7 +110,7 @@ TEST(Islands, InThreeDimensions) {
 }
 
 // Holes of 0.3 cells in radius, in the middle of cells.
-TEST(Changes, NameWhatTheGridOfACaseCannotHold) {
+TEST(Changes, NameHolesLostOnTheGrid) {
   Case c;
   c.wheel.inner_radius = grid.inner_radius;
   c.wheel.outer_radius = grid.outer_radius;
@@ -129,7 +129,7 @@ TEST(Changes, NameWhatTheGridOfACaseCannotHold) {
   EXPECT_NEAR(tiny[0].place[0], off_the_nodes, 0.3 * h);
 }
 
-TEST(Changes, NameTheHoleThatComesToABand) {
+TEST(Changes, NameTheHoleThatReachesABand) {
   const Evolver<2> evolver(Lattice<2>(grid, 2), {{}, 0, {{0.01, 1}, {0.02, 1}}, {}});
   const auto shape = [&](double centre_radius, double radius) {
     return evolver.keep_bands(

@@ -75,7 +75,7 @@ class Isolation : public TemporaryFolder {
   const fs::path top_, folder_;
 };
 
-TEST_F(Isolation, ARunWritesIntoItsFolderAlone) {
+TEST_F(Isolation, RunWritesOnlyToItsFolder) {
   write_case("a.toml", "title = '../../up/\"/etc/x'\n");
   ASSERT_EQ(wheelwright("run a.toml --iterations 1").code, exit_done);
   EXPECT_EQ(names(folder_), (std::vector<std::string>{"a.toml", "runs"}));
@@ -83,7 +83,7 @@ TEST_F(Isolation, ARunWritesIntoItsFolderAlone) {
   EXPECT_EQ(names(top_), std::vector<std::string>{"here"});
 }
 
-TEST_F(Isolation, NamesOfCaseFilesDoNotLeadElsewhere) {
+TEST_F(Isolation, NamesOfCaseFilesCannotEscapeTheFolder) {
   fs::create_directory(folder_ / "cases");
   for (const char* file :
        {"cases/...toml", "cases/b c;touch x;$(touch y).toml", "cases/\xff.toml", "cases/-.toml"}) {

@@ -213,13 +213,11 @@ class Killed : public TemporaryFolder {
   }
 };
 
-TEST_F(Killed, AtRandomMomentsItGoesOnAndLosesAtMostAnInterval) { kill_at_random_moments(6, small_case(12)); }
+TEST_F(Killed, AtRandomMomentsLosesAtMostOneInterval) { kill_at_random_moments(6, small_case(12)); }
 
-TEST_F(Killed, SlowAHundredTimesItGoesOnAndLosesAtMostAnInterval) {
-  kill_at_random_moments(100, small_case(40));
-}
+TEST_F(Killed, SlowAHundredTimesLosesAtMostOneInterval) { kill_at_random_moments(100, small_case(40)); }
 
-TEST_F(Killed, InsideTheWritingOfACheckpointItGoesOn) {
+TEST_F(Killed, WhileWritingACheckpointContinues) {
   const std::string text = small_case(7);
   const fs::path expected = straight(text);
   // A save writes once, synchronizes file and folder, and renames once. Shapes 0, 3, 6 and 7 are saved, and 7
@@ -234,7 +232,7 @@ TEST_F(Killed, InsideTheWritingOfACheckpointItGoesOn) {
   }
 }
 
-TEST_F(Killed, AFailingWriteIsFiveNamesTheFileAndKeepsTheOldCheckpoint) {
+TEST_F(Killed, FailedWriteExitsWithCode5AndKeepsTheOldCheckpoint) {
   const std::string text = small_case(7);
   const fs::path expected = straight(text);
   for (const auto& [call, error] : {std::pair{"write", ENOSPC}, {"fsync", EIO}, {"rename", EROFS}}) {
@@ -251,7 +249,7 @@ TEST_F(Killed, AFailingWriteIsFiveNamesTheFileAndKeepsTheOldCheckpoint) {
   }
 }
 
-TEST_F(Killed, BeyondTheLimitOnFileSizesItIsFiveAndGoesOnLater) {
+TEST_F(Killed, BeyondTheFileSizeLimitExitsWithCode5AndContinuesLater) {
   const std::string text = small_case_of_any_width(7);
   const fs::path expected = straight(text), place = workplace("limited", text);
   ASSERT_EQ(Program(place, {"run", "case.toml", "--iterations", "3"}).wait(), exit_done);
@@ -276,7 +274,7 @@ std::optional<int> in_own_mounts(const fs::path& where, const std::string& scrip
   return shell(script);
 }
 
-TEST_F(Killed, OnAFullDiskItIsFiveAndGoesOnWhenThereIsRoom) {
+TEST_F(Killed, OnAFullDiskExitsWithCode5AndContinuesLater) {
   const std::string text = small_case(7);
   const fs::path expected = straight(text), place = workplace("full", text);
   const std::string program = folder_of_programs() / "wheelwright";
@@ -296,7 +294,7 @@ cp -r run saved)",
   expect_equal_results(expected / "run", place / "saved");
 }
 
-TEST_F(Killed, InAReadOnlyFolderItIsFiveAndTouchesNothing) {
+TEST_F(Killed, InAReadOnlyFolderExitsWithCode5WithoutChanges) {
   const fs::path place = straight(small_case(3));
   const auto before = results(place / "run");
   const auto code =
@@ -323,7 +321,7 @@ TEST_F(Killed, SignalsSaveAndStop) {
 }
 
 // Nothing is saved yet, and the program does not say so; the run begins again.
-TEST_F(Killed, AStopWithinTheFirstShapeLetsItBeginAgain) {
+TEST_F(Killed, StopDuringTheFirstShapeAllowsARestart) {
   const std::string slow =
       "[wheel]\nsectors = 4\n[load]\npositions = 8\n[grid]\nradial_cells = 56\nangular_cells = 1536\n"
       "[[holes.ring]]\ncount = 16\ncenter_radius = 0.27\nradius = 0.04\n[optimizer]\niterations = 0\n"
@@ -366,7 +364,7 @@ TEST_F(Killed, AStoppedRunWritesItsPictures) {
 }
 
 // Whether something is saved, the exit code says, whenever the signal comes: 8 where nothing is.
-TEST_F(Killed, ASignalFromTheFirstMomentOnSaysTheTruth) {
+TEST_F(Killed, EarlySignalIsReportedCorrectly) {
   for (int delay = 0; delay < 60; delay += 3) {
     const fs::path place = workplace(std::to_string(delay), endless);
     Program program(place, begin);
@@ -385,7 +383,7 @@ TEST_F(Killed, ASignalFromTheFirstMomentOnSaysTheTruth) {
 }
 
 // The pictures of a large wheel take longer than a machine may wait that is switched off.
-TEST_F(Killed, ASecondSignalLeavesOutThePictures) {
+TEST_F(Killed, SecondSignalSkipsThePictures) {
   const fs::path place = workplace("large", R"(
 [[holes.ring]]
 count = 16
@@ -413,7 +411,7 @@ vtu_every = 0
   EXPECT_GE(newest_good(place / "run"), 0);
 }
 
-TEST_F(Killed, ASecondSignalEndsItAtOnce) {
+TEST_F(Killed, SecondSignalExitsAtOnce) {
   const fs::path place = workplace("twice", endless);
   Program program(place, begin);
   wait_for_shape(place, 4);
@@ -439,7 +437,7 @@ TEST_F(Killed, AClosedTerminalSavesAndStops) {
   expect_goes_on_as_if_never_stopped(place);
 }
 
-TEST_F(Killed, AHangUpDoesNotCountWhenASecondSignalEndsIt) {
+TEST_F(Killed, HangUpDoesNotCountAsTheFirstSignal) {
   const fs::path place = workplace("hung-up", endless);
   Program program(place, begin);
   wait_for_shape(place, 4);
@@ -449,7 +447,7 @@ TEST_F(Killed, AHangUpDoesNotCountWhenASecondSignalEndsIt) {
   expect_goes_on_as_if_never_stopped(place);
 }
 
-TEST_F(Killed, WithoutMemoryItIsFourAndGoesOnLater) {
+TEST_F(Killed, WithoutMemoryExitsWithCode4AndContinuesLater) {
   const std::string text = small_case(7);
   const fs::path expected = straight(text);
   int reached = -1;
@@ -466,7 +464,7 @@ TEST_F(Killed, WithoutMemoryItIsFourAndGoesOnLater) {
   EXPECT_GE(reached, 3) << "the last fault comes in the middle of a run";
 }
 
-TEST_F(Killed, MessagesThatCannotBeWrittenEndNothing) {
+TEST_F(Killed, UnwritableMessagesAreIgnored) {
   const std::string text = small_case(4);
   const fs::path expected = straight(text), place = workplace("silent", text);
   const Surroundings mute{.messages = "/dev/full"};
@@ -475,7 +473,7 @@ TEST_F(Killed, MessagesThatCannotBeWrittenEndNothing) {
   expect_equal_results(expected / "run", place / "run");
 }
 
-TEST_F(Killed, Usr1SavesAndGoesOn) {
+TEST_F(Killed, Usr1SavesAndContinues) {
   std::string text = endless;
   text.replace(text.find("checkpoint_every = 3"), 20, "checkpoint_every = 0");
   const fs::path place = workplace("asked", text);
@@ -506,7 +504,7 @@ uniformity_dual = 100
   expect_equal_results(expected / "run", place / "run");
 }
 
-TEST_F(Killed, TwoRunsDoNotShareAFolder) {
+TEST_F(Killed, TwoRunsCannotShareAFolder) {
   const fs::path place = workplace("shared", endless);
   Program first(place, begin);
   wait_for_shape(place, 1);

@@ -98,7 +98,7 @@ TEST_F(CondensedSquare, SolvesAsADenseCholesky) {
     for (int k = 0; k < n * n; ++k) EXPECT_NEAR(x(i, k), expected(order_[k], i), 1e-13);
 }
 
-TEST_F(CondensedSquare, APartialSweepIsTheFullOneWhereItGoes) {
+TEST_F(CondensedSquare, PartialSweepAgreesWithTheFullOne) {
   const auto factor = PartialCholesky::factor(laplacian_.sparse, 1, order_, n);
   ASSERT_TRUE(factor);
   std::vector<char> marked(n * n, 0);
@@ -244,7 +244,7 @@ TEST(ColumnBasis, FindsTheRankAndKeepsTheMatrix) {
 }
 
 /// Hilbert's matrix: singular values that fall by an order of magnitude each.
-TEST(ColumnBasis, LeavesOutNoMoreThanTheTolerance) {
+TEST(ColumnBasis, DropsAtMostTheTolerance) {
   const int n = 40;
   Matrix a(n, n);
   for (int j = 0; j < n; ++j)

@@ -43,7 +43,7 @@ class LoadCaseResults : public TemporaryFolder {
 };
 
 /// Every number under the kerb is that of the same wheel with the kerb's load alone.
-TEST_F(LoadCaseResults, OfEveryLoadAreThoseOfThatLoadAlone) {
+TEST_F(LoadCaseResults, AreThoseOfEachLoadAlone) {
   Case both = case_of(two_loads());
   both.optimizer.iterations = 0;
   Case kerb = single_load_cases(both)[1];
@@ -111,7 +111,7 @@ iteration = 0
             content(folder() / "run" / "stress.svg"));
 }
 
-TEST_F(LoadCaseResults, OfDesignsHaveColumnsOfTheirOwn) {
+TEST_F(LoadCaseResults, OfDesignsHaveSeparateColumns) {
   RankedDesign one;
   one.design = {"001", "start", case_of(two_loads()), {}};
   one.result = {Progression::full, "converged", 3};
@@ -132,7 +132,7 @@ TEST_F(LoadCaseResults, OfDesignsHaveColumnsOfTheirOwn) {
   EXPECT_EQ(json["designs"][0]["numbers"]["run_out_m in kerb"], 5e-6);
 }
 
-TEST_F(LoadCaseResults, AreRefusedForLoadsThatThereAreNot) {
+TEST_F(LoadCaseResults, AreRefusedForUnknownLoads) {
   const auto read = parse_case(
       two_loads("[[expect]]\nquantity = \"run_out\"\nvalue = 1\nload_case = \"kerbs\"\n"), "case.toml");
   ASSERT_EQ(read.problems.size(), 1u);

@@ -82,7 +82,7 @@ TEST(LoadCases, EveryFunctionPassesTheTaylorTest) {
 }
 
 // Every load as the only load of a problem of its own, with a factorization of its own.
-TEST(LoadCases, AreSumsOfWhatTheyAreAlone) {
+TEST(LoadCases, AreSumsOfSingleLoads) {
   const LoadCases<2> loads = two_loads();
   const auto psi = lopsided_holes(loads.front().model.grid);
   const auto both = evaluated_under(loads, functions_of_both(), psi);
@@ -174,7 +174,7 @@ quantity = "volume_fraction"
 at_most = 0.8
 )";
 
-TEST(LoadCases, OfACaseChangeWhatTheyGive) {
+TEST(LoadCases, OfACaseChangeOnlyGivenKeys) {
   const Case c = case_of(two_cases);
   const auto loads = load_cases<2>(c);
   ASSERT_EQ(loads.size(), 2u);
@@ -200,7 +200,7 @@ TEST(LoadCases, OfACaseChangeWhatTheyGive) {
   EXPECT_EQ(case_of(to_toml(c)), c);
 }
 
-TEST(LoadCases, ConstraintsAreAboutOneOrAllOfThem) {
+TEST(LoadCases, ConstraintsApplyToOneOrAll) {
   const auto study = make_study<2>(case_of(two_cases));
   ASSERT_TRUE(study) << study.failure().detail;
   std::vector<std::string> names;
@@ -220,7 +220,7 @@ TEST(LoadCases, ConstraintsAreAboutOneOrAllOfThem) {
   EXPECT_EQ(quantity_of("peak_pressure worst in kerb"), Quantity::peak_pressure);
 }
 
-TEST(LoadCases, ASingleOneGivesTheNumbersOfThatLoadAlone) {
+TEST(LoadCases, SingleOneEqualsThatLoad) {
   const auto value = [](const std::string& text) {
     const auto study = make_study<2>(case_of(text));
     return evaluate_of(*study)(study->initial, nullptr)->evaluation;
@@ -230,7 +230,7 @@ TEST(LoadCases, ASingleOneGivesTheNumbersOfThatLoadAlone) {
   EXPECT_EQ(alone.function("objective").gradient, only.function("objective").gradient);
 }
 
-TEST(LoadCases, RefuseWhatNoWheelCanCarry) {
+TEST(LoadCases, RefuseImpossibleLoads) {
   const auto keys_of = [](const std::string& text) {
     std::vector<std::string> keys;
     for (const auto& problem : parse_case(text, "loads.toml").problems) keys.push_back(problem.key);
@@ -258,7 +258,7 @@ TEST(LoadCases, RefuseWhatNoWheelCanCarry) {
 }
 
 // A wheel whose stiffness is bounded under the load that is not minimized becomes feasible.
-TEST(LoadCases, ABoundUnderALoadOfItsOwnIsKept) {
+TEST(LoadCases, BoundUnderASeparateLoadIsKept) {
   Case c = case_of(two_cases);
   c.load.cases[1].weight = 0;
   c.constraints.resize(1);

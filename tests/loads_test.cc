@@ -81,7 +81,7 @@ TEST(Loads, WorkOfAPressureInTheHoles) {
   EXPECT_NEAR(work, expected, 1e-5 * expected);
 }
 
-TEST(Loads, TheGroundCarriesTheWheelToo) {
+TEST(Loads, GroundCarriesTheWeight) {
   for (const double friction : {0.0, 0.3}) {
     auto model = paper_model();
     model.contact.friction = friction;
@@ -152,7 +152,7 @@ TEST(Loads, ARotatingRingGrowsAsThickWalledTheorySays) {
 }
 
 // The rotating wheel stands on the ground before it carries anything: the travel begins there.
-TEST(Loads, TravelAndStiffnessOfARotatingWheelBeginWhereItStandsWithoutLoad) {
+TEST(Loads, TravelOfARotatingWheelIsMeasuredFromItsUnloadedPlace) {
   auto model = rotating_model(150);
   model.n_positions = 4;
   const auto psi = testing::generic_hole(model.grid);
@@ -222,7 +222,7 @@ TEST(Loads, AHoleIsAnUnbalance) {
 }
 
 // Under a model that differs in its loads, with the factor of another one.
-TEST(Loads, StatesUnderOtherLoadsAreThoseOfASolverOfTheirOwn) {
+TEST(Loads, StatesUnderOtherLoadsAgreeWithTheirOwnSolver) {
   auto model = paper_model(14, 192);
   model.contact.friction = 0.4;
   model.n_positions = 3;

@@ -72,7 +72,7 @@ TEST_F(FakeSystem, TheGroupsOfVersionOne) {
   EXPECT_EQ(available(), 600000);
 }
 
-TEST_F(FakeSystem, FilesThatHoldOtherThingsCountForNothing) {
+TEST_F(FakeSystem, UnexpectedFilesAreIgnored) {
   write("proc/meminfo", "MemAvailable: some\n");
   write("proc/self/cgroup", "nonsense\n:::::\n0::/../..\n\n");
   write("sys/fs/cgroup/memory.max", "\n");

@@ -78,7 +78,7 @@ TEST(NewtonDamping, HoppingBetweenContactSetsEnds) {
 }
 
 // A point whose sliding a step turned round sticks, and where all slide one sticks again.
-TEST(NewtonDamping, PointsThatTurnRoundComeToRest) {
+TEST(NewtonDamping, ReversingPointsComeToRest) {
   for (const auto& [theta, gamma_0] : {std::pair{-1, 1.0}, {0, 3.0}, {1, 100.0}}) {
     auto model = model_near_sliding(theta, gamma_0);
     model.torque = 0.97 * friction * model.load * model.grid.outer_radius;

@@ -158,7 +158,7 @@ TEST(Newton, NamesWhatIsImpossible) {
 }
 
 // The patch of so light a wheel lies between the points of the contact: the nearest one carries the load.
-TEST(Newton, ALoadWhosePatchHoldsNoPointFindsTheGround) {
+TEST(Newton, LoadWithEmptyPatchReachesTheGround) {
   for (const double load : {1e-6, 1e-3, 1.0}) {
     auto model = paper_model(14, 192);
     model.n_positions = 7;

@@ -54,7 +54,7 @@ double apart(const PolarGrid<2>& grid, const Circle& a, const Circle& b) {
   return minimum;
 }
 
-TEST(HolePlaces, BeginWhereTheCostIsLeastAndKeepTheirDistance) {
+TEST(HolePlaces, StartAtTheMinimumCostAndKeepTheirDistance) {
   const auto grid = paper_model(28, 384).grid;
   const auto costs = costs_around(grid, 0.28, 0.11, false);
   const auto holes = best_places(solid(grid), costs, rules(grid));
@@ -82,7 +82,7 @@ TEST(HolePlaces, AreMirrorImagesWhereTheCostsAre) {
     }));
 }
 
-TEST(HolePlaces, AreNoneWhereNoHolePaysAndKeepOffOtherHoles) {
+TEST(HolePlaces, AreEmptyIfNoHolePays) {
   const auto grid = paper_model(28, 384).grid;
   auto costs = costs_around(grid, 0.28, 0.11, false);
   const auto with_hole = holes(grid, 2, {{0.28, 0.11, 0.02}});
@@ -260,7 +260,7 @@ class StopAt : public Observer<2> {
   int left_;
 };
 
-TEST_F(NucleationRun, SlowGoesOnTheSameAfterEveryStop) {
+TEST_F(NucleationRun, SlowContinuesIdenticallyAfterEveryStop) {
   const std::string text = wheel("", "converged", 45);
   run(text, "straight");
   const auto rows = split(history("straight"), '\n');

@@ -131,7 +131,7 @@ TEST(ShapeOptimizer, ConvergesToTheLevelLineAtConstantMeasure) {
 }
 
 // The cells that the measure was computed on, for both ways to hold it.
-TEST(ShapeOptimizer, HandsOnTheCellsOfEveryShape) {
+TEST(ShapeOptimizer, PassesOnTheCellsOfEveryShape) {
   for (const auto control : {MeasureControl::exact, MeasureControl::proportional}) {
     OptimizerOptions options;
     options.iterations = 3;
@@ -228,7 +228,7 @@ TEST(SequentialQuadratic, EndsSixTrialsAfterItsLastGain) {
 }
 
 // Over the first shapes, far from the minimum, the objective falls as the method's model predicts.
-TEST(SequentialQuadratic, TellsByHowMuchATrialIsToFall) {
+TEST(SequentialQuadratic, PredictsTheDecreaseOfATrial) {
   OptimizerOptions options;
   options.method = Method::sequential_quadratic;
   options.step = 0.25;
@@ -249,7 +249,7 @@ TEST(SequentialQuadratic, TellsByHowMuchATrialIsToFall) {
 
 // A coefficient that a band holds does not decide how far the others go: a move takes the time 1, in which
 // the boundary goes as far as its deformation says. The best hole lies partly in the tread's band.
-TEST(SequentialQuadratic, MovesTheRestAsFarAsItsDeformationWhereABandHoldsAPart) {
+TEST(SequentialQuadratic, MovesFreePartsFullyIfABandHoldsOthers) {
   OptimizerOptions options;
   options.method = Method::sequential_quadratic;
   options.iterations = 40;
@@ -294,7 +294,7 @@ auto bowl_with_bounds(Bounds bounds) {
 // Before shapes have the final widths an objective may be as large as one of the last two, though not larger
 // by the noise: objectives would drift upwards. With the widths, or without any, it is compared with the
 // best and the last one, which may still lie above the best.
-TEST(SequentialQuadratic, GoesPastAJumpUntilShapesHaveTheFinalWidths) {
+TEST(SequentialQuadratic, PassesAJumpBeforeTheFinalWidths) {
   const Evolver<2> evolver(lattice, evolution);
   OptimizerOptions options;
   options.method = Method::sequential_quadratic;
@@ -367,7 +367,7 @@ TEST(SequentialQuadratic, KeepsABoundWithItsMultiplier) {
 }
 
 // A bound that the optimum keeps anyway has no multiplier; bounds that contradict each other are violated.
-TEST(SequentialQuadratic, SaysWhenABoundIsNotActiveAndWhenNoneCanBeKept) {
+TEST(SequentialQuadratic, ReportsInactiveAndInfeasibleBounds) {
   const double initial = material_measure(displaced_hole());
   OptimizerOptions options;
   options.method = Method::sequential_quadratic;
@@ -589,7 +589,7 @@ TEST(ShapeOptimizer, GivesUpWhereEveryTrialFails) {
 }
 
 // Widths are a limit of the search: a run that cannot leave a shape because of them has found its end.
-TEST(ShapeOptimizer, EndsWhereEveryTrialIsTooNarrow) {
+TEST(ShapeOptimizer, EndsIfEveryTrialIsTooNarrow) {
   for (const auto reason : {FailureReason::too_narrow, FailureReason::no_contact}) {
     auto near_the_first = bowl_near_the_first(0.05 * h);
     const auto evaluate = [=](const LevelSet<2>& psi) mutable -> Expected<Evaluation<2>> {
@@ -651,7 +651,7 @@ TEST(ShapeOptimizer, GivesUpWhereTheShapeAtRestFailsAfterARise) {
   EXPECT_EQ(record.trials[4].step, 0);
 }
 
-TEST(ShapeOptimizer, RejectsARiseOfTheObjective) {
+TEST(ShapeOptimizer, RejectsAnIncreaseOfTheObjective) {
   const auto uphill = [](const LevelSet<2>& psi) -> Expected<Evaluation<2>> {
     auto evaluation = evaluate_bowl(psi);
     for (double& value : evaluation.functions[0].gradient) value = -value;
@@ -679,7 +679,7 @@ TEST(ShapeOptimizer, NamesAFailedStart) {
   EXPECT_EQ(outcome.failure->reason, FailureReason::disconnected_material);
 }
 
-TEST(ShapeOptimizer, TreatsANotFiniteObjectiveAsAFailure) {
+TEST(ShapeOptimizer, TreatsANonFiniteObjectiveAsAFailure) {
   const auto not_a_number = [](const LevelSet<2>& psi) -> Expected<Evaluation<2>> {
     auto evaluation = evaluate_bowl(psi);
     evaluation.functions[0].value = std::nan("");

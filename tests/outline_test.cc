@@ -203,7 +203,7 @@ TEST(SplineFit, CurvatureIsContinuousAlsoWhereTheSplineCloses) {
   EXPECT_LT(jumps(*open, false)[1], 1e-9);
 }
 
-TEST(SplineFit, ACornerIsNotFollowedAndItsPlaceIsTold) {
+TEST(SplineFit, CornerIsNotFittedAndItsPlaceIsReported) {
   std::vector<Vec<2>> points;
   for (int i = 0; i <= 200; ++i)
     points.push_back(i <= 80 ? Vec<2>{1e-4 * i, 0} : Vec<2>{8e-3, 1e-4 * (i - 80)});

@@ -414,7 +414,7 @@ double luminance(const std::string& colour) {
   return 0.2126 * (rgb >> 16) + 0.7152 * (rgb >> 8 & 0xff) + 0.0722 * (rgb & 0xff);
 }
 
-TEST(ColourMap, GetsLighterMonotonically) {
+TEST(ColourMap, LightnessIsMonotone) {
   for (int k = 0; k < 100; ++k) EXPECT_LT(luminance(viridis(k / 100.0)), luminance(viridis((k + 1) / 100.0)));
   EXPECT_EQ(viridis(-1), viridis(0));
   EXPECT_EQ(viridis(2), viridis(1));
@@ -588,7 +588,7 @@ TEST(Outline, SimplifiedCurvesStayWithinTheTolerance) {
   for (const PicturePoint& p : simple) EXPECT_TRUE(std::ranges::count(circle, p));
 }
 
-TEST(ColourScale, BeginsAtZeroAndLeavesOutTheTail) {
+TEST(ColourScale, StartsAtZeroAndOmitsTheTail) {
   std::vector<double> values;
   for (int k = 0; k < 1000; ++k) values.push_back(k < 995 ? 700.0 * k : 1e9);
   const ColourScale scale = colour_scale_from_zero(values, 0.01);
@@ -603,7 +603,7 @@ TEST(ColourScale, BeginsAtZeroAndLeavesOutTheTail) {
   EXPECT_EQ(colour_scale(std::vector<double>{NAN}, 0).upper, 0);
 }
 
-TEST(Magnification, IsRoundAndAsLargeAsThePictureBears) {
+TEST(Magnification, IsRoundAndAsLargeAsPossible) {
   const double radius = 0.34;
   for (double size = 1e-9; size < 1; size *= 1.7) {
     const RingField u{2, {0.6 * size, -0.8 * size, NAN, NAN, 0, 0.1 * size}};
@@ -756,7 +756,7 @@ TEST(DeformedSvg, ThePeakIsMarkedAtItsDrawnPlace) {
 }
 
 // At speed the rim also moves as the whole wheel grows, which is no travel.
-TEST(DeformedSvg, TellsTheTravelAndNotTheMotionOfTheRim) {
+TEST(DeformedSvg, ShowsTheTravelInsteadOfTheRimMotion) {
   const auto psi = holes_level_set(2, 1.0);
   const auto still = ring_field(psi.lattice, 2, [](const Vec<2>&) { return Vec<2>{}; });
   DeformedPicture<2> picture = picture_of(psi, still, 1);
@@ -809,7 +809,7 @@ TEST(VerticalField, IsTheComponentTowardsTheGround) {
   EXPECT_NEAR(vertical.values[1], 0, 1e-15);
 }
 
-TEST(DeformedSvg, MissingValuesAreLeftOutAndTextIsEscaped) {
+TEST(DeformedSvg, MissingValuesAreOmittedAndTextIsEscaped) {
   const auto psi = holes_level_set(2, 1.0);
   DeformedPicture<2> picture =
       picture_of(psi, ring_field(psi.lattice, 2, [](const Vec<2>& x) { return x; }), 0.1);

@@ -64,7 +64,7 @@ TEST(PlaneComparison, AThinDiscIsInPlaneStressAndALongRollerInPlaneStrain) {
   EXPECT_LT(wide.error(Plane::stress), -0.1);
 }
 
-TEST(PlaneComparison, BetweenThemOnlyThreeDimensionsStandForTheWheel) {
+TEST(PlaneComparison, BetweenThemOnly3DIsAccurate) {
   Case c = wheel(0.05, "strain");
   c.material.poissons_ratio = 0.48;
   const PlaneComparison between = compared(c);

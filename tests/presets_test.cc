@@ -15,7 +15,7 @@ using namespace wheelwright::testing;
 
 namespace {
 
-TEST(Presets, HaveNamesOfTheirOwn) {
+TEST(Presets, HaveUniqueNames) {
   std::set<std::string_view> names;
   for (const Preset& preset : presets()) {
     names.insert(preset.name);

@@ -86,7 +86,7 @@ TEST(BoxProgram, MeetsTheOptimalityConditionsOfRandomPrograms) {
   }
 }
 
-TEST(BoxProgram, SaysWhenThereIsNoMinimum) {
+TEST(BoxProgram, ReportsAMissingMinimum) {
   Random random(2);
   for (int k = 0; k < 1000; ++k) {
     const int n = 2 + random.below(9);

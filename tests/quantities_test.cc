@@ -138,7 +138,7 @@ TEST(Quantities, PassTheTaylorTest) {
   expect_second_order(model, functions, generic_hole(model.grid));
 }
 
-TEST(Quantities, PassTheTaylorTestAtAHeldTravel) {
+TEST(Quantities, PassTheTaylorTestAtFixedTravel) {
   const auto model = held_model();
   const auto functions = without(state_functions(), {"travel", "run-out harmonic", "one position"});
   expect_second_order(model, functions, generic_hole(model.grid));
@@ -286,7 +286,7 @@ TEST(Quantities, TheGroundTakesTheLoadsOfTheRim) {
 }
 
 /// With the positions that mirror images stand for, values and gradients are those of all positions.
-TEST(Quantities, AWheelThatIsItsOwnMirrorImageNeedsHalfOfThePositions) {
+TEST(Quantities, SymmetricWheelNeedsHalfOfThePositions) {
   auto model = coarse_model();
   model.n_positions = 6;
   const auto problem = RollingProblem<2>::create(model);

@@ -141,8 +141,8 @@ void expect_an_end_of_each(int n, unsigned seed) {
   EXPECT_LE(count[End::refused], 0.1 * n);
 }
 
-TEST(RandomWheels, AreSolvedOrRefusedWithAReason) { expect_an_end_of_each(12, 2); }
-TEST(RandomWheels, AreSolvedOrRefusedWithAReasonSlow) { expect_an_end_of_each(300, 1); }
+TEST(RandomWheels, AreSolvedOrFailWithAReason) { expect_an_end_of_each(12, 2); }
+TEST(RandomWheels, AreSolvedOrFailWithAReasonSlow) { expect_an_end_of_each(300, 1); }
 
 /// Whether a failure says what is wrong with the case: by its reason, or by a key.
 bool is_explained(const Failure& failure) {

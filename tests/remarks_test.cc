@@ -29,7 +29,7 @@ std::vector<std::string> keys(const std::vector<Remark>& remarks) {
 
 using Keys = std::vector<std::string>;
 
-TEST(Remarks, AreAboutWhatGotWorseByATenth) {
+TEST(Remarks, ReportNumbersWorseByATenth) {
   const Case c = case_of(small_wheel);
   EXPECT_TRUE(remarks(c, "", caster, caster).empty());
   const auto changed = [](double factor) {
@@ -48,7 +48,7 @@ TEST(Remarks, AreAboutWhatGotWorseByATenth) {
   EXPECT_TRUE(remarks(c, "", caster, changed(0.91)).empty());
 }
 
-TEST(Remarks, AreNotAboutVariationsThatNobodyNotices) {
+TEST(Remarks, IgnoreSmallVariations) {
   JudgedWheel even = caster;
   even.run_out = 1e-9;
   even.force_variation = 1e-3;
@@ -60,7 +60,7 @@ TEST(Remarks, AreNotAboutVariationsThatNobodyNotices) {
   EXPECT_EQ(keys(remarks(case_of(small_wheel), "", even, uneven)), Keys{"run_out_m"});
 }
 
-TEST(Remarks, AreNotAboutWhatIsUnknownOrBounded) {
+TEST(Remarks, IgnoreUnknownAndBoundedNumbers) {
   JudgedWheel worse = caster;
   worse.run_out = 0.23e-3;
   EXPECT_EQ(keys(remarks(case_of(small_wheel), "", caster, worse)), Keys{"run_out_m"});
@@ -121,7 +121,7 @@ TEST(Remarks, SuggestBoundsThatTheProgramAccepts) {
   }
 }
 
-TEST(Remarks, SuggestNoBoundThatTheCaseHas) {
+TEST(Remarks, SuggestNoExistingBound) {
   JudgedWheel worse = caster;
   worse.force_variation = 3 * *caster.force_variation;
   const auto without = remarks(case_of(small_wheel), "", caster, worse);

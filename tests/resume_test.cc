@@ -107,14 +107,14 @@ mean = "held"
                                   6);
 }
 
-TEST_F(Resume, PositionsBetweenColumnsGoOnTheSame) {
+TEST_F(Resume, PositionsBetweenColumnsContinueIdentically) {
   std::string text = small_case_of_any_width(4, "[objective]\nstrain_energy = 1\nuniformity_dual = 10\n");
   const std::string positions = "positions = 2";
   text.replace(text.find(positions), positions.size(), "positions = 7");
   expect_the_same_from_every_stop(text, 4);
 }
 
-TEST_F(Resume, ThePapersRuleAndItsWeightsGoOnTheSame) {
+TEST_F(Resume, PapersRuleAndWeightsContinueIdentically) {
   expect_the_same_from_every_stop(small_case_of_any_width(5, R"(
 [objective]
 strain_energy = 1
@@ -126,7 +126,7 @@ control = "paper"
 }
 
 // The wheel with its width, with holes that change along it.
-TEST_F(Resume, AWheelInThreeDimensionsGoesOnTheSame) {
+TEST_F(Resume, WheelIn3DContinuesIdentically) {
   std::string text = small_case_of_any_width(3, R"([material]
 poissons_ratio = 0.3
 [contact]
@@ -142,7 +142,7 @@ quadrature_points = 2
 }
 
 // On the way to the target, at it, and after it: 81 % of the ring become 75 % in four shapes.
-TEST_F(Resume, AVolumeOnItsWayGoesOnTheSame) {
+TEST_F(Resume, ChangingVolumeContinuesIdentically) {
   expect_the_same_from_every_stop(small_case_of_any_width(6, "[volume]\ntarget = 0.75\nrate = 0.02\n"), 6);
   const auto history = split(content(folder() / "straight/run/history.csv"), '\n');
   const auto header = split(history.front(), ',');
@@ -151,7 +151,7 @@ TEST_F(Resume, AVolumeOnItsWayGoesOnTheSame) {
   EXPECT_NEAR(std::stod(split(history.back(), ',')[column]), 0.75, 1e-6);
 }
 
-TEST_F(Resume, KeepsTheLastTwoAndTakesTheOlderWhenTheNewestIsDamaged) {
+TEST_F(Resume, KeepsTwoAndUsesTheOlderIfTheNewestIsCorrupt) {
   const fs::path straight = workplace("straight"), damaged = workplace("damaged");
   ASSERT_EQ(run(straight, small_case_of_any_width(8)), exit_done);
   ASSERT_EQ(run(damaged, small_case_of_any_width(8)), exit_done);
@@ -162,7 +162,7 @@ TEST_F(Resume, KeepsTheLastTwoAndTakesTheOlderWhenTheNewestIsDamaged) {
   expect_equal_results(straight / "run", damaged / "run");
 }
 
-TEST_F(Resume, IsRefusedWhenNoCheckpointIsGood) {
+TEST_F(Resume, IsRefusedWithoutAValidCheckpoint) {
   const fs::path place = workplace("all-bad");
   ASSERT_EQ(run(place, small_case_of_any_width(4)), exit_done);
   const auto before = results(place / "run");
@@ -171,7 +171,7 @@ TEST_F(Resume, IsRefusedWhenNoCheckpointIsGood) {
   EXPECT_EQ(results(place / "run"), before);
 }
 
-TEST_F(Resume, NeverBeginsAgainWhereCheckpointsAreGone) {
+TEST_F(Resume, NeverRestartsIfCheckpointsAreMissing) {
   const fs::path place = workplace("gone");
   ASSERT_EQ(run(place, small_case_of_any_width(3)), exit_done);
   fs::remove_all(place / "run/checkpoints");
@@ -200,7 +200,7 @@ TEST_F(Resume, IsRefusedForAnotherCaseOrHistory) {
 }
 
 /// A checkpoint that agrees with itself but holds speeds where the case moves the boundary by vectors.
-TEST_F(Resume, IsRefusedWhereMovesAreOfAnotherKind) {
+TEST_F(Resume, IsRefusedForMovesOfAnotherKind) {
   const fs::path place = workplace("other-moves");
   ASSERT_EQ(run(place, small_case_of_any_width(4)), exit_done);
   for (const fs::path& file : CheckpointFolder(place / "run").files()) {
@@ -235,7 +235,7 @@ TEST_F(Resume, OfAFinishedRunChangesNothing) {
 }
 
 // A run that converged continues when it is resumed with a smaller tolerance.
-TEST_F(Resume, OfAConvergedRunGoesOnOnlyWithASmallerTolerance) {
+TEST_F(Resume, OfAConvergedRunNeedsASmallerTolerance) {
   const fs::path place = workplace("converged");
   ASSERT_EQ(run(place, small_case_of_any_width(4)), exit_done);
   const fs::path newest = CheckpointFolder(place / "run").files().front();
@@ -253,7 +253,7 @@ TEST_F(Resume, OfAConvergedRunGoesOnOnlyWithASmallerTolerance) {
   EXPECT_NE(resumed_after(tolerance + 1e-3), history);
 }
 
-TEST_F(Resume, WritesResultsThatAKillLeftOut) {
+TEST_F(Resume, WritesResultsMissingAfterAKill) {
   const fs::path straight = workplace("straight"), killed = workplace("killed");
   ASSERT_EQ(run(straight, small_case_of_any_width(4)), exit_done);
   ASSERT_EQ(run(killed, small_case_of_any_width(4)), exit_done);
@@ -266,7 +266,7 @@ TEST_F(Resume, WritesResultsThatAKillLeftOut) {
   expect_equal_results(straight / "run", killed / "run");
 }
 
-TEST_F(Resume, DropsRowsAndShapesBehindTheCheckpoint) {
+TEST_F(Resume, DropsRowsAndShapesAfterTheCheckpoint) {
   const fs::path place = workplace("behind");
   ASSERT_EQ(run(place, small_case_of_any_width(8)), exit_done);
   fs::remove(place / "run/checkpoints/shape_000008.checkpoint");
@@ -277,7 +277,7 @@ TEST_F(Resume, DropsRowsAndShapesBehindTheCheckpoint) {
   EXPECT_EQ(content(place / "run/shapes.pvd").find("shape_0007.vtu"), std::string::npos);
 }
 
-TEST_F(Resume, BeginsWhenThereIsNoCheckpointYet) {
+TEST_F(Resume, StartsIfThereIsNoCheckpointYet) {
   const fs::path straight = workplace("straight"), killed = workplace("killed");
   ASSERT_EQ(run(straight, small_case_of_any_width(3)), exit_done);
   fs::create_directories(killed / "run");

@@ -243,7 +243,7 @@ RollingModel<2> pressed_model(int radial_cells) {
   return model;
 }
 
-TEST(Ring, BondedRingUnderPressureIsLames) {
+TEST(Ring, BondedRing_UnderPressure_MatchesLame) {
   const auto model = pressed_model(16);
   const PressedRing ring(model, solid(model.grid));
   EXPECT_NEAR(ring.outer_displacement(), -6.49179522e-5, 1e-6 * 6.5e-5);
@@ -253,7 +253,7 @@ TEST(Ring, BondedRingUnderPressureIsLames) {
 
 /// Lame's solution u = A r + B / r of a bonded ring in plane stress, in E and nu:
 /// sigma_rr = E / (1 - nu) A - E / (1 + nu) B / r^2, u(R_i) = 0.
-TEST(Ring, BondedRingOfSheetUnderPressureIsLames) {
+TEST(Ring, BondedRing_PlaneStress_MatchesLame) {
   auto model = pressed_model(16);
   model.materials = Material{200e6, 0.48, Plane::stress};
   const PressedRing ring(model, solid(model.grid));
@@ -281,7 +281,7 @@ PressedRing free_ring(int radial_cells, double fraction, const Material& materia
   return PressedRing(model, psi);
 }
 
-TEST(Ring, FreeRingUnderPressureIsLames) {
+TEST(Ring, FreeRing_UnderPressure_MatchesLame) {
   for (double fraction : {0.1, 0.37, 0.63, 0.9, 0.999, 1 - 1e-6}) {
     SCOPED_TRACE(fraction);
     const PressedRing ring = free_ring(16, fraction);
@@ -292,7 +292,7 @@ TEST(Ring, FreeRingUnderPressureIsLames) {
 }
 
 /// sigma_rr = A (1 - R_i^2 / r^2) does not depend on nu; u = (1 + nu) / E ((1 - 2 nu) A r + A R_i^2 / r).
-TEST(Ring, FreeRingOfNearlyIncompressibleMaterialIsLames) {
+TEST(Ring, FreeRing_NearlyIncompressible_MatchesLame) {
   constexpr double young = 200e6, inner = 0.20, outer = 0.34;
   constexpr double a = -pressure * outer * outer / (outer * outer - inner * inner);
   for (const double nu : {0.49, 0.4999})
@@ -307,7 +307,7 @@ TEST(Ring, FreeRingOfNearlyIncompressibleMaterialIsLames) {
 }
 
 /// The ring bonded to the rim: u = C (r - R_i^2 / r), which vanishes with 1 - 2 nu.
-TEST(Ring, BondedRingOfNearlyIncompressibleMaterialIsLames) {
+TEST(Ring, BondedRing_NearlyIncompressible_MatchesLame) {
   for (const double nu : {0.49, 0.4999}) {
     SCOPED_TRACE(nu);
     auto model = pressed_model(16);
@@ -327,7 +327,7 @@ TEST(Ring, BondedRingOfNearlyIncompressibleMaterialIsLames) {
 }
 
 /// The stresses in the plane do not depend on nu; u(R_e) = R_e sigma_tt(R_e) / E + nu p R_e / E.
-TEST(Ring, FreeRingOfSheetUnderPressureIsLames) {
+TEST(Ring, FreeRing_PlaneStress_MatchesLame) {
   constexpr double young = 200e6, nu = 0.48, inner2 = 0.20 * 0.20, outer2 = 0.34 * 0.34;
   constexpr double hoop_outside = -pressure * (outer2 + inner2) / (outer2 - inner2);
   constexpr double moved = 0.34 / young * (hoop_outside + nu * pressure);

@@ -292,7 +292,7 @@ TEST(Roughness, OfALevelSetIsThatOfItsEdgeWhereverItLiesOnTheGrid) {
   EXPECT_FALSE(outline_measures(LevelSet<3>{lattice, std::vector<double>(lattice.n_nodes(), -1)})->roughness);
 }
 
-TEST(RoughnessWarning, IsAboutWhatTheDrawingDoesNotHave) {
+TEST(RoughnessWarning, ConcernsOnlyNewRoughness) {
   const Case drawn;
   EXPECT_EQ(roughness_warning(drawn, {}, {}), "");
   EXPECT_EQ(roughness_warning(drawn, with_turns(0.89), with_turns(0)), "");
@@ -307,7 +307,7 @@ TEST(RoughnessWarning, IsAboutWhatTheDrawingDoesNotHave) {
   EXPECT_EQ(roughness_warning(continued, with_turns(0.89), with_turns(1.95)), "");
 }
 
-TEST(RoughnessWarning, NamesThePlaceAndARemedyThatIsNotTakenYet) {
+TEST(RoughnessWarning, NamesThePlaceAndAnUnusedRemedy) {
   Case c;
   const std::string quadratic = roughness_warning(c, with_turns(2), {});
   EXPECT_NE(quadratic.find(place_of(with_turns(2).edge.sharpest.place)), std::string::npos);

@@ -67,7 +67,7 @@ TEST_F(LongRun, IsShownByEvenlyThinnedShapesEachWithItsOwnNumbers) {
 }
 
 // Thinned for a page, not in the folder.
-TEST_F(LongRun, KeepsAllOutlinesUpToTheShapeThatItIsResumedAfter) {
+TEST_F(LongRun, KeepsOutlinesUpToTheResumedShape) {
   const auto study = make_study<2>(source_);
   ASSERT_TRUE(study);
   const auto optimizer = optimizer_of(*study);

@@ -89,7 +89,7 @@ TEST_F(SavedShape, IsTheSameOnTheSameGrid) {
   EXPECT_EQ(second.state->evaluation.function("objective").value, before);
 }
 
-TEST_F(SavedShape, ARunBeginsWithTheLastShapeOfAnother) {
+TEST_F(SavedShape, RunStartsFromTheLastShapeOfAnother) {
   const fs::path first = folder() / "first", second = folder() / "second";
   run(read(uneven_wheel + uneven_holes + small_grid + optimizer(3)), "first");
   const auto program = fs::read_symlink("/proc/self/exe").parent_path() / "wheelwright";
@@ -108,7 +108,7 @@ TEST_F(SavedShape, ARunBeginsWithTheLastShapeOfAnother) {
   EXPECT_FALSE(fs::exists(folder() / "third"));
 }
 
-TEST_F(SavedShape, StaysInTheFolderOfTheRunThatBeginsWithIt) {
+TEST_F(SavedShape, IsCopiedToTheFolderOfTheNewRun) {
   run(read(uneven_wheel + uneven_holes + small_grid + optimizer(1)), "first");
   const Case c = read(uneven_wheel + "[shape]\nfrom = \"first\"\n" + small_grid + optimizer(1));
   run(c, "second");
@@ -128,7 +128,7 @@ TEST_F(SavedShape, StaysInTheFolderOfTheRunThatBeginsWithIt) {
   EXPECT_EQ(changed.problems[0].key, "shape.checksum");
 }
 
-TEST_F(SavedShape, OnAnotherGridDiffersByWhatTheGridsDoAndNotMore) {
+TEST_F(SavedShape, OnAnotherGridDiffersOnlyByTheGrids) {
   const auto objective_on = [&](const std::string& shape, const std::string& grid, const std::string& name) {
     return run(read(uneven_wheel + shape + grid + optimizer(0)), name)
         .state->evaluation.function("objective")
@@ -179,7 +179,7 @@ TEST_F(SavedShape, IsCutOffAtTheBands) {
   }
 }
 
-TEST_F(SavedShape, WhatDoesNotFitIsRefusedWithItsPlace) {
+TEST_F(SavedShape, MisfitIsRefusedWithItsPlace) {
   run(read(uneven_wheel + uneven_holes + small_grid + optimizer(0)), "first");
   const auto expect = [](const std::string& text, const std::string& part) {
     EXPECT_NE(text.find(part), std::string::npos) << text;
@@ -274,7 +274,7 @@ TEST_F(SavedShape, OfAWheelInThePlaneIsExtruded) {
 
 class CoarseLevels : public SavedShape {};
 
-TEST_F(CoarseLevels, EndOnTheCasesGridWithItsVolumeAndTellTheGridsInTheHistory) {
+TEST_F(CoarseLevels, EndOnTheCasesGridAndRecordTheGrids) {
   const Case c = read(uneven_wheel + uneven_holes + small_grid + optimizer(60, "coarse_levels = 1"));
   const auto result = run(c, "run");
   EXPECT_EQ(level_of(c, result.state->shape), 0);
@@ -294,7 +294,7 @@ TEST_F(CoarseLevels, EndOnTheCasesGridWithItsVolumeAndTellTheGridsInTheHistory) 
               0.01 * without.state->evaluation.function("objective").value);
 }
 
-TEST_F(CoarseLevels, AStoppedRunGoesOnTheSameFromEitherGrid) {
+TEST_F(CoarseLevels, StoppedRunContinuesIdenticallyFromEitherGrid) {
   const Case c = read(uneven_wheel + uneven_holes + small_grid + optimizer(16, "coarse_levels = 1"));
   run(c, "straight");
   const int n_rows = static_cast<int>(split(content(folder() / "straight" / "history.csv"), '\n').size());
@@ -320,7 +320,7 @@ TEST_F(CoarseLevels, AStoppedRunGoesOnTheSameFromEitherGrid) {
   }
 }
 
-TEST_F(CoarseLevels, KeepWhatIsGivenInMetres) {
+TEST_F(CoarseLevels, KeepSizesGivenInMetres) {
   const Case c = read(uneven_wheel + uneven_holes +
                       "[grid]\nradial_cells = 56\nangular_cells = 512\n[objective]\nuniformity_annulus = 1\n"
                       "annulus = 0.01\nlength = 0.02\n");

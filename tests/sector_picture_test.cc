@@ -42,7 +42,7 @@ double area(const std::string& svg, const std::string& colour) {
 
 double ring_area(double inner, double outer) { return std::numbers::pi * (outer * outer - inner * inner); }
 
-TEST(SectorSvg, ColoursCoverWhatHasTheirSign) {
+TEST(SectorSvg, ColoursCoverValuesOfTheirSign) {
   const auto psi = paper_holes(grid);
   SectorScalar scalar{"step", "Pa", 1, std::vector<double>(grid.n_cells(), 0.0)};
   const double middle = grid.inner_radius + 5 * grid.cell_size()[0];

@@ -151,7 +151,7 @@ TEST_F(ServerTest, AConnectionServesSeveralRequests) {
   EXPECT_NE(answers.find("body+1"), std::string::npos);
 }
 
-TEST_F(ServerTest, WithoutTheTokenNothingIsSaidOrDone) {
+TEST_F(ServerTest, WithoutTheTokenRequestsAreRefused) {
   std::string other = server.token();
   other[0] = other[0] == '0' ? '1' : '0';
   for (const std::string& header : std::vector<std::string>{
@@ -189,7 +189,7 @@ TEST_F(ServerTest, AnotherHostOrOriginGetsNothingEvenWithTheToken) {
 
 // What a browser sends that was handed a file which leads to the page, and what pages elsewhere could make it
 // send.
-TEST_F(ServerTest, FromElsewhereOnlyThePageIsOpenedAndOnlyInATabOfItsOwn) {
+TEST_F(ServerTest, FromElsewhereOnlyThePageOpensInItsOwnTab) {
   const std::string navigation = "Sec-Fetch-Mode: navigate\r\nSec-Fetch-Dest: document\r\n";
   const std::string close = authorization() + "Connection: close\r\n\r\n";
   for (const char* site : {"cross-site", "same-site"}) {
@@ -258,7 +258,7 @@ TEST_F(ServerTest, EndlessRequestsAreCutOff) {
   EXPECT_EQ(answered, 0);
 }
 
-TEST_F(ServerTest, SlowRequestsAreGivenUp) {
+TEST_F(ServerTest, SlowRequestsAreDropped) {
   const int socket = connected();
   const std::string request = head("GET /shape", authorization());
   const auto start = Clock::now();
@@ -326,7 +326,7 @@ TEST_F(ServerTest, PackedBodiesAreNotUnpacked) {
   EXPECT_EQ(answered, 0);
 }
 
-TEST_F(ServerTest, AnswersAreGivenOnceAndWhole) {
+TEST_F(ServerTest, AnswersAreCompleteAndSentOnce) {
   std::string pieces = "0-";
   for (int k = 0; k < 500; ++k) pieces += ",0-";
   const std::string answer =
@@ -347,7 +347,7 @@ TEST_F(ServerTest, BodiesHaveABound) {
   EXPECT_EQ(answered, 1);
 }
 
-TEST_F(ServerTest, ListensOnTheLoopbackAlone) {
+TEST_F(ServerTest, ListensOnlyOnTheLoopback) {
   std::ifstream table("/proc/net/tcp");
   char port[8];
   std::snprintf(port, sizeof port, ":%04X", static_cast<unsigned>(server.port()));
@@ -358,7 +358,7 @@ TEST_F(ServerTest, ListensOnTheLoopbackAlone) {
   EXPECT_EQ(listening, std::set<std::string>{"0100007F"});
 }
 
-TEST_F(ServerTest, AnotherUserIsNotHeard) {
+TEST_F(ServerTest, OtherUsersAreRefused) {
   if (::geteuid() != 0) GTEST_SKIP() << "only root can become another user";
   const std::string request = head("GET /shape", authorization() + "Connection: close\r\n\r\n");
   for (const bool by_ipv6 : {false, true}) {
@@ -378,7 +378,7 @@ TEST_F(ServerTest, AnotherUserIsNotHeard) {
   EXPECT_EQ(answered, 0);
 }
 
-TEST_F(ServerTest, TheUserIsHeardByIpv6Too) {
+TEST_F(ServerTest, UserIsAcceptedOverIpv6) {
   const int socket = connected_by_ipv6();
   send(socket, head("GET /shape", authorization() + "Connection: close\r\n\r\n"));
   EXPECT_EQ(status(rest(socket)), 200);

@@ -164,7 +164,7 @@ TEST(Shapes, SpokesMeetRimAndTreadOnTheirWholeThickness) {
   }
 }
 
-TEST(Shapes, MaterialThatNothingHoldsIsFoundWithItsPlaceAndSize) {
+TEST(Shapes, LooseMaterialIsFoundWithPlaceAndSize) {
   const std::string hole =
       "[wheel]\nsectors = 9\n[grid]\nangular_cells = 378\n[[shape.circle]]\ncount = 9\n"
       "center_radius = 0.265\nradius = 0.04\nphase = 7\n";

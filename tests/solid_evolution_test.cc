@@ -130,7 +130,7 @@ TEST(SolidEvolution, AnIslandIsRemovedAndTheShapeStaysSymmetric) {
   EXPECT_TRUE(is_symmetric(attached->psi));
 }
 
-TEST(SolidEvolution, WallsMadeThickStaySymmetric) {
+TEST(SolidEvolution, ThickenedWallsStaySymmetric) {
   const LevelSet<3> thin = spheres({{0.240, middle, 0.03, 0.02}, {0.290, middle, 0.03, 0.02}});
   const auto with_walls = evolver(0.02);
   const LevelSet<3> thick = with_walls.with_features(thin, with_walls.features());

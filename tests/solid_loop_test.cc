@@ -77,7 +77,7 @@ minimum_gap = 0
   EXPECT_LT(expect_a_sound_run(c), 0.99);
 }
 
-TEST(SolidLoop, SixtyShapesOfThePapersWheelGoOnWithoutAStop_Slow) {
+TEST(SolidLoop, SixtyShapesOfThePapersWheelSucceed_Slow) {
   const Case c = parsed(R"(
 [wheel]
 dimension = 3

@@ -110,7 +110,7 @@ TEST(ModelOfACase, In3DIsTheWholeWidth) {
   EXPECT_GE(model.grid.cells[2], 1);
 }
 
-TEST(ModelOfACase, HoldsTheTravelWhenOneIsGiven) {
+TEST(ModelOfACase, PrescribesAGivenTravel) {
   Case c = uneven_case();
   c.load.travel = 0.0019;
   EXPECT_EQ(rolling_model<2>(c).travel, 0.0019);
@@ -263,7 +263,7 @@ TEST(ObjectiveOfACase, MatchesTheAnnulusWithTheDualTerm) {
 
 // With a held mean the objective depends on the previous shape's mean alone, and on nothing that was
 // evaluated before.
-TEST(ObjectiveOfACase, ComparesWithThePreviousMeanWhenItIsHeld) {
+TEST(ObjectiveOfACase, ComparesWithThePreviousMeanIfHeld) {
   Case c = uneven_case();
   c.objective.strain_energy = 0;
   c.objective.uniformity_dual = 1;

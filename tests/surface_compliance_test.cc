@@ -135,7 +135,7 @@ TEST(SurfaceCompliance, IsReciprocal) {
 
 // z - gamma (g n_y - m) = F W Phi on the zone must be what the solution's own tread observes there, which is
 // computed without the contact operator.
-TEST(SurfaceCompliance, AgreesWithWhatTheTreadObserves) {
+TEST(SurfaceCompliance, AgreesWithTheTreadsObservations) {
   for (const int levels : {0, 2}) {
     auto model = small_model<2>(2);
     model.tread.levels = levels;

@@ -224,7 +224,7 @@ TEST(Surface, OfAMirrorImageIsTheMirrorImage) {
   }
 }
 
-TEST(Surface, CheckFindsWhatIsWrong) {
+TEST(Surface, CheckFindsFaults) {
   const SurfaceMesh good = material_surface(cylinders(ring, 1, 0.03), 1, 1);
   const auto fails = [&](auto&& spoil) {
     SurfaceMesh mesh = good;

@@ -51,7 +51,7 @@ TEST(Text, NothingControlsATerminal) {
   EXPECT_EQ(without_control_characters("Räder \u6b63"), "Räder \u6b63");
 }
 
-TEST(Text, XmlHoldsNoMarkupOfATitle) {
+TEST(Text, TitlesAreEscapedInXml) {
   EXPECT_EQ(escape_xml("<a href='x' title=\"y\">&amp;</a>"),
             "&lt;a href=&apos;x&apos; title=&quot;y&quot;&gt;&amp;amp;&lt;/a&gt;");
   EXPECT_EQ(escape_xml("]]>\xef\xbf\xbe\xef\xbf\xbf\xef\xbf\xbd\x01"), "]]&gt;??\xef\xbf\xbd?");

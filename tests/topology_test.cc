@@ -44,7 +44,7 @@ double difference_of_azimuths(double a, double b) { return std::abs(std::remaind
 
 class OneHole : public ::testing::TestWithParam<double> {};
 
-TEST_P(OneHole, IsWhereItIsThoughItCrossTheSectorsFace) {
+TEST_P(OneHole, IsFoundAcrossTheSectorFace) {
   const double azimuth = GetParam() * sector, radius = 0.03, centre = 0.268;
   for (int degree : {1, 2}) {
     const auto found = components(holes(grid, degree, {{centre, azimuth, radius}}));
@@ -137,7 +137,7 @@ class OneSaddle : public ::testing::TestWithParam<Saddle> {};
 // psi at the saddle says which corners are joined there, and half a sector away the other two are: one piece
 // of material and one hole. psi of the saddle's cell, not that of a neighbour beyond its own cell, where it
 // has the other sign.
-TEST_P(OneSaddle, JoinsWhatPsiThereSays) {
+TEST_P(OneSaddle, IsResolvedByTheValueOfPsi) {
   for (int sign : {-1, 1}) {
     const auto psi = level_set<2>(grid, 1, [&](const Vec<2>& p) {
       const double outward = (p[0] - grid.inner_radius) / grid.cell_size()[0] - 14.125;
@@ -229,7 +229,7 @@ TEST(TopologyChanges, NameMergingAndSplittingWithThePlace) {
   }
 }
 
-TEST(TopologyChanges, NameHolesThatComeAndGo) {
+TEST(TopologyChanges, NameNewAndVanishingHoles) {
   const auto gone = changes({{0.25, 0.1, 0.02}, {0.3, 0.3, 0.01}}, {{0.25, 0.1, 0.02}});
   ASSERT_EQ(gone.size(), 1u);
   EXPECT_EQ(gone[0].kind, ShapeEventKind::hole_vanished);

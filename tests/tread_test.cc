@@ -42,7 +42,7 @@ double peak_pressure(const RollingSolution<2>& s) {
 
 // Hertz's peak pressure is proportional to sqrt(E*), E* = E / (1 - nu^2): 2.445 MPa at nu = 0.48. Positions
 // at and between holes: there pressures would fall back between cells if nothing penalized their jumps.
-TEST(TreadRefinement, PressuresOfNearlyIncompressibleMaterialAreHertzs) {
+TEST(TreadRefinement, PressuresOfNearlyIncompressibleMaterialMatchHertz) {
   auto model = paper_model();
   LevelSet<2> solid{Lattice<2>(model.grid, 2), {}};
   solid.values.assign(solid.lattice.n_nodes(), -1.0);

@@ -145,7 +145,7 @@ TEST(Uniformity, PoissonsImageOfAWaveIsThatOfTheRing) {
 }
 
 // With p_mean at the shape's own value nothing is left of its derivative: holding it gives the same gradient.
-TEST(Uniformity, HoldingTheOwnMeanChangesNothing) {
+TEST(Uniformity, HoldingItsOwnMeanChangesNothing) {
   const auto model = annulus_model(14, 192, 0);
   const auto problem = RollingProblem<2>::create(model);
   const WeightedSum<2> objective{{1, std::make_shared<UniformityAnnulus<2>>(0.01)}};

@@ -37,7 +37,7 @@ TEST(UnitText, ACaseWithUnitsIsThatInItsOwnUnits) {
   EXPECT_EQ(to_toml(*with_units.value), to_toml(*plain.value));
 }
 
-TEST(UnitText, WhatIsShownReadsBackAsTheSameValue) {
+TEST(UnitText, DisplayedValuesReadBackExactly) {
   for (const int dimension : {2, 3})
     for (const QuantityDescription& quantity : quantity_descriptions) {
       Wheel wheel;

@@ -41,7 +41,7 @@ class OwnFolder : public TemporaryFolder {
   fs::path kept() const { return folder() / "kept"; }
 };
 
-TEST_F(OwnFolder, ReplacesItsOwnFilesOnly) {
+TEST_F(OwnFolder, ReplacesOnlyItsOwnFiles) {
   make_folder(kept());
   write_atomically(kept() / "a", "first");
   write_atomically(kept() / "a", "second");
@@ -61,7 +61,7 @@ TEST_F(OwnFolder, ReplacesItsOwnFilesOnly) {
   EXPECT_FALSE(fs::exists(folder() / "outside"));
 }
 
-TEST_F(OwnFolder, WhatTookThePlaceOfAnOwnFileIsNotOwn) {
+TEST_F(OwnFolder, ReplacementOfAnOwnFileIsForeign) {
   make_folder(kept());
   for (const char* name : {"link", "folder", "temporary"}) write_atomically(kept() / name, "x");
   make_subfolder(kept() / "inner");
@@ -161,7 +161,7 @@ TEST_F(UsersFolder, AllFilesInTheWayAreNamedAtOnce) {
   }
 }
 
-TEST_F(UsersFolder, WhatComesIntoTheFolderOfARunStays) {
+TEST_F(UsersFolder, FilesAddedToARunsFolderStay) {
   write(place() / "c.toml", small_case(3));
   ASSERT_EQ(wheelwright(place(), "run c.toml --iterations 1"), exit_done) << printed();
   const fs::path run = place() / "run";
@@ -197,7 +197,7 @@ TEST_F(UsersFolder, ARunWhoseFilesWereReplacedByLinksIsNotResumed) {
 }
 
 // What a checkpoint proves is the run's; the rest may be anybody's.
-TEST_F(UsersFolder, ARunWhoseListWasRemovedGoesOnWhenItsPicturesAreAside) {
+TEST_F(UsersFolder, RunWithRemovedListContinuesWithoutItsPictures) {
   write(place() / "c.toml", small_case(3));
   const fs::path run = place() / "run";
   ASSERT_EQ(wheelwright(place(), "run c.toml --iterations 1"), exit_done) << printed();
@@ -213,7 +213,7 @@ TEST_F(UsersFolder, ARunWhoseListWasRemovedGoesOnWhenItsPicturesAreAside) {
   EXPECT_TRUE(fs::exists(run / "comparison.svg"));
 }
 
-TEST_F(UsersFolder, RunsAndAnalysesDoNotReplaceOneAnothersPictures) {
+TEST_F(UsersFolder, RunsAndAnalysesKeepEachOthersPictures) {
   write(place() / "c.toml", small_case(1));
   ASSERT_EQ(wheelwright(place(), "run c.toml"), exit_done) << printed();
   expect_refused("analyze c.toml --positions 2 --output run", {"stress.svg"});
@@ -231,7 +231,7 @@ TEST_F(UsersFolder, TheFolderOfARunMayBeALink) {
   EXPECT_EQ(wheelwright(place(), "resume run --iterations 2"), exit_done) << printed();
 }
 
-TEST_F(UsersFolder, ARunNamesEveryFileThatItWritesBeforehand) {
+TEST_F(UsersFolder, RunDeclaresEveryFileItWrites) {
   write(place() / "c.toml", small_case(2, "pictures_every = 1\n"));
   ASSERT_EQ(wheelwright(place(), "run c.toml"), exit_done) << printed();
   for (const auto& entry : fs::directory_iterator(place() / "run")) {
@@ -259,7 +259,7 @@ TEST_F(UsersFolder, AnAnalysisReplacesNothing) {
   expect_refused(compare + "mine", {"comparison.svg"});
 }
 
-TEST_F(UsersFolder, ALockRemovedByHandStillLocks) {
+TEST_F(UsersFolder, RemovedLockFileStillLocks) {
   write(place() / "c.toml", small_case(1));
   ASSERT_EQ(wheelwright(place(), "run c.toml"), exit_done) << printed();
   const auto lock = FolderLock::acquire(place() / "run");
