@@ -167,8 +167,8 @@ std::string stress_line(const RollingReport& report) {
       "largest von Mises stress {:.4g} MPa at radius {:.1f} mm, azimuth {:.2f} deg, with the ground at "
       "{:.2f} "
       "deg\n",
-      a.peak_von_mises[a.max_stressed] * MPa, a.peak_radius * mm, a.peak_azimuth * degree,
-      a.azimuths[a.max_stressed] * degree);
+      a.peak_von_mises[a.most_stressed] * MPa, a.peak_radius * mm, a.peak_azimuth * degree,
+      a.azimuths[a.most_stressed] * degree);
 }
 
 std::string load_lines(const RollingReport& report) {
@@ -292,10 +292,10 @@ std::string rolling_json(const RollingReport& report) {
             {"travel_m", a.travel},
             {"positions", positions_json(report)},
             {"peak_von_mises",
-             {{"value_Pa", a.peak_von_mises[a.max_stressed]},
+             {{"value_Pa", a.peak_von_mises[a.most_stressed]},
               {"radius_m", a.peak_radius},
               {"azimuth_rad", a.peak_azimuth},
-              {"load_position_rad", a.azimuths[a.max_stressed]}}},
+              {"load_position_rad", a.azimuths[a.most_stressed]}}},
             {"travel_at_load_m", variation(all[0], 1)},
             {"force_at_travel_N", variation(all[1], forces(report))},
             {"peak_pressure_Pa", variation(all[2], 1)}};

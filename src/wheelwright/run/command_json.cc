@@ -175,7 +175,7 @@ struct Reader {
     return j.is_array() && j.size() == 2 && read(j[0], value[0]) && read(j[1], value[1]);
   }
   static bool read(const Json& j, std::vector<Pair>& value) {
-    if (!j.is_array() || j.size() > most_path_points) return false;
+    if (!j.is_array() || j.size() > max_path_points) return false;
     value.resize(j.size());
     for (std::size_t k = 0; k < j.size(); ++k)
       if (!read(j[k], value[k])) return false;

@@ -14,10 +14,10 @@ std::string command_json(const Command& command);
 std::string load_json(const Load& load);
 
 /// A command from JSON, or what is wrong with the text. Numbers must be finite, a path has at most
-/// most_path_points points, and no other keys are accepted. A run may still refuse the command.
+/// max_path_points points, and no other keys are accepted. A run may still refuse the command.
 Expected<Command, Refusal> parse_command(std::string_view json);
 
-inline constexpr std::size_t most_path_points = 500;
+inline constexpr std::size_t max_path_points = 500;
 
 /// Whether brackets in a text are nested more deeply than this: no command has more than 4 levels, and
 /// parsing more would only cost memory and stack.

@@ -177,7 +177,7 @@ double GradientCheck::largest_error() const {
   return largest;
 }
 
-bool GradientCheck::passed() const { return lowest_order() > wanted_order && largest_error() < most_error; }
+bool GradientCheck::passed() const { return lowest_order() > wanted_order && largest_error() < max_error; }
 
 template <int dim>
 std::vector<double> test_direction(const LevelSet<dim>& psi, int number, double step) {

@@ -7,7 +7,7 @@ namespace wheelwright {
 
 /// The Taylor test of one function's shape gradient.
 struct GradientCheck {
-  static constexpr double wanted_order = 1.9, most_error = 0.1;
+  static constexpr double wanted_order = 1.9, max_error = 0.1;
 
   std::string function;  ///< its name, e.g. "objective"
   TaylorTest test;

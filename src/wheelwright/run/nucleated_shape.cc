@@ -16,7 +16,7 @@ HoleRules hole_rules(const Study<2>& study) {
   return {.radius = std::max(cells_per_radius * h, 0.5 * wider * minimum.gap),
           .wall = std::max(cells_per_wall * h, minimum.wall),
           .range = hole_range(grid, study.evolution.bands),
-          .most_area = most_share * sector_measure<2>(grid),
+          .max_area = most_share * sector_measure<2>(grid),
           .must_pay = true};
 }
 

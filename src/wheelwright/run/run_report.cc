@@ -218,7 +218,7 @@ std::vector<ShapeOutline> read_outlines(const fs::path& folder) {
   std::ifstream counted(file), stream(file);
   const auto n = static_cast<std::size_t>(
       std::count(std::istreambuf_iterator<char>(counted), std::istreambuf_iterator<char>(), '\n'));
-  const std::size_t step = n / most_outlines + 1;
+  const std::size_t step = n / max_outlines + 1;
   std::vector<ShapeOutline> outlines;
   std::string line;
   for (std::size_t k = 0; std::getline(stream, line); ++k)

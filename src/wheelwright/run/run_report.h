@@ -13,9 +13,9 @@ namespace wheelwright {
 inline constexpr const char* outline_file = "outlines.jsonl";
 
 /// Maximum number of outlines in the report of a long run.
-inline constexpr std::size_t most_outlines = 400;
+inline constexpr std::size_t max_outlines = 400;
 
-/// The lines of the file, evenly thinned to about most_outlines including the first and the last one; corrupt
+/// The lines of the file, evenly thinned to about max_outlines including the first and the last one; corrupt
 /// lines, as the last one may be after a kill, are omitted.
 std::vector<ShapeOutline> read_outlines(const std::filesystem::path& folder);
 

@@ -1,5 +1,5 @@
 "use strict";
-// What all pages draw with.
+// Drawing code shared by all pages.
 const parts = (() => {
   const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
   const curveColours = ["#1f77b4", "#d1495b", "#2e8b57", "#b8860b", "#9565c4", "#008b8b", "#c2549d", "#737a88"];
@@ -14,7 +14,7 @@ const parts = (() => {
     return made;
   }
 
-  // At most five digits, without an exponent where people would not write one.
+  // At most five digits, without unusual exponents.
   function shown(value) {
     if (!Number.isFinite(value)) return "-";
     const size = Math.abs(value);
@@ -23,7 +23,7 @@ const parts = (() => {
 
   function change(before, after) {
     const percents = 100 * (after / before - 1);
-    if (!(Math.abs(percents) < 1e5)) return "";  // before is next to nothing
+    if (!(Math.abs(percents) < 1e5)) return "";  // before is negligible
     return Math.abs(percents) < 0.005 ? "0 %" : `${percents > 0 ? "+" : "\u2212"}${Math.abs(percents).toFixed(2)} %`;
   }
 
@@ -41,7 +41,7 @@ const parts = (() => {
     return Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
   }
 
-  // The mesh of sector 0 and the fields of all sectors, as one mesh of the whole wheel.
+  // One mesh of the whole wheel, from the mesh of sector 0 and the fields of all sectors.
   function wheelMesh(run) {
     const { fields, sectors } = run;
     const points = new Float32Array(bytes(fields.points).buffer);
@@ -96,10 +96,10 @@ const parts = (() => {
     return made;
   }
 
-  // Draws the wheel with the ground below: a function of the position, the magnification, the colouring (always the stress)
-  // and the view: `width` and
-  // `height` of the canvas, pixels per metre (`scale`), what is in its middle (`x`, `y`), how low the ground lies, and the
-  // stress at the end of the colours (`brightest`). Without a view the whole wheel is seen in a square.
+  // Draws the wheel with the ground below: a function of the position, the magnification, the colouring (always the
+  // stress) and the view: `width` and `height` of the canvas, pixels per metre (`scale`), the point in its middle (`x`,
+  // `y`), the depth of the ground, and the stress at the end of the colours (`brightest`). Without a view, shows the
+  // whole wheel in a square.
   function wheelPainter(canvas, run) {
     const gl = canvas.getContext("webgl", { antialias: true, preserveDrawingBuffer: true });
     if (!gl || !gl.getExtension("OES_element_index_uint")) return null;
@@ -118,7 +118,7 @@ const parts = (() => {
         gl.vertexAttribPointer(place, size, type, normalized, 0, 0);
       };
     };
-    // Takes another shape of the same wheel; it is seen when it is painted.
+    // Replaces the shape by another one of the same wheel; visible when painted.
     const take = (of) => {
       for (const old of buffers) gl.deleteBuffer(old);
       buffers = [];
@@ -172,8 +172,8 @@ const parts = (() => {
 
   // --- The lit surface of a wheel in 3D ---------------------------------------------------------------
 
-  // The surface of the whole wheel from that of sector 0. Where the rim, the tread, side faces and holes meet, each of
-  // them has vertices of its own, so that the edges between them are sharp: `sources` tells of which vertex.
+  // The surface of the whole wheel from that of sector 0. Rim, tread, side faces and holes have separate vertices where
+  // they meet, so that the edges between them are sharp: `sources` contains the original vertices.
   function wheelSurface(run) {
     const { fields, sectors } = run;
     const points = new Float32Array(bytes(fields.points).buffer);
@@ -199,7 +199,7 @@ const parts = (() => {
     return { places, sources, corners, positions: surfacePositions(fields) };
   }
 
-  // The edges of the holes on the side faces, as pairs of points behind each other.
+  // The edges of the holes on the side faces, as consecutive pairs of points.
   function holeEdges(run) {
     const { fields, sectors } = run, { places } = wheelSurface(run);
     const triangles = new Uint32Array(bytes(fields.triangles).buffer), parts = bytes(fields.parts), n = places.length / 3;
@@ -225,7 +225,7 @@ const parts = (() => {
     displacement: [p.x, p.y, p.z].map((text) => new Int16Array(bytes(text).buffer)),
   }));
 
-  // What the colours can stand for: a share in [0, 1] at a vertex, and the value at the scale's end.
+  // What the colours can represent: a fraction in [0, 1] at a vertex, and the value at the end of the scale.
   function colourings(run, surface) {
     const { full_stress_Pa, full_displacement_m } = run.fields;
     const size = ({ displacement }, v) => Math.hypot(...displacement.map((d) => d[v])) / 32767;
@@ -257,7 +257,7 @@ const parts = (() => {
         polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 4 }));
     let surface = null, full = 0, places = null, colours = null;
     const kinds = {};
-    // Takes another shape of the same wheel, or other load positions of the shape; they are seen when they are painted.
+    // Replaces the shape by another one of the same wheel, or its load positions; visible when painted.
     let taken = {};
     const take = (fields) => {
       const isSame = fields.points === taken.points && fields.triangles === taken.triangles;
@@ -319,7 +319,7 @@ const parts = (() => {
       wheel.geometry.computeVertexNormals();
       draw();
     };
-    // Takes the holes of another shape, whose edges are drawn as lines where they are wanted.
+    // Sets the holes of another shape, whose edges are drawn as lines on request.
     const takeGhost = (fields) => {
       before.geometry.setAttribute("position", new THREE.BufferAttribute(holeEdges({ ...run, fields }), 3));
     };
@@ -370,7 +370,7 @@ const parts = (() => {
     return Object.assign(paint, { kinds, take, takeGhost, showGhost, draw, resize, fit });
   }
 
-  // The ground, flat and solid. Near the contact, magnified displacements take the tread a little below it.
+  // The ground, flat and solid. Near the contact, magnified displacements move the tread slightly below it.
   function drawGround(canvas, run) {
     const size = canvas.width = canvas.height = Math.round(canvas.clientWidth * (window.devicePixelRatio || 1)) || 600;
     const context = canvas.getContext("2d"), level = 0.95 * size, step = size / 60;
@@ -398,7 +398,7 @@ const parts = (() => {
 
   // --- The wheel as it is cut -------------------------------------------------------------------------
 
-  // Edges as a path: closed polylines with x and y in turn, y pointing up, each `copies` times round the axle.
+  // Edges as a path: closed polylines with x and y alternating, y up, each `copies` times around the axle.
   function wheelPath(loops, copies, unit) {
     const one = new Path2D(), all = new Path2D();
     for (const points of loops) {
@@ -446,7 +446,7 @@ const parts = (() => {
           y: { ...axis(yTitle), ...options.y } }, plugins: { legend: { display: curves.length > 1, labels: { color: colour("--ink") } } } },
       });
     };
-    // Other curves, of the same kinds.
+    // New curves of the same kinds.
     const update = (of) => {
       data(of).forEach((dataset, k) => {
         if (drawn.data.datasets[k]) Object.assign(drawn.data.datasets[k], dataset);
@@ -459,7 +459,7 @@ const parts = (() => {
       }
       drawn.update("none");
     };
-    // In the colours that hold now.
+    // In the current colours.
     const recolour = () => {
       drawn?.destroy();
       start();

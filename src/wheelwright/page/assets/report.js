@@ -5,13 +5,13 @@
   const { colour, curveColours, degree, element, shown, change, minutes, gradient, wheelPainter,
     surfacePainter, drawGround, roundMagnification, chart, wheelPath, paintWheel } = parts;
 
-  // What could not be computed is null in the data and NaN in sums; it is shown as a dash.
+  // Missing values are null in the data and NaN in sums, and are shown as a dash.
   for (const { summary } of data.runs) for (const numbers of summary ? [summary.before, summary.after] : [])
     for (const key of Object.keys(numbers)) numbers[key] ??= NaN;
 
   // --- Numbers ----------------------------------------------------------------------------------------
 
-  // Columns of wheels with their change against the first one, in groups that may have a name.
+  // Columns of wheels with their change relative to the first one, in groups that may have a name.
   function table(groups) {
     const names = element("tr", {}, element("th", { scope: "col" }, "quantity")), above = element("tr", {}, element("td"));
     for (const { name, wheels } of groups) {
@@ -26,7 +26,7 @@
       if (!groups.some(({ wheels }) => wheels.some(({ numbers }) => Number.isFinite(numbers[key])))) continue;
       const row = element("tr", {}, element("th", { scope: "row" }, `${label} [${unit}]`));
       for (const { wheels } of groups) {
-        const isOfShape = !wheels.some(({ numbers }) => key in numbers);  // and stands in the first group
+        const isOfShape = !wheels.some(({ numbers }) => key in numbers);  // so it is in the first group
         wheels.forEach(({ numbers }, k) => {
           row.append(element("td", { "data-key": key }, Number.isFinite(numbers[key]) ? shown(numbers[key] * factor) :
             isOfShape ? "" : "\u2013"));
@@ -69,12 +69,10 @@
           `${shown(price)}${price ? ` ${run.objective.unit} per ${unit}` : ""}`].map((text) => element("td", {}, text))));
     }
     return element("div", {}, element("div", { class: "wide" }, element("table", { id: `${run.id}-bounds` },
-      element("thead", {}, head), body)), element("p", { class: "quiet" }, "The margin is what is left to the limit; a " +
-      "negative one is beyond it. The multiplier of an active bound is by how much the objective falls per unit by which " +
-      "the bound is relaxed."));
+      element("thead", {}, head), body)), element("p", { class: "quiet" }, "The margin is the distance to the limit; negative " + "beyond it. The multiplier of an active bound is the decrease of the objective per unit by which " + "the bound is relaxed."));
   }
 
-  // One sentence: what came out.
+  // The result in one sentence.
   function verdict(run) {
     const { before, after, bounds: all = [] } = run.summary;
     const key = ["objective", "objective_J_per_m", "objective_J"].find((name) => Number.isFinite(after[name]));
@@ -98,7 +96,7 @@
     return `${run.trials} trial shapes, ${n} rejected${why}`;
   }
 
-  // What a buyer asks, and the answers.
+  // A buyer's questions, with answers.
   function answers(run) {
     const list = element("dl", { class: "answers" });
     const answer = (id, question, text) =>
@@ -121,18 +119,18 @@
     answer("pressure", "What pressure on the ground?", `${shown(after.peak_pressure_Pa * 1e-6)} MPa`);
     answer("travel", "How far does it sink?", `${shown(after.mean_travel_m * 1e3)} mm`);
     answer("load", "For which load?", `${shown(after.load_N)} N`);
-    answer("strain", "Is it made for this load?", `largest strain ${shown(100 * after.largest_strain)} %, travel ` +
+    answer("strain", "Is it suited to this load?", `largest strain ${shown(100 * after.largest_strain)} %, travel ` +
       `${shown(100 * after.travel_by_ring_thickness)} % of the ring`);
     answer("change", "What changed?", `travel ${change(before.mean_travel_m, after.mean_travel_m)}, run-out ` +
       `${change(before.run_out_m, after.run_out_m)}, peak stress ` +
       `${change(before.peak_von_mises_Pa, after.peak_von_mises_Pa)}`);
-    answer("trust", "Can I trust it?", run.flags.length === 0 ? "no remarks; its limits stand below" :
-      `${run.flags.length} remark${run.flags.length > 1 ? "s" : ""} and the limits below`);
+    answer("trust", "Can I trust it?", run.flags.length === 0 ? "no remarks; its limitations are listed below" :
+      `${run.flags.length} remark${run.flags.length > 1 ? "s" : ""} and the limitations below`);
     answer("making", "How was it made?", `${run.status}; ${run.trials} trial shapes, ${minutes(run.seconds)}`);
     return list;
   }
 
-  // A sentence; lines for a case file follow it as they are.
+  // A sentence, followed by lines for a case file in verbatim form.
   function remark(text) {
     const [sentence, ...lines] = (text[0].toUpperCase() + text.slice(1)).split("\n");
     return lines.length ? [sentence, element("pre", {}, lines.join("\n"))] : [sentence];
@@ -146,11 +144,11 @@
     return list;
   }
 
-  // What the numbers do not tell.
+  // The limitations of the numbers.
   const limits = (run) => element("ul", { class: "quiet", id: `${run.id}-limits` },
     ...run.limits.map((text) => element("li", {}, text)));
 
-  // Holes that merged, vanished or reached a band on the way.
+  // Holes that merged, vanished or reached a band during the run.
   const events = (run) => element("details", { id: `${run.id}-events` },
     element("summary", {}, `What happened to the holes: ${run.events.length + run.events_omitted} shape` +
       (run.events.length > 1 ? "s" : "") + (run.events_omitted ? `, of which the last ${run.events.length}` : "")),
@@ -159,7 +157,7 @@
 
   // --- The wheel rolling ------------------------------------------------------------------------------
 
-  // Under one of its loads, whose controls have names that begin with `id`.
+  // Under one of its loads; the names of its controls start with `id`.
   function rolling(run, { id, loadCase, fields, numbersOfPositions }) {
     run = { ...run, fields };
     const is_surface = run.dimension === 3;
@@ -200,7 +198,7 @@
       const numbers = k < 0 ? "" : `: travel ${shown((at.travel_at_load_m?.[k] ?? NaN) * 1e3)} mm, peak pressure ` +
         `${shown(at.peak_pressure_Pa[k] * 1e-6)} MPa, peak stress ${shown(at.peak_von_mises_Pa[k] * 1e-6)} MPa`;
       caption.textContent = `${loadCase ? `Load case ${loadCase}. ` : ""}Ground at azimuth ${shown(shown_azimuth * degree)}\u00b0${numbers}. ` +
-        `Displacements are drawn ${magnified === 1 ? "in true scale" : `${magnified} times as large`}.${is_surface ? " Drag the wheel to turn it." : ""}`;
+        `Displacements are drawn ${magnified === 1 ? "at true scale" : `${magnified} times as large`}.${is_surface ? " Drag the wheel to turn it." : ""}`;
     };
     const roll = (on) => {
       clearInterval(timer);
@@ -212,7 +210,7 @@
     slider.addEventListener("input", () => { roll(false); draw(); });
     for (const control of [choice, kind]) control.addEventListener("change", draw);
     const start = () => { paint = (is_surface ? surfacePainter : wheelPainter)(picture, run); draw(); };
-    // On paper what lies over a canvas hides it, even where it is transparent: one canvas shows both.
+    // In print, an overlay hides a canvas even where it is transparent, so one canvas shows both.
     const print = () => {
       const copy = element("canvas", { class: "print-copy", "aria-hidden": "true", style: "position:absolute;inset:0" });
       [copy.width, copy.height] = [picture.width, picture.height];
@@ -255,7 +253,7 @@
     return { figure, start: draw, draw };
   }
 
-  // The last shapes of several runs over each other, to scale.
+  // The last shapes of several runs, overlaid to scale.
   function overlay(runs) {
     const drawn = runs.filter((run) => run.outlines.length);
     const canvas = element("canvas", { role: "img", "aria-label": `The outlines of ${drawn.map(({ name }) => name).join(", ")}` });
@@ -280,7 +278,7 @@
       });
     };
     const figure = element("figure", { class: "overlay" }, element("div", { class: "picture" }, canvas), legend,
-      element("figcaption", {}, "The last shapes of the runs, drawn over each other to scale."));
+      element("figcaption", {}, "The last shapes of the runs, overlaid to scale."));
     return { figure, start: draw, draw };
   }
 
@@ -311,11 +309,11 @@
         const found = known(key).map(([name, of]) => ({ name, ...turn(of, of[key], factor) }));
         if (found.length) charts.push(chart(title, "azimuth [\u00b0]", unit, found));
       };
-      both("Travel at fixed load, round one sector", "travel_at_load_m", 1e3, "[mm]");
-      both("Radial force at fixed travel, round one sector", "force_at_travel_N", 1, "[N]");
+      both("Travel at fixed load, over one sector", "travel_at_load_m", 1e3, "[mm]");
+      both("Radial force at fixed travel, over one sector", "force_at_travel_N", 1, "[N]");
       const spectrum = (title, key, factor, unit) => {
         const found = known(key).map(([name, of]) => ({ name, y: of[key].map((v) => v * factor) }));
-        if (found.length) charts.push(chart(title, "waves per turn", unit, found,
+        if (found.length) charts.push(chart(title, "waves per revolution", unit, found,
           { bars: true, labels: found[0].y.map((_, k) => `${(k + 1) * run.sectors}`) }));
       };
       spectrum("Spectrum of the travel", "travel_harmonics_m", 1e6, "[\u00b5m]");
@@ -338,8 +336,8 @@
 
   function provenance(run) {
     const commands = `wheelwright run case.toml            # computes this run again\n` +
-      `wheelwright analyze ${run.name}            # its last wheel in 64 load positions per sector\n` +
-      `wheelwright resume ${run.name} --iterations N   # goes on`;
+      `wheelwright analyze ${run.name}            # its last wheel at 64 load positions per sector\n` +
+      `wheelwright resume ${run.name} --iterations N   # continues`;
     return element("section", {}, element("h2", {}, "How it was made"),
       element("p", { class: "quiet" }, `${run.program}; ${rejectedText(run)}; ${minutes(run.seconds)}`),
       element("pre", {}, commands),
@@ -364,7 +362,7 @@
       picture(rolling(run, { id: `${run.id}-load${k + 1}`, loadCase: load_case, fields: { ...run.fields, ...fields } }));
     if (pictures.childElementCount) made.append(section("The wheel under load, and its shapes", pictures));
     made.append(flags(run));
-    if (run.summary) made.append(section("Before and after, in short", answers(run)));
+    if (run.summary) made.append(section("Before and after, in brief", answers(run)));
     if (run.summary?.bounds?.length) made.append(section("Bounds", bounds(run)));
     const charts = curves(run);
     later.push(...charts);
@@ -379,7 +377,7 @@
 
   const later = [];
   data.runs.forEach((run, k) => { run.id = `run${k}`; });
-  // Energies in the plane belong to a metre of width: wheels are compared with those of the same dimension.
+  // Energies in 2D are per metre of width, so wheels are compared only with those of the same dimension.
   const compared = [2, 3].map((dimension) => data.runs.filter((run) => run.summary && run.dimension === dimension))
     .filter((runs) => runs.length > 1);
   if (compared.length) page.append(element("h1", {}, "Wheels compared"), ...compared.flatMap((runs) => {
@@ -399,7 +397,7 @@
   };
   addEventListener("resize", redraw);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", recolour);
-  // Paper is white: what is drawn in the colours of a dark page is drawn anew.
+  // Paper is white: redraws what has the colours of a dark page.
   let printed = [];
   addEventListener("beforeprint", () => {
     document.documentElement.classList.add("printed");

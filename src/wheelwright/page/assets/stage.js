@@ -1,7 +1,7 @@
 "use strict";
-// The wheel on its ground: the loaded wheel of one load position, coloured by stress, and over it the edges of the
-// newest shape, which may be newer than the colours. Coordinates are metres: of the body, as the shape is computed, or
-// of the view, with the axle at the origin and the ground below.
+// The wheel on its ground: the loaded wheel at one load position, coloured by stress, overlaid by the edges of the
+// newest shape, which may be newer than the colours. Coordinates are in metres: in the body frame, as in the
+// computation, or in the view, with the axle at the origin and the ground below.
 const stage = (() => {
   const { colour, bytes, wheelPainter, roundMagnification } = parts;
   const mostZoom = 200, leastZoom = 0.5;
@@ -39,11 +39,11 @@ const stage = (() => {
 
   function make(overlay, picture, wheel) {
     const { sectors, inner_radius_m: inner, outer_radius_m: outer, stands_on_ground: hasGround } = wheel;
-    const view = { zoom: 1, x: 0, y: 0 };  // in the middle of the canvas; 0, 0: what fit() shows
+    const view = { zoom: 1, x: 0, y: 0 };  // in the middle of the canvas; 0, 0: as set by fit()
     let painter = null, fields = null, field = null, mesh = null, size = { width: 1, height: 1, ratio: 1 };
     let turn = -Math.PI / 2, magnified = 1, isLoaded = true, painted = {};
 
-    // What fits: the wheel, and a strip of ground below it.
+    // The fitted view: the wheel, and a strip of ground below it.
     const top = 1.05 * outer, bottom = (hasGround ? 1.13 : 1.05) * outer;
     const fitted = () => Math.min(size.width / (2.1 * outer), size.height / (top + bottom));
     const scale = () => fitted() * view.zoom;  // device pixels per metre
@@ -57,7 +57,7 @@ const stage = (() => {
       return [cx + (x - size.width / 2) / s, cy - (y - size.height / 2) / s];
     };
 
-    // Takes the loaded wheel of a load position, as the server answers it.
+    // Sets the loaded wheel at a load position, as received from the server.
     function take(loaded) {
       const isMesh = !fields || fields.points !== loaded.fields.points || fields.triangles !== loaded.fields.triangles;
       fields = loaded.fields;
@@ -76,7 +76,7 @@ const stage = (() => {
       if (magnified < 0.4 * wanted || magnified > 1.25 * wanted) magnified = roundMagnification(wanted);
     }
 
-    // The displacement as it is drawn, of the material nearest to a point of the body.
+    // The drawn displacement of the material nearest to a point of the body.
     function displacement([x, y]) {
       if (!field || !isLoaded) return [0, 0];
       const angle = 2 * Math.PI / sectors, azimuth = (Math.atan2(y, x) + 2 * Math.PI) % (2 * Math.PI);
@@ -85,7 +85,7 @@ const stage = (() => {
       return [magnified * field.full * field.x[k], magnified * field.full * field.y[k]];
     }
 
-    // Where a point of the body is drawn. No point of the wheel is below its ground.
+    // The drawn position of a point of the body. No point of the wheel is below its ground.
     function drawn(point) {
       const [u, v] = displacement(point), [x, y] = turned([point[0] + u, point[1] + v], turn);
       return toPixel([x, hasGround ? Math.max(y, -outer) : y]);
@@ -117,7 +117,7 @@ const stage = (() => {
       return path;
     }
 
-    // What is drawn by hand moves with the material round it as a whole.
+    // Strokes drawn by hand move as a whole with the material around them.
     function moved(points) {
       const all = points.map(displacement), u = [0, 1].map((d) => all.reduce((sum, v) => sum + v[d], 0) / all.length);
       return points.map(([x, y]) => toPixel(turned([x + u[0], y + u[1]], turn)));
@@ -182,7 +182,7 @@ const stage = (() => {
       context.stroke();
     }
 
-    // The coloured wheel lies on a canvas of its own, below the edges: it stays as it is while only they change.
+    // The coloured wheel is on a separate canvas below the edges, which is kept while only they change.
     function paintStress(seen) {
       const shown = isLoaded ? magnified : 0, key = JSON.stringify([shown, seen]);
       if (!painter || (painted.fields === fields && painted.key === key)) return;
@@ -190,8 +190,8 @@ const stage = (() => {
       painter(0, shown, "stress", seen);
     }
 
-    // Paints the wheel. `outline`: edges of the newest shape; `coloured`: those of the shape that is coloured, where it is
-    // another one; `ghost`: those of the initial shape, or null; `brightest`: stress at the colours' end.
+    // Paints the wheel. `outline`: edges of the newest shape; `coloured`: those of the coloured shape, if that differs;
+    // `ghost`: those of the initial shape, or null; `brightest`: stress at the colours' end.
     function paint({ outline, coloured, ghost, brightest }) {
       resize();
       const context = overlay.getContext("2d"), { width, height, ratio } = size;
@@ -206,7 +206,7 @@ const stage = (() => {
         context.fillStyle = colour("--material");
         context.fill(ring, "evenodd");
       }
-      if (coloured && coloured !== outline) {  // material that is not solved yet
+      if (coloured && coloured !== outline) {  // material not solved yet
         context.fillStyle = colour("--material");
         context.fill(outlinePath(coloured), "evenodd");
       }
@@ -230,8 +230,7 @@ const stage = (() => {
       return context;
     }
 
-    // Larger by a factor. The place under a pixel of the page stays there; without one it is the contact while that is
-    // seen, else the middle.
+    // Zooms by a factor about a pixel of the page; without one, about the contact if visible, else about the middle.
     function zoom(factor, clientX, clientY) {
       const box = overlay.getBoundingClientRect(), contact = toPixel([0, -outer]);
       const isSeen = contact.every((v, d) => v >= 0 && v <= [size.width, size.height][d]);

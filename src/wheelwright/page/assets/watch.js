@@ -5,7 +5,7 @@
 
   // --- The server -------------------------------------------------------------------------------------
 
-  // The token came behind the # of the address. It stays in this tab and leaves the address bar.
+  // The token comes after the # of the address. It is kept in this tab and removed from the address bar.
   const handedOver = location.hash.slice(1);
   if (/^[0-9a-f]{64}$/.test(handedOver)) {
     sessionStorage.setItem("token", handedOver);
@@ -21,14 +21,14 @@
     return response;
   }
 
-  // Gives the run a command; what became of it comes with the answer.
+  // Sends a command to the run; the answer contains its result.
   async function give(command) {
     try {
       const answer = await (await ask("/command", { method: "POST", body: JSON.stringify(command) })).json();
       tell(answer.text, !answer.executed);
       return answer.executed;
     } catch {
-      tell("the program does not answer", true);
+      tell("the program does not respond", true);
       return false;
     }
   }
@@ -79,16 +79,16 @@
 
   // --- The wheel --------------------------------------------------------------------------------------
 
-  // The loaded wheel is asked for at the pace at which the page can show it, at most ten times a second: the newest shape,
-  // at the next load position while it rolls. Edges are painted with every shape.
+  // The page requests the loaded wheel as fast as it can show it, at most ten times a second: the newest shape, at the
+  // next load position while it rolls. Edges are painted with every shape.
   const betweenPictures = 100;  // ms
   let scene = null;      // the stage of a plane wheel
   let solid = null;      // the painter of a wheel in 3D
-  let picture = null;    // the loaded wheel that is shown, as the server answered it
-  let pictures = new Map();  // the load positions of the shape that is shown
+  let picture = null;    // the displayed loaded wheel, as received from the server
+  let pictures = new Map();  // the load positions of the displayed shape
   let first = null;      // the edges of the initial shape
   let picturesPainted = 0;
-  let held = false;      // whether the wheel stands still, because the user points at it
+  let held = false;      // whether the wheel stands still because the user points at it
   let loadCase = 0;
   const peaks = [];      // the stress peaks of the last load positions, for a scale that does not flicker
 
@@ -187,7 +187,7 @@
       at("wheel-help").textContent = "Drag the wheel to turn it; with the keys: arrows, plus and minus.";
       solid.paint = parts.surfacePainter(canvas, { fields, outer_radius_m, width_m, sectors });
       solid.draw = () => solid.paint?.draw();
-      if (!solid.paint) tell("this browser cannot draw in three dimensions", true);
+      if (!solid.paint) tell("this browser does not support 3D graphics", true);
       else solid.paint.takeGhost((await (await ask("/loaded?initial=1")).json()).fields);
       solid.paint?.showGhost(pressed("ghost"));
     } else {
@@ -239,11 +239,11 @@
 
   // --- Editing ----------------------------------------------------------------------------------------
 
-  const tools = [["look", "Look", "Drag to move the picture, turn the mouse's wheel to enlarge it. With the keys: arrows, plus, minus, 0."],
-    ["move", "Move", "Drag a hole. With the keys: arrows, Enter to take it, arrows, Enter to drop it."],
+  const tools = [["look", "Look", "Drag to move the picture, turn the mouse wheel to zoom. With the keys: arrows, plus, minus, 0."],
+    ["move", "Move", "Drag a hole. With the keys: arrows, Enter to pick it up, arrows, Enter to drop it."],
     ["resize", "Resize", "Drag away from a hole's centre or towards it. With the keys: arrows, Enter, arrows, Enter."],
     ["add", "Add", "Drag from the centre of the new hole outwards, or click. With the keys: arrows, Enter, Enter."],
-    ["fill", "Delete", "Click into a hole to fill it. With the keys: arrows, Enter, or Delete with any tool."],
+    ["fill", "Delete", "Click a hole to fill it. With the keys: arrows, Enter, or Delete with any tool."],
     ["paint", "Paint", "Draw material with the mouse. With the keys: arrows, Enter, arrows, Enter."],
     ["erase", "Erase", "Erase material with the mouse. With the keys: arrows, Enter, arrows, Enter."]];
   const brushes = { paint: "material", erase: "hole" }, usingTip = ["add", "paint", "erase"];
@@ -281,7 +281,7 @@
   showTool();
 
   let edit = null;    // { tool, from, to, path, hole } while the user draws, in metres of the body
-  let cursor = null;  // where the keys point
+  let cursor = null;  // position of the keyboard cursor
 
   const { turned } = stage;
   const distance = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1]);
@@ -295,7 +295,7 @@
     return inside;
   }
 
-  // The edge of the hole round a point, with its centre.
+  // The edge of the hole around a point, with its centre.
   function holeAt(point) {
     for (const { in_every_sector, points_um } of frame.outline) {
       const n = in_every_sector ? frame.wheel.sectors : 1;
@@ -337,7 +337,7 @@
     paint();
   }
 
-  // Gives the command of what was drawn. It stays on the picture until the shape has it.
+  // Sends the command for what was drawn. It remains on the picture until the shape includes it.
   async function finish() {
     const done = edit, { from, to } = done;
     const by = [to[0] - from[0], to[1] - from[1]];
@@ -355,7 +355,7 @@
     paint();
   }
 
-  // The edge that a tool draws, in one sector.
+  // The edge drawn by a tool, in one sector.
   function editedEdge({ tool: kind, from, to, hole }) {
     if (kind === "move") return hole.edge.map(([x, y]) => [x + to[0] - from[0], y + to[1] - from[1]]);
     if (kind === "resize") {
@@ -377,7 +377,7 @@
       context.globalAlpha = 0.8;
       context.stroke(scene.addStroke(new Path2D(), points, sectors));
     } else if (edit && edit.tool !== "fill") {
-      // The hole where it will be, and material where it was.
+      // The hole at its new place, and material at its old one.
       if (edit.hole) {
         context.fillStyle = colour("--material");
         context.fill(scene.addLine(new Path2D(), edit.hole.edge, sectors));
@@ -431,7 +431,7 @@
     pointers.delete(event.pointerId);
     edit = null;
   });
-  // What is to be drawn on stands still.
+  // The wheel stands still while it is edited.
   wheel.addEventListener("pointerenter", () => { held = tool() !== "look"; });
   wheel.addEventListener("pointerleave", () => { held = false; });
   wheel.addEventListener("wheel", (event) => {
@@ -484,7 +484,7 @@
       download(name, await response.blob());
       return tell(`${name} is downloaded`, false);
     } catch {
-      return tell("the program does not answer", true);
+      return tell("the program does not respond", true);
     }
   }
 
@@ -500,7 +500,7 @@
       const answer = await (await ask("/save", { method: "POST", body: at("name").value })).json();
       tell(answer.executed ? `saved: ${answer.text}` : answer.text, !answer.executed);
     } catch {
-      tell("the program does not answer", true);
+      tell("the program does not respond", true);
     }
   });
 
@@ -540,8 +540,8 @@
 
   // --- Numbers ----------------------------------------------------------------------------------------
 
-  // What takes longer than a shape is asked for at the page's pace: the whole table, of the newest shape, a few times a
-  // second. What the contact tells comes with every shape.
+  // Numbers that take longer than a shape are requested at the page's pace: the whole table of the newest shape, a few
+  // times a second. Those of the contact come with every shape.
   const betweenNumbers = 400;  // ms
   const labels = { volume_fraction: "material", mass_kg: "mass", mean_travel_m: "travel", stiffness_N_per_m: "stiffness",
     run_out_m: "run-out", force_variation_N: "force variation", peak_pressure_Pa: "peak pressure",
@@ -595,7 +595,7 @@
   function showWarnings() {
     at("warnings").hidden = numbers.warnings.length === 0;
     at("warnings").replaceChildren(...numbers.warnings.map((text) => {
-      // What follows the first clause is there on demand.
+      // The rest after the first clause is shown on demand.
       const told = text[0].toUpperCase() + text.slice(1), end = told.search(/[.;] /) + 1;
       return element("li", {}, ...(end === 0 ? [told] : [element("details", {}, element("summary", {}, told.slice(0, end)), told.slice(end))]));
     }));
@@ -653,7 +653,7 @@
   // --- The run ----------------------------------------------------------------------------------------
 
   const states = { starting: "computing the first shape", computing: "optimizing", paused: "paused",
-    settled: "no better shape is near: change anything to continue", ended: "the run has ended" };
+    settled: "no better shape nearby: change anything to continue", ended: "the run has ended" };
 
   function showState() {
     at("state").textContent = states[frame.activity] ?? frame.activity;
@@ -665,7 +665,7 @@
     for (const id of ["go", "step", "reset"]) at(id).disabled = frame.activity === "ended";
   }
 
-  // A run that settled can be paused too: it then waits through several changes.
+  // A settled run can be paused too: it then waits through several changes.
   at("go").addEventListener("click", () => give({ do: frame?.activity === "paused" ? "continue" : "pause" }));
   at("step").addEventListener("click", () => give({ do: "step" }));
   at("undo").addEventListener("click", () => give({ do: "undo" }));
@@ -676,7 +676,7 @@
   const compact = { compact: true };
   const charts = {
     objective: chart("Objective by shape", "", "", [{ name: "objective", x: [], y: [] }], compact),
-    travel: chart("Travel [mm] round one sector [\u00b0]", "", "", [{ name: "travel", x: [], y: [] }], compact),
+    travel: chart("Travel [mm] over one sector [\u00b0]", "", "", [{ name: "travel", x: [], y: [] }], compact),
     pressure: chart("Pressure [MPa] along ground [mm]", "", "", [{ name: "pressure", x: [], y: [] }], compact),
     force: chart("Force [N] by travel [mm]", "", "", [{ name: "force", x: [], y: [] }], compact),
   };
@@ -704,8 +704,8 @@
 
   // --- Settings ---------------------------------------------------------------------------------------
 
-  // A slider and a number for the same value. `toSlider` and back map it to 0..1000. What is dragged is sent
-  // as soon as the value before it is obeyed.
+  // A slider and a number for the same value. `toSlider` and back map it to 0..1000. While dragging, a value is sent as
+  // soon as the previous one has been executed.
   function setting(id, label, { toSlider, fromSlider, value, command, digits }) {
     const slider = element("input", { type: "range", min: 0, max: 1000, id, "aria-describedby": `${id}-number` });
     const number = element("input", { type: "number", id: `${id}-number`, step: "any", "aria-label": `${label}, as a number` });
@@ -737,7 +737,7 @@
       slider.value = toSlider(Number(number.value));
       want(Number(number.value));
     });
-    // What the run has, unless the user is about to change it.
+    // The value of the run, unless the user is changing it.
     return () => {
       if (isSending || document.activeElement === number) return;
       const v = value();
@@ -754,7 +754,7 @@
     fromSlider: (s) => s === 0 ? 0 : low * (high / low) ** (s / 1000) });
 
   let settings = null;
-  // The load of the chosen load case: what carries the wheel, and what else it has.
+  // The load of the chosen load case: mass, force or travel, and the rest.
   function loadSettings() {
     const one = (id, text, key, factor, first) => setting(id, text, {
       ...(first > 0 ? linear(0.1 * first * factor, 3 * first * factor) : linear(3 * first * factor, -3 * first * factor)),
@@ -771,7 +771,7 @@
   function makeSettings() {
     const weight = (id, text, key, low, high) => setting(id, text, { ...powers(low, high), digits: 3,
       value: () => frame.settings.weights[key], command: (v) => ({ do: "weights", [key]: v }) });
-    // Widths of which 0 allows any.
+    // Minimum widths; 0 allows any.
     const ring = frame.wheel.outer_radius_m - frame.wheel.inner_radius_m;
     const width = (id, text, key) => setting(id, text, { ...linear(0, 250 * ring), digits: 3,
       value: () => 1e3 * frame.settings[key], command: (v) => ({ do: "widths", [key]: v * 1e-3 }) });
@@ -801,13 +801,14 @@
   let version = 0, curveVersion = 0, painted = 0, shapesPainted = 0, framed = 0;
   let waiting = new AbortController();
 
-  // Asks at once for what is there, e.g. when another load position is to be shown.
+  // Requests the current state at once, e.g. to show another load position.
   function look() {
     version = curvesDrawn = 0;
     waiting.abort();
   }
 
-  // The curves of the last shape, when no other follows, and the contact pressure of the position where a rolling wheel is.
+  // The curves of the last shape, if no other follows, and the contact pressure at the current position of a rolling
+  // wheel.
   setInterval(() => {
     const isQuiet = frame?.wheel && performance.now() - framed > betweenCurves;
     if (isQuiet && (curvesOf !== frame.version || (pressed("roll") && frame.pressure.position !== position()))) look();
@@ -842,7 +843,7 @@
     frame = news;
     framed = performance.now();
     version = news.version;
-    curveVersion = news.wheel ? version : 0;  // the first shape brings the edges of the initial one
+    curveVersion = news.wheel ? version : 0;  // the first shape includes the edges of the initial one
     curve.push(...news.curve);
     if (curve.length > mostPoints) curve.splice(0, curve.length - mostPoints);
     showState();
@@ -851,7 +852,7 @@
     if (frame.initial_outline) first = frame.initial_outline;
     for (const follow of settings) follow();
     showLoadCases();
-    // An edge that a command drew replaces what the user drew; its numbers come with its solution.
+    // An edge drawn by a command replaces what the user drew; its numbers come with its solution.
     if (frame.is_proposed && edit?.isGiven) edit = null;
     paint();
     if (isNew) wheel.dataset.painted = String(++painted);
@@ -877,7 +878,7 @@
           return;
         }
         if (error.name === "AbortError") continue;
-        at("state").textContent = "the program does not answer; trying again";
+        at("state").textContent = "the program does not respond; trying again";
         await pause(1000);
       }
     }
