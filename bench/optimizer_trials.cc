@@ -35,7 +35,7 @@ struct Course {
   std::vector<bool> accepted;
   StopReason reason;
   double end;                  ///< the objective of the last shape
-  cad::Clearances clearances;  ///< of the outline of the last shape, measured on the curves fitted to it
+  OutlineMeasures outline;     ///< of the last shape, measured on the curves fitted to its edges
   double cell;
 
   int trials() const { return static_cast<int>(objectives.size()) - 1; }
@@ -76,7 +76,7 @@ Expected<Course> course(const Case& c, bool tells) {
   if (!state) return state.failure();
   result.reason = optimizer.run(*state, observe, [] { return false; });
   result.end = optimizer.objective_of(state->evaluation);
-  if (const auto measured = outline_measures(state->shape)) result.clearances = measured->clearances;
+  if (auto measured = outline_measures(state->shape)) result.outline = *std::move(measured);
   result.cell = state->shape.lattice.grid().resolution();
   return result;
 }
@@ -101,7 +101,7 @@ int run(const std::string& path, double best, int shapes, int starts) {
   Case given = *read.value;
   given.optimizer.iterations = shapes;
   std::vector<int> to_percent, to_tenth;
-  std::vector<double> bests, ends, walls, gaps;
+  std::vector<double> bests, ends, walls, gaps, turns;
   for (int start = 0; start < starts; ++start) {
     const auto found = course(with_radii_changed(given, start, starts), starts == 1);
     if (!found) {
@@ -113,16 +113,16 @@ int run(const std::string& path, double best, int shapes, int starts) {
     bests.push_back(found->best());
     ends.push_back(found->end);
     const auto cells = [&](const std::optional<cad::Clearance>& c) { return c ? c->width / found->cell : 0; };
-    walls.push_back(cells(found->clearances.wall));
-    gaps.push_back(cells(found->clearances.gap));
+    walls.push_back(cells(found->outline.clearances.wall));
+    gaps.push_back(cells(found->outline.clearances.gap));
+    turns.push_back(found->outline.roughness ? found->outline.roughness->edge.turns : 0);
     fmt::print(
         "start {}: {:>4} trials to 1 %, {:>4} to 0.1 %; best {:.4f} of {} trials, {} rejected; end {:.4f}, "
-        "wall {} "
-        "and gap {} cells ({})\n",
+        "wall {} and gap {} cells, {:.2f} turns below a cell ({})\n",
         start, count_text(to_percent.back()), count_text(to_tenth.back()), bests.back(), found->trials(),
         std::ranges::count(found->accepted, false), found->end,
-        width_text(found->clearances.wall, found->cell), width_text(found->clearances.gap, found->cell),
-        to_string(found->reason));
+        width_text(found->outline.clearances.wall, found->cell),
+        width_text(found->outline.clearances.gap, found->cell), turns.back(), to_string(found->reason));
     std::fflush(stdout);
   }
   fmt::print("median:  {:>4}             {:>4}            {:.4f}\n", count_text(median(to_percent)),
@@ -134,9 +134,10 @@ int run(const std::string& path, double best, int shapes, int starts) {
                                          count_text(most));
   };
   const auto [min_end, max_end] = std::ranges::minmax(ends);
-  fmt::print("row: {} | {} | {:.3f} | {:.3f} ({:.3f} to {:.3f}) | {:.2f} | {:.2f}\n", counts(to_percent),
+  fmt::print("row: {} | {} | {:.3f} | {:.3f} ({:.3f} to {:.3f}) | {:.2f} | {:.2f} | {:.2f}
+", counts(to_percent),
              counts(to_tenth), median(bests), median(ends), min_end, max_end, std::ranges::min(walls),
-             std::ranges::min(gaps));
+             std::ranges::min(gaps), std::ranges::max(turns));
   return 0;
 }
 
