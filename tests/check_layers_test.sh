@@ -110,4 +110,39 @@ sound_tree
 printf '%s\n' 'base:' 'mesh: base' 'app: base mesh' 'gone:' > "$folder/src/layers.txt"
 refuses 'a listed folder that does not exist' layers.txt:4
 
+# The same tree, with subfolders of mesh: what parts include of cells must be listed below mesh.
+divided_tree() {
+  sound_tree
+  mkdir "$folder/src/mesh/cells"
+  rm "$folder/src/mesh/mesh.h"
+  printf '%s\n' 'base:' 'mesh: base' '  cells:' '  parts: cells' 'app: base mesh' > "$folder/src/layers.txt"
+  printf '// first line\n#include "wheelwright/base/vec.h"\n' > "$folder/src/mesh/cells/cell.h"
+  printf '// first line\n#include "wheelwright/mesh/cells/cell.h"\n' > "$folder/src/mesh/parts/part.cc"
+  printf '// first line\n#include "wheelwright/base/vec.h"\n#include "wheelwright/mesh/cells/cell.h"\n' \
+    > "$folder/src/app/main.cc"
+}
+divided_tree
+accepts 'a sound tree with subfolders'
+
+divided_tree
+printf '#include "wheelwright/mesh/parts/part.h"\n' >> "$folder/src/mesh/cells/cell.h"
+refuses 'an edge between subfolders that is not listed' mesh/cells/cell.h:3
+
+divided_tree
+printf '// first line\n' > "$folder/src/mesh/parts/part.cc"
+refuses 'a listed edge between subfolders without an include' layers.txt:4
+
+divided_tree
+mkdir "$folder/src/mesh/faces"
+printf '// first line\n' > "$folder/src/mesh/faces/face.cc"
+refuses 'a subfolder that is not listed' mesh/faces/face.cc:1
+
+divided_tree
+printf '// first line\n' > "$folder/src/mesh/mesh.cc"
+refuses 'a file beside the subfolders' mesh/mesh.cc:1
+
+divided_tree
+printf '%s\n' 'base:' 'mesh: base' '  parts: cells' '  cells:' 'app: base mesh' > "$folder/src/layers.txt"
+refuses 'a subfolder above those that it includes' layers.txt:3
+
 exit "$failures"
