@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <optional>
 
@@ -18,13 +19,14 @@ constexpr int n_corrections = 3;
 /// none saves a first solution that deviates by so many tolerances.
 constexpr double hopeless = 1.1;
 
-/// Number of samples stored side by side, so that loops over them are vectorized.
+/// Numbers of so many samples lie side by side, so that a loop over them is compiled to vector instructions.
 constexpr int lanes = 32;
 using Lanes = std::array<double, lanes>;
 
-/// Consecutive samples of one interval, with its four nonzero B-splines. Lanes without a sample are zero.
+/// Samples that follow each other in one interval, with the four B-splines that are not zero there. Lanes
+/// without a sample hold zeros.
 struct Block {
-  int interval, first, n_samples;
+  int first, n_samples;
   std::array<Lanes, degree + 1> value, derivative;
 };
 
@@ -53,7 +55,7 @@ class SplineSpace {
     return closed_ && function >= n_intervals() ? function - n_intervals() : function;
   }
 
-  /// The interval of a parameter; the search starts at a guess.
+  /// The interval of a parameter; the search begins at a guess.
   int interval(double u, int guess) const {
     if (breaks_[guess] <= u && u < breaks_[guess + 1]) return guess;
     const auto above = std::upper_bound(breaks_.begin() + 1, breaks_.end() - 1, u);
@@ -62,13 +64,13 @@ class SplineSpace {
 
   /// Samples of an interval with these parameters, at most one per lane.
   Block block(int interval, int first, std::span<const double> parameters) const {
-    Block block{interval, first, static_cast<int>(parameters.size()), {}, {}};
+    Block block{first, static_cast<int>(parameters.size()), {}, {}};
     Lanes u{};
     std::ranges::copy(parameters, u.begin());
     std::fill_n(block.value[0].begin(), parameters.size(), 1.0);
     for (int p = 1; p <= degree; ++p) {
-      if (p == degree) add_derivatives(block);
-      raise_degree(p, u, block);
+      if (p == degree) add_derivatives(interval, block);
+      raise_degree(p, interval, u, block);
     }
     return block;
   }
@@ -106,11 +108,11 @@ class SplineSpace {
   }
 
   /// From the functions of degree p - 1 to those of degree p, by the recursion of Cox and de Boor.
-  void raise_degree(int p, const Lanes& u, Block& block) const {
-    const int k = block.interval + degree;
+  void raise_degree(int p, int interval, const Lanes& u, Block& block) const {
+    const int k = interval + degree;
     Lanes saved{};
     for (int r = 0; r < p; ++r) {
-      const double by_width = reciprocals_[block.interval][p - 1][r];
+      const double by_width = reciprocals_[interval][p - 1][r];
       const double low = knots_[k + 1 - p + r], high = knots_[k + r + 1];
       Lanes& value = block.value[r];
       for (int l = 0; l < lanes; ++l) {
@@ -123,9 +125,9 @@ class SplineSpace {
   }
 
   /// Derivatives of the cubics from the values of the quadratics.
-  void add_derivatives(Block& block) const {
+  void add_derivatives(int interval, Block& block) const {
     for (int r = 0; r < degree; ++r) {
-      const double factor = degree * reciprocals_[block.interval][degree - 1][r];
+      const double factor = degree * reciprocals_[interval][degree - 1][r];
       for (int l = 0; l < lanes; ++l) {
         const double part = block.value[r][l] * factor;
         block.derivative[r][l] -= part;
@@ -172,29 +174,33 @@ Samples by_arc_length(std::span<const Vec<2>> points, bool closed) {
   return {points, length};
 }
 
+/// What samples of one interval add to the normal equations, by the functions that are not zero there.
+struct Sums {
+  std::array<std::array<double, degree + 1>, degree + 1> products;  ///< lower triangle
+  std::array<std::array<double, 2>, degree + 1> targets;
+};
+
+/// Samples that follow each other in one interval.
+struct Group {
+  std::vector<Block> blocks;
+  Sums sums;
+};
+
+struct PlacedGroup {
+  int interval;
+  std::shared_ptr<const Group> group;
+};
+using Groups = std::vector<PlacedGroup>;
+
 struct Fit {
   SplineSpace space;
+  Groups first_groups;  ///< by the parameters before any correction
   std::vector<Vec<2>> control;
   std::vector<double> parameters;
   std::vector<double> deviation;  ///< the largest of every interval
   double largest;
   int where;  ///< the point with the largest deviation
 };
-
-std::vector<Block> blocks(const SplineSpace& space, std::span<const double> parameters) {
-  std::vector<Block> result;
-  result.reserve(parameters.size() / lanes + space.n_intervals() + 1);
-  std::vector<int> intervals;
-  for (const double u : parameters)
-    intervals.push_back(space.interval(u, intervals.empty() ? 0 : intervals.back()));
-  for (std::size_t first = 0, end; first < parameters.size(); first = end) {
-    for (end = first; end < parameters.size() && end - first < lanes && intervals[end] == intervals[first];)
-      ++end;
-    result.push_back(
-        space.block(intervals[first], static_cast<int>(first), parameters.subspan(first, end - first)));
-  }
-  return result;
-}
 
 /// The coordinates of the points of a block.
 std::array<Lanes, 2> coordinates(const Block& block, std::span<const Vec<2>> points) {
@@ -213,94 +219,122 @@ void add_product(const Lanes& a, const Lanes& b, Lanes& sum) {
 }
 double total(const Lanes& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
-/// The normal equations of least squares. Samples of one interval are summed before they are added.
-class NormalEquations {
- public:
-  explicit NormalEquations(const SplineSpace& space)
-      : space_(space),
-        n_(space.n_points()),
-        fixed_(space.closed() ? 0 : 1),
-        matrix_(n_free(), n_free()),
-        right_(n_free(), 2) {}
+/// Whether least squares choose a control point: the ends of open curves are the end points.
+bool is_free(const SplineSpace& space, int point) {
+  return space.closed() || (point > 0 && point < space.n_points() - 1);
+}
 
-  int n_free() const { return n_ - 2 * fixed_; }
-  bool is_free(int point) const { return point >= fixed_ && point < n_ - fixed_; }
-
-  void add(const Block& block, const std::array<Lanes, 2>& targets) {
-    if (block.interval != interval_) add_interval();
-    interval_ = block.interval;
+Sums sums_of(const SplineSpace& space, int interval, const std::vector<Block>& blocks,
+             std::span<const Vec<2>> points) {
+  std::array<std::array<Lanes, degree + 1>, degree + 1> products{};
+  std::array<std::array<Lanes, 2>, degree + 1> targets{};
+  for (const Block& block : blocks) {
+    std::array<Lanes, 2> wanted = coordinates(block, points);
+    for (int i = 0; i <= degree; ++i)
+      if (const int a = space.point_of(interval + i); !is_free(space, a))
+        for (int d = 0; d < 2; ++d)
+          add(-(a == 0 ? points.front() : points.back())[d], block.value[i], wanted[d]);
     for (int i = 0; i <= degree; ++i) {
-      for (int j = 0; j <= i; ++j) add_product(block.value[i], block.value[j], products_[i][j]);
-      for (int d = 0; d < 2; ++d) add_product(block.value[i], targets[d], targets_[i][d]);
+      for (int j = 0; j <= i; ++j) add_product(block.value[i], block.value[j], products[i][j]);
+      for (int d = 0; d < 2; ++d) add_product(block.value[i], wanted[d], targets[i][d]);
     }
   }
-
-  /// The free control points, one per row; empty if they are not determined.
-  std::optional<Matrix> solution() {
-    add_interval();
-    if (n_free() > 0) {
-      if (!cholesky(matrix_)) return {};
-      cholesky_solve(matrix_, right_);
-    }
-    return right_;
+  Sums sums;
+  for (int i = 0; i <= degree; ++i) {
+    for (int j = 0; j <= i; ++j) sums.products[i][j] = total(products[i][j]);
+    for (int d = 0; d < 2; ++d) sums.targets[i][d] = total(targets[i][d]);
   }
+  return sums;
+}
 
- private:
-  void add_interval() {
-    if (interval_ < 0) return;
-    for (int i = 0; i <= degree; ++i) {
-      const int a = space_.point_of(interval_ + i);
-      if (!is_free(a)) continue;
-      for (int d = 0; d < 2; ++d) right_(a - fixed_, d) += total(targets_[i][d]);
-      for (int j = 0; j <= degree; ++j)
-        if (const int b = space_.point_of(interval_ + j); is_free(b))
-          matrix_(a - fixed_, b - fixed_) += total(products_[std::max(i, j)][std::min(i, j)]);
-    }
-    products_ = {};
-    targets_ = {};
+/// The samples from `first` up to `end`, all in this interval.
+PlacedGroup group_of(const SplineSpace& space, int interval, const Samples& samples, std::size_t first,
+                     std::size_t end) {
+  Group group;
+  group.blocks.reserve((end - first) / lanes + 1);
+  for (std::size_t begin = first; begin < end; begin += lanes)
+    group.blocks.push_back(
+        space.block(interval, static_cast<int>(begin),
+                    std::span(samples.parameters).subspan(begin, std::min<std::size_t>(lanes, end - begin))));
+  group.sums = sums_of(space, interval, group.blocks, samples.points);
+  return {interval, std::make_shared<const Group>(std::move(group))};
+}
+
+Groups groups_of(const SplineSpace& space, const Samples& samples) {
+  std::vector<int> intervals;
+  for (const double u : samples.parameters)
+    intervals.push_back(space.interval(u, intervals.empty() ? 0 : intervals.back()));
+  Groups groups;
+  for (auto first = intervals.begin(), end = first; first != intervals.end(); first = end) {
+    end = std::find_if(first, intervals.end(), [&](int interval) { return interval != *first; });
+    groups.push_back(group_of(space, *first, samples, first - intervals.begin(), end - intervals.begin()));
   }
+  return groups;
+}
 
-  const SplineSpace& space_;
-  int n_, fixed_, interval_ = -1;
-  std::array<std::array<Lanes, degree + 1>, degree + 1> products_{};  ///< of the interval, lower triangle
-  std::array<std::array<Lanes, 2>, degree + 1> targets_{};            ///< of the interval
-  Matrix matrix_, right_;
-};
+/// The groups of a space without one of the breaks, from those of the space with it: B-splines three
+/// intervals away do not know it. The parameters ascend.
+Groups groups_without(int removed_break, const Groups& groups, const SplineSpace& space,
+                      const Samples& samples) {
+  const int n = space.n_intervals(), merged = removed_break - 1;
+  const auto index_of = [&](int break_number) -> std::size_t {
+    if (break_number <= 0) return 0;
+    if (break_number >= n) return samples.parameters.size();
+    return std::ranges::lower_bound(samples.parameters, space.breaks()[break_number]) -
+           samples.parameters.begin();
+  };
+  Groups result;
+  for (const PlacedGroup& old : groups) {
+    const int interval = old.interval < removed_break ? old.interval : old.interval - 1;
+    if (!result.empty() && result.back().interval == interval) continue;  // both halves of the merged one
+    const int away = std::abs(interval - merged);
+    const bool is_affected = away <= degree || (space.closed() && n - away <= degree);
+    if (is_affected)
+      result.push_back(group_of(space, interval, samples, index_of(interval), index_of(interval + 1)));
+    else
+      result.push_back({interval, old.group});
+  }
+  return result;
+}
 
-/// The control points with the minimum sum of squared distances; ends of open curves are the end points.
-/// Empty if an interval contains too few points.
+/// The control points with the least sum of squared distances; ends of open curves are the end points. Empty
+/// if an interval holds too few points.
 std::optional<std::vector<Vec<2>>> least_squares(const SplineSpace& space, std::span<const Vec<2>> points,
-                                                 const std::vector<Block>& blocks) {
+                                                 const Groups& groups) {
+  const int fixed = space.closed() ? 0 : 1, n_free = space.n_points() - 2 * fixed;
+  Matrix matrix(n_free, n_free), right(n_free, 2);
+  for (const auto& [interval, group] : groups)
+    for (int i = 0; i <= degree; ++i) {
+      const int a = space.point_of(interval + i);
+      if (!is_free(space, a)) continue;
+      for (int d = 0; d < 2; ++d) right(a - fixed, d) += group->sums.targets[i][d];
+      for (int j = 0; j <= degree; ++j)
+        if (const int b = space.point_of(interval + j); is_free(space, b))
+          matrix(a - fixed, b - fixed) += group->sums.products[std::max(i, j)][std::min(i, j)];
+    }
+  if (n_free > 0) {
+    if (!cholesky(matrix)) return {};
+    cholesky_solve(matrix, right);
+  }
   std::vector<Vec<2>> control(space.n_points());
   if (!space.closed()) {
     control.front() = points.front();
     control.back() = points.back();
   }
-  NormalEquations equations(space);
-  for (const Block& block : blocks) {
-    std::array<Lanes, 2> targets = coordinates(block, points);
-    for (int i = 0; i <= degree; ++i)
-      if (const int a = space.point_of(block.interval + i); !equations.is_free(a))
-        for (int d = 0; d < 2; ++d) add(-control[a][d], block.value[i], targets[d]);
-    equations.add(block, targets);
-  }
-  const auto free = equations.solution();
-  if (!free) return {};
-  const int first = space.closed() ? 0 : 1;
-  for (int a = 0; a < free->rows(); ++a) control[a + first] = {(*free)(a, 0), (*free)(a, 1)};
+  for (int a = 0; a < n_free; ++a) control[a + fixed] = {right(a, 0), right(a, 1)};
   return control;
 }
 
-/// The distances of samples from the spline at their parameters.
+/// How samples lie beside the spline at their parameters.
 struct Misses {
   Lanes along;           ///< by which parameter they are off
   Lanes squared_across;  ///< squared distances
 };
 
-Misses misses(const Fit& fit, const Block& block, std::span<const Vec<2>> points) {
+Misses misses(const Fit& fit, int interval, const Block& block, std::span<const Vec<2>> points) {
   std::array<Lanes, 2> miss = coordinates(block, points), velocity{};
   for (int i = 0; i <= degree; ++i) {
-    const Vec<2>& p = fit.control[fit.space.point_of(block.interval + i)];
+    const Vec<2>& p = fit.control[fit.space.point_of(interval + i)];
     for (int d = 0; d < 2; ++d) {
       add(-p[d], block.value[i], miss[d]);
       add(p[d], block.derivative[i], velocity[d]);
@@ -318,42 +352,83 @@ Misses misses(const Fit& fit, const Block& block, std::span<const Vec<2>> points
 
 /// Moves the parameters towards the points of the spline that are nearest to the samples, and measures the
 /// distances that are left.
-void correct(Fit& fit, std::span<const Vec<2>> points, const std::vector<Block>& blocks) {
+void correct(Fit& fit, std::span<const Vec<2>> points, const Groups& groups) {
   const int last = static_cast<int>(points.size()) - 1;
   fit.deviation.assign(fit.space.n_intervals(), 0);
   fit.largest = 0;
-  for (const Block& block : blocks) {
-    const Misses miss = misses(fit, block, points);
-    double& largest_here = fit.deviation[block.interval];
-    for (int l = 0; l < block.n_samples; ++l) {
-      const int s = block.first + l;
-      const bool on_end = !fit.space.closed() && (s == 0 || s == last);
-      double& u = fit.parameters[s];
-      if (!on_end) u = std::clamp(u + miss.along[l], 0.0, 1.0);
-      largest_here = std::max(largest_here, miss.squared_across[l]);
-      if (miss.squared_across[l] > fit.largest) {
-        fit.largest = miss.squared_across[l];
-        fit.where = s;
+  for (const auto& [interval, group] : groups)
+    for (const Block& block : group->blocks) {
+      const Misses miss = misses(fit, interval, block, points);
+      double& largest_here = fit.deviation[interval];
+      for (int l = 0; l < block.n_samples; ++l) {
+        const int s = block.first + l;
+        const bool at_end = !fit.space.closed() && (s == 0 || s == last);
+        double& u = fit.parameters[s];
+        if (!at_end) u = std::clamp(u + miss.along[l], 0.0, 1.0);
+        largest_here = std::max(largest_here, miss.squared_across[l]);
+        if (miss.squared_across[l] > fit.largest) {
+          fit.largest = miss.squared_across[l];
+          fit.where = s;
+        }
       }
     }
-  }
   for (double& deviation : fit.deviation) deviation = std::sqrt(deviation);
   fit.largest = std::sqrt(fit.largest);
 }
 
-/// Empty if there is no fit, or if the first solution deviates by more than `most`.
-std::optional<Fit> fit_in(const SplineSpace& space, const Samples& samples, double most) {
-  Fit fit{space, {}, samples.parameters, {}, 0, 0};
-  for (int k = 0; k < n_corrections; ++k) {
-    const auto samples_by_interval = blocks(space, fit.parameters);
-    auto control = least_squares(space, samples.points, samples_by_interval);
+/// The first of the solutions, before any correction; empty where there is none.
+std::optional<Fit> first_solution(const SplineSpace& space, const Samples& samples, Groups groups) {
+  auto control = least_squares(space, samples.points, groups);
+  if (!control) return {};
+  return Fit{space, std::move(groups), *std::move(control), samples.parameters, {}, 0, 0};
+}
+
+/// Corrects the parameters of a first solution, and solves and corrects again. Empty where that fails, or
+/// where the first solution deviates by more than `most`.
+std::optional<Fit> corrected(Fit fit, const Samples& samples, double most) {
+  correct(fit, samples.points, fit.first_groups);
+  if (fit.largest > most) return {};
+  for (int k = 1; k < n_corrections; ++k) {
+    const Groups groups = groups_of(fit.space, {samples.points, fit.parameters});
+    auto control = least_squares(fit.space, samples.points, groups);
     if (!control) return {};
     fit.control = *std::move(control);
-    correct(fit, samples.points, samples_by_interval);
-    if (k == 0 && fit.largest > most) return {};
+    correct(fit, samples.points, groups);
   }
   if (!std::isfinite(fit.largest)) return {};
   return fit;
+}
+
+std::optional<Fit> fit_in(const SplineSpace& space, const Samples& samples) {
+  auto fit = first_solution(space, samples, groups_of(space, samples));
+  if (!fit) return {};
+  return corrected(*std::move(fit), samples, INFINITY);
+}
+
+/// Whether the samples of an interval are farther from the spline than that.
+bool deviates_in(int interval, const Fit& fit, std::span<const Vec<2>> points, double most) {
+  for (const auto& [here, group] : fit.first_groups)
+    for (const Block& block : group->blocks) {
+      if (here != interval) break;
+      const Lanes squares = misses(fit, here, block, points).squared_across;
+      if (std::any_of(squares.begin(), squares.begin() + block.n_samples,
+                      [&](double square) { return std::sqrt(square) > most; }))
+        return true;
+    }
+  return false;
+}
+
+/// A fit with one break less; empty where it does not keep the tolerance. Most of those that do not deviate
+/// in the interval that had the break.
+std::optional<Fit> fit_without(int removed_break, const Fit& fit, const Samples& samples, double tolerance) {
+  std::vector<double> breaks = fit.space.breaks();
+  breaks.erase(breaks.begin() + removed_break);
+  const SplineSpace space(std::move(breaks), fit.space.closed());
+  auto fewer =
+      first_solution(space, samples, groups_without(removed_break, fit.first_groups, space, samples));
+  if (!fewer || deviates_in(removed_break - 1, *fewer, samples.points, hopeless * tolerance)) return {};
+  fewer = corrected(*std::move(fewer), samples, hopeless * tolerance);
+  return fewer && fewer->largest <= tolerance ? fewer : std::nullopt;
 }
 
 int samples_in(const Samples& samples, double low, double high) {
@@ -375,7 +450,7 @@ std::optional<std::vector<double>> with_halved(const Fit& fit, const Samples& sa
   return finer;
 }
 
-/// Removes unnecessary breaks, starting with those whose neighbourhood deviates least.
+/// Takes out breaks that are not needed, those first whose neighbourhood deviates least.
 Fit with_fewer_breaks(Fit fit, const Samples& samples, double tolerance, int fewest_intervals) {
   std::vector<double> kept;  // breaks that were tried
   while (fit.space.n_intervals() > fewest_intervals) {
@@ -390,11 +465,8 @@ Fit with_fewer_breaks(Fit fit, const Samples& samples, double tolerance, int few
       }
     }
     if (candidate < 0) break;
-    std::vector<double> breaks = fit.space.breaks();
-    kept.push_back(breaks[candidate]);
-    breaks.erase(breaks.begin() + candidate);
-    auto fewer = fit_in(SplineSpace(std::move(breaks), fit.space.closed()), samples, hopeless * tolerance);
-    if (fewer && fewer->largest <= tolerance) fit = *std::move(fewer);
+    kept.push_back(fit.space.breaks()[candidate]);
+    if (auto fewer = fit_without(candidate, fit, samples, tolerance)) fit = *std::move(fewer);
   }
   return fit;
 }
@@ -413,7 +485,7 @@ Expected<Spline, NoFit> fit_spline(std::span<const Vec<2>> points, bool closed, 
   const Samples samples = by_arc_length(points, closed);
   std::vector<double> breaks = equal_breaks(fewest_intervals);
   while (true) {
-    auto fit = fit_in(SplineSpace(breaks, closed), samples, INFINITY);
+    auto fit = fit_in(SplineSpace(breaks, closed), samples);
     if (!fit) return NoFit{points[points.size() / 2], INFINITY};
     if (fit->largest <= tolerance) {
       fit = with_fewer_breaks(*std::move(fit), samples, tolerance, fewest_intervals);

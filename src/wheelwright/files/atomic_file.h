@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string_view>
 
 namespace wheelwright {
@@ -10,6 +11,9 @@ namespace wheelwright {
 /// old or the new file. In a folder with a list of written files (written_files.h), only listed files are
 /// replaced. Throws OutputError.
 void write_atomically(const std::filesystem::path& path, std::string_view content);
+
+/// The same for content given in consecutive parts.
+void write_atomically(const std::filesystem::path& path, std::span<const std::string_view> parts);
 
 /// Creates the folder and its parents if needed, and starts its list of written files. It may be a symbolic
 /// link to a folder. Throws OutputError.

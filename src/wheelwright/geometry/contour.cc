@@ -54,15 +54,28 @@ class SampledLevelSet {
         degree_(psi.lattice.degree()),
         cells_(psi.lattice.grid()) {
     for (int cell = 0; cell < cells_.n_cells(); ++cell) nodal_.push_back(psi.cell_values(cell));
+    std::vector<ShapeFunctions<2>> at_samples;  // of a cell
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i <= n; ++i) at_samples.emplace_back(degree_, unit_cell_point({1.0 * i, 1.0 * j}, 0));
     samples_.resize((rows_ + 1) * columns_);
     for (int j = 0; j < columns_; ++j)
-      for (int i = 0; i <= rows_; ++i) samples_[j * (rows_ + 1) + i] = polynomial({1.0 * i, 1.0 * j}, i, j);
+      for (int i = 0; i <= rows_; ++i) {
+        const int cell = cell_of(i, j), first_row = n_ * cells_.cell_position(cell)[0];
+        samples_[j * (rows_ + 1) + i] = polynomial(at_samples[j % n_ * (n_ + 1) + i - first_row], cell);
+      }
   }
 
   int rows() const { return rows_; }
   int columns() const { return columns_; }
   double sample(int i, int j) const { return samples_[(j % columns_) * (rows_ + 1) + i]; }
   bool material(int i, int j) const { return sample(i, j) < 0; }
+
+  /// Whether all corners of the square with the first corner at sample (i, j) lie in the material, or all in
+  /// voids: then no zero is on its sides.
+  bool is_uniform(int i, int j) const {
+    const bool first = material(i, j);
+    return material(i + 1, j) == first && material(i, j + 1) == first && material(i + 1, j + 1) == first;
+  }
 
   /// Polygons of the material in the square with the first corner at sample (i, j).
   std::vector<Polygon> square_polygons(int i, int j) const {
@@ -129,7 +142,10 @@ class SampledLevelSet {
 
   double polynomial(const Vec<2>& position, int square_i, int square_j) const {
     const int cell = cell_of(square_i, square_j);
-    const ShapeFunctions<2> shape(degree_, unit_cell_point(position, cell));
+    return polynomial(ShapeFunctions<2>(degree_, unit_cell_point(position, cell)), cell);
+  }
+
+  double polynomial(const ShapeFunctions<2>& shape, int cell) const {
     double value = 0;
     for (int a = 0; a < nodes_per_cell<2>(degree_); ++a) value += shape.value[a] * nodal_[cell][a];
     return value;
@@ -173,6 +189,8 @@ std::vector<Segment> sector_segments(const LevelSet<2>& psi, int subdivisions) {
   std::vector<Segment> segments;
   for (int j = 0; j < samples.columns(); ++j) {
     for (int i = 0; i < samples.rows(); ++i) {
+      const bool is_at_circle = i == 0 || i + 1 == samples.rows();
+      if (samples.is_uniform(i, j) && !(is_at_circle && samples.material(i, j))) continue;
       const int cell = samples.cell_of(i, j);
       const auto c = grid.cell_position(cell);
       for (const Polygon& polygon : samples.square_polygons(i, j)) {
@@ -192,21 +210,37 @@ std::vector<Segment> sector_segments(const LevelSet<2>& psi, int subdivisions) {
   return segments;
 }
 
-/// Numbers the vertices of the full ring. A vertex has the same number in all squares that share it.
-class VertexNumbering {
+/// Follows the segments of the full ring, numbered s + n_segments * sector.
+class Successors {
  public:
-  VertexNumbering(const PolarGrid<2>& grid, int subdivisions)
-      : samples_per_line_(subdivisions * grid.cells[0] + 1),
+  Successors(const std::vector<Segment>& segments, const PolarGrid<2>& grid, int subdivisions)
+      : segments_(segments),
+        samples_per_line_(subdivisions * grid.cells[0] + 1),
         columns_(subdivisions * grid.cells[1]),
-        ring_columns_(columns_ * grid.n_sectors) {}
+        n_sectors_(grid.n_sectors) {
+    for (int s = 0; s < n(); ++s) from_[number(segments[s].start)] = s;
+  }
 
-  std::int64_t operator()(const Vertex& v, int sector) const {
-    const std::int64_t column = (v.j + columns_ * sector) % ring_columns_;
-    return 3 * (column * samples_per_line_ + v.i) + static_cast<int>(v.site);
+  /// The segment of the ring that begins where this one ends.
+  int after(int ring_segment) const {
+    const Vertex& end = segments_[ring_segment % n()].end;
+    const int next = from_.at(number(end));
+    const int sector = ring_segment / n() + sectors_on(end) - sectors_on(segments_[next].start);
+    return next + n() * ((sector + n_sectors_) % n_sectors_);
   }
 
  private:
-  int samples_per_line_, columns_, ring_columns_;
+  int n() const { return static_cast<int>(segments_.size()); }
+
+  /// A vertex has the same number in all squares that share it, and in all sectors.
+  std::int64_t number(const Vertex& v) const {
+    return 3 * (std::int64_t(v.j % columns_) * samples_per_line_ + v.i) + static_cast<int>(v.site);
+  }
+  int sectors_on(const Vertex& v) const { return v.j / columns_; }
+
+  const std::vector<Segment>& segments_;
+  int samples_per_line_, columns_, n_sectors_;
+  std::unordered_map<std::int64_t, int> from_;  ///< the segment that begins at a vertex
 };
 
 /// The kind of a chain of segments: their common kind, or free if they differ.
@@ -217,18 +251,15 @@ ContourKind joined(ContourKind a, ContourKind b) { return a == b ? a : ContourKi
 std::vector<Contour> material_contours(const LevelSet<2>& psi, int subdivisions) {
   const PolarGrid<2>& grid = psi.lattice.grid();
   const std::vector<Segment> segments = sector_segments(psi, subdivisions);
-  const VertexNumbering number(grid, subdivisions);
+  const Successors successors(segments, grid, subdivisions);
   const int n = segments.size(), n_ring = n * grid.n_sectors;
-
-  std::unordered_map<std::int64_t, int> segment_from;
-  for (int s = 0; s < n_ring; ++s) segment_from[number(segments[s % n].start, s / n)] = s;
 
   std::vector<Contour> contours;
   std::vector<bool> used(n_ring, false);
   for (int first = 0; first < n_ring; ++first) {
     if (used[first]) continue;
     Contour contour{segments[first % n].kind, {}};
-    for (int s = first; !used[s]; s = segment_from.at(number(segments[s % n].end, s / n))) {
+    for (int s = first; !used[s]; s = successors.after(s)) {
       used[s] = true;
       contour.kind = joined(contour.kind, segments[s % n].kind);
       const int sector = s / n;

@@ -63,10 +63,9 @@ class SectorMeshBuilder {
 
 /// Visits a field's components at the points of a mesh in all sectors, in the order point + n_points *
 /// sector.
-template <class Visit>
+template <std::size_t n_components, class Visit>
 void for_each_point(const SectorMesh& mesh, const Lattice<2>& lattice, const RingField& field,
                     const Visit& visit) {
-  std::vector<double> components(field.components);
   const int n_nodes = nodes_per_cell<2>(lattice.degree()), n_sectors = lattice.grid().n_sectors;
   const std::size_t sector_nodes = lattice.n_nodes(), ring_nodes = sector_nodes * n_sectors;
   for (int sector = 0; sector < n_sectors; ++sector)
@@ -76,9 +75,7 @@ void for_each_point(const SectorMesh& mesh, const Lattice<2>& lattice, const Rin
         nodes[a] += sector * sector_nodes;
         if (nodes[a] >= ring_nodes) nodes[a] -= ring_nodes;
       }
-      const std::span shape(mesh.shapes[k].value.data(), n_nodes);
-      for (int c = 0; c < field.components; ++c) components[c] = interpolate(field, nodes, shape, c);
-      visit(std::span<const double>(components));
+      visit(interpolate<n_components>(field, nodes, std::span(mesh.shapes[k].value.data(), n_nodes)));
     }
 }
 
@@ -109,13 +106,15 @@ SectorMesh sector_mesh(const LevelSet<2>& psi, const Lattice<2>& field_lattice) 
 
 MeshPosition on_mesh(const SectorMesh& mesh, const PositionFields<2>& fields) {
   MeshPosition position{.ground_azimuth = fields.ground_azimuth, .x = {}, .y = {}, .von_mises = {}};
-  for_each_point(mesh, fields.lattice, fields.displacement, [&](auto u) {
+  const std::size_t n_points = mesh.points.size() * fields.lattice.grid().n_sectors;
+  for (auto* values : {&position.x, &position.y, &position.von_mises}) values->reserve(n_points);
+  for_each_point<2>(mesh, fields.lattice, fields.displacement, [&](const auto& u) {
     position.x.push_back(u[0]);
     position.y.push_back(u[1]);
   });
-  const NamedField stress = von_mises_field(fields.stress);
-  for_each_point(mesh, fields.lattice, stress.field,
-                 [&](auto components) { position.von_mises.push_back(stress.scalar(components)); });
+  for_each_point<stress_components<2>>(mesh, fields.lattice, fields.stress, [&](const auto& stress) {
+    position.von_mises.push_back(von_mises_of(stress));
+  });
   return position;
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "wheelwright/geometry/cell_map.h"
+#include "wheelwright/report/solution_fields.h"
 
 namespace wheelwright {
 namespace {
@@ -16,15 +17,20 @@ std::array<double, 9> shape_values(int degree, const Vec<2>& xi) {
   return ShapeFunctions<2>(degree, xi).value;
 }
 
-Vec<2> interpolated(const RingField& field, std::span<const std::size_t> nodes,
-                    std::span<const double> shape) {
-  return {interpolate(field, nodes, shape, 0), interpolate(field, nodes, shape, 1)};
+/// The scalar that is drawn, at a point of a cell with these nodes and values of shape functions.
+double scalar_at(const NamedField& field, std::span<const std::size_t> nodes, std::span<const double> shape) {
+  if (!field.scalar) return interpolate(field.field, nodes, shape, 0);
+  if (field.field.components == stress_components<2>)
+    return field.scalar(interpolate<stress_components<2>>(field.field, nodes, shape));
+  std::vector<double> components(field.field.components);
+  for (int c = 0; c < field.field.components; ++c) components[c] = interpolate(field.field, nodes, shape, c);
+  return field.scalar(components);
 }
 
 Vec<2> interpolated(const RingField& field, const Lattice<2>& lattice, const std::array<int, 2>& cell,
                     const std::array<double, 9>& shape) {
-  return interpolated(field, ring_cell_nodes<2>(lattice, cell),
-                      std::span(shape.data(), nodes_per_cell<2>(lattice.degree())));
+  return interpolate<2>(field, ring_cell_nodes<2>(lattice, cell),
+                        std::span(shape.data(), nodes_per_cell<2>(lattice.degree())));
 }
 
 /// How far magnified displacements move the tread below the ground, at equally spaced azimuths.
@@ -139,14 +145,12 @@ std::vector<DrawnPoint> DeformedMaterial::drawn(const CellPieces& pieces, int se
   const double turn = sector * grid.sector_angle();
   const AxleRotation to_sector(turn);
   std::vector<DrawnPoint> result;
-  std::vector<double> components(scalar.field.components);
+  result.reserve(pieces.points.size());
   for (const CellPoint& point : pieces.points) {
     const std::span shape(point.shape.data(), nodes_per_cell<2>(lattice_.degree()));
-    for (int c = 0; c < scalar.field.components; ++c)
-      components[c] = interpolate(scalar.field, nodes, shape, c);
     result.push_back({moved(to_sector.forward(point.x), point.radius, point.azimuth + turn,
-                            interpolated(displacement_, nodes, shape)),
-                      scalar.scalar ? scalar.scalar(components) : components[0]});
+                            interpolate<2>(displacement_, nodes, shape)),
+                      scalar_at(scalar, nodes, shape)});
   }
   return result;
 }

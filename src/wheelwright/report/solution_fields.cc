@@ -91,13 +91,6 @@ std::array<double, 6> in_body_frame(const Voigt<3>& s, const Direction& axis, do
           c * s[4] - d * s[3]};
 }
 
-double von_mises_of(std::span<const double> s) {
-  const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
-  double shear = 0;
-  for (const double t : s.subspan(3)) shear += t * t;
-  return std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * shear);
-}
-
 /// A cell with material and its column round the ring.
 template <int dim>
 struct RingCell {
@@ -165,6 +158,13 @@ RingField stress_field(const RollingModel<dim>& model, const CutDomain<dim>& dom
     for (int k = 0; k < components && count[i] > 0; ++k)
       field.values[components * i + k] = sum[i][k] / count[i];
   return field;
+}
+
+double von_mises_of(std::span<const double> s) {
+  const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
+  double shear = 0;
+  for (const double t : s.subspan(3)) shear += t * t;
+  return std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * shear);
 }
 
 NamedField von_mises_field(const RingField& stress) {

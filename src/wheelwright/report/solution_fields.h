@@ -54,6 +54,9 @@ std::vector<PositionFields<dim>> all_position_fields(const StateSolver<dim>& sol
 template <int dim>
 std::vector<NamedField> named_fields(const PositionFields<dim>& fields);
 
+/// The von Mises stress of one stress as in PositionFields.
+double von_mises_of(std::span<const double> stress);
+
 /// The von Mises stress of stresses as in PositionFields. The stress is interpolated, so that it is never
 /// negative.
 NamedField von_mises_field(const RingField& stress);

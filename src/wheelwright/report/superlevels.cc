@@ -15,6 +15,14 @@ struct Hash {
   }
 };
 
+/// Adds a side, or takes out its opposite where that came just before it, as between the triangles of a fan.
+void add_side(const PictureSide& side, std::vector<PictureSide>& sides) {
+  if (!sides.empty() && sides.back().from == side.to && sides.back().to == side.from)
+    sides.pop_back();
+  else
+    sides.push_back(side);
+}
+
 std::int64_t signed_double_area(const PictureScalar::Corners& t) {
   return std::int64_t(t[1][0] - t[0][0]) * (t[2][1] - t[0][1]) -
          std::int64_t(t[1][1] - t[0][1]) * (t[2][0] - t[0][0]);
@@ -33,7 +41,7 @@ PictureScalar::PictureScalar(const std::vector<Triangle>& triangles) {
     std::array<Corner, 3> triangle;
     for (int k = 0; k < 3; ++k) triangle[k] = {corners[k], given[k]};
     if (signed_double_area(corners) < 0) std::swap(triangle[1], triangle[2]);
-    for (int k = 0; k < 3; ++k) sides.push_back({triangle[k].place, triangle[(k + 1) % 3].place});
+    for (int k = 0; k < 3; ++k) add_side({triangle[k].place, triangle[(k + 1) % 3].place}, sides);
     triangles_.push_back(triangle);
   }
   for (const PictureSide& side : without_opposites(sides))

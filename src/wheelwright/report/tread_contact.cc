@@ -223,7 +223,7 @@ void write_tread_vtu(const std::filesystem::path& path, const TreadContact<dim>&
       add_field(vtu_name("friction", stress), values<dim>(tread, &Point::friction), arrays) +
       add_field(vtu_name("gap", length), values<dim>(tread, &Point::gap), arrays) +
       add_field(vtu_name("weight", weight), values<dim>(tread, &Point::weight), arrays);
-  write_atomically(path, vtu_file(vtu_beginning(tread.size(), n_cells, mesh) + fields, {arrays.bytes()}));
+  write_atomically(path, vtu_parts(vtu_beginning(tread.size(), n_cells, mesh) + fields, {arrays.bytes()}));
 }
 
 template <int dim>
@@ -246,7 +246,7 @@ void write_ground_vtu(const std::filesystem::path& path, const PolarGrid<dim>& g
   const std::string mesh =
       add_mesh(coordinates<dim>(corners), connectivity, {static_cast<std::int32_t>(corners.size())},
                {dim == 2 ? vtk_quadrilateral : vtk_hexahedron}, arrays);
-  write_atomically(path, vtu_file(vtu_beginning(corners.size(), 1, mesh), {arrays.bytes()}));
+  write_atomically(path, vtu_parts(vtu_beginning(corners.size(), 1, mesh), {arrays.bytes()}));
 }
 
 template std::vector<TreadContact<2>> all_tread_contacts(const StateSolver<2>&, const State<2>&);

@@ -176,16 +176,26 @@ VtuMesh<dim>::VtuMesh(const LevelSet<dim>& psi, const Lattice<dim>& lattice, int
 }
 
 template <int dim>
-std::string VtuMesh<dim>::file(std::span<const NamedField> fields) const {
+template <class Take>
+auto VtuMesh<dim>::with_parts(std::span<const NamedField> fields, const Take& take) const {
   AppendedArrays arrays(arrays_.size());
-  std::string tags;
-  for (const NamedField& field : fields) tags += add_field(field, points_, arrays);
-  return vtu_file(beginning_ + tags, {arrays_, arrays.bytes()});
+  std::string beginning = beginning_;
+  for (const NamedField& field : fields) beginning += add_field(field, points_, arrays);
+  return take(vtu_parts(beginning, {arrays_, arrays.bytes()}));
+}
+
+template <int dim>
+std::string VtuMesh<dim>::file(std::span<const NamedField> fields) const {
+  return with_parts(fields, [](const auto& parts) {
+    std::string file;
+    for (const std::string_view part : parts) file += part;
+    return file;
+  });
 }
 
 template <int dim>
 void VtuMesh<dim>::write(const std::filesystem::path& path, std::span<const NamedField> fields) const {
-  write_atomically(path, file(fields));
+  with_parts(fields, [&](const auto& parts) { write_atomically(path, parts); });
 }
 
 template class VtuMesh<2>;

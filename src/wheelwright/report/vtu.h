@@ -37,6 +37,10 @@ class VtuMesh {
   void write(const std::filesystem::path& path, std::span<const NamedField> fields) const;
 
  private:
+  /// Passes the parts of a file on, which follow each other.
+  template <class Take>
+  auto with_parts(std::span<const NamedField> fields, const Take& take) const;
+
   FieldPoints<dim> points_;
   std::string beginning_;  ///< of every file: the part about the cells and psi
   std::string arrays_;     ///< their numbers

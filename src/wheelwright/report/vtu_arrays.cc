@@ -111,17 +111,13 @@ std::string vtp_end(std::string_view polygon_fields, const std::string& arrays) 
          "\n</AppendedData>\n</VTKFile>\n";
 }
 
-std::string vtu_file(std::string beginning, std::initializer_list<std::string_view> arrays) {
-  constexpr std::string_view before =
-      "  </PointData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
-  constexpr std::string_view behind = "\n</AppendedData>\n</VTKFile>\n";
-  std::size_t size = beginning.size() + before.size() + behind.size();
-  for (const std::string_view part : arrays) size += part.size();
-  std::string file = std::move(beginning);
-  file.reserve(size);
-  file += before;
-  for (const std::string_view part : arrays) file += part;
-  return file += behind;
+std::vector<std::string_view> vtu_parts(std::string_view beginning,
+                                        std::initializer_list<std::string_view> arrays) {
+  std::vector<std::string_view> parts{
+      beginning, "  </PointData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_"};
+  parts.insert(parts.end(), arrays);
+  parts.push_back("\n</AppendedData>\n</VTKFile>\n");
+  return parts;
 }
 
 }  // namespace wheelwright

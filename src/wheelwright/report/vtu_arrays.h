@@ -78,7 +78,9 @@ std::string vtp_end(std::string_view polygon_fields, const std::string& arrays);
 
 /// The XML of a VTU file before the tags of the fields.
 std::string vtu_beginning(std::size_t n_points, std::size_t n_cells, std::string_view mesh_tags);
-/// The file, from its XML with these tags, and its arrays one after the other.
-std::string vtu_file(std::string beginning, std::initializer_list<std::string_view> arrays);
+/// The file in parts that follow each other: its XML with these tags, and its arrays, which must outlive
+/// them.
+std::vector<std::string_view> vtu_parts(std::string_view beginning,
+                                        std::initializer_list<std::string_view> arrays);
 
 }  // namespace wheelwright

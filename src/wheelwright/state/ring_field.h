@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <span>
@@ -102,6 +103,18 @@ inline double interpolate(const RingField& field, std::span<const std::size_t> n
   for (std::size_t a = 0; a < shape.size(); ++a)
     value += shape[a] * field.values[component + field.components * nodes[a]];
   return value;
+}
+
+/// All components there.
+template <std::size_t n_components>
+std::array<double, n_components> interpolate(const RingField& field, std::span<const std::size_t> nodes,
+                                             std::span<const double> shape) {
+  std::array<double, n_components> values{};
+  for (std::size_t a = 0; a < shape.size(); ++a) {
+    const double* at_node = &field.values[n_components * nodes[a]];
+    for (std::size_t c = 0; c < n_components; ++c) values[c] += shape[a] * at_node[c];
+  }
+  return values;
 }
 
 }  // namespace wheelwright
