@@ -34,8 +34,8 @@ struct Course {
   std::vector<double> objectives;  ///< of every trial; NaN where there is none
   std::vector<bool> accepted;
   StopReason reason;
-  double end;                  ///< the objective of the last shape
-  OutlineMeasures outline;     ///< of the last shape, measured on the curves fitted to its edges
+  double end;               ///< the objective of the last shape
+  OutlineMeasures outline;  ///< of the last shape, measured on the curves fitted to its edges
   double cell;
 
   int trials() const { return static_cast<int>(objectives.size()) - 1; }
@@ -134,10 +134,9 @@ int run(const std::string& path, double best, int shapes, int starts) {
                                          count_text(most));
   };
   const auto [min_end, max_end] = std::ranges::minmax(ends);
-  fmt::print("row: {} | {} | {:.3f} | {:.3f} ({:.3f} to {:.3f}) | {:.2f} | {:.2f} | {:.2f}
-", counts(to_percent),
-             counts(to_tenth), median(bests), median(ends), min_end, max_end, std::ranges::min(walls),
-             std::ranges::min(gaps), std::ranges::max(turns));
+  fmt::print("row: {} | {} | {:.3f} | {:.3f} ({:.3f} to {:.3f}) | {:.2f} | {:.2f} | {:.2f}\n",
+             counts(to_percent), counts(to_tenth), median(bests), median(ends), min_end, max_end,
+             std::ranges::min(walls), std::ranges::min(gaps), std::ranges::max(turns));
   return 0;
 }
 

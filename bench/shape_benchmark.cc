@@ -13,6 +13,7 @@
 #include "wheelwright/base/parallel.h"
 #include "wheelwright/base/process_settings.h"
 #include "wheelwright/base/stopwatch.h"
+#include "wheelwright/contact/newton_tangent.h"
 #include "wheelwright/cut/measure.h"
 #include "wheelwright/evolution/evolver.h"
 
@@ -160,7 +161,7 @@ void newton(benchmark::State& state, const RollingSolution<2>& solution, Samples
     for (size_t i = 0; i < solution.contacts.size(); ++i) {
       const auto& contact = solution.contacts[i];
       const auto x = contact.start_from(solution.states[i]);
-      steps.push_back(contact.newton_step(x, contact.residual(x)));
+      steps.push_back(NewtonTangent<2>(contact).step(x, contact.residual(x)));
     }
     return steps;
   });

@@ -574,7 +574,7 @@ class Command(unittest.TestCase):
         told = wheelwright("export", saved, "--output", self.fresh())
         turns = float(re.search(r"roughness +([\d.]+) turns", told)[1])
         self.assertGreater(turns, 1.5)
-        warning = re.search(rf"warning: an edge turns {turns:.2f} times .* at (azimuth .*, radius .* mm): .*level_set_degree", told)
+        warning = re.search(rf"warning: an edge makes {turns:.2f} turns .* at (azimuth .*, radius .* mm): .*level_set_degree", told)
         self.assertIn(f"a cell, at {warning[1]}\n", told)
         self.assertNotIn("an edge makes", wheelwright("export", drawn, "--output", self.fresh()))
         self.assertNotIn("an edge makes", wheelwright("export", run_folder, "--output", self.fresh()))
@@ -598,7 +598,7 @@ class Command(unittest.TestCase):
             self.assertEqual(os.listdir(folder), [])
 
     def test_a_folder_without_a_run_or_a_checkpoint(self):
-        self.assertIn("holds no run", wheelwright("export", self.fresh(), code=2))
+        self.assertIn("contains no run", wheelwright("export", self.fresh(), code=2))
         self.assertIn("cannot be read", wheelwright("export", self.fresh() / "none.toml", code=2))
         folder = self.fresh()
         (folder / "case.toml").write_bytes((self.run_folder / "case.toml").read_bytes())

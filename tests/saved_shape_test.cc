@@ -186,7 +186,7 @@ TEST_F(SavedShape, MisfitIsRefusedWithItsPlace) {
   };
   expect(problem("nowhere", uneven_wheel), "there is no file");
   fs::create_directory(folder() / "empty");
-  expect(problem("empty", uneven_wheel), "holds no saved shape");
+  expect(problem("empty", uneven_wheel), "contains no saved shape");
   expect(problem("case.toml", uneven_wheel), "wrong_kind");
   expect(problem("first", "[wheel]\nsectors = 8\n"), "one of 1, 2, 4");
   expect(problem("first", "[wheel]\nsectors = 4\nouter_radius = 0.35\n"), "wheel.outer_radius = 0.34");
@@ -196,7 +196,7 @@ TEST_F(SavedShape, MisfitIsRefusedWithItsPlace) {
   const LevelSet<3> solid{Lattice<3>({0.2, 0.34, 0.12, 4, {2, 4, 1}}, 1),
                           std::vector<double>(3 * 4 * 2, -1.0)};
   std::ofstream(folder() / "solid", std::ios::binary) << level_set_file(solid);
-  expect(problem("solid", uneven_wheel), "three dimensions");
+  expect(problem("solid", uneven_wheel), "3D shape");
   const std::string thin = "[wheel]\nsectors = 2\ndimension = 3\nwidth = 0.05\n[load]\npositions = 1\n";
   expect(problem("solid", thin), "wheel.width = 0.12");
   std::string bytes = content(folder() / "first" / saved_shape_file);
@@ -342,7 +342,7 @@ TEST_F(CoarseLevels, GridsThatCannotBeHalvedAreRefused) {
     return result.problems.size() == 1 ? result.problems[0].text() : "";
   };
   EXPECT_NE(problem("[grid]\nradial_cells = 30\nangular_cells = 384\n[optimizer]\ncoarse_levels = 2\n")
-                .find("take 1"),
+                .find("use 1"),
             std::string::npos);
   EXPECT_NE(problem("[objective]\nuniformity_annulus = 1\n[optimizer]\ncoarse_levels = 1\n").find("annulus"),
             std::string::npos);

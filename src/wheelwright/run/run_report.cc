@@ -181,7 +181,8 @@ std::vector<std::string> limits(const Case& c, const DescribedWheel<dim>& wheel)
       "The material is linear elastic: no creep, no heat, no fatigue. Whether it withstands the peak stress "
       "is not assessed."};
   result.push_back(fmt::format(
-      "Rolling is a sequence of {} static load positions per sector: no inertia, no rolling resistance.",
+      "Rolling is a sequence of {} load positions per sector, each in equilibrium: no inertia, no rolling "
+      "resistance.",
       c.load.positions));
   if (dim == 2)
     result.push_back(
