@@ -226,6 +226,14 @@ void expect_a_reason_of_each(int first, int n, unsigned seed) {
   EXPECT_GE(count["solved"], 0.4 * n);
 }
 
+// The ground touches two columns of cells of this wheel, under 64 % of the torque that friction can hold.
+TEST(AnyWheels, ContactOfTooFewColumnsIsNamed) {
+  constexpr int number = 195;
+  AnyWheels wheels(21);
+  for (int k = 0; k < number; ++k) wheels.draw();
+  EXPECT_EQ(any_end_of(wheels.draw()).kind, to_string(FailureReason::inaccurate_solution));
+}
+
 TEST(AnyWheels, EndSolvedOrWithAReason) { expect_a_reason_of_each(0, 8, 3); }
 TEST(AnyWheels, EndSolvedOrWithAReasonSlow) { expect_a_reason_of_each(0, 300, 4); }
 TEST(AnyWheels, OthersEndSolvedOrWithAReasonSlow) { expect_a_reason_of_each(0, 300, 5); }

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <set>
 
 #include "wheelwright/contact/friction_limit.h"
 
@@ -124,6 +125,23 @@ std::optional<Failure> reason_in(const ContactState<dim>& smooth, const RollingM
   return {};
 }
 
+/// Whether so few columns of cells touch the ground that friction cannot balance the loads among their
+/// points.
+template <int dim>
+std::optional<Failure> too_few_columns(const ReducedContact<dim>& contact, const ContactState<dim>& smooth) {
+  constexpr std::size_t enough = 3;
+  const int per_column = contact.n_points() / contact.zone().n_columns;
+  std::set<int> columns;
+  for (int i = 0; i < contact.n_points(); ++i)
+    if (smooth.traction[i][0] < 0) columns.insert(i / per_column);
+  if (columns.size() >= enough) return {};
+  return Failure{
+      FailureReason::inaccurate_solution,
+      fmt::format("the ground touches {} column{} of cells, where friction cannot balance the loads: "
+                  "use more grid.angular_cells or grid.tread_levels",
+                  columns.size(), columns.size() == 1 ? "" : "s")};
+}
+
 /// Why there is no solution, as far as known.
 template <int dim>
 Failure unexplained(const ContactFailure& failure, const RollingModel<dim>& model,
@@ -133,6 +151,7 @@ Failure unexplained(const ContactFailure& failure, const RollingModel<dim>& mode
     if (const auto reason = reason_in(*smooth, model, contact)) return *reason;
   if (const auto reason = overdetermined(model)) return *reason;
   if (!smooth) return overload(model, "even without friction the contact has no state of equilibrium");
+  if (auto reason = too_few_columns(contact, *smooth)) return *std::move(reason);
   return {failure.reason,
           failure.detail + ": try another contact.gamma_0, less contact.friction, or another grid"};
 }
