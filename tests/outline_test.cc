@@ -485,6 +485,31 @@ TEST(Clearances, NeckOfAHoleIsItsGap) {
       1e-6);
 }
 
+// The ends bend more tightly than the wall between them is wide.
+TEST(Clearances, BetweenTheEndsOfSlotsAreExact) {
+  constexpr int n = 12;
+  for (const double r : {0.001, 0.002, 0.004, 0.008}) {
+    std::vector<Loop> loops;
+    double wall = INFINITY;
+    for (int i = 0; i < n; ++i) {
+      const double azimuth = 2 * pi * i / n + 0.037;
+      const Vec<2> c = cartesian<2>({0.27, azimuth}), along = cartesian<2>({1, azimuth + pi / 2}),
+                   across = cartesian<2>({1, azimuth});
+      const auto at = [&](double u, double v) {
+        return Vec<2>{c[0] + u * along[0] + v * across[0], c[1] + u * along[1] + v * across[1]};
+      };
+      const double half = 0.27 * std::tan(pi / n) - 0.006 - r;
+      wall = 2 * 0.006 * std::cos(pi / n) - 2 * r * (1 - std::cos(pi / n));
+      loops.push_back({LoopKind::hole,
+                       {Arc{at(half, 0), r, azimuth + pi, -pi}, Line{at(half, r), at(-half, r)},
+                        Arc{at(-half, 0), r, azimuth, -pi}, Line{at(-half, -r), at(half, -r)}}});
+    }
+    const auto found = clearances(ring_with(loops), n, step).wall;
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(found->width, wall, 1e-9) << r;
+  }
+}
+
 TEST(Clearances, OfATriangularHoleIsItsInscribedCircle) {
   const Vec<2> a{0.25, -0.02}, b{0.25, 0.02}, c{0.29, 0};
   const Outline outline = ring_with({{LoopKind::hole, {Line{a, b}, Line{b, c}, Line{c, a}}}});

@@ -69,6 +69,19 @@ std::vector<EdgePoint> begin_points(const Outline& outline, const Place& begin) 
   return points;
 }
 
+/// The points between two of a curve, so many that the normal turns by at most ten degrees from one to the
+/// next: circles touch a tight bend, such as the end of a slot, only where its normal faces the other edge.
+void add_between(const Outline& outline, const EdgePoint& first, const EdgePoint& last,
+                 std::vector<EdgePoint>& points) {
+  constexpr double step = 10 * std::numbers::pi / 180;
+  const int parts = static_cast<int>(std::ceil(std::abs(turn(first, last)) / step));
+  for (int i = 1; i < parts; ++i)
+    points.push_back(edge_point(
+        outline, {first.place.loop, first.place.curve,
+                  std::lerp(first.place.parameter, last.place.parameter, static_cast<double>(i) / parts)}));
+}
+
+/// Points along all edges, at most a step apart.
 std::vector<EdgePoint> walk(const Outline& outline, double step) {
   std::vector<EdgePoint> points;
   for (int loop = 0; loop < static_cast<int>(outline.loops.size()); ++loop) {
@@ -77,8 +90,13 @@ std::vector<EdgePoint> walk(const Outline& outline, double step) {
       const auto begin = begin_points(outline, {loop, curve, 0});
       points.insert(points.end(), begin.begin(), begin.end());
       const int parts = static_cast<int>(std::ceil(length(curves[curve]) / step));
-      for (int i = 1; i < parts; ++i)
-        points.push_back(edge_point(outline, {loop, curve, static_cast<double>(i) / parts}));
+      EdgePoint last = edge_point(outline, {loop, curve, 0});
+      for (int i = 1; i <= parts; ++i) {
+        const EdgePoint next = edge_point(outline, {loop, curve, static_cast<double>(i) / parts});
+        add_between(outline, last, next, points);
+        if (i < parts) points.push_back(next);
+        last = next;
+      }
     }
   }
   return points;
@@ -116,13 +134,26 @@ TouchingCircle touching_circle(const NearestPoint<2>& edges, const Vec<2>& p, co
   return circle;
 }
 
+/// The second derivative of a curve by its parameter, by differences.
+Vec<2> acceleration(const Curve& curve, double parameter) {
+  constexpr double step = 1e-4;
+  const double before = std::max(0.0, parameter - step), after = std::min(1.0, parameter + step);
+  const Vec<2> v = at(curve, before).velocity, w = at(curve, after).velocity;
+  return {(w[0] - v[0]) / (after - before), (w[1] - v[1]) / (after - before)};
+}
+
 /// Moves a place towards the point of its loop that is nearest to a target, at most to the end of its curve
 /// and from there to the next one. Whether it moved.
 bool approach(const Outline& outline, EdgePoint& edge, const Vec<2>& target) {
   Place place = edge.place;
-  const CurvePoint p = at(outline.loops[place.loop].curves[place.curve], place.parameter);
+  const Curve& curve = outline.loops[place.loop].curves[place.curve];
+  const CurvePoint p = at(curve, place.parameter);
   const Vec<2> miss{target[0] - p.position[0], target[1] - p.position[1]};
-  place.parameter += dot<2>(miss, p.velocity) / dot<2>(p.velocity, p.velocity);
+  // Newton's step where the curve bends away from the target: without its curvature, the step would go beyond
+  // the nearest point of a bend that is tighter than the target is far.
+  const double straight = dot<2>(p.velocity, p.velocity),
+               bent = straight - dot<2>(miss, acceleration(curve, place.parameter));
+  place.parameter += dot<2>(miss, p.velocity) / std::max(straight, bent);
   if (place.parameter > 1) place = begin_of_next(outline, place);
   if (place.parameter < 0) place = end_of_previous(outline, place);
   const bool moves = place.curve != edge.place.curve || place.parameter != edge.place.parameter;
