@@ -121,6 +121,19 @@ TEST(Remarks, SuggestBoundsThatTheProgramAccepts) {
   }
 }
 
+// The force varies less where the run-out is bounded, but a bound on a run-out that has fallen changes
+// nothing.
+TEST(Remarks, SuggestOnlyBoundsThatTheWheelBreaks) {
+  JudgedWheel worse = caster;
+  worse.force_variation = 3 * *caster.force_variation;
+  worse.run_out = 0.9 * *caster.run_out;
+  const auto found = remarks(case_of(small_wheel), "", caster, worse);
+  ASSERT_EQ(keys(found), Keys{"force_variation_N"});
+  EXPECT_EQ(found.front().constraint, "");
+  worse.run_out = 1.01 * *caster.run_out;
+  EXPECT_NE(remarks(case_of(small_wheel), "", caster, worse).front().constraint, "");
+}
+
 TEST(Remarks, SuggestNoExistingBound) {
   JudgedWheel worse = caster;
   worse.force_variation = 3 * *caster.force_variation;

@@ -127,14 +127,16 @@ const Measure& measure_of(Quantity quantity) {
   return *std::ranges::find_if(measures(), [&](const Measure& m) { return m.bounded_by[0] == quantity; });
 }
 
-/// A bound that keeps the quantity at its earlier value; empty if the case cannot bound it or already does,
-/// or if there is no such value.
+/// A bound that keeps the quantity, or another one that varies with it, at its earlier value; empty if the
+/// case cannot bound it or already does, if there is no such value, or if the wheel keeps it as it is.
 std::optional<Constraint> bound(const Case& c, const Measure& m, const std::string& load_case,
-                                const JudgedWheel& before) {
+                                const JudgedWheel& before, const JudgedWheel& after) {
   for (const Quantity quantity : m.bounded_by) {
     const Measure& bounded = measure_of(quantity);
     if (!(before.*bounded.value && *(before.*bounded.value) > 0) || is_bounded(c, bounded, load_case))
       continue;
+    const double was = *(before.*bounded.value), is = (after.*bounded.value).value_or(was);
+    if (&bounded != &m && (bounded.is_larger_better ? is > was : is < was)) continue;
     const double value =
         rounded(*(before.*bounded.value) * shown_unit(bounded.kind, c.wheel.dimension).factor,
                 !bounded.is_larger_better) /
@@ -194,7 +196,7 @@ std::vector<Remark> remarks(const Case& c, const std::string& load_case, const J
     const double from = *(before.*m.value), to = *(after.*m.value);
     Remark remark{
         std::string(m.key), load_case, from, to, sentence(m, load_case, c.wheel.dimension, from, to), ""};
-    if (const auto constraint = bound(c, m, load_case, before))
+    if (const auto constraint = bound(c, m, load_case, before, after))
       remark.constraint = lines(*constraint, c.wheel, before);
     const auto same = std::ranges::find_if(result, [&](const Remark& other) {
       return !remark.constraint.empty() && other.constraint == remark.constraint;

@@ -204,7 +204,8 @@ class ExportCommand : public Subcommand {
     for (const ExportFormat* format : formats) {
       const fs::path path = folder / fmt::format("{}.{}", stem, format->name);
       if (!force_ && has_entry(path)) {
-        print_err("{}: exists already; choose another folder, or overwrite it with --force\n", path.string());
+        print_err("{}: exists already; choose another folder with --output, or replace it with --force\n",
+                  path.string());
         return exit_refused;
       }
       try {
