@@ -488,7 +488,7 @@ TEST(Clearances, NeckOfAHoleIsItsGap) {
 // The ends bend more tightly than the wall between them is wide.
 TEST(Clearances, BetweenTheEndsOfSlotsAreExact) {
   constexpr int n = 12;
-  for (const double r : {0.001, 0.002, 0.004, 0.008}) {
+  for (const double r : {0.0003, 0.001, 0.004, 0.008}) {
     std::vector<Loop> loops;
     double wall = INFINITY;
     for (int i = 0; i < n; ++i) {

@@ -69,19 +69,6 @@ std::vector<EdgePoint> begin_points(const Outline& outline, const Place& begin) 
   return points;
 }
 
-/// The points between two of a curve, so many that the normal turns by at most ten degrees from one to the
-/// next: circles touch a tight bend, such as the end of a slot, only where its normal faces the other edge.
-void add_between(const Outline& outline, const EdgePoint& first, const EdgePoint& last,
-                 std::vector<EdgePoint>& points) {
-  constexpr double step = 10 * std::numbers::pi / 180;
-  const int parts = static_cast<int>(std::ceil(std::abs(turn(first, last)) / step));
-  for (int i = 1; i < parts; ++i)
-    points.push_back(edge_point(
-        outline, {first.place.loop, first.place.curve,
-                  std::lerp(first.place.parameter, last.place.parameter, static_cast<double>(i) / parts)}));
-}
-
-/// Points along all edges, at most a step apart.
 std::vector<EdgePoint> walk(const Outline& outline, double step) {
   std::vector<EdgePoint> points;
   for (int loop = 0; loop < static_cast<int>(outline.loops.size()); ++loop) {
@@ -90,13 +77,8 @@ std::vector<EdgePoint> walk(const Outline& outline, double step) {
       const auto begin = begin_points(outline, {loop, curve, 0});
       points.insert(points.end(), begin.begin(), begin.end());
       const int parts = static_cast<int>(std::ceil(length(curves[curve]) / step));
-      EdgePoint last = edge_point(outline, {loop, curve, 0});
-      for (int i = 1; i <= parts; ++i) {
-        const EdgePoint next = edge_point(outline, {loop, curve, static_cast<double>(i) / parts});
-        add_between(outline, last, next, points);
-        if (i < parts) points.push_back(next);
-        last = next;
-      }
+      for (int i = 1; i < parts; ++i)
+        points.push_back(edge_point(outline, {loop, curve, static_cast<double>(i) / parts}));
     }
   }
   return points;
