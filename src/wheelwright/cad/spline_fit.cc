@@ -19,12 +19,11 @@ constexpr int n_corrections = 3;
 /// none saves a first solution that deviates by so many tolerances.
 constexpr double hopeless = 1.1;
 
-/// Numbers of so many samples lie side by side, so that a loop over them is compiled to vector instructions.
+/// Number of samples stored side by side, so that loops over them are vectorized.
 constexpr int lanes = 32;
 using Lanes = std::array<double, lanes>;
 
-/// Samples that follow each other in one interval, with the four B-splines that are not zero there. Lanes
-/// without a sample hold zeros.
+/// Consecutive samples of one interval, with its four nonzero B-splines. Lanes without a sample are zero.
 struct Block {
   int first, n_samples;
   std::array<Lanes, degree + 1> value, derivative;
@@ -55,7 +54,7 @@ class SplineSpace {
     return closed_ && function >= n_intervals() ? function - n_intervals() : function;
   }
 
-  /// The interval of a parameter; the search begins at a guess.
+  /// The interval of a parameter; the search starts at a guess.
   int interval(double u, int guess) const {
     if (breaks_[guess] <= u && u < breaks_[guess + 1]) return guess;
     const auto above = std::upper_bound(breaks_.begin() + 1, breaks_.end() - 1, u);
@@ -174,13 +173,13 @@ Samples by_arc_length(std::span<const Vec<2>> points, bool closed) {
   return {points, length};
 }
 
-/// What samples of one interval add to the normal equations, by the functions that are not zero there.
+/// The contribution of one interval's samples to the normal equations, by its four nonzero B-splines.
 struct Sums {
   std::array<std::array<double, degree + 1>, degree + 1> products;  ///< lower triangle
   std::array<std::array<double, 2>, degree + 1> targets;
 };
 
-/// Samples that follow each other in one interval.
+/// Consecutive samples of one interval.
 struct Group {
   std::vector<Block> blocks;
   Sums sums;
@@ -297,8 +296,8 @@ Groups groups_without(int removed_break, const Groups& groups, const SplineSpace
   return result;
 }
 
-/// The control points with the least sum of squared distances; ends of open curves are the end points. Empty
-/// if an interval holds too few points.
+/// The control points with the minimum sum of squared distances; ends of open curves are the end points.
+/// Empty if an interval contains too few points.
 std::optional<std::vector<Vec<2>>> least_squares(const SplineSpace& space, std::span<const Vec<2>> points,
                                                  const Groups& groups) {
   const int fixed = space.closed() ? 0 : 1, n_free = space.n_points() - 2 * fixed;
@@ -325,7 +324,7 @@ std::optional<std::vector<Vec<2>>> least_squares(const SplineSpace& space, std::
   return control;
 }
 
-/// How samples lie beside the spline at their parameters.
+/// The distances of samples from the spline at their parameters.
 struct Misses {
   Lanes along;           ///< by which parameter they are off
   Lanes squared_across;  ///< squared distances
@@ -376,7 +375,7 @@ void correct(Fit& fit, std::span<const Vec<2>> points, const Groups& groups) {
   fit.largest = std::sqrt(fit.largest);
 }
 
-/// The first of the solutions, before any correction; empty where there is none.
+/// The first of the solutions, before any correction; empty if there is none.
 std::optional<Fit> first_solution(const SplineSpace& space, const Samples& samples, Groups groups) {
   auto control = least_squares(space, samples.points, groups);
   if (!control) return {};
@@ -450,7 +449,7 @@ std::optional<std::vector<double>> with_halved(const Fit& fit, const Samples& sa
   return finer;
 }
 
-/// Takes out breaks that are not needed, those first whose neighbourhood deviates least.
+/// Removes unnecessary breaks, starting with those whose neighbourhood deviates least.
 Fit with_fewer_breaks(Fit fit, const Samples& samples, double tolerance, int fewest_intervals) {
   std::vector<double> kept;  // breaks that were tried
   while (fit.space.n_intervals() > fewest_intervals) {
