@@ -137,7 +137,7 @@ TEST(FinalWidths, ShapesThatHaveThemAreUnchanged) {
   for (const auto& trial : course.trials) EXPECT_TRUE(trial.iteration == 0 || trial.step > 0);
 }
 
-/// Holes of two cells become slits that cannot be mended: such shapes keep the widths, if they have them.
+/// Holes of two cells become slits that cannot be repaired: such shapes keep the widths, if they have them.
 TEST(FinalWidths, AreEnforcedFromTheStartForSmallHoles) {
   int n_small = 0;
   for (const Start& start : starts) {

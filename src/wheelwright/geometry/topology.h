@@ -39,11 +39,11 @@ constexpr const char* to_string(ShapeEventKind kind) {
     case ShapeEventKind::island_removed:
       return "island_removed";
     case ShapeEventKind::thin_wall_repaired:
-      return "thin_wall_mended";
+      return "thin_wall_repaired";
     case ShapeEventKind::narrow_gap_repaired:
-      return "narrow_gap_mended";
+      return "narrow_gap_repaired";
     case ShapeEventKind::sharp_corner_repaired:
-      return "sharp_corner_mended";
+      return "sharp_corner_repaired";
   }
   return "unknown";
 }
