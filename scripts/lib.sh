@@ -11,12 +11,13 @@ packages=(
   libgtest-dev libbenchmark-dev
 )
 # For export to STEP and 3MF; what the tests read exported files with; what they open pages with; a locale of theirs; what
-# they check the style of the sources with.
+# they run the scripts of the pages with; what they check the style of the sources with.
 export_packages=(libocct-data-exchange-dev lib3mf-dev)
 test_packages=(
   python3 python3-ezdxf python3-pil admesh librsvg2-bin
   chromium chromium-driver firefox-esr python3-selenium
   locales
+  nodejs
   clang-format shellcheck universal-ctags
 )
 build_folder=build/release

@@ -325,7 +325,7 @@ class Page(Browser, unittest.TestCase):
         self.browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
     def test_curves_stand_out(self):
-        colours = re.search(r"curveColours = \[(.*?)\]", Path("src/wheelwright/page/assets/parts.js").read_text())[1]
+        colours = re.search(r"curveColours = \[(.*?)\]", Path("src/wheelwright/page/assets/colours.js").read_text())[1]
         for colour in re.findall(r"#[0-9a-f]{6}", colours):
             for panel in ("#f6f8fa", "#161b22"):
                 self.assertGreaterEqual(contrast(colour, panel), 3, colour)
