@@ -11,6 +11,7 @@ enum class UnitKind {
   stress,
   ratio,
   mass,
+  volume,
   stiffness,
   torsional_stiffness,
   turns
@@ -35,6 +36,8 @@ constexpr const char* unit(UnitKind kind) {
       return "-";
     case UnitKind::mass:
       return dim == 2 ? "kg/m" : "kg";
+    case UnitKind::volume:
+      return dim == 2 ? "m^2" : "m^3";
     case UnitKind::stiffness:
       return dim == 2 ? "N/m^2" : "N/m";
     case UnitKind::torsional_stiffness:

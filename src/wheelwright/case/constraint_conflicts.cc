@@ -91,8 +91,8 @@ void check_constraints(const Case& c, Conflicts& found) {
         (constraint.equals || (constraint.at_least && constraint.at_most)))
       refuse("over", "the worst position depends on the side of the bound",
              "set one bound, or over = \"each\"");
-    if (const auto remedy = without_derivative(constraint.quantity); !remedy.empty())
-      refuse("quantity", "the optimizer has no derivative of it", std::string(remedy));
+    if (const std::string& remedy = constraint.quantity->instead; !remedy.empty())
+      refuse("quantity", "the optimizer has no derivative of it", remedy);
     check_load_cases(c, load_cases_of(c, constraint), found, [&](const Case& single, Conflicts& of_case) {
       for (const Need& need : unmet_needs(single, constraint.quantity))
         of_case.push_back(
@@ -105,7 +105,7 @@ void check_constraints(const Case& c, Conflicts& found) {
     for (const auto& [name, bound] : {std::pair{"at_least", constraint.at_least},
                                       {"at_most", constraint.at_most},
                                       {"equals", constraint.equals}})
-      if (constraint.quantity == Quantity::volume_fraction && bound && *bound >= 1 &&
+      if (constraint.quantity == built_in("volume_fraction") && bound && *bound >= 1 &&
           std::string_view(name) != "at_most")
         refuse(name, "more than the whole ring", "use a fraction below 1");
   }

@@ -1,8 +1,7 @@
 #include <fmt/format.h>
 
-#include <map>
-
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/objective_weights.h"
 #include "wheelwright/case/quantity_needs.h"
 #include "wheelwright/case/section_conflicts.h"
 
@@ -11,16 +10,13 @@ namespace wheelwright {
 /// Finds expectations of quantities that the run does not compute, or of shapes that it does not reach.
 void expectation_conflicts(const Case& c, Conflicts& found) {
   const Objective& o = c.objective;
-  const std::map<Quantity, bool> computed{
-      {Quantity::strain_energy, o.strain_energy > 0},
-      {Quantity::uniformity_annulus, o.uniformity_annulus > 0 || o.annulus_matches_dual},
-      {Quantity::uniformity_dual, o.uniformity_dual > 0},
-      {Quantity::uniformity_l2, o.uniformity_l2 > 0}};
+  const auto has_weight = [&o](const ObjectiveWeight& term) {
+    return o.*term.weight > 0 || (term.weight == &Objective::uniformity_annulus && o.annulus_matches_dual);
+  };
   for (std::size_t i = 0; i < c.expectations.size(); ++i) {
     const Expectation& expectation = c.expectations[i];
     const auto key = [&](std::string_view name) { return fmt::format("expect[{}].{}", i + 1, name); };
-    const auto functional = computed.find(expectation.quantity);
-    if (functional != computed.end() && !functional->second)
+    if (const auto* term = objective_weight(name(expectation.quantity)); term && !has_weight(*term))
       found.push_back({{key("quantity"), fmt::format("objective.{}", name(expectation.quantity))},
                        "it has no weight in the objective, so the run does not compute it",
                        "set a weight, however small, or expect another quantity"});

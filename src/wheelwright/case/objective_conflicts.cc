@@ -4,6 +4,7 @@
 
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/load_case_conflicts.h"
+#include "wheelwright/case/objective_weights.h"
 #include "wheelwright/case/quantity_needs.h"
 #include "wheelwright/case/remedies.h"
 #include "wheelwright/case/section_conflicts.h"
@@ -28,8 +29,9 @@ void check_objective(const Case& c, Conflicts& found) {
     found.push_back({{"objective.annulus_matches_dual", "objective.uniformity_annulus"},
                      "the weight of J_p1 is given twice",
                      "keep one of annulus_matches_dual and uniformity_annulus"});
-  if (o.strain_energy > 0 || o.uniformity_annulus > 0 || o.uniformity_dual > 0 || o.uniformity_l2 > 0 ||
-      o.annulus_matches_dual || o.minimize != Quantity::objective)
+  const auto has_weight = [&o](const ObjectiveWeight& term) { return o.*term.weight > 0; };
+  if (std::ranges::any_of(objective_weights, has_weight) || o.annulus_matches_dual ||
+      !minimizes_weighted_sum(c))
     return;
   found.push_back({{"objective.strain_energy"},
                    "all weights are 0: there is nothing to minimize",
@@ -39,7 +41,7 @@ void check_objective(const Case& c, Conflicts& found) {
 /// Checks what is minimized instead of the weighted sum.
 void check_minimized(const Case& c, Conflicts& found) {
   const Objective& o = c.objective;
-  if (o.minimize == Quantity::objective) {
+  if (minimizes_weighted_sum(c)) {
     if (o.over != OverPositions::mean)
       found.push_back({{"objective.over", "objective.minimize"},
                        "the weighted sum is over all load positions",
@@ -50,8 +52,8 @@ void check_minimized(const Case& c, Conflicts& found) {
     found.push_back({{"objective.minimize", "optimizer.method"},
                      "steepest descent minimizes only the weighted sum",
                      "use method = \"sequential_quadratic\", or omit the key"});
-  if (const auto remedy = without_derivative(o.minimize); !remedy.empty())
-    found.push_back({{"objective.minimize"}, "the optimizer has no derivative of it", std::string(remedy)});
+  if (const std::string& remedy = o.minimize->instead; !remedy.empty())
+    found.push_back({{"objective.minimize"}, "the optimizer has no derivative of it", remedy});
   check_load_cases(c, weighted_load_cases(c), found, [&](const Case& single, Conflicts& of_case) {
     for (const Need& need : unmet_needs(single, o.minimize))
       of_case.push_back(
@@ -61,7 +63,7 @@ void check_minimized(const Case& c, Conflicts& found) {
                          constant->problem,
                          constant->remedy + ", or minimize another quantity"});
   });
-  if ((o.minimize == Quantity::volume_fraction || o.minimize == Quantity::mass) && c.constraints.empty())
+  if (o.minimize->is_amount_of_material && c.constraints.empty())
     found.push_back({{"objective.minimize"},
                      "without a constraint the wheel would vanish",
                      "add a [[constraint]], for example on stiffness"});

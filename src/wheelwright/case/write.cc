@@ -101,6 +101,11 @@ std::string value_text(const ChoiceField<Struct>& field, const Struct& s) {
 }
 
 template <class Struct>
+std::string value_text(const QuantityField<Struct>& field, const Struct& s) {
+  return quoted(name(s.*field.member));
+}
+
+template <class Struct>
 std::string value_text(const Key<Struct>& key, const Struct& s) {
   return std::visit([&](const auto& field) { return value_text(field, s); }, key.field);
 }
@@ -112,6 +117,8 @@ std::string accepted_text(const Key<Struct>& key) {
       [](const auto& field) -> std::string {
         if constexpr (requires { field.words; })
           return fmt::format("\"{}\"", fmt::join(field.words, "\" or \""));
+        else if constexpr (requires { field.built_in_words(); })
+          return fmt::format("\"{}\"", fmt::join(field.built_in_words(), "\" or \""));
         else if constexpr (requires { field.default_word; })
           return (field.default_word.empty() ? "" : quoted(field.default_word) + " or ") + field.range.text();
         else if constexpr (requires { field.range; })

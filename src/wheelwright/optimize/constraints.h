@@ -41,6 +41,7 @@ struct BoundState {
   double multiplier;  ///< by how much the objective would fall per unit by which the bound is relaxed; NaN
                       ///< before the first step
   double violation;   ///< relative to the bound
+  UnitKind unit = UnitKind::energy;
 
   bool is_kept() const { return violation <= feasible_violation; }
 };
