@@ -62,6 +62,29 @@ constexpr bool is_per_width(UnitKind kind) {
          kind != UnitKind::turns;
 }
 
+/// What the keys of numbers of this kind on the whole width end with, e.g. "N_per_m"; empty for ratios.
+/// Energies are those of one metre of width in 2D.
+constexpr const char* unit_in_key(UnitKind kind, int dimension) {
+  switch (kind) {
+    case UnitKind::energy:
+      return dimension == 2 ? "J_per_m" : "J";
+    case UnitKind::torque:
+      return "N_m";
+    case UnitKind::ratio:
+      return "";
+    case UnitKind::volume:
+      return "m3";
+    case UnitKind::stiffness:
+      return "N_per_m";
+    case UnitKind::torsional_stiffness:
+      return "N_m_per_rad";
+    case UnitKind::turns:
+      return "turns";
+    default:
+      return unit(kind, 3);
+  }
+}
+
 /// The unit in which people read a number.
 struct ShownUnit {
   const char* name;

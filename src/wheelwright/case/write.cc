@@ -300,6 +300,18 @@ std::string reference_text(const SectionArray<Struct>& section) {
                      reference_table(section.keys, Struct{}));
 }
 
+/// What a key of quantities accepts.
+std::string quantities_table() {
+  std::string result =
+      "\n## Quantities\n\nWhat a case can minimize, bound and expect, with the units of history.csv.\n\n"
+      "| quantity | unit in 2D | unit in 3D | meaning |\n|---|---|---|---|\n";
+  for (const Quantity& quantity : Quantities())
+    result += fmt::format("| `{}` | {} | {} | {}{} |\n", name(quantity), unit<2>(kind(quantity)),
+                          unit<3>(kind(quantity)), quantity->meaning,
+                          quantity->instead.empty() ? "" : "; only to expect");
+  return result;
+}
+
 }  // namespace
 
 std::string to_toml(const Case& c) {
@@ -336,6 +348,7 @@ std::string case_reference_markdown() {
       "omitted "
       "key has its\ndefault value. Equation numbers refer to the paper.\n\n";
   for_each_section([&](const auto& section) { result += reference_text(section); });
+  result += quantities_table();
   return result;
 }
 

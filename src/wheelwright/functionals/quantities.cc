@@ -86,6 +86,7 @@ std::vector<QuantityRow> objective_rows() {
           {.name = "strain_energy",
            .unit = UnitKind::energy,
            .meaning = "strain energy J_e (3)",
+           .label = "strain energy per position",
            .functional = made<StrainEnergy>()},
           {.name = "uniformity_annulus",
            .unit = UnitKind::energy,
@@ -114,22 +115,27 @@ std::vector<QuantityRow> measure_rows() {
   return {{.name = "mean_travel",
            .unit = UnitKind::length,
            .meaning = "travel of the rim towards the ground, the mean",
+           .label = "mean travel",
            .functional = made<Travel>(),
            .varies_with = {Input::load}},
           {.name = "run_out",
            .unit = UnitKind::length,
            .meaning = "difference of the largest and the smallest travel at a held load",
+           .label = "run-out",
            .of = Positions::all,
            .functional = variation<RimTravel>("run_out", peak_to_peak_of),
            .needs = {Input::load},
            .varies_with = {Input::several_positions},
-           .is_maximum = true},
+           .is_maximum = true,
+           .is_of_evenness = true},
           {.name = "peak_pressure",
            .unit = UnitKind::stress,
            .meaning = "largest contact pressure",
+           .label = "peak contact pressure",
            .usual = Over::maximum,
            .functional = made<PeakPressure>(),
-           .is_maximum = true},
+           .is_maximum = true,
+           .is_of_evenness = true},
           {.name = "pressure_spread",
            .unit = UnitKind::ratio,
            .meaning = "variation of the contact pressure between the positions",
@@ -138,10 +144,12 @@ std::vector<QuantityRow> measure_rows() {
           {.name = "volume_fraction",
            .unit = UnitKind::ratio,
            .meaning = "material as a fraction of the ring",
+           .label = "volume of the ring",
            .of = Positions::none,
            .functional =
                []<int dim>(const QuantityContext<dim>& context) { return volume_fraction<dim>(context); },
-           .is_amount_of_material = true}};
+           .is_amount_of_material = true,
+           .ranked_as = "mass"}};
 }
 
 std::vector<QuantityRow> material_rows() {
@@ -149,9 +157,18 @@ std::vector<QuantityRow> material_rows() {
   return {{.name = "peak_von_mises",
            .unit = UnitKind::stress,
            .meaning = "largest von Mises stress",
+           .label = "peak von Mises stress",
            .usual = Over::maximum,
            .functional = made<PeakVonMises>(everywhere),
-           .is_maximum = true},
+           .is_maximum = true,
+           .ranked_as = "peak_stress"},
+          {.name = "largest_strain",
+           .unit = UnitKind::ratio,
+           .meaning = "largest principal strain",
+           .label = "largest strain",
+           .usual = Over::maximum,
+           .instead = "use peak_von_mises",
+           .ranked_as = "strain"},
           {.name = "peak_von_mises_inside",
            .unit = UnitKind::stress,
            .meaning = "largest von Mises stress farther than 25 mm from the tread",
@@ -188,7 +205,8 @@ std::vector<QuantityRow> rim_rows() {
            .unit = UnitKind::stiffness,
            .meaning = "force by travel, towards the ground",
            .functional = stiffness<Quotient>("stiffness", RimWay::towards_ground),
-           .mean = stiffness<RatioOfMeans>("stiffness", RimWay::towards_ground)},
+           .mean = stiffness<RatioOfMeans>("stiffness", RimWay::towards_ground),
+           .is_larger_better = true},
           {.name = "tangential_stiffness",
            .unit = UnitKind::stiffness,
            .meaning = "force by motion of the rim, along the ground",
@@ -220,11 +238,13 @@ std::vector<QuantityRow> variation_rows() {
           {.name = "force_variation",
            .unit = UnitKind::force,
            .meaning = "difference of the largest and the smallest force at a held travel",
+           .label = "radial force variation",
            .of = Positions::all,
            .functional = variation<GroundForce>("force_variation", peak_to_peak_of),
            .needs = {Input::travel},
            .varies_with = {Input::several_positions},
-           .is_maximum = true},
+           .is_maximum = true,
+           .is_of_evenness = true},
           {.name = "force_variation_harmonic",
            .unit = UnitKind::force,
            .meaning = "amplitude of the first harmonic of the force at a held travel",
@@ -239,13 +259,21 @@ std::vector<QuantityRow> outline_rows() {
   return {{.name = "minimum_wall",
            .unit = UnitKind::length,
            .meaning = "width of the thinnest wall",
+           .label = "thinnest wall",
            .of = Positions::none,
            .instead = "set optimizer.minimum_wall, which every shape keeps"},
           {.name = "minimum_gap",
            .unit = UnitKind::length,
            .meaning = "width of the narrowest gap",
+           .label = "narrowest gap",
            .of = Positions::none,
-           .instead = "set optimizer.minimum_gap, which every shape keeps"}};
+           .instead = "set optimizer.minimum_gap, which every shape keeps"},
+          {.name = "roughness",
+           .unit = UnitKind::turns,
+           .meaning = "turns of the edges below the size of a cell",
+           .label = "roughness of the edges",
+           .of = Positions::none,
+           .instead = "set optimizer.minimum_radius, which every shape keeps"}};
 }
 
 /// In the order of the reference.
@@ -298,6 +326,11 @@ std::vector<std::string_view> Quantities::names() const {
 }
 
 Quantity::Quantity() : Quantity(built_in("objective")) {}
+
+std::string number_key(const Quantity& quantity, int dimension) {
+  const std::string_view unit = unit_in_key(kind(quantity), dimension);
+  return unit.empty() ? name(quantity) : fmt::format("{}_{}", name(quantity), unit);
+}
 
 const Quantity& built_in(std::string_view name) {
   const auto& all = built_in_quantities();

@@ -69,6 +69,8 @@ class FunctionalFactory {
       std::invocable<MakeFunctional, const QuantityContext<3>&>)
       : plane_(in_dimension<2>(make)), solid_(in_dimension<3>(make)) {}
 
+  explicit operator bool() const { return plane_ || solid_; }
+
   /// Empty if there is none in this dimension.
   template <int dim>
   const Make<dim>& in() const {
@@ -108,7 +110,8 @@ class FunctionalFactory {
 struct QuantityRow {
   std::string name;  ///< the word for case files and history.csv
   UnitKind unit;
-  std::string meaning;  ///< for people, e.g. "largest contact pressure"
+  std::string meaning;     ///< for the reference, e.g. "largest contact pressure"
+  std::string label = {};  ///< in tables and plots; empty: the name
   Positions of = Positions::each;
   Over usual = Over::mean;  ///< how history.csv and [[expect]] aggregate it
 
@@ -125,7 +128,10 @@ struct QuantityRow {
   bool compares_with_mean = false;      ///< with the mean contact stress: a uniformity
   bool observes_annulus = false;        ///< the tractions in the annulus at the tread
   bool is_amount_of_material = false;   ///< so that a run that optimizes it does not hold the volume
-  bool is_maximum = false;  ///< over points or positions: it has the gradient of a smooth approximation
+  bool is_maximum = false;        ///< over points or positions: it has the gradient of a smooth approximation
+  bool is_larger_better = false;  ///< where designs are ranked by it
+  bool is_of_evenness = false;    ///< how evenly the wheel rolls
+  std::string ranked_as = {};     ///< the word by which designs are ranked by it; empty: the name
 };
 
 /// One row of a table of quantities (functionals/quantities.h). Two of them are equal if they have the same
@@ -146,5 +152,10 @@ class Quantity {
 
 inline const std::string& name(const Quantity& quantity) { return quantity->name; }
 inline UnitKind kind(const Quantity& quantity) { return quantity->unit; }
+inline const std::string& label(const Quantity& quantity) {
+  return quantity->label.empty() ? quantity->name : quantity->label;
+}
+/// Of its value on the whole width in JSON and tables for programs, e.g. "run_out_m".
+std::string number_key(const Quantity& quantity, int dimension);
 
 }  // namespace wheelwright

@@ -71,9 +71,9 @@ using KnownNumber = Expected<double, std::string>;
 /// One number about a wheel.
 template <int dim>
 struct WheelNumber {
-  const char* label;
+  std::string label;
   UnitKind kind;
-  const char* key;  ///< for programs, with the SI unit
+  std::string key;  ///< for programs, with the SI unit
   /// In SI units, on the whole width: nothing if the wheel has no such number, e.g. a mass without a density;
   /// the reason if it could not be computed.
   std::optional<KnownNumber> (*value)(const DescribedWheel<dim>&);

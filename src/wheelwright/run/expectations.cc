@@ -22,14 +22,19 @@ std::string why(const Failure& failure) {
   return fmt::format("{}: {}", to_string(failure.reason), failure.detail);
 }
 
+/// Nothing unless it is measured on the curves fitted to the edges.
 template <int dim>
-KnownNumber clearance(const Quantity& quantity, const LevelSet<dim>& shape) {
+std::optional<KnownNumber> on_outline(const Quantity& quantity, const LevelSet<dim>& shape) {
+  const bool is_wall = quantity == built_in("minimum_wall"), is_gap = quantity == built_in("minimum_gap"),
+             is_roughness = quantity == built_in("roughness");
+  if (!is_wall && !is_gap && !is_roughness) return {};
   const auto measured = outline_measures(shape);
   if (!measured) return measured.failure().what;
-  const cad::Clearances& clearances = measured->clearances;
-  const auto& clearance = quantity == built_in("minimum_wall") ? clearances.wall : clearances.gap;
-  if (!clearance) return std::string("the shape has none");
-  return clearance->width;
+  const auto& [clearances, roughness] = *measured;
+  if (is_roughness && roughness) return roughness->edge.turns;
+  const auto& clearance = is_wall ? clearances.wall : clearances.gap;
+  if (!is_roughness && clearance) return clearance->width;
+  return std::string("the shape has none");
 }
 
 /// Quantities that histories do not contain, from the solution.
@@ -66,10 +71,10 @@ KnownNumber value_under(const std::string& in_history, const Quantity& quantity,
   if (quantity == built_in("volume_fraction")) return volume_fraction(solver.model().grid, state.measure);
   if (const auto functional = named_value(evaluation.terms, in_history)) return *functional;
   if (const auto measure = named_value(evaluation.measures, in_history)) return *measure;
-  if (quantity == built_in("minimum_wall") || quantity == built_in("minimum_gap"))
-    return clearance(quantity, state.shape);
+  if (const auto measured = on_outline(quantity, state.shape)) return *measured;
   if (!solution) return why(solution.failure());
   if (quantity == built_in("peak_von_mises")) return std::ranges::max((*solution)->strain_peaks().von_mises);
+  if (quantity == built_in("largest_strain")) return std::ranges::max((*solution)->strain_peaks().principal);
   return computed(quantity, solver, state.shape, **solution);
 }
 
@@ -162,14 +167,23 @@ std::vector<Finding> findings(const std::vector<Expectation>& expectations,
   return result;
 }
 
+namespace {
+
+bool needs_a_solution(const Expectation& expectation) {
+  const Quantity& quantity = expectation.quantity;
+  const bool is_in_history =
+      objective_weight(name(quantity)) || std::ranges::any_of(rolling_quantities, [&](const auto& measure) {
+        return measure.first == name(quantity);
+      });
+  if (is_in_history && expectation.load_case.empty()) return false;
+  if (quantity == built_in("volume_fraction") || quantity->compares_with_mean) return false;
+  return quantity->functional || quantity == built_in("largest_strain");
+}
+
+}  // namespace
+
 bool need_a_solution(const std::vector<Expectation>& expectations) {
-  return std::ranges::any_of(expectations, [&](const Expectation& e) {
-    const bool is_in_history = objective_weight(name(e.quantity)) ||
-                               std::ranges::any_of(rolling_quantities, [&](const auto& measure) {
-                                 return measure.first == name(e.quantity);
-                               });
-    return !(is_in_history && e.load_case.empty()) && e.quantity->functional;
-  });
+  return std::ranges::any_of(expectations, needs_a_solution);
 }
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                         \

@@ -294,8 +294,11 @@
         charts.push(chart(title, "shape", yTitle, found.map((name) => ({ name: name.split(" [")[0].replaceAll("_", " "),
           x: iterations, y: run.history[name].map((v) => v === null ? null : v * factor) })), { y }));
     };
-    course("Objective and its terms", ["objective", "strain_energy", "uniformity_annulus", "uniformity_dual",
-      "uniformity_l2"], run.objective.factor, `[${run.objective.unit}]`);
+    // The terms are the columns from the objective up to the first measure; those of its unit share the chart.
+    const names = Object.keys(run.history), objective = column("objective"), unit = objective?.split(" [")[1];
+    const terms = names.slice(names.indexOf(objective) + 1, names.indexOf(column("mean_travel")))
+      .filter((name) => name.endsWith(` [${unit}`) && !name.includes(" in "));
+    course("Objective and its terms", ["objective", ...terms], run.objective.factor, `[${run.objective.unit}]`);
     course("Mean travel and run-out", ["mean_travel", "run_out"], 1e3, "[mm]");
     course("Peaks of pressure and stress", ["peak_pressure", "peak_von_mises ["], 1e-6, "[MPa]");
     course("Volume", ["volume fraction"], 100, "[% of the ring]", { grace: 0.05 });
