@@ -308,7 +308,7 @@ std::string quantities_table() {
   for (const Quantity& quantity : Quantities())
     result += fmt::format("| `{}` | {} | {} | {}{} |\n", name(quantity), unit<2>(kind(quantity)),
                           unit<3>(kind(quantity)), quantity->meaning,
-                          quantity->instead.empty() ? "" : "; only to expect");
+                          quantity->instead.empty() || quantity == Quantity() ? "" : "; only to expect");
   return result;
 }
 

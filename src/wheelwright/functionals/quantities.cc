@@ -353,13 +353,13 @@ template <int dim>
 Expected<WeightedFunctional<dim>> functional_of(const Quantity& quantity, Over over,
                                                 const QuantityContext<dim>& context) {
   const bool is_each = quantity->of == Positions::each;
-  const auto& mean = quantity->mean.template in<dim>();
+  const FunctionalMaker<dim>* mean = quantity->mean.template in<dim>();
   const bool has_own_mean = is_each && over == Over::mean && mean;
-  const auto& make = has_own_mean ? mean : quantity->functional.template in<dim>();
-  if (!make)
+  const FunctionalMaker<dim>* maker = has_own_mean ? mean : quantity->functional.template in<dim>();
+  if (!maker)
     return Failure{FailureReason::unsupported_model,
                    fmt::format("{} is not computed in {}D", quantity->name, dim)};
-  auto term = make(context);
+  auto term = maker->make(context);
   if (!term) return term.failure();
   if (!term->quantity) term->quantity = quantity;
   if (is_each && !has_own_mean)

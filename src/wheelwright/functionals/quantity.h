@@ -1,7 +1,6 @@
 #pragma once
 
 #include <concepts>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -52,48 +51,66 @@ struct QuantityContext {
   DualNorm dual_norm = DualNorm::elasticity;
 };
 
+template <int dim>
+class FunctionalMaker {
+ public:
+  virtual ~FunctionalMaker() = default;
+  virtual Expected<WeightedFunctional<dim>> make(const QuantityContext<dim>& context) const = 0;
+};
+
 /// Makes the functional of a quantity, in one dimension or in both.
 class FunctionalFactory {
  public:
-  template <int dim>
-  using Make = std::function<Expected<WeightedFunctional<dim>>(const QuantityContext<dim>&)>;
-
   /// None: the quantity is not a functional.
   FunctionalFactory() = default;
 
   /// From make(const QuantityContext<dim>&), for each dim that it accepts. It returns a functional as a
   /// shared pointer, or, with a weight, as a WeightedFunctional, or an Expected of one of them.
-  template <class MakeFunctional>
-  explicit(false) FunctionalFactory(MakeFunctional make) requires(
-      std::invocable<MakeFunctional, const QuantityContext<2>&> ||
-      std::invocable<MakeFunctional, const QuantityContext<3>&>)
-      : plane_(in_dimension<2>(make)), solid_(in_dimension<3>(make)) {}
+  template <class Make>
+  explicit(false) FunctionalFactory(Make make) requires(std::invocable<Make, const QuantityContext<2>&> ||
+                                                        std::invocable<Make, const QuantityContext<3>&>)
+      : plane_(maker<2>(make)), solid_(maker<3>(make)) {}
 
   explicit operator bool() const { return plane_ || solid_; }
 
-  /// Empty if there is none in this dimension.
+  /// Null if there is none in this dimension.
   template <int dim>
-  const Make<dim>& in() const {
+  const FunctionalMaker<dim>* in() const {
     if constexpr (dim == 2)
-      return plane_;
+      return plane_.get();
     else
-      return solid_;
+      return solid_.get();
   }
 
  private:
-  template <int dim, class MakeFunctional>
-  static Make<dim> in_dimension(const MakeFunctional& make) {
-    if constexpr (std::invocable<MakeFunctional, const QuantityContext<dim>&>)
-      return [make](const QuantityContext<dim>& context) { return weighted<dim>(make(context)); };
+  template <int dim>
+  using Pointer = std::shared_ptr<const FunctionalMaker<dim>>;
+
+  template <int dim, class Make>
+  class MakerOf : public FunctionalMaker<dim> {
+   public:
+    explicit MakerOf(Make make) : make_(std::move(make)) {}
+    Expected<WeightedFunctional<dim>> make(const QuantityContext<dim>& context) const override {
+      return weighted<dim>(make_(context));
+    }
+
+   private:
+    Make make_;
+  };
+
+  template <int dim, class Make>
+  static Pointer<dim> maker(const Make& make) {
+    if constexpr (std::invocable<Make, const QuantityContext<dim>&>)
+      return std::make_shared<const MakerOf<dim, Make>>(make);
     else
-      return {};
+      return nullptr;
   }
 
   template <int dim, class Made>
   static Expected<WeightedFunctional<dim>> weighted(Made made) {
-    if constexpr (std::convertible_to<Made, std::shared_ptr<const Functional<dim>>>)
+    if constexpr (std::convertible_to<Made, std::shared_ptr<const Functional<dim>>>) {
       return WeightedFunctional<dim>{1, std::move(made)};
-    else if constexpr (requires { made.failure(); }) {
+    } else if constexpr (requires { made.failure(); }) {
       if (!made) return made.failure();
       return weighted<dim>(*std::move(made));
     } else {
@@ -101,8 +118,8 @@ class FunctionalFactory {
     }
   }
 
-  Make<2> plane_;
-  Make<3> solid_;
+  Pointer<2> plane_;
+  Pointer<3> solid_;
 };
 
 /// A scalar that describes a shape: what a case can minimize, bound and expect, and what histories, reports
