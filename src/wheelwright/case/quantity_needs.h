@@ -19,7 +19,7 @@ std::vector<Need> unmet_needs(const Case& c, const Quantity& quantity);
 
 /// Why a quantity is the same for every wheel, so that it can neither be minimized nor be bounded.
 struct Constancy {
-  const char *key, *problem, *remedy;
+  std::string key, problem, remedy;
 };
 
 /// Nothing if the quantity differs between wheels.

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "wheelwright/base/units.h"
 #include "wheelwright/sensitivity/evaluation.h"
 
 namespace wheelwright {

@@ -6,7 +6,6 @@
 #include <numbers>
 #include <numeric>
 
-#include "wheelwright/base/units.h"
 #include "wheelwright/cad/fit_outline.h"
 #include "wheelwright/functionals/quantities.h"
 

@@ -7,6 +7,7 @@
 
 #include "wheelwright/analysis/rolling_analysis.h"
 #include "wheelwright/analysis/shape_summary.h"
+#include "wheelwright/base/units.h"
 #include "wheelwright/cad/clearance.h"
 #include "wheelwright/cad/outline_fault.h"
 #include "wheelwright/cad/roughness.h"
