@@ -186,9 +186,9 @@ TEST(LoopOfACase, TheVelocityFollowsFromMethodAndDimension) {
   c.constraints.resize(1);
   expect(c, DeformationKind::normal_speed, 2);
   c.constraints.clear();
-  c.objective.minimize = Quantity::mass;
+  c.objective.minimize = built_in("mass");
   expect(c, DeformationKind::normal_speed, 2);
-  c.objective.minimize = Quantity::objective;
+  c.objective.minimize = built_in("objective");
   c.wheel.dimension = 3;
   expect(c, DeformationKind::normal_speed, 2);
   c.optimizer.velocity = VelocityKind::vector;
@@ -234,9 +234,9 @@ TEST(ObjectiveOfACase, IsTheWeightedSumOfItsFunctionals) {
   double sum = 0;
   for (const auto& value : e.terms)
     if (value.name != "volume")
-      sum += value.value * (value.name == name(Quantity::strain_energy)     ? 2
-                            : value.name == name(Quantity::uniformity_dual) ? 30
-                                                                            : 5);
+      sum += value.value * (value.name == name(built_in("strain_energy"))     ? 2
+                            : value.name == name(built_in("uniformity_dual")) ? 30
+                                                                              : 5);
   EXPECT_NEAR(e.function("objective").value, sum, 1e-13 * sum);
   ASSERT_TRUE(evaluated->state);
   EXPECT_EQ(evaluated->state->positions().size(), 5);
@@ -255,7 +255,7 @@ TEST(ObjectiveOfACase, MatchesTheAnnulusWithTheDualTerm) {
   const auto evaluated = evaluate_of(*study)(study->initial, nullptr);
   ASSERT_TRUE(evaluated) << evaluated.failure().detail;
   const Evaluation<2>& e = evaluated->evaluation;
-  const auto dual = std::ranges::find(e.terms, name(Quantity::uniformity_dual), &TermValue::name);
+  const auto dual = std::ranges::find(e.terms, name(built_in("uniformity_dual")), &TermValue::name);
   ASSERT_NE(dual, e.terms.end());
   ASSERT_GT(dual->value, 0);
   EXPECT_NEAR(e.function("objective").value, (0.7 + 23) * dual->value, 1e-10 * dual->value);

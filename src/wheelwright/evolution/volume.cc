@@ -66,13 +66,6 @@ Expected<MeasuredShape<dim>> with_measure(const LevelSet<dim>& psi, const Protec
 }
 
 template <int dim>
-double sector_measure(const PolarGrid<dim>& grid) {
-  const double area = 0.5 * grid.sector_angle() *
-                      (grid.outer_radius * grid.outer_radius - grid.inner_radius * grid.inner_radius);
-  return dim == 3 ? area * grid.width : area;
-}
-
-template <int dim>
 double proportional_multiplier(std::span<const SurfaceSample<dim>> gradient, double target_ratio,
                                double ratio) {
   if (gradient.empty()) return 0;
@@ -87,8 +80,6 @@ template Expected<MeasuredShape<2>> with_measure<2>(const LevelSet<2>&, const Pr
                                                     double, int);
 template Expected<MeasuredShape<3>> with_measure<3>(const LevelSet<3>&, const ProtectedBands<3>&, double,
                                                     double, int);
-template double sector_measure<2>(const PolarGrid<2>&);
-template double sector_measure<3>(const PolarGrid<3>&);
 template double proportional_multiplier<2>(std::span<const SurfaceSample<2>>, double, double);
 template double proportional_multiplier<3>(std::span<const SurfaceSample<3>>, double, double);
 

@@ -3,7 +3,6 @@
 #include <optional>
 #include <string>
 
-#include "wheelwright/base/quantity.h"
 #include "wheelwright/state/state.h"
 
 namespace wheelwright {
@@ -35,7 +34,7 @@ struct FunctionalValue {
 /// A functional of the form (36): integrals over the material and over its boundary. It depends on the shape
 /// itself, and on the states of the load positions through the strain energy, the observations of the tread
 /// and integrals over the material. To add one, write a file with a class like this and its Taylor test, and
-/// add its line to objective_terms() (run/study.cc).
+/// its row to the table of quantities (functionals/quantities.cc).
 template <int dim>
 class Functional {
  public:

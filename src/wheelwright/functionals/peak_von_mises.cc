@@ -32,8 +32,7 @@ bool VonMisesPower<dim>::covers(const PolarGrid<dim>& grid, int row) const {
 
 template <int dim>
 std::string PeakVonMises<dim>::name() const {
-  return std::string(
-      wheelwright::name(from_tread_ > 0 ? Quantity::peak_von_mises_inside : Quantity::peak_von_mises));
+  return from_tread_ > 0 ? "peak_von_mises_inside" : "peak_von_mises";
 }
 
 template <int dim>

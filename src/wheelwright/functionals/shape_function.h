@@ -2,6 +2,7 @@
 
 #include "wheelwright/functionals/bounds.h"
 #include "wheelwright/functionals/functional.h"
+#include "wheelwright/functionals/quantity.h"
 
 namespace wheelwright {
 
@@ -10,7 +11,8 @@ template <int dim>
 struct WeightedFunctional {
   double weight;
   std::shared_ptr<const Functional<dim>> functional;
-  int load_case = 0;  ///< 0 is the load of the solver's own model
+  int load_case = 0;                      ///< 0 is the load of the solver's own model
+  std::optional<Quantity> quantity = {};  ///< the functional's; absent: an energy
 };
 
 template <int dim>
@@ -26,6 +28,8 @@ struct ShapeFunction {
   /// A factor per load position of the sector (all of them, mirror images too); empty: 1.
   std::vector<double> position_weights = {};
   Bounds bounds = {};
+  Quantity quantity = {};  ///< the function's, with its unit; by default a sum of energies
+  Over over = Over::mean;  ///< which positions it is about, if the quantity has a value at each
 };
 
 /// The function that is minimized, by the name that the optimizer looks for.

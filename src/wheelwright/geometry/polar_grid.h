@@ -72,6 +72,10 @@ struct PolarGrid {
   }
 };
 
+/// Area [m^2] of the whole sector including the holes, or its volume [m^3] when dim = 3.
+template <int dim>
+double sector_measure(const PolarGrid<dim>& grid);
+
 /// The grid of the first half of a wheel's width; the number of cells along the axle must be even.
 inline PolarGrid<3> first_half(PolarGrid<3> grid) {
   grid.width /= 2;

@@ -54,7 +54,8 @@ std::vector<BoundState> bound_states(const Evaluation<dim>& evaluation,
                      : c.sign > 0  ? '<'
                                    : '>',
          .multiplier = is_known ? multipliers[i] / c.scale : std::numeric_limits<double>::quiet_NaN(),
-         .violation = c.violation()});
+         .violation = c.violation(),
+         .unit = f.unit});
   }
   return states;
 }

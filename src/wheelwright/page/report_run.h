@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "wheelwright/base/units.h"
 #include "wheelwright/page/sector_mesh.h"
 #include "wheelwright/report/run_summary.h"
 #include "wheelwright/report/solution_fields.h"

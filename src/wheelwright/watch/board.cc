@@ -24,8 +24,8 @@ void Board<dim>::show(std::shared_ptr<const WatchedShape<dim>> shape) {
   CurvePoint point{.version = 0,
                    .shape = shape->number,
                    .objective = shape->objective,
-                   .mean_travel = measure_named(*shape, name(Quantity::mean_travel)),
-                   .run_out = measure_named(*shape, name(Quantity::run_out)),
+                   .mean_travel = measure_named(*shape, "mean_travel"),
+                   .run_out = measure_named(*shape, "run_out"),
                    .volume_fraction = shape->measure / sector_measure<dim>(shape->psi.lattice.grid())};
   update([&](BoardView<dim>& view) {
     view.proposed.reset();
