@@ -174,20 +174,27 @@ template <int dim>
 ShapeOptimizer<dim>::ShapeOptimizer(const Lattice<dim>& lattice, const EvolutionOptions& evolution,
                                     const OptimizerOptions& options, Evaluate evaluate)
     : lattice_(lattice),
-      evolver_(lattice, in_space_of(options.method, evolution)),
+      evolver_(std::make_shared<const Evolver<dim>>(lattice, in_space_of(options.method, evolution))),
       options_(options),
       evaluate_(std::move(evaluate)) {}
+
+template <int dim>
+ShapeOptimizer<dim> ShapeOptimizer<dim>::with(Evaluate evaluate) const {
+  ShapeOptimizer other = *this;
+  other.evaluate_ = std::move(evaluate);
+  return other;
+}
 
 template <int dim>
 Expected<OptimizationState<dim>> ShapeOptimizer<dim>::start(const LevelSet<dim>& initial,
                                                             const Observer& observer) const {
   if (auto failure = check_finite<dim>(lattice_, initial.values, "the initial level set")) return *failure;
-  Trial<dim> trial = trial_at_rest<dim>(0, evolver_.keep_bands(initial));
+  Trial<dim> trial = trial_at_rest<dim>(0, evolver_->keep_bands(initial));
   const double given = material_measure(trial.shape);
   const auto target = is_in_reach(given) ? options_.target_measure : std::nullopt;
   auto cells =
-      finish(trial, target, boundary_measure(boundary_samples<dim>(trial.shape)), evolver_.features());
-  if (!trial.failure) evaluate(trial, std::move(cells), nullptr, evolver_.features());
+      finish(trial, target, boundary_measure(boundary_samples<dim>(trial.shape)), evolver_->features());
+  if (!trial.failure) evaluate(trial, std::move(cells), nullptr, evolver_->features());
   if (trial.failure) {
     if (target) name_target(given, *target, *target, *trial.failure);
     return *trial.failure;
@@ -213,7 +220,7 @@ template <int dim>
 Expected<OptimizationState<dim>> ShapeOptimizer<dim>::restart(const OptimizationState<dim>& state,
                                                               const Observer& observer) const {
   Trial<dim> trial = trial_at_rest<dim>(state.iteration, state.shape);
-  evaluate(trial, {}, nullptr, evolver_.features());
+  evaluate(trial, {}, nullptr, evolver_->features());
   if (trial.failure) return *trial.failure;
   trial.verdict = Verdict::accepted;
   OptimizationState<dim> anew = state;
@@ -313,7 +320,7 @@ template <int dim>
 Trial<dim> ShapeOptimizer<dim>::repaired(const OptimizationState<dim>& state,
                                          const LevelSet<dim>& shape) const {
   const auto start = std::chrono::steady_clock::now();
-  Trial<dim> trial = trial_at_rest<dim>(state.iteration + 1, evolver_.keep_bands(shape));
+  Trial<dim> trial = trial_at_rest<dim>(state.iteration + 1, evolver_->keep_bands(shape));
   auto cells =
       finish(trial, state.target_measure, boundary_measure(state.evaluation.boundary), widths_after(state));
   trial.evolution_seconds = seconds_since(start);
@@ -340,7 +347,7 @@ OptimizationState<dim> ShapeOptimizer<dim>::restarted(OptimizationState<dim> sta
 
 template <int dim>
 FeatureSize ShapeOptimizer<dim>::widths_after(const OptimizationState<dim>& state) const {
-  return wheelwright::widths_after(evolver_.features(), options_, state);
+  return wheelwright::widths_after(evolver_->features(), options_, state);
 }
 
 template <int dim>
@@ -348,7 +355,7 @@ std::optional<StopReason> ShapeOptimizer<dim>::descend(OptimizationState<dim>& s
                                                        const Observer& observer,
                                                        const std::function<bool()>& stop_requested) const {
   if (const auto reason = reason_to_stop(options_, state)) return reason;
-  const auto proposals = proposals_from(evolver_, options_, state);
+  const auto proposals = proposals_from(*evolver_, options_, state);
   if (!proposals) {
     observer(failed_trial(state, 0, state.step, proposals.failure()), state);
     return StopReason::gave_up;
@@ -475,9 +482,10 @@ typename ShapeOptimizer<dim>::MadeCells ShapeOptimizer<dim>::evolve(const Optimi
                                                                     Trial<dim>& trial) const {
   const bool redistances = is_due(options_.redistance_every, state.since_redistance, trial.halvings),
              smooths = is_due(options_.smooth_every, state.since_smoothing, trial.halvings);
-  if (store(evolver_.move(state.shape, move.velocity, move.distance * lattice_.grid().resolution()), trial) &&
-      (!redistances || store(evolver_.redistance(trial.shape), trial)) &&
-      (!smooths || store(evolver_.smooth(trial.shape), trial)))
+  if (store(evolver_->move(state.shape, move.velocity, move.distance * lattice_.grid().resolution()),
+            trial) &&
+      (!redistances || store(evolver_->redistance(trial.shape), trial)) &&
+      (!smooths || store(evolver_->smooth(trial.shape), trial)))
     return finish(trial, move.measure, boundary_measure(state.evaluation.boundary), widths_after(state));
   return {};
 }
@@ -494,9 +502,9 @@ typename ShapeOptimizer<dim>::MadeCells ShapeOptimizer<dim>::finish(Trial<dim>& 
     trial.measure = unknown;
     MadeCells cells;
     if (target && options_.measure_control == MeasureControl::exact)
-      cells = store(evolver_.with_measure(trial.shape, *target, boundary_measure, widths), trial);
+      cells = store(evolver_->with_measure(trial.shape, *target, boundary_measure, widths), trial);
     if (trial.failure) return {};
-    auto attached = evolver_.without_islands(trial.shape, largest);
+    auto attached = evolver_->without_islands(trial.shape, largest);
     if (!attached) {
       trial.failure = attached.failure();
       return {};
@@ -513,14 +521,14 @@ typename ShapeOptimizer<dim>::MadeCells ShapeOptimizer<dim>::finish(Trial<dim>& 
 
 template <int dim>
 void ShapeOptimizer<dim>::add_changes(const LevelSet<dim>& before, Trial<dim>& trial) const {
-  for (const auto& event : evolver_.changes(before, trial.shape)) trial.events.push_back(event);
+  for (const auto& event : evolver_->changes(before, trial.shape)) trial.events.push_back(event);
 }
 
 /// Cuts and measures the trial's shape unless the shift to the target has done so.
 template <int dim>
 void ShapeOptimizer<dim>::evaluate(Trial<dim>& trial, MadeCells cells, const Evaluation<dim>* previous,
                                    const FeatureSize& widths) const {
-  if (!cells) cells = store(evolver_.measured(trial.shape, widths), trial);
+  if (!cells) cells = store(evolver_->measured(trial.shape, widths), trial);
   if (trial.failure) return;
   auto evaluated = evaluate_({trial.shape, &*cells}, previous);
   if (!evaluated) {

@@ -68,6 +68,9 @@ class ShapeOptimizer {
   ShapeOptimizer(const Lattice<dim>& lattice, const EvolutionOptions& evolution,
                  const OptimizerOptions& options, Evaluate evaluate);
 
+  /// The same optimizer with another evaluation of the same functions.
+  ShapeOptimizer with(Evaluate evaluate) const;
+
   /// Evaluates the initial shape, clipped at the protected bands. It is shifted to the target measure if that
   /// is given, controlled exactly, and within measure_rate. The observer sees it as iteration 0.
   Expected<OptimizationState<dim>> start(const LevelSet<dim>& initial, const Observer& observer) const;
@@ -87,7 +90,7 @@ class ShapeOptimizer {
   StopReason run(OptimizationState<dim>& state, const Observer& observer,
                  const std::function<bool()>& stop_requested) const;
 
-  const Evolver<dim>& evolver() const { return evolver_; }
+  const Evolver<dim>& evolver() const { return *evolver_; }
 
   /// The value that is minimized.
   double objective_of(const Evaluation<dim>& evaluation) const;
@@ -122,7 +125,7 @@ class ShapeOptimizer {
                                    const Move<dim>& move, const Trial<dim>& trial) const;
 
   Lattice<dim> lattice_;
-  Evolver<dim> evolver_;
+  std::shared_ptr<const Evolver<dim>> evolver_;
   OptimizerOptions options_;
   Evaluate evaluate_;
 };
