@@ -26,6 +26,8 @@ class TerminalObserver : public Observer<dim> {
       progress_->show_step(text(advanced->progress), run.elapsed_seconds);
     if (const auto* command = std::get_if<CommandDone>(&event); command && !command->text.empty())
       progress_->note((command->was_executed ? "" : "refused: ") + command->text);
+    if (const auto* failed = std::get_if<StageFailed>(&event))
+      warn(run, failed->stage.c_str(), failed->reason);
     if (const auto* ended = std::get_if<RunEnded<dim>>(&event)) end(*ended, run);
   }
 
