@@ -70,7 +70,7 @@ TEST(Curve, PiecesAndReversedAndMappedCurvesAreThoseOfTheWhole) {
     const double from = random.number(0, 0.5), to = random.number(0.5, 1), s = random.number(0, 1);
     const Affine map{random.number(-1, 1), random.number(-1, 1), random.number(-1, 1),
                      random.number(-1, 1), random.number(-1, 1), random.number(-1, 1)};
-    EXPECT_NEAR(distance(curve.between(from, to).at(s), curve.at(from + s * (to - from))), 0, 1e-13);
+    EXPECT_NEAR(distance(curve.part(from, to).at(s), curve.at(from + s * (to - from))), 0, 1e-13);
     EXPECT_NEAR(distance(curve.reversed().at(s), curve.at(1 - s)), 0, 1e-13);
     EXPECT_NEAR(distance(curve.mapped(map).at(s), map(curve.at(s))), 0, 1e-13);
     EXPECT_EQ(distance(curve.split(from).first.end(), curve.split(from).second.start()), 0);

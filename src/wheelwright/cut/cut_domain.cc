@@ -164,11 +164,8 @@ template <int dim>
 Vec<dim> reference_normal(std::span<const double> values, int degree, const Vec<dim>& xi) {
   const ShapeFunctions<dim> shape(degree, xi);
   Vec<dim> gradient{};
-  for (std::size_t a = 0; a < values.size(); ++a)
-    for (int d = 0; d < dim; ++d) gradient[d] += values[a] * shape.gradient[a][d];
-  const double length = norm<dim>(gradient);
-  for (double& x : gradient) x /= length;
-  return gradient;
+  for (std::size_t a = 0; a < values.size(); ++a) gradient += values[a] * shape.gradient[a];
+  return gradient / norm(gradient);
 }
 
 /// The edges of the boundary in the side faces of the wheel, in one cell, by the quadrature of its faces.

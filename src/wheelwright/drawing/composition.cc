@@ -41,7 +41,7 @@ std::vector<Curve> pieces_between(const Curve& curve, std::vector<double> cuts) 
   for (const double cut : cuts) {
     if (cut - last < least) continue;
     const double end = 1 - cut < least ? 1 : cut;
-    result.push_back(curve.between(last, end));
+    result.push_back(curve.part(last, end));
     last = end;
   }
   return result;

@@ -111,8 +111,7 @@ std::optional<Vec<dim>> project_to_zero(const CubicInterpolant<dim>& psi, const 
   for (int k = 0; k < max_newton_steps; ++k) {
     const Jet<dim> jet = psi(x);
     const double slope2 = dot<dim>(jet.gradient, jet.gradient);
-    Vec<dim> step;
-    for (int d = 0; d < dim; ++d) step[d] = -jet.value / slope2 * jet.gradient[d];
+    const Vec<dim> step = -jet.value / slope2 * jet.gradient;
     const double length = norm<dim>(step);
     if (!(length < spacing)) return std::nullopt;
     x = moved<dim>(lattice, x, step);

@@ -41,10 +41,8 @@ class DistanceToIslands {
   explicit DistanceToIslands(const Components<dim>& pieces) : samples_(images(pieces)) {}
 
   double operator()(const Vec<dim>& polar) const {
-    Vec<dim> offset = cartesian<dim>(polar);
-    const Vec<dim>& nearest = samples_.points()[samples_.index_of_nearest(offset)];
-    for (int d = 0; d < dim; ++d) offset[d] -= nearest[d];
-    return norm<dim>(offset);
+    const Vec<dim> x = cartesian<dim>(polar);
+    return norm(x - samples_.points()[samples_.index_of_nearest(x)]);
   }
 
  private:

@@ -88,8 +88,7 @@ std::vector<Vec<dim>> with_images(const Lattice<dim>& lattice, const std::vector
 
 template <int dim>
 Vec<dim> cartesian_position(const Lattice<dim>& lattice, const Vec<dim>& point) {
-  Vec<dim> polar;
-  for (int d = 0; d < dim; ++d) polar[d] = point[d] * lattice.spacing()[d];
+  Vec<dim> polar = componentwise_product(point, lattice.spacing());
   polar[0] += lattice.grid().inner_radius;
   return cartesian<dim>(polar);
 }

@@ -35,8 +35,7 @@ TreadContactPoint<dim> free_point(const StateSolver<dim>& solver, const State<di
       state.observations().column(position * surface.n_columns + column) + surface.rows().displacement(point),
       dim, u.begin());
   const Vec<dim> place = rotated<dim>(surface.points[point].position, turn), elastic = rotated<dim>(u, turn);
-  Vec<dim> moved = displacement<dim>(state.contacts()[position].rim, place);
-  for (int d = 0; d < dim; ++d) moved[d] += elastic[d];
+  const Vec<dim> moved = displacement<dim>(state.contacts()[position].rim, place) + elastic;
   return {.position = rotated<dim>(place, ground),
           .displacement = rotated<dim>(moved, ground),
           .traction = {},

@@ -32,8 +32,7 @@ double directional_derivative(const std::vector<SurfaceSample<dim>>& gradient, c
     double rate = 0;
     for (size_t a = 0; a < values.size(); ++a) {
       rate += shape.value[a] * changes[a];
-      const Vec<dim> g = transpose_times<dim>(to_physical, shape.gradient[a]);
-      for (int d = 0; d < dim; ++d) slope[d] += values[a] * g[d];
+      slope += values[a] * transpose_times<dim>(to_physical, shape.gradient[a]);
     }
     sum -= sample.weight * sample.value * rate / norm<dim>(slope);
   }
