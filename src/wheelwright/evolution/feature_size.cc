@@ -61,9 +61,7 @@ class DistanceToPoints {
 
   double operator()(int node) const {
     const Vec<dim> x = cartesian<dim>(lattice_.polar_point(node));
-    Vec<dim> apart = nearest_.points()[nearest_.index_of_nearest(x)];
-    for (int d = 0; d < dim; ++d) apart[d] -= x[d];
-    return norm<dim>(apart);
+    return norm(nearest_.points()[nearest_.index_of_nearest(x)] - x);
   }
 
  private:
