@@ -54,7 +54,7 @@ Composition::Composition(const std::vector<Figure>& figures) {
   Box all;
   for (const Figure& figure : figures) {
     for (std::size_t k = 0; k < figure.outlines.size(); ++k)
-      for (const Loop& loop : figure.outlines[k].loops)
+      for (const DrawnLoop& loop : figure.outlines[k].loops)
         for (const Curve& whole : loop.curves)
           for (const Curve& piece : simple_pieces(whole)) {
             curves.push_back(piece);

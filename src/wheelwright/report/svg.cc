@@ -6,7 +6,7 @@
 
 #include "wheelwright/base/text.h"
 #include "wheelwright/report/lit_wheel.h"
-#include "wheelwright/report/outline.h"
+#include "wheelwright/report/picture_polygon.h"
 
 namespace wheelwright {
 namespace {
