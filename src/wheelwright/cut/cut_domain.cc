@@ -283,9 +283,9 @@ std::optional<Failure> check_attached(const CutDomain<dim>& domain, int rim_rows
   return check_connected(domain);
 }
 
-template Expected<CutDomain<2>> cut_domain(const LevelSet<2>&, int);
-template Expected<CutDomain<3>> cut_domain(const LevelSet<3>&, int);
-template std::optional<Failure> check_attached(const CutDomain<2>&, int, int);
-template std::optional<Failure> check_attached(const CutDomain<3>&, int, int);
+template decltype(cut_domain<2>) cut_domain<2>;
+template decltype(cut_domain<3>) cut_domain<3>;
+template decltype(check_attached<2>) check_attached<2>;
+template decltype(check_attached<3>) check_attached<3>;
 
 }  // namespace wheelwright

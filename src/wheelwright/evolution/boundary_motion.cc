@@ -188,7 +188,7 @@ template std::vector<Dependence> displacement<2>(const CubicInterpolant<2>&, con
 template std::vector<Dependence> displacement<3>(const CubicInterpolant<3>&, const Vec<3>&);
 template class BoundaryMotion<2>;
 template class BoundaryMotion<3>;
-template std::vector<Vec<2>> gradients_at_nodes<2>(const LevelSet<2>&);
-template std::vector<Vec<3>> gradients_at_nodes<3>(const LevelSet<3>&);
+template decltype(gradients_at_nodes<2>) gradients_at_nodes<2>;
+template decltype(gradients_at_nodes<3>) gradients_at_nodes<3>;
 
 }  // namespace wheelwright

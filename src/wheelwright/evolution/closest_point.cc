@@ -142,11 +142,11 @@ std::optional<Vec<dim>> closest_zero(const CubicInterpolant<dim>& psi, const Vec
   return std::nullopt;
 }
 
-template double physical_distance<2>(const Lattice<2>&, const Vec<2>&, const Vec<2>&);
-template double physical_distance<3>(const Lattice<3>&, const Vec<3>&, const Vec<3>&);
-template std::optional<Vec<2>> project_to_zero<2>(const CubicInterpolant<2>&, const Vec<2>&);
-template std::optional<Vec<3>> project_to_zero<3>(const CubicInterpolant<3>&, const Vec<3>&);
-template std::optional<Vec<2>> closest_zero<2>(const CubicInterpolant<2>&, const Vec<2>&, const Vec<2>&);
-template std::optional<Vec<3>> closest_zero<3>(const CubicInterpolant<3>&, const Vec<3>&, const Vec<3>&);
+template decltype(physical_distance<2>) physical_distance<2>;
+template decltype(physical_distance<3>) physical_distance<3>;
+template decltype(project_to_zero<2>) project_to_zero<2>;
+template decltype(project_to_zero<3>) project_to_zero<3>;
+template decltype(closest_zero<2>) closest_zero<2>;
+template decltype(closest_zero<3>) closest_zero<3>;
 
 }  // namespace wheelwright

@@ -294,12 +294,11 @@ std::vector<Dependence> curvature_dependence(const LevelSet<dim>& coefficients, 
   return result;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                   \
-  template PrincipalCurvature<dim> principal_curvature(const Jet<dim>&);               \
-  template std::vector<EdgePoint<dim>> internal_corners(const LevelSet<dim>&, double); \
-  template std::vector<Dependence> curvature_dependence(const LevelSet<dim>&, const EdgePoint<dim>&);
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+template decltype(principal_curvature<2>) principal_curvature<2>;
+template decltype(internal_corners<2>) internal_corners<2>;
+template decltype(curvature_dependence<2>) curvature_dependence<2>;
+template decltype(principal_curvature<3>) principal_curvature<3>;
+template decltype(internal_corners<3>) internal_corners<3>;
+template decltype(curvature_dependence<3>) curvature_dependence<3>;
 
 }  // namespace wheelwright

@@ -97,7 +97,7 @@ Expected<AttachedShape<dim>> without_islands(const LevelSet<dim>& psi, double la
   return AttachedShape<dim>{emptied(psi, pieces), std::move(removed)};
 }
 
-template Expected<AttachedShape<2>> without_islands(const LevelSet<2>&, double);
-template Expected<AttachedShape<3>> without_islands(const LevelSet<3>&, double);
+template decltype(without_islands<2>) without_islands<2>;
+template decltype(without_islands<3>) without_islands<3>;
 
 }  // namespace wheelwright

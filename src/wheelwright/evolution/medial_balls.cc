@@ -97,8 +97,8 @@ std::optional<MedialBall<dim>> MedialBalls<dim>::ball_at(int seed, Side side, do
   return {};
 }
 
-template Vec<2> normal_at<2>(const CubicInterpolant<2>&, const Vec<2>&);
-template Vec<3> normal_at<3>(const CubicInterpolant<3>&, const Vec<3>&);
+template decltype(normal_at<2>) normal_at<2>;
+template decltype(normal_at<3>) normal_at<3>;
 template class MedialBalls<2>;
 template class MedialBalls<3>;
 

@@ -319,12 +319,11 @@ std::vector<double> gap_load(const BoundaryMotion<dim>& motion, const Width<dim>
   return motion.load(gap);
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                \
-  template std::vector<Width<dim>> narrow_widths(const LevelSet<dim>&, const FeatureSize&, double); \
-  template double largest_gap(const std::vector<Width<dim>>&);                                      \
-  template std::vector<double> gap_load(const BoundaryMotion<dim>&, const Width<dim>&);
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+template decltype(narrow_widths<2>) narrow_widths<2>;
+template decltype(largest_gap<2>) largest_gap<2>;
+template decltype(gap_load<2>) gap_load<2>;
+template decltype(narrow_widths<3>) narrow_widths<3>;
+template decltype(largest_gap<3>) largest_gap<3>;
+template decltype(gap_load<3>) gap_load<3>;
 
 }  // namespace wheelwright

@@ -210,7 +210,7 @@ Components<dim> components(const LevelSet<dim>& psi, int samples_per_cell) {
   return FloodFill<dim>(samples).result();
 }
 
-template Components<2> components(const LevelSet<2>&, int);
-template Components<3> components(const LevelSet<3>&, int);
+template decltype(components<2>) components<2>;
+template decltype(components<3>) components<3>;
 
 }  // namespace wheelwright

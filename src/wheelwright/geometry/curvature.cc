@@ -70,7 +70,7 @@ double mean_curvature(const LevelSet<dim>& psi, int map_degree, int cell, const 
   return (laplacian - along_normal) / length;
 }
 
-template double mean_curvature<2>(const LevelSet<2>&, int, int, const Vec<2>&);
-template double mean_curvature<3>(const LevelSet<3>&, int, int, const Vec<3>&);
+template decltype(mean_curvature<2>) mean_curvature<2>;
+template decltype(mean_curvature<3>) mean_curvature<3>;
 
 }  // namespace wheelwright

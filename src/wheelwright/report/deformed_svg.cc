@@ -194,8 +194,8 @@ std::string deformed_document(const DeformedPicture<dim>& picture, const std::st
          notes + "</svg>\n";
 }
 
-template std::string facts(const DeformedPicture<2>&);
-template std::string facts(const DeformedPicture<3>&);
+template decltype(facts<2>) facts<2>;
+template decltype(facts<3>) facts<3>;
 template decltype(deformed_document<2>) deformed_document<2>;
 template decltype(deformed_document<3>) deformed_document<3>;
 

@@ -80,17 +80,11 @@ Expected<TaylorTest> taylor_test(
   return Failure{FailureReason::unsupported_model, "there is no function named " + std::string(name)};
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                   \
-  template double directional_derivative(const std::vector<SurfaceSample<dim>>&, const LevelSet<dim>&, \
-                                         std::span<const double>, int);                                \
-  template Expected<std::vector<TaylorTest>> taylor_tests(                                             \
-      const std::function<Expected<Evaluation<dim>>(const LevelSet<dim>&)>&, const Evaluation<dim>&,   \
-      const LevelSet<dim>&, std::span<const double>, int, double, int);                                \
-  template Expected<TaylorTest> taylor_test(                                                           \
-      const std::function<Expected<Evaluation<dim>>(const LevelSet<dim>&)>&, const LevelSet<dim>&,     \
-      std::span<const double>, int, double, int, std::string_view);
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+template decltype(directional_derivative<2>) directional_derivative<2>;
+template decltype(taylor_tests<2>) taylor_tests<2>;
+template decltype(taylor_test<2>) taylor_test<2>;
+template decltype(directional_derivative<3>) directional_derivative<3>;
+template decltype(taylor_tests<3>) taylor_tests<3>;
+template decltype(taylor_test<3>) taylor_test<3>;
 
 }  // namespace wheelwright

@@ -224,9 +224,9 @@ std::string loaded_json(const BoardView<dim>& view, int load_case, int position)
   return text + "\"fields\":" + loaded_wheel(solved(shape, load_case), position) + '}';
 }
 
-template std::string loaded_json(const BoardView<2>&, int, int);
-template std::string loaded_json(const BoardView<3>&, int, int);
-template std::string frame_json(const BoardView<2>&, const std::vector<CurvePoint>&, const FrameQuery&);
-template std::string frame_json(const BoardView<3>&, const std::vector<CurvePoint>&, const FrameQuery&);
+template decltype(loaded_json<2>) loaded_json<2>;
+template decltype(loaded_json<3>) loaded_json<3>;
+template decltype(frame_json<2>) frame_json<2>;
+template decltype(frame_json<3>) frame_json<3>;
 
 }  // namespace wheelwright
