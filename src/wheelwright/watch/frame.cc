@@ -169,7 +169,7 @@ Json force_curve_json(const State<dim>& state, double width) {
 }  // namespace
 
 template <int dim>
-std::string frame_json(const BoardView<dim>& view, const std::vector<CurvePoint>& curve,
+std::string frame_json(const BoardView<dim>& view, const std::vector<HistoryPoint>& curve,
                        const FrameQuery& query) {
   Json json{{"version", view.version},
             {"activity", to_string(view.activity)},
@@ -178,7 +178,7 @@ std::string frame_json(const BoardView<dim>& view, const std::vector<CurvePoint>
             {"message", view.message},
             {"is_refusal", view.is_refusal}};
   Json points = Json::array();
-  for (const CurvePoint& p : curve)
+  for (const HistoryPoint& p : curve)
     points.push_back(
         {p.shape, number(p.objective), number(p.mean_travel), number(p.run_out), p.volume_fraction});
   json["curve"] = std::move(points);
