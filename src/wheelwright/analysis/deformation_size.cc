@@ -254,14 +254,13 @@ std::string deformation_warning(const DeformationSize& size) {
       100 * small_travel);
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                               \
-  template double travel_by_thickness(const StateSolver<dim>&, const State<dim>&);                 \
-  template bool edges_overlap(const StateSolver<dim>&, const LevelSet<dim>&, const State<dim>&);   \
-  template std::optional<Failure> material_overlaps(const StateSolver<dim>&, const LevelSet<dim>&, \
-                                                    const State<dim>&);                            \
-  template DeformationSize deformation_size(const StateSolver<dim>&, const LevelSet<dim>&, const State<dim>&);
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+template decltype(travel_by_thickness<2>) travel_by_thickness<2>;
+template decltype(edges_overlap<2>) edges_overlap<2>;
+template decltype(material_overlaps<2>) material_overlaps<2>;
+template decltype(deformation_size<2>) deformation_size<2>;
+template decltype(travel_by_thickness<3>) travel_by_thickness<3>;
+template decltype(edges_overlap<3>) edges_overlap<3>;
+template decltype(material_overlaps<3>) material_overlaps<3>;
+template decltype(deformation_size<3>) deformation_size<3>;
 
 }  // namespace wheelwright

@@ -98,7 +98,7 @@ void show_on_terminal(Run<dim>& run, Detail detail) {
   run.add(std::make_unique<TerminalObserver<dim>>(progress));
 }
 
-template void show_on_terminal(Run<2>&, Detail);
-template void show_on_terminal(Run<3>&, Detail);
+template decltype(show_on_terminal<2>) show_on_terminal<2>;
+template decltype(show_on_terminal<3>) show_on_terminal<3>;
 
 }  // namespace wheelwright

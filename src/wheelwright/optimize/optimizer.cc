@@ -289,17 +289,15 @@ Outcome<dim> optimize(const ShapeOptimizer<dim>& optimizer, const LevelSet<dim>&
   return {reason, *std::move(state), {}};
 }
 
-template bool is_approaching(const OptimizerOptions&, const OptimizationState<2>&);
-template bool is_approaching(const OptimizerOptions&, const OptimizationState<3>&);
-template double next_measure(const OptimizerOptions&, const OptimizationState<2>&, double);
-template double next_measure(const OptimizerOptions&, const OptimizationState<3>&, double);
-template std::optional<StopReason> reason_to_stop(const OptimizerOptions&, const OptimizationState<2>&);
-template std::optional<StopReason> reason_to_stop(const OptimizerOptions&, const OptimizationState<3>&);
+template decltype(is_approaching<2>) is_approaching<2>;
+template decltype(is_approaching<3>) is_approaching<3>;
+template decltype(next_measure<2>) next_measure<2>;
+template decltype(next_measure<3>) next_measure<3>;
+template decltype(reason_to_stop<2>) reason_to_stop<2>;
+template decltype(reason_to_stop<3>) reason_to_stop<3>;
 template class ShapeOptimizer<2>;
 template class ShapeOptimizer<3>;
-template Outcome<2> optimize<2>(const ShapeOptimizer<2>&, const LevelSet<2>&,
-                                const ShapeOptimizer<2>::Observer&, const std::function<bool()>&);
-template Outcome<3> optimize<3>(const ShapeOptimizer<3>&, const LevelSet<3>&,
-                                const ShapeOptimizer<3>::Observer&, const std::function<bool()>&);
+template decltype(optimize<2>) optimize<2>;
+template decltype(optimize<3>) optimize<3>;
 
 }  // namespace wheelwright

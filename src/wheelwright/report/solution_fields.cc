@@ -346,27 +346,25 @@ std::vector<ContactPoint> curve_points(std::vector<ContactPoint> points) {
   return points;
 }
 
-template PositionFields<2> position_fields(const StateSolver<2>&, const State<2>&, int);
-template void for_each_position(const StateSolver<2>&, const State<2>&,
-                                const std::function<void(int, PositionFields<2>)>&);
-template std::vector<PositionFields<2>> all_position_fields(const StateSolver<2>&, const State<2>&);
-template std::vector<NamedField> named_fields(const PositionFields<2>&);
+template decltype(position_fields<2>) position_fields<2>;
+template decltype(for_each_position<2>) for_each_position<2>;
+template decltype(all_position_fields<2>) all_position_fields<2>;
+template decltype(named_fields<2>) named_fields<2>;
 template Lattice<2> displacement_lattice(const RollingModel<2>&);
-template RingField vertical_field<2>(const RingField&, double);
-template RingField stress_field(const RollingModel<2>&, const CutDomain<2>&, const RingField&);
-template RingField repeated_field(const RollingModel<2>&, const LevelSet<2>&);
-template std::vector<ContactPoint> contact_points(const StateSolver<2>&, const State<2>&);
-template std::vector<ContactPoint> curve_points<2>(std::vector<ContactPoint>);
-template PositionFields<3> position_fields(const StateSolver<3>&, const State<3>&, int);
-template void for_each_position(const StateSolver<3>&, const State<3>&,
-                                const std::function<void(int, PositionFields<3>)>&);
-template std::vector<PositionFields<3>> all_position_fields(const StateSolver<3>&, const State<3>&);
-template std::vector<NamedField> named_fields(const PositionFields<3>&);
+template decltype(vertical_field<2>) vertical_field<2>;
+template decltype(stress_field<2>) stress_field<2>;
+template decltype(repeated_field<2>) repeated_field<2>;
+template decltype(contact_points<2>) contact_points<2>;
+template decltype(curve_points<2>) curve_points<2>;
+template decltype(position_fields<3>) position_fields<3>;
+template decltype(for_each_position<3>) for_each_position<3>;
+template decltype(all_position_fields<3>) all_position_fields<3>;
+template decltype(named_fields<3>) named_fields<3>;
 template Lattice<3> displacement_lattice(const RollingModel<3>&);
-template RingField vertical_field<3>(const RingField&, double);
-template RingField stress_field(const RollingModel<3>&, const CutDomain<3>&, const RingField&);
-template RingField repeated_field(const RollingModel<3>&, const LevelSet<3>&);
-template std::vector<ContactPoint> contact_points(const StateSolver<3>&, const State<3>&);
-template std::vector<ContactPoint> curve_points<3>(std::vector<ContactPoint>);
+template decltype(vertical_field<3>) vertical_field<3>;
+template decltype(stress_field<3>) stress_field<3>;
+template decltype(repeated_field<3>) repeated_field<3>;
+template decltype(contact_points<3>) contact_points<3>;
+template decltype(curve_points<3>) curve_points<3>;
 
 }  // namespace wheelwright

@@ -513,9 +513,7 @@ Expected<TreadColumn<dim>> tread_column(const ElementTable<dim>& table, const Tr
   return column;
 }
 
-template Expected<TreadColumn<2>> tread_column(const ElementTable<2>&, const TreadGrid&, const ContactForm&,
-                                               int);
-template Expected<TreadColumn<3>> tread_column(const ElementTable<3>&, const TreadGrid&, const ContactForm&,
-                                               int);
+template decltype(tread_column<2>) tread_column<2>;
+template decltype(tread_column<3>) tread_column<3>;
 
 }  // namespace wheelwright
