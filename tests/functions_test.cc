@@ -45,8 +45,8 @@ class StressPower : public MaterialDensityIntegral<2> {
 
  private:
   /// With s^2 = 6 mu^2 (e:e - (tr e)^2 / 3) in plane strain.
-  Value at(const Voigt<2>& e, const Material& material) const override {
-    const double scale = 6 * material.mu() * material.mu() / 1e12, trace = e[0] + e[1];
+  Value at(const Voigt<2>& e, const MaterialLaw<2>& law) const override {
+    const double mu = law.isotropic()->mu(), scale = 6 * mu * mu / 1e12, trace = e[0] + e[1];
     const double square = scale * (e[0] * e[0] + e[1] * e[1] + 0.5 * e[2] * e[2] - trace * trace / 3);
     const double slope = 2 * square * scale;
     return {square * square,
@@ -60,8 +60,8 @@ class EnergyDensity : public MaterialDensityIntegral<2> {
   std::string name() const override { return "energy_density"; }
 
  private:
-  Value at(const Voigt<2>& e, const Material& material) const override {
-    const Voigt<2> sigma = stress<2>(material, e);
+  Value at(const Voigt<2>& e, const MaterialLaw<2>& law) const override {
+    const Voigt<2> sigma = stress<2>(law, e);
     return {0.5 * (sigma[0] * e[0] + sigma[1] * e[1] + sigma[2] * e[2]), sigma};
   }
 };

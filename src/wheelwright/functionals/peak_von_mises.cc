@@ -3,25 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
-#include "wheelwright/elasticity/von_mises.h"
 #include "wheelwright/state/material_integral.h"
 
 namespace wheelwright {
-namespace {
-
-/// The squared von Mises stress by the squared deviator of the strain.
-double squared_stress_factor(const Material& material) { return 6 * material.mu() * material.mu(); }
-
-}  // namespace
-
 template <int dim>
 typename VonMisesPower<dim>::Value VonMisesPower<dim>::at(const Voigt<dim>& strain,
-                                                          const Material& material) const {
-  const SquaredDeviator<dim> deviator(strain.data(), material.axial_strain_ratio());
-  const double factor = squared_stress_factor(material) / (unit * unit);
-  const double square = factor * deviator.value, slope = std::pow(square, exponent_ / 2 - 1);
-  Value value{slope * square, deviator.by_strain()};
-  for (double& x : value.by_strain) x *= exponent_ / 2 * slope * factor;
+                                                          const MaterialLaw<dim>& law) const {
+  double square = 0;
+  Value value;
+  law.squared_von_mises(one_point<dim>(strain), {&square, 1});
+  law.squared_von_mises_slope(one_point<dim>(strain), one_point<dim>(value.by_strain));
+  square /= unit * unit;
+  const double slope = std::pow(square, exponent_ / 2 - 1);
+  value.density = slope * square;
+  for (double& x : value.by_strain) x *= exponent_ / 2 * slope / (unit * unit);
   return value;
 }
 
@@ -42,13 +37,14 @@ FunctionalValue<dim> PeakVonMises<dim>::evaluate(const StateSolver<dim>& solver,
   constexpr double unit = VonMisesPower<dim>::unit;
   const int n = state.positions().size();
   std::vector<double> integrals(n, 0.0), squared_peaks(n, 0.0);
-  for_each_strain<dim>(solver, state, power_,
-                       [&](int position, double weight, const Material& material, const Voigt<dim>& strain) {
-                         const SquaredDeviator<dim> deviator(strain.data(), material.axial_strain_ratio());
-                         const double square = squared_stress_factor(material) * deviator.value;
-                         squared_peaks[position] = std::max(squared_peaks[position], square);
-                         integrals[position] += weight * std::pow(square / (unit * unit), norm_.exponent / 2);
-                       });
+  for_each_strain<dim>(
+      solver, state, power_,
+      [&](int position, double weight, const MaterialLaw<dim>& law, const Voigt<dim>& strain) {
+        double square = 0;
+        law.squared_von_mises(one_point<dim>(strain), {&square, 1});
+        squared_peaks[position] = std::max(squared_peaks[position], square);
+        integrals[position] += weight * std::pow(square / (unit * unit), norm_.exponent / 2);
+      });
   FunctionalValue<dim> value;
   std::vector<double> factors;
   for (int i = 0; i < n; ++i) {

@@ -19,7 +19,7 @@ class VonMisesPower : public MaterialDensity<dim> {
   /// `exponent`: p, even; `from_tread`: the distance [m], 0 for all rows.
   VonMisesPower(int exponent, double from_tread) : exponent_(exponent), from_tread_(from_tread) {}
 
-  Value at(const Voigt<dim>& strain, const Material& material) const override;
+  Value at(const Voigt<dim>& strain, const MaterialLaw<dim>& law) const override;
   bool covers(const PolarGrid<dim>& grid, int row) const override;
 
  private:

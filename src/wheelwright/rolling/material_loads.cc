@@ -10,7 +10,7 @@ namespace {
 
 /// The loads on one cell's dofs, one column per load case.
 template <int dim>
-Matrix cell_loads(const ElasticElement<dim>& element, const Material& material, const Matrix& strains,
+Matrix cell_loads(const ElasticElement<dim>& element, const MaterialLaw<dim>& law, const Matrix& strains,
                   std::span<const ReferencePoint<dim>> points, int n_sectors,
                   std::span<const typename FunctionalDerivative<dim>::Integral> integrals) {
   std::vector<typename ElasticElement<dim>::Point> at;
@@ -19,7 +19,7 @@ Matrix cell_loads(const ElasticElement<dim>& element, const Material& material, 
   for_each_strain<dim>(strains, [&](int load_case, int q, const Voigt<dim>& strain) {
     Voigt<dim> stress{};
     for (const auto& [density, factors] : integrals) {
-      const Voigt<dim> by_strain = density->at(strain, material).by_strain;
+      const Voigt<dim> by_strain = density->at(strain, law).by_strain;
       for (int k = 0; k < n_strains<dim>; ++k) stress[k] += factors[load_case / n_sectors] * by_strain[k];
     }
     const double weight = points[q].weight * at[q].determinant;

@@ -36,7 +36,7 @@ KnownNumber clearance(Quantity quantity, const LevelSet<dim>& shape) {
 template <int dim>
 KnownNumber computed(Quantity quantity, const StateSolver<dim>& solver, const LevelSet<dim>& shape,
                      const State<dim>& solution) {
-  const QuantityParameters parameters{.density = solver.model().materials.at_tread().density.value_or(0)};
+  const QuantityParameters parameters{.density = solver.model().materials.at_tread().density().value_or(0)};
   const auto functional = quantity_functional<dim>(quantity, usual_positions(quantity), parameters);
   if (!functional) return std::string("runs do not compute it");
   const FunctionalValue<dim> value = functional->evaluate(solver, shape, solution, {});

@@ -20,7 +20,7 @@ class MaterialDensity {
     double density;        ///< M [of the function per m^2, or per m^3 when dim = 3]
     Voigt<dim> by_strain;  ///< dM/d(eps), with respect to engineering shear strains
   };
-  virtual Value at(const Voigt<dim>& strain, const Material& material) const = 0;
+  virtual Value at(const Voigt<dim>& strain, const MaterialLaw<dim>& law) const = 0;
 
   /// Whether it counts in a radial row of cells, the first of them at the rim.
   virtual bool covers(const PolarGrid<dim>&, int) const { return true; }

@@ -21,10 +21,10 @@ void for_each_strain(const StateSolver<dim>& solver, const State<dim>& state,
           weights.push_back(point.weight *
                             determinant<dim>(map.jacobian(ShapeFunctions<dim>(model.degree, point.xi))));
         }
-        const Material& material = model.materials.in_row(place[0]);
+        const MaterialLaw<dim>& law = model.materials.in_row(place[0]);
         for_each_strain<dim>(displacement.strains(cell, xi),
                              [&](int load_case, int q, const Voigt<dim>& strain) {
-                               visit(load_case / model.grid.n_sectors, weights[q], material, strain);
+                               visit(load_case / model.grid.n_sectors, weights[q], law, strain);
                              });
       });
 }
@@ -33,10 +33,11 @@ template <int dim>
 std::vector<double> material_integral(const StateSolver<dim>& solver, const State<dim>& state,
                                       const MaterialDensity<dim>& density) {
   std::vector<double> integrals(state.positions().size(), 0.0);
-  for_each_strain<dim>(solver, state, density,
-                       [&](int position, double weight, const Material& material, const Voigt<dim>& strain) {
-                         integrals[position] += weight * density.at(strain, material).density;
-                       });
+  for_each_strain<dim>(
+      solver, state, density,
+      [&](int position, double weight, const MaterialLaw<dim>& law, const Voigt<dim>& strain) {
+        integrals[position] += weight * density.at(strain, law).density;
+      });
   return integrals;
 }
 

@@ -10,10 +10,10 @@ template <int dim>
 std::vector<double> material_integral(const StateSolver<dim>& solver, const State<dim>& state,
                                       const MaterialDensity<dim>& density);
 
-/// Calls visit(position, weight [m^2, or m^3 when dim = 3], material, strain) for every point of the same
+/// Calls visit(position, weight [m^2, or m^3 when dim = 3], law, strain) for every point of the same
 /// quadrature in the rows of cells that the density covers, in all sectors.
 template <int dim>
-using StrainVisitor = std::function<void(int, double, const Material&, const Voigt<dim>&)>;
+using StrainVisitor = std::function<void(int, double, const MaterialLaw<dim>&, const Voigt<dim>&)>;
 template <int dim>
 void for_each_strain(const StateSolver<dim>& solver, const State<dim>& state,
                      const MaterialDensity<dim>& covered, const StrainVisitor<dim>& visit);

@@ -25,9 +25,10 @@ double work_on_small_hole(const Material& material, const Voigt<dim>& strain_u, 
 
 /// The integrand falls as the fourth power of the distance r: with t = 1 / r^2 it is smooth, and so it is in
 /// the angle, of which half a turn is enough.
-double removed_density(const MaterialDensity<2>& density, const Material& material, const Voigt<2>& strain) {
+double removed_density(const MaterialDensity<2>& density, const MaterialLaw<2>& law, const Voigt<2>& strain) {
   constexpr int n_radii = 8, n_angles = 32;
-  const auto [value, slope] = density.at(strain, material);
+  const Material& material = *law.isotropic();
+  const auto [value, slope] = density.at(strain, law);
   const auto [points, weights] = gauss_rule(n_radii);
   double sum = 0;
   for (int q = 0; q < n_radii; ++q)
@@ -36,8 +37,7 @@ double removed_density(const MaterialDensity<2>& density, const Material& materi
       const Voigt<2> added = strain_around_hole(material, strain, {r * std::cos(angle), r * std::sin(angle)});
       Voigt<2> all = strain;
       for (int i = 0; i < n_strains<2>; ++i) all[i] += added[i];
-      sum += weights[q] / (t * t * n_angles) *
-             (density.at(all, material).density - value - product(slope, added));
+      sum += weights[q] / (t * t * n_angles) * (density.at(all, law).density - value - product(slope, added));
     }
   Voigt<2> opening = strain_of_hole<2>(material, strain);
   for (int i = 0; i < n_strains<2>; ++i) opening[i] -= strain[i];
