@@ -19,7 +19,7 @@ using testing::holes;
 using testing::paper_model;
 
 /// Half of sigma:eps.
-class EnergyDensity : public MaterialDensity<2> {
+class EnergyDensity : public DensityOfStrain<2> {
  public:
   Value at(const Voigt<2>& e, const MaterialLaw<2>& law) const override {
     const Voigt<2> sigma = stress<2>(law, e);
@@ -96,9 +96,10 @@ TEST(SmallHole, OfThreeDimensionsStretchesAsLamesAndGoodiersCavity) {
 TEST(TopologicalDerivative, OfTheEnergyAsADensityIsKnown) {
   for (const Material& material : {some, thin}) {
     const Voigt<2> sigma = stress<2>(material, some_strain), hole = strain_of_hole<2>(material, some_strain);
-    const double expected = -0.5 * product(sigma, hole);
-    EXPECT_NEAR(removed_density(EnergyDensity(), IsotropicLaw<2>(material), some_strain), expected,
-                1e-9 * std::abs(expected));
+    const double expected = -0.5 * product(sigma, hole), one[] = {1};
+    EXPECT_NEAR(
+        removed_density(EnergyDensity(), {one_strain<2>(some_strain), 1, IsotropicLaw<2>(material)}, one),
+        expected, 1e-9 * std::abs(expected));
   }
 }
 

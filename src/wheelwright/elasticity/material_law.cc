@@ -15,7 +15,7 @@ Matrix tangent_at(const MaterialLaw<dim>& law, const Voigt<dim>& strain) {
   TangentRows<dim> rows;
   for (int k = 0; k < n_strains<dim>; ++k)
     for (int l = 0; l < n_strains<dim>; ++l) rows[k][l] = {&result(k, l), 1};
-  law.tangent(one_point<dim>(strain), rows);
+  law.tangent(one_strain<dim>(strain), rows);
   return result;
 }
 
@@ -40,7 +40,7 @@ std::optional<std::string> fault_of_linear_law(const MaterialLaw<dim>& law) {
     strain[l] = 1;
     const Voigt<dim> sigma = stress<dim>(law, strain);
     double energy = 0;
-    law.energy_density(one_point<dim>(strain), {&energy, 1});
+    law.energy_density(one_strain<dim>(strain), {&energy, 1});
     for (int k = 0; k < n_strains<dim>; ++k) {
       if (differ(d(k, l), d(l, k))) return "its tangent is not symmetric";
       if (differ(sigma[k], d(k, l))) return "its stress is not its tangent times the strain";

@@ -64,7 +64,7 @@ class MaterialLaw {
 template <int dim>
 Voigt<dim> stress(const MaterialLaw<dim>& law, const Voigt<dim>& strain) {
   Voigt<dim> result;
-  law.stress(one_point<dim>(strain), one_point<dim>(result));
+  law.stress(one_strain<dim>(strain), one_stress<dim>(result));
   return result;
 }
 

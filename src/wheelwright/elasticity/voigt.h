@@ -27,15 +27,15 @@ using StressRows = std::array<std::span<double>, n_strains<dim>>;
 template <int dim>
 using TangentRows = std::array<StressRows<dim>, n_strains<dim>>;
 
-/// A block of one point.
+/// Blocks of one point.
 template <int dim>
-StrainRows<dim> one_point(const Voigt<dim>& strain) {
+StrainRows<dim> one_strain(const Voigt<dim>& strain) {
   StrainRows<dim> rows;
   for (int k = 0; k < n_strains<dim>; ++k) rows[k] = {&strain[k], 1};
   return rows;
 }
 template <int dim>
-StressRows<dim> one_point(Voigt<dim>& stress) {
+StressRows<dim> one_stress(Voigt<dim>& stress) {
   StressRows<dim> rows;
   for (int k = 0; k < n_strains<dim>; ++k) rows[k] = {&stress[k], 1};
   return rows;

@@ -95,7 +95,7 @@ std::array<double, 6> in_body_frame(const Voigt<3>& s, const Direction& axis, do
 template <int dim>
 double axial_stress(const MaterialLaw<dim>& law, const Voigt<dim>& strain) {
   double stress = 0, ignored = 0;
-  if (dim == 2) law.along_axle(one_point<dim>(strain), {&stress, 1}, {&ignored, 1});
+  if (dim == 2) law.along_axle(one_strain<dim>(strain), {&stress, 1}, {&ignored, 1});
   return stress;
 }
 

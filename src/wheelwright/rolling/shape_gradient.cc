@@ -101,19 +101,16 @@ std::vector<CellBoundary<dim>> cells_of(const RollingSolution<dim>& s, const Cut
   return cells;
 }
 
-/// sum over the load cases of m_j factor_i M(u_j), from the strains of all load cases at one point (one row
-/// per component, one column per case).
+/// sum over the load cases of m_j factor_i M(u_j) at one point.
 template <int dim>
-double integrand(const RollingSolution<dim>& s, const MaterialLaw<dim>& law, const Matrix& strains,
-                 int first_row, std::span<const typename FunctionalDerivative<dim>::Integral> integrals) {
-  const int n_sectors = s.ring.n_sectors();
+double integrand(const RollingSolution<dim>& s, const StrainsAtPoint<dim>& point,
+                 std::span<const typename FunctionalDerivative<dim>::Integral> integrals) {
+  std::vector<double> values(point.n_cases());
   double sum = 0;
-  for (int j = 0; j < strains.columns(); ++j) {
-    Voigt<dim> strain;
-    std::copy_n(strains.column(j) + first_row, n_strains<dim>, strain.begin());
-    for (const auto& [density, factors] : integrals)
-      sum += s.positions.multiplicities[j / n_sectors] * factors[j / n_sectors] *
-             density->at(strain, law).density;
+  for (const auto& [density, factors] : integrals) {
+    density->densities(point, values);
+    for (int j = 0; j < point.n_cases(); ++j)
+      sum += s.positions.multiplicities[j / point.n_sectors] * factors[j / point.n_sectors] * values[j];
   }
   return sum;
 }
@@ -226,9 +223,10 @@ class Densities {
   void add_integrands(std::span<const typename FunctionalDerivative<dim>::Integral> integrals,
                       const MaterialLaw<dim>& law, const Matrix& strain_u,
                       std::vector<double>& densities) const {
-    const Matrix of_cases = product(strain_u, Op::transpose, s_.displacement.weights, Op::transpose);
-    for (size_t q = 0; q < densities.size(); ++q)
-      densities[q] += integrand<dim>(s_, law, of_cases, n_strains<dim> * static_cast<int>(q), integrals);
+    const Matrix of_cases = product(s_.displacement.weights, Op::none, strain_u, Op::none);
+    for (int q = 0; q < static_cast<int>(densities.size()); ++q)
+      densities[q] += integrand<dim>(
+          s_, {strain_columns<dim>(of_cases, n_strains<dim> * q), s_.ring.n_sectors(), law}, integrals);
   }
 
   const RollingProblem<dim>& problem_;

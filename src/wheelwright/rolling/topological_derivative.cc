@@ -68,14 +68,18 @@ class Derivatives {
                       const MaterialLaw<dim>& law, const Matrix& strain_u, int row) const {
     const auto integrals = integrals_in_row<dim>(all, problem_.model().grid, row);
     if (integrals.empty()) return 0;
-    const Matrix of_cases = product(strain_u, Op::none, displacement_.weights, Op::transpose);
-    const int n_sectors = s_.ring.n_sectors();
     double sum = 0;
-    if constexpr (dim == 2)
-      for (int j = 0; j < of_cases.columns(); ++j)
-        for (const auto& [density, factors] : integrals)
-          sum += s_.positions.multiplicities[j / n_sectors] * factors[j / n_sectors] *
-                 removed_density(*density, law, voigt<dim>(of_cases, j));
+    if constexpr (dim == 2) {
+      const Matrix of_cases = product(displacement_.weights, Op::none, strain_u, Op::transpose);
+      const int n_sectors = s_.ring.n_sectors();
+      const StrainsAtPoint<2> point{strain_columns<2>(of_cases, 0), n_sectors, law};
+      for (const auto& [density, factors] : integrals) {
+        std::vector<double> of_case;
+        for (int j = 0; j < point.n_cases(); ++j)
+          of_case.push_back(s_.positions.multiplicities[j / n_sectors] * factors[j / n_sectors]);
+        sum += removed_density(*density, point, of_case);
+      }
+    }
     return sum;
   }
 
