@@ -437,7 +437,7 @@ class ColumnAssembly {
     for (const auto& q : volume_rule_) {
       auto at = cell.element.at(q.xi);
       const double weight = q.weight * at.determinant;
-      if (rows_.has_spin) add_spin(cell, at, weight * cell.law.density.value_or(0));
+      if (rows_.has_spin) add_spin(cell, at, weight * cell.law.density().value_or(0));
       for (auto& component : at.displacement)
         for (double& value : component) value *= weight;
       add_rows<dim>(at.displacement, cell.nodes, rows_.integral(), cell.angle, column_.observation);
