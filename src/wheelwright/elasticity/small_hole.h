@@ -1,5 +1,6 @@
 #pragma once
 
+#include "wheelwright/base/vec.h"
 #include "wheelwright/elasticity/isotropic_law.h"
 
 namespace wheelwright {
