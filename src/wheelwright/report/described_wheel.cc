@@ -32,7 +32,7 @@ double first_harmonic(const std::vector<double>& values) {
 template <int dim>
 std::optional<double> mass(const StateSolver<dim>& solver, double volume_fraction) {
   const RollingModel<dim>& model = solver.model();
-  const std::optional<double> density = model.materials.at_tread().density;
+  const std::optional<double> density = model.materials.at_tread().density();
   if (!density) return {};
   const PolarGrid<dim>& grid = model.grid;
   const double area =

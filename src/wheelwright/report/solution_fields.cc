@@ -75,10 +75,10 @@ struct Direction {
 };
 
 /// A stress, given in a frame whose first axis points in this direction, as components in the body frame.
-std::array<double, 4> in_body_frame(const Voigt<2>& s, const Direction& axis, double axial_stress_ratio) {
+std::array<double, 4> in_body_frame(const Voigt<2>& s, const Direction& axis, double axial_stress) {
   const auto [c, d] = axis;
   return {c * c * s[0] + d * d * s[1] - 2 * c * d * s[2], d * d * s[0] + c * c * s[1] + 2 * c * d * s[2],
-          axial_stress_ratio * (s[0] + s[1]), c * d * (s[0] - s[1]) + (c * c - d * d) * s[2]};
+          axial_stress, c * d * (s[0] - s[1]) + (c * c - d * d) * s[2]};
 }
 
 std::array<double, 6> in_body_frame(const Voigt<3>& s, const Direction& axis, double) {
@@ -89,6 +89,14 @@ std::array<double, 6> in_body_frame(const Voigt<3>& s, const Direction& axis, do
           c * d * (s[0] - s[1]) + (c * c - d * d) * s[5],
           d * s[4] + c * s[3],
           c * s[4] - d * s[3]};
+}
+
+/// The normal stress along the axle in addition to the components in the model's dimension.
+template <int dim>
+double axial_stress(const MaterialLaw<dim>& law, const Voigt<dim>& strain) {
+  double stress = 0, ignored = 0;
+  if (dim == 2) law.along_axle(one_strain<dim>(strain), {&stress, 1}, {&ignored, 1});
+  return stress;
 }
 
 /// A cell with material and its column round the ring.
@@ -132,8 +140,8 @@ RingField stress_field(const RollingModel<dim>& model, const CutDomain<dim>& dom
     of_column.push_back({std::cos(azimuth), std::sin(azimuth)});
   }
   for (int row = 0; row < grid.cells[0]; ++row) {
-    const Material& material = model.materials.in_row(row);
-    const ElasticElement<dim> element(grid, model.degree, {row}, material);
+    const MaterialLaw<dim>& law = model.materials.in_row(row);
+    const ElasticElement<dim> element(grid, model.degree, {row}, law);
     const std::vector<RingCell<dim>> cells = active_cells(lattice, domain, row);
     Matrix dofs(element.n_dofs(), static_cast<int>(cells.size()));
     for (size_t c = 0; c < cells.size(); ++c)
@@ -145,8 +153,8 @@ RingField stress_field(const RollingModel<dim>& model, const CutDomain<dim>& dom
       for (const size_t node : std::span(cells[c].nodes).first(element.n_nodes())) {
         Voigt<dim> at_point;
         std::copy_n(strain, n_strains<dim>, at_point.begin());
-        const auto at_node = in_body_frame(stress<dim>(material, at_point), of_column[cells[c].column],
-                                           material.axial_stress_ratio());
+        const auto at_node = in_body_frame(stress<dim>(law, at_point), of_column[cells[c].column],
+                                           axial_stress<dim>(law, at_point));
         for (int k = 0; k < components; ++k) sum[node][k] += at_node[k];
         ++count[node];
         strain += n_strains<dim>;
