@@ -65,7 +65,7 @@ class TerminalObserver : public Observer<dim> {
       const DescribedWheel<dim>& wheel = ended.summary->after.wheel;
       if (wheel.loaded) warn(run, "last shape", deformation_warning(wheel.loaded->summary.deformation));
       if (wheel.outline)
-        for (const std::string& warning : feature_warnings(run.study.source, wheel.outline->clearances))
+        for (const std::string& warning : feature_warnings(run.study.source, *wheel.outline))
           warn(run, "last shape", warning);
       warn(run, "last shape",
            roughness_warning(run.study.source, roughness(wheel), roughness(ended.summary->before.wheel)));

@@ -201,6 +201,7 @@ Json run_json(const ReportRun<dim>& run) {
             {"events", std::move(events)},
             {"events_omitted", run.events_omitted},
             {"flags", run.flags},
+            {"has_rough_edges", run.has_rough_edges},
             {"limits", run.limits},
             {"history", std::move(history)},
             {"outline_units", outline_units},
