@@ -247,8 +247,9 @@ TEST(CaseFile, AResolvedCaseReadsBackEqual) {
   c.optimizer.rim_band = 0.006;
   c.optimizer.tread_band = 0.011;
   c.output.pictures_every = 3;
-  c.expectations = {{.quantity = Quantity::uniformity_dual, .value = 1.0 / 3, .margin = 0.2, .iteration = 0},
-                    {.quantity = Quantity::peak_von_mises, .value = 2e6, .iteration = {}}};
+  c.expectations = {
+      {.quantity = built_in("uniformity_dual"), .value = 1.0 / 3, .margin = 0.2, .iteration = 0},
+      {.quantity = built_in("peak_von_mises"), .value = 2e6, .iteration = {}}};
   const CaseResult result = parse_case(to_toml(c), "resolved.toml");
   ASSERT_TRUE(result.value) << texts(result.problems);
   EXPECT_EQ(*result.value, c);

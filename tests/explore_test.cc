@@ -381,8 +381,8 @@ TEST_F(Exploration, IsTheSameForAnyNumberOfThreadsAndAfterAStop) {
 TEST_F(Exploration, OfMinimumMassRanksFeasibleDesignsFirst) {
   Case lightest = small;
   lightest.material.density = 1100;
-  lightest.objective.minimize = Quantity::mass;
-  lightest.constraints = {{.quantity = Quantity::stiffness, .at_least = 40e6}};
+  lightest.objective.minimize = built_in("mass");
+  lightest.constraints = {{.quantity = built_in("stiffness"), .at_least = 40e6}};
   lightest.optimizer.iterations = 20;
   const std::vector<RankedQuantity> asked{*find_quantity("mass"), *find_quantity("run_out")};
   const auto designs =

@@ -32,7 +32,7 @@ LoadCases<2> two_loads() {
   drive.torque = 200;
   drive.tread.observes_spin = true;
   drive.cut_points = 6;  // the derivative of an integral over cut cells is exact up to their quadrature
-  Material material = drive.materials.at_tread();
+  Material material = *drive.materials.at_tread().isotropic();
   material.density = 1200;
   drive.materials = material;
   RollingModel<2> kerb = drive;
@@ -217,7 +217,7 @@ TEST(LoadCases, ConstraintsApplyToOneOrAll) {
               1e-12);
   // The contact stiffens under more load, and the first measure is that of the first load.
   EXPECT_GT(e.function("stiffness in kerb").value, 1.02 * e.function("stiffness").value);
-  EXPECT_EQ(quantity_of("peak_pressure worst in kerb"), Quantity::peak_pressure);
+  EXPECT_EQ(e.function("peak_pressure worst in kerb").unit, UnitKind::stress);
 }
 
 TEST(LoadCases, SingleOneEqualsThatLoad) {

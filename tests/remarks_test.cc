@@ -109,8 +109,9 @@ TEST(Remarks, SuggestBoundsThatTheProgramAccepts) {
       const Constraint& bound = bounded.constraints.front();
       EXPECT_EQ(bound.load_case, load_case);
       const double factor =
-          bound.quantity == Quantity::stiffness || bound.quantity == Quantity::force_variation ? c.wheel.width
-                                                                                               : 1;
+          bound.quantity == built_in("stiffness") || bound.quantity == built_in("force_variation")
+              ? c.wheel.width
+              : 1;
       const double value = factor * bound.at_least.value_or(bound.at_most.value_or(0));
       const double side = bound.at_least ? -1 : 1;
       EXPECT_GE(side * value, (side - 1e-12) * remark.before) << remark.constraint;

@@ -276,6 +276,8 @@ class Page(Browser, unittest.TestCase):
             for number in numbers:
                 self.assertTrue(any(abs(f - number) <= 1e-4 * abs(number) + 0.005 * (question == "change")
                                     for f in found), (question, text, number))
+        is_rough = after["roughness_turns"] > 0.9
+        self.assertTrue(self.text("run0-edges").startswith("No" if is_rough else "Yes"))
         self.assertIn("remark", self.text("run0-trust"))  # four shapes do not converge
 
     def trials(self):

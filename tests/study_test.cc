@@ -65,9 +65,9 @@ void expect_common_keys(const RollingModel<dim>& model, const Case& c) {
   EXPECT_EQ(model.grid.cells[0], 16);
   EXPECT_EQ(model.grid.cells[1], 13);
   EXPECT_EQ(model.degree, 1);
-  EXPECT_EQ(model.materials.at_tread().youngs_modulus, 3e6);
-  EXPECT_EQ(model.materials.at_tread().poissons_ratio, 0.31);
-  EXPECT_EQ(model.materials.at_tread().plane, Plane::stress);
+  EXPECT_EQ(model.materials.at_tread().isotropic()->youngs_modulus, 3e6);
+  EXPECT_EQ(model.materials.at_tread().isotropic()->poissons_ratio, 0.31);
+  EXPECT_EQ(model.materials.at_tread().isotropic()->plane, Plane::stress);
   EXPECT_EQ(model.ghost.kind, c.ghost_penalty.kind);
   EXPECT_EQ(model.ghost.xi, 0.37);
   EXPECT_EQ(model.contact.method, ContactMethod::nitsche);
@@ -186,9 +186,9 @@ TEST(LoopOfACase, TheVelocityFollowsFromMethodAndDimension) {
   c.constraints.resize(1);
   expect(c, DeformationKind::normal_speed, 2);
   c.constraints.clear();
-  c.objective.minimize = Quantity::mass;
+  c.objective.minimize = built_in("mass");
   expect(c, DeformationKind::normal_speed, 2);
-  c.objective.minimize = Quantity::objective;
+  c.objective.minimize = built_in("objective");
   c.wheel.dimension = 3;
   expect(c, DeformationKind::normal_speed, 2);
   c.optimizer.velocity = VelocityKind::vector;
@@ -234,9 +234,9 @@ TEST(ObjectiveOfACase, IsTheWeightedSumOfItsFunctionals) {
   double sum = 0;
   for (const auto& value : e.terms)
     if (value.name != "volume")
-      sum += value.value * (value.name == name(Quantity::strain_energy)     ? 2
-                            : value.name == name(Quantity::uniformity_dual) ? 30
-                                                                            : 5);
+      sum += value.value * (value.name == name(built_in("strain_energy"))     ? 2
+                            : value.name == name(built_in("uniformity_dual")) ? 30
+                                                                              : 5);
   EXPECT_NEAR(e.function("objective").value, sum, 1e-13 * sum);
   ASSERT_TRUE(evaluated->state);
   EXPECT_EQ(evaluated->state->positions().size(), 5);
@@ -255,7 +255,7 @@ TEST(ObjectiveOfACase, MatchesTheAnnulusWithTheDualTerm) {
   const auto evaluated = evaluate_of(*study)(study->initial, nullptr);
   ASSERT_TRUE(evaluated) << evaluated.failure().detail;
   const Evaluation<2>& e = evaluated->evaluation;
-  const auto dual = std::ranges::find(e.terms, name(Quantity::uniformity_dual), &TermValue::name);
+  const auto dual = std::ranges::find(e.terms, name(built_in("uniformity_dual")), &TermValue::name);
   ASSERT_NE(dual, e.terms.end());
   ASSERT_GT(dual->value, 0);
   EXPECT_NEAR(e.function("objective").value, (0.7 + 23) * dual->value, 1e-10 * dual->value);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "wheelwright/base/quantity.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/shown_value.h"
 #include "wheelwright/case/write.h"
@@ -18,6 +17,8 @@ TEST(UnitText, DecimalsAreConvertedWithoutRounding) {
   EXPECT_EQ(converted({12.7, "mm"}, "m"), 0.0127);
   EXPECT_EQ(converted({30, "km/h"}, "m/s"), 30 / 3.6);
   EXPECT_EQ(converted({25, "MPa"}, "Pa"), 25e6);
+  EXPECT_EQ(converted({1.1, "g/cm3"}, "kg/m^3"), 1100);
+  EXPECT_EQ(converted({2, "N/mm2"}, "Pa"), 2e6);
   EXPECT_FALSE(converted({25, "MPa"}, "m"));
   EXPECT_FALSE(converted({25, "furlong"}, "m"));
   EXPECT_FALSE(value_with_unit("25"));
@@ -39,17 +40,17 @@ TEST(UnitText, ACaseWithUnitsIsThatInItsOwnUnits) {
 
 TEST(UnitText, DisplayedValuesReadBackExactly) {
   for (const int dimension : {2, 3})
-    for (const QuantityDescription& quantity : quantity_descriptions) {
+    for (const Quantity& quantity : Quantities()) {
       Wheel wheel;
       wheel.dimension = dimension;
       wheel.width = 0.04;
       const double value = 1.25;
       const auto shown =
-          value_with_unit(shown_text(value, shown_unit(quantity.kind, wheel.dimension, wheel.width)));
-      ASSERT_TRUE(shown) << quantity.name;
-      const auto again = in_file_unit(*shown, quantity.kind, dimension, wheel.width);
-      ASSERT_TRUE(again) << quantity.name << " " << shown->unit;
-      EXPECT_NEAR(*again, value, 1e-5 * value) << quantity.name;
+          value_with_unit(shown_text(value, shown_unit(kind(quantity), wheel.dimension, wheel.width)));
+      ASSERT_TRUE(shown) << name(quantity);
+      const auto again = in_file_unit(*shown, kind(quantity), dimension, wheel.width);
+      ASSERT_TRUE(again) << name(quantity) << " " << shown->unit;
+      EXPECT_NEAR(*again, value, 1e-5 * value) << name(quantity);
     }
 }
 

@@ -2,10 +2,10 @@
 
 #include <array>
 #include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "wheelwright/base/quantity.h"
 #include "wheelwright/state/contact_patch.h"
 
 namespace wheelwright {
@@ -54,12 +54,12 @@ struct RollingMeasures {
   double pressure_spread;  ///< of the positions' peaks: (maximum - minimum) / mean
 };
 
-/// Which quantity each of them is: what history.csv records in this order.
-inline constexpr std::array<std::pair<Quantity, double RollingMeasures::*>, 4> rolling_quantities{
-    {{Quantity::mean_travel, &RollingMeasures::mean_travel},
-     {Quantity::run_out, &RollingMeasures::run_out},
-     {Quantity::peak_pressure, &RollingMeasures::peak_pressure},
-     {Quantity::pressure_spread, &RollingMeasures::pressure_spread}}};
+/// The name of the quantity that each of them is: what history.csv records in this order.
+inline constexpr std::array<std::pair<std::string_view, double RollingMeasures::*>, 4> rolling_quantities{
+    {{"mean_travel", &RollingMeasures::mean_travel},
+     {"run_out", &RollingMeasures::run_out},
+     {"peak_pressure", &RollingMeasures::peak_pressure},
+     {"pressure_spread", &RollingMeasures::pressure_spread}}};
 
 RollingMeasures rolling_measures(std::span<const ContactSummary> positions);
 

@@ -53,16 +53,11 @@ std::string content(const fs::path& file) {
 }
 
 /// The ranked quantity that corresponds to the minimized one.
-std::string_view word_of_minimized(Quantity minimized) {
-  switch (minimized) {
-    case Quantity::volume_fraction:
-      return "mass";
-    case Quantity::peak_von_mises:
-    case Quantity::peak_von_mises_inside:
-      return "peak_stress";
-    default:
-      return find_quantity(name(minimized)) ? name(minimized) : "stiffness";
-  }
+std::string_view word_of_minimized(const Quantity& minimized) {
+  if (minimized == built_in("volume_fraction")) return "mass";
+  if (minimized == built_in("peak_von_mises") || minimized == built_in("peak_von_mises_inside"))
+    return "peak_stress";
+  return find_quantity(name(minimized)) ? std::string_view(name(minimized)) : "stiffness";
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ void TrialLog<dim>::operator()(const Event<dim>& event, const RunView<dim>& run)
 template <int dim>
 void TrialLog<dim>::begin(const Study<dim>& study) {
   const WeightedSum<dim>& terms = study.objective().terms;
-  for (const auto& [weight, functional, load_case] : terms)
+  for (const auto& [weight, functional, load_case, _] : terms)
     if (terms.size() > 1)
       progress_->note(fmt::format("objective: {:.6g} * {}", weight,
                                   name_in_case(functional->name(), study.load_cases, load_case)));

@@ -11,6 +11,7 @@ enum class UnitKind {
   stress,
   ratio,
   mass,
+  volume,
   stiffness,
   torsional_stiffness,
   turns
@@ -35,6 +36,8 @@ constexpr const char* unit(UnitKind kind) {
       return "-";
     case UnitKind::mass:
       return dim == 2 ? "kg/m" : "kg";
+    case UnitKind::volume:
+      return dim == 2 ? "m^2" : "m^3";
     case UnitKind::stiffness:
       return dim == 2 ? "N/m^2" : "N/m";
     case UnitKind::torsional_stiffness:
@@ -57,6 +60,29 @@ constexpr double whole_width(int dimension, double width) { return dimension == 
 constexpr bool is_per_width(UnitKind kind) {
   return kind != UnitKind::length && kind != UnitKind::stress && kind != UnitKind::ratio &&
          kind != UnitKind::turns;
+}
+
+/// What the keys of numbers of this kind on the whole width end with, e.g. "N_per_m"; empty for ratios.
+/// Energies are those of one metre of width in 2D.
+constexpr const char* unit_in_key(UnitKind kind, int dimension) {
+  switch (kind) {
+    case UnitKind::energy:
+      return dimension == 2 ? "J_per_m" : "J";
+    case UnitKind::torque:
+      return "N_m";
+    case UnitKind::ratio:
+      return "";
+    case UnitKind::volume:
+      return "m3";
+    case UnitKind::stiffness:
+      return "N_per_m";
+    case UnitKind::torsional_stiffness:
+      return "N_m_per_rad";
+    case UnitKind::turns:
+      return "turns";
+    default:
+      return unit(kind, 3);
+  }
 }
 
 /// The unit in which people read a number.

@@ -8,13 +8,13 @@
 #include <variant>
 #include <vector>
 
-#include "wheelwright/base/quantity.h"
 #include "wheelwright/drawing/fill.h"
 #include "wheelwright/elasticity/contact_form.h"
 #include "wheelwright/elasticity/dual_norm.h"
 #include "wheelwright/elasticity/ghost_penalty.h"
 #include "wheelwright/elasticity/material.h"
 #include "wheelwright/elasticity/side_faces.h"
+#include "wheelwright/functionals/quantities.h"
 #include "wheelwright/geometry/level_set.h"
 
 namespace wheelwright {
@@ -288,7 +288,7 @@ enum class OverPositions {
 
 /// Weights of the functionals in J, and parameters of the functionals.
 struct Objective {
-  Quantity minimize = Quantity::objective;  ///< objective: the sum with the weights below
+  Quantity minimize = {};  ///< by default the sum with the weights below
   OverPositions over = OverPositions::mean;
   double strain_energy = 1;
   double uniformity_annulus = 0;               ///< alpha_1 of J_p1
@@ -304,7 +304,7 @@ struct Objective {
 
 /// Bounds of a quantity.
 struct Constraint {
-  Quantity quantity = Quantity::objective;
+  Quantity quantity = {};
   std::optional<double> at_least = {}, at_most = {}, equals = {};
   OverPositions over = OverPositions::mean;
   std::string load_case = {};  ///< empty: every one
@@ -373,7 +373,7 @@ struct Output {
 
 /// The expected value of one quantity at one accepted shape.
 struct Expectation {
-  Quantity quantity = Quantity::objective;
+  Quantity quantity = {};
   double value = 0;              ///< in the unit of history.csv
   double margin = 0.01;          ///< relative to the value
   std::optional<int> iteration;  ///< number of the accepted shape; absent: the last one
@@ -398,6 +398,7 @@ struct Case {
   Optimizer optimizer;
   Output output;
   std::vector<Expectation> expectations;
+  Quantities quantities;  ///< that it can name
   bool operator==(const Case&) const = default;
 };
 

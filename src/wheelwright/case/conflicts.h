@@ -14,12 +14,9 @@ struct Conflict {
   std::string remedy;
   std::string other_place = {};  ///< a key whose line is appended to the problem
 };
+using Conflicts = std::vector<Conflict>;
 
 /// All conflicts of a case.
-std::vector<Conflict> conflicts(const Case& c);
-
-/// Whether a modulus [Pa] is smaller than that of any solid wheel; and the question whether MPa were meant.
-bool may_be_in_megapascals(double modulus);
-std::string question_of_megapascals(double modulus);
+Conflicts conflicts(const Case& c);
 
 }  // namespace wheelwright

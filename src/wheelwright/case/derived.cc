@@ -6,6 +6,7 @@
 
 #include "wheelwright/case/dimension.h"
 #include "wheelwright/case/hole_rings.h"
+#include "wheelwright/case/objective_weights.h"
 #include "wheelwright/elasticity/element.h"
 
 namespace wheelwright {
@@ -104,7 +105,7 @@ double convergence_tolerance(const Case& c) {
 VelocityKind velocity_kind(const Case& c) {
   if (c.optimizer.velocity != VelocityKind::automatic) return c.optimizer.velocity;
   const bool is_plane = c.wheel.dimension == 2,
-             is_sum_alone = c.objective.minimize == Quantity::objective && c.constraints.empty();
+             is_sum_alone = minimizes_weighted_sum(c) && c.constraints.empty();
   const bool is_vector =
       is_plane && is_sum_alone && optimizer_method(c) == OptimizerMethod::sequential_quadratic;
   return is_vector ? VelocityKind::vector : VelocityKind::h1;
@@ -161,30 +162,34 @@ double radial_cell(const Case& c) {
 }
 }  // namespace
 
+bool minimizes_weighted_sum(const Case& c) { return c.objective.minimize == Quantity(); }
+
 bool holds_volume(const Case& c) {
-  const auto is_free = [](Quantity q) { return q == Quantity::volume_fraction || q == Quantity::mass; };
+  const auto is_free = [](const Quantity& quantity) { return quantity->is_amount_of_material; };
   return !is_free(c.objective.minimize) &&
          std::ranges::none_of(c.constraints, is_free, &Constraint::quantity);
 }
 
 namespace {
 
-/// Whether a quantity is minimized or bounded, other than by its weight in the sum.
-bool is_optimized(const Case& c, Quantity quantity) {
-  return c.objective.minimize == quantity ||
-         std::ranges::find(c.constraints, quantity, &Constraint::quantity) != c.constraints.end();
+/// Whether quantities with this property are minimized, bounded or terms of the weighted sum.
+bool optimizes_any(const Case& c, bool QuantityRow::*property) {
+  const auto has_it = [&](const Quantity& quantity) { return (*quantity).*property; };
+  const auto is_such_term = [&](const ObjectiveWeight& term) {
+    return c.objective.*term.weight > 0 && has_it(built_in(term.quantity));
+  };
+  return has_it(c.objective.minimize) || std::ranges::any_of(c.constraints, has_it, &Constraint::quantity) ||
+         std::ranges::any_of(objective_weights, is_such_term);
 }
 
 }  // namespace
 
 bool wants_annulus(const Case& c) {
-  return c.objective.uniformity_annulus > 0 || c.objective.annulus_matches_dual.has_value() ||
-         is_optimized(c, Quantity::uniformity_annulus);
+  return c.objective.annulus_matches_dual.has_value() || optimizes_any(c, &QuantityRow::observes_annulus);
 }
 
 bool wants_uniformity(const Case& c) {
-  return wants_annulus(c) || c.objective.uniformity_dual > 0 || c.objective.uniformity_l2 > 0 ||
-         is_optimized(c, Quantity::uniformity_dual) || is_optimized(c, Quantity::uniformity_l2);
+  return c.objective.annulus_matches_dual.has_value() || optimizes_any(c, &QuantityRow::compares_with_mean);
 }
 
 double annulus_thickness(const Case& c) { return c.objective.annulus.value_or(radial_cell(c)); }

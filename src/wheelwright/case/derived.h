@@ -86,8 +86,11 @@ int total_load_positions(const Case& c);
 /// Number of radial cells of the annulus of J_p1, condensed once per run; 1 without that functional.
 int tread_rows(const Case& c);
 
-/// Whether J_p1 is part of the objective.
+/// Whether the tractions in the annulus of J_p1 are observed.
 bool wants_annulus(const Case& c);
+
+/// Whether the objective is the weighted sum.
+bool minimizes_weighted_sum(const Case& c);
 
 /// Whether the volume is fixed: not if it is bounded or minimized.
 bool holds_volume(const Case& c);

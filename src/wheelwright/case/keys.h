@@ -131,6 +131,15 @@ auto choice(std::vector<std::string_view> words) {
                              [](Struct& s, int i) { s.*member = static_cast<Enum>(i); }};
 }
 
+/// The name of one of the case's quantities.
+template <class Struct>
+struct QuantityField {
+  Quantity Struct::*member;
+
+  /// The names of the built-in ones, which every case has.
+  static std::vector<std::string_view> built_in_words() { return Quantities().names(); }
+};
+
 /// The unit of a key whose value belongs to its section's `quantity`: a plain number is in SI units, in 2D
 /// per metre of width; a number with a unit is for the whole wheel.
 inline constexpr std::string_view unit_of_quantity = "SI";
@@ -143,7 +152,7 @@ struct Key {
   std::string_view unit;  ///< empty for pure numbers and words
   std::variant<NumberField<Struct>, OptionalNumberField<Struct>, IntegerField<Struct>,
                OptionalIntegerField<Struct>, TextField<Struct>, PointField<Struct>,
-               OptionalPointField<Struct>, PointsField<Struct>, ChoiceField<Struct>>
+               OptionalPointField<Struct>, PointsField<Struct>, ChoiceField<Struct>, QuantityField<Struct>>
       field;
   std::string_view meaning;
   Presence presence = Presence::has_default;

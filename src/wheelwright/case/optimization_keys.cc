@@ -16,7 +16,7 @@ const Section<Objective>& objective_section() {
       .keys = {
           {.name = "minimize",
            .unit = "",
-           .field = choice<&Objective::minimize>({quantity_names.begin(), quantity_names.end()}),
+           .field = QuantityField<Objective>{&Objective::minimize},
            .meaning = "what is minimized; objective: the weighted sum; any other quantity replaces it, and "
                       "the weights then only select the functionals in history.csv"},
           {.name = "over",
@@ -76,7 +76,7 @@ namespace {
 
 Constraint example_constraint() {
   Constraint energy;
-  energy.quantity = Quantity::strain_energy;
+  energy.quantity = built_in("strain_energy");
   energy.at_most = 5;
   return energy;
 }
@@ -96,7 +96,7 @@ const SectionArray<Constraint>& constraint_sections() {
       .keys = {
           {.name = "quantity",
            .unit = "",
-           .field = choice<&Constraint::quantity>({quantity_names.begin(), quantity_names.end()}),
+           .field = QuantityField<Constraint>{&Constraint::quantity},
            .meaning = "what is bounded, by the names of history.csv and [[expect]]",
            .presence = Presence::required},
           {.name = "at_least",

@@ -39,7 +39,7 @@ namespace {
 
 Expectation example_expectation() {
   Expectation energy;
-  energy.quantity = Quantity::strain_energy;
+  energy.quantity = built_in("strain_energy");
   energy.value = 35;
   energy.margin = 0.01;
   return energy;
@@ -58,7 +58,7 @@ const SectionArray<Expectation>& expectation_sections() {
       .example = example_expectation(),
       .keys = {{.name = "quantity",
                 .unit = "",
-                .field = choice<&Expectation::quantity>({quantity_names.begin(), quantity_names.end()}),
+                .field = QuantityField<Expectation>{&Expectation::quantity},
                 .meaning = "a column of history.csv",
                 .presence = Presence::required},
                {.name = "value",

@@ -47,6 +47,7 @@ struct Reading {
   std::set<std::string> faulty;          ///< paths of keys whose value could not be used
   std::vector<Diagnostic> problems;
   std::vector<std::pair<int, int>> shape_places;  ///< line and column of each shape
+  Quantities quantities;
 };
 
 struct Complaint {
@@ -247,20 +248,49 @@ std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>& k
   return {};
 }
 
+/// The place of a word of the file among `words`, or why it has none.
+Expected<std::size_t, Complaint> read_word(const toml::node& node,
+                                           const std::vector<std::string_view>& words) {
+  const auto value = node.value<std::string>();
+  const std::string choices = quoted_list(words);
+  if (!value) return wrong_type("a word in quotes", fmt::format("one of {}", choices));
+  const auto found = std::find(words.begin(), words.end(), *value);
+  if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
+  const auto near = did_you_mean(*value, words);
+  return Complaint{Kind::out_of_range, fmt::format("must be one of {}", choices),
+                   near ? fmt::format("did you mean \"{}\"?", *near) : ""};
+}
+
 template <class Struct>
 std::optional<Complaint> read_field(const toml::node& node, const Key<Struct>&,
                                     const ChoiceField<Struct>& field, Struct& out) {
-  const auto value = node.value<std::string>();
-  const std::string choices = quoted_list(field.words);
-  if (!value) return wrong_type("a word in quotes", fmt::format("one of {}", choices));
-  const auto found = std::find(field.words.begin(), field.words.end(), *value);
-  if (found == field.words.end()) {
-    const auto near = did_you_mean(*value, field.words);
-    return Complaint{Kind::out_of_range, fmt::format("must be one of {}", choices),
-                     near ? fmt::format("did you mean \"{}\"?", *near) : ""};
-  }
-  field.set(out, static_cast<int>(found - field.words.begin()));
+  const auto index = read_word(node, field.words);
+  if (!index) return index.failure();
+  field.set(out, static_cast<int>(*index));
   return {};
+}
+
+template <class Struct>
+std::optional<Complaint> read_quantity(const toml::node& node, const Quantities& quantities,
+                                       const QuantityField<Struct>& field, Struct& out) {
+  const auto index = read_word(node, quantities.names());
+  if (!index) return index.failure();
+  out.*field.member = quantities.begin()[static_cast<std::ptrdiff_t>(*index)];
+  return {};
+}
+
+/// Any value of a key.
+template <class Struct>
+std::optional<Complaint> read_field_of(const Reading& reading, const toml::node& node, const Key<Struct>& key,
+                                       Struct& out) {
+  return std::visit(
+      [&]<class Field>(const Field& field) {
+        if constexpr (std::same_as<Field, QuantityField<Struct>>)
+          return read_quantity(node, reading.quantities, field, out);
+        else
+          return read_field(node, key, field, out);
+      },
+      key.field);
 }
 
 /// "wheel.sectors" when `name` is a key of another section, else nothing.
@@ -301,8 +331,7 @@ void read_value(Reading& reading, const std::string& path, const toml::node& nod
                 Struct& out) {
   note(reading, path, node);
   if (key.unit == unit_of_quantity && node.is_string()) return;  // see read_quantities()
-  const auto read = [&](const auto& field) { return read_field(node, key, field, out); };
-  if (auto complaint = std::visit(read, key.field)) complain(reading, path, std::move(*complaint));
+  if (auto complaint = read_field_of(reading, node, key, out)) complain(reading, path, std::move(*complaint));
 }
 
 /// Reports a key that is given in addition to an earlier one of the same alternatives.
@@ -439,11 +468,7 @@ void read_quantities(Reading& reading, const toml::table& root, const SectionArr
                                                     fmt::join(units_like(unit<3>(kind)), ", "))));
       } else if (!value) {
         complain(reading, path, unknown_unit(*given, units_like(unit<3>(kind))));
-      } else if (auto complaint = std::visit(
-                     [&](const auto& field) {
-                       return read_field(toml::value<double>(*value), key, field, list[i]);
-                     },
-                     key.field)) {
+      } else if (auto complaint = read_field_of(reading, toml::value<double>(*value), key, list[i])) {
         complain(reading, path, std::move(*complaint));
       }
     }
@@ -463,6 +488,7 @@ void put_shapes_in_order(const std::vector<std::pair<int, int>>& places, Case& c
 
 Case read_root(Reading& reading, const toml::table& root) {
   Case result;
+  result.quantities = reading.quantities;
   read_parent(reading, root, ring_sections().parent, result.holes);
   for_each_section([&](const auto& section) { read_section(reading, root, section, result); });
   read_quantities(reading, root, constraint_sections(), result);
@@ -572,8 +598,13 @@ std::string default_folder(const std::filesystem::path& file) {
   return "runs/" + (name == "." || name == ".." ? "case" : name);
 }
 
-CaseResult interpret(const TomlLines& toml, const std::filesystem::path& file) {
-  Reading reading{.file = file.string(), .entries = {}, .faulty = {}, .problems = {}, .shape_places = {}};
+CaseResult interpret(const TomlLines& toml, const std::filesystem::path& file, const Quantities& quantities) {
+  Reading reading{.file = file.string(),
+                  .entries = {},
+                  .faulty = {},
+                  .problems = {},
+                  .shape_places = {},
+                  .quantities = quantities};
   std::vector<Diagnostic> syntax;
   for (const SyntaxError& error : toml.errors) syntax.push_back(diagnostic(error, reading.file));
   Case result = read_root(reading, toml.root);
@@ -607,7 +638,8 @@ CaseResult interpret(const TomlLines& toml, const std::filesystem::path& file) {
 
 }  // namespace
 
-CaseResult parse_case(std::string_view text, const std::filesystem::path& file) {
+CaseResult parse_case(std::string_view text, const std::filesystem::path& file,
+                      const Quantities& quantities) {
   if (const auto encoding = other_encoding(text))
     return failed({.kind = Kind::syntax,
                    .file = file.string(),
@@ -626,10 +658,10 @@ CaseResult parse_case(std::string_view text, const std::filesystem::path& file) 
                    .value = "",
                    .problem = exceeded->problem,
                    .remedy = "this is not a case file"});
-  return interpret(parse_toml_lines(text), file);
+  return interpret(parse_toml_lines(text), file, quantities);
 }
 
-CaseResult read_case(const std::filesystem::path& file) {
+CaseResult read_case(const std::filesystem::path& file, const Quantities& quantities) {
   std::string text(most_case_bytes + 1, '\0');  // one extra byte detects longer files
   std::ifstream in(file, std::ios::binary);
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
@@ -643,7 +675,7 @@ CaseResult read_case(const std::filesystem::path& file) {
                    .problem = "cannot be read",
                    .remedy = "check its name and permissions"});
   text.resize(in.gcount());
-  return parse_case(text, file);
+  return parse_case(text, file, quantities);
 }
 
 }  // namespace wheelwright

@@ -1,5 +1,3 @@
-#include "wheelwright/case/shape_conflicts.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -8,15 +6,14 @@
 
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/keys.h"
-#include "wheelwright/case/number_text.h"
+#include "wheelwright/case/remedies.h"
+#include "wheelwright/case/section_conflicts.h"
 #include "wheelwright/case/shape_symmetry.h"
 #include "wheelwright/drawing/drawing.h"
 
 namespace wheelwright {
 
 namespace {
-
-using Conflicts = std::vector<Conflict>;
 
 std::string point_text(const Point& p) { return fmt::format("[{:.6g}, {:.6g}] m", p[0], p[1]); }
 
@@ -101,8 +98,8 @@ void check_spoke(const Case& c, std::size_t i, Conflicts& found) {
 /// The innermost and outermost points of an outline.
 RadialExtent radial_extent(const DrawnShape& shape, std::string& lowest_place, std::string& highest_place) {
   RadialExtent all{HUGE_VAL, 0, {}, {}};
-  for (const Outline& outline : shape.first)
-    for (const Loop& loop : outline.loops)
+  for (const DrawnOutline& outline : shape.first)
+    for (const DrawnLoop& loop : outline.loops)
       for (const Curve& curve : loop.curves) {
         const RadialExtent extent = radial_extent(curve);
         if (extent.low < all.low) all.low = extent.low, all.lowest = extent.lowest, lowest_place = loop.place;
@@ -164,7 +161,7 @@ void check_extent(const Case& c, const DrawnShape& shape, Conflicts& found) {
 
 void check_crossings(const DrawnShape& shape, Conflicts& found) {
   constexpr int most = 3;
-  for (const Outline& outline : shape.first)
+  for (const DrawnOutline& outline : shape.first)
     for (const Crossing& crossing : crossings(outline, most))
       found.push_back({{shape.key},
                        fmt::format("the outline crosses or touches itself at {}{}", point_text(crossing.at),
@@ -234,34 +231,21 @@ void check_material_on_the_ring(const Case& c, const std::vector<DrawnShape>& sh
 
 }  // namespace
 
-std::string if_in_millimetres(double length, double other) {
-  if (length <= 3 * other || length > 5000 * other) return "";
-  return fmt::format("; lengths are in metres: if {} is in mm, write {}", number_text(length),
-                     number_text(length / 1000));
-}
-
-std::vector<std::string> with_ring_shape(std::vector<std::string> keys) {
-  for (const char* key : {"wheel.inner_radius", "wheel.outer_radius", "optimizer.rim_band",
-                          "optimizer.tread_band", "grid.radial_cells", "objective.annulus"})
-    keys.push_back(key);
-  return keys;
-}
-
-std::vector<Conflict> shape_conflicts(const Case& c, const std::vector<DrawnShape>& shapes) {
-  Conflicts found;
-  check_slots(c, found);
-  check_annuli(c, found);
-  for (std::size_t i = 0; i < c.shapes.spokes.size(); ++i) check_spoke(c, i, found);
-  check_pictures(c, found);
-  check_number_of_curves(shapes, found);
-  if (!found.empty()) return found;
+void shape_conflicts(const Case& c, const std::vector<DrawnShape>& shapes, Conflicts& found) {
+  Conflicts of_keys;
+  check_slots(c, of_keys);
+  check_annuli(c, of_keys);
+  for (std::size_t i = 0; i < c.shapes.spokes.size(); ++i) check_spoke(c, i, of_keys);
+  check_pictures(c, of_keys);
+  check_number_of_curves(shapes, of_keys);
+  found.insert(found.end(), of_keys.begin(), of_keys.end());
+  if (!of_keys.empty()) return;
   for (const DrawnShape& shape : shapes) {
     check_extent(c, shape, found);
     if (shape.repetition == Repetition::by_count) check_crossings(shape, found);
     check_repetition(c, shapes, shape, found);
   }
   check_material_on_the_ring(c, shapes, found);
-  return found;
 }
 
 }  // namespace wheelwright

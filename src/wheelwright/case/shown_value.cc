@@ -4,7 +4,7 @@
 
 namespace wheelwright {
 
-ShownUnit shown_unit(Quantity quantity, const Wheel& wheel) {
+ShownUnit shown_unit(const Quantity& quantity, const Wheel& wheel) {
   return shown_unit(kind(quantity), wheel.dimension, wheel.width);
 }
 
@@ -12,7 +12,7 @@ std::string shown_text(double value, const ShownUnit& shown) {
   return fmt::format("{:.6g} {}", value * shown.factor, shown.name);
 }
 
-std::string shown_text(Quantity quantity, double value, const Wheel& wheel) {
+std::string shown_text(const Quantity& quantity, double value, const Wheel& wheel) {
   return shown_text(value, shown_unit(quantity, wheel));
 }
 

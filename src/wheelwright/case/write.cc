@@ -101,6 +101,11 @@ std::string value_text(const ChoiceField<Struct>& field, const Struct& s) {
 }
 
 template <class Struct>
+std::string value_text(const QuantityField<Struct>& field, const Struct& s) {
+  return quoted(name(s.*field.member));
+}
+
+template <class Struct>
 std::string value_text(const Key<Struct>& key, const Struct& s) {
   return std::visit([&](const auto& field) { return value_text(field, s); }, key.field);
 }
@@ -112,6 +117,8 @@ std::string accepted_text(const Key<Struct>& key) {
       [](const auto& field) -> std::string {
         if constexpr (requires { field.words; })
           return fmt::format("\"{}\"", fmt::join(field.words, "\" or \""));
+        else if constexpr (requires { field.built_in_words(); })
+          return fmt::format("\"{}\"", fmt::join(field.built_in_words(), "\" or \""));
         else if constexpr (requires { field.default_word; })
           return (field.default_word.empty() ? "" : quoted(field.default_word) + " or ") + field.range.text();
         else if constexpr (requires { field.range; })
@@ -293,6 +300,18 @@ std::string reference_text(const SectionArray<Struct>& section) {
                      reference_table(section.keys, Struct{}));
 }
 
+/// What a key of quantities accepts.
+std::string quantities_table() {
+  std::string result =
+      "\n## Quantities\n\nWhat a case can minimize, bound and expect, with the units of history.csv.\n\n"
+      "| quantity | unit in 2D | unit in 3D | meaning |\n|---|---|---|---|\n";
+  for (const Quantity& quantity : Quantities())
+    result += fmt::format("| `{}` | {} | {} | {}{} |\n", name(quantity), unit<2>(kind(quantity)),
+                          unit<3>(kind(quantity)), quantity->meaning,
+                          quantity->instead.empty() || quantity == Quantity() ? "" : "; only to expect");
+  return result;
+}
+
 }  // namespace
 
 std::string to_toml(const Case& c) {
@@ -329,6 +348,7 @@ std::string case_reference_markdown() {
       "omitted "
       "key has its\ndefault value. Equation numbers refer to the paper.\n\n";
   for_each_section([&](const auto& section) { result += reference_text(section); });
+  result += quantities_table();
   return result;
 }
 

@@ -33,10 +33,6 @@ template <int dim>
 Expected<MeasuredShape<dim>> with_measure(const LevelSet<dim>& psi, const ProtectedBands<dim>& bands,
                                           double target, double boundary_measure, int points);
 
-/// Area [m^2] of the whole sector including the holes, or its volume [m^3] when dim = 3.
-template <int dim>
-double sector_measure(const PolarGrid<dim>& grid);
-
 /// The multiplier lambda_k = 8 (max G - min G) (r_0 - r_k) of the paper, where r is the volume ratio (section
 /// 4). The shape is then moved with the gradient G - lambda_k. This is a proportional control, so that an
 /// offset of the volume remains.

@@ -5,7 +5,7 @@
 
 namespace wheelwright {
 
-double DesignResult::value(const RankedQuantity& quantity) const { return value(std::string(quantity.key)); }
+double DesignResult::value(const RankedQuantity& quantity) const { return value(quantity.key); }
 
 double DesignResult::value(const std::string& key) const {
   const auto found = numbers.find(key);

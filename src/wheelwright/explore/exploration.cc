@@ -73,7 +73,7 @@ namespace {
 /// The volume of a case's designs as a fraction of the ring, from its target, a bound or its own shape.
 std::optional<double> volume_of_designs(const Case& c) {
   if (c.volume.target) return c.volume.target;
-  const auto bound = std::ranges::find(c.constraints, Quantity::volume_fraction, &Constraint::quantity);
+  const auto bound = std::ranges::find(c.constraints, built_in("volume_fraction"), &Constraint::quantity);
   if (bound != c.constraints.end() && bound->equals) return bound->equals;
   if (has_holes(c)) return initial_volume(c);
   if (bound == c.constraints.end()) return {};
@@ -107,9 +107,6 @@ Expected<std::vector<Start>> planned_starts(const Case& c, const ExplorationPlan
                    fmt::format("no start with the volume {:.6g} was found; {}", *volume, to_string(failed))};
   return starts;
 }
-
-/// Whether a weight of evenness changes what a case minimizes.
-bool minimizes_weighted_sum(const Case& c) { return c.objective.minimize == Quantity::objective; }
 
 }  // namespace
 

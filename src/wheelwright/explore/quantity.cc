@@ -2,28 +2,35 @@
 
 #include <algorithm>
 
+#include "wheelwright/functionals/quantities.h"
+
 namespace wheelwright {
 namespace {
 
-/// Designs are 2D wheels.
-constexpr ShownUnit in(UnitKind kind) { return shown_unit(kind, 2); }
+/// Designs are 2D wheels. Lengths of good designs that differ in evenness differ by micrometres.
+RankedQuantity ranked(const Quantity& quantity) {
+  const bool is_fine = quantity->is_of_evenness && kind(quantity) == UnitKind::length;
+  return {.word = quantity->ranked_as.empty() ? name(quantity) : quantity->ranked_as,
+          .label = label(quantity),
+          .shown = is_fine ? micrometres : shown_unit(kind(quantity), 2),
+          .key = number_key(quantity, 2),
+          .is_larger_better = quantity->is_larger_better,
+          .is_of_evenness = quantity->is_of_evenness,
+          .is_of_shape = quantity->of == Positions::none};
+}
 
 }  // namespace
 
 const std::vector<RankedQuantity>& ranked_quantities() {
-  static const std::vector<RankedQuantity> all{
-      {"stiffness", "stiffness", in(UnitKind::stiffness), "stiffness_N_per_m", true, false},
-      {"strain_energy", "strain energy per position", in(UnitKind::energy), "strain_energy_J_per_m", false,
-       false},
-      {"mass", "volume, which the mass is proportional to", in(UnitKind::ratio), "volume_fraction", false,
-       false},
-      {"run_out", "run-out", micrometres, "run_out_m", false, true},
-      {"force_variation", "radial force variation", in(UnitKind::force), "force_variation_N", false, true},
-      {"peak_pressure", "peak contact pressure", in(UnitKind::stress), "peak_pressure_Pa", false, true},
-      {"peak_stress", "peak von Mises stress", in(UnitKind::stress), "peak_von_mises_Pa", false, false},
-      {"strain", "largest strain", in(UnitKind::ratio), "largest_strain", false, false},
-      {"roughness", "roughness of the edges", in(UnitKind::turns), "roughness_turns", false, false},
-  };
+  static const std::vector<RankedQuantity> all = [] {
+    std::vector<RankedQuantity> quantities;
+    for (const char* name : {"stiffness", "strain_energy", "volume_fraction", "run_out", "force_variation",
+                             "peak_pressure", "peak_von_mises", "largest_strain", "roughness"})
+      quantities.push_back(ranked(built_in(name)));
+    std::ranges::find(quantities, "mass", &RankedQuantity::word)->label =
+        "volume, which the mass is proportional to";
+    return quantities;
+  }();
   return all;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -9,18 +11,19 @@ namespace wheelwright {
 
 /// A quantity by which designs are ranked.
 struct RankedQuantity {
-  std::string_view word;   ///< on the command line, e.g. "run_out"
-  std::string_view label;  ///< for people
+  std::string word;   ///< on the command line, e.g. "run_out"
+  std::string label;  ///< for people
   ShownUnit shown;
-  std::string_view key;  ///< in summary.json
+  std::string key;  ///< in summary.json
   bool is_larger_better;
   bool is_of_evenness;  ///< whether it measures how evenly the wheel rolls
+  bool is_of_shape;     ///< the same under every load
 };
 
 /// All of them.
 const std::vector<RankedQuantity>& ranked_quantities();
 
-/// The one with that word, or null.
+/// The one with that word or name, or null.
 const RankedQuantity* find_quantity(std::string_view word);
 
 }  // namespace wheelwright

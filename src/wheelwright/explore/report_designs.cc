@@ -45,13 +45,6 @@ std::vector<std::string> number_keys(const std::vector<RankedDesign>& designs) {
   return keys;
 }
 
-/// Whether a ranked quantity depends on the load.
-bool depends_on_the_load(const RankedQuantity& quantity) {
-  const auto& numbers = wheel_numbers<2>();
-  const auto found = std::ranges::find(numbers, quantity.key, &WheelNumber<2>::key);
-  return found != numbers.end() && !found->is_of_shape;
-}
-
 /// A column of the displayed table.
 struct ShownNumber {
   std::string heading, key;
@@ -155,11 +148,11 @@ std::string designs_table(const std::vector<RankedDesign>& designs,
   std::vector<std::vector<std::string>> rows{{"rank", "design", "start"}};
   std::vector<ShownNumber> shown;
   for (const RankedQuantity& quantity : quantities)
-    shown.push_back({fmt::format("{} [{}]", quantity.word, quantity.shown.name), std::string(quantity.key),
-                     quantity.shown.factor});
+    shown.push_back(
+        {fmt::format("{} [{}]", quantity.word, quantity.shown.name), quantity.key, quantity.shown.factor});
   for (const std::string& load_case : load_cases_of(designs))
     for (const RankedQuantity& quantity : quantities)
-      if (depends_on_the_load(quantity))
+      if (!quantity.is_of_shape)
         shown.push_back({fmt::format("{} in {} [{}]", quantity.word, load_case, quantity.shown.name),
                          key_in_case(quantity.key, load_case), quantity.shown.factor});
   for (const ShownNumber& number : shown) rows[0].push_back(number.heading);
@@ -200,7 +193,7 @@ std::string designs_page(const std::vector<RankedDesign>& designs,
   const auto others = load_cases_of(designs);
   for (const std::string& load_case : others)
     for (const RankedQuantity& quantity : ranked_quantities())
-      if (depends_on_the_load(quantity))
+      if (!quantity.is_of_shape)
         data["quantities"].push_back({{"key", key_in_case(quantity.key, load_case)},
                                       {"label", fmt::format("{} in {}", quantity.label, load_case)},
                                       {"unit", quantity.shown.name},

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "wheelwright/base/quantity.h"
+#include "wheelwright/geometry/mirror.h"
 #include "wheelwright/state/state.h"
 
 namespace wheelwright {
@@ -35,7 +35,7 @@ struct FunctionalValue {
 /// A functional of the form (36): integrals over the material and over its boundary. It depends on the shape
 /// itself, and on the states of the load positions through the strain energy, the observations of the tread
 /// and integrals over the material. To add one, write a file with a class like this and its Taylor test, and
-/// add its line to objective_terms() (run/study.cc).
+/// its row to the table of quantities (functionals/quantities.cc).
 template <int dim>
 class Functional {
  public:
@@ -48,6 +48,11 @@ class Functional {
   /// one held from an earlier shape. The derivative is taken at a fixed mean.
   virtual FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                         const State<dim>& state, const Matrix& mean) const = 0;
+
+  /// Whether it has the same value at a state and at its mirror image in a plane: then symmetric wheels are
+  /// solved in half of their positions, or on half of their width. Without such a promise all positions and
+  /// the whole width are solved. A functional of the shape alone does not depend on it and returns true.
+  virtual bool is_mirror_symmetric(MirrorPlane) const { return false; }
 
   /// The change by a small round hole in every sector of the part that depends only on the shape, per area of
   /// the hole (volume when dim = 3). `x`: its centre, Cartesian, in the body frame [m]; `radius` [m].

@@ -12,9 +12,10 @@ class PeakPressure : public Functional<dim> {
  public:
   explicit PeakPressure(PeakNorm norm = {}) : norm_(norm) {}
 
-  std::string name() const override { return std::string(wheelwright::name(Quantity::peak_pressure)); }
+  std::string name() const override { return "peak_pressure"; }
   FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                 const State<dim>& state, const Matrix& mean) const override;
+  bool is_mirror_symmetric(MirrorPlane) const override { return true; }
 
  private:
   PeakNorm norm_;

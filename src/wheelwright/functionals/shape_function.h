@@ -2,6 +2,7 @@
 
 #include "wheelwright/functionals/bounds.h"
 #include "wheelwright/functionals/functional.h"
+#include "wheelwright/functionals/quantity.h"
 
 namespace wheelwright {
 
@@ -10,7 +11,8 @@ template <int dim>
 struct WeightedFunctional {
   double weight;
   std::shared_ptr<const Functional<dim>> functional;
-  int load_case = 0;  ///< 0 is the load of the solver's own model
+  int load_case = 0;                      ///< 0 is the load of the solver's own model
+  std::optional<Quantity> quantity = {};  ///< the functional's; absent: an energy
 };
 
 template <int dim>
@@ -26,6 +28,8 @@ struct ShapeFunction {
   /// A factor per load position of the sector (all of them, mirror images too); empty: 1.
   std::vector<double> position_weights = {};
   Bounds bounds = {};
+  Quantity quantity = {};  ///< the function's, with its unit; by default a sum of energies
+  Over over = Over::mean;  ///< which positions it is about, if the quantity has a value at each
 };
 
 /// The function that is minimized, by the name that the optimizer looks for.
@@ -34,8 +38,9 @@ ShapeFunction<dim> objective(WeightedSum<dim> terms) {
   return {.name = "objective", .terms = std::move(terms)};
 }
 
-/// Whether the functions weight every position as its mirror image in the plane of azimuth 0.
+/// Whether the functions have the same value for states and their mirror images in a plane: their functionals
+/// do, and every position has the weight of its mirror image in the plane of azimuth 0.
 template <int dim>
-bool weights_are_mirror_symmetric(std::span<const ShapeFunction<dim>> functions);
+bool are_mirror_symmetric(std::span<const ShapeFunction<dim>> functions, MirrorPlane plane);
 
 }  // namespace wheelwright

@@ -8,9 +8,10 @@ namespace wheelwright {
 template <int dim>
 class StrainEnergy : public Functional<dim> {
  public:
-  std::string name() const override { return std::string(wheelwright::name(Quantity::strain_energy)); }
+  std::string name() const override { return "strain_energy"; }
   FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                 const State<dim>& state, const Matrix& mean) const override;
+  bool is_mirror_symmetric(MirrorPlane) const override { return true; }
 };
 
 }  // namespace wheelwright

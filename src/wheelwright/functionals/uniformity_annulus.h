@@ -12,9 +12,10 @@ class UniformityAnnulus : public Functional<dim> {
   /// `length`: the characteristic length L [m]; the paper takes epsilon.
   explicit UniformityAnnulus(double length) : length_(length) {}
 
-  std::string name() const override { return std::string(wheelwright::name(Quantity::uniformity_annulus)); }
+  std::string name() const override { return "uniformity_annulus"; }
   FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                 const State<dim>& state, const Matrix& mean) const override;
+  bool is_mirror_symmetric(MirrorPlane) const override { return true; }
 
  private:
   double length_;

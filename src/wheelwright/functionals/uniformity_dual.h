@@ -15,9 +15,10 @@ class UniformityDual : public Functional<dim> {
   explicit UniformityDual(TractionMap neumann_to_dirichlet)
       : neumann_to_dirichlet_(std::move(neumann_to_dirichlet)) {}
 
-  std::string name() const override { return std::string(wheelwright::name(Quantity::uniformity_dual)); }
+  std::string name() const override { return "uniformity_dual"; }
   FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                 const State<dim>& state, const Matrix& mean) const override;
+  bool is_mirror_symmetric(MirrorPlane) const override { return true; }
 
  private:
   TractionMap neumann_to_dirichlet_;

@@ -72,6 +72,10 @@ struct PolarGrid {
   }
 };
 
+/// Area [m^2] of the whole sector including the holes, or its volume [m^3] when dim = 3.
+template <int dim>
+double sector_measure(const PolarGrid<dim>& grid);
+
 /// The grid of the first half of a wheel's width; the number of cells along the axle must be even.
 inline PolarGrid<3> first_half(PolarGrid<3> grid) {
   grid.width /= 2;
@@ -165,9 +169,7 @@ class Lattice {
 
   /// Coordinates (radius, azimuth[, axial]) of a node; position[1] may lie outside the sector.
   Vec<dim> polar_point(const std::array<int, dim>& position) const {
-    const Vec<dim> h = spacing();
-    Vec<dim> x;
-    for (int d = 0; d < dim; ++d) x[d] = position[d] * h[d];
+    Vec<dim> x = componentwise_product(position, spacing());
     x[0] += grid_.inner_radius;
     return x;
   }

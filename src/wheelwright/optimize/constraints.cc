@@ -54,14 +54,15 @@ std::vector<BoundState> bound_states(const Evaluation<dim>& evaluation,
                      : c.sign > 0  ? '<'
                                    : '>',
          .multiplier = is_known ? multipliers[i] / c.scale : std::numeric_limits<double>::quiet_NaN(),
-         .violation = c.violation()});
+         .violation = c.violation(),
+         .unit = f.unit});
   }
   return states;
 }
 
-template std::vector<BoundState> bound_states(const Evaluation<2>&, const std::vector<double>&);
-template std::vector<BoundState> bound_states(const Evaluation<3>&, const std::vector<double>&);
-template std::vector<BoundConstraint> bound_constraints(const Evaluation<2>&);
-template std::vector<BoundConstraint> bound_constraints(const Evaluation<3>&);
+template decltype(bound_states<2>) bound_states<2>;
+template decltype(bound_states<3>) bound_states<3>;
+template decltype(bound_constraints<2>) bound_constraints<2>;
+template decltype(bound_constraints<3>) bound_constraints<3>;
 
 }  // namespace wheelwright

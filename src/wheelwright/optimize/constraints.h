@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "wheelwright/base/units.h"
 #include "wheelwright/sensitivity/evaluation.h"
 
 namespace wheelwright {
@@ -41,6 +42,7 @@ struct BoundState {
   double multiplier;  ///< by how much the objective would fall per unit by which the bound is relaxed; NaN
                       ///< before the first step
   double violation;   ///< relative to the bound
+  UnitKind unit = UnitKind::energy;
 
   bool is_kept() const { return violation <= feasible_violation; }
 };

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <numeric>
 
-#include "wheelwright/base/units.h"
 #include "wheelwright/cad/fit_outline.h"
+#include "wheelwright/functionals/quantities.h"
 
 namespace wheelwright {
 namespace {
@@ -32,7 +32,7 @@ double first_harmonic(const std::vector<double>& values) {
 template <int dim>
 std::optional<double> mass(const StateSolver<dim>& solver, double volume_fraction) {
   const RollingModel<dim>& model = solver.model();
-  const std::optional<double> density = model.materials.at_tread().density;
+  const std::optional<double> density = model.materials.at_tread().density();
   if (!density) return {};
   const PolarGrid<dim>& grid = model.grid;
   const double area =
@@ -160,66 +160,86 @@ std::optional<double> known_value(const WheelNumber<dim>& number, const Describe
   return value && *value ? std::optional(**value) : std::nullopt;
 }
 
+namespace {
+
+/// A number that is a quantity of cases; by default with its label.
+template <int dim>
+WheelNumber<dim> number(std::string_view quantity,
+                        std::optional<KnownNumber> (*value)(const DescribedWheel<dim>&),
+                        std::string own_label = {}) {
+  const Quantity& of = built_in(quantity);
+  return {own_label.empty() ? label(of) : std::move(own_label), kind(of), number_key(of, dim), value,
+          of->of == Positions::none};
+}
+
+}  // namespace
+
 template <int dim>
 const std::vector<WheelNumber<dim>>& wheel_numbers() {
   using Wheel = DescribedWheel<dim>;
   using Loaded = LoadedWheel<dim>;
   static const std::vector<WheelNumber<dim>> numbers{
-      {"volume of the ring", UnitKind::ratio, "volume_fraction",
-       [](const Wheel& w) -> Number { return w.volume_fraction; }, true},
-      {"mass", UnitKind::mass, "mass_kg",
-       [](const Wheel& w) -> Number { return w.mass ? Number(*w.mass * width(w)) : std::nullopt; }, true},
+      number<dim>("volume_fraction", [](const Wheel& w) -> Number { return w.volume_fraction; }),
+      number<dim>(
+          "mass",
+          [](const Wheel& w) -> Number { return w.mass ? Number(*w.mass * width(w)) : std::nullopt; }),
       {"load", UnitKind::force, "load_N",
        [](const Wheel& w) {
          return under_load(w, [&](const Loaded& l) { return l.rolling.load * width(w); });
        }},
-      {"mean travel", UnitKind::length, "mean_travel_m",
-       [](const Wheel& w) {
-         return under_load(w, [](const Loaded& l) { return mean(of_positions(l, &ContactSummary::travel)); });
-       }},
-      {"stiffness", UnitKind::stiffness, "stiffness_N_per_m",
-       [](const Wheel& w) {
-         return under_load(w, [&](const Loaded& l) { return l.summary.stiffness * width(w); });
-       }},
-      {"run-out at fixed load", UnitKind::length, "run_out_m",
-       [](const Wheel& w) { return of_curve(w, &RollingAnalysis::travel_at_load, 1, peak_to_peak); }},
+      number<dim>("mean_travel",
+                  [](const Wheel& w) {
+                    return under_load(
+                        w, [](const Loaded& l) { return mean(of_positions(l, &ContactSummary::travel)); });
+                  }),
+      number<dim>("stiffness",
+                  [](const Wheel& w) {
+                    return under_load(w, [&](const Loaded& l) { return l.summary.stiffness * width(w); });
+                  }),
+      number<dim>(
+          "run_out",
+          [](const Wheel& w) { return of_curve(w, &RollingAnalysis::travel_at_load, 1, peak_to_peak); },
+          "run-out at fixed load"),
       {"  its first sector harmonic", UnitKind::length, "run_out_first_harmonic_m",
        [](const Wheel& w) { return of_curve(w, &RollingAnalysis::travel_at_load, 1, first_harmonic); }},
-      {"radial force variation at fixed travel", UnitKind::force, "force_variation_N",
-       [](const Wheel& w) { return of_curve(w, &RollingAnalysis::force_at_travel, width(w), peak_to_peak); }},
+      number<dim>(
+          "force_variation",
+          [](const Wheel& w) {
+            return of_curve(w, &RollingAnalysis::force_at_travel, width(w), peak_to_peak);
+          },
+          "radial force variation at fixed travel"),
       {"  its first sector harmonic", UnitKind::force, "force_first_harmonic_N",
        [](const Wheel& w) {
          return of_curve(w, &RollingAnalysis::force_at_travel, width(w), first_harmonic);
        }},
-      {"peak contact pressure", UnitKind::stress, "peak_pressure_Pa",
-       [](const Wheel& w) {
-         return under_load(w, [](const Loaded& l) { return l.summary.rolling.peak_pressure; });
-       }},
+      number<dim>("peak_pressure",
+                  [](const Wheel& w) {
+                    return under_load(w, [](const Loaded& l) { return l.summary.rolling.peak_pressure; });
+                  }),
       {"mean length of the contact patch", UnitKind::length, "patch_length_m",
        [](const Wheel& w) {
          return under_load(
              w, [](const Loaded& l) { return mean(of_positions(l, &ContactSummary::patch_length)); });
        }},
       {"  with its gaps", UnitKind::length, "patch_extent_m", [](const Wheel& w) { return patch_extent(w); }},
-      {"peak von Mises stress", UnitKind::stress, "peak_von_mises_Pa",
-       [](const Wheel& w) {
-         return under_load(w, [](const Loaded& l) { return l.summary.von_mises.value; });
-       }},
-      {"largest strain", UnitKind::ratio, "largest_strain",
-       [](const Wheel& w) {
-         return under_load(w, [](const Loaded& l) { return l.summary.deformation.strain; });
-       }},
-      {"strain energy per position", UnitKind::energy, dim == 2 ? "strain_energy_J_per_m" : "strain_energy_J",
-       [](const Wheel& w) { return under_load(w, [](const Loaded& l) { return l.summary.strain_energy; }); }},
-      {"thinnest wall", UnitKind::length, "minimum_wall_m",
-       [](const Wheel& w) { return width_of(w, &cad::Clearances::wall); }, true},
-      {"narrowest gap", UnitKind::length, "minimum_gap_m",
-       [](const Wheel& w) { return width_of(w, &cad::Clearances::gap); }, true},
-      {"roughness of the edges", UnitKind::turns, "roughness_turns",
-       [](const Wheel& w) {
-         return of_edges(w, [](const cad::Roughness& r) -> Number { return r.edge.turns; });
-       },
-       true},
+      number<dim>("peak_von_mises",
+                  [](const Wheel& w) {
+                    return under_load(w, [](const Loaded& l) { return l.summary.von_mises.value; });
+                  }),
+      number<dim>("largest_strain",
+                  [](const Wheel& w) {
+                    return under_load(w, [](const Loaded& l) { return l.summary.deformation.strain; });
+                  }),
+      number<dim>("strain_energy",
+                  [](const Wheel& w) {
+                    return under_load(w, [](const Loaded& l) { return l.summary.strain_energy; });
+                  }),
+      number<dim>("minimum_wall", [](const Wheel& w) { return width_of(w, &cad::Clearances::wall); }),
+      number<dim>("minimum_gap", [](const Wheel& w) { return width_of(w, &cad::Clearances::gap); }),
+      number<dim>("roughness",
+                  [](const Wheel& w) {
+                    return of_edges(w, [](const cad::Roughness& r) -> Number { return r.edge.turns; });
+                  }),
       {"smallest radius of an internal corner", UnitKind::length, "internal_corner_radius_m",
        [](const Wheel& w) {
          return of_edges(w, [](const cad::Roughness& r) {
@@ -231,16 +251,17 @@ const std::vector<WheelNumber<dim>>& wheel_numbers() {
   return numbers;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                   \
-  template DescribedWheel<dim> described_wheel(const StateSolver<dim>&, const LevelSet<dim>&, double,  \
-                                               const SolvedStates<dim>&, const LoadCases<dim>&);       \
-  template const DescribedWheel<dim>* under_load_case(const DescribedWheel<dim>&, const std::string&); \
-  template Expected<OutlineMeasures, cad::OutlineFault> outline_measures(const LevelSet<dim>&);        \
-  template std::optional<cad::Roughness> roughness(const DescribedWheel<dim>&);                        \
-  template std::optional<double> known_value(const WheelNumber<dim>&, const DescribedWheel<dim>&);     \
-  template const std::vector<WheelNumber<dim>>& wheel_numbers();
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+template decltype(described_wheel<2>) described_wheel<2>;
+template decltype(under_load_case<2>) under_load_case<2>;
+template decltype(outline_measures<2>) outline_measures<2>;
+template decltype(roughness<2>) roughness<2>;
+template decltype(known_value<2>) known_value<2>;
+template decltype(wheel_numbers<2>) wheel_numbers<2>;
+template decltype(described_wheel<3>) described_wheel<3>;
+template decltype(under_load_case<3>) under_load_case<3>;
+template decltype(outline_measures<3>) outline_measures<3>;
+template decltype(roughness<3>) roughness<3>;
+template decltype(known_value<3>) known_value<3>;
+template decltype(wheel_numbers<3>) wheel_numbers<3>;
 
 }  // namespace wheelwright

@@ -7,6 +7,7 @@
 
 #include "wheelwright/analysis/rolling_analysis.h"
 #include "wheelwright/analysis/shape_summary.h"
+#include "wheelwright/base/units.h"
 #include "wheelwright/cad/clearance.h"
 #include "wheelwright/cad/outline_fault.h"
 #include "wheelwright/cad/roughness.h"
@@ -71,9 +72,9 @@ using KnownNumber = Expected<double, std::string>;
 /// One number about a wheel.
 template <int dim>
 struct WheelNumber {
-  const char* label;
+  std::string label;
   UnitKind kind;
-  const char* key;  ///< for programs, with the SI unit
+  std::string key;  ///< for programs, with the SI unit
   /// In SI units, on the whole width: nothing if the wheel has no such number, e.g. a mass without a density;
   /// the reason if it could not be computed.
   std::optional<KnownNumber> (*value)(const DescribedWheel<dim>&);

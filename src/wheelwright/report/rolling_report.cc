@@ -82,9 +82,8 @@ std::string position_lines(const RollingReport& report) {
   table += fmt::format(words, "azimuth", "stiffness", "pressure", "patch", "von Mises", "energy", "travel at",
                        "force at");
   table += fmt::format(words, "", "", "peak", "length", "peak", "", load_text(report), travel_text(report));
-  table +=
-      fmt::format(words, "[deg]", "[N/mm]", "[MPa]", "[mm]", "[MPa]",
-                  fmt::format("[{}]", unit(kind(Quantity::strain_energy), report.dimension)), "[mm]", "[N]");
+  table += fmt::format(words, "[deg]", "[N/mm]", "[MPa]", "[mm]", "[MPa]",
+                       fmt::format("[{}]", unit(UnitKind::energy, report.dimension)), "[mm]", "[N]");
   for (size_t i = 0; i < a.positions.size(); ++i) {
     const ContactSummary& p = a.positions[i];
     const double force = p.radial_force * forces(report);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "wheelwright/base/expected.h"
+#include "wheelwright/base/units.h"
 #include "wheelwright/report/described_wheel.h"
 #include "wheelwright/report/remark.h"
 

@@ -15,21 +15,11 @@ namespace {
 
 /// Whether a quantity is per metre of width in 2D, and varies by less than an order of magnitude between
 /// wheels for the same load, so that a value of the whole width is recognized.
-bool is_distinguishable(Quantity quantity) {
-  switch (quantity) {
-    case Quantity::strain_energy:
-    case Quantity::mass:
-    case Quantity::stiffness:
-    case Quantity::tangential_stiffness:
-    case Quantity::torsional_stiffness:
-    case Quantity::radial_force:
-      return true;
-    default:
-      return false;
-  }
+bool is_distinguishable(const Quantity& quantity) {
+  return is_per_width(kind(quantity)) && quantity->of != Positions::all;
 }
 
-std::string warning(const BoundState& bound, Quantity quantity, const Wheel& wheel) {
+std::string warning(const BoundState& bound, const Quantity& quantity, const Wheel& wheel) {
   return fmt::format(
       "constraint {} = {:.4g}: plain numbers are per metre of width in 2D, so this is {} on the whole width "
       "of {:g} m, where the initial shape has {}; write a bound on the whole width with its unit: \"{}\"",
@@ -47,7 +37,7 @@ std::vector<std::string> bound_warnings(const Case& c) {
   if (!evaluated) return {};
   std::vector<std::string> result;
   for (const BoundState& bound : bound_states(evaluated->evaluation, {})) {
-    const Quantity quantity = quantity_of(bound.name);
+    const Quantity& quantity = study->function(bound.name).quantity;
     const double ratio = bound.bound / bound.value;
     if (is_distinguishable(quantity) && ratio > 0 &&
         std::abs(std::log(ratio / c.wheel.width)) < std::abs(std::log(ratio)))

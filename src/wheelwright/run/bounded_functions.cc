@@ -6,61 +6,10 @@
 
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/shown_value.h"
-#include "wheelwright/evolution/volume.h"
-#include "wheelwright/functionals/material_volume.h"
-#include "wheelwright/functionals/quantity_functional.h"
-#include "wheelwright/functionals/uniformity_annulus.h"
-#include "wheelwright/functionals/uniformity_dual.h"
-#include "wheelwright/functionals/uniformity_l2.h"
 #include "wheelwright/run/study.h"
 
 namespace wheelwright {
 namespace {
-
-template <int dim>
-using Pointer = std::shared_ptr<const Functional<dim>>;
-
-/// The quantity as one term; the uniformities are those of the objective, summed over the positions.
-template <int dim>
-Expected<WeightedFunctional<dim>> term(const Case& c, const StateSolver<dim>& solver, Quantity quantity,
-                                       Over over) {
-  switch (quantity) {
-    case Quantity::volume_fraction:
-      return WeightedFunctional<dim>{1 / sector_measure<dim>(solver.model().grid),
-                                     std::make_shared<MaterialVolume<dim>>()};
-    case Quantity::uniformity_annulus:
-      return WeightedFunctional<dim>{1, std::make_shared<UniformityAnnulus<dim>>(characteristic_length(c))};
-    case Quantity::uniformity_l2:
-      return WeightedFunctional<dim>{1, std::make_shared<UniformityL2<dim>>(characteristic_length(c))};
-    case Quantity::uniformity_dual: {
-      auto map = solver.neumann_to_dirichlet(c.objective.dual_norm);
-      if (!map) return map.failure();
-      return WeightedFunctional<dim>{1, std::make_shared<UniformityDual<dim>>(*std::move(map))};
-    }
-    default:
-      return WeightedFunctional<dim>{
-          1, quantity_functional<dim>(quantity, over, {.density = c.material.density.value_or(0)})};
-  }
-}
-
-/// Whether the quantity has a separate value at every load position.
-bool is_by_position(Quantity quantity) {
-  switch (quantity) {
-    case Quantity::strain_energy:
-    case Quantity::mean_travel:
-    case Quantity::travel:
-    case Quantity::radial_force:
-    case Quantity::stiffness:
-    case Quantity::tangential_stiffness:
-    case Quantity::torsional_stiffness:
-    case Quantity::peak_pressure:
-    case Quantity::peak_von_mises:
-    case Quantity::peak_von_mises_inside:
-      return true;
-    default:
-      return false;
-  }
-}
 
 Bounds bounds(const Constraint& c) {
   Bounds result;
@@ -83,14 +32,8 @@ std::vector<std::vector<double>> single_positions(int n, bool are_images_alike) 
   return weights;
 }
 
-/// Whether a quantity depends on the load.
-bool depends_on_the_load(Quantity quantity) {
-  return quantity != Quantity::volume_fraction && quantity != Quantity::mass &&
-         quantity != Quantity::perimeter;
-}
-
 Over positions_of(const Constraint& constraint) {
-  if (!is_by_position(constraint.quantity) || constraint.over == OverPositions::mean) return Over::mean;
+  if (constraint.quantity->of != Positions::each || constraint.over == OverPositions::mean) return Over::mean;
   if (constraint.over == OverPositions::each) return Over::positions;
   return constraint.at_most ? Over::maximum : Over::minimum;
 }
@@ -110,12 +53,14 @@ template <int dim>
 void add_bounded(const Constraint& constraint, const WeightedFunctional<dim>& term,
                  const std::string& in_case, const StateSolver<dim>& solver, bool are_images_alike,
                  std::vector<ShapeFunction<dim>>& functions) {
-  const std::string quantity(name(constraint.quantity));
+  const std::string& quantity = name(constraint.quantity);
   const Over over = positions_of(constraint);
   const bool is_worst = over == Over::maximum || over == Over::minimum;
   const ShapeFunction<dim> function{.name = (is_worst ? quantity + " worst" : quantity) + in_case,
                                     .terms = {term},
-                                    .bounds = bounds(constraint)};
+                                    .bounds = bounds(constraint),
+                                    .quantity = constraint.quantity,
+                                    .over = over};
   if (over != Over::positions) {
     add_named(function, functions);
     return;
@@ -132,6 +77,13 @@ void add_bounded(const Constraint& constraint, const WeightedFunctional<dim>& te
 }  // namespace
 
 template <int dim>
+QuantityContext<dim> quantity_context(const Case& c, const StateSolver<dim>& solver) {
+  return {.solver = solver,
+          .characteristic_length = characteristic_length(c),
+          .dual_norm = c.objective.dual_norm};
+}
+
+template <int dim>
 WeightedSum<dim> in_load_cases(const Case& c, WeightedSum<dim> terms) {
   if (c.load.cases.empty()) return terms;
   WeightedSum<dim> result;
@@ -142,13 +94,16 @@ WeightedSum<dim> in_load_cases(const Case& c, WeightedSum<dim> terms) {
   return result;
 }
 
+Over minimized_over(const Case& c) {
+  return c.objective.over == OverPositions::worst ? Over::maximum : Over::mean;
+}
+
 template <int dim>
 Expected<WeightedSum<dim>> minimized_terms(const Case& c, const StateSolver<dim>& solver) {
-  const Over over = c.objective.over == OverPositions::worst ? Over::maximum : Over::mean;
-  auto only = term(c, solver, c.objective.minimize, over);
+  auto only = functional_of(c.objective.minimize, minimized_over(c), quantity_context(c, solver));
   if (!only) return only.failure();
   WeightedSum<dim> terms{*std::move(only)};
-  return depends_on_the_load(c.objective.minimize) ? in_load_cases(c, std::move(terms)) : std::move(terms);
+  return c.objective.minimize->of != Positions::none ? in_load_cases(c, std::move(terms)) : std::move(terms);
 }
 
 template <int dim>
@@ -157,10 +112,10 @@ Expected<std::vector<ShapeFunction<dim>>> bounded_functions(const Case& c, const
   const bool are_images_alike = distinct_positions(solver, load_cases<dim>(c), initial).stand_for_images();
   std::vector<ShapeFunction<dim>> functions;
   for (const Constraint& constraint : c.constraints) {
-    auto only = term(c, solver, constraint.quantity, positions_of(constraint));
+    auto only = functional_of(constraint.quantity, positions_of(constraint), quantity_context(c, solver));
     if (!only) return only.failure();
     std::vector<int> cases{0};
-    if (depends_on_the_load(constraint.quantity)) cases = load_cases_of(c, constraint);
+    if (constraint.quantity->of != Positions::none) cases = load_cases_of(c, constraint);
     for (const int load_case : cases) {
       only->load_case = load_case;
       const std::string in_case = load_case > 0 ? " in " + c.load.cases[load_case].name : "";
@@ -170,21 +125,17 @@ Expected<std::vector<ShapeFunction<dim>>> bounded_functions(const Case& c, const
   return functions;
 }
 
-Quantity quantity_of(std::string_view function_name) {
-  const auto word = function_name.substr(0, function_name.find(' '));
-  return static_cast<Quantity>(std::ranges::find(quantity_names, word) - quantity_names.begin());
-}
-
 template <int dim>
 std::string text(const BoundState& bound, const PolarGrid<dim>& grid) {
   const char* words = bound.relation == '<' ? "at most" : bound.relation == '>' ? "at least" : "equal to";
-  const ShownUnit shown = shown_unit(kind(quantity_of(bound.name)), dim, grid.width);
+  const ShownUnit shown = shown_unit(bound.unit, dim, grid.width);
   return fmt::format("{} = {}, {} {} {}", bound.name, shown_text(bound.value, shown),
                      bound.is_kept() ? "is" : "is not", words, shown_text(bound.bound, shown));
 }
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                         \
   template std::string text(const BoundState&, const PolarGrid<dim>&);                                       \
+  template QuantityContext<dim> quantity_context(const Case&, const StateSolver<dim>&);                      \
   template WeightedSum<dim> in_load_cases(const Case&, WeightedSum<dim>);                                    \
   template Expected<WeightedSum<dim>> minimized_terms(const Case&, const StateSolver<dim>&);                 \
   template Expected<std::vector<ShapeFunction<dim>>> bounded_functions(const Case&, const StateSolver<dim>&, \

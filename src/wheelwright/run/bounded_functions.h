@@ -1,16 +1,22 @@
 #pragma once
 
-#include "wheelwright/base/quantity.h"
 #include "wheelwright/case/case.h"
 #include "wheelwright/functionals/shape_function.h"
 #include "wheelwright/optimize/constraints.h"
 
 namespace wheelwright {
 
+/// What the functionals of a case depend on.
+template <int dim>
+QuantityContext<dim> quantity_context(const Case& c, const StateSolver<dim>& solver);
+
 /// Terms that depend on the load, repeated for every load case, times its weight. Unchanged if there is only
 /// one load.
 template <int dim>
 WeightedSum<dim> in_load_cases(const Case& c, WeightedSum<dim> terms);
+
+/// How a case aggregates what it minimizes instead of its weighted sum.
+Over minimized_over(const Case& c);
 
 /// The terms of what a case minimizes instead of its weighted sum. Fails like the operators of the solver.
 template <int dim>
@@ -23,9 +29,6 @@ Expected<WeightedSum<dim>> minimized_terms(const Case& c, const StateSolver<dim>
 template <int dim>
 Expected<std::vector<ShapeFunction<dim>>> bounded_functions(const Case& c, const StateSolver<dim>& solver,
                                                             const LevelSet<dim>& initial);
-
-/// The quantity of a function with such a name.
-Quantity quantity_of(std::string_view function_name);
 
 /// One line, in the units of tables: name, value, relation and limit.
 template <int dim>

@@ -7,9 +7,9 @@
 #include <iterator>
 #include <numbers>
 
-#include "wheelwright/case/conflicts.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/number_text.h"
+#include "wheelwright/case/overload.h"
 #include "wheelwright/case/shape_symmetry.h"
 #include "wheelwright/case/shown_value.h"
 #include "wheelwright/rolling/contact_failure.h"

@@ -8,7 +8,7 @@ namespace wheelwright {
 namespace {
 
 constexpr std::string_view file_kind = "CKPT";
-constexpr std::uint32_t version = 8;
+constexpr std::uint32_t version = 9;
 
 constexpr int largest_int = std::numeric_limits<int>::max();
 
@@ -93,7 +93,7 @@ std::vector<SurfacePoint<dim>> read_points(ByteReader& reader) {
 
 void append(const std::vector<FunctionValue>& functions, ByteWriter& writer) {
   append_all(functions, writer, [&](const FunctionValue& one) {
-    const auto& [name, value, by_position, gradient, bounds, edge_gradient] = one;
+    const auto& [name, value, by_position, gradient, bounds, edge_gradient, unit] = one;
     writer.text(name);
     writer.number(value);
     writer.numbers(by_position);
@@ -101,12 +101,13 @@ void append(const std::vector<FunctionValue>& functions, ByteWriter& writer) {
     writer.number(bounds.lower);
     writer.number(bounds.upper);
     writer.numbers(edge_gradient);
+    writer.integer(static_cast<int>(unit));
   });
 }
 
 std::vector<FunctionValue> read_functions(ByteReader& reader) {
   return read_all<FunctionValue>(reader, 4 * count_size + 3 * number_size, [&](FunctionValue& one) {
-    auto& [name, value, by_position, gradient, bounds, edge_gradient] = one;
+    auto& [name, value, by_position, gradient, bounds, edge_gradient, unit] = one;
     name = reader.text();
     value = reader.finite_number("the value of a function");
     by_position = reader.finite_numbers("the values of a function by position");
@@ -114,6 +115,8 @@ std::vector<FunctionValue> read_functions(ByteReader& reader) {
     bounds.lower = reader.number();
     bounds.upper = reader.number();
     edge_gradient = reader.finite_numbers("the gradient of a function at the edges");
+    unit =
+        static_cast<UnitKind>(reader.integer(0, static_cast<int>(UnitKind::turns), "the unit of a function"));
   });
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "wheelwright/case/load_case_change.h"
+#include "wheelwright/case/objective_weights.h"
 #include "wheelwright/case/shown_value.h"
 
 namespace wheelwright {
@@ -45,32 +46,32 @@ CommandResult Stop::execute(RunControl& run) const {
 }
 
 CommandResult Pause::execute(RunControl& run) const {
-  run.pause(0);
+  if (auto refusal = run.pause(0)) return *std::move(refusal);
   return fmt::format("paused after shape {}", run.iteration());
 }
 
 CommandResult Continue::execute(RunControl& run) const {
-  run.continue_run();
+  if (auto refusal = run.continue_run()) return *std::move(refusal);
   return std::string("continued");
 }
 
 CommandResult Step::execute(RunControl& run) const {
-  run.pause(1);
+  if (auto refusal = run.pause(1)) return *std::move(refusal);
   return fmt::format("one more shape after shape {}", run.iteration());
 }
 
 CommandResult NewWeights::execute(RunControl& run) const {
   Case c = run.current_case();
   std::vector<std::string> words;
-  const auto set = [&](Quantity quantity, const std::optional<double>& weight, double& place) {
+  const auto set = [&](std::string_view quantity, const std::optional<double>& weight) {
     if (!weight) return;
-    place = *weight;
-    words.push_back(fmt::format("{} {:.6g}", name(quantity), *weight));
+    c.objective.*objective_weight(quantity)->weight = *weight;
+    words.push_back(fmt::format("{} {:.6g}", quantity, *weight));
   };
-  set(Quantity::strain_energy, strain_energy, c.objective.strain_energy);
-  set(Quantity::uniformity_annulus, uniformity_annulus, c.objective.uniformity_annulus);
-  set(Quantity::uniformity_dual, uniformity_dual, c.objective.uniformity_dual);
-  set(Quantity::uniformity_l2, uniformity_l2, c.objective.uniformity_l2);
+  set("strain_energy", strain_energy);
+  set("uniformity_annulus", uniformity_annulus);
+  set("uniformity_dual", uniformity_dual);
+  set("uniformity_l2", uniformity_l2);
   return changed(run, c, fmt::format("new weights: {}", fmt::join(words, ", ")));
 }
 

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "wheelwright/functionals/quantity_functional.h"
+#include "wheelwright/case/objective_weights.h"
 #include "wheelwright/report/described_wheel.h"
+#include "wheelwright/run/bounded_functions.h"
 
 namespace wheelwright {
 namespace {
@@ -22,25 +22,30 @@ std::string why(const Failure& failure) {
   return fmt::format("{}: {}", to_string(failure.reason), failure.detail);
 }
 
+/// Nothing unless it is measured on the curves fitted to the edges.
 template <int dim>
-KnownNumber clearance(Quantity quantity, const LevelSet<dim>& shape) {
+std::optional<KnownNumber> on_outline(const Quantity& quantity, const LevelSet<dim>& shape) {
+  const bool is_wall = quantity == built_in("minimum_wall"), is_gap = quantity == built_in("minimum_gap"),
+             is_roughness = quantity == built_in("roughness");
+  if (!is_wall && !is_gap && !is_roughness) return {};
   const auto measured = outline_measures(shape);
   if (!measured) return measured.failure().what;
-  const cad::Clearances& clearances = measured->clearances;
-  const auto& clearance = quantity == Quantity::minimum_wall ? clearances.wall : clearances.gap;
-  if (!clearance) return std::string("the shape has none");
-  return clearance->width;
+  const auto& [clearances, roughness] = *measured;
+  if (is_roughness && roughness) return roughness->edge.turns;
+  const auto& clearance = is_wall ? clearances.wall : clearances.gap;
+  if (!is_roughness && clearance) return clearance->width;
+  return std::string("the shape has none");
 }
 
 /// Quantities that histories do not contain, from the solution.
 template <int dim>
-KnownNumber computed(Quantity quantity, const StateSolver<dim>& solver, const LevelSet<dim>& shape,
+KnownNumber computed(const Quantity& quantity, const StateSolver<dim>& solver, const LevelSet<dim>& shape,
                      const State<dim>& solution) {
-  const QuantityParameters parameters{.density = solver.model().materials.at_tread().density.value_or(0)};
-  const auto functional = quantity_functional<dim>(quantity, usual_positions(quantity), parameters);
-  if (!functional) return std::string("runs do not compute it");
-  const FunctionalValue<dim> value = functional->evaluate(solver, shape, solution, {});
-  return value.over_positions.value_or(value.of_shape);
+  if (quantity->compares_with_mean) return std::string("runs compute it only as a term of the objective");
+  const auto term = functional_of(quantity, quantity->usual, QuantityContext<dim>{solver});
+  if (!term) return why(term.failure());
+  const FunctionalValue<dim> value = term->functional->evaluate(solver, shape, solution, {});
+  return term->weight * value.over_positions.value_or(value.of_shape);
 }
 
 /// The index of the load case of that name; 0 if there is none.
@@ -53,22 +58,23 @@ int place_of(const LoadCases<dim>& cases, const std::string& load_case) {
 /// The quantity under a load case, named as in history.csv.
 template <int dim>
 std::string quantity_name(const Expectation& expectation, const LoadCases<dim>& cases) {
-  return name_in_case(std::string(name(expectation.quantity)), cases, place_of(cases, expectation.load_case));
+  return name_in_case(name(expectation.quantity), cases, place_of(cases, expectation.load_case));
 }
 
 /// `solution` is that of the load case.
 template <int dim>
-KnownNumber value_under(const std::string& in_history, Quantity quantity, const StateSolver<dim>& solver,
-                        const OptimizationState<dim>& state, const SolvedStates<dim>& solution) {
+KnownNumber value_under(const std::string& in_history, const Quantity& quantity,
+                        const StateSolver<dim>& solver, const OptimizationState<dim>& state,
+                        const SolvedStates<dim>& solution) {
   const Evaluation<dim>& evaluation = state.evaluation;
-  if (quantity == Quantity::objective) return evaluation.function("objective").value;
-  if (quantity == Quantity::volume_fraction) return volume_fraction(solver.model().grid, state.measure);
+  if (quantity == Quantity()) return evaluation.function("objective").value;
+  if (quantity == built_in("volume_fraction")) return volume_fraction(solver.model().grid, state.measure);
   if (const auto functional = named_value(evaluation.terms, in_history)) return *functional;
   if (const auto measure = named_value(evaluation.measures, in_history)) return *measure;
-  if (quantity == Quantity::minimum_wall || quantity == Quantity::minimum_gap)
-    return clearance(quantity, state.shape);
+  if (const auto measured = on_outline(quantity, state.shape)) return *measured;
   if (!solution) return why(solution.failure());
-  if (quantity == Quantity::peak_von_mises) return std::ranges::max((*solution)->strain_peaks().von_mises);
+  if (quantity == built_in("peak_von_mises")) return std::ranges::max((*solution)->strain_peaks().von_mises);
+  if (quantity == built_in("largest_strain")) return std::ranges::max((*solution)->strain_peaks().principal);
   return computed(quantity, solver, state.shape, **solution);
 }
 
@@ -161,14 +167,23 @@ std::vector<Finding> findings(const std::vector<Expectation>& expectations,
   return result;
 }
 
+namespace {
+
+bool needs_a_solution(const Expectation& expectation) {
+  const Quantity& quantity = expectation.quantity;
+  const bool is_in_history =
+      objective_weight(name(quantity)) || std::ranges::any_of(rolling_quantities, [&](const auto& measure) {
+        return measure.first == name(quantity);
+      });
+  if (is_in_history && expectation.load_case.empty()) return false;
+  if (quantity == built_in("volume_fraction") || quantity->compares_with_mean) return false;
+  return quantity->functional || quantity == built_in("largest_strain");
+}
+
+}  // namespace
+
 bool need_a_solution(const std::vector<Expectation>& expectations) {
-  constexpr std::array in_history{Quantity::strain_energy, Quantity::mean_travel, Quantity::run_out,
-                                  Quantity::peak_pressure};
-  return std::ranges::any_of(expectations, [&](const Expectation& e) {
-    const bool is_in_history =
-        e.load_case.empty() && std::ranges::find(in_history, e.quantity) != in_history.end();
-    return !is_in_history && quantity_functional<2>(e.quantity, usual_positions(e.quantity), {}) != nullptr;
-  });
+  return std::ranges::any_of(expectations, needs_a_solution);
 }
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                         \

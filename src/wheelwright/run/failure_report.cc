@@ -90,7 +90,7 @@ WheelState<2> wheel(const std::string& heading, const LevelSet<dim>& shape, doub
 
 template <int dim>
 std::string picture(const RunEnded<dim>& failure, const Case& c) {
-  const Quantity minimized = c.objective.minimize;
+  const Quantity& minimized = c.objective.minimize;
   const ShownUnit shown = shown_unit(minimized, c.wheel);
   const Trial<dim>& trial = failure.failed_trials.back();
   const PolarGrid<2> grid = mid_plane_section(trial.shape).lattice.grid();

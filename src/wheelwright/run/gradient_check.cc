@@ -128,27 +128,10 @@ Expected<double> step_of_one_status(const EvaluateShape<dim>& evaluate, const Ev
   return step;
 }
 
-/// Whether a quantity is a maximum over points, or over load positions.
-bool is_maximum(Quantity quantity, OverPositions over) {
-  switch (quantity) {
-    case Quantity::peak_pressure:
-    case Quantity::peak_von_mises:
-    case Quantity::peak_von_mises_inside:
-    case Quantity::run_out:
-    case Quantity::force_variation:
-      return true;
-    default:
-      return over == OverPositions::worst;
-  }
-}
-
-/// Whether a function of a case has the gradient of a smooth approximation.
-bool is_smoothed(const Case& c, const std::string& function) {
-  if (function == "objective") return is_maximum(c.objective.minimize, c.objective.over);
-  if (function == "volume") return false;
-  return is_maximum(quantity_of(function), function.find(" worst") == std::string::npos
-                                               ? OverPositions::mean
-                                               : OverPositions::worst);
+/// Whether a function has the gradient of a smooth approximation.
+template <int dim>
+bool is_smoothed(const ShapeFunction<dim>& function) {
+  return function.quantity->is_maximum || function.over == Over::maximum || function.over == Over::minimum;
 }
 
 bool is_better(const GradientCheck& a, const GradientCheck& b) {
@@ -238,8 +221,7 @@ Expected<std::vector<GradientCheck>> check_gradients(const Study<dim>& study, co
       continue;
     }
     for (size_t i = 0; i < tests->size(); ++i) {
-      GradientCheck check{study.functions[i].name, (*tests)[i],
-                          is_smoothed(study.source, study.functions[i].name)};
+      GradientCheck check{study.functions[i].name, (*tests)[i], is_smoothed(study.functions[i])};
       if (best.size() <= i)
         best.push_back(std::move(check));
       else if (is_better(check, best[i]))

@@ -9,12 +9,12 @@
 #include <iterator>
 #include <sstream>
 
-#include "wheelwright/base/quantity.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/files/checksum.h"
 #include "wheelwright/files/csv.h"
 #include "wheelwright/files/output_error.h"
 #include "wheelwright/files/written_files.h"
+#include "wheelwright/functionals/quantity.h"
 
 namespace wheelwright {
 namespace {
@@ -51,7 +51,7 @@ std::vector<HistoryColumns::Quantity> term_columns(const std::filesystem::path& 
     const std::string word = cell.substr(0, open);
     if (word == next) break;
     if (is_term) terms.push_back({word, cell.substr(open + 2, cell.size() - open - 3)});
-    is_term = is_term || word == name(Quantity::objective);
+    is_term = is_term || word == name(Quantity());
   }
   return terms;
 }

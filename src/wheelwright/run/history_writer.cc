@@ -22,13 +22,10 @@ constexpr std::array<std::pair<const char*, const char*>, 5> peak_columns{{{"pea
                                                                            {"peak_von_mises_position", "deg"},
                                                                            {"largest_strain", "-"}}};
 
-/// The unit of a functional; one that is not a Quantity is an energy, or the material's volume.
+/// The unit of a term; a functional that is not a quantity is an energy.
 template <int dim>
-const char* unit_of(const std::string& functional) {
-  if (functional == "volume") return dim == 2 ? "m^2" : "m^3";
-  return std::ranges::find(quantity_names, functional) == quantity_names.end()
-             ? unit<dim>(UnitKind::energy)
-             : unit<dim>(kind(quantity_of(functional)));
+const char* unit_of(const WeightedFunctional<dim>& term) {
+  return unit<dim>(term.quantity ? kind(*term.quantity) : UnitKind::energy);
 }
 
 template <int dim>
@@ -36,7 +33,7 @@ std::vector<HistoryColumns::Quantity> term_columns(const Study<dim>& study) {
   std::vector<HistoryColumns::Quantity> columns;
   for (const auto& term : study.objective().terms) {
     const std::string name = term.functional->name();
-    columns.push_back(column(name_in_case(name, study.load_cases, term.load_case), unit_of<dim>(name)));
+    columns.push_back(column(name_in_case(name, study.load_cases, term.load_case), unit_of(term)));
   }
   return columns;
 }
@@ -48,8 +45,7 @@ std::vector<HistoryColumns::Quantity> bound_columns(const std::vector<ShapeFunct
   for (const auto& function : functions) {
     const auto [lower, upper] = function.bounds;
     const int n = (std::isfinite(lower) && lower != upper ? 1 : 0) + (std::isfinite(upper) ? 1 : 0);
-    for (int k = 0; k < n; ++k)
-      columns.push_back(column(function.name, unit<dim>(kind(quantity_of(function.name)))));
+    for (int k = 0; k < n; ++k) columns.push_back(column(function.name, unit<dim>(kind(function.quantity))));
   }
   return columns;
 }
@@ -65,8 +61,8 @@ HistoryColumns history_columns(const Study<dim>& study) {
   const int n_cases = std::max(1, static_cast<int>(study.load_cases.size()));
   for (int k = 0; k < n_cases; ++k)
     for (const auto& [quantity, member] : rolling_quantities)
-      columns.measures.push_back(
-          column(name_in_case(std::string(name(quantity)), study.load_cases, k), unit<dim>(kind(quantity))));
+      columns.measures.push_back(column(name_in_case(std::string(quantity), study.load_cases, k),
+                                        unit<dim>(kind(built_in(quantity)))));
   for (const auto& [measure, measure_unit] : peak_columns)
     columns.measures.push_back(column(measure, measure_unit));
   return columns;

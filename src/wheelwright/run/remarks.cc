@@ -41,9 +41,9 @@ const std::vector<Measure>& measures() {
        true,
        nullptr,
        "the wheel is softer",
-       {Quantity::stiffness, Quantity::stiffness},
+       {built_in("stiffness"), built_in("stiffness")},
        OverPositions::mean,
-       {Quantity::stiffness, Quantity::mean_travel, Quantity::travel, Quantity::strain_energy}},
+       {built_in("stiffness"), built_in("mean_travel"), built_in("travel"), built_in("strain_energy")}},
       {&JudgedWheel::run_out,
        "run_out_m",
        "run-out at fixed load",
@@ -51,9 +51,9 @@ const std::vector<Measure>& measures() {
        false,
        &JudgedWheel::mean_travel,
        "the axle moves up and down more while the wheel rolls",
-       {Quantity::run_out, Quantity::run_out},
+       {built_in("run_out"), built_in("run_out")},
        OverPositions::mean,
-       {Quantity::run_out, Quantity::run_out_harmonic}},
+       {built_in("run_out"), built_in("run_out_harmonic")}},
       {&JudgedWheel::force_variation,
        "force_variation_N",
        "radial force variation at fixed travel",
@@ -61,9 +61,9 @@ const std::vector<Measure>& measures() {
        false,
        &JudgedWheel::load,
        "the force on the axle varies more while the wheel rolls",
-       {Quantity::force_variation, Quantity::run_out},
+       {built_in("force_variation"), built_in("run_out")},
        OverPositions::mean,
-       {Quantity::force_variation, Quantity::force_variation_harmonic}},
+       {built_in("force_variation"), built_in("force_variation_harmonic")}},
       {&JudgedWheel::peak_pressure,
        "peak_pressure_Pa",
        "peak contact pressure",
@@ -71,9 +71,9 @@ const std::vector<Measure>& measures() {
        false,
        nullptr,
        "tread and ground carry a higher pressure",
-       {Quantity::peak_pressure, Quantity::peak_pressure},
+       {built_in("peak_pressure"), built_in("peak_pressure")},
        OverPositions::worst,
-       {Quantity::peak_pressure}},
+       {built_in("peak_pressure")}},
       {&JudgedWheel::peak_von_mises,
        "peak_von_mises_Pa",
        "peak von Mises stress",
@@ -81,9 +81,9 @@ const std::vector<Measure>& measures() {
        false,
        nullptr,
        "the material is loaded more",
-       {Quantity::peak_von_mises, Quantity::peak_von_mises},
+       {built_in("peak_von_mises"), built_in("peak_von_mises")},
        OverPositions::worst,
-       {Quantity::peak_von_mises, Quantity::peak_von_mises_inside}},
+       {built_in("peak_von_mises"), built_in("peak_von_mises_inside")}},
       {&JudgedWheel::largest_strain,
        "largest_strain",
        "largest strain",
@@ -91,9 +91,9 @@ const std::vector<Measure>& measures() {
        false,
        nullptr,
        "the material is strained more",
-       {Quantity::peak_von_mises, Quantity::peak_von_mises},
+       {built_in("peak_von_mises"), built_in("peak_von_mises")},
        OverPositions::worst,
-       {Quantity::peak_von_mises, Quantity::peak_von_mises_inside}}};
+       {built_in("peak_von_mises"), built_in("peak_von_mises_inside")}}};
   return all;
 }
 
@@ -123,7 +123,7 @@ double rounded(double value, bool is_upper) {
 }
 
 /// The measure that has this quantity as its first one.
-const Measure& measure_of(Quantity quantity) {
+const Measure& measure_of(const Quantity& quantity) {
   return *std::ranges::find_if(measures(), [&](const Measure& m) { return m.bounded_by[0] == quantity; });
 }
 
@@ -131,7 +131,7 @@ const Measure& measure_of(Quantity quantity) {
 /// case cannot bound it or already does, if there is no such value, or if the wheel keeps it as it is.
 std::optional<Constraint> bound(const Case& c, const Measure& m, const std::string& load_case,
                                 const JudgedWheel& before, const JudgedWheel& after) {
-  for (const Quantity quantity : m.bounded_by) {
+  for (const Quantity& quantity : m.bounded_by) {
     const Measure& bounded = measure_of(quantity);
     if (!(before.*bounded.value && *(before.*bounded.value) > 0) || is_bounded(c, bounded, load_case))
       continue;

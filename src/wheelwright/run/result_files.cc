@@ -50,13 +50,13 @@ void write_shapes(const RunView<dim>& run, const OptimizationState<dim>& last,
   const auto after = wheel_state(run, fmt::format("after {} shapes", last.iteration), last.shape,
                                  last.evaluation.function("objective").value, last.measure);
   write_for_workshop(run, after.boundary);
-  const Quantity minimized = run.study.source.objective.minimize;
+  const Quantity& minimized = run.study.source.objective.minimize;
   const std::string load = load_text(run.study.model());
   write_atomically(
       run.folder / "comparison.svg",
       comparison_svg(run.study.grid(),
                      Comparison<dim>{.title = run_title(run.study.source),
-                                     .caption = minimized == Quantity::objective
+                                     .caption = minimized == Quantity()
                                                     ? fmt::format("sum over {} load positions, {}",
                                                                   run.study.model().n_positions, load)
                                                     : load,

@@ -7,17 +7,13 @@
 
 #include "wheelwright/analysis/deformation_size.h"
 #include "wheelwright/case/drawn_shapes.h"
+#include "wheelwright/case/objective_weights.h"
 #include "wheelwright/case/shown_value.h"
 #include "wheelwright/cut/measure.h"
 #include "wheelwright/drawing/composed_level_set.h"
 #include "wheelwright/evolution/regrid.h"
 #include "wheelwright/evolution/volume.h"
-#include "wheelwright/functionals/material_volume.h"
 #include "wheelwright/functionals/mean_contact_stress.h"
-#include "wheelwright/functionals/strain_energy.h"
-#include "wheelwright/functionals/uniformity_annulus.h"
-#include "wheelwright/functionals/uniformity_dual.h"
-#include "wheelwright/functionals/uniformity_l2.h"
 #include "wheelwright/geometry/components.h"
 #include "wheelwright/geometry/section.h"
 #include "wheelwright/geometry/values_on.h"
@@ -95,44 +91,39 @@ namespace {
 
 /// alpha_1 from alpha_2 by (83), on the initial shape.
 template <int dim>
-Expected<double> matching_weight(const Case& c, const StateSolver<dim>& solver,
-                                 const Functional<dim>& annulus, const Functional<dim>& dual) {
+Expected<double> matching_weight(const Case& c, const StateSolver<dim>& solver) {
   const LevelSet<dim> shape = initial_shape<dim>(c);
   const auto states = solver.states(shape, solver.all_positions(), Interrupt());
   if (!states) return states.failure();
   const Matrix mean = mean_observations(solver.tread_surface(), **states);
-  const auto value = [&](const Functional<dim>& functional) {
-    const auto by_position = functional.evaluate(solver, shape, **states, mean).by_position;
+  const auto value = [&](std::string_view quantity) -> Expected<double> {
+    const auto term = functional_of(built_in(quantity), Over::positions, quantity_context(c, solver));
+    if (!term) return term.failure();
+    const auto by_position = term->functional->evaluate(solver, shape, **states, mean).by_position;
     return std::accumulate(by_position.begin(), by_position.end(), 0.0);
   };
-  return *c.objective.annulus_matches_dual * value(dual) / value(annulus);
+  const auto dual = value("uniformity_dual"), annulus = value("uniformity_annulus");
+  if (!dual) return dual.failure();
+  return *c.objective.annulus_matches_dual * *dual / *annulus;
 }
 
-/// The terms of the objective with weights > 0: the list of all functionals that a case can name.
+/// The terms of the weighted sum with weights > 0.
 template <int dim>
 Expected<WeightedSum<dim>> objective_terms(const Case& c, const StateSolver<dim>& solver) {
-  const Objective& o = c.objective;
-  WeightedSum<dim> terms;
-  const auto add = [&](double weight, std::shared_ptr<const Functional<dim>> functional) {
-    if (weight > 0) terms.push_back({weight, std::move(functional)});
-  };
-  std::shared_ptr<const Functional<dim>> dual;
-  if (o.uniformity_dual > 0 || o.annulus_matches_dual) {
-    auto map = solver.neumann_to_dirichlet(o.dual_norm);
-    if (!map) return map.failure();
-    dual = std::make_shared<UniformityDual<dim>>(*std::move(map));
-  }
-  const auto annulus = std::make_shared<UniformityAnnulus<dim>>(characteristic_length(c));
-  double annulus_weight = o.uniformity_annulus;
-  if (o.annulus_matches_dual) {
-    const auto weight = matching_weight<dim>(c, solver, *annulus, *dual);
+  Objective weights = c.objective;
+  if (c.objective.annulus_matches_dual) {
+    const auto weight = matching_weight(c, solver);
     if (!weight) return weight.failure();
-    annulus_weight = *weight;
+    weights.uniformity_annulus = *weight;
   }
-  add(o.strain_energy, std::make_shared<StrainEnergy<dim>>());
-  add(annulus_weight, annulus);
-  add(o.uniformity_dual, dual);
-  add(o.uniformity_l2, std::make_shared<UniformityL2<dim>>(characteristic_length(c)));
+  WeightedSum<dim> terms;
+  for (const auto& [quantity, weight] : objective_weights) {
+    if (!(weights.*weight > 0)) continue;
+    auto term = functional_of(built_in(quantity), Over::positions, quantity_context(c, solver));
+    if (!term) return term.failure();
+    term->weight = weights.*weight;
+    terms.push_back(*std::move(term));
+  }
   return in_load_cases(c, std::move(terms));
 }
 
@@ -157,14 +148,16 @@ Expected<std::vector<ShapeFunction<dim>>> shape_functions(const Case& c, const S
   auto terms = objective_terms<dim>(c, solver);
   if (!terms) return terms.failure();
   std::vector<ShapeFunction<dim>> functions;
-  if (c.objective.minimize == Quantity::objective) {
-    functions.push_back(objective(*std::move(terms)));
-  } else {
-    auto minimized = minimized_terms(c, solver);
-    if (!minimized) return minimized.failure();
-    functions.push_back(objective(*std::move(minimized)));
+  if (!minimizes_weighted_sum(c)) {
+    terms = minimized_terms(c, solver);
+    if (!terms) return terms.failure();
   }
-  functions.push_back({.name = "volume", .terms = {{1, std::make_shared<MaterialVolume<dim>>()}}});
+  functions.push_back(objective(*std::move(terms)));
+  functions.back().quantity = c.objective.minimize;
+  functions.back().over = minimized_over(c);
+  auto volume = functional_of(material_volume(), Over::mean, quantity_context(c, solver));
+  if (!volume) return volume.failure();
+  functions.push_back({.name = "volume", .terms = {*std::move(volume)}, .quantity = material_volume()});
   auto bounded = bounded_functions(c, solver, initial_shape<dim>(c));
   if (!bounded) return bounded.failure();
   functions.insert(functions.end(), bounded->begin(), bounded->end());
@@ -172,8 +165,13 @@ Expected<std::vector<ShapeFunction<dim>>> shape_functions(const Case& c, const S
 }
 
 template <int dim>
+const ShapeFunction<dim>& Study<dim>::function(std::string_view name) const {
+  return *std::ranges::find(functions, name, &ShapeFunction<dim>::name);
+}
+
+template <int dim>
 const ShapeFunction<dim>& Study<dim>::objective() const {
-  return *std::ranges::find(functions, optimizer.objective, &ShapeFunction<dim>::name);
+  return function(optimizer.objective);
 }
 
 namespace {

@@ -85,6 +85,9 @@ struct Study {
   /// The case on the grid of the level.
   Case computed() const { return on_coarser_grid(source, level); }
 
+  /// The function of that name, which must exist.
+  const ShapeFunction<dim>& function(std::string_view name) const;
+
   /// The function that is minimized.
   const ShapeFunction<dim>& objective() const;
 };

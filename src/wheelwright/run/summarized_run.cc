@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "wheelwright/base/quantity.h"
 #include "wheelwright/case/shown_value.h"
 #include "wheelwright/optimize/constraints.h"
 #include "wheelwright/run/bounded_functions.h"
@@ -13,8 +12,8 @@
 namespace wheelwright {
 namespace {
 
-std::string minimized_text(Quantity quantity, const Wheel& wheel) {
-  if (quantity == Quantity::objective) return {};
+std::string minimized_text(const Quantity& quantity, const Wheel& wheel) {
+  if (quantity == Quantity()) return {};
   return fmt::format("{} [{}]", name(quantity), shown_unit(quantity, wheel).name);
 }
 
@@ -22,8 +21,8 @@ template <int dim>
 std::vector<SummarizedBound> summarized_bounds(const OptimizationState<dim>& state, const Wheel& wheel) {
   std::vector<SummarizedBound> result;
   for (const BoundState& b : bound_states(state.evaluation, state.memory.multipliers))
-    result.push_back({b.name, b.value, b.bound, b.relation, b.multiplier, b.is_kept(),
-                      unit<dim>(kind(quantity_of(b.name))), shown_unit(quantity_of(b.name), wheel)});
+    result.push_back({b.name, b.value, b.bound, b.relation, b.multiplier, b.is_kept(), unit<dim>(b.unit),
+                      shown_unit(b.unit, dim, wheel.width)});
   return result;
 }
 

@@ -27,7 +27,7 @@ class FunctionalValues {
                    const LevelSet<dim>& psi, std::span<const CaseStates<dim>> cases,
                    const Matrix* held_mean) {
     for (const ShapeFunction<dim>& function : functions)
-      for (const auto& [weight, functional, load_case] : function.terms) {
+      for (const auto& [weight, functional, load_case, _] : function.terms) {
         if (find(*functional, load_case) != values_.end()) continue;
         const auto& [state, own_mean] = cases[load_case];
         const Matrix& mean = held_mean && load_case == 0 ? *held_mean : own_mean;
@@ -93,11 +93,12 @@ WeightedValues<dim> weighted(const ShapeFunction<dim>& function, const Functiona
                                        {},
                                        std::vector<double>(state.boundary().size(), 0.0),
                                        function.bounds,
-                                       std::vector<double>(state.edges().size(), 0.0)},
+                                       std::vector<double>(state.edges().size(), 0.0),
+                                       kind(function.quantity)},
                              .derivatives = std::vector<FunctionalDerivative<dim>>(cases.size())};
   std::vector<double> by_position(positions.size(), 0.0);
   bool has_shares = false;
-  for (const auto& [weight, functional, load_case] : function.terms) {
+  for (const auto& [weight, functional, load_case, _] : function.terms) {
     const FunctionalValue<dim>& term = functionals.of(*functional, load_case);
     FunctionalDerivative<dim>& sum = result.derivatives[load_case];
     result.value.value += weight * term.of_shape;
@@ -137,7 +138,7 @@ std::vector<MeasureValue> measures(const LoadCases<dim>& cases, std::span<const 
   for (int k = 0; k < static_cast<int>(states.size()); ++k) {
     const RollingMeasures m = rolling_measures(contact_summaries(states[k].state));
     for (const auto& [quantity, member] : rolling_quantities)
-      values.push_back({name_in_case(std::string(name(quantity)), cases, k), m.*member});
+      values.push_back({name_in_case(std::string(quantity), cases, k), m.*member});
   }
   return values;
 }
@@ -257,12 +258,12 @@ Expected<Evaluated<dim>> evaluate(const StateSolver<dim>& solver,
                                   std::span<const ShapeFunction<dim>> functions, const CutShape<dim>& shape,
                                   const Matrix* held_mean, const Interrupt& interrupt,
                                   const LoadCases<dim>& cases) {
-  const bool compares_images_alike = weights_are_mirror_symmetric(functions) &&
+  const bool compares_images_alike = are_mirror_symmetric(functions, MirrorPlane::azimuth) &&
                                      (!held_mean || is_mirror_symmetric(solver.tread_surface(), *held_mean));
-  auto states = states_of_cases(
-      solver, cases, shape,
-      compares_images_alike ? distinct_positions(solver, cases, shape.psi) : solver.all_positions(),
-      interrupt);
+  LoadPositions positions =
+      compares_images_alike ? distinct_positions(solver, cases, shape.psi) : solver.all_positions();
+  positions.on_whole_width = !are_mirror_symmetric(functions, MirrorPlane::width);
+  auto states = states_of_cases(solver, cases, shape, std::move(positions), interrupt);
   if (!states) return states.failure();
   std::vector<const State<dim>*> of_cases;
   for (const auto& state : *states) of_cases.push_back(state.get());
@@ -284,7 +285,7 @@ Expected<std::vector<std::vector<double>>> topological_derivatives(
   const auto of_states = by_states<dim>(functions, functionals, solver, of_cases, false);
   std::vector<std::vector<double>> result(functions.size(), std::vector<double>(points.size(), 0.0));
   for (size_t f = 0; f < functions.size(); ++f)
-    for (const auto& [weight, functional, load_case] : functions[f].terms)
+    for (const auto& [weight, functional, load_case, _] : functions[f].terms)
       for (size_t i = 0; i < points.size(); ++i)
         result[f][i] += weight * functional->of_small_hole(solver.model().grid,
                                                            position_of(solver.model(), points[i]), radius);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "wheelwright/base/phase_time.h"
+#include "wheelwright/base/units.h"
 #include "wheelwright/functionals/bounds.h"
 #include "wheelwright/geometry/level_set.h"
 #include "wheelwright/linalg/dense.h"
@@ -27,6 +28,7 @@ struct FunctionValue {
   std::vector<double> gradient;     ///< density G at Evaluation::boundary
   Bounds bounds;
   std::vector<double> edge_gradient = {};  ///< density at Evaluation::edges
+  UnitKind unit = UnitKind::energy;
 };
 
 /// A quantity that is monitored but not optimized, over the load positions of one sector.

@@ -8,10 +8,10 @@
 #include "wheelwright/analysis/shape_summary.h"
 #include "wheelwright/base/units.h"
 #include "wheelwright/case/derived.h"
+#include "wheelwright/case/objective_weights.h"
 #include "wheelwright/case/shown_value.h"
 #include "wheelwright/evolution/volume.h"
 #include "wheelwright/report/solution_fields.h"
-#include "wheelwright/run/bounded_functions.h"
 #include "wheelwright/run/command_json.h"
 #include "wheelwright/run/run_title.h"
 #include "wheelwright/watch/products.h"
@@ -33,17 +33,23 @@ Json load_cases_json(const Case& c) {
   return loads;
 }
 
-/// The conversion of the quantity to display units.
-Json shown_json(Quantity quantity, const Case& c) {
-  const ShownUnit shown = shown_unit(quantity, c.wheel);
+/// The conversion of a number in a case or history to display units.
+Json shown_json(UnitKind kind, const Case& c) {
+  const ShownUnit shown = shown_unit(kind, c.wheel.dimension, c.wheel.width);
   return {{"unit", shown.name}, {"factor", shown.factor}};
+}
+
+Json weights_json(const Objective& objective) {
+  Json weights;
+  for (const auto& [quantity, weight] : objective_weights) weights[std::string(quantity)] = objective.*weight;
+  return weights;
 }
 
 /// The bounds of the case, in the units of its sections.
 Json bounds_json(const Case& c) {
   Json bounds = Json::array();
   for (const Constraint& bound : c.constraints) {
-    Json json{{"quantity", name(bound.quantity)}, {"shown", shown_json(bound.quantity, c)}};
+    Json json{{"quantity", name(bound.quantity)}, {"shown", shown_json(kind(bound.quantity), c)}};
     if (bound.at_least) json["at_least"] = *bound.at_least;
     if (bound.at_most) json["at_most"] = *bound.at_most;
     if (bound.equals) json["equals"] = *bound.equals;
@@ -58,11 +64,7 @@ Json settings_json(const WatchedShape<dim>& shape) {
   const double ring = sector_measure<dim>(shape.psi.lattice.grid());
   return {{"load", Json::parse(load_json(c.load))},
           {"load_cases", load_cases_json(c)},
-          {"weights",
-           {{"strain_energy", c.objective.strain_energy},
-            {"uniformity_annulus", c.objective.uniformity_annulus},
-            {"uniformity_dual", c.objective.uniformity_dual},
-            {"uniformity_l2", c.objective.uniformity_l2}}},
+          {"weights", weights_json(c.objective)},
           {"volume_target", shape.target_measure / ring},
           {"minimum_wall_m", c.optimizer.minimum_wall.value_or(0)},
           {"minimum_gap_m", c.optimizer.minimum_gap.value_or(0)},
@@ -118,7 +120,7 @@ Json bound_states_json(const WatchedShape<dim>& shape) {
   Json bounds = Json::array();
   for (const BoundState& bound : shape.bounds)
     bounds.push_back({{"name", bound.name},
-                      {"shown", shown_json(quantity_of(bound.name), *shape.source)},
+                      {"shown", shown_json(bound.unit, *shape.source)},
                       {"value", number(bound.value)},
                       {"relation", std::string(1, bound.relation)},
                       {"limit", bound.bound},
@@ -169,7 +171,7 @@ Json force_curve_json(const State<dim>& state, double width) {
 }  // namespace
 
 template <int dim>
-std::string frame_json(const BoardView<dim>& view, const std::vector<CurvePoint>& curve,
+std::string frame_json(const BoardView<dim>& view, const std::vector<HistoryPoint>& curve,
                        const FrameQuery& query) {
   Json json{{"version", view.version},
             {"activity", to_string(view.activity)},
@@ -178,7 +180,7 @@ std::string frame_json(const BoardView<dim>& view, const std::vector<CurvePoint>
             {"message", view.message},
             {"is_refusal", view.is_refusal}};
   Json points = Json::array();
-  for (const CurvePoint& p : curve)
+  for (const HistoryPoint& p : curve)
     points.push_back(
         {p.shape, number(p.objective), number(p.mean_travel), number(p.run_out), p.volume_fraction});
   json["curve"] = std::move(points);
@@ -224,9 +226,9 @@ std::string loaded_json(const BoardView<dim>& view, int load_case, int position)
   return text + "\"fields\":" + loaded_wheel(solved(shape, load_case), position) + '}';
 }
 
-template std::string loaded_json(const BoardView<2>&, int, int);
-template std::string loaded_json(const BoardView<3>&, int, int);
-template std::string frame_json(const BoardView<2>&, const std::vector<CurvePoint>&, const FrameQuery&);
-template std::string frame_json(const BoardView<3>&, const std::vector<CurvePoint>&, const FrameQuery&);
+template decltype(loaded_json<2>) loaded_json<2>;
+template decltype(loaded_json<3>) loaded_json<3>;
+template decltype(frame_json<2>) frame_json<2>;
+template decltype(frame_json<3>) frame_json<3>;
 
 }  // namespace wheelwright

@@ -45,11 +45,18 @@ const reportCurves = (() => {
     curves: run.pressures.map((p, k) => ({ name: `position ${k + 1}`, x: p.x_m.map((v) => v * 1e3),
       y: p.pressure_Pa.map((v) => v * 1e-6) })) });
 
+  // The terms of the objective are the columns between it and the first measure; those of its unit share its chart.
+  function terms(run) {
+    const names = Object.keys(run.history), from = names.findIndex((name) => name.startsWith("objective"));
+    const unit = names[from]?.split(" [")[1];
+    return names.slice(from + 1, names.findIndex((name) => name.startsWith("mean_travel")))
+      .filter((name) => name.endsWith(` [${unit}`) && !name.includes(" in "));
+  }
+
   // All that a run has data for.
   function all(run) {
     const charts = [
-      course(run, "Objective and its terms", ["objective", "strain_energy", "uniformity_annulus", "uniformity_dual",
-        "uniformity_l2"], run.objective.factor, `[${run.objective.unit}]`),
+      course(run, "Objective and its terms", ["objective", ...terms(run)], run.objective.factor, `[${run.objective.unit}]`),
       course(run, "Mean travel and run-out", ["mean_travel", "run_out"], 1e3, "[mm]"),
       course(run, "Peaks of pressure and stress", ["peak_pressure", "peak_von_mises ["], 1e-6, "[MPa]"),
       course(run, "Volume", ["volume fraction"], 100, "[% of the ring]", { grace: 0.05 }),

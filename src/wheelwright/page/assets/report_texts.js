@@ -91,7 +91,7 @@ const reportTexts = (() => {
     if (Number.isFinite(after.minimum_wall_m))
       answer("wall", "How thick is the thinnest wall?", `${shown(after.minimum_wall_m * 1e3)} mm`);
     if (Number.isFinite(after.roughness_turns))
-      answer("edges", "Can its edges be cut?", `internal corners of radius ` +
+      answer("edges", "Can its edges be cut?", `${run.has_rough_edges ? "No" : "Yes"}: internal corners of radius ` +
         `${shown(after.internal_corner_radius_m * 1e3)} mm; ${shown(after.roughness_turns)} turns of an edge below a cell`);
     answer("stress", "What peak stress, and where?", `${shown(after.peak_von_mises_Pa * 1e-6)} MPa at radius ` +
       `${shown(place.radius_m * 1e3)} mm, azimuth ${shown(place.azimuth_rad * degree)}\u00b0`);

@@ -1,0 +1,81 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wheelwright/case/derived.h"
+#include "wheelwright/case/load_case_conflicts.h"
+#include "wheelwright/case/objective_weights.h"
+#include "wheelwright/case/quantity_needs.h"
+#include "wheelwright/case/remedies.h"
+#include "wheelwright/case/section_conflicts.h"
+
+namespace wheelwright {
+
+namespace {
+
+void check_annulus(const Case& c, Conflicts& found) {
+  if (!wants_annulus(c)) return;
+  const double cell = (c.wheel.outer_radius - c.wheel.inner_radius) / c.grid.radial_cells;
+  if (std::abs(annulus_thickness(c) - tread_rows(c) * cell) < 1e-6 * cell) return;
+  found.push_back({{"objective.annulus", "grid.radial_cells"},
+                   fmt::format("must be a whole number of radial cells of {:.6g} m", cell),
+                   fmt::format("nearest valid: {:.6g} m", tread_rows(c) * cell) +
+                       if_in_millimetres(annulus_thickness(c), c.wheel.outer_radius)});
+}
+
+void check_objective(const Case& c, Conflicts& found) {
+  const Objective& o = c.objective;
+  if (o.annulus_matches_dual && o.uniformity_annulus > 0)
+    found.push_back({{"objective.annulus_matches_dual", "objective.uniformity_annulus"},
+                     "the weight of J_p1 is given twice",
+                     "keep one of annulus_matches_dual and uniformity_annulus"});
+  const auto has_weight = [&o](const ObjectiveWeight& term) { return o.*term.weight > 0; };
+  if (std::ranges::any_of(objective_weights, has_weight) || o.annulus_matches_dual ||
+      !minimizes_weighted_sum(c))
+    return;
+  found.push_back({{"objective.strain_energy"},
+                   "all weights are 0: there is nothing to minimize",
+                   "set at least one weight > 0"});
+}
+
+/// Checks what is minimized instead of the weighted sum.
+void check_minimized(const Case& c, Conflicts& found) {
+  const Objective& o = c.objective;
+  if (minimizes_weighted_sum(c)) {
+    if (o.over != OverPositions::mean)
+      found.push_back({{"objective.over", "objective.minimize"},
+                       "the weighted sum is over all load positions",
+                       "set objective.minimize too, or omit the key"});
+    return;
+  }
+  if (optimizer_method(c) == OptimizerMethod::descent)
+    found.push_back({{"objective.minimize", "optimizer.method"},
+                     "steepest descent minimizes only the weighted sum",
+                     "use method = \"sequential_quadratic\", or omit the key"});
+  if (const std::string& remedy = o.minimize->instead; !remedy.empty())
+    found.push_back({{"objective.minimize"}, "the optimizer has no derivative of it", remedy});
+  check_load_cases(c, weighted_load_cases(c), found, [&](const Case& single, Conflicts& of_case) {
+    for (const Need& need : unmet_needs(single, o.minimize))
+      of_case.push_back(
+          {{"objective.minimize", need.key}, need.problem, "change that key, or minimize another"});
+    if (const auto constant = constancy(single, o.minimize))
+      of_case.push_back({{"objective.minimize", constant->key},
+                         constant->problem,
+                         constant->remedy + ", or minimize another quantity"});
+  });
+  if (o.minimize->is_amount_of_material && c.constraints.empty())
+    found.push_back({{"objective.minimize"},
+                     "without a constraint the wheel would vanish",
+                     "add a [[constraint]], for example on stiffness"});
+}
+
+}  // namespace
+
+void objective_conflicts(const Case& c, Conflicts& found) {
+  check_annulus(c, found);
+  check_objective(c, found);
+  check_minimized(c, found);
+}
+
+}  // namespace wheelwright

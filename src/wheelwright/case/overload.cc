@@ -1,0 +1,29 @@
+#include "wheelwright/case/overload.h"
+
+#include <fmt/format.h>
+
+#include "wheelwright/case/derived.h"
+#include "wheelwright/case/number_text.h"
+
+namespace wheelwright {
+
+bool is_overloaded(const Case& c) {
+  if (c.load.travel || c.contact.with == Counterpart::ring || c.wheel.inner_radius >= c.wheel.outer_radius)
+    return false;
+  return hertz_half_width(c) > 0.5 * c.wheel.outer_radius;
+}
+
+bool may_be_in_megapascals(double modulus) {
+  constexpr double softest = 1e5;  // [Pa]; soft foams and gels have more
+  return modulus < softest;
+}
+
+std::string question_of_megapascals(double modulus) {
+  return fmt::format("moduli are in Pa; if that is in MPa, write {}e6", number_text(modulus));
+}
+
+bool is_overloaded_in_pascals(const Case& c) {
+  return may_be_in_megapascals(c.material.youngs_modulus) && is_overloaded(c);
+}
+
+}  // namespace wheelwright
