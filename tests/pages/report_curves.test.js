@@ -32,6 +32,17 @@ test("terms in another unit or load case, and measures, are not drawn with the o
   assert.deepEqual(curves.map(({ y }) => y.at(-1)), [null, 20]);
 });
 
+test("courses are in practical units", () => {
+  const history = { iteration: [0, 1], "mean_travel [m]": [1e-3, 2e-3], "run_out [m]": [1e-4, 1e-4], "peak_pressure [Pa]": [2e6, null],
+    "peak_von_mises [Pa]": [3e6, 4e6], "volume fraction": [0.7, 0.6] };
+  const near = (a, b) => a.forEach((v, k) => v === null ? assert.equal(b[k], null) : assert.ok(Math.abs(v - b[k]) < 1e-9));
+  const charts = reportCurves.all({ history, objective: run.objective });
+  assert.equal(charts.length, 3);
+  near(charts[0].curves.flatMap(({ y }) => y), [1, 2, 0.1, 0.1]);
+  near(charts[1].curves.flatMap(({ y }) => y), [2, null, 3, 4]);
+  near(charts[2].curves[0].y, [70, 60]);
+});
+
 test("curves over a sector are closed", () => {
   const [{ curves: [after] }] = starting("Travel at fixed load");
   [0, 10, 20].forEach((azimuth, k) => assert.ok(Math.abs(after.x[k] - azimuth) < 1e-9));
