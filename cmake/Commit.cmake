@@ -1,5 +1,5 @@
 # Writes OUTPUT, which defines wheelwright::commit(): the commit of the sources in SOURCE, with "+" if they differ
-# from it; empty where SOURCE is not the top of a git repository. Run at every build; the file is left alone if
+# from it; empty where SOURCE is not the top of a git repository. Run at every build; the file is not written if
 # nothing changed.
 function(git result)
   execute_process(COMMAND git -C ${SOURCE} ${ARGN} OUTPUT_VARIABLE output ERROR_QUIET RESULT_VARIABLE failed

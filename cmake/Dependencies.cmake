@@ -31,7 +31,7 @@ add_library(wheelwright_cholmod INTERFACE)
 target_include_directories(wheelwright_cholmod SYSTEM INTERFACE ${CHOLMOD_INCLUDE_DIR})
 target_link_libraries(wheelwright_cholmod INTERFACE ${CHOLMOD_LIBRARY} wheelwright_lapack)
 
-# CGAL is headers alone; they use GMP.
+# CGAL consists of headers; they use GMP.
 find_path(CGAL_INCLUDE_DIR CGAL/Constrained_Delaunay_triangulation_2.h REQUIRED)
 find_library(GMP_LIBRARY gmp REQUIRED)
 add_library(wheelwright_cgal INTERFACE)

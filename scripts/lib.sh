@@ -64,7 +64,7 @@ install_packages() {
 }
 
 # Configures, which finds libraries that were installed since, and builds the targets in Release. What is up to date is
-# left alone.
+# not built again.
 build() {
   cmake --preset release
   cmake --build --preset release --target "$@"

@@ -137,7 +137,7 @@ def holes_108(r: Runs, album: Album) -> str:
         album.comparison(rules.run, "108 holes, the paper's rules"),
         "In three dimensions the holes merge into grooves round the whole wheel, and the material between rim and tread "
         "gathers in discs across the axle. The discs are about one cell thick along the axle, so that their number and "
-        "thickness depend on the grid: this optimum is not resolved. A least thickness of the walls "
+        "thickness depend on the grid: this optimum is not resolved. A minimum thickness of the walls "
         "(`optimizer.minimum_wall`) cannot set that of the discs, because the bands at rim and tread must be as thick.\n",
         album.comparison(solid.run, "108 holes in 3D, volume held"),
         album.copied(solid.run, "stress.svg", "The last shape in 3D, loaded, coloured by von Mises stress"),

@@ -108,6 +108,9 @@ test("the edges of the holes are the lines between holes and side faces", () => 
     near(Math.hypot(...[0, 1, 2].map((d) => edges[k + d] - edges[k + 3 + d])), chord);
     near(Math.hypot(edges[k], edges[k + 1]), 0.2);
   }
+  const middles = Array.from({ length: edges.length / 6 }, (_, k) => [0, 1, 2].map((d) =>
+    Math.round(1e4 * (edges[6 * k + d] + edges[6 * k + 3 + d]))).join(" "));
+  assert.equal(new Set(middles).size, 2 * sectors);  // a line per sector and side face
 });
 
 test("colours show the root of the stress, and the displacement relative to the largest of all positions", () => {

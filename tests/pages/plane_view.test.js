@@ -35,6 +35,8 @@ test("the fitted view contains the whole wheel, and the ground where there is on
         const [x, y] = toPixel(point);
         assert.ok(x > 0 && x < width && y > 0 && y < height);
       }
+      const [[left], [right]] = [toPixel([-outer, 0]), toPixel([outer, 0])], up = toPixel([0, outer])[1], down = toPixel([0, -outer])[1];
+      assert.ok(right - left > 0.9 * width || down - up > 0.85 * height);  // no smaller than necessary
       if (hasGround) assert.ok(toPixel([0, -1.1 * outer])[1] < height);
     }
 });

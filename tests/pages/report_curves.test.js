@@ -6,8 +6,9 @@ const { reportCurves } = require("./scripts.js").load("formats", "colours", "rep
 const rolling = { azimuths_rad: [0, Math.PI / 18], travel_at_load_m: [1e-3, 2e-3], force_at_travel_N: null, travel_harmonics_m: [3e-6, 1e-6],
   force_harmonics_N: null, peak_von_mises_Pa: [1e6, 4e6] };
 const run = { dimension: 2, sectors: 18, objective: { unit: "J/m", factor: 10 },
-  history: { iteration: [0, 1], "objective [J/m]": [5, null], "strain_energy [J/m]": [5, null], "uniformity_l2 [Pa]": [1, 2],
-    "mean_travel [m]": [null, null], "volume fraction": [0.7, 0.6] },
+  history: { iteration: [0, 1], "objective [J/m]": [5, null], "strain_energy [J/m]": [5, null], "uniformity_l2 [J/m]": [1, 2],
+    "strain_energy in kerb [J/m]": [7, 8], "mass [kg/m]": [3, 4], "mean_travel [m]": [null, null], "compliance [J/m]": [5, 6],
+    "volume fraction": [0.7, 0.6] },
   rolling: { before: null, after: rolling },
   pressures: [{ x_m: [-1e-3, 1e-3], pressure_Pa: [0, 2e6] }, { x_m: [0], pressure_Pa: [1e6] }] };
 const starting = (title) => reportCurves.all(run).filter((chart) => chart.title.startsWith(title));
@@ -24,6 +25,22 @@ test("a term that equals the objective is drawn once, and gaps remain gaps", () 
   assert.equal(curves.length, 2);
   assert.deepEqual(curves.map(({ y }) => y), [[50, null], [10, 20]]);
   assert.deepEqual(curves[0].x, [0, 1]);
+});
+
+test("terms in another unit or load case, and measures, are not drawn with the objective", () => {
+  const [{ curves }] = starting("Objective");
+  assert.deepEqual(curves.map(({ y }) => y.at(-1)), [null, 20]);
+});
+
+test("courses are in practical units", () => {
+  const history = { iteration: [0, 1], "mean_travel [m]": [1e-3, 2e-3], "run_out [m]": [1e-4, 1e-4], "peak_pressure [Pa]": [2e6, null],
+    "peak_von_mises [Pa]": [3e6, 4e6], "volume fraction": [0.7, 0.6] };
+  const near = (a, b) => a.forEach((v, k) => v === null ? assert.equal(b[k], null) : assert.ok(Math.abs(v - b[k]) < 1e-9));
+  const charts = reportCurves.all({ history, objective: run.objective });
+  assert.equal(charts.length, 3);
+  near(charts[0].curves.flatMap(({ y }) => y), [1, 2, 0.1, 0.1]);
+  near(charts[1].curves.flatMap(({ y }) => y), [2, null, 3, 4]);
+  near(charts[2].curves[0].y, [70, 60]);
 });
 
 test("curves over a sector are closed", () => {

@@ -130,6 +130,11 @@ test("the volume is that of the ring times its fraction", () => {
   assert.equal(percents, 50);
 });
 
+test("remarks are counted in the answer about trust", () => {
+  assert.deepEqual(numbersIn(answerTo(answered, "trust")), []);
+  assert.deepEqual(numbersIn(answerTo({ ...answered, flags: ["a", "b"] }, "trust")), [2]);
+});
+
 test("walls, edges and mass are told only if they are known", () => {
   assert.equal(answerTo(answered, "wall"), undefined);
   assert.equal(answerTo(answered, "edges"), undefined);

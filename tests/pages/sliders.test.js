@@ -49,6 +49,8 @@ test("the value of the case lies within the range around it", () => {
 
 test("a negative component of the load can be reversed, a positive one keeps its sign", () => {
   near(sliders.aroundLoad(-20).fromSlider(1000), 60);
+  near(sliders.aroundLoad(-20).fromSlider(0), -60);
+  near(sliders.aroundLoad(20).fromSlider(1000), 60);
   assert.ok(sliders.aroundLoad(20).fromSlider(0) > 0);
 });
 

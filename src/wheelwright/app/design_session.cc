@@ -188,7 +188,7 @@ int DesignSession::run(std::size_t n_designs, const Work& work) const {
   }
   const auto order = write_designs(folder_, name_, designs, quantities_, run_title(case_));
   print_lines(stdout, designs_table(order, quantities_, printed_rows));
-  print("\n{} designs, *: beaten by no other one\n", order.size());
+  print("\n{} designs, *: no other design is better in all quantities\n", order.size());
   for (const auto& [file, meaning] : {std::pair{name_ + ".html", "all designs, for a browser"},
                                       {std::string(pareto_picture), "the picture"},
                                       {name_ + ".csv", "the numbers, also as .json"},

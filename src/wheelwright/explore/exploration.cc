@@ -145,10 +145,10 @@ std::vector<int> chosen_designs(const std::vector<RatedDesign>& previews,
 
 namespace {
 
-/// Previewed designs that no other one beats, without those that were tried already.
-std::vector<int> unbeaten_previews(const std::vector<RatedDesign>& designs,
-                                   const std::vector<RankedQuantity>& quantities,
-                                   const std::set<int>& tried) {
+/// Previews of nondominated designs, without those that were tried already.
+std::vector<int> nondominated_previews(const std::vector<RatedDesign>& designs,
+                                       const std::vector<RankedQuantity>& quantities,
+                                       const std::set<int>& tried) {
   const std::vector<int> front = fronts(rated_points(designs, quantities));
   std::vector<int> result;
   for (int i = 0; i < static_cast<int>(designs.size()); ++i)
@@ -164,7 +164,7 @@ std::vector<RatedDesign> explore(const fs::path& folder, const std::vector<Desig
   std::vector<RatedDesign> all = rated(designs, run_designs(folder, designs, Progression::preview, settings));
   std::set<int> tried;
   for (auto chosen = chosen_designs(all, quantities); !chosen.empty() && !settings.stop_requested();
-       chosen = unbeaten_previews(all, quantities, tried)) {
+       chosen = nondominated_previews(all, quantities, tried)) {
     std::vector<Design> best;
     for (const int i : chosen) best.push_back(all[i].design);
     const auto results = run_designs(folder, best, Progression::full, settings);

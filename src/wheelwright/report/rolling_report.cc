@@ -175,7 +175,7 @@ std::string stress_line(const RollingReport& report) {
 std::string load_lines(const RollingReport& report) {
   std::string table =
       fmt::format("{:>11}{:>12}{:>12}{:>12}{:>12}\n{:>11}{:>12}{:>12}{:>12}{:>12}\n", "load", "mean travel",
-                  "least", "greatest", "stiffness", "[N]", "[mm]", "[mm]", "[mm]", "[N/mm]");
+                  "minimum", "maximum", "stiffness", "[N]", "[mm]", "[mm]", "[mm]", "[N/mm]");
   for (size_t k = 0; k < report.loads.size(); ++k) {
     if (!report.under_loads[k]) continue;
     const RollingVariation travel = travel_variation(*report.under_loads[k]);
@@ -200,8 +200,8 @@ Json variation_json(const Expected<RollingVariation>& variation, double factor, 
     harmonics.push_back(
         {{"waves_per_revolution", (k + 1) * n_sectors}, {"amplitude", v.harmonics[k] * factor}});
   return {{"mean", v.mean * factor},
-          {"least", v.minimum * factor},
-          {"greatest", v.maximum * factor},
+          {"minimum", v.minimum * factor},
+          {"maximum", v.maximum * factor},
           {"peak_to_peak", v.peak_to_peak() * factor},
           {"harmonics", harmonics}};
 }

@@ -94,6 +94,6 @@ for (const [axis, chosen] of [["x", 0], ["y", Math.min(1, data.asked.length - 1)
   select.addEventListener("change", draw);
 }
 const best = data.designs.filter(d => d.front === 1).length;
-document.getElementById("summary").textContent = `${data.designs.length} designs; ${best} of them are beaten by no ` + `other design in all of: ${data.asked.map(key => data.quantities.find(q => q.key === key).label).join(", ")}.`;
+document.getElementById("summary").textContent = `${data.designs.length} designs. For ${best} of them, no other ` + `design is better in all of: ${data.asked.map(key => data.quantities.find(q => q.key === key).label).join(", ")}.`;
 fill_table();
 draw();
