@@ -87,21 +87,34 @@ sed 's/^iterations = .*/iterations = 5/' "$documents/cases/holes16.toml" >"$fold
   fail "$(cat "$folder/log")"
 accepted_shapes "$folder/run/history.csv" >"$folder/shapes"
 
-cp -r "$documents/examples/optimize_a_wheel" "$folder/source"
-{
-  generator=$(sed -n 's/^CMAKE_GENERATOR:INTERNAL=//p' "$build/CMakeCache.txt")
-  cmake -G "$generator" -S "$folder/source" -B "$folder/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release \
-    -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS="${flags[*]}" &&
-    cmake --build "$folder/build"
-} >"$folder/log" 2>&1 || fail "$(cat "$folder/log")"
-loaded=$(LD_TRACE_LOADED_OBJECTS=1 "$folder/build/optimize_a_wheel")
+generator=$(sed -n 's/^CMAKE_GENERATOR:INTERNAL=//p' "$build/CMakeCache.txt")
+# built EXAMPLE: builds it by CMake package, in built/EXAMPLE.
+built() {
+  cp -r "$documents/examples/$1" "$folder/$1"
+  {
+    cmake -G "$generator" -S "$folder/$1" -B "$folder/built/$1" -DCMAKE_PREFIX_PATH="$prefix" \
+      -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS="${flags[*]}" &&
+      cmake --build "$folder/built/$1"
+  } >"$folder/log" 2>&1 || fail "$(cat "$folder/log")"
+}
+
+built optimize_a_wheel
+loaded=$(LD_TRACE_LOADED_OBJECTS=1 "$folder/built/optimize_a_wheel/optimize_a_wheel")
 [[ $loaded == *"$prefix"*libwheelwright* ]] || fail "another library is loaded: $loaded"
-"$folder/build/optimize_a_wheel" "$folder/case.toml" >"$folder/shapes_of_example"
+"$folder/built/optimize_a_wheel/optimize_a_wheel" "$folder/case.toml" >"$folder/shapes_of_example"
 check_improvement "$folder/shapes_of_example" || fail "not improved: $(cat "$folder/shapes_of_example")"
 check_agreement "$folder/shapes_of_example" "$folder/shapes" || fail "not what the installed program finds"
 
+# A program that adds a quantity of its own, in the objective and in a bound of the case.
+printf '\n[[objective.term]]\nquantity = "bulk_energy"\n[[constraint]]\nquantity = "bulk_energy"\nat_most = 1e3\n' |
+  cat "$folder/case.toml" - >"$folder/own.toml"
+built own_quantity
+"$folder/built/own_quantity/own_quantity" "$folder/own.toml" "$folder/own_run"
+grep -q '^[^,]*,.*,bulk_energy \[J/m\],.*,bounded bulk_energy \[J/m\],' "$folder/own_run/history.csv" &&
+  grep -q '"bounded bulk_energy \[J/m\]"' "$folder/own_run/report.html" || fail "no column of the own quantity"
+
 export PKG_CONFIG_PATH=${library%/*}/pkgconfig
 read -ra package < <(pkg-config --cflags --libs wheelwright)
-"$compiler" "${flags[@]}" -std=c++20 "$folder/source/main.cc" -o "$folder/by_pkg_config" "${package[@]}"
+"$compiler" "${flags[@]}" -std=c++20 "$folder/optimize_a_wheel/main.cc" -o "$folder/by_pkg_config" "${package[@]}"
 LD_LIBRARY_PATH=${library%/*} "$folder/by_pkg_config" "$folder/case.toml" >"$folder/shapes_by_pkg_config"
 cmp "$folder/shapes_by_pkg_config" "$folder/shapes_of_example"
