@@ -16,7 +16,7 @@ Figure blobs(int count) {
   std::uniform_real_distribution<double> wave(0.8, 1.2);
   for (int k = 0; k < count; ++k) {
     const Affine frame = polar_frame(0.23 + 0.08 * (k % 4) / 3, 2 * std::numbers::pi * k / count, 0);
-    Loop loop;
+    DrawnLoop loop;
     std::vector<Point> corners;
     for (int i = 0; i < 8; ++i) corners.push_back(polar(0.008 * wave(random), i * std::numbers::pi / 4));
     for (int i = 0; i < 8; ++i) {

@@ -10,14 +10,16 @@ packages=(
   libjs-chart.js libjs-three
   libgtest-dev libbenchmark-dev
 )
-# For export to STEP and 3MF; what the tests read exported files with; what they open pages with; a locale of theirs.
+# For export to STEP and 3MF; what the tests read exported files with; what they open pages with; a locale of theirs; what
+# they run the scripts of the pages with; what they check the style of the sources with.
 export_packages=(libocct-data-exchange-dev lib3mf-dev)
 test_packages=(
   python3 python3-ezdxf python3-pil admesh librsvg2-bin
   chromium chromium-driver firefox-esr python3-selenium
   locales
+  nodejs
+  clang-format shellcheck universal-ctags
 )
-style_packages=(clang-format shellcheck universal-ctags)
 build_folder=build/release
 
 fail() {
@@ -32,11 +34,8 @@ is_installed() {
 as_root() {
   if ((EUID == 0)); then
     "$@"
-  elif command -v sudo >/dev/null; then
-    sudo "$@"
   else
-    fail "Packages are missing, and only root may install them. Run as root:" \
-      "  apt-get update && apt-get install --no-install-recommends ${missing[*]}"
+    sudo "$@"
   fi
 }
 
@@ -53,6 +52,9 @@ install_packages() {
     is_installed "$package" || missing+=("$package")
   done
   ((${#missing[@]})) || return 0
+  ((EUID == 0)) || command -v sudo >/dev/null ||
+    fail "Packages are missing, and only root may install them. Run as root:" \
+      "  apt-get update && apt-get install --no-install-recommends ${missing[*]}"
   echo "Installing ${missing[*]}"
   as_root apt-get --quiet update ||
     fail "apt-get could not read the package lists: is there a network?"

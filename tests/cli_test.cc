@@ -443,6 +443,16 @@ positions = 1
   EXPECT_EQ(outcome.code, exit_done) << outcome.output;
 }
 
+// A drawing or a saved shape in place of a case is recognized by its name: one line says what to do.
+TEST_F(CommandLine, FilesThatAreNoCasesAreRefusedInOneLine) {
+  for (const char* file : {"wheel.svg", "wheel.dxf", "shape.levelset"}) {
+    std::ofstream(folder() / file) << "0\nSECTION\n";
+    const Outcome outcome = wheelwright(fmt::format("check {}", file), folder());
+    EXPECT_EQ(outcome.code, exit_usage) << file;
+    EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 1) << outcome.output;
+  }
+}
+
 TEST_F(CommandLine, BugExitsWithCode1) {
   EXPECT_EQ(guarded("test", []() -> int { throw std::logic_error("a bug"); }), exit_bug);
 }

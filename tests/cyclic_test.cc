@@ -76,7 +76,7 @@ TEST(Cyclic, SectorsAgreeWithTheWholeRing) {
         const int turned = (c + sectors_ahead * by_sector.grid.columns()) % ring_columns;
         for (int r = 0; r < a->observations.rows(); ++r) {
           // Displacements and tractions (in units of E) are of one size.
-          const double unit = r % 4 < 2 ? 1 : 1 / whole.materials.at_tread().youngs_modulus;
+          const double unit = r % 4 < 2 ? 1 : 1 / whole.materials.at_tread().scaling_modulus();
           observed_a.push_back(unit * a->observations(r, own * ring_columns + c));
           observed_b.push_back(unit * b->observations(r, i * ring_columns + turned));
         }

@@ -13,12 +13,12 @@
 #include "wheelwright/case/drawn_shapes.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/shape_symmetry.h"
+#include "wheelwright/curves/spline.h"
 #include "wheelwright/drawing/chain.h"
 #include "wheelwright/drawing/composed_level_set.h"
 #include "wheelwright/drawing/drawing.h"
 #include "wheelwright/drawing/parts.h"
 #include "wheelwright/drawing/picture_outline.h"
-#include "wheelwright/drawing/spline.h"
 #include "wheelwright/drawing/svg_path.h"
 #include "wheelwright/drawing/symmetry.h"
 #include "wheelwright/run/study.h"
@@ -40,10 +40,10 @@ Drawing drawing_of(DrawingFormat format, const std::string& bytes, const Drawing
 /// The region of a drawing as the hole of a shape.
 Composition region(const Drawing& drawing) { return Composition({{Fill::hole, {drawing.outline}}}); }
 
-double area(const Outline& outline) {
+double area(const DrawnOutline& outline) {
   // Of the loops, by Green's theorem along their curves, with Simpson's rule on short pieces.
   double sum = 0;
-  for (const Loop& loop : outline.loops) {
+  for (const DrawnLoop& loop : outline.loops) {
     double twice = 0;
     for (const Curve& curve : loop.curves) {
       constexpr int n = 200;
@@ -532,7 +532,7 @@ TEST(Picture, PatternsThatTouchAtCornersStayClosedOutlines) {
       return dark[static_cast<int>(column) + 8 * static_cast<int>(row)];
     };
     const auto picture = read_png(png(8, 8, is_dark));
-    const Outline outline = wheel_outline(*picture.value, 0.4, 8);
+    const DrawnOutline outline = wheel_outline(*picture.value, 0.4, 8);
     EXPECT_TRUE(crossings(outline, 5).empty());
     const Composition shape({{Fill::hole, {outline}}});
     for (int i = 0; i < 64; ++i)
@@ -564,11 +564,11 @@ TEST(Symmetry, DistinguishesMaterialFromHoles) {
   // Four quarters of an annulus, of which the second and the fourth are filled again: the edges repeat four
   // times.
   const auto quarter = [](int i) {
-    Loop loop = closed_loop({Curve::circle_arc({}, 0.3, pi / 2 * i, pi / 2 * (i + 1)),
-                             Curve::line(polar(0.3, pi / 2 * (i + 1)), polar(0.22, pi / 2 * (i + 1))),
-                             Curve::circle_arc({}, 0.22, pi / 2 * (i + 1), pi / 2 * i)},
-                            "");
-    return Outline{{loop}};
+    DrawnLoop loop = closed_loop({Curve::circle_arc({}, 0.3, pi / 2 * i, pi / 2 * (i + 1)),
+                                  Curve::line(polar(0.3, pi / 2 * (i + 1)), polar(0.22, pi / 2 * (i + 1))),
+                                  Curve::circle_arc({}, 0.22, pi / 2 * (i + 1), pi / 2 * i)},
+                                 "");
+    return DrawnOutline{{loop}};
   };
   Figure rings{Fill::hole, {circle_outline({}, 0.3)}}, inside{Fill::material, {circle_outline({}, 0.22)}};
   EXPECT_TRUE(repeats(Composition({rings, inside}), 7, 1e-5));

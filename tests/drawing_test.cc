@@ -70,7 +70,7 @@ TEST(Curve, PiecesAndReversedAndMappedCurvesAreThoseOfTheWhole) {
     const double from = random.number(0, 0.5), to = random.number(0.5, 1), s = random.number(0, 1);
     const Affine map{random.number(-1, 1), random.number(-1, 1), random.number(-1, 1),
                      random.number(-1, 1), random.number(-1, 1), random.number(-1, 1)};
-    EXPECT_NEAR(distance(curve.between(from, to).at(s), curve.at(from + s * (to - from))), 0, 1e-13);
+    EXPECT_NEAR(distance(curve.part(from, to).at(s), curve.at(from + s * (to - from))), 0, 1e-13);
     EXPECT_NEAR(distance(curve.reversed().at(s), curve.at(1 - s)), 0, 1e-13);
     EXPECT_NEAR(distance(curve.mapped(map).at(s), map(curve.at(s))), 0, 1e-13);
     EXPECT_EQ(distance(curve.split(from).first.end(), curve.split(from).second.start()), 0);
@@ -159,23 +159,23 @@ TEST(Curve, ARayCrossesItAsOftenAsManyShortLines) {
 }
 
 TEST(Outline, CrossingsAreFoundWithTheirPlace) {
-  const Outline bow = polygon_outline({{0, 0}, {2, 2}, {2, 0}, {0, 2}});
+  const DrawnOutline bow = polygon_outline({{0, 0}, {2, 2}, {2, 0}, {0, 2}});
   const auto found = crossings(bow, 5);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NEAR(distance(found[0].at, {1, 1}), 0, 1e-12);
   EXPECT_TRUE(crossings(polygon_outline({{0, 0}, {2, 0}, {2, 2}, {0, 2}}), 5).empty());
   EXPECT_TRUE(crossings(annulus_outline(1, 2), 5).empty());
-  Outline twice = circle_outline({}, 1);
+  DrawnOutline twice = circle_outline({}, 1);
   twice.loops.push_back(twice.loops[0]);
   EXPECT_FALSE(crossings(twice, 5).empty());
-  Outline overlapping = circle_outline({}, 1);
+  DrawnOutline overlapping = circle_outline({}, 1);
   overlapping.loops.push_back(circle_outline(Affine::shift({1, 0}), 1).loops[0]);
   EXPECT_EQ(crossings(overlapping, 5).size(), 2u);
 }
 
 TEST(Outline, ExtentsOfAShiftedCircleAreItsNearestAndFarthestPoints) {
   RadialExtent all{INFINITY, 0, {}, {}};
-  const Outline circle = circle_outline(polar_frame(0.27, 0.3, 0.2), 0.05);
+  const DrawnOutline circle = circle_outline(polar_frame(0.27, 0.3, 0.2), 0.05);
   for (const Curve& curve : circle.loops[0].curves) {
     const RadialExtent extent = radial_extent(curve);
     all.low = std::min(all.low, extent.low);
@@ -191,7 +191,7 @@ TEST(Chain, CurvesInAnyOrderAndDirectionFormTheirLoops) {
   const Chains chains = chained({{bottom, "b"}, {small, "s"}, {top, "t"}}, 1e-9);
   EXPECT_TRUE(chains.open_ends.empty());
   ASSERT_EQ(chains.loops.size(), 2u);
-  for (const Loop& loop : chains.loops)
+  for (const DrawnLoop& loop : chains.loops)
     for (std::size_t i = 0; i < loop.curves.size(); ++i)
       EXPECT_EQ(loop.curves[i].end(), loop.curves[(i + 1) % loop.curves.size()].start());
 }
@@ -257,8 +257,8 @@ TEST(Composition, IsTheLevelSetOfTheHolesOnTheirOwn) {
 }
 
 TEST(Composition, LaterFiguresCoverEarlierOnes) {
-  const Outline disc = circle_outline(Affine::shift({0.27, 0}), 0.05);
-  const Outline bar = strip_outline({0.2, 0}, {0.34, 0}, 0.02, 0);
+  const DrawnOutline disc = circle_outline(Affine::shift({0.27, 0}), 0.05);
+  const DrawnOutline bar = strip_outline({0.2, 0}, {0.34, 0}, 0.02, 0);
   const Composition cut({{Fill::hole, {disc}}, {Fill::material, {bar}}}),
       whole({{Fill::material, {bar}}, {Fill::hole, {disc}}});
   EXPECT_FALSE(cut.is_hole({0.27, 0.005}));
@@ -274,8 +274,8 @@ TEST(Composition, LaterFiguresCoverEarlierOnes) {
 }
 
 TEST(Composition, HolesThatShareAnEdgeAreOne) {
-  const Outline left = polygon_outline({{0, 0}, {1, 0}, {1, 1}, {0, 1}}),
-                right = polygon_outline({{1, 0}, {2, 0}, {2, 0.5}, {1, 0.5}});
+  const DrawnOutline left = polygon_outline({{0, 0}, {1, 0}, {1, 1}, {0, 1}}),
+                     right = polygon_outline({{1, 0}, {2, 0}, {2, 0.5}, {1, 0.5}});
   const Composition joined({{Fill::hole, {left, right}}});
   EXPECT_TRUE(joined.is_hole({1, 0.25}));
   EXPECT_NEAR(joined.distance({1, 0.25}, 10), 0.25, 1e-12);
@@ -283,7 +283,7 @@ TEST(Composition, HolesThatShareAnEdgeAreOne) {
 }
 
 TEST(Composition, MaterialOverTheSameHoleLeavesNoEdge) {
-  const Outline disc = circle_outline(Affine::shift({0.27, 0}), 0.05);
+  const DrawnOutline disc = circle_outline(Affine::shift({0.27, 0}), 0.05);
   EXPECT_TRUE(Composition({{Fill::hole, {disc}}, {Fill::material, {disc}}}).boundary().empty());
 }
 
@@ -305,7 +305,7 @@ TEST(Composition, IsTheExactDistanceOfRandomUnionsAndDifferences) {
     std::vector<Figure> figures;
     for (int i = 0; i < 6; ++i) {
       const Affine frame = polar_frame(random.number(0, 0.3), random.number(0, 7), random.number(0, 7));
-      const Outline outline =
+      const DrawnOutline outline =
           i % 3 == 0   ? ellipse_outline(frame, random.number(0.1, 0.4), random.number(0.1, 0.4))
           : i % 3 == 1 ? slot_outline(frame, 0.3, random.number(0.02, 0.2))
                        : polygon_outline({frame({0, 0}), frame({0.3, 0}), frame({0.1, 0.2})});

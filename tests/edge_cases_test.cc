@@ -177,8 +177,18 @@ TEST(EdgeCases, LargeDeformationIsReported) {
   const DeformationSize size = deformation_size(*scooter.solver, scooter.shape, *scooter.state);
   EXPECT_GT(size.strain, small_strain);
   EXPECT_NE(deformation_warning(size), "");
+  EXPECT_LT(share_of_small_load(size), 1);
   const Analyzed tram = analyzed("tram");
   EXPECT_EQ(deformation_warning(deformation_size(*tram.solver, tram.shape, *tram.state)), "");
+}
+
+TEST(EdgeCases, TheNamedShareOfALargeLoadDeformsLittle) {
+  const auto size_of = [](const Analyzed& a) { return deformation_size(*a.solver, a.shape, *a.state); };
+  Case c = *read("scooter_tpu").value;
+  const double share = share_of_small_load(size_of(analyzed(c)));
+  c.load.force *= share;
+  const DeformationSize size = size_of(analyzed(c));
+  EXPECT_NEAR(std::max(size.strain / small_strain, size.travel / small_travel), 1, 0.1);
 }
 
 // A path of contact problems that stays at a corner of the contact law, where rounding decides where it goes,

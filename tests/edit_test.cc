@@ -298,8 +298,8 @@ class TakesAnyCase : public RunControl {
   int iteration() const override { return 0; }
   void save() override {}
   void stop() override {}
-  void pause(int) override {}
-  void continue_run() override {}
+  std::optional<Refusal> pause(int) override { return {}; }
+  std::optional<Refusal> continue_run() override { return {}; }
   std::optional<Refusal> change_case(const Case& changed, const std::string&) override {
     case_ = changed;
     return {};

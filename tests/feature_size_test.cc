@@ -290,7 +290,7 @@ LevelSet<2> slice(const PolarGrid<2>& grid, double angle, double direction, cons
   const auto corner = [&](double turn) {
     return tip + radius * Vec<2>{std::cos(direction + turn), std::sin(direction + turn)};
   };
-  const Outline window{{closed_loop(
+  const DrawnOutline window{{closed_loop(
       {Curve::line(tip, corner(-half)), Curve::circle_arc(tip, radius, direction - half, direction + half),
        Curve::line(corner(half), tip)},
       "")}};

@@ -45,8 +45,8 @@ class StressPower : public MaterialDensityIntegral<2> {
 
  private:
   /// With s^2 = 6 mu^2 (e:e - (tr e)^2 / 3) in plane strain.
-  Value at(const Voigt<2>& e, const Material& material) const override {
-    const double scale = 6 * material.mu() * material.mu() / 1e12, trace = e[0] + e[1];
+  Value at(const Voigt<2>& e, const MaterialLaw<2>& law) const override {
+    const double mu = law.isotropic()->mu(), scale = 6 * mu * mu / 1e12, trace = e[0] + e[1];
     const double square = scale * (e[0] * e[0] + e[1] * e[1] + 0.5 * e[2] * e[2] - trace * trace / 3);
     const double slope = 2 * square * scale;
     return {square * square,
@@ -60,9 +60,46 @@ class EnergyDensity : public MaterialDensityIntegral<2> {
   std::string name() const override { return "energy_density"; }
 
  private:
-  Value at(const Voigt<2>& e, const Material& material) const override {
-    const Voigt<2> sigma = stress<2>(material, e);
+  Value at(const Voigt<2>& e, const MaterialLaw<2>& law) const override {
+    const Voigt<2> sigma = stress<2>(law, e);
     return {0.5 * (sigma[0] * e[0] + sigma[1] * e[1] + sigma[2] * e[2]), sigma};
+  }
+};
+
+/// The square of the change of the dilatation from each load case to the next one of the turn: a function of
+/// the history of a point. Load case i n_sectors + s has the ground at position i, s sectors back; the
+/// positions of a sector follow each other with i.
+class StrainRate : public MaterialDensityIntegral<2, MaterialDensity<2>> {
+ public:
+  std::string name() const override { return "strain_rate"; }
+
+ private:
+  void densities(const StrainsAtPoint<2>& point, std::span<double> values) const override {
+    for (int j = 0; j < point.n_cases(); ++j) values[j] = change(point, j) * change(point, j);
+  }
+  void slopes(const StrainsAtPoint<2>& point, std::span<const double> factors,
+              const StressRows<2>& slopes) const override {
+    for (const auto& row : slopes) std::ranges::fill(row, 0.0);
+    for (int j = 0; j < point.n_cases(); ++j)
+      for (int d = 0; d < 2; ++d) {
+        slopes[d][next(point, j)] += 2 * factors[j] * change(point, j);
+        slopes[d][j] -= 2 * factors[j] * change(point, j);
+      }
+  }
+
+  /// Near the tread strains change within a patch.
+  bool covers(const PolarGrid<2>& grid, int row) const override { return row < grid.cells[0] / 2; }
+
+  static int next(const StrainsAtPoint<2>& point, int j) {
+    const int n_positions = point.n_cases() / point.n_sectors;
+    const int position = j / point.n_sectors, sector = j % point.n_sectors;
+    if (position + 1 < n_positions) return j + point.n_sectors;
+    return (sector + point.n_sectors - 1) % point.n_sectors;
+  }
+  static double change(const StrainsAtPoint<2>& point, int j) {
+    const int after = next(point, j);
+    return 1e6 *
+           (point.strains[0][after] + point.strains[1][after] - point.strains[0][j] - point.strains[1][j]);
   }
 };
 
@@ -104,6 +141,31 @@ TEST(Functions, AStressFunctionPassesTheTaylorTest) {
       expect_second_order(taylor(*problem, functions, generic_hole(model.grid), "stress"));
     }
   }
+}
+
+TEST(Functions, AFunctionOfTheHistoryOfEveryPointPassesTheTaylorTest) {
+  for (const auto& model : {paper_model(14, 192), lopsided_model()}) {
+    const auto problem = RollingProblem<2>::create(model);
+    ASSERT_TRUE(problem);
+    const std::vector<ShapeFunction<2>> functions{{"rate", {{1, std::make_shared<StrainRate>()}}}};
+    expect_second_order(taylor(*problem, functions, generic_hole(model.grid), "rate"));
+  }
+}
+
+// A point strains smoothly as the wheel turns: between twice as many positions it changes half as much.
+TEST(Functions, TheLoadCasesOfAPointFollowEachOtherRoundTheTurn) {
+  std::vector<double> values;
+  for (const int n_positions : {8, 16}) {
+    RollingModel<2> model = paper_model(14, 192);
+    model.n_positions = n_positions;
+    const auto problem = RollingProblem<2>::create(model);
+    ASSERT_TRUE(problem);
+    const std::vector<ShapeFunction<2>> functions{{"rate", {{1, std::make_shared<StrainRate>()}}}};
+    const auto evaluation = evaluation_of(*problem, functions, testing::paper_holes(model.grid));
+    ASSERT_TRUE(evaluation);
+    values.push_back(evaluation->functions[0].value * n_positions);
+  }
+  EXPECT_NEAR(values[1] / values[0], 1, 0.15);
 }
 
 // The tread's share of the integral is known at the grid's own nodes only, without refinement it is all of

@@ -20,7 +20,7 @@ namespace {
 /// What both solvers say is compared to rounding, which contact and thin parts of cells magnify, and a nearly
 /// incompressible material by lambda over mu.
 double rounding_of(const RollingModel<3>& model) {
-  return model.materials.at_tread().nearly_incompressible() ? 3e-8 : 1e-10;
+  return model.materials.at_tread().isotropic()->nearly_incompressible() ? 3e-8 : 1e-10;
 }
 
 RollingModel<3> wheel(int degree, int axial_cells) {

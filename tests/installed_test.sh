@@ -4,7 +4,8 @@
 # - each-header: that each header compiles on its own.
 # - all: that the headers include no others than those of the standard library and compile together; that a program
 #   outside of the project, examples/optimize_a_wheel, builds by CMake package and by pkg-config, improves a wheel at
-#   constant volume and finds what the installed program finds; that the library shows no names but its own.
+#   constant volume and finds what the installed program finds; that a material law of its own, examples/own_material,
+#   gives what the built-in law gives; that the library shows no names but its own.
 # usage: installed_test.sh all|each-header BUILD_FOLDER COMPILER [FLAG...]
 set -euo pipefail
 subject=$1 build=$2 compiler=$3 flags=("${@:4}")
@@ -87,29 +88,43 @@ sed 's/^iterations = .*/iterations = 5/' "$documents/cases/holes16.toml" >"$fold
   fail "$(cat "$folder/log")"
 accepted_shapes "$folder/run/history.csv" >"$folder/shapes"
 
-generator=$(sed -n 's/^CMAKE_GENERATOR:INTERNAL=//p' "$build/CMakeCache.txt")
-# built EXAMPLE: builds it by CMake package, in built/EXAMPLE.
-built() {
+# build_example NAME: copies and builds it in $folder/NAME.
+build_example() {
+  local generator
+  generator=$(sed -n 's/^CMAKE_GENERATOR:INTERNAL=//p' "$build/CMakeCache.txt")
   cp -r "$documents/examples/$1" "$folder/$1"
   {
-    cmake -G "$generator" -S "$folder/$1" -B "$folder/built/$1" -DCMAKE_PREFIX_PATH="$prefix" \
-      -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS="${flags[*]}" &&
-      cmake --build "$folder/built/$1"
+    cmake -G "$generator" -S "$folder/$1" -B "$folder/$1/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release \
+      -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS="${flags[*]}" &&
+      cmake --build "$folder/$1/build"
   } >"$folder/log" 2>&1 || fail "$(cat "$folder/log")"
 }
 
-built optimize_a_wheel
-loaded=$(LD_TRACE_LOADED_OBJECTS=1 "$folder/built/optimize_a_wheel/optimize_a_wheel")
+build_example own_material
+"$folder/own_material/build/own_material" "$folder/case.toml" >"$folder/materials"
+# check_materials: the own law agrees with the built-in one, and the warm wheel stores more energy than the cold one.
+check_materials() {
+  awk '
+    function differ(a, b) { d = a / b - 1; return d < -1e-12 || d > 1e-12 }
+    NF != 7 || differ($2, $5) || differ($3, $6) || differ($4, $7) { exit wrong = 1 }
+    NR == 2 && !($2 > 2 * cold) { exit wrong = 1 }
+    { cold = $2 }
+    END { exit wrong || NR != 2 }' "$1"
+}
+check_materials "$folder/materials" || fail "an own material law gives something else: $(cat "$folder/materials")"
+
+build_example optimize_a_wheel
+loaded=$(LD_TRACE_LOADED_OBJECTS=1 "$folder/optimize_a_wheel/build/optimize_a_wheel")
 [[ $loaded == *"$prefix"*libwheelwright* ]] || fail "another library is loaded: $loaded"
-"$folder/built/optimize_a_wheel/optimize_a_wheel" "$folder/case.toml" >"$folder/shapes_of_example"
+"$folder/optimize_a_wheel/build/optimize_a_wheel" "$folder/case.toml" >"$folder/shapes_of_example"
 check_improvement "$folder/shapes_of_example" || fail "not improved: $(cat "$folder/shapes_of_example")"
 check_agreement "$folder/shapes_of_example" "$folder/shapes" || fail "not what the installed program finds"
 
 # A program that adds a quantity of its own, in the objective and in a bound of the case.
 printf '\n[[objective.term]]\nquantity = "bulk_energy"\n[[constraint]]\nquantity = "bulk_energy"\nat_most = 1e3\n' |
   cat "$folder/case.toml" - >"$folder/own.toml"
-built own_quantity
-"$folder/built/own_quantity/own_quantity" "$folder/own.toml" "$folder/own_run"
+build_example own_quantity
+"$folder/own_quantity/build/own_quantity" "$folder/own.toml" "$folder/own_run"
 grep -q '^[^,]*,.*,bulk_energy \[J/m\],.*,bounded bulk_energy \[J/m\],' "$folder/own_run/history.csv" &&
   grep -q '"bounded bulk_energy \[J/m\]"' "$folder/own_run/report.html" || fail "no column of the own quantity"
 

@@ -54,8 +54,6 @@ Outline outline_of(const LevelSet<2>& psi, double within = tolerance) {
 
 Arc circle(double x, double y, double radius, double sweep) { return {{x, y}, radius, 0, sweep}; }
 
-double distance(const Vec<2>& a, const Vec<2>& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
-
 std::vector<Curve> sample_curves() {
   return {Line{{0.1, -0.2}, {0.3, 0.5}}, Arc{{0.2, 0.1}, 0.3, 1.1, 4.4}, Arc{{-0.2, 0.1}, 0.2, 2.5, -1.7},
           Spline{{0, 0, 0, 0, 0.2, 0.7, 1, 1, 1, 1}, {{0, 0}, {1, 2}, {3, 1}, {2, -1}, {4, 0}, {5, 2}}}};

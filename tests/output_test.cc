@@ -24,7 +24,7 @@
 #include "wheelwright/report/colour_scale.h"
 #include "wheelwright/report/deformed_svg.h"
 #include "wheelwright/report/mesh_svg.h"
-#include "wheelwright/report/outline.h"
+#include "wheelwright/report/picture_polygon.h"
 #include "wheelwright/report/pressure_csv.h"
 #include "wheelwright/report/solution_fields.h"
 #include "wheelwright/report/superlevels.h"

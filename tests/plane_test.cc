@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "tests/support.h"
+#include "tests/von_mises.h"
 #include "wheelwright/case/case.h"
 #include "wheelwright/functionals/uniformity_annulus.h"
 #include "wheelwright/functionals/uniformity_dual.h"
@@ -102,7 +103,8 @@ TEST(PlaneStress, PeakOfVonMisesIsThatOfThreeDimensions) {
         for (int row = 0; row < strains.rows(); row += 3) {
           const double* e = strains.column(j) + row;
           const double axial = plane == Plane::strain ? 0 : -0.4 / 0.6 * (e[0] + e[1]);
-          const double value = von_mises<3>(in_space, stress<3>(in_space, {e[0], e[1], axial, 0, 0, e[2]}));
+          const double value =
+              testing::von_mises<3>(in_space, stress<3>(in_space, {e[0], e[1], axial, 0, 0, e[2]}));
           expected[j / grid.n_sectors] = std::max(expected[j / grid.n_sectors], value);
         }
     };

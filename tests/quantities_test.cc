@@ -333,11 +333,12 @@ TEST(Quantities, TheTravelsDerivativeFollowsFromTheEnergys) {
     double density = 0;
     const auto& point = evaluation->boundary[q];
     const Displacement<2>& displacement = (*state)->displacement();
-    for_each_strain<2>(displacement.strains(point.cell, std::span(&point.xi, 1)),
-                       [&](int, int, const Voigt<2>& e) {
-                         const Voigt<2> sigma = stress<2>(model.materials.at_tread(), e);
-                         density += 0.5 * (sigma[0] * e[0] + sigma[1] * e[1] + sigma[2] * e[2]);
-                       });
+    const Matrix strains = displacement.strains(point.cell, std::span(&point.xi, 1));
+    for (int j = 0; j < strains.columns(); ++j) {
+      const Voigt<2> e{strains(0, j), strains(1, j), strains(2, j)};
+      const Voigt<2> sigma = stress<2>(model.materials.at_tread(), e);
+      density += 0.5 * (sigma[0] * e[0] + sigma[1] * e[1] + sigma[2] * e[2]);
+    }
     const double potential = evaluation->function("potential").gradient[q];
     sum += point.weight * density;
     error += point.weight * std::abs(potential - density);

@@ -276,6 +276,8 @@ class Page(Browser, unittest.TestCase):
             for number in numbers:
                 self.assertTrue(any(abs(f - number) <= 1e-4 * abs(number) + 0.005 * (question == "change")
                                     for f in found), (question, text, number))
+        is_rough = after["roughness_turns"] > 0.9
+        self.assertTrue(self.text("run0-edges").startswith("No" if is_rough else "Yes"))
         self.assertIn("remark", self.text("run0-trust"))  # four shapes do not converge
 
     def trials(self):
@@ -325,7 +327,7 @@ class Page(Browser, unittest.TestCase):
         self.browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
     def test_curves_stand_out(self):
-        colours = re.search(r"curveColours = \[(.*?)\]", Path("src/wheelwright/page/assets/parts.js").read_text())[1]
+        colours = re.search(r"curveColours = \[(.*?)\]", Path("src/wheelwright/page/assets/colours.js").read_text())[1]
         for colour in re.findall(r"#[0-9a-f]{6}", colours):
             for panel in ("#f6f8fa", "#161b22"):
                 self.assertGreaterEqual(contrast(colour, panel), 3, colour)

@@ -65,9 +65,9 @@ void expect_common_keys(const RollingModel<dim>& model, const Case& c) {
   EXPECT_EQ(model.grid.cells[0], 16);
   EXPECT_EQ(model.grid.cells[1], 13);
   EXPECT_EQ(model.degree, 1);
-  EXPECT_EQ(model.materials.at_tread().youngs_modulus, 3e6);
-  EXPECT_EQ(model.materials.at_tread().poissons_ratio, 0.31);
-  EXPECT_EQ(model.materials.at_tread().plane, Plane::stress);
+  EXPECT_EQ(model.materials.at_tread().isotropic()->youngs_modulus, 3e6);
+  EXPECT_EQ(model.materials.at_tread().isotropic()->poissons_ratio, 0.31);
+  EXPECT_EQ(model.materials.at_tread().isotropic()->plane, Plane::stress);
   EXPECT_EQ(model.ghost.kind, c.ghost_penalty.kind);
   EXPECT_EQ(model.ghost.xi, 0.37);
   EXPECT_EQ(model.contact.method, ContactMethod::nitsche);

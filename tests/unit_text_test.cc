@@ -17,6 +17,8 @@ TEST(UnitText, DecimalsAreConvertedWithoutRounding) {
   EXPECT_EQ(converted({12.7, "mm"}, "m"), 0.0127);
   EXPECT_EQ(converted({30, "km/h"}, "m/s"), 30 / 3.6);
   EXPECT_EQ(converted({25, "MPa"}, "Pa"), 25e6);
+  EXPECT_EQ(converted({1.1, "g/cm3"}, "kg/m^3"), 1100);
+  EXPECT_EQ(converted({2, "N/mm2"}, "Pa"), 2e6);
   EXPECT_FALSE(converted({25, "MPa"}, "m"));
   EXPECT_FALSE(converted({25, "furlong"}, "m"));
   EXPECT_FALSE(value_with_unit("25"));

@@ -28,8 +28,8 @@ class ShapeOnly : public RunControl {
   int iteration() const override { return 0; }
   void save() override {}
   void stop() override {}
-  void pause(int) override {}
-  void continue_run() override {}
+  std::optional<Refusal> pause(int) override { return {}; }
+  std::optional<Refusal> continue_run() override { return {}; }
   std::optional<Refusal> change_case(const Case&, const std::string&) override { return {}; }
   std::vector<Point> hole_at(const Point& point) const override { return hole_contour(shape_, point); }
   std::optional<Refusal> draw(std::span<const Stroke> strokes, const std::string&) override {

@@ -18,8 +18,8 @@ void check_problems(const std::vector<DrawingProblem>& problems) {
 }
 
 /// What was read is closed, and can be composed.
-void check_outline(const Outline& outline) {
-  for (const Loop& loop : outline.loops)
+void check_outline(const DrawnOutline& outline) {
+  for (const DrawnLoop& loop : outline.loops)
     for (std::size_t i = 0; i < loop.curves.size(); ++i)
       require(loop.curves[i].end() == loop.curves[(i + 1) % loop.curves.size()].start(), "a loop is closed");
   const Composition shape({{Fill::hole, {outline}}});

@@ -240,28 +240,37 @@ std::optional<Failure> material_overlaps(const StateSolver<dim>& solver, const L
                              100 * travel)};
 }
 
-std::string deformation_warning(const DeformationSize& size) {
-  if (size.strain <= small_strain && size.travel <= small_travel && !size.edges_overlap) return "";
-  return fmt::format(
-      "large deformation: strains reach {:.2g} %, the material turns by up to {:.2g} deg, and the rim "
-      "travels "
-      "{:.2g} % of the ring's thickness{}. Linear elasticity holds up to about {:.0f} % of strain and {:.0f} "
-      "% "
-      "of travel; beyond, travel, pressures and stresses of the real wheel are different. A smaller load or "
-      "a stiffer material helps.",
-      100 * size.strain, size.rotation * 180 / std::numbers::pi, 100 * size.travel,
-      size.edges_overlap ? ", and edges of holes cross each other" : "", 100 * small_strain,
-      100 * small_travel);
+double share_of_small_load(const DeformationSize& size) {
+  return std::min({1.0, small_strain / size.strain, small_travel / size.travel});
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                               \
-  template double travel_by_thickness(const StateSolver<dim>&, const State<dim>&);                 \
-  template bool edges_overlap(const StateSolver<dim>&, const LevelSet<dim>&, const State<dim>&);   \
-  template std::optional<Failure> material_overlaps(const StateSolver<dim>&, const LevelSet<dim>&, \
-                                                    const State<dim>&);                            \
-  template DeformationSize deformation_size(const StateSolver<dim>&, const LevelSet<dim>&, const State<dim>&);
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+std::string deformation_warning(const DeformationSize& size) {
+  if (size.strain <= small_strain && size.travel <= small_travel && !size.edges_overlap) return "";
+  const double share = share_of_small_load(size);
+  const std::string remedy =
+      share < 1
+          ? fmt::format(
+                "About {:.2g} % of the load would stay within that, or a material {:.2g} times as stiff.",
+                100 * share, 1 / share)
+          : "A smaller load or a stiffer material helps.";
+  return fmt::format(
+      "large deformation: strains reach {:.3g} %, the material turns by up to {:.2g} deg, and the rim "
+      "travels "
+      "{:.3g} % of the ring's thickness{}. Linear elasticity holds up to about {:.0f} % of strain and {:.0f} "
+      "% "
+      "of travel; beyond, travel, pressures and stresses of the real wheel are different. {}",
+      100 * size.strain, size.rotation * 180 / std::numbers::pi, 100 * size.travel,
+      size.edges_overlap ? ", and edges of holes cross each other" : "", 100 * small_strain,
+      100 * small_travel, remedy);
+}
+
+template decltype(travel_by_thickness<2>) travel_by_thickness<2>;
+template decltype(edges_overlap<2>) edges_overlap<2>;
+template decltype(material_overlaps<2>) material_overlaps<2>;
+template decltype(deformation_size<2>) deformation_size<2>;
+template decltype(travel_by_thickness<3>) travel_by_thickness<3>;
+template decltype(edges_overlap<3>) edges_overlap<3>;
+template decltype(material_overlaps<3>) material_overlaps<3>;
+template decltype(deformation_size<3>) deformation_size<3>;
 
 }  // namespace wheelwright

@@ -34,6 +34,10 @@ std::optional<Failure> material_overlaps(const StateSolver<dim>& solver, const L
 /// Beyond these, results of linear elasticity deserve a warning.
 inline constexpr double small_strain = 0.05, small_travel = 0.1;
 
+/// The share of the load, at most 1, at which strain and travel would stay below these if both were
+/// proportional to the load.
+double share_of_small_load(const DeformationSize& size);
+
 /// Says what exceeds them and what that means; empty if nothing does.
 std::string deformation_warning(const DeformationSize& size);
 

@@ -122,12 +122,9 @@ std::vector<Expected<std::vector<ContactSummary>>> under_loads(const State<dim>&
   return result;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                         \
-  template RollingAnalysis rolling_analysis(const StateSolver<dim>&, const State<dim>&);     \
-  template std::vector<Expected<std::vector<ContactSummary>>> under_loads(const State<dim>&, \
-                                                                          std::span<const double>);
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+template decltype(rolling_analysis<2>) rolling_analysis<2>;
+template decltype(under_loads<2>) under_loads<2>;
+template decltype(rolling_analysis<3>) rolling_analysis<3>;
+template decltype(under_loads<3>) under_loads<3>;
 
 }  // namespace wheelwright

@@ -166,7 +166,7 @@ RollingMeasures rolling_measures(std::span<const ContactSummary> positions) {
   return {mean(travel), lowest - highest, greatest_peak, (greatest_peak - least_peak) / mean(peak)};
 }
 
-template ContactSummary contact_summary(const ContactPatch<2>&);
-template ContactSummary contact_summary(const ContactPatch<3>&);
+template decltype(contact_summary<2>) contact_summary<2>;
+template decltype(contact_summary<3>) contact_summary<3>;
 
 }  // namespace wheelwright

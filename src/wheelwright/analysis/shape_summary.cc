@@ -40,12 +40,11 @@ ShapeSummary<dim> shape_summary(const StateSolver<dim>& solver, const LevelSet<d
           .deformation = deformation_size(solver, psi, state)};
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                \
-  template std::vector<ContactSummary> contact_summaries(const State<dim>&);        \
-  template StressPeak<dim> stress_peak(const StateSolver<dim>&, const State<dim>&); \
-  template ShapeSummary<dim> shape_summary(const StateSolver<dim>&, const LevelSet<dim>&, const State<dim>&);
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+template decltype(contact_summaries<2>) contact_summaries<2>;
+template decltype(stress_peak<2>) stress_peak<2>;
+template decltype(shape_summary<2>) shape_summary<2>;
+template decltype(contact_summaries<3>) contact_summaries<3>;
+template decltype(stress_peak<3>) stress_peak<3>;
+template decltype(shape_summary<3>) shape_summary<3>;
 
 }  // namespace wheelwright

@@ -23,16 +23,28 @@ void limit_threads(int n_threads) {
   static_cast<void>(limit);
 }
 
+/// What to do with a file whose name says that it is no case; empty for others.
+std::string why_no_case(const std::filesystem::path& file) {
+  const std::string extension = file.extension().string(), name = file.string();
+  if (extension == std::filesystem::path(saved_shape_file).extension())
+    return fmt::format(
+        "a saved shape has no load and no material: refer to it in a case by [shape] from = \"{}\", or pass "
+        "the folder of its run",
+        name);
+  if (extension == ".svg" || extension == ".dxf")
+    return fmt::format(
+        "a drawing has no load and no material: write a case with `wheelwright init my-wheel.toml`, and "
+        "refer to "
+        "the drawing in it by [[shape.file]] path = \"{}\"",
+        name);
+  return {};
+}
+
 }  // namespace
 
 std::optional<Case> read_or_report(const std::filesystem::path& file) {
-  if (file.extension() == std::filesystem::path(saved_shape_file).extension()) {
-    print_err(
-        "{}: a saved shape has no load and no material: refer to it in a case by [shape] from = \"{}\", or "
-        "pass "
-        "the "
-        "folder of its run\n",
-        file.string(), file.string());
+  if (const std::string reason = why_no_case(file); !reason.empty()) {
+    print_err("{}: {}\n", file.string(), reason);
     return {};
   }
   CaseResult result = read_case(file);

@@ -192,11 +192,9 @@ int report_result(const RunResult<dim>& result, const fs::path& folder, const Si
   return bounds == exit_done ? expected : bounds;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                    \
-  template int report_not_begun(const NotBegun<dim>&, const fs::path&); \
-  template int report_result(const RunResult<dim>&, const fs::path&, const Signals&);
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+template decltype(report_not_begun<2>) report_not_begun<2>;
+template decltype(report_result<2>) report_result<2>;
+template decltype(report_not_begun<3>) report_not_begun<3>;
+template decltype(report_result<3>) report_result<3>;
 
 }  // namespace wheelwright

@@ -26,6 +26,8 @@ class TerminalObserver : public Observer<dim> {
       progress_->show_step(text(advanced->progress), run.elapsed_seconds);
     if (const auto* command = std::get_if<CommandDone>(&event); command && !command->text.empty())
       progress_->note((command->was_executed ? "" : "refused: ") + command->text);
+    if (const auto* failed = std::get_if<StageFailed>(&event))
+      warn(run, failed->stage.c_str(), failed->reason);
     if (const auto* ended = std::get_if<RunEnded<dim>>(&event)) end(*ended, run);
   }
 
@@ -63,7 +65,7 @@ class TerminalObserver : public Observer<dim> {
       const DescribedWheel<dim>& wheel = ended.summary->after.wheel;
       if (wheel.loaded) warn(run, "last shape", deformation_warning(wheel.loaded->summary.deformation));
       if (wheel.outline)
-        for (const std::string& warning : feature_warnings(run.study.source, wheel.outline->clearances))
+        for (const std::string& warning : feature_warnings(run.study.source, *wheel.outline))
           warn(run, "last shape", warning);
       warn(run, "last shape",
            roughness_warning(run.study.source, roughness(wheel), roughness(ended.summary->before.wheel)));
@@ -96,7 +98,7 @@ void show_on_terminal(Run<dim>& run, Detail detail) {
   run.add(std::make_unique<TerminalObserver<dim>>(progress));
 }
 
-template void show_on_terminal(Run<2>&, Detail);
-template void show_on_terminal(Run<3>&, Detail);
+template decltype(show_on_terminal<2>) show_on_terminal<2>;
+template decltype(show_on_terminal<3>) show_on_terminal<3>;
 
 }  // namespace wheelwright

@@ -14,17 +14,77 @@ using Vec = std::array<double, dim>;
 template <int dim>
 using Mat = std::array<std::array<double, dim>, dim>;
 
-template <int dim>
-constexpr double dot(const Vec<dim>& a, const Vec<dim>& b) {
+template <std::size_t dim>
+constexpr std::array<double, dim>& operator+=(std::array<double, dim>& a, const std::array<double, dim>& b) {
+  for (std::size_t d = 0; d < dim; ++d) a[d] += b[d];
+  return a;
+}
+
+template <std::size_t dim>
+constexpr std::array<double, dim>& operator-=(std::array<double, dim>& a, const std::array<double, dim>& b) {
+  for (std::size_t d = 0; d < dim; ++d) a[d] -= b[d];
+  return a;
+}
+
+template <std::size_t dim>
+constexpr std::array<double, dim> operator+(std::array<double, dim> a, const std::array<double, dim>& b) {
+  return a += b;
+}
+
+template <std::size_t dim>
+constexpr std::array<double, dim> operator-(std::array<double, dim> a, const std::array<double, dim>& b) {
+  return a -= b;
+}
+
+template <std::size_t dim>
+constexpr std::array<double, dim> operator*(double factor, std::array<double, dim> a) {
+  for (double& component : a) component *= factor;
+  return a;
+}
+
+template <std::size_t dim>
+constexpr std::array<double, dim> operator/(std::array<double, dim> a, double divisor) {
+  for (double& component : a) component /= divisor;
+  return a;
+}
+
+template <std::size_t dim>
+constexpr double dot(const std::array<double, dim>& a, const std::array<double, dim>& b) {
   double sum = 0;
-  for (int d = 0; d < dim; ++d) sum += a[d] * b[d];
+  for (std::size_t d = 0; d < dim; ++d) sum += a[d] * b[d];
   return sum;
 }
 
-template <int dim>
-double norm(const Vec<dim>& a) {
-  return std::sqrt(dot<dim>(a, a));
+template <std::size_t dim>
+double norm(const std::array<double, dim>& a) {
+  return std::sqrt(dot(a, a));
 }
+
+template <class Number, std::size_t dim>
+constexpr std::array<double, dim> componentwise_product(const std::array<Number, dim>& a,
+                                                        std::array<double, dim> b) {
+  for (std::size_t d = 0; d < dim; ++d) b[d] *= a[d];
+  return b;
+}
+
+/// The point at t of the way from a to b.
+template <std::size_t dim>
+constexpr std::array<double, dim> between(const std::array<double, dim>& a, const std::array<double, dim>& b,
+                                          double t) {
+  return a + t * (b - a);
+}
+
+inline double distance(const Vec<2>& a, const Vec<2>& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
+
+/// The third component of the cross product: positive if b is to the left of a.
+constexpr double cross(const Vec<2>& a, const Vec<2>& b) { return a[0] * b[1] - a[1] * b[0]; }
+
+constexpr Vec<3> cross(const Vec<3>& a, const Vec<3>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// a turned to the left by a right angle.
+constexpr Vec<2> left_of(const Vec<2>& a) { return {-a[1], a[0]}; }
 
 /// Returns the determinant of m.
 template <int dim>

@@ -21,8 +21,6 @@ constexpr double step_of_deviation = 1.5e-3;
 
 using Faults = std::vector<OutlineFault>;
 
-double distance(const Vec<2>& a, const Vec<2>& b) { return std::hypot(b[0] - a[0], b[1] - a[1]); }
-
 bool is_circle_about_axle(const Loop& loop) {
   return loop.kind == LoopKind::outer_edge || loop.kind == LoopKind::bore;
 }
@@ -50,11 +48,9 @@ void check_sides(const Outline& outline, const ZeroContour& zero, double toleran
     }
     for (const Curve& curve : loop.curves) {
       const CurvePoint middle = at(curve, parameter);
-      const double scale = distance_in_tolerances * tolerance / norm<2>(middle.velocity);
-      const Vec<2> left{-scale * middle.velocity[1], scale * middle.velocity[0]};
-      const auto psi = [&](double side) {
-        return zero.at({middle.position[0] + side * left[0], middle.position[1] + side * left[1]}).psi;
-      };
+      const double scale = distance_in_tolerances * tolerance / norm(middle.velocity);
+      const Vec<2> left = scale * left_of(middle.velocity);
+      const auto psi = [&](double side) { return zero.at(middle.position + side * left).psi; };
       if (!(psi(1) < psi(-1)))
         faults.push_back({fmt::format("the material is not on the left of the {} at {}", name(loop.kind),
                                       place_of(middle.position))});
@@ -119,9 +115,8 @@ Deviation of_curves(const Outline& outline, const ZeroContour& zero) {
 }
 
 double distance_to_side(const Vec<2>& p, const Vec<2>& a, const Vec<2>& b) {
-  const Vec<2> side{b[0] - a[0], b[1] - a[1]}, from_a{p[0] - a[0], p[1] - a[1]};
-  const double t = std::clamp(dot<2>(from_a, side) / dot<2>(side, side), 0.0, 1.0);
-  return std::hypot(from_a[0] - t * side[0], from_a[1] - t * side[1]);
+  const Vec<2> side = b - a, from_a = p - a;
+  return distance(from_a, std::clamp(dot(from_a, side) / dot(side, side), 0.0, 1.0) * side);
 }
 
 /// Polygons with corners at most `step` apart, and the corners' neighbours.
@@ -135,8 +130,7 @@ struct DenseCorners {
       for (std::size_t i = 0; i < polygon.size(); ++i) {
         const Vec<2>&a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
         const int parts = std::max(1, static_cast<int>(std::ceil(distance(a, b) / step)));
-        for (int k = 0; k < parts; ++k)
-          points.push_back({a[0] + (b[0] - a[0]) * k / parts, a[1] + (b[1] - a[1]) * k / parts});
+        for (int k = 0; k < parts; ++k) points.push_back(a + static_cast<double>(k) * (b - a) / parts);
       }
       const int end = static_cast<int>(points.size());
       for (int i = first; i < end; ++i) {
@@ -179,9 +173,8 @@ Deviation checked_deviation(const Outline& outline, const LevelSet<2>& psi, cons
 
 std::string line(const char* what, const std::optional<Clearance>& clearance) {
   if (!clearance) return fmt::format("{:<16} none\n", what);
-  return fmt::format(
-      "{:<16} {:.2f} mm at {}\n", what, clearance->width * 1e3,
-      place_of({(clearance->from[0] + clearance->to[0]) / 2, (clearance->from[1] + clearance->to[1]) / 2}));
+  return fmt::format("{:<16} {:.2f} mm at {}\n", what, clearance->width * 1e3,
+                     place_of((clearance->from + clearance->to) / 2));
 }
 
 std::string line(const char* what, const std::optional<Bend>& bend) {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <span>
 
-#include "wheelwright/cad/curve.h"
+#include "wheelwright/cad/outline_curve.h"
 
 namespace wheelwright::cad {
 

@@ -6,17 +6,15 @@
 #include <numbers>
 
 #include "wheelwright/geometry/cell_map.h"
-#include "wheelwright/geometry/nearest_point.h"
+#include "wheelwright/geometry/shrinking_ball.h"
 
 namespace wheelwright::cad {
 namespace {
 
-double distance(const Vec<2>& a, const Vec<2>& b) { return std::hypot(b[0] - a[0], b[1] - a[1]); }
-
 double length(const Curve& curve) {
   constexpr int parts = 32;
   double sum = 0;
-  for (int i = 0; i < parts; ++i) sum += norm<2>(at(curve, (i + 0.5) / parts).velocity) / parts;
+  for (int i = 0; i < parts; ++i) sum += norm(at(curve, (i + 0.5) / parts).velocity) / parts;
   return sum;
 }
 
@@ -35,8 +33,7 @@ struct EdgePoint {
 
 EdgePoint edge_point(const Outline& outline, const Place& place) {
   const CurvePoint point = at(outline.loops[place.loop].curves[place.curve], place.parameter);
-  const double speed = norm<2>(point.velocity);
-  return {place, point.position, {-point.velocity[1] / speed, point.velocity[0] / speed}};
+  return {place, point.position, left_of(point.velocity) / norm(point.velocity)};
 }
 
 Place begin_of_next(const Outline& outline, const Place& place) {
@@ -51,8 +48,7 @@ Place end_of_previous(const Outline& outline, const Place& place) {
 
 /// Angle by which the direction turns from one place to another that is at the same point.
 double turn(const EdgePoint& before, const EdgePoint& after) {
-  return std::atan2(before.normal[0] * after.normal[1] - before.normal[1] * after.normal[0],
-                    dot<2>(before.normal, after.normal));
+  return std::atan2(cross(before.normal, after.normal), dot(before.normal, after.normal));
 }
 
 /// The point at the begin of a curve, with all directions between the normals on either side if there is a
@@ -100,19 +96,12 @@ struct TouchingCircle {
 /// it.
 TouchingCircle touching_circle(const NearestPoint<2>& edges, const Vec<2>& p, const Vec<2>& n,
                                double radius) {
-  constexpr int most_steps = 100;
+  constexpr int max_steps = 100;
   constexpr double slack = 1e-9;
   TouchingCircle circle{radius, -1};
-  for (int k = 0; k < most_steps; ++k) {
-    const Vec<2> centre{p[0] + circle.radius * n[0], p[1] + circle.radius * n[1]};
-    const int nearest = edges.index_of_nearest(centre);
-    const Vec<2>& q = edges.points()[nearest];
-    if (distance(q, centre) >= circle.radius * (1 - slack)) break;
-    const Vec<2> chord{q[0] - p[0], q[1] - p[1]};
-    const double smaller = dot<2>(chord, chord) / (2 * dot<2>(chord, n));
-    if (!(smaller > 0 && smaller < circle.radius)) break;
-    circle = {smaller, nearest};
-  }
+  shrunk_radius<2>(edges, p, n, radius, slack, max_steps, [&](int touched, double smaller) {
+    circle = {smaller, touched};
+  });
   return circle;
 }
 
@@ -121,7 +110,7 @@ Vec<2> acceleration(const Curve& curve, double parameter) {
   constexpr double step = 1e-4;
   const double before = std::max(0.0, parameter - step), after = std::min(1.0, parameter + step);
   const Vec<2> v = at(curve, before).velocity, w = at(curve, after).velocity;
-  return {(w[0] - v[0]) / (after - before), (w[1] - v[1]) / (after - before)};
+  return (w - v) / (after - before);
 }
 
 /// Moves a place towards the point of its loop that is nearest to a target, at most to the end of its curve
@@ -130,12 +119,12 @@ bool approach(const Outline& outline, EdgePoint& edge, const Vec<2>& target) {
   Place place = edge.place;
   const Curve& curve = outline.loops[place.loop].curves[place.curve];
   const CurvePoint p = at(curve, place.parameter);
-  const Vec<2> miss{target[0] - p.position[0], target[1] - p.position[1]};
+  const Vec<2> miss = target - p.position;
   // Newton's step where the curve bends away from the target: without its curvature, the step would go beyond
   // the nearest point of a bend that is tighter than the target is far.
-  const double straight = dot<2>(p.velocity, p.velocity),
-               bent = straight - dot<2>(miss, acceleration(curve, place.parameter));
-  place.parameter += dot<2>(miss, p.velocity) / std::max(straight, bent);
+  const double straight = dot(p.velocity, p.velocity),
+               bent = straight - dot(miss, acceleration(curve, place.parameter));
+  place.parameter += dot(miss, p.velocity) / std::max(straight, bent);
   if (place.parameter > 1) place = begin_of_next(outline, place);
   if (place.parameter < 0) place = end_of_previous(outline, place);
   const bool moves = place.curve != edge.place.curve || place.parameter != edge.place.parameter;
@@ -152,7 +141,7 @@ bool is_straight(const Outline& outline, const EdgePoint& edge, const Vec<2>& di
   if (place.parameter == 0) corner = turn(edge_point(outline, end_of_previous(outline, place)), edge);
   if (place.parameter == 1) corner = turn(edge, edge_point(outline, begin_of_next(outline, place)));
   const bool has_room = std::abs(corner) > std::acos(cosine);
-  return std::abs(dot<2>(edge.normal, direction)) > (has_room ? 0 : cosine);
+  return std::abs(dot(edge.normal, direction)) > (has_room ? 0 : cosine);
 }
 
 /// The neck about two places, if there is one.
@@ -166,8 +155,7 @@ std::optional<Clearance> neck(const Outline& outline, EdgePoint from, EdgePoint 
   }
   const double width = distance(from.position, to.position);
   if (!(width > least_share * before && width <= before)) return {};
-  const Vec<2> direction{(to.position[0] - from.position[0]) / width,
-                         (to.position[1] - from.position[1]) / width};
+  const Vec<2> direction = (to.position - from.position) / width;
   if (!is_straight(outline, from, direction) || !is_straight(outline, to, direction)) return {};
   return Clearance{width, from.position, to.position};
 }
@@ -180,7 +168,7 @@ class Search {
         points_(walk(outline, step)),
         edges_(positions(points_)),
         sector_(2 * std::numbers::pi / n_sectors) {
-    for (const EdgePoint& point : points_) reach_ = std::max(reach_, 2 * norm<2>(point.position));
+    for (const EdgePoint& point : points_) reach_ = std::max(reach_, 2 * norm(point.position));
   }
 
   std::optional<Clearance> thinnest_wall() const {
@@ -210,14 +198,19 @@ class Search {
   /// it saves the search among far points.
   std::optional<Circle> circle_at(const EdgePoint& p, int point, double side, double likely) const {
     constexpr double growth = 1.25;
-    const Vec<2> n{side * p.normal[0], side * p.normal[1]};
+    const Vec<2> n = side * p.normal;
     auto circle = touching_circle(edges_, p.position, n, std::min(growth * likely, reach_));
     if (circle.touched < 0) circle = touching_circle(edges_, p.position, n, reach_);
     const auto [radius, touched] = circle;
     if (touched < 0) return {};
-    return Circle{point,      touched,
-                  radius,     distance(p.position, points_[touched].position),
-                  p.position, {p.position[0] + radius * n[0], p.position[1] + radius * n[1]}};
+    return Circle{
+        .point = point,
+        .touched = touched,
+        .radius = radius,
+        .chord = distance(p.position, points_[touched].position),
+        .at = p.position,
+        .centre = p.position + radius * n,
+    };
   }
 
   /// The circles at the points of one image of every loop of the kinds that are wanted.
@@ -274,9 +267,7 @@ class Search {
   }
 
   Clearance diameter(const Circle& circle) const {
-    return {2 * circle.radius,
-            circle.at,
-            {2 * circle.centre[0] - circle.at[0], 2 * circle.centre[1] - circle.at[1]}};
+    return {2 * circle.radius, circle.at, 2 * circle.centre - circle.at};
   }
 
   /// One representative sector: the part of circles about the axle in it, and the other loops that start in

@@ -6,26 +6,19 @@
 namespace wheelwright::cad {
 namespace {
 
-Vec<2> between(const Vec<2>& a, const Vec<2>& b, double t) {
-  return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])};
-}
-
 /// Angle between the gradients of psi just before and just after a point of the contour.
 double kink(const ZeroContour& zero, const Vec<2>& before, const Vec<2>& point, const Vec<2>& after) {
   constexpr double near = 1e-3;
   const Vec<2> a = zero.at(between(point, before, near)).gradient,
                b = zero.at(between(point, after, near)).gradient;
-  return std::abs(std::atan2(a[0] * b[1] - a[1] * b[0], dot<2>(a, b)));
+  return std::abs(std::atan2(cross(a, b), dot(a, b)));
 }
 
 /// A point between two neighbours of the contour, on the zero contour if that is found between them.
 Vec<2> point_between(const ZeroContour& zero, const Vec<2>& a, const Vec<2>& b, double t) {
   const Vec<2> chord_point = between(a, b, t);
   const auto projected = zero.projection(chord_point);
-  const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
-  if (!projected ||
-      std::hypot((*projected)[0] - chord_point[0], (*projected)[1] - chord_point[1]) > length / 2)
-    return chord_point;
+  if (!projected || distance(*projected, chord_point) > distance(a, b) / 2) return chord_point;
   return *projected;
 }
 
@@ -38,7 +31,7 @@ ContourSamples sample(const Contour& contour, const ZeroContour& zero, double di
   const std::size_t n = p.size();
   for (std::size_t i = 0; i < n; ++i) {
     const Vec<2>&before = p[(i + n - 1) % n], &after = p[(i + 1) % n];
-    const double length = std::hypot(after[0] - p[i][0], after[1] - p[i][1]);
+    const double length = wheelwright::distance(after, p[i]);
     const int parts = std::max(fewest_parts, static_cast<int>(std::ceil(length / distance)));
     samples.points.push_back(p[i]);
     samples.kinks.push_back(kink(zero, before, p[i], after));

@@ -29,12 +29,10 @@ Vec<2> centroid(const Contour& contour) {
   Vec<2> sum{};
   Vec<2> a = contour.points.back();
   for (const Vec<2>& b : contour.points) {
-    const double twice = a[0] * b[1] - a[1] * b[0];
-    for (int d = 0; d < 2; ++d) sum[d] += twice * (a[d] + b[d]) / 6;
+    sum += cross(a, b) * (a + b) / 6;
     a = b;
   }
-  const double area = signed_area(contour);
-  return {sum[0] / area, sum[1] / area};
+  return sum / signed_area(contour);
 }
 
 /// The free contours of one sector: one of each group of images.
@@ -51,7 +49,7 @@ class Representatives {
   const std::vector<const Contour*>& contours() const { return chosen_; }
 
   /// Whether the contour lies about the axle, so that it is its own image.
-  bool is_about_axle(std::size_t i) const { return norm<2>(marks_[i].centroid) < tolerance(); }
+  bool is_about_axle(std::size_t i) const { return norm(marks_[i].centroid) < tolerance(); }
 
  private:
   /// Disjoint contours differ in one of these.
@@ -68,7 +66,7 @@ class Representatives {
       if (std::abs(mark.area - other.area) > tolerance() * tolerance() + 1e-6 * std::abs(mark.area)) continue;
       for (int sector = 1; sector < grid_.n_sectors; ++sector) {
         const Vec<2> image = wheelwright::rotated<2>(other.centroid, sector * grid_.sector_angle());
-        if (std::hypot(image[0] - mark.centroid[0], image[1] - mark.centroid[1]) < tolerance()) return true;
+        if (distance(image, mark.centroid) < tolerance()) return true;
       }
     }
     return false;
@@ -130,8 +128,7 @@ int next_corner(const ContourSamples& samples, const std::vector<int>& corners, 
   int sharpest = -1;
   for (int i = 0; i < static_cast<int>(samples.points.size()); ++i) {
     if (samples.kinks[i] < least_corner_angle || std::ranges::binary_search(corners, i)) continue;
-    const Vec<2>& p = samples.points[i];
-    if (std::hypot(p[0] - place[0], p[1] - place[1]) > distance) continue;
+    if (wheelwright::distance(samples.points[i], place) > distance) continue;
     if (sharpest < 0 || samples.kinks[i] > samples.kinks[sharpest]) sharpest = i;
   }
   return sharpest;
@@ -170,7 +167,7 @@ std::optional<OutlineFault> broken_edge(const std::vector<Contour>& contours, co
   const bool tread = has(ContourKind::tread);
   if (tread && has(ContourKind::rim)) return {};
   const double edge = tread ? grid.inner_radius : grid.outer_radius;
-  const auto miss = [edge](const Vec<2>& p) { return std::abs(norm<2>(p) - edge); };
+  const auto miss = [edge](const Vec<2>& p) { return std::abs(norm(p) - edge); };
   Vec<2> nearest{edge, 0};
   double least = INFINITY;
   for (const Contour& contour : contours) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "wheelwright/cad/curve.h"
+#include "wheelwright/cad/outline_curve.h"
 #include "wheelwright/geometry/level_set.h"
 
 namespace wheelwright::cad {

@@ -17,10 +17,8 @@ constexpr int steps_of_mean = 16;
 /// An edge that bends by less per length is straight [rad].
 constexpr double straight = 0.01;
 
-double distance(const Vec<2>& a, const Vec<2>& b) { return std::hypot(b[0] - a[0], b[1] - a[1]); }
-
 /// Angle from one direction to another.
-double angle(const Vec<2>& a, const Vec<2>& b) { return std::atan2(a[0] * b[1] - a[1] * b[0], dot<2>(a, b)); }
+double angle(const Vec<2>& a, const Vec<2>& b) { return std::atan2(cross(a, b), dot(a, b)); }
 
 /// A point of an edge, with the length and turning of the edge since its start.
 struct EdgePoint {
@@ -115,7 +113,7 @@ std::vector<const Loop*> representatives(const Outline& outline, int n_sectors) 
   const auto is_image = [&](const Loop* loop, const Loop* other) {
     const Vec<2> a = start_of(loop->curves.front()), b = start_of(other->curves.front());
     const double sectors = angle(a, b) / sector;
-    return distance(wheelwright::rotated<2>(a, std::round(sectors) * sector), b) < same * norm<2>(b);
+    return distance(wheelwright::rotated<2>(a, std::round(sectors) * sector), b) < same * norm(b);
   };
   for (const Loop& loop : outline.loops) {
     if (loop.kind != LoopKind::hole && loop.kind != LoopKind::island) continue;

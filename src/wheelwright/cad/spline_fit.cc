@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 
+#include "wheelwright/curves/blossom.h"
 #include "wheelwright/linalg/dense.h"
 
 namespace wheelwright::cad {
@@ -87,8 +88,10 @@ class SplineSpace {
     const int n = n_intervals();
     for (int i = 0; i < n + degree; ++i) {
       const int interval = std::clamp(i - 1, 0, n - 1);  // one that touches the knots of this control point
-      spline.points.push_back(
-          blossom(points, interval, {spline.knots[i + 1], spline.knots[i + 2], spline.knots[i + 3]}));
+      std::array<Vec<2>, degree + 1> around;
+      for (int k = 0; k <= degree; ++k) around[k] = points[point_of(interval + k)];
+      spline.points.push_back(blossom(around, std::span(&knots_[interval + 1], 2 * degree),
+                                      std::span(&spline.knots[i + 1], degree)));
     }
     spline.points.back() = spline.points.front();
     return spline;
@@ -135,20 +138,6 @@ class SplineSpace {
     }
   }
 
-  Vec<2> blossom(const std::vector<Vec<2>>& points, int interval,
-                 const std::array<double, degree>& arguments) const {
-    const int k = interval + degree;
-    std::array<Vec<2>, degree + 1> d;
-    for (int i = 0; i <= degree; ++i) d[i] = points[point_of(interval + i)];
-    for (int level = 1; level <= degree; ++level)
-      for (int i = degree; i >= level; --i) {
-        const double low = knots_[k - degree + i], high = knots_[k + i + 1 - level];
-        const double t = (arguments[level - 1] - low) / (high - low);
-        for (int a = 0; a < 2; ++a) d[i][a] = d[i - 1][a] + t * (d[i][a] - d[i - 1][a]);
-      }
-    return d[degree];
-  }
-
   std::vector<double> breaks_, knots_;
   std::vector<Reciprocals> reciprocals_;  ///< of every interval
   bool closed_;
@@ -163,7 +152,7 @@ struct Samples {
 Samples by_arc_length(std::span<const Vec<2>> points, bool closed) {
   std::vector<double> length{0};
   const auto add = [&](const Vec<2>& a, const Vec<2>& b) {
-    length.push_back(length.back() + std::hypot(b[0] - a[0], b[1] - a[1]));
+    length.push_back(length.back() + distance(a, b));
   };
   for (std::size_t i = 1; i < points.size(); ++i) add(points[i - 1], points[i]);
   if (closed) add(points.back(), points.front());

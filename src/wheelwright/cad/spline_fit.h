@@ -3,7 +3,7 @@
 #include <span>
 
 #include "wheelwright/base/expected.h"
-#include "wheelwright/cad/curve.h"
+#include "wheelwright/cad/outline_curve.h"
 
 namespace wheelwright::cad {
 

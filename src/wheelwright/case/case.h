@@ -279,8 +279,7 @@ enum class MeanStress {
   held,   ///< that of the last accepted shape, as the paper does
 };
 
-/// Weights of the functionals in J, and parameters of the functionals. How a bounded or minimized quantity is
-/// aggregated over the load positions.
+/// How a bounded or minimized quantity is aggregated over the load positions.
 enum class OverPositions {
   mean,   ///< their mean
   worst,  ///< the worst of them
@@ -294,6 +293,7 @@ struct ObjectiveTerm {
   bool operator==(const ObjectiveTerm&) const = default;
 };
 
+/// Weights of the functionals in J, and parameters of the functionals.
 struct Objective {
   Quantity minimize = {};  ///< by default the sum with the weights below
   OverPositions over = OverPositions::mean;

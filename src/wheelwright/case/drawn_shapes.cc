@@ -17,7 +17,7 @@ namespace wheelwright {
 namespace {
 
 using std::numbers::pi;
-using Outlines = std::vector<Outline>;
+using Outlines = std::vector<DrawnOutline>;
 
 double first_azimuth(const std::optional<double>& phase, int count) { return phase.value_or(pi / count); }
 
@@ -48,7 +48,7 @@ Outlines outlines(const AnnulusShape& s, const Case& c) {
 
 /// A strip that continues beyond ends that are not given, so that it meets rim and tread over its whole
 /// thickness.
-Outline spoke_strip(const SpokeShape& s, Point from, Point to, double bend) {
+DrawnOutline spoke_strip(const SpokeShape& s, Point from, Point to, double bend) {
   const Point chord = to - from;
   const double length = norm<2>(chord), beyond = s.thickness;
   const Affine turned = Affine::rotation(0.5 * bend);
@@ -105,7 +105,7 @@ Outlines outlines(const FileShape& s, const Case&) {
 Outlines outlines(const PictureShape& s, const Case& c) {
   if (!s.picture.contents) return {};
   const Picture& picture = *s.picture.contents;
-  const Outline outline =
+  const DrawnOutline outline =
       s.layout == PictureLayout::wheel
           ? wheel_outline(picture, s.threshold, s.width.value_or(0))
           : ring_outline(picture, s.threshold, s.count, c.wheel.inner_radius, c.wheel.outer_radius);
@@ -177,7 +177,7 @@ bool is_whole(const Shape& shape) {
 Outlines turned(const Outlines& first, double angle) {
   const Affine turn = Affine::rotation(angle);
   Outlines result;
-  for (const Outline& outline : first) result.push_back(outline.mapped(turn));
+  for (const DrawnOutline& outline : first) result.push_back(outline.mapped(turn));
   return result;
 }
 
@@ -220,7 +220,7 @@ std::vector<DrawnShape> drawn_shapes(const Case& c) {
 Figure figure_of(const DrawnShape& shape) {
   Figure figure{shape.fill, shape.first};
   for (int i = 1; i < shape.count; ++i)
-    for (Outline& outline : turned(shape.first, 2 * pi * i / shape.count))
+    for (DrawnOutline& outline : turned(shape.first, 2 * pi * i / shape.count))
       figure.outlines.push_back(std::move(outline));
   return figure;
 }
@@ -233,8 +233,8 @@ std::vector<Figure> figures(const Case& c) {
 
 long long curve_count(const DrawnShape& shape) {
   long long count = 0;
-  for (const Outline& outline : shape.first)
-    for (const Loop& loop : outline.loops) count += static_cast<long long>(loop.curves.size());
+  for (const DrawnOutline& outline : shape.first)
+    for (const DrawnLoop& loop : outline.loops) count += static_cast<long long>(loop.curves.size());
   return count * shape.count;
 }
 

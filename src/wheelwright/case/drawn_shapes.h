@@ -20,7 +20,7 @@ struct DrawnShape {
   int order;        ///< among the shapes of the case
   std::string key;  ///< e.g. "shape.slot[2]"
   Fill fill;
-  std::vector<Outline> first;  ///< of which the union is repeated [m]
+  std::vector<DrawnOutline> first;  ///< of which the union is repeated [m]
   Repetition repetition;
   int count;
   bool may_leave_ring;  ///< whether material beyond rim and tread is intended; it has no effect

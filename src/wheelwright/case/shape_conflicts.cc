@@ -98,8 +98,8 @@ void check_spoke(const Case& c, std::size_t i, Conflicts& found) {
 /// The innermost and outermost points of an outline.
 RadialExtent radial_extent(const DrawnShape& shape, std::string& lowest_place, std::string& highest_place) {
   RadialExtent all{HUGE_VAL, 0, {}, {}};
-  for (const Outline& outline : shape.first)
-    for (const Loop& loop : outline.loops)
+  for (const DrawnOutline& outline : shape.first)
+    for (const DrawnLoop& loop : outline.loops)
       for (const Curve& curve : loop.curves) {
         const RadialExtent extent = radial_extent(curve);
         if (extent.low < all.low) all.low = extent.low, all.lowest = extent.lowest, lowest_place = loop.place;
@@ -161,7 +161,7 @@ void check_extent(const Case& c, const DrawnShape& shape, Conflicts& found) {
 
 void check_crossings(const DrawnShape& shape, Conflicts& found) {
   constexpr int most = 3;
-  for (const Outline& outline : shape.first)
+  for (const DrawnOutline& outline : shape.first)
     for (const Crossing& crossing : crossings(outline, most))
       found.push_back({{shape.key},
                        fmt::format("the outline crosses or touches itself at {}{}", point_text(crossing.at),

@@ -40,8 +40,16 @@ const std::vector<UnitsOfKind>& known_units() {
   return kinds;
 }
 
+/// E.g. "kg/m3" for "kg/m^3".
+std::string without_carets(std::string_view name) {
+  std::string result(name);
+  std::erase(result, '^');
+  return result;
+}
+
 const Unit* find(const UnitsOfKind& kind, std::string_view name) {
-  const auto found = std::ranges::find(kind, name, &Unit::name);
+  const auto found = std::ranges::find_if(
+      kind, [&](const Unit& unit) { return without_carets(unit.name) == without_carets(name); });
   return found == kind.end() ? nullptr : &*found;
 }
 

@@ -164,11 +164,8 @@ template <int dim>
 Vec<dim> reference_normal(std::span<const double> values, int degree, const Vec<dim>& xi) {
   const ShapeFunctions<dim> shape(degree, xi);
   Vec<dim> gradient{};
-  for (std::size_t a = 0; a < values.size(); ++a)
-    for (int d = 0; d < dim; ++d) gradient[d] += values[a] * shape.gradient[a][d];
-  const double length = norm<dim>(gradient);
-  for (double& x : gradient) x /= length;
-  return gradient;
+  for (std::size_t a = 0; a < values.size(); ++a) gradient += values[a] * shape.gradient[a];
+  return gradient / norm(gradient);
 }
 
 /// The edges of the boundary in the side faces of the wheel, in one cell, by the quadrature of its faces.
@@ -286,9 +283,9 @@ std::optional<Failure> check_attached(const CutDomain<dim>& domain, int rim_rows
   return check_connected(domain);
 }
 
-template Expected<CutDomain<2>> cut_domain(const LevelSet<2>&, int);
-template Expected<CutDomain<3>> cut_domain(const LevelSet<3>&, int);
-template std::optional<Failure> check_attached(const CutDomain<2>&, int, int);
-template std::optional<Failure> check_attached(const CutDomain<3>&, int, int);
+template decltype(cut_domain<2>) cut_domain<2>;
+template decltype(cut_domain<3>) cut_domain<3>;
+template decltype(check_attached<2>) check_attached<2>;
+template decltype(check_attached<3>) check_attached<3>;
 
 }  // namespace wheelwright

@@ -71,7 +71,7 @@ template double material_measure(const LevelSet<2>&);
 template double material_measure(const LevelSet<3>&);
 template double material_measure(const CutDomain<2>&, int);
 template double material_measure(const CutDomain<3>&, int);
-template std::vector<SurfaceSample<2>> boundary_samples(const LevelSet<2>&);
-template std::vector<SurfaceSample<3>> boundary_samples(const LevelSet<3>&);
+template decltype(boundary_samples<2>) boundary_samples<2>;
+template decltype(boundary_samples<3>) boundary_samples<3>;
 
 }  // namespace wheelwright

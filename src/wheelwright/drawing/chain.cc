@@ -7,8 +7,8 @@
 
 namespace wheelwright {
 
-Loop closed_loop(const std::vector<Curve>& curves, std::string place) {
-  Loop loop{{}, std::move(place)};
+DrawnLoop closed_loop(const std::vector<Curve>& curves, std::string place) {
+  DrawnLoop loop{{}, std::move(place)};
   for (const Curve& curve : curves)
     if (curve.start() != curve.end() || curve.box().size() > 0) loop.curves.push_back(curve);
   std::vector<Curve>& chain = loop.curves;

@@ -4,13 +4,13 @@
 #include <variant>
 #include <vector>
 
-#include "wheelwright/drawing/outline.h"
+#include "wheelwright/drawing/drawn_outline.h"
 
 namespace wheelwright {
 
 /// Curves in a row whose neighbours have the same ends up to rounding, as a loop that is closed exactly.
 /// Curves without length are left out, and a line closes a gap between the last and the first.
-Loop closed_loop(const std::vector<Curve>& curves, std::string place);
+DrawnLoop closed_loop(const std::vector<Curve>& curves, std::string place);
 
 /// Individually drawn curves, each with its origin in the file.
 struct LooseCurve {
@@ -27,7 +27,7 @@ struct OpenEnd {
 
 /// The result of joining the ends of loose curves.
 struct Chains {
-  std::vector<Loop> loops;
+  std::vector<DrawnLoop> loops;
   std::vector<OpenEnd> open_ends;
 };
 

@@ -41,7 +41,7 @@ std::vector<Curve> pieces_between(const Curve& curve, std::vector<double> cuts) 
   for (const double cut : cuts) {
     if (cut - last < least) continue;
     const double end = 1 - cut < least ? 1 : cut;
-    result.push_back(curve.between(last, end));
+    result.push_back(curve.part(last, end));
     last = end;
   }
   return result;
@@ -54,7 +54,7 @@ Composition::Composition(const std::vector<Figure>& figures) {
   Box all;
   for (const Figure& figure : figures) {
     for (std::size_t k = 0; k < figure.outlines.size(); ++k)
-      for (const Loop& loop : figure.outlines[k].loops)
+      for (const DrawnLoop& loop : figure.outlines[k].loops)
         for (const Curve& whole : loop.curves)
           for (const Curve& piece : simple_pieces(whole)) {
             curves.push_back(piece);

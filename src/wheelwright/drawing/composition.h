@@ -3,15 +3,15 @@
 #include <memory>
 #include <vector>
 
+#include "wheelwright/drawing/drawn_outline.h"
 #include "wheelwright/drawing/fill.h"
-#include "wheelwright/drawing/outline.h"
 
 namespace wheelwright {
 
 /// Equal outlines that are drawn together, e.g. the spokes of a wheel: their union is filled.
 struct Figure {
   Fill fill;
-  std::vector<Outline> outlines;
+  std::vector<DrawnOutline> outlines;
 };
 
 /// A shape in the plane: material everywhere, over which figures are drawn in their order, each one over

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "wheelwright/drawing/curve.h"
+#include "wheelwright/curves/curve.h"
 
 namespace wheelwright {
 

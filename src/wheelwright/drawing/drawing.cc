@@ -41,7 +41,7 @@ Point stated_axle(Sheet& sheet, const DrawingOptions& options) {
 }
 
 /// Crossings, in the coordinates of the file.
-void add_crossings(Sheet& sheet, const Outline& outline) {
+void add_crossings(Sheet& sheet, const DrawnOutline& outline) {
   for (const Crossing& crossing : crossings(outline, static_cast<int>(most_problems)))
     sheet.problems.push_back(
         {0,
@@ -74,7 +74,7 @@ std::optional<DrawingFormat> drawing_format(const std::string& file_name) {
 
 DrawingResult read_drawing(DrawingFormat format, std::string bytes, const DrawingOptions& options) {
   Sheet sheet = format == DrawingFormat::svg ? read_svg(bytes) : read_dxf(bytes);
-  Outline outline{closed_loops(sheet)};
+  DrawnOutline outline{closed_loops(sheet)};
   const bool is_complete = sheet.problems.empty(), has_curves = !sheet.loops.empty() || !sheet.loose.empty();
   const double unit = has_curves ? stated_unit(sheet, options) : 1;
   const Point axle = has_curves ? stated_axle(sheet, options) : Point{};

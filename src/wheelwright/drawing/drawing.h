@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "wheelwright/drawing/outline.h"
+#include "wheelwright/drawing/drawn_outline.h"
 
 namespace wheelwright {
 
@@ -27,8 +27,8 @@ struct DrawingOptions {
 
 /// The contents of a file: the axle at the origin, x to the right as in the drawing and y upwards.
 struct Drawing {
-  std::string bytes;  ///< the whole file
-  Outline outline;    ///< [m]
+  std::string bytes;     ///< the whole file
+  DrawnOutline outline;  ///< [m]
   double metres_per_unit = 1;
   Point axle{};  ///< the assumed place of the axle, in the file's own unit and axes
 };

@@ -9,8 +9,8 @@
 #include <set>
 #include <string_view>
 
+#include "wheelwright/curves/spline.h"
 #include "wheelwright/drawing/dxf_groups.h"
-#include "wheelwright/drawing/spline.h"
 
 namespace wheelwright {
 

@@ -11,7 +11,7 @@ using std::numbers::pi;
 
 namespace {
 
-Loop whole_ellipse(const Affine& frame, double half_length, double half_width) {
+DrawnLoop whole_ellipse(const Affine& frame, double half_length, double half_width) {
   std::vector<Curve> quarters;
   for (int i = 0; i < 4; ++i)
     quarters.push_back(
@@ -29,15 +29,15 @@ Affine polar_frame(double radius, double azimuth, double angle) {
   return Affine::shift(polar(radius, azimuth)) * Affine::rotation(azimuth + angle);
 }
 
-Outline circle_outline(const Affine& frame, double radius) {
+DrawnOutline circle_outline(const Affine& frame, double radius) {
   return {{whole_ellipse(frame, radius, radius)}};
 }
 
-Outline ellipse_outline(const Affine& frame, double length, double width) {
+DrawnOutline ellipse_outline(const Affine& frame, double length, double width) {
   return {{whole_ellipse(frame, 0.5 * length, 0.5 * width)}};
 }
 
-Outline slot_outline(const Affine& frame, double length, double width) {
+DrawnOutline slot_outline(const Affine& frame, double length, double width) {
   const double radius = 0.5 * width, half = 0.5 * length - radius;
   if (half <= 0) return circle_outline(frame, radius);
   const std::vector<Curve> curves{Curve::line({-half, -radius}, {half, -radius}),
@@ -49,18 +49,18 @@ Outline slot_outline(const Affine& frame, double length, double width) {
   return {{closed_loop(placed, "")}};
 }
 
-Outline polygon_outline(const std::vector<Point>& corners) {
+DrawnOutline polygon_outline(const std::vector<Point>& corners) {
   std::vector<Curve> sides;
   for (std::size_t i = 0; i < corners.size(); ++i)
     sides.push_back(Curve::line(corners[i], corners[(i + 1) % corners.size()]));
   return {{closed_loop(sides, "")}};
 }
 
-Outline annulus_outline(double inner_radius, double outer_radius) {
+DrawnOutline annulus_outline(double inner_radius, double outer_radius) {
   return {{whole_ellipse({}, inner_radius, inner_radius), whole_ellipse({}, outer_radius, outer_radius)}};
 }
 
-Outline strip_outline(const Point& from, const Point& to, double thickness, double bend) {
+DrawnOutline strip_outline(const Point& from, const Point& to, double thickness, double bend) {
   const Point chord = to - from, across = 1 / norm<2>(chord) * Point{-chord[1], chord[0]};
   const double half = 0.5 * thickness;
   if (bend == 0)

@@ -89,8 +89,8 @@ class Contours {
 };
 
 /// The contours as polygons, of points that `place` puts where a column and a row, with fractions, belong.
-Outline outline_of(const Samples& samples, const std::function<Point(double, double)>& place) {
-  Outline outline;
+DrawnOutline outline_of(const Samples& samples, const std::function<Point(double, double)>& place) {
+  DrawnOutline outline;
   for (const std::vector<Edge>& edges : Contours(samples).loops()) {
     std::vector<Point> corners;
     for (const Edge& edge : edges) {
@@ -105,7 +105,7 @@ Outline outline_of(const Samples& samples, const std::function<Point(double, dou
     std::vector<Curve> sides;
     for (std::size_t i = 0; i < corners.size(); ++i)
       sides.push_back(Curve::line(corners[i], corners[(i + 1) % corners.size()]));
-    Loop loop = closed_loop(sides, "");
+    DrawnLoop loop = closed_loop(sides, "");
     if (!loop.curves.empty()) outline.loops.push_back(std::move(loop));
   }
   return outline;
@@ -115,7 +115,7 @@ constexpr double not_drawn = 0;
 
 }  // namespace
 
-Outline wheel_outline(const Picture& picture, double threshold, double width) {
+DrawnOutline wheel_outline(const Picture& picture, double threshold, double width) {
   // Around the picture nothing is drawn.
   const auto value = [&](int column, int row) {
     const bool inside = column > 0 && row > 0 && column <= picture.columns && row <= picture.rows;
@@ -128,8 +128,8 @@ Outline wheel_outline(const Picture& picture, double threshold, double width) {
   });
 }
 
-Outline ring_outline(const Picture& picture, double threshold, int count, double inner_radius,
-                     double outer_radius) {
+DrawnOutline ring_outline(const Picture& picture, double threshold, int count, double inner_radius,
+                          double outer_radius) {
   const int columns = picture.columns * count;
   const auto value = [&](int column, int row) {
     const bool inside = row > 0 && row <= picture.rows;

@@ -44,18 +44,19 @@ std::string shown(std::string_view name) {
   return name.size() > longest ? text + "..." : text;
 }
 
-std::vector<Loop> closed_loops(Sheet& sheet) {
+std::vector<DrawnLoop> closed_loops(Sheet& sheet) {
   take_out_unusable(
       sheet.loops,
-      [](const Loop& loop) { return std::all_of(loop.curves.begin(), loop.curves.end(), is_usable); }, sheet);
+      [](const DrawnLoop& loop) { return std::all_of(loop.curves.begin(), loop.curves.end(), is_usable); },
+      sheet);
   take_out_unusable(
       sheet.loose, [](const LooseCurve& loose) { return is_usable(loose.curve); }, sheet);
   Box box;
-  for (const Loop& loop : sheet.loops)
+  for (const DrawnLoop& loop : sheet.loops)
     for (const Curve& curve : loop.curves) box.add(curve.box());
   for (const LooseCurve& loose : sheet.loose) box.add(loose.curve.box());
   std::erase_if(sheet.loose, [](const LooseCurve& loose) { return loose.curve.box().size() == 0; });
-  std::vector<Loop> loops = sheet.loops;
+  std::vector<DrawnLoop> loops = sheet.loops;
   if (!sheet.loose.empty()) {
     Chains chains = chained(sheet.loose, joined * box.size());
     for (const OpenEnd& end : chains.open_ends) {
@@ -67,9 +68,9 @@ std::vector<Loop> closed_loops(Sheet& sheet) {
            end.branches ? "remove what is drawn twice, and construction lines"
                         : "close it: its ends must be the same point"});
     }
-    for (Loop& loop : chains.loops) loops.push_back(std::move(loop));
+    for (DrawnLoop& loop : chains.loops) loops.push_back(std::move(loop));
   }
-  std::erase_if(loops, [](const Loop& loop) { return loop.curves.empty(); });
+  std::erase_if(loops, [](const DrawnLoop& loop) { return loop.curves.empty(); });
   if (loops.empty() && sheet.problems.empty())
     sheet.problems.push_back({0, "nothing is drawn: there is no closed outline", "draw closed outlines"});
   return loops;

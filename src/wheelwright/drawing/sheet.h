@@ -11,7 +11,7 @@ namespace wheelwright {
 
 /// The contents of a file of curves, in the file's own unit and axes.
 struct Sheet {
-  std::vector<Loop> loops;
+  std::vector<DrawnLoop> loops;
   std::vector<LooseCurve> loose;          ///< which may form more loops
   std::optional<double> metres_per_unit;  ///< if the file says it
   bool y_points_down = false;
@@ -33,6 +33,6 @@ std::string shown(std::string_view name);
 
 /// All loops of a sheet; what stays open or empty is added to its problems, and coordinates that are no
 /// numbers or too large.
-std::vector<Loop> closed_loops(Sheet& sheet);
+std::vector<DrawnLoop> closed_loops(Sheet& sheet);
 
 }  // namespace wheelwright

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "wheelwright/drawing/curve.h"
+#include "wheelwright/curves/curve.h"
 
 namespace wheelwright {
 

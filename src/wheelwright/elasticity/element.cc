@@ -19,18 +19,35 @@ constexpr std::array<std::array<int, 2>, n_strains<dim>> voigt_indices() {
 /// the slope of div u across it. Rounding of the variance is 1e-16.
 constexpr double smallest_variance = 1e-12;
 
-}  // namespace
+/// Strains or stresses on the dofs of a cell, [component][dof].
+template <int dim>
+using OnDofs = std::array<std::array<double, ElasticElement<dim>::max_dofs>, n_strains<dim>>;
 
 template <int dim>
-Voigt<dim> stress(const Material& material, const Voigt<dim>& strain) {
-  const double lambda = material.lambda(), mu = material.mu();
-  double trace = 0;
-  for (int d = 0; d < dim; ++d) trace += strain[d];
-  Voigt<dim> result;
-  for (int s = 0; s < n_strains<dim>; ++s)
-    result[s] = s < dim ? lambda * trace + 2 * mu * strain[s] : mu * strain[s];
+StrainRows<dim> rows(const OnDofs<dim>& strains, int n_dofs) {
+  StrainRows<dim> result;
+  for (int s = 0; s < n_strains<dim>; ++s) result[s] = std::span(strains[s]).first(n_dofs);
   return result;
 }
+template <int dim>
+StressRows<dim> rows(OnDofs<dim>& stresses, int n_dofs) {
+  StressRows<dim> result;
+  for (int s = 0; s < n_strains<dim>; ++s) result[s] = std::span(stresses[s]).first(n_dofs);
+  return result;
+}
+
+/// The stress 2 mu (eps - tr(eps) / dim I).
+template <int dim>
+void deviatoric_stress(double mu, const StrainRows<dim>& strains, const StressRows<dim>& stresses) {
+  for (size_t i = 0; i < strains[0].size(); ++i) {
+    double trace = 0;
+    for (int d = 0; d < dim; ++d) trace += strains[d][i];
+    for (int s = 0; s < n_strains<dim>; ++s)
+      stresses[s][i] = s < dim ? -2 * mu / dim * trace + 2 * mu * strains[s][i] : mu * strains[s][i];
+  }
+}
+
+}  // namespace
 
 template <int dim>
 Vec<dim> traction(const Voigt<dim>& stress, const Vec<dim>& normal) {
@@ -45,20 +62,8 @@ Vec<dim> traction(const Voigt<dim>& stress, const Vec<dim>& normal) {
 }
 
 template <int dim>
-double von_mises(const Material& material, const Voigt<dim>& s) {
-  double s11 = s[0], s22 = s[1], s33, shear = 0;
-  if constexpr (dim == 2)
-    s33 = material.axial_stress_ratio() * (s11 + s22);
-  else
-    s33 = s[2];
-  for (int k = dim; k < n_strains<dim>; ++k) shear += s[k] * s[k];
-  const double a = s11 - s22, b = s22 - s33, c = s33 - s11;
-  return std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * shear);
-}
-
-template <int dim>
 ElasticElement<dim>::ElasticElement(const PolarGrid<dim>& grid, int degree, const std::array<int, dim>& cell,
-                                    const Material& material)
+                                    const MaterialLaw<dim>& law)
     : degree_(degree), map_(grid, degree, cell) {
   const double spacing = grid.cell_size()[1] / degree;
   for (int a = 0; a < n_nodes(); ++a) {
@@ -81,7 +86,8 @@ ElasticElement<dim>::ElasticElement(const PolarGrid<dim>& grid, int degree, cons
     for (const auto& b : corners)
       plane_diameter_ = std::max(plane_diameter_, norm<2>({a[0] - b[0], a[1] - b[1]}));
   if constexpr (dim == 3) axial_length_ = grid.cell_size()[2];
-  if (degree == 2 && material.nearly_incompressible())
+  if (const Material* material = law.isotropic();
+      material && degree == 2 && material->nearly_incompressible())
     dilatation_ = project_dilatation(unit_cell_rule<dim>(degree + 2)).coefficients;
 }
 
@@ -192,46 +198,44 @@ auto ElasticElement<dim>::second_derivative(const Vec<dim>& xi, int axis, const 
 
 template <int dim>
 std::array<std::array<double, ElasticElement<dim>::max_dofs>, dim> traction_map(
-    const ElasticElement<dim>& element, const Material& material,
+    const ElasticElement<dim>& element, const MaterialLaw<dim>& law,
     const typename ElasticElement<dim>::Point& point, const Vec<dim>& normal) {
+  OnDofs<dim> stresses;
+  law.stress(rows<dim>(point.strain, element.n_dofs()), rows<dim>(stresses, element.n_dofs()));
   std::array<std::array<double, ElasticElement<dim>::max_dofs>, dim> result{};
   for (int dof = 0; dof < element.n_dofs(); ++dof) {
-    Voigt<dim> strain;
-    for (int s = 0; s < n_strains<dim>; ++s) strain[s] = point.strain[s][dof];
-    const Vec<dim> t = traction<dim>(stress<dim>(material, strain), normal);
+    Voigt<dim> sigma;
+    for (int s = 0; s < n_strains<dim>; ++s) sigma[s] = stresses[s][dof];
+    const Vec<dim> t = traction<dim>(sigma, normal);
     for (int d = 0; d < dim; ++d) result[d][dof] = t[d];
   }
   return result;
 }
 
 template <int dim>
-Matrix cell_stiffness(const ElasticElement<dim>& element, const Material& material,
+Matrix cell_stiffness(const ElasticElement<dim>& element, const MaterialLaw<dim>& law,
                       std::span<const ReferencePoint<dim>> points) {
   const int n = element.n_dofs();
-  const double mu = material.mu();
-  const double lambda = element.projects_dilatation() ? -2 * mu / dim : material.lambda();
   Matrix k(n, n);
-  std::array<std::array<double, ElasticElement<dim>::max_dofs>, n_strains<dim>> weighted_stress;
+  OnDofs<dim> stresses;
   for (const auto& q : points) {
     const auto point = element.at(q.xi);
     const double weight = q.weight * point.determinant;
-    for (int dof = 0; dof < n; ++dof) {
-      double trace = 0;
-      for (int d = 0; d < dim; ++d) trace += point.strain[d][dof];
-      for (int s = 0; s < n_strains<dim>; ++s)
-        weighted_stress[s][dof] =
-            weight * (s < dim ? lambda * trace + 2 * mu * point.strain[s][dof] : mu * point.strain[s][dof]);
-    }
+    if (element.projects_dilatation())
+      deviatoric_stress<dim>(law.isotropic()->mu(), rows<dim>(point.strain, n), rows<dim>(stresses, n));
+    else
+      law.stress(rows<dim>(point.strain, n), rows<dim>(stresses, n));
     for (int j = 0; j < n; ++j)
       for (int s = 0; s < n_strains<dim>; ++s) {
-        const double value = weighted_stress[s][j];
+        const double value = weight * stresses[s][j];
         double* column = k.column(j);
         for (int i = j; i < n; ++i) column[i] += point.strain[s][i] * value;
       }
   }
   if (element.projects_dilatation()) {
     const auto dilatation = element.project_dilatation(points);
-    const double bulk = material.lambda() + 2 * mu / dim;
+    const Material& material = *law.isotropic();
+    const double bulk = material.lambda() + 2 * material.mu() / dim;
     multiply(bulk, dilatation.moments, Op::transpose, dilatation.coefficients, Op::none, 1, k);
   }
   for (int j = 0; j < n; ++j)
@@ -240,12 +244,12 @@ Matrix cell_stiffness(const ElasticElement<dim>& element, const Material& materi
 }
 
 template <int dim>
-Matrix gradient_stiffness(const ElasticElement<dim>& element, const Material& material,
+Matrix gradient_stiffness(const ElasticElement<dim>& element, const MaterialLaw<dim>& law,
                           std::span<const ReferencePoint<dim>> points) {
   const int n = element.n_dofs();
   Matrix k(n, n);
   for (const auto& q : points) {
-    const double weight = q.weight * element.at(q.xi).determinant * material.scaling_modulus();
+    const double weight = q.weight * element.at(q.xi).determinant * law.scaling_modulus();
     for (const auto& derivative : element.gradient(q.xi))
       for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i) k(i, j) += weight * derivative[i] * derivative[j];
@@ -282,10 +286,9 @@ typename ElasticElement<dim>::Point with_own_dilatation(const ElasticElement<dim
 /// `at` returns the map and strain of an element at a point of the unit cell.
 template <int dim>
 std::vector<FaceTerm<dim>> face_terms(const ElasticElement<dim>& minus, const ElasticElement<dim>& plus,
-                                      int axis, double angle, const Material& material,
+                                      int axis, double angle, const MaterialLaw<dim>& law,
                                       const GhostPenalty& ghost, const auto& at) {
-  const double h = 0.5 * (minus.size_across(axis) + plus.size_across(axis)),
-               modulus = material.scaling_modulus();
+  const double h = 0.5 * (minus.size_across(axis) + plus.size_across(axis)), modulus = law.scaling_modulus();
   const auto in_frame_of_minus = [&](const DofMap<dim>& of_plus) {
     DofMap<dim> result{};
     for (int j = 0; j < plus.n_dofs(); ++j) {
@@ -309,8 +312,8 @@ std::vector<FaceTerm<dim>> face_terms(const ElasticElement<dim>& minus, const El
     const auto surface = map_surface<dim>(at_minus.jacobian, reference_normal);
     const Vec<dim> normal = surface.normal, plus_normal = rotated<dim>(normal, -angle);
     const double weight = q.weight * surface.scale * 0.5 * ghost.xi;
-    terms.push_back({traction_map<dim>(minus, material, at_minus, normal),
-                     in_frame_of_minus(traction_map<dim>(plus, material, at_plus, plus_normal)),
+    terms.push_back({traction_map<dim>(minus, law, at_minus, normal),
+                     in_frame_of_minus(traction_map<dim>(plus, law, at_plus, plus_normal)),
                      weight * h / modulus});
     if (n_compared_derivatives(ghost, minus.degree()) > 1)
       terms.push_back({minus.second_derivative(xi_minus, axis, normal),
@@ -378,23 +381,22 @@ Matrix extension(int degree, int n_derivatives, bool from_first_face, double col
 
 template <int dim>
 Matrix ghost_stiffness(const ElasticElement<dim>& minus, const ElasticElement<dim>& plus, int axis,
-                       double angle, const Material& material, const GhostPenalty& ghost) {
-  return jump_stiffness<dim>(
-      minus, plus, face_terms<dim>(minus, plus, axis, angle, material, ghost, with_own_dilatation<dim>));
+                       double angle, const MaterialLaw<dim>& law, const GhostPenalty& ghost) {
+  return jump_stiffness<dim>(minus, plus,
+                             face_terms<dim>(minus, plus, axis, angle, law, ghost, with_own_dilatation<dim>));
 }
 
 template <int dim>
 Matrix traction_jump_stiffness(const ElasticElement<dim>& minus, const ElasticElement<dim>& plus, int axis,
-                               double angle, const Material& material, double weight) {
+                               double angle, const MaterialLaw<dim>& law, double weight) {
   const GhostPenalty of_traction{.kind = GhostPenaltyKind::paper, .xi = weight};
   const auto at = [](const ElasticElement<dim>& element, const Vec<dim>& xi) { return element.at(xi); };
-  return jump_stiffness<dim>(minus, plus,
-                             face_terms<dim>(minus, plus, axis, angle, material, of_traction, at));
+  return jump_stiffness<dim>(minus, plus, face_terms<dim>(minus, plus, axis, angle, law, of_traction, at));
 }
 
 template <int dim>
 GhostHalves divided_ghost_stiffness(const ElasticElement<dim>& element, double column_angle,
-                                    const Material& material, const GhostPenalty& ghost) {
+                                    const MaterialLaw<dim>& law, const GhostPenalty& ghost) {
   const int degree = element.degree(), n_cell = element.n_dofs(),
             n_derivatives = n_compared_derivatives(ghost, degree),
             per_face = dim * power(degree + 1, dim - 1), n = n_cell + n_derivatives * per_face;
@@ -414,7 +416,7 @@ GhostHalves divided_ghost_stiffness(const ElasticElement<dim>& element, double c
       for (int i = 0; i < n; ++i) k(i, j) += weight * difference[i] * difference[j];
   };
   for (const auto& term :
-       face_terms<dim>(element, element, 1, column_angle, material, ghost, with_own_dilatation<dim>))
+       face_terms<dim>(element, element, 1, column_angle, law, ghost, with_own_dilatation<dim>))
     for (int d = 0; d < dim; ++d) {
       for (size_t j = 0; j < between.size(); ++j) {
         double sum = 0;
@@ -447,22 +449,21 @@ Matrix half_of_symmetric_pair(const Matrix& form, int degree) {
 }
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                        \
-  template Voigt<dim> stress<dim>(const Material&, const Voigt<dim>&);                                      \
   template Vec<dim> traction<dim>(const Voigt<dim>&, const Vec<dim>&);                                      \
-  template double von_mises<dim>(const Material&, const Voigt<dim>&);                                       \
   template class ElasticElement<dim>;                                                                       \
   template std::array<std::array<double, ElasticElement<dim>::max_dofs>, dim> traction_map<dim>(            \
-      const ElasticElement<dim>&, const Material&, const ElasticElement<dim>::Point&, const Vec<dim>&);     \
-  template Matrix cell_stiffness<dim>(const ElasticElement<dim>&, const Material&,                          \
+      const ElasticElement<dim>&, const MaterialLaw<dim>&, const ElasticElement<dim>::Point&,               \
+      const Vec<dim>&);                                                                                     \
+  template Matrix cell_stiffness<dim>(const ElasticElement<dim>&, const MaterialLaw<dim>&,                  \
                                       std::span<const ReferencePoint<dim>>);                                \
-  template Matrix gradient_stiffness<dim>(const ElasticElement<dim>&, const Material&,                      \
+  template Matrix gradient_stiffness<dim>(const ElasticElement<dim>&, const MaterialLaw<dim>&,              \
                                           std::span<const ReferencePoint<dim>>);                            \
   template Matrix ghost_stiffness<dim>(const ElasticElement<dim>&, const ElasticElement<dim>&, int, double, \
-                                       const Material&, const GhostPenalty&);                               \
+                                       const MaterialLaw<dim>&, const GhostPenalty&);                       \
   template Matrix traction_jump_stiffness<dim>(const ElasticElement<dim>&, const ElasticElement<dim>&, int, \
-                                               double, const Material&, double);                            \
-  template GhostHalves divided_ghost_stiffness<dim>(const ElasticElement<dim>&, double, const Material&,    \
-                                                    const GhostPenalty&);
+                                               double, const MaterialLaw<dim>&, double);                    \
+  template GhostHalves divided_ghost_stiffness<dim>(const ElasticElement<dim>&, double,                     \
+                                                    const MaterialLaw<dim>&, const GhostPenalty&);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)
 #undef WHEELWRIGHT_INSTANTIATE

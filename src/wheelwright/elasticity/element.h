@@ -4,34 +4,16 @@
 #include <span>
 
 #include "wheelwright/elasticity/ghost_penalty.h"
-#include "wheelwright/elasticity/material.h"
+#include "wheelwright/elasticity/material_law.h"
 #include "wheelwright/geometry/cell_map.h"
 #include "wheelwright/geometry/gauss.h"
 #include "wheelwright/linalg/dense.h"
 
 namespace wheelwright {
 
-/// Number of independent components of a symmetric tensor. Their order is (11, 22, 12) or (11, 22, 33, 23,
-/// 13, 12); shear strains are engineering strains 2 e_ij.
-template <int dim>
-constexpr int n_strains = dim*(dim + 1) / 2;
-
-/// A stress or a strain with its components in this order.
-template <int dim>
-using Voigt = std::array<double, n_strains<dim>>;
-
-/// The stress sigma(eps) of (2) [Pa] in Voigt notation.
-template <int dim>
-Voigt<dim> stress(const Material& material, const Voigt<dim>& strain);
-
 /// The traction sigma n.
 template <int dim>
 Vec<dim> traction(const Voigt<dim>& stress, const Vec<dim>& normal);
-
-/// The von Mises stress sqrt(3/2 s:s), with s the stress deviator. For dim = 2 it includes the stress along
-/// the axle, which is not zero in plane strain.
-template <int dim>
-double von_mises(const Material& material, const Voigt<dim>& stress);
 
 /// The displacement element of the cells in one row of the grid, which have the same material. Its dofs are
 /// the nodal displacements in the polar components (radial, azimuthal[, axial]) at each node, numbered by
@@ -51,7 +33,7 @@ class ElasticElement {
 
   /// `cell` is a position on the grid; its azimuthal part does not matter.
   ElasticElement(const PolarGrid<dim>& grid, int degree, const std::array<int, dim>& cell,
-                 const Material& material);
+                 const MaterialLaw<dim>& law);
 
   int degree() const { return degree_; }
   int n_nodes() const { return nodes_per_cell<dim>(degree_); }
@@ -112,35 +94,35 @@ class ElasticElement {
 /// The traction sigma n as a linear map of the dofs (rows: components).
 template <int dim>
 std::array<std::array<double, ElasticElement<dim>::max_dofs>, dim> traction_map(
-    const ElasticElement<dim>& element, const Material& material,
+    const ElasticElement<dim>& element, const MaterialLaw<dim>& law,
     const typename ElasticElement<dim>::Point& point, const Vec<dim>& normal);
 
 /// The bulk stiffness, the integral of sigma(u) : eps(v) by the given quadrature points, as a full symmetric
 /// matrix on the dofs of the cell.
 template <int dim>
-Matrix cell_stiffness(const ElasticElement<dim>& element, const Material& material,
+Matrix cell_stiffness(const ElasticElement<dim>& element, const MaterialLaw<dim>& law,
                       std::span<const ReferencePoint<dim>> points);
 
-/// E times the integral of grad u : grad v, with E = Material::scaling_modulus(), in place of the bulk
+/// E times the integral of grad u : grad v, with E = MaterialLaw::scaling_modulus(), in place of the bulk
 /// stiffness: every Cartesian component of u obeys Poisson's equation.
 template <int dim>
-Matrix gradient_stiffness(const ElasticElement<dim>& element, const Material& material,
+Matrix gradient_stiffness(const ElasticElement<dim>& element, const MaterialLaw<dim>& law,
                           std::span<const ReferencePoint<dim>> points);
 
 /// The ghost penalty of one face F on the dofs (minus cell, plus cell): 1/2 int_F xi h_F / E [[sigma
 /// n]].[[sigma n]] as in (81), and for GhostPenaltyKind::full also 1/2 int_F xi h_F^3 E [[d_mm u]].[[d_mm
 /// u]] with m as in second_derivative() and the strain of u itself, where h_F is the mean size_across(axis)
-/// of the two cells and E is Material::scaling_modulus(). `axis` is the axis normal to the face, and `angle`
-/// is the azimuth of the frame of the plus cell minus that of the minus cell [rad].
+/// of the two cells and E is MaterialLaw::scaling_modulus(). `axis` is the axis normal to the face, and
+/// `angle` is the azimuth of the frame of the plus cell minus that of the minus cell [rad].
 template <int dim>
 Matrix ghost_stiffness(const ElasticElement<dim>& minus, const ElasticElement<dim>& plus, int axis,
-                       double angle, const Material& material, const GhostPenalty& ghost);
+                       double angle, const MaterialLaw<dim>& law, const GhostPenalty& ghost);
 
 /// The penalty of the traction's jump alone, with the given weight for xi and with the strains that carry the
 /// load, whose trace is projected where the material asks for it.
 template <int dim>
 Matrix traction_jump_stiffness(const ElasticElement<dim>& minus, const ElasticElement<dim>& plus, int axis,
-                               double angle, const Material& material, double weight);
+                               double angle, const MaterialLaw<dim>& law, double weight);
 
 /// The ghost penalty of a face normal to the azimuth as a sum of two forms, each on the dofs of one of its
 /// cells and on derivatives of u across the face, which are unknowns of their own: the minimum of the sum
@@ -154,7 +136,7 @@ struct GhostHalves {
 };
 template <int dim>
 GhostHalves divided_ghost_stiffness(const ElasticElement<dim>& element, double column_angle,
-                                    const Material& material, const GhostPenalty& ghost);
+                                    const MaterialLaw<dim>& law, const GhostPenalty& ghost);
 
 /// A form on the dofs of two cells (minus, plus) side by side along the axle, for fields that are their own
 /// mirror image in the face between them: the half of it that belongs to the minus cell, on the dofs of that

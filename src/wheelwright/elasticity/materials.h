@@ -1,26 +1,30 @@
 #pragma once
 
-#include "wheelwright/elasticity/material.h"
+#include <memory>
+
+#include "wheelwright/elasticity/isotropic_law.h"
 
 namespace wheelwright {
 
-/// The material at every place of the ring, one per radial row of cells, counted from the rim. Materials are
+/// The material law at every place of the ring, one per radial row of cells, counted from the rim. Laws are
 /// always looked up by place: no other code assumes that all rows have the same one, as they do today.
+template <int dim>
 class Materials {
  public:
-  Materials() = default;
+  Materials() : Materials(Material()) {}
 
   /// The same material everywhere.
-  Materials(const Material& everywhere) : everywhere_(everywhere) {}
+  Materials(const Material& everywhere) : Materials(std::make_shared<IsotropicLaw<dim>>(everywhere)) {}
+  Materials(std::shared_ptr<const MaterialLaw<dim>> everywhere) : everywhere_(std::move(everywhere)) {}
 
-  /// The material of the cells of a radial row.
-  const Material& in_row(int) const { return everywhere_; }
+  /// The law of the cells of a radial row.
+  const MaterialLaw<dim>& in_row(int) const { return *everywhere_; }
 
-  /// The material at the tread, which meets the ground.
-  const Material& at_tread() const { return everywhere_; }
+  /// The law at the tread, which meets the ground.
+  const MaterialLaw<dim>& at_tread() const { return *everywhere_; }
 
  private:
-  Material everywhere_;
+  std::shared_ptr<const MaterialLaw<dim>> everywhere_;
 };
 
 }  // namespace wheelwright

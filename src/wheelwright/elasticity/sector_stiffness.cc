@@ -5,18 +5,22 @@
 namespace wheelwright {
 namespace {
 
-/// The material whose stress enters the ghost penalty. It must control displacements on slivers, for which
-/// the stress of a compressible material is enough: that of lambda itself would stiffen cells far more, and J
-/// would jump where faces with ghost penalty appear.
-Material for_ghost_penalty(Material material) {
-  if (material.nearly_incompressible()) material.poissons_ratio = 0.48;
-  return material;
+/// The law whose stress enters the ghost penalty in place of that of a nearly incompressible material. The
+/// penalty must control displacements on slivers, for which the stress of a compressible material is enough:
+/// that of lambda itself would stiffen cells far more, and J would jump where faces with ghost penalty
+/// appear.
+template <int dim>
+std::optional<IsotropicLaw<dim>> compressible_law(const MaterialLaw<dim>& law) {
+  if (!law.isotropic() || !law.isotropic()->nearly_incompressible()) return {};
+  Material material = *law.isotropic();
+  material.poissons_ratio = 0.48;
+  return IsotropicLaw<dim>(material);
 }
 
 }  // namespace
 
 template <int dim>
-ElementTable<dim>::ElementTable(const PolarGrid<dim>& grid, int degree, const Materials& materials,
+ElementTable<dim>::ElementTable(const PolarGrid<dim>& grid, int degree, const Materials<dim>& materials,
                                 const GhostPenalty& ghost, CellStiffness<dim>* bulk, SideFaces sides)
     : grid_(grid), degree_(degree), materials_(materials), ghost_(ghost), bulk_(bulk), sides_(sides) {
   const auto rule = unit_cell_rule<dim>(degree + 2);
@@ -26,14 +30,14 @@ ElementTable<dim>::ElementTable(const PolarGrid<dim>& grid, int degree, const Ma
   }
   const double column_angle = grid.cell_size()[1];
   for (int radial = 0; radial < grid.cells[0]; ++radial) {
+    const auto compressible = compressible_law<dim>(materials.in_row(radial));
+    const MaterialLaw<dim>& law = compressible ? *compressible : materials.in_row(radial);
     for (int axis = 0; axis < dim; ++axis) {
       const int plus = axis == 0 ? std::min(radial + 1, grid.cells[0] - 1) : radial;
       ghosts_.push_back(ghost_stiffness<dim>(elements_[radial], elements_[plus], axis,
-                                             axis == 1 ? column_angle : 0.0,
-                                             for_ghost_penalty(materials.in_row(radial)), ghost));
+                                             axis == 1 ? column_angle : 0.0, law, ghost));
     }
-    divided_ghosts_.push_back(divided_ghost_stiffness<dim>(
-        elements_[radial], column_angle, for_ghost_penalty(materials.in_row(radial)), ghost));
+    divided_ghosts_.push_back(divided_ghost_stiffness<dim>(elements_[radial], column_angle, law, ghost));
     if constexpr (dim == 3)
       ghosts_at_middle_.push_back(half_of_symmetric_pair(face_ghost(radial, 2), degree));
   }

@@ -8,7 +8,7 @@ namespace wheelwright {
 
 /// The stiffness of a part of a cell: cell_stiffness(), or another form in its place.
 template <int dim>
-using CellStiffness = Matrix(const ElasticElement<dim>& element, const Material& material,
+using CellStiffness = Matrix(const ElasticElement<dim>& element, const MaterialLaw<dim>& law,
                              std::span<const ReferencePoint<dim>> points);
 
 /// The parts of the discretization that do not depend on the shape: one element, one stiffness of a full cell
@@ -16,12 +16,13 @@ using CellStiffness = Matrix(const ElasticElement<dim>& element, const Material&
 template <int dim>
 class ElementTable {
  public:
-  ElementTable(const PolarGrid<dim>& grid, int degree, const Materials& materials, const GhostPenalty& ghost,
-               CellStiffness<dim>* bulk = cell_stiffness<dim>, SideFaces sides = SideFaces::free);
+  ElementTable(const PolarGrid<dim>& grid, int degree, const Materials<dim>& materials,
+               const GhostPenalty& ghost, CellStiffness<dim>* bulk = cell_stiffness<dim>,
+               SideFaces sides = SideFaces::free);
 
   const PolarGrid<dim>& grid() const { return grid_; }
   int degree() const { return degree_; }
-  const Materials& materials() const { return materials_; }
+  const Materials<dim>& materials() const { return materials_; }
   const GhostPenalty& ghost() const { return ghost_; }
   SideFaces sides() const { return sides_; }
 
@@ -31,9 +32,9 @@ class ElementTable {
   }
 
   /// The stiffness of a part of a cell, which may be one of a refined grid.
-  Matrix bulk_stiffness(const ElasticElement<dim>& element, const Material& material,
+  Matrix bulk_stiffness(const ElasticElement<dim>& element, const MaterialLaw<dim>& law,
                         std::span<const ReferencePoint<dim>> points) const {
-    return bulk_(element, material, points);
+    return bulk_(element, law, points);
   }
 
   const ElasticElement<dim>& element(int radial) const { return elements_[radial]; }
@@ -49,7 +50,7 @@ class ElementTable {
  private:
   PolarGrid<dim> grid_;
   int degree_;
-  Materials materials_;
+  Materials<dim> materials_;
   GhostPenalty ghost_;
   CellStiffness<dim>* bulk_;
   SideFaces sides_;

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "wheelwright/elasticity/element.h"
+#include "wheelwright/base/vec.h"
+#include "wheelwright/elasticity/isotropic_law.h"
 
 namespace wheelwright {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "wheelwright/elasticity/element.h"
+#include "wheelwright/elasticity/voigt.h"
 
 namespace wheelwright {
 

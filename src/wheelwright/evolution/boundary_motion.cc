@@ -17,8 +17,7 @@ double steepness_at(const LevelSet<dim>& psi, const SurfacePoint<dim>& point) {
   const auto values = psi.cell_values(point.cell);
   const ShapeFunctions<dim> shape(degree, point.xi);
   Vec<dim> gradient{};
-  for (std::size_t a = 0; a < values.size(); ++a)
-    for (int d = 0; d < dim; ++d) gradient[d] += values[a] * shape.gradient[a][d];
+  for (std::size_t a = 0; a < values.size(); ++a) gradient += values[a] * shape.gradient[a];
   const CellMap<dim> map(grid, degree, grid.cell_position(point.cell));
   return norm<dim>(transpose_times<dim>(inverse<dim>(map.jacobian(shape)), gradient));
 }
@@ -189,7 +188,7 @@ template std::vector<Dependence> displacement<2>(const CubicInterpolant<2>&, con
 template std::vector<Dependence> displacement<3>(const CubicInterpolant<3>&, const Vec<3>&);
 template class BoundaryMotion<2>;
 template class BoundaryMotion<3>;
-template std::vector<Vec<2>> gradients_at_nodes<2>(const LevelSet<2>&);
-template std::vector<Vec<3>> gradients_at_nodes<3>(const LevelSet<3>&);
+template decltype(gradients_at_nodes<2>) gradients_at_nodes<2>;
+template decltype(gradients_at_nodes<3>) gradients_at_nodes<3>;
 
 }  // namespace wheelwright

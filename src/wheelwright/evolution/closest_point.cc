@@ -111,8 +111,7 @@ std::optional<Vec<dim>> project_to_zero(const CubicInterpolant<dim>& psi, const 
   for (int k = 0; k < max_newton_steps; ++k) {
     const Jet<dim> jet = psi(x);
     const double slope2 = dot<dim>(jet.gradient, jet.gradient);
-    Vec<dim> step;
-    for (int d = 0; d < dim; ++d) step[d] = -jet.value / slope2 * jet.gradient[d];
+    const Vec<dim> step = -jet.value / slope2 * jet.gradient;
     const double length = norm<dim>(step);
     if (!(length < spacing)) return std::nullopt;
     x = moved<dim>(lattice, x, step);
@@ -143,11 +142,11 @@ std::optional<Vec<dim>> closest_zero(const CubicInterpolant<dim>& psi, const Vec
   return std::nullopt;
 }
 
-template double physical_distance<2>(const Lattice<2>&, const Vec<2>&, const Vec<2>&);
-template double physical_distance<3>(const Lattice<3>&, const Vec<3>&, const Vec<3>&);
-template std::optional<Vec<2>> project_to_zero<2>(const CubicInterpolant<2>&, const Vec<2>&);
-template std::optional<Vec<3>> project_to_zero<3>(const CubicInterpolant<3>&, const Vec<3>&);
-template std::optional<Vec<2>> closest_zero<2>(const CubicInterpolant<2>&, const Vec<2>&, const Vec<2>&);
-template std::optional<Vec<3>> closest_zero<3>(const CubicInterpolant<3>&, const Vec<3>&, const Vec<3>&);
+template decltype(physical_distance<2>) physical_distance<2>;
+template decltype(physical_distance<3>) physical_distance<3>;
+template decltype(project_to_zero<2>) project_to_zero<2>;
+template decltype(project_to_zero<3>) project_to_zero<3>;
+template decltype(closest_zero<2>) closest_zero<2>;
+template decltype(closest_zero<3>) closest_zero<3>;
 
 }  // namespace wheelwright

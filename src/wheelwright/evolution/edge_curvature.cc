@@ -217,14 +217,13 @@ Vec<2> sharpest_direction(const Jet<2>& f) {
 }
 
 Vec<3> sharpest_direction(const Jet<3>& f) {
-  Vec<3> n = f.gradient, t{}, u;
-  const double length = norm<3>(n);
-  for (double& x : n) x /= length;
+  const Vec<3> n = f.gradient / norm(f.gradient);
   const auto smallest = std::ranges::min_element(n, {}, [](double x) { return std::abs(x); }) - n.begin();
-  for (int i = 0; i < 3; ++i) t[i] = (i == smallest ? 1 : 0) - n[smallest] * n[i];
-  const double t_length = norm<3>(t);
-  for (double& x : t) x /= t_length;
-  for (int i = 0; i < 3; ++i) u[i] = n[(i + 1) % 3] * t[(i + 2) % 3] - n[(i + 2) % 3] * t[(i + 1) % 3];
+  Vec<3> t{};
+  t[smallest] = 1;
+  t -= n[smallest] * n;
+  t = t / norm(t);
+  const Vec<3> u = cross(n, t);
   const auto form = [&](const Vec<3>& a, const Vec<3>& b) {
     double sum = 0;
     for (int i = 0; i < 3; ++i)
@@ -232,9 +231,7 @@ Vec<3> sharpest_direction(const Jet<3>& f) {
     return sum;
   };
   const double angle = 0.5 * std::atan2(2 * form(t, u), form(t, t) - form(u, u));
-  Vec<3> result;
-  for (int i = 0; i < 3; ++i) result[i] = std::cos(angle) * t[i] + std::sin(angle) * u[i];
-  return result;
+  return std::cos(angle) * t + std::sin(angle) * u;
 }
 
 }  // namespace
@@ -297,12 +294,11 @@ std::vector<Dependence> curvature_dependence(const LevelSet<dim>& coefficients, 
   return result;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                   \
-  template PrincipalCurvature<dim> principal_curvature(const Jet<dim>&);               \
-  template std::vector<EdgePoint<dim>> internal_corners(const LevelSet<dim>&, double); \
-  template std::vector<Dependence> curvature_dependence(const LevelSet<dim>&, const EdgePoint<dim>&);
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+template decltype(principal_curvature<2>) principal_curvature<2>;
+template decltype(internal_corners<2>) internal_corners<2>;
+template decltype(curvature_dependence<2>) curvature_dependence<2>;
+template decltype(principal_curvature<3>) principal_curvature<3>;
+template decltype(internal_corners<3>) internal_corners<3>;
+template decltype(curvature_dependence<3>) curvature_dependence<3>;
 
 }  // namespace wheelwright

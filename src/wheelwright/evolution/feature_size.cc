@@ -61,9 +61,7 @@ class DistanceToPoints {
 
   double operator()(int node) const {
     const Vec<dim> x = cartesian<dim>(lattice_.polar_point(node));
-    Vec<dim> apart = nearest_.points()[nearest_.index_of_nearest(x)];
-    for (int d = 0; d < dim; ++d) apart[d] -= x[d];
-    return norm<dim>(apart);
+    return norm(nearest_.points()[nearest_.index_of_nearest(x)] - x);
   }
 
  private:
@@ -276,16 +274,19 @@ LevelSet<dim> with_feature_size(const LevelSet<dim>& psi, const FeatureSize& siz
   return result;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                \
-  template LevelSet<dim> with_thick_walls(const LevelSet<dim>&, double);                            \
-  template LevelSet<dim> without_narrow_gaps(const LevelSet<dim>&, double);                         \
-  template LevelSet<dim> with_round_corners(const LevelSet<dim>&, double);                          \
-  template LevelSet<dim> without_thin_walls(const LevelSet<dim>&, double);                          \
-  template std::optional<ShapeEvent<dim>> small_hole(const LevelSet<dim>&, double);                 \
-  template std::vector<ShapeEvent<dim>> narrowest_places(const LevelSet<dim>&, const FeatureSize&); \
-  template LevelSet<dim> with_feature_size(const LevelSet<dim>&, const FeatureSize&);
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+template decltype(with_thick_walls<2>) with_thick_walls<2>;
+template decltype(without_narrow_gaps<2>) without_narrow_gaps<2>;
+template decltype(with_round_corners<2>) with_round_corners<2>;
+template decltype(without_thin_walls<2>) without_thin_walls<2>;
+template decltype(small_hole<2>) small_hole<2>;
+template decltype(narrowest_places<2>) narrowest_places<2>;
+template decltype(with_feature_size<2>) with_feature_size<2>;
+template decltype(with_thick_walls<3>) with_thick_walls<3>;
+template decltype(without_narrow_gaps<3>) without_narrow_gaps<3>;
+template decltype(with_round_corners<3>) with_round_corners<3>;
+template decltype(without_thin_walls<3>) without_thin_walls<3>;
+template decltype(small_hole<3>) small_hole<3>;
+template decltype(narrowest_places<3>) narrowest_places<3>;
+template decltype(with_feature_size<3>) with_feature_size<3>;
 
 }  // namespace wheelwright

@@ -41,10 +41,8 @@ class DistanceToIslands {
   explicit DistanceToIslands(const Components<dim>& pieces) : samples_(images(pieces)) {}
 
   double operator()(const Vec<dim>& polar) const {
-    Vec<dim> offset = cartesian<dim>(polar);
-    const Vec<dim>& nearest = samples_.points()[samples_.index_of_nearest(offset)];
-    for (int d = 0; d < dim; ++d) offset[d] -= nearest[d];
-    return norm<dim>(offset);
+    const Vec<dim> x = cartesian<dim>(polar);
+    return norm(x - samples_.points()[samples_.index_of_nearest(x)]);
   }
 
  private:
@@ -99,7 +97,7 @@ Expected<AttachedShape<dim>> without_islands(const LevelSet<dim>& psi, double la
   return AttachedShape<dim>{emptied(psi, pieces), std::move(removed)};
 }
 
-template Expected<AttachedShape<2>> without_islands(const LevelSet<2>&, double);
-template Expected<AttachedShape<3>> without_islands(const LevelSet<3>&, double);
+template decltype(without_islands<2>) without_islands<2>;
+template decltype(without_islands<3>) without_islands<3>;
 
 }  // namespace wheelwright

@@ -5,6 +5,7 @@
 
 #include "wheelwright/evolution/seeds.h"
 #include "wheelwright/geometry/cell_map.h"
+#include "wheelwright/geometry/shrinking_ball.h"
 
 namespace wheelwright {
 namespace {
@@ -17,21 +18,12 @@ constexpr double facing = -0.64, opposite = -0.8;
 /// in units of its radius, and of the resolution.
 constexpr double beyond_ball = 3, beyond_tip = 1.5;
 
-template <int dim>
-Vec<dim> difference(const Vec<dim>& a, const Vec<dim>& b) {
-  Vec<dim> result;
-  for (int d = 0; d < dim; ++d) result[d] = a[d] - b[d];
-  return result;
-}
-
 }  // namespace
 
 template <int dim>
 Vec<dim> normal_at(const CubicInterpolant<dim>& psi, const Vec<dim>& point) {
-  Vec<dim> normal = psi(point).gradient;
-  const double length = norm<dim>(normal);
-  for (double& x : normal) x /= length;
-  return rotated<dim>(normal, point[1] * psi.lattice().spacing()[1]);
+  const Vec<dim> gradient = psi(point).gradient;
+  return rotated<dim>(gradient / norm(gradient), point[1] * psi.lattice().spacing()[1]);
 }
 
 template <int dim>
@@ -48,10 +40,7 @@ MedialBalls<dim>::MedialBalls(const LevelSet<dim>& psi) : psi_(psi) {
 /// The normal that points out of this side.
 template <int dim>
 Vec<dim> MedialBalls<dim>::outward(int point, Side side) const {
-  Vec<dim> normal = normals_[point];
-  if (side == Side::holes)
-    for (double& x : normal) x = -x;
-  return normal;
+  return side == Side::holes ? -1.0 * normals_[point] : normals_[point];
 }
 
 template <int dim>
@@ -69,20 +58,16 @@ template <int dim>
 bool MedialBalls<dim>::opens_beyond(const MedialBall<dim>& ball, int touched, Side side) const {
   const auto& positions = nearest_->points();
   const int point = ball.touched[0];
-  const Vec<dim> across = difference<dim>(positions[touched], positions[point]);
-  const Vec<dim> one = outward(point, side), other = outward(touched, side);
-  Vec<dim> closing;
-  for (int d = 0; d < dim; ++d) closing[d] = one[d] + other[d];
-  const double along = dot<dim>(closing, across) / dot<dim>(across, across);
-  for (int d = 0; d < dim; ++d) closing[d] -= along * across[d];
-  const double length = norm<dim>(closing);
+  const Vec<dim> across = positions[touched] - positions[point];
+  Vec<dim> closing = outward(point, side) + outward(touched, side);
+  closing -= dot(closing, across) / dot(across, across) * across;
+  const double length = norm(closing);
   if (length == 0) return true;
   const double distance =
       std::max(beyond_ball * ball.radius, beyond_tip * psi_.lattice().grid().resolution());
-  Vec<dim> there;
-  for (int d = 0; d < dim; ++d) there[d] = ball.centre[d] + distance / length * closing[d];
+  const Vec<dim> there = ball.centre + distance / length * closing;
   const int nearest = nearest_->index_of_nearest(there);
-  return dot<dim>(difference<dim>(there, positions[nearest]), outward(nearest, side)) < 0;
+  return dot(there - positions[nearest], outward(nearest, side)) < 0;
 }
 
 /// The ball smaller than `radius` that touches the boundary at a seed and contains no other seed, if it lies
@@ -91,43 +76,29 @@ bool MedialBalls<dim>::opens_beyond(const MedialBall<dim>& ball, int touched, Si
 template <int dim>
 std::optional<MedialBall<dim>> MedialBalls<dim>::ball_at(int seed, Side side, double radius) const {
   constexpr int max_steps = 30;
-  constexpr double hardly_larger = 1.1;
+  constexpr double hardly_larger = 1.1, slack = 1e-6;
   const Vec<dim>& p = nearest_->points()[seed];
-  const Vec<dim> normal = outward(seed, side);
-  const auto centre_of = [&](double r) {
-    Vec<dim> centre;
-    for (int d = 0; d < dim; ++d) centre[d] = p[d] - r * normal[d];
-    return centre;
-  };
+  const Vec<dim> normal = outward(seed, side), inward = -1.0 * normal;
   double facing_radius = 0, opposite_radius = 0;
   int touched = seed, across = seed;
-  for (int step = 0; step < max_steps; ++step) {
-    const Vec<dim> centre = centre_of(radius);
-    const int nearest = nearest_->index_of_nearest(centre);
-    const Vec<dim>& other = nearest_->points()[nearest];
-    const Vec<dim> apart = difference<dim>(other, p);
-    if (nearest == seed || norm<dim>(difference<dim>(other, centre)) >= radius * (1 - 1e-6)) break;
-    const double smaller = -dot<dim>(apart, apart) / (2 * dot<dim>(apart, normal));
-    if (!(smaller > 0 && smaller < radius)) break;
-    radius = smaller;
+  radius = shrunk_radius<dim>(*nearest_, p, inward, radius, slack, max_steps, [&](int nearest, double r) {
     touched = nearest;
     // At the tip of a sharp neck the boundary's normal is meaningless; the direction from the centre is used.
-    Vec<dim> towards;
-    for (int d = 0; d < dim; ++d) towards[d] = apart[d] / radius + normal[d];
-    if (dot<dim>(normal, outward(nearest, side)) < facing) facing_radius = radius;
-    if (dot<dim>(normal, towards) < opposite) opposite_radius = radius;
-    if (std::max(facing_radius, opposite_radius) == radius) across = nearest;
-  }
+    const Vec<dim> towards = (nearest_->points()[nearest] - p) / r + normal;
+    if (dot(normal, outward(nearest, side)) < facing) facing_radius = r;
+    if (dot(normal, towards) < opposite) opposite_radius = r;
+    if (std::max(facing_radius, opposite_radius) == r) across = nearest;
+  });
   const auto was_hardly_larger = [&](double r) { return r > 0 && r <= hardly_larger * radius; };
-  const MedialBall<dim> ball{centre_of(radius), radius, {seed, across}};
+  const MedialBall<dim> ball{p + radius * inward, radius, {seed, across}};
   if (was_hardly_larger(facing_radius) ||
       (was_hardly_larger(opposite_radius) && opens_beyond(ball, touched, side)))
     return ball;
   return {};
 }
 
-template Vec<2> normal_at<2>(const CubicInterpolant<2>&, const Vec<2>&);
-template Vec<3> normal_at<3>(const CubicInterpolant<3>&, const Vec<3>&);
+template decltype(normal_at<2>) normal_at<2>;
+template decltype(normal_at<3>) normal_at<3>;
 template class MedialBalls<2>;
 template class MedialBalls<3>;
 

@@ -128,15 +128,13 @@ std::vector<double> symmetric_product(std::span<const SparseSpd::Entry> lower_tr
   return result;
 }
 
-template NodeWeights<2> node_weights<2>(const Lattice<2>&, int, const Vec<2>&);
-template NodeWeights<3> node_weights<3>(const Lattice<3>&, int, const Vec<3>&);
-template double boundary_integral<2>(const Lattice<2>&, std::span<const SurfaceSample<2>>,
-                                     std::span<const double>);
-template double boundary_integral<3>(const Lattice<3>&, std::span<const SurfaceSample<3>>,
-                                     std::span<const double>);
-template std::vector<double> boundary_load<2>(const Lattice<2>&, std::span<const SurfaceSample<2>>);
-template std::vector<double> boundary_load<3>(const Lattice<3>&, std::span<const SurfaceSample<3>>);
-template std::vector<SparseSpd::Entry> multilinear_form<2>(const Lattice<2>&, double, double);
-template std::vector<SparseSpd::Entry> multilinear_form<3>(const Lattice<3>&, double, double);
+template decltype(node_weights<2>) node_weights<2>;
+template decltype(node_weights<3>) node_weights<3>;
+template decltype(boundary_integral<2>) boundary_integral<2>;
+template decltype(boundary_integral<3>) boundary_integral<3>;
+template decltype(boundary_load<2>) boundary_load<2>;
+template decltype(boundary_load<3>) boundary_load<3>;
+template decltype(multilinear_form<2>) multilinear_form<2>;
+template decltype(multilinear_form<3>) multilinear_form<3>;
 
 }  // namespace wheelwright

@@ -51,11 +51,11 @@ LevelSet<dim> redistance(const LevelSet<dim>& psi) {
   return signed_distances<dim>(psi, closest_points(psi));
 }
 
-template std::vector<Vec<2>> closest_points<2>(const LevelSet<2>&);
-template std::vector<Vec<3>> closest_points<3>(const LevelSet<3>&);
-template LevelSet<2> signed_distances<2>(const LevelSet<2>&, const std::vector<Vec<2>>&);
-template LevelSet<3> signed_distances<3>(const LevelSet<3>&, const std::vector<Vec<3>>&);
-template LevelSet<2> redistance<2>(const LevelSet<2>&);
-template LevelSet<3> redistance<3>(const LevelSet<3>&);
+template decltype(closest_points<2>) closest_points<2>;
+template decltype(closest_points<3>) closest_points<3>;
+template decltype(signed_distances<2>) signed_distances<2>;
+template decltype(signed_distances<3>) signed_distances<3>;
+template decltype(redistance<2>) redistance<2>;
+template decltype(redistance<3>) redistance<3>;
 
 }  // namespace wheelwright

@@ -14,7 +14,7 @@ LevelSet<dim> regrid(const LevelSet<dim>& psi, const Lattice<dim>& lattice) {
   return with_symmetries_of(psi, sub_cell_filter(redistance(values)));
 }
 
-template LevelSet<2> regrid(const LevelSet<2>&, const Lattice<2>&);
-template LevelSet<3> regrid(const LevelSet<3>&, const Lattice<3>&);
+template decltype(regrid<2>) regrid<2>;
+template decltype(regrid<3>) regrid<3>;
 
 }  // namespace wheelwright

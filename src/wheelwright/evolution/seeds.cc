@@ -88,17 +88,16 @@ std::vector<Vec<dim>> with_images(const Lattice<dim>& lattice, const std::vector
 
 template <int dim>
 Vec<dim> cartesian_position(const Lattice<dim>& lattice, const Vec<dim>& point) {
-  Vec<dim> polar;
-  for (int d = 0; d < dim; ++d) polar[d] = point[d] * lattice.spacing()[d];
+  Vec<dim> polar = componentwise_product(point, lattice.spacing());
   polar[0] += lattice.grid().inner_radius;
   return cartesian<dim>(polar);
 }
 
-template std::vector<Vec<2>> with_images<2>(const Lattice<2>&, const std::vector<Vec<2>>&);
-template std::vector<Vec<3>> with_images<3>(const Lattice<3>&, const std::vector<Vec<3>>&);
-template Vec<2> cartesian_position<2>(const Lattice<2>&, const Vec<2>&);
-template Vec<3> cartesian_position<3>(const Lattice<3>&, const Vec<3>&);
-template std::vector<Vec<2>> zero_seeds<2>(const CubicInterpolant<2>&);
-template std::vector<Vec<3>> zero_seeds<3>(const CubicInterpolant<3>&);
+template decltype(with_images<2>) with_images<2>;
+template decltype(with_images<3>) with_images<3>;
+template decltype(cartesian_position<2>) cartesian_position<2>;
+template decltype(cartesian_position<3>) cartesian_position<3>;
+template decltype(zero_seeds<2>) zero_seeds<2>;
+template decltype(zero_seeds<3>) zero_seeds<3>;
 
 }  // namespace wheelwright

@@ -170,13 +170,11 @@ void add_dependences(const Lattice<dim>& lattice, const std::array<int, dim>& ce
   }
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                    \
-  template LevelSet<dim> spline_coefficients(const LevelSet<dim>& psi);                                 \
-  template LevelSet<dim> spline_level_set(const LevelSet<dim>& coefficients);                           \
-  template void add_dependences<dim>(const Lattice<dim>&, const std::array<int, dim>&, const Vec<dim>&, \
-                                     double, std::vector<Dependence>&);
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+template decltype(spline_coefficients<2>) spline_coefficients<2>;
+template decltype(spline_level_set<2>) spline_level_set<2>;
+template decltype(add_dependences<2>) add_dependences<2>;
+template decltype(spline_coefficients<3>) spline_coefficients<3>;
+template decltype(spline_level_set<3>) spline_level_set<3>;
+template decltype(add_dependences<3>) add_dependences<3>;
 
 }  // namespace wheelwright

@@ -21,7 +21,7 @@ LevelSet<dim> redistanced_coefficients(const LevelSet<dim>& psi) {
   return coefficients;
 }
 
-template LevelSet<2> redistanced_coefficients(const LevelSet<2>&);
-template LevelSet<3> redistanced_coefficients(const LevelSet<3>&);
+template decltype(redistanced_coefficients<2>) redistanced_coefficients<2>;
+template decltype(redistanced_coefficients<3>) redistanced_coefficients<3>;
 
 }  // namespace wheelwright

@@ -37,7 +37,7 @@ LevelSet<dim> sub_cell_filter(const LevelSet<dim>& psi) {
   return result;
 }
 
-template LevelSet<2> sub_cell_filter(const LevelSet<2>&);
-template LevelSet<3> sub_cell_filter(const LevelSet<3>&);
+template decltype(sub_cell_filter<2>) sub_cell_filter<2>;
+template decltype(sub_cell_filter<3>) sub_cell_filter<3>;
 
 }  // namespace wheelwright

@@ -121,9 +121,9 @@ LevelSet<dim> smooth_transport(const LevelSet<dim>& psi, std::span<const double>
   return phi;
 }
 
-template LevelSet<2> smooth_transport<2>(const LevelSet<2>&, std::span<const double>, double);
-template LevelSet<3> smooth_transport<3>(const LevelSet<3>&, std::span<const double>, double);
-template LevelSet<2> transport<2>(const LevelSet<2>&, std::span<const double>, double);
-template LevelSet<3> transport<3>(const LevelSet<3>&, std::span<const double>, double);
+template decltype(smooth_transport<2>) smooth_transport<2>;
+template decltype(smooth_transport<3>) smooth_transport<3>;
+template decltype(transport<2>) transport<2>;
+template decltype(transport<3>) transport<3>;
 
 }  // namespace wheelwright

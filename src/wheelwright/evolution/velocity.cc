@@ -127,23 +127,11 @@ std::vector<SurfaceSample<dim>> movable_samples(const Lattice<dim>& lattice, con
   return result;
 }
 
-template std::unique_ptr<VelocityExtension<2>> make_velocity_extension<2>(const Lattice<2>&,
-                                                                          const ProtectedBands<2>&,
-                                                                          const VelocityOptions&);
-template std::unique_ptr<VelocityExtension<3>> make_velocity_extension<3>(const Lattice<3>&,
-                                                                          const ProtectedBands<3>&,
-                                                                          const VelocityOptions&);
-template Expected<std::vector<double>> measure_preserving_velocity<2>(const Lattice<2>&,
-                                                                      const VelocityExtension<2>&,
-                                                                      std::span<const SurfaceSample<2>>);
-template Expected<std::vector<double>> measure_preserving_velocity<3>(const Lattice<3>&,
-                                                                      const VelocityExtension<3>&,
-                                                                      std::span<const SurfaceSample<3>>);
-template std::vector<SurfaceSample<2>> movable_samples<2>(const Lattice<2>&, const ProtectedBands<2>&,
-                                                          std::span<const SurfaceSample<2>>,
-                                                          std::span<const double>);
-template std::vector<SurfaceSample<3>> movable_samples<3>(const Lattice<3>&, const ProtectedBands<3>&,
-                                                          std::span<const SurfaceSample<3>>,
-                                                          std::span<const double>);
+template decltype(make_velocity_extension<2>) make_velocity_extension<2>;
+template decltype(make_velocity_extension<3>) make_velocity_extension<3>;
+template decltype(measure_preserving_velocity<2>) measure_preserving_velocity<2>;
+template decltype(measure_preserving_velocity<3>) measure_preserving_velocity<3>;
+template decltype(movable_samples<2>) movable_samples<2>;
+template decltype(movable_samples<3>) movable_samples<3>;
 
 }  // namespace wheelwright

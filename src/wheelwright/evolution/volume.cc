@@ -74,13 +74,11 @@ double proportional_multiplier(std::span<const SurfaceSample<dim>> gradient, dou
   return 8 * (high->value - low->value) * (target_ratio - ratio);
 }
 
-template Expected<MeasuredShape<2>> measured<2>(LevelSet<2>, int);
-template Expected<MeasuredShape<3>> measured<3>(LevelSet<3>, int);
-template Expected<MeasuredShape<2>> with_measure<2>(const LevelSet<2>&, const ProtectedBands<2>&, double,
-                                                    double, int);
-template Expected<MeasuredShape<3>> with_measure<3>(const LevelSet<3>&, const ProtectedBands<3>&, double,
-                                                    double, int);
-template double proportional_multiplier<2>(std::span<const SurfaceSample<2>>, double, double);
-template double proportional_multiplier<3>(std::span<const SurfaceSample<3>>, double, double);
+template decltype(measured<2>) measured<2>;
+template decltype(measured<3>) measured<3>;
+template decltype(with_measure<2>) with_measure<2>;
+template decltype(with_measure<3>) with_measure<3>;
+template decltype(proportional_multiplier<2>) proportional_multiplier<2>;
+template decltype(proportional_multiplier<3>) proportional_multiplier<3>;
 
 }  // namespace wheelwright

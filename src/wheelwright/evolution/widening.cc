@@ -45,9 +45,7 @@ std::vector<double> widening(const DeformationSpace<dim>& space, const BoundaryM
   return deformation;
 }
 
-template std::vector<double> widening(const DeformationSpace<2>&, const BoundaryMotion<2>&,
-                                      const std::vector<Width<2>>&, const std::vector<std::vector<double>>&);
-template std::vector<double> widening(const DeformationSpace<3>&, const BoundaryMotion<3>&,
-                                      const std::vector<Width<3>>&, const std::vector<std::vector<double>>&);
+template decltype(widening<2>) widening<2>;
+template decltype(widening<3>) widening<3>;
 
 }  // namespace wheelwright

@@ -163,15 +163,10 @@ Width<dim> width_of(const CubicInterpolant<dim>& psi, WidthKind kind, const Chor
   const Vec<dim> p = cartesian_position<dim>(psi.lattice(), chord[0]),
                  q = cartesian_position<dim>(psi.lattice(), chord[1]);
   const double outward = outward_of(kind);
-  Vec<dim> middle, across;
-  for (int d = 0; d < dim; ++d) {
-    middle[d] = 0.5 * (p[d] + q[d]);
-    across[d] = q[d] - p[d];
-  }
   return {.kind = kind,
-          .value = norm<dim>(across),
+          .value = norm(q - p),
           .minimum = 0,
-          .place = polar<dim>(middle),
+          .place = polar<dim>(0.5 * (p + q)),
           .slopes = dependence_on_ends<dim>(psi, chord, {outward, outward})};
 }
 
@@ -185,8 +180,7 @@ struct TangentBall {
 
 template <int dim>
 TangentBall<dim> tangent_ball(const Vec<dim>& p, const Vec<dim>& normal, const Vec<dim>& q) {
-  Vec<dim> chord;
-  for (int d = 0; d < dim; ++d) chord[d] = p[d] - q[d];
+  const Vec<dim> chord = p - q;
   TangentBall<dim> ball{
       .centre = {}, .radius = dot<dim>(chord, chord) / (2 * dot<dim>(chord, normal)), .cosine = 0};
   for (int d = 0; d < dim; ++d) {
@@ -208,8 +202,8 @@ Width<dim> width_of_ball(const MedialBalls<dim>& medial, WidthKind kind, const M
   const Lattice<dim>& lattice = medial.interpolant().lattice();
   const auto [seed, other] = given.touched;
   const Vec<dim> p = cartesian_position<dim>(lattice, medial.point(seed));
-  Vec<dim> normal = medial.normal(seed), second = medial.point(other);
-  for (double& x : normal) x *= outward;
+  const Vec<dim> normal = outward * medial.normal(seed);
+  Vec<dim> second = medial.point(other);
   auto ball = tangent_ball<dim>(p, normal, cartesian_position<dim>(lattice, second));
   for (int turn = 0; turn < turns; ++turn) {
     const auto nearest = closest_zero<dim>(medial.interpolant(), in_units<dim>(lattice, ball.centre), second);
@@ -325,12 +319,11 @@ std::vector<double> gap_load(const BoundaryMotion<dim>& motion, const Width<dim>
   return motion.load(gap);
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                \
-  template std::vector<Width<dim>> narrow_widths(const LevelSet<dim>&, const FeatureSize&, double); \
-  template double largest_gap(const std::vector<Width<dim>>&);                                      \
-  template std::vector<double> gap_load(const BoundaryMotion<dim>&, const Width<dim>&);
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+template decltype(narrow_widths<2>) narrow_widths<2>;
+template decltype(largest_gap<2>) largest_gap<2>;
+template decltype(gap_load<2>) gap_load<2>;
+template decltype(narrow_widths<3>) narrow_widths<3>;
+template decltype(largest_gap<3>) largest_gap<3>;
+template decltype(gap_load<3>) gap_load<3>;
 
 }  // namespace wheelwright

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "wheelwright/export/dxf.h"
+#include "wheelwright/export/extrusion.h"
 #include "wheelwright/export/plugin.h"
 #include "wheelwright/export/png.h"
-#include "wheelwright/export/solid_mesh.h"
 #include "wheelwright/export/stl.h"
 #include "wheelwright/export/svg_outline.h"
 #include "wheelwright/export/vtu_shape.h"

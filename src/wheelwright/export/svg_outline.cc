@@ -15,9 +15,9 @@ std::string point(const Vec<2>& p) {
 }
 
 /// Some programs draw every cubic with a fixed number of chords, whatever its length: these must suffice.
-int n_parts(const cad::Bezier& cubic, double tolerance) {
+int n_parts(const Bezier& cubic, double tolerance) {
   constexpr int chords_of_others = 16;
-  return (cad::n_chords(cubic, tolerance) + chords_of_others - 1) / chords_of_others;
+  return (n_chords(cubic, tolerance) + chords_of_others - 1) / chords_of_others;
 }
 
 std::string subpath(const cad::Loop& loop, double tolerance) {
@@ -27,8 +27,8 @@ std::string subpath(const cad::Loop& loop, double tolerance) {
       path += fmt::format("\nL{}", point(end_of(curve)));
       continue;
     }
-    for (const cad::Bezier& cubic : beziers(curve, share_of_arcs * tolerance))
-      for (const cad::Bezier& p : cad::divided(cubic, n_parts(cubic, tolerance)))
+    for (const Bezier& cubic : beziers(curve, share_of_arcs * tolerance))
+      for (const Bezier& p : divided(cubic, n_parts(cubic, tolerance)))
         path += fmt::format("\nC{} {} {}", point(p[1]), point(p[2]), point(p[3]));
   }
   return path + "Z";

@@ -13,6 +13,7 @@ class BoundaryIntegral : public Functional<dim> {
  public:
   FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                 const State<dim>& state, const Matrix& mean) const override;
+  bool is_mirror_symmetric(MirrorPlane) const override { return true; }
   /// A circle has the length 2 / radius per area, a sphere the area 3 / radius per volume.
   double of_small_hole(const PolarGrid<dim>&, const Vec<dim>& x, double radius) const override {
     return density(x).value * dim / radius;

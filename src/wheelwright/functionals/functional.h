@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "wheelwright/geometry/mirror.h"
 #include "wheelwright/state/state.h"
 
 namespace wheelwright {
@@ -47,6 +48,11 @@ class Functional {
   /// one held from an earlier shape. The derivative is taken at a fixed mean.
   virtual FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                         const State<dim>& state, const Matrix& mean) const = 0;
+
+  /// Whether it has the same value at a state and at its mirror image in a plane: then symmetric wheels are
+  /// solved in half of their positions, or on half of their width. Without such a promise all positions and
+  /// the whole width are solved. A functional of the shape alone does not depend on it and returns true.
+  virtual bool is_mirror_symmetric(MirrorPlane) const { return false; }
 
   /// The change by a small round hole in every sector of the part that depends only on the shape, per area of
   /// the hole (volume when dim = 3). `x`: its centre, Cartesian, in the body frame [m]; `radius` [m].

@@ -15,6 +15,7 @@ class Mass : public Functional<dim> {
   std::string name() const override { return "mass"; }
   FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                 const State<dim>& state, const Matrix& mean) const override;
+  bool is_mirror_symmetric(MirrorPlane) const override { return true; }
   double of_small_hole(const PolarGrid<dim>& grid, const Vec<dim>&, double) const override {
     return -density_ * grid.n_sectors;
   }

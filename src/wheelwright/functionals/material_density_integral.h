@@ -5,10 +5,10 @@
 
 namespace wheelwright {
 
-/// int_Omega M(u_i) dx (36) of every load position i, with M a function of the strain: derived classes
-/// implement M and its derivative, at() of MaterialDensity.
-template <int dim>
-class MaterialDensityIntegral : public Functional<dim>, MaterialDensity<dim> {
+/// int_Omega M_i dx (36) of every load position i. `Density` is MaterialDensity, or DensityOfStrain for
+/// functions of the strain in the same load case; derived classes implement it.
+template <int dim, class Density = DensityOfStrain<dim>>
+class MaterialDensityIntegral : public Functional<dim>, protected Density {
  public:
   FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>&, const State<dim>& state,
                                 const Matrix&) const override {
@@ -16,9 +16,6 @@ class MaterialDensityIntegral : public Functional<dim>, MaterialDensity<dim> {
     value.derivative.integrals.push_back({this, std::vector<double>(value.by_position.size(), 1.0)});
     return value;
   }
-
- protected:
-  using typename MaterialDensity<dim>::Value;
 };
 
 }  // namespace wheelwright

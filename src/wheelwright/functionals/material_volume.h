@@ -12,6 +12,7 @@ class MaterialVolume : public Functional<dim> {
   std::string name() const override { return "volume"; }
   FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                 const State<dim>& state, const Matrix& mean) const override;
+  bool is_mirror_symmetric(MirrorPlane) const override { return true; }
   double of_small_hole(const PolarGrid<dim>&, const Vec<dim>&, double) const override { return -1; }
 };
 

@@ -27,6 +27,9 @@ class FunctionOfPositions : public Functional<dim> {
   std::string name() const override { return name_; }
   FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                 const State<dim>& state, const Matrix& mean) const override;
+  bool is_mirror_symmetric(MirrorPlane plane) const override {
+    return functional_->is_mirror_symmetric(plane);
+  }
 
  private:
   std::string name_;
@@ -45,6 +48,9 @@ class RatioOfMeans : public Functional<dim> {
   std::string name() const override { return name_; }
   FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                 const State<dim>& state, const Matrix& mean) const override;
+  bool is_mirror_symmetric(MirrorPlane plane) const override {
+    return numerator_->is_mirror_symmetric(plane) && denominator_->is_mirror_symmetric(plane);
+  }
 
  private:
   std::string name_;

@@ -3,26 +3,25 @@
 #include <algorithm>
 #include <cmath>
 
-#include "wheelwright/elasticity/von_mises.h"
 #include "wheelwright/state/material_integral.h"
 
 namespace wheelwright {
-namespace {
-
-/// The squared von Mises stress by the squared deviator of the strain.
-double squared_stress_factor(const Material& material) { return 6 * material.mu() * material.mu(); }
-
-}  // namespace
+template <int dim>
+void VonMisesPower<dim>::densities(const StrainsAtPoint<dim>& point, std::span<double> values) const {
+  point.law.squared_von_mises(point.strains, values);
+  for (double& value : values) value = std::pow(value / (unit * unit), exponent_ / 2);
+}
 
 template <int dim>
-typename VonMisesPower<dim>::Value VonMisesPower<dim>::at(const Voigt<dim>& strain,
-                                                          const Material& material) const {
-  const SquaredDeviator<dim> deviator(strain.data(), material.axial_strain_ratio());
-  const double factor = squared_stress_factor(material) / (unit * unit);
-  const double square = factor * deviator.value, slope = std::pow(square, exponent_ / 2 - 1);
-  Value value{slope * square, deviator.by_strain()};
-  for (double& x : value.by_strain) x *= exponent_ / 2 * slope * factor;
-  return value;
+void VonMisesPower<dim>::slopes(const StrainsAtPoint<dim>& point, std::span<const double> factors,
+                                const StressRows<dim>& slopes) const {
+  std::vector<double> squares(point.n_cases());
+  point.law.squared_von_mises(point.strains, squares);
+  point.law.squared_von_mises_slope(point.strains, slopes);
+  for (int j = 0; j < point.n_cases(); ++j) {
+    const double slope = exponent_ / 2 * std::pow(squares[j] / (unit * unit), exponent_ / 2 - 1);
+    for (int k = 0; k < n_strains<dim>; ++k) slopes[k][j] *= factors[j] * slope / (unit * unit);
+  }
 }
 
 template <int dim>
@@ -41,13 +40,19 @@ FunctionalValue<dim> PeakVonMises<dim>::evaluate(const StateSolver<dim>& solver,
   constexpr double unit = VonMisesPower<dim>::unit;
   const int n = state.positions().size();
   std::vector<double> integrals(n, 0.0), squared_peaks(n, 0.0);
-  for_each_strain<dim>(solver, state, power_,
-                       [&](int position, double weight, const Material& material, const Voigt<dim>& strain) {
-                         const SquaredDeviator<dim> deviator(strain.data(), material.axial_strain_ratio());
-                         const double square = squared_stress_factor(material) * deviator.value;
-                         squared_peaks[position] = std::max(squared_peaks[position], square);
-                         integrals[position] += weight * std::pow(square / (unit * unit), norm_.exponent / 2);
-                       });
+  for_each_cell<dim>(solver, state, power_, [&](const StrainedCell<dim>& cell) {
+    Matrix squares(cell.strains.rows(), cell.n_points());
+    for (int q = 0; q < cell.n_points(); ++q)
+      cell.law.squared_von_mises(cell.at(q).strains,
+                                 {squares.column(q), static_cast<size_t>(squares.rows())});
+    for (int j = 0; j < squares.rows(); ++j)
+      for (int q = 0; q < cell.n_points(); ++q) {
+        const int position = j / cell.n_sectors;
+        const double square = squares(j, q);
+        squared_peaks[position] = std::max(squared_peaks[position], square);
+        integrals[position] += cell.weights[q] * std::pow(square / (unit * unit), norm_.exponent / 2);
+      }
+  });
   FunctionalValue<dim> value;
   std::vector<double> factors;
   for (int i = 0; i < n; ++i) {

@@ -11,15 +11,15 @@ namespace wheelwright {
 template <int dim>
 class VonMisesPower : public MaterialDensity<dim> {
  public:
-  using typename MaterialDensity<dim>::Value;
-
   /// The unit of the stress, which keeps high powers within the range of numbers [Pa].
   static constexpr double unit = 1e6;
 
   /// `exponent`: p, even; `from_tread`: the distance [m], 0 for all rows.
   VonMisesPower(int exponent, double from_tread) : exponent_(exponent), from_tread_(from_tread) {}
 
-  Value at(const Voigt<dim>& strain, const Material& material) const override;
+  void densities(const StrainsAtPoint<dim>& point, std::span<double> values) const override;
+  void slopes(const StrainsAtPoint<dim>& point, std::span<const double> factors,
+              const StressRows<dim>& slopes) const override;
   bool covers(const PolarGrid<dim>& grid, int row) const override;
 
  private:
@@ -40,6 +40,7 @@ class PeakVonMises : public Functional<dim> {
   std::string name() const override;
   FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                 const State<dim>& state, const Matrix& mean) const override;
+  bool is_mirror_symmetric(MirrorPlane) const override { return true; }
 
  private:
   double from_tread_;

@@ -182,7 +182,7 @@ std::vector<QuantityRow> material_rows() {
            .functional =
                []<int dim>(const QuantityContext<dim>& context) {
                  return std::make_shared<const Mass<dim>>(
-                     context.solver.model().materials.at_tread().density.value_or(0));
+                     context.solver.model().materials.at_tread().density().value_or(0));
                },
            .needs = {Input::density},
            .is_amount_of_material = true},

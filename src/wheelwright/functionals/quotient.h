@@ -15,6 +15,9 @@ class Quotient : public Functional<dim> {
   std::string name() const override { return name_; }
   FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                 const State<dim>& state, const Matrix& mean) const override;
+  bool is_mirror_symmetric(MirrorPlane plane) const override {
+    return numerator_->is_mirror_symmetric(plane) && denominator_->is_mirror_symmetric(plane);
+  }
 
  private:
   std::string name_;

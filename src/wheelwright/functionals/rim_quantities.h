@@ -18,6 +18,9 @@ class RimTravel : public Functional<dim> {
   std::string name() const override;
   FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                 const State<dim>& state, const Matrix& mean) const override;
+  bool is_mirror_symmetric(MirrorPlane plane) const override {
+    return plane == MirrorPlane::width || way_ == RimWay::towards_ground;
+  }
 
  private:
   RimWay way_;
@@ -31,6 +34,7 @@ class Travel : public Functional<dim> {
   std::string name() const override { return "travel"; }
   FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                 const State<dim>& state, const Matrix& mean) const override;
+  bool is_mirror_symmetric(MirrorPlane) const override { return true; }
 };
 
 /// The action of the wheel on the ground in one of the rim's directions at every load position: the force
@@ -46,6 +50,9 @@ class GroundForce : public Functional<dim> {
   std::string name() const override;
   FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                 const State<dim>& state, const Matrix& mean) const override;
+  bool is_mirror_symmetric(MirrorPlane plane) const override {
+    return plane == MirrorPlane::width || way_ == RimWay::towards_ground;
+  }
 
  private:
   RimWay way_;

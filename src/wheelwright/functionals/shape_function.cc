@@ -5,15 +5,19 @@
 namespace wheelwright {
 
 template <int dim>
-bool weights_are_mirror_symmetric(std::span<const ShapeFunction<dim>> functions) {
+bool are_mirror_symmetric(std::span<const ShapeFunction<dim>> functions, MirrorPlane plane) {
   // Position i's image is n - i; position 0 is its own.
-  return std::ranges::all_of(functions, [](const ShapeFunction<dim>& function) {
+  return std::ranges::all_of(functions, [&](const ShapeFunction<dim>& function) {
     const auto& w = function.position_weights;
-    return w.empty() || std::equal(w.begin() + 1, w.end(), w.rbegin());
+    const bool weights_images_alike =
+        plane != MirrorPlane::azimuth || w.empty() || std::equal(w.begin() + 1, w.end(), w.rbegin());
+    return weights_images_alike && std::ranges::all_of(function.terms, [&](const auto& term) {
+             return term.functional->is_mirror_symmetric(plane);
+           });
   });
 }
 
-template bool weights_are_mirror_symmetric(std::span<const ShapeFunction<2>>);
-template bool weights_are_mirror_symmetric(std::span<const ShapeFunction<3>>);
+template bool are_mirror_symmetric(std::span<const ShapeFunction<2>>, MirrorPlane);
+template bool are_mirror_symmetric(std::span<const ShapeFunction<3>>, MirrorPlane);
 
 }  // namespace wheelwright

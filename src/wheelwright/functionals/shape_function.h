@@ -38,8 +38,9 @@ ShapeFunction<dim> objective(WeightedSum<dim> terms) {
   return {.name = "objective", .terms = std::move(terms)};
 }
 
-/// Whether the functions weight every position as its mirror image in the plane of azimuth 0.
+/// Whether the functions have the same value for states and their mirror images in a plane: their functionals
+/// do, and every position has the weight of its mirror image in the plane of azimuth 0.
 template <int dim>
-bool weights_are_mirror_symmetric(std::span<const ShapeFunction<dim>> functions);
+bool are_mirror_symmetric(std::span<const ShapeFunction<dim>> functions, MirrorPlane plane);
 
 }  // namespace wheelwright

@@ -11,6 +11,7 @@ class StrainEnergy : public Functional<dim> {
   std::string name() const override { return "strain_energy"; }
   FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                 const State<dim>& state, const Matrix& mean) const override;
+  bool is_mirror_symmetric(MirrorPlane) const override { return true; }
 };
 
 }  // namespace wheelwright

@@ -18,6 +18,7 @@ class UniformityDual : public Functional<dim> {
   std::string name() const override { return "uniformity_dual"; }
   FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                 const State<dim>& state, const Matrix& mean) const override;
+  bool is_mirror_symmetric(MirrorPlane) const override { return true; }
 
  private:
   TractionMap neumann_to_dirichlet_;

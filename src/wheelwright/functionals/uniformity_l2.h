@@ -15,6 +15,7 @@ class UniformityL2 : public Functional<dim> {
   std::string name() const override { return "uniformity_l2"; }
   FunctionalValue<dim> evaluate(const StateSolver<dim>& solver, const LevelSet<dim>& psi,
                                 const State<dim>& state, const Matrix& mean) const override;
+  bool is_mirror_symmetric(MirrorPlane) const override { return true; }
 
  private:
   double length_;

@@ -22,8 +22,7 @@ class CellMap {
   /// Position of the point where the shape functions have these values.
   Vec<dim> position(const ShapeFunctions<dim>& shape) const {
     Vec<dim> x{};
-    for (int a = 0; a < nodes_per_cell<dim>(degree_); ++a)
-      for (int d = 0; d < dim; ++d) x[d] += shape.value[a] * nodes_[a][d];
+    for (int a = 0; a < nodes_per_cell<dim>(degree_); ++a) x += shape.value[a] * nodes_[a];
     return x;
   }
 
@@ -39,10 +38,8 @@ class CellMap {
   /// Second derivative d^2 x / dm^2 at xi for a direction m in the coordinates of the unit cell.
   Vec<dim> second_derivative(const Vec<dim>& xi, const Vec<dim>& m) const {
     Vec<dim> result{};
-    for (int a = 0; a < nodes_per_cell<dim>(degree_); ++a) {
-      const double value = shape_second_derivative<dim>(degree_, a, xi, m);
-      for (int d = 0; d < dim; ++d) result[d] += value * nodes_[a][d];
-    }
+    for (int a = 0; a < nodes_per_cell<dim>(degree_); ++a)
+      result += shape_second_derivative<dim>(degree_, a, xi, m) * nodes_[a];
     return result;
   }
 
@@ -62,10 +59,8 @@ struct SurfaceElement {
 /// where F is the Jacobian.
 template <int dim>
 SurfaceElement<dim> map_surface(const Mat<dim>& jacobian, const Vec<dim>& reference_normal) {
-  Vec<dim> n = transpose_times<dim>(inverse<dim>(jacobian), reference_normal);
-  const double length = norm<dim>(n);
-  for (double& x : n) x /= length;
-  return {n, length * determinant<dim>(jacobian)};
+  const Vec<dim> n = transpose_times<dim>(inverse<dim>(jacobian), reference_normal);
+  return {n / norm(n), norm(n) * determinant<dim>(jacobian)};
 }
 
 /// Returns v rotated by an angle [rad] about the axle.

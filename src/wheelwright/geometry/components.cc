@@ -168,8 +168,7 @@ class FloodFill {
 
   /// As Lattice::polar_point().
   Vec<dim> polar_point(const std::array<int, dim>& p) const {
-    Vec<dim> x;
-    for (int d = 0; d < dim; ++d) x[d] = p[d] * spacing_[d];
+    Vec<dim> x = componentwise_product(p, spacing_);
     x[0] += lattice_.grid().inner_radius;
     return x;
   }
@@ -182,7 +181,7 @@ class FloodFill {
       share *= spacing_[d] * (on_end ? 0.5 : 1);
     }
     component.measure += share;
-    for (int d = 0; d < dim; ++d) component.centre[d] += share * x[d];
+    component.centre += share * x;
     if (x[0] < component.innermost[0]) component.innermost = x;
     if (x[0] > component.outermost[0]) component.outermost = x;
     component.at_rim = component.at_rim || p[0] == 0;
@@ -211,7 +210,7 @@ Components<dim> components(const LevelSet<dim>& psi, int samples_per_cell) {
   return FloodFill<dim>(samples).result();
 }
 
-template Components<2> components(const LevelSet<2>&, int);
-template Components<3> components(const LevelSet<3>&, int);
+template decltype(components<2>) components<2>;
+template decltype(components<3>) components<3>;
 
 }  // namespace wheelwright

@@ -44,10 +44,8 @@ double mean_curvature(const LevelSet<dim>& psi, int map_degree, int cell, const 
   const auto values = psi.cell_values(cell);
 
   Vec<dim> gradient{};
-  for (size_t a = 0; a < values.size(); ++a) {
-    const Vec<dim> g = transpose_times<dim>(to_physical, shape.gradient[a]);
-    for (int d = 0; d < dim; ++d) gradient[d] += values[a] * g[d];
-  }
+  for (size_t a = 0; a < values.size(); ++a)
+    gradient += values[a] * transpose_times<dim>(to_physical, shape.gradient[a]);
   // The second derivatives in the unit cell, without the contribution of the map's curvature.
   const Mat<dim> reference = second_derivatives<dim>([&](const Vec<dim>& m) {
     double along = -dot<dim>(gradient, map.second_derivative(xi, m));
@@ -72,7 +70,7 @@ double mean_curvature(const LevelSet<dim>& psi, int map_degree, int cell, const 
   return (laplacian - along_normal) / length;
 }
 
-template double mean_curvature<2>(const LevelSet<2>&, int, int, const Vec<2>&);
-template double mean_curvature<3>(const LevelSet<3>&, int, int, const Vec<3>&);
+template decltype(mean_curvature<2>) mean_curvature<2>;
+template decltype(mean_curvature<3>) mean_curvature<3>;
 
 }  // namespace wheelwright

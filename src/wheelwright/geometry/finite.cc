@@ -17,7 +17,7 @@ std::optional<Failure> check_finite(const Lattice<dim>& lattice, std::span<const
                  fmt::format("{} is {} at {}", what, *first, place_text<dim>(place))};
 }
 
-template std::optional<Failure> check_finite(const Lattice<2>&, std::span<const double>, std::string_view);
-template std::optional<Failure> check_finite(const Lattice<3>&, std::span<const double>, std::string_view);
+template decltype(check_finite<2>) check_finite<2>;
+template decltype(check_finite<3>) check_finite<3>;
 
 }  // namespace wheelwright

@@ -42,8 +42,8 @@ std::vector<ReferencePoint<dim>> unit_cell_rule(int n) {
   return points;
 }
 
-template std::vector<ReferencePoint<1>> unit_cell_rule<1>(int);
-template std::vector<ReferencePoint<2>> unit_cell_rule<2>(int);
-template std::vector<ReferencePoint<3>> unit_cell_rule<3>(int);
+template decltype(unit_cell_rule<1>) unit_cell_rule<1>;
+template decltype(unit_cell_rule<2>) unit_cell_rule<2>;
+template decltype(unit_cell_rule<3>) unit_cell_rule<3>;
 
 }  // namespace wheelwright

@@ -17,9 +17,9 @@ std::string measure_text(double measure) {
   return fmt::format("{:.3g} mm^{}", measure * std::pow(1e3, dim), dim);
 }
 
-template std::string place_text<2>(const Vec<2>&);
-template std::string place_text<3>(const Vec<3>&);
-template std::string measure_text<2>(double);
-template std::string measure_text<3>(double);
+template decltype(place_text<2>) place_text<2>;
+template decltype(place_text<3>) place_text<3>;
+template decltype(measure_text<2>) measure_text<2>;
+template decltype(measure_text<3>) measure_text<3>;
 
 }  // namespace wheelwright

@@ -169,9 +169,7 @@ class Lattice {
 
   /// Coordinates (radius, azimuth[, axial]) of a node; position[1] may lie outside the sector.
   Vec<dim> polar_point(const std::array<int, dim>& position) const {
-    const Vec<dim> h = spacing();
-    Vec<dim> x;
-    for (int d = 0; d < dim; ++d) x[d] = position[d] * h[d];
+    Vec<dim> x = componentwise_product(position, spacing());
     x[0] += grid_.inner_radius;
     return x;
   }

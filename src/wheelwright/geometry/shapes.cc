@@ -79,8 +79,8 @@ LevelSet<dim> make_level_set(const Lattice<dim>& lattice, std::span<const Circle
   return psi;
 }
 
-template double signed_distance<2>(const PolarGrid<2>&, std::span<const Circle>, const Vec<2>&);
-template double signed_distance<3>(const PolarGrid<3>&, std::span<const Circle>, const Vec<3>&);
+template decltype(signed_distance<2>) signed_distance<2>;
+template decltype(signed_distance<3>) signed_distance<3>;
 template LevelSet<2> make_level_set<2>(const Lattice<2>&, std::span<const Circle>);
 template LevelSet<3> make_level_set<3>(const Lattice<3>&, std::span<const Circle>);
 

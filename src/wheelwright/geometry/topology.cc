@@ -51,9 +51,9 @@ std::vector<ShapeEvent<dim>> topology_changes(const Components<dim>& before, con
 
 template std::string text(const ShapeEvent<2>&);
 template std::string text(const ShapeEvent<3>&);
-template std::vector<std::set<int>> overlapping_holes(const Components<2>&, const Components<2>&);
-template std::vector<std::set<int>> overlapping_holes(const Components<3>&, const Components<3>&);
-template std::vector<ShapeEvent<2>> topology_changes(const Components<2>&, const Components<2>&);
-template std::vector<ShapeEvent<3>> topology_changes(const Components<3>&, const Components<3>&);
+template decltype(overlapping_holes<2>) overlapping_holes<2>;
+template decltype(overlapping_holes<3>) overlapping_holes<3>;
+template decltype(topology_changes<2>) topology_changes<2>;
+template decltype(topology_changes<3>) topology_changes<3>;
 
 }  // namespace wheelwright

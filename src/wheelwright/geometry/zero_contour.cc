@@ -17,7 +17,7 @@ Vec<2> ZeroContour::unit_cell_point(const Vec<2>& in_cell_frame, int row, Vec<2>
     const ShapeFunctions<2> shape(degree_, guess);
     const Vec<2> x = maps_[row].position(shape);
     const Mat<2> back = inverse<2>(maps_[row].jacobian(shape));
-    const Vec<2> miss{in_cell_frame[0] - x[0], in_cell_frame[1] - x[1]};
+    const Vec<2> miss = in_cell_frame - x;
     double step = 0;
     for (int i = 0; i < 2; ++i) {
       const double d = back[i][0] * miss[0] + back[i][1] * miss[1];
@@ -59,7 +59,7 @@ ZeroContour::Value ZeroContour::at(const Vec<2>& point) const {
   Vec<2> reference{};
   for (int a = 0; a < nodes_per_cell<2>(degree_); ++a) {
     psi += shape.value[a] * nodal[a];
-    for (int d = 0; d < 2; ++d) reference[d] += shape.gradient[a][d] * nodal[a];
+    reference += nodal[a] * shape.gradient[a];
   }
   const Vec<2> gradient = transpose_times<2>(inverse<2>(maps_[where.row].jacobian(shape)), reference);
   return {psi, rotated<2>(gradient, where.column * grid_.cell_size()[1])};

@@ -151,7 +151,7 @@ LevelSet<2> with_holes(const LevelSet<2>& psi, std::span<const Circle> holes) {
   return is_mirror_symmetric(psi) && is_mirror_symmetric(result) ? mirror_symmetric_part(result) : result;
 }
 
-template std::vector<MaterialPoint<2>> middles_of_full_cells(const CutDomain<2>&, int);
-template std::vector<MaterialPoint<3>> middles_of_full_cells(const CutDomain<3>&, int);
+template decltype(middles_of_full_cells<2>) middles_of_full_cells<2>;
+template decltype(middles_of_full_cells<3>) middles_of_full_cells<3>;
 
 }  // namespace wheelwright

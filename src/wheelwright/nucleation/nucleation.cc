@@ -88,16 +88,13 @@ std::string nucleation_text(std::span<const Circle> holes) {
   return text;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                       \
-  template Nucleation<dim>::Before before_nucleation(const OptimizerOptions&,                              \
-                                                     const OptimizationState<dim>&);                       \
-  template bool has_paid<dim>(const OptimizerOptions&, const Nucleation<dim>::Before&,                     \
-                              const Evaluation<dim>&);                                                     \
-  template std::vector<double> lagrangian_weights(const OptimizerOptions&, const OptimizationState<dim>&); \
-  template std::optional<double> gain_at_edges(const OptimizerOptions&, const Evolver<dim>&,               \
-                                               const OptimizationState<dim>&);
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+template decltype(before_nucleation<2>) before_nucleation<2>;
+template decltype(has_paid<2>) has_paid<2>;
+template decltype(lagrangian_weights<2>) lagrangian_weights<2>;
+template decltype(gain_at_edges<2>) gain_at_edges<2>;
+template decltype(before_nucleation<3>) before_nucleation<3>;
+template decltype(has_paid<3>) has_paid<3>;
+template decltype(lagrangian_weights<3>) lagrangian_weights<3>;
+template decltype(gain_at_edges<3>) gain_at_edges<3>;
 
 }  // namespace wheelwright

@@ -60,9 +60,9 @@ std::vector<BoundState> bound_states(const Evaluation<dim>& evaluation,
   return states;
 }
 
-template std::vector<BoundState> bound_states(const Evaluation<2>&, const std::vector<double>&);
-template std::vector<BoundState> bound_states(const Evaluation<3>&, const std::vector<double>&);
-template std::vector<BoundConstraint> bound_constraints(const Evaluation<2>&);
-template std::vector<BoundConstraint> bound_constraints(const Evaluation<3>&);
+template decltype(bound_states<2>) bound_states<2>;
+template decltype(bound_states<3>) bound_states<3>;
+template decltype(bound_constraints<2>) bound_constraints<2>;
+template decltype(bound_constraints<3>) bound_constraints<3>;
 
 }  // namespace wheelwright

@@ -53,11 +53,9 @@ bool predicts_gain(const OptimizerOptions& options, const OptimizationState<dim>
   return decrease > options.tolerance * std::abs(state.evaluation.function(options.objective).value);
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                        \
-  template bool has_converged(const OptimizerOptions&, const OptimizationState<dim>&, int); \
-  template bool predicts_gain(const OptimizerOptions&, const OptimizationState<dim>&, double);
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+template decltype(has_converged<2>) has_converged<2>;
+template decltype(predicts_gain<2>) predicts_gain<2>;
+template decltype(has_converged<3>) has_converged<3>;
+template decltype(predicts_gain<3>) predicts_gain<3>;
 
 }  // namespace wheelwright

@@ -84,10 +84,8 @@ StepMemory DescentProposals<dim>::remembered(const Move<dim>&, const LevelSet<di
   return {};
 }
 
-template Expected<std::vector<double>> descent_velocity(const Evolver<2>&, const OptimizerOptions&,
-                                                        const OptimizationState<2>&);
-template Expected<std::vector<double>> descent_velocity(const Evolver<3>&, const OptimizerOptions&,
-                                                        const OptimizationState<3>&);
+template decltype(descent_velocity<2>) descent_velocity<2>;
+template decltype(descent_velocity<3>) descent_velocity<3>;
 template class DescentProposals<2>;
 template class DescentProposals<3>;
 

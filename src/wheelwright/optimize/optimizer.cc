@@ -1,16 +1,9 @@
 #include "wheelwright/optimize/optimizer.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <chrono>
-#include <limits>
 
-#include "wheelwright/cut/measure.h"
 #include "wheelwright/evolution/volume.h"
 #include "wheelwright/geometry/finite.h"
-#include "wheelwright/geometry/place.h"
-#include "wheelwright/linalg/dense.h"
 #include "wheelwright/optimize/constraints.h"
 #include "wheelwright/optimize/convergence.h"
 
@@ -19,38 +12,8 @@ namespace wheelwright {
 namespace {
 
 constexpr double step_reduction = 0.5;  // after a rejected trial
-constexpr int max_removals = 4;
 constexpr int halvings_before_rest =
     2;  // usually enough; then the step 0 shows whether further ones can help
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// Quadratic steps require shapes whose motion can be predicted.
-EvolutionOptions in_space_of(Method method, EvolutionOptions evolution) {
-  evolution.space = method == Method::sequential_quadratic ? ShapeSpace::spline : ShapeSpace::nodal;
-  return evolution;
-}
-
-template <class Points>
-double boundary_measure(const Points& points) {
-  double sum = 0;
-  for (const auto& point : points) sum += point.weight;
-  return sum;
-}
-
-template <int dim>
-bool is_finite(const Evaluation<dim>& evaluation) {
-  double sum = 0;
-  for (const FunctionValue& function : evaluation.functions) {
-    sum += function.value;
-    for (size_t q = 0; q < evaluation.boundary.size(); ++q)
-      sum += evaluation.boundary[q].weight * function.gradient[q];
-  }
-  return std::isfinite(sum);
-}
 
 /// Whether there are final widths that the state's shape may not have.
 template <int dim>
@@ -70,81 +33,8 @@ bool needs_repair(const OptimizerOptions& options, const OptimizationState<dim>&
 }
 
 template <int dim>
-double merit_of(const Evaluation<dim>& evaluation, const std::string& objective,
-                std::vector<double> penalties) {
-  const auto constraints = bound_constraints(evaluation);
-  const double value = evaluation.function(objective).value;
-  if (penalties.size() != constraints.size()) penalties.assign(constraints.size(), std::abs(value));
-  return merit(value, constraints, penalties);
-}
-
-/// A change of the objective is a jump if it exceeds this multiple of what the gradient predicts and also
-/// this factor: near a minimum the gradient predicts nothing.
-constexpr double largest_surprise = 3, largest_factor = 4;
-
-std::optional<Failure> check_jump(double before, double after, double predicted) {
-  const auto [small, large] = std::minmax({std::abs(before), std::abs(after)});
-  if (std::abs(after - before) <= largest_surprise * std::abs(predicted) || large <= largest_factor * small)
-    return {};
-  return Failure{FailureReason::objective_jumped,
-                 fmt::format("the objective changed from {:.6g} to {:.6g}, but its gradient predicted {:.6g}",
-                             before, after, before + predicted)};
-}
-
-/// A trial that does not have its own shape yet.
-template <int dim>
-Trial<dim> failed_trial(const OptimizationState<dim>& state, int halvings, double step,
-                        std::optional<Failure> failure) {
-  return {.iteration = state.iteration + 1,
-          .halvings = halvings,
-          .step = step,
-          .max_velocity = unknown,
-          .evolution_seconds = 0,
-          .shape = state.shape,
-          .measure = unknown,
-          .verdict = Verdict::failed,
-          .failure = std::move(failure)};
-}
-
-/// The trial of an unmoved shape.
-template <int dim>
-Trial<dim> trial_at_rest(int iteration, LevelSet<dim> shape) {
-  return {.iteration = iteration,
-          .halvings = 0,
-          .step = 0,
-          .max_velocity = 0,
-          .evolution_seconds = 0,
-          .shape = std::move(shape),
-          .measure = unknown,
-          .verdict = Verdict::failed};
-}
-
-template <int dim>
 bool was_interrupted(const Trial<dim>& trial) {
   return trial.failure && trial.failure->reason == FailureReason::interrupted;
-}
-
-/// Stores a stage's result as the trial's shape, or its failure as the trial's; returns whether it is a
-/// shape.
-template <int dim>
-bool store(Expected<LevelSet<dim>> shape, Trial<dim>& trial) {
-  if (shape)
-    trial.shape = *std::move(shape);
-  else
-    trial.failure = shape.failure();
-  return !trial.failure;
-}
-
-/// The same; the shape's cells.
-template <int dim>
-std::optional<CutDomain<dim>> store(Expected<MeasuredShape<dim>> measured, Trial<dim>& trial) {
-  if (!measured) {
-    trial.failure = measured.failure();
-    return {};
-  }
-  trial.shape = std::move(measured->shape);
-  trial.measure = measured->measure;
-  return std::move(measured->domain);
 }
 
 }  // namespace
@@ -173,27 +63,22 @@ std::optional<StopReason> reason_to_stop(const OptimizerOptions& options,
 template <int dim>
 ShapeOptimizer<dim>::ShapeOptimizer(const Lattice<dim>& lattice, const EvolutionOptions& evolution,
                                     const OptimizerOptions& options, Evaluate evaluate)
-    : lattice_(lattice),
-      evolver_(lattice, in_space_of(options.method, evolution)),
-      options_(options),
-      evaluate_(std::move(evaluate)) {}
+    : options_(options), trials_(lattice, evolution, options, std::move(evaluate)) {}
+
+template <int dim>
+ShapeOptimizer<dim> ShapeOptimizer<dim>::with(Evaluate evaluate) const {
+  ShapeOptimizer other = *this;
+  other.trials_ = trials_.with(std::move(evaluate));
+  return other;
+}
 
 template <int dim>
 Expected<OptimizationState<dim>> ShapeOptimizer<dim>::start(const LevelSet<dim>& initial,
                                                             const Observer& observer) const {
-  if (auto failure = check_finite<dim>(lattice_, initial.values, "the initial level set")) return *failure;
-  Trial<dim> trial = trial_at_rest<dim>(0, evolver_.keep_bands(initial));
-  const double given = material_measure(trial.shape);
-  const auto target = is_in_reach(given) ? options_.target_measure : std::nullopt;
-  auto cells =
-      finish(trial, target, boundary_measure(boundary_samples<dim>(trial.shape)), evolver_.features());
-  if (!trial.failure) evaluate(trial, std::move(cells), nullptr, evolver_.features());
-  if (trial.failure) {
-    if (target) name_target(given, *target, *target, *trial.failure);
-    return *trial.failure;
-  }
-  trial.verdict = Verdict::accepted;
-  add_changes(initial, trial);
+  if (auto failure = check_finite<dim>(initial.lattice, initial.values, "the initial level set"))
+    return *failure;
+  const Trial<dim> trial = trials_.first(initial);
+  if (trial.failure) return *trial.failure;
   OptimizationState<dim> state{.shape = trial.shape,
                                .evaluation = *trial.evaluation,
                                .measure = trial.measure,
@@ -212,22 +97,20 @@ Expected<OptimizationState<dim>> ShapeOptimizer<dim>::start(const LevelSet<dim>&
 template <int dim>
 Expected<OptimizationState<dim>> ShapeOptimizer<dim>::restart(const OptimizationState<dim>& state,
                                                               const Observer& observer) const {
-  Trial<dim> trial = trial_at_rest<dim>(state.iteration, state.shape);
-  evaluate(trial, {}, nullptr, evolver_.features());
+  const Trial<dim> trial = trials_.again(state);
   if (trial.failure) return *trial.failure;
-  trial.verdict = Verdict::accepted;
-  OptimizationState<dim> anew = state;
-  anew.shape = trial.shape;
-  anew.measure = trial.measure;
-  anew.evaluation = *trial.evaluation;
-  anew.target_measure = options_.target_measure.value_or(state.target_measure);
-  anew.step = options_.step;
-  anew.memory = {};
-  anew.history = {accepted_shape(*trial.evaluation)};
-  anew.history_begin = state.iteration;
-  anew.final_widths = first_widths(anew.shape);
-  observer(trial, anew);
-  return anew;
+  OptimizationState<dim> next = state;
+  next.shape = trial.shape;
+  next.measure = trial.measure;
+  next.evaluation = *trial.evaluation;
+  next.target_measure = options_.target_measure.value_or(state.target_measure);
+  next.step = options_.step;
+  next.memory = {};
+  next.history = {accepted_shape(*trial.evaluation)};
+  next.history_begin = state.iteration;
+  next.final_widths = first_widths(next.shape);
+  observer(trial, next);
+  return next;
 }
 
 template <int dim>
@@ -254,11 +137,11 @@ typename ShapeOptimizer<dim>::Repair ShapeOptimizer<dim>::repair_widths(Optimiza
                                                                         const Observer& observer) const {
   OptimizationState<dim> next = state;
   next.final_widths = FinalWidths::kept;
-  if (has_widths(state.shape, widths_after(next))) {
+  if (has_widths(state.shape, trials_.widths_after(next))) {
     state = std::move(next);
     return Repair::nothing;
   }
-  const std::vector<Trial<dim>> trials = repaired(next);
+  const std::vector<Trial<dim>> trials = trials_.repaired(next);
   if (std::ranges::any_of(trials, was_interrupted<dim>)) return Repair::interrupted;
   const bool is_possible = trials.back().verdict == Verdict::accepted;
   if (!is_possible) state.final_widths = FinalWidths::impossible;
@@ -286,42 +169,6 @@ bool ShapeOptimizer<dim>::has_widths(const LevelSet<dim>& shape, const FeatureSi
   return narrowest_places(shape, widths).empty();
 }
 
-/// The state's shape with the widths of the following shapes, repaired in two ways: with its thin walls
-/// thickened, and with them removed. The better one comes last, and is accepted if it could be evaluated.
-template <int dim>
-std::vector<Trial<dim>> ShapeOptimizer<dim>::repaired(const OptimizationState<dim>& state) const {
-  const FeatureSize widths = widths_after(state);
-  std::vector<Trial<dim>> trials{repaired(state, state.shape)};
-  const LevelSet<dim> cut = without_thin_walls(state.shape, widths.wall);
-  if (cut.values != state.shape.values) trials.push_back(repaired(state, cut));
-  const auto merit_or_worst = [&](const Trial<dim>& trial) {
-    return trial.failure ? std::numeric_limits<double>::infinity()
-                         : merit_of(*trial.evaluation, options_.objective, state.memory.penalties);
-  };
-  std::ranges::stable_sort(trials, std::greater<>(), merit_or_worst);
-  for (std::size_t k = 0; k < trials.size(); ++k) trials[k].halvings = static_cast<int>(k);
-  Trial<dim>& best = trials.back();
-  if (best.failure) return trials;
-  best.verdict = Verdict::accepted;
-  for (const auto& event : narrowest_places(state.shape, widths)) best.events.push_back(event);
-  add_changes(state.shape, best);
-  return trials;
-}
-
-/// The trial of a shape with the widths of the shapes after the state.
-template <int dim>
-Trial<dim> ShapeOptimizer<dim>::repaired(const OptimizationState<dim>& state,
-                                         const LevelSet<dim>& shape) const {
-  const auto start = std::chrono::steady_clock::now();
-  Trial<dim> trial = trial_at_rest<dim>(state.iteration + 1, evolver_.keep_bands(shape));
-  auto cells =
-      finish(trial, state.target_measure, boundary_measure(state.evaluation.boundary), widths_after(state));
-  trial.evolution_seconds = seconds_since(start);
-  if (!trial.failure) evaluate(trial, std::move(cells), &state.evaluation, widths_after(state));
-  trial.verdict = trial.failure ? Verdict::failed : Verdict::objective_rose;
-  return trial;
-}
-
 /// The state at the trial's shape, whose objective is not compared with those before.
 template <int dim>
 OptimizationState<dim> ShapeOptimizer<dim>::restarted(OptimizationState<dim> state,
@@ -339,18 +186,13 @@ OptimizationState<dim> ShapeOptimizer<dim>::restarted(OptimizationState<dim> sta
 }
 
 template <int dim>
-FeatureSize ShapeOptimizer<dim>::widths_after(const OptimizationState<dim>& state) const {
-  return wheelwright::widths_after(evolver_.features(), options_, state);
-}
-
-template <int dim>
 std::optional<StopReason> ShapeOptimizer<dim>::descend(OptimizationState<dim>& state,
                                                        const Observer& observer,
                                                        const std::function<bool()>& stop_requested) const {
   if (const auto reason = reason_to_stop(options_, state)) return reason;
-  const auto proposals = proposals_from(evolver_, options_, state);
+  const auto proposals = proposals_from(evolver(), options_, state);
   if (!proposals) {
-    observer(failed_trial(state, 0, state.step, proposals.failure()), state);
+    observer(trials_.without_shape(state, 0, state.step, proposals.failure()), state);
     return StopReason::gave_up;
   }
   bool all_failed = true, is_sound = false;
@@ -358,11 +200,11 @@ std::optional<StopReason> ShapeOptimizer<dim>::descend(OptimizationState<dim>& s
   for (int halvings = 0; halvings <= options_.max_halvings; ++halvings) {
     const auto move = (*proposals)->move(step);
     if (!move) {
-      observer(failed_trial(state, halvings, step, move.failure()), state);
+      observer(trials_.without_shape(state, halvings, step, move.failure()), state);
       return StopReason::gave_up;
     }
     if (move->step == 0) return StopReason::no_descent;
-    const Trial<dim> trial = attempt(state, **proposals, *move, halvings);
+    const Trial<dim> trial = trials_.moved(state, **proposals, *move, halvings);
     if (was_interrupted(trial)) return StopReason::stop_requested;
     if (trial.verdict == Verdict::accepted) state = successor(state, **proposals, *move, trial);
     observer(trial, state);
@@ -377,11 +219,11 @@ std::optional<StopReason> ShapeOptimizer<dim>::descend(OptimizationState<dim>& s
     if (stop_requested()) return StopReason::stop_requested;
     // A trial spoilt by redistancing or smoothing is repeated without them.
     const bool was_reshaped = halvings == 0 && options_.method == Method::sequential_quadratic &&
-                              (is_due(options_.redistance_every, state.since_redistance, 0) ||
-                               is_due(options_.smooth_every, state.since_smoothing, 0));
+                              (is_due(options_.redistance_every, state.since_redistance) ||
+                               is_due(options_.smooth_every, state.since_smoothing));
     step = was_reshaped ? move->radius : step_reduction * move->step;
     if (trial.verdict == Verdict::failed && halvings >= halvings_before_rest && !is_sound) {
-      const Trial<dim> at_rest = attempt_at_rest(state, **proposals, *move, halvings + 1);
+      const Trial<dim> at_rest = trials_.at_rest(state, **proposals, *move, halvings + 1);
       if (was_interrupted(at_rest)) return StopReason::stop_requested;
       is_sound = !at_rest.failure;
       if (is_sound) continue;
@@ -390,22 +232,6 @@ std::optional<StopReason> ShapeOptimizer<dim>::descend(OptimizationState<dim>& s
     }
   }
   return all_failed ? StopReason::gave_up : StopReason::no_descent;
-}
-
-/// A trial of the step 0: what fails there fails with every smaller step.
-template <int dim>
-Trial<dim> ShapeOptimizer<dim>::attempt_at_rest(const OptimizationState<dim>& state,
-                                                const Proposals<dim>& proposals, Move<dim> move,
-                                                int halvings) const {
-  move.distance = 0;
-  move.step = 0;
-  move.measure = state.measure;
-  move.objective_change = 0;
-  move.model_decrease = 0;
-  Trial<dim> trial = attempt(state, proposals, move, halvings);
-  if (trial.failure)
-    trial.failure->detail += "; it fails even if the boundary does not move, so no smaller step helps";
-  return trial;
 }
 
 template <int dim>
@@ -417,7 +243,7 @@ StopReason ShapeOptimizer<dim>::run(OptimizationState<dim>& state, const Observe
 
 template <int dim>
 double ShapeOptimizer<dim>::objective_of(const Evaluation<dim>& evaluation) const {
-  return evaluation.function(options_.objective).value;
+  return trials_.objective_of(evaluation);
 }
 
 template <int dim>
@@ -427,127 +253,11 @@ AcceptedShape ShapeOptimizer<dim>::accepted_shape(const Evaluation<dim>& evaluat
 }
 
 template <int dim>
-Trial<dim> ShapeOptimizer<dim>::attempt(const OptimizationState<dim>& state, const Proposals<dim>& proposals,
-                                        const Move<dim>& move, int halvings) const {
-  const auto start = std::chrono::steady_clock::now();
-  Trial<dim> trial = failed_trial(state, halvings, move.step, {});
-  trial.max_velocity = largest_magnitude(move.velocity);
-  trial.predicted = move.model_decrease;
-  auto cells = evolve(state, move, trial);
-  trial.evolution_seconds = seconds_since(start);
-  if (!trial.failure) evaluate(trial, std::move(cells), &state.evaluation, widths_after(state));
-  if (!trial.failure)
-    trial.failure =
-        check_jump(objective_of(state.evaluation), objective_of(*trial.evaluation), move.objective_change);
-  if (trial.failure) {
-    name_target(state.measure, move.measure, state.target_measure, *trial.failure);
-    return trial;
-  }
-  trial.verdict = proposals.accepts(move, *trial.evaluation) ? Verdict::accepted : Verdict::objective_rose;
-  if (trial.verdict == Verdict::accepted) add_changes(state.shape, trial);
-  return trial;
-}
-
-/// Adds to the failure of a trial that its measure was to change, if it was [m^2, or m^3 when dim = 3].
-template <int dim>
-void ShapeOptimizer<dim>::name_target(double from, double to, double target, Failure& failure) const {
-  if (options_.measure_control != MeasureControl::exact || failure.reason == FailureReason::interrupted ||
-      std::abs(to - from) <= measure_tolerance * target)
-    return;
-  const double whole = sector_measure<dim>(lattice_.grid());
-  failure.detail += fmt::format(
-      "; the volume was to change from {:.6g} to {:.6g} of the ring, on its way to volume.target = {:.6g}: "
-      "choose a target closer to these, or a smaller volume.rate",
-      from / whole, to / whole, target / whole);
-}
-
-/// Whether one full step brings this measure to the given target.
-template <int dim>
-bool ShapeOptimizer<dim>::is_in_reach(double measure) const {
-  const double most = options_.measure_rate * sector_measure<dim>(lattice_.grid());
-  return options_.target_measure && std::abs(*options_.target_measure - measure) <= most;
-}
-
-/// Builds the trial's shape from the state's; if a stage fails, the shape remains that of the stage before.
-template <int dim>
-typename ShapeOptimizer<dim>::MadeCells ShapeOptimizer<dim>::evolve(const OptimizationState<dim>& state,
-                                                                    const Move<dim>& move,
-                                                                    Trial<dim>& trial) const {
-  const bool redistances = is_due(options_.redistance_every, state.since_redistance, trial.halvings),
-             smooths = is_due(options_.smooth_every, state.since_smoothing, trial.halvings);
-  if (store(evolver_.move(state.shape, move.velocity, move.distance * lattice_.grid().resolution()), trial) &&
-      (!redistances || store(evolver_.redistance(trial.shape), trial)) &&
-      (!smooths || store(evolver_.smooth(trial.shape), trial)))
-    return finish(trial, move.measure, boundary_measure(state.evaluation.boundary), widths_after(state));
-  return {};
-}
-
-/// Gives the trial's shape the target measure, if that is controlled exactly, and removes islands;
-/// repeatedly, because the shift compensates for removed islands and can create new ones.
-template <int dim>
-typename ShapeOptimizer<dim>::MadeCells ShapeOptimizer<dim>::finish(Trial<dim>& trial,
-                                                                    std::optional<double> target,
-                                                                    double boundary_measure,
-                                                                    const FeatureSize& widths) const {
-  const double largest = options_.largest_island * sector_measure<dim>(lattice_.grid());
-  for (int k = 0; k < max_removals; ++k) {
-    trial.measure = unknown;
-    MadeCells cells;
-    if (target && options_.measure_control == MeasureControl::exact)
-      cells = store(evolver_.with_measure(trial.shape, *target, boundary_measure, widths), trial);
-    if (trial.failure) return {};
-    auto attached = evolver_.without_islands(trial.shape, largest);
-    if (!attached) {
-      trial.failure = attached.failure();
-      return {};
-    }
-    if (attached->removed.empty()) return cells;
-    trial.shape = std::move(attached->psi);
-    trial.events.insert(trial.events.end(), attached->removed.begin(), attached->removed.end());
-  }
-  trial.failure = Failure{FailureReason::disconnected_material,
-                          fmt::format("islands reappear whenever they are removed, most recently at {}",
-                                      place_text<dim>(trial.events.back().place))};
-  return {};
-}
-
-template <int dim>
-void ShapeOptimizer<dim>::add_changes(const LevelSet<dim>& before, Trial<dim>& trial) const {
-  for (const auto& event : evolver_.changes(before, trial.shape)) trial.events.push_back(event);
-}
-
-/// Cuts and measures the trial's shape unless the shift to the target has done so.
-template <int dim>
-void ShapeOptimizer<dim>::evaluate(Trial<dim>& trial, MadeCells cells, const Evaluation<dim>* previous,
-                                   const FeatureSize& widths) const {
-  if (!cells) cells = store(evolver_.measured(trial.shape, widths), trial);
-  if (trial.failure) return;
-  auto evaluated = evaluate_({trial.shape, &*cells}, previous);
-  if (!evaluated) {
-    trial.failure = evaluated.failure();
-    return;
-  }
-  trial.solution = std::move(evaluated->state);
-  trial.other_solutions = std::move(evaluated->others);
-  if (is_finite(evaluated->evaluation))
-    trial.evaluation = std::move(evaluated->evaluation);
-  else
-    trial.failure = Failure{FailureReason::not_finite, "the objective or its shape gradient"};
-}
-
-template <int dim>
-bool ShapeOptimizer<dim>::is_due(int every, int since, int halvings) const {
-  return every > 0 && since + 1 >= every && halvings == 0;
-}
-
-template <int dim>
 OptimizationState<dim> ShapeOptimizer<dim>::successor(const OptimizationState<dim>& state,
                                                       const Proposals<dim>& proposals, const Move<dim>& move,
                                                       const Trial<dim>& trial) const {
-  const auto count = [&](int every, int since) {
-    const bool waits = options_.method == Method::descent && trial.halvings > 0;
-    return is_due(every, since, waits ? trial.halvings : 0) ? 0 : since + 1;
-  };
+  const bool waits = options_.method == Method::descent && trial.halvings > 0;
+  const auto count = [&](int every, int since) { return !waits && is_due(every, since) ? 0 : since + 1; };
   OptimizationState<dim> next{.shape = trial.shape,
                               .evaluation = *trial.evaluation,
                               .measure = trial.measure,
@@ -579,17 +289,15 @@ Outcome<dim> optimize(const ShapeOptimizer<dim>& optimizer, const LevelSet<dim>&
   return {reason, *std::move(state), {}};
 }
 
-template bool is_approaching(const OptimizerOptions&, const OptimizationState<2>&);
-template bool is_approaching(const OptimizerOptions&, const OptimizationState<3>&);
-template double next_measure(const OptimizerOptions&, const OptimizationState<2>&, double);
-template double next_measure(const OptimizerOptions&, const OptimizationState<3>&, double);
-template std::optional<StopReason> reason_to_stop(const OptimizerOptions&, const OptimizationState<2>&);
-template std::optional<StopReason> reason_to_stop(const OptimizerOptions&, const OptimizationState<3>&);
+template decltype(is_approaching<2>) is_approaching<2>;
+template decltype(is_approaching<3>) is_approaching<3>;
+template decltype(next_measure<2>) next_measure<2>;
+template decltype(next_measure<3>) next_measure<3>;
+template decltype(reason_to_stop<2>) reason_to_stop<2>;
+template decltype(reason_to_stop<3>) reason_to_stop<3>;
 template class ShapeOptimizer<2>;
 template class ShapeOptimizer<3>;
-template Outcome<2> optimize<2>(const ShapeOptimizer<2>&, const LevelSet<2>&,
-                                const ShapeOptimizer<2>::Observer&, const std::function<bool()>&);
-template Outcome<3> optimize<3>(const ShapeOptimizer<3>&, const LevelSet<3>&,
-                                const ShapeOptimizer<3>::Observer&, const std::function<bool()>&);
+template decltype(optimize<2>) optimize<2>;
+template decltype(optimize<3>) optimize<3>;
 
 }  // namespace wheelwright

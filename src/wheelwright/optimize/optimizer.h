@@ -10,6 +10,7 @@
 #include "wheelwright/evolution/evolver.h"
 #include "wheelwright/optimize/optimization_state.h"
 #include "wheelwright/optimize/proposals.h"
+#include "wheelwright/optimize/trials.h"
 #include "wheelwright/sensitivity/evaluate.h"
 
 namespace wheelwright {
@@ -58,15 +59,17 @@ std::optional<StopReason> reason_to_stop(const OptimizerOptions& options,
 template <int dim>
 class ShapeOptimizer {
  public:
-  /// `previous` is the evaluation of the last accepted shape; null for the first. The failure `interrupted`
-  /// does not count as a failed trial: the trial is discarded and the loop stops as if requested.
-  using Evaluate =
-      std::function<Expected<Evaluated<dim>>(const CutShape<dim>&, const Evaluation<dim>* previous)>;
+  /// If it fails with `interrupted`, that does not count as a failed trial: the trial is discarded and the
+  /// loop stops as if requested.
+  using Evaluate = EvaluateShape<dim>;
   /// Sees every trial, accepted or rejected, and the state after it.
   using Observer = std::function<void(const Trial<dim>&, const OptimizationState<dim>&)>;
 
   ShapeOptimizer(const Lattice<dim>& lattice, const EvolutionOptions& evolution,
                  const OptimizerOptions& options, Evaluate evaluate);
+
+  /// The same optimizer with another evaluation of the same functions.
+  ShapeOptimizer with(Evaluate evaluate) const;
 
   /// Evaluates the initial shape, clipped at the protected bands. It is shifted to the target measure if that
   /// is given, controlled exactly, and within measure_rate. The observer sees it as iteration 0.
@@ -87,44 +90,25 @@ class ShapeOptimizer {
   StopReason run(OptimizationState<dim>& state, const Observer& observer,
                  const std::function<bool()>& stop_requested) const;
 
-  const Evolver<dim>& evolver() const { return evolver_; }
+  const Evolver<dim>& evolver() const { return trials_.evolver(); }
 
   /// The value that is minimized.
   double objective_of(const Evaluation<dim>& evaluation) const;
 
  private:
-  using MadeCells = std::optional<CutDomain<dim>>;  ///< of the trial's shape; empty: not computed yet
   enum class Repair { nothing, done, interrupted };
   Repair repair_widths(OptimizationState<dim>& state, const Observer& observer) const;
   FinalWidths first_widths(const LevelSet<dim>& shape) const;
   bool has_widths(const LevelSet<dim>& shape, const FeatureSize& widths) const;
-  std::vector<Trial<dim>> repaired(const OptimizationState<dim>& state) const;
-  Trial<dim> repaired(const OptimizationState<dim>& state, const LevelSet<dim>& shape) const;
   OptimizationState<dim> restarted(OptimizationState<dim> state, const Trial<dim>& trial) const;
   std::optional<StopReason> descend(OptimizationState<dim>& state, const Observer& observer,
                                     const std::function<bool()>& stop_requested) const;
-  Trial<dim> attempt(const OptimizationState<dim>& state, const Proposals<dim>& proposals,
-                     const Move<dim>& move, int halvings) const;
-  Trial<dim> attempt_at_rest(const OptimizationState<dim>& state, const Proposals<dim>& proposals,
-                             Move<dim> move, int halvings) const;
-  MadeCells evolve(const OptimizationState<dim>& state, const Move<dim>& move, Trial<dim>& trial) const;
-  MadeCells finish(Trial<dim>& trial, std::optional<double> target, double boundary_measure,
-                   const FeatureSize& widths) const;
-  bool is_in_reach(double measure) const;
-  void name_target(double from, double to, double target, Failure& failure) const;
-  void add_changes(const LevelSet<dim>& before, Trial<dim>& trial) const;
-  void evaluate(Trial<dim>& trial, MadeCells cells, const Evaluation<dim>* previous,
-                const FeatureSize& widths) const;
-  FeatureSize widths_after(const OptimizationState<dim>& state) const;
-  bool is_due(int every, int since, int halvings) const;
   AcceptedShape accepted_shape(const Evaluation<dim>& evaluation) const;
   OptimizationState<dim> successor(const OptimizationState<dim>& state, const Proposals<dim>& proposals,
                                    const Move<dim>& move, const Trial<dim>& trial) const;
 
-  Lattice<dim> lattice_;
-  Evolver<dim> evolver_;
   OptimizerOptions options_;
-  Evaluate evaluate_;
+  Trials<dim> trials_;
 };
 
 /// How a run ended: its last accepted shape, or why the initial shape failed.

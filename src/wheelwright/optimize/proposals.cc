@@ -18,9 +18,7 @@ Expected<std::unique_ptr<Proposals<dim>>> proposals_from(const Evolver<dim>& evo
       std::make_unique<DescentProposals<dim>>(evolver, options, state, *std::move(velocity)));
 }
 
-template Expected<std::unique_ptr<Proposals<2>>> proposals_from(const Evolver<2>&, const OptimizerOptions&,
-                                                                const OptimizationState<2>&);
-template Expected<std::unique_ptr<Proposals<3>>> proposals_from(const Evolver<3>&, const OptimizerOptions&,
-                                                                const OptimizationState<3>&);
+template decltype(proposals_from<2>) proposals_from<2>;
+template decltype(proposals_from<3>) proposals_from<3>;
 
 }  // namespace wheelwright

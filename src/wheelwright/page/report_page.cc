@@ -201,6 +201,7 @@ Json run_json(const ReportRun<dim>& run) {
             {"events", std::move(events)},
             {"events_omitted", run.events_omitted},
             {"flags", run.flags},
+            {"has_rough_edges", run.has_rough_edges},
             {"limits", run.limits},
             {"history", std::move(history)},
             {"outline_units", outline_units},
@@ -228,16 +229,16 @@ PageRun page_run(const ReportRun<dim>& run) {
   return {run.title, json_in_script(run_json(run)), dim == 3 && run.wheel};
 }
 
-template PageRun page_run(const ReportRun<2>&);
-template PageRun page_run(const ReportRun<3>&);
+template decltype(page_run<2>) page_run<2>;
+template decltype(page_run<3>) page_run<3>;
 
 template <int dim>
 std::string loaded_wheel_json(const ShownWheel<dim>& wheel) {
   return fields_json(wheel.mesh, wheel.positions).dump();
 }
 
-template std::string loaded_wheel_json(const ShownWheel<2>&);
-template std::string loaded_wheel_json(const ShownWheel<3>&);
+template decltype(loaded_wheel_json<2>) loaded_wheel_json<2>;
+template decltype(loaded_wheel_json<3>) loaded_wheel_json<3>;
 
 std::string report_page(const std::vector<PageRun>& runs) {
   std::string data;

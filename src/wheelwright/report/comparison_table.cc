@@ -114,8 +114,8 @@ std::vector<ComparedRow> compared_rows(const std::vector<const DescribedWheel<di
   return rows;
 }
 
-template std::vector<ComparedRow> compared_rows(const std::vector<const DescribedWheel<2>*>&);
-template std::vector<ComparedRow> compared_rows(const std::vector<const DescribedWheel<3>*>&);
+template decltype(compared_rows<2>) compared_rows<2>;
+template decltype(compared_rows<3>) compared_rows<3>;
 
 std::vector<std::string> missing_lines(const std::vector<std::string>& wheels,
                                        const std::vector<ComparedRow>& rows) {

@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "wheelwright/geometry/cell_map.h"
-#include "wheelwright/report/colour_scale.h"
 #include "wheelwright/report/deformed_material.h"
 #include "wheelwright/report/load_marks.h"
 #include "wheelwright/report/picture_view.h"
@@ -17,10 +16,8 @@
 namespace wheelwright {
 namespace {
 
-/// Size of the picture's parts, in pixels.
-constexpr double wheel_size = 640, margin = 40, top = 76, bar_space = 150, foot = 36;
-constexpr double picture_width = wheel_size + 2 * margin + bar_space,
-                 picture_height = wheel_size + top + foot;
+using P = DeformedLayout;
+constexpr double foot = 36;  // [pixels]
 constexpr int units_per_pixel = 10;
 constexpr double point_tolerance = 0.12 * units_per_pixel;
 constexpr int parts_of_cell = 2, parts_in_window = 4;  // along each axis
@@ -31,7 +28,7 @@ PictureView view_of(const PolarGrid<2>& grid, const std::optional<double>& windo
   constexpr double whole = 1.07;   // half the view over the radius
   constexpr double ground = 0.78;  // its height in a window, from -1 above to 1 below
   const Vec<2> centre{0, window ? grid.outer_radius - ground * *window : 0};
-  return {centre, window.value_or(whole * grid.outer_radius), margin, top, wheel_size};
+  return {centre, window.value_or(whole * grid.outer_radius), P::margin, P::top, P::wheel_size};
 }
 
 bool is_finite(const DrawnPiece& piece) {
@@ -125,13 +122,6 @@ std::string material_svg(const PictureScalar& scalar, const ColourScale& scale, 
          coloured_paths(scalar, scale) + "</svg>\n";
 }
 
-std::string footnote_svg(const DeformedMaterial& material, const DeformedPicture<2>& picture,
-                         const PictureView& view) {
-  if (material.max_press() * view.pixels_per_metre() < 0.5) return "";
-  return fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"12\" fill=\"#57606a\">{}</text>\n", margin,
-                     picture_height - 12, footnote(picture.magnification));
-}
-
 struct Peak {
   Vec<2> place;
   double value;
@@ -185,28 +175,29 @@ std::string facts(const DeformedPicture<dim>& picture) {
                      : fmt::format(" \u00b7 displacement \u00d7 {:g}", picture.magnification));
 }
 
-std::string footnote(double magnification) {
-  return fmt::format("The tread is drawn on the ground where {:g} times the displacement would cross it.",
-                     magnification);
+std::string footnote(double magnification, double foot) {
+  return fmt::format(
+      "<text x=\"{}\" y=\"{}\" font-size=\"12\" fill=\"#57606a\">The tread is drawn on the ground where {:g} "
+      "times the displacement would cross it.</text>\n",
+      P::margin, P::top + P::wheel_size + foot - 12, magnification);
 }
 
 template <int dim>
-std::string picture_beginning(const DeformedPicture<dim>& picture, double width, double height, double left) {
-  return fmt::format(
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
-      "font-family=\"Helvetica Neue,Helvetica,Arial,DejaVu Sans,sans-serif\" font-size=\"14\" "
-      "fill=\"#24292f\">\n"
-      "<title>{2}</title>\n<rect width=\"{0}\" height=\"{1}\" rx=\"8\" fill=\"#ffffff\"/>\n"
-      "<text x=\"{3}\" y=\"36\" font-size=\"20\" font-weight=\"600\">{2}</text>\n"
-      "<text x=\"{3}\" y=\"60\">{4}</text>\n",
-      width, height, escape_xml(picture.title), left, facts(picture));
+std::string deformed_document(const DeformedPicture<dim>& picture, const std::string& wheel,
+                              const ColourScale& scale, double foot, const std::string& notes) {
+  constexpr double bar_space = 150;
+  return titled_svg(P::wheel_size + 2 * P::margin + bar_space, P::wheel_size + P::top + foot, picture.title,
+                    P::margin) +
+         fmt::format("<text x=\"{}\" y=\"60\">{}</text>\n", P::margin, facts(picture)) + wheel +
+         colour_bar(scale, picture.scalar.name, picture.scalar.unit, P::margin + P::wheel_size + 40,
+                    P::top + 0.5 * P::wheel_size + 160) +
+         notes + "</svg>\n";
 }
 
-template std::string facts(const DeformedPicture<2>&);
-template std::string facts(const DeformedPicture<3>&);
-template std::string picture_beginning(const DeformedPicture<2>&, double, double, double);
-template std::string picture_beginning(const DeformedPicture<3>&, double, double, double);
+template decltype(facts<2>) facts<2>;
+template decltype(facts<3>) facts<3>;
+template decltype(deformed_document<2>) deformed_document<2>;
+template decltype(deformed_document<3>) deformed_document<3>;
 
 double picture_magnification(const RingField& displacement, double outer_radius) {
   constexpr double largest_share = 0.05;
@@ -234,13 +225,13 @@ std::string deformed_svg(const LevelSet<2>& psi, const Lattice<2>& lattice,
                                   picture.is_bonded ? Below::nothing : Below::ground);
   const std::vector<DrawnPiece> pieces = shown_pieces(material, picture, view);
   const ColourScale scale = scale_of(pieces, picture.scale);
-  const double bar_x = margin + wheel_size + 40, bar_y = top + 0.5 * wheel_size + 160;
-  return picture_beginning(picture, picture_width, picture_height, margin) +
-         (picture.window ? "" : undeformed_mark(view, grid.inner_radius, grid.outer_radius)) +
-         material_svg(picture_scalar(pieces, view), scale, view, picture) +
-         marks(material, grid, picture, view) + peak_svg(material, pieces, picture, view) +
-         colour_bar(scale, picture.scalar.name, picture.scalar.unit, bar_x, bar_y) +
-         footnote_svg(material, picture, view) + "</svg>\n";
+  const bool is_pressed = !(material.max_press() * view.pixels_per_metre() < 0.5);
+  return deformed_document(
+      picture,
+      (picture.window ? "" : undeformed_mark(view, grid.inner_radius, grid.outer_radius)) +
+          material_svg(picture_scalar(pieces, view), scale, view, picture) +
+          marks(material, grid, picture, view) + peak_svg(material, pieces, picture, view),
+      scale, foot, is_pressed ? footnote(picture.magnification, foot) : "");
 }
 
 }  // namespace wheelwright

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "wheelwright/geometry/level_set.h"
+#include "wheelwright/report/colour_scale.h"
 #include "wheelwright/report/solution_fields.h"
 #include "wheelwright/state/rim.h"
 #include "wheelwright/state/ring_field.h"
@@ -51,12 +52,18 @@ std::string deformed_svg(const LevelSet<2>& psi, const Lattice<2>& lattice,
 template <int dim>
 std::string facts(const DeformedPicture<dim>& picture);
 
-/// The note for pictures whose tread was moved onto the ground.
-std::string footnote(double magnification);
+/// Size of the parts of such a picture, in pixels.
+struct DeformedLayout {
+  static constexpr double wheel_size = 640, margin = 40, top = 76;
+};
 
-/// The start of such a picture, of this size in pixels: its title and facts.
+/// Such a picture as an SVG document: its title and facts, the drawn `wheel`, the colours, and `notes`. Below
+/// the wheel is room of height `foot` [pixels].
 template <int dim>
-std::string picture_beginning(const DeformedPicture<dim>& picture, double width, double height,
-                              double margin);
+std::string deformed_document(const DeformedPicture<dim>& picture, const std::string& wheel,
+                              const ColourScale& scale, double foot, const std::string& notes);
+
+/// The note in that room for pictures whose tread was moved onto the ground.
+std::string footnote(double magnification, double foot);
 
 }  // namespace wheelwright

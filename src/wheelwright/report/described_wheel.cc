@@ -32,7 +32,7 @@ double first_harmonic(const std::vector<double>& values) {
 template <int dim>
 std::optional<double> mass(const StateSolver<dim>& solver, double volume_fraction) {
   const RollingModel<dim>& model = solver.model();
-  const std::optional<double> density = model.materials.at_tread().density;
+  const std::optional<double> density = model.materials.at_tread().density();
   if (!density) return {};
   const PolarGrid<dim>& grid = model.grid;
   const double area =
@@ -251,16 +251,17 @@ const std::vector<WheelNumber<dim>>& wheel_numbers() {
   return numbers;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                   \
-  template DescribedWheel<dim> described_wheel(const StateSolver<dim>&, const LevelSet<dim>&, double,  \
-                                               const SolvedStates<dim>&, const LoadCases<dim>&);       \
-  template const DescribedWheel<dim>* under_load_case(const DescribedWheel<dim>&, const std::string&); \
-  template Expected<OutlineMeasures, cad::OutlineFault> outline_measures(const LevelSet<dim>&);        \
-  template std::optional<cad::Roughness> roughness(const DescribedWheel<dim>&);                        \
-  template std::optional<double> known_value(const WheelNumber<dim>&, const DescribedWheel<dim>&);     \
-  template const std::vector<WheelNumber<dim>>& wheel_numbers();
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+template decltype(described_wheel<2>) described_wheel<2>;
+template decltype(under_load_case<2>) under_load_case<2>;
+template decltype(outline_measures<2>) outline_measures<2>;
+template decltype(roughness<2>) roughness<2>;
+template decltype(known_value<2>) known_value<2>;
+template decltype(wheel_numbers<2>) wheel_numbers<2>;
+template decltype(described_wheel<3>) described_wheel<3>;
+template decltype(under_load_case<3>) under_load_case<3>;
+template decltype(outline_measures<3>) outline_measures<3>;
+template decltype(roughness<3>) roughness<3>;
+template decltype(known_value<3>) known_value<3>;
+template decltype(wheel_numbers<3>) wheel_numbers<3>;
 
 }  // namespace wheelwright

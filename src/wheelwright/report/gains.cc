@@ -61,7 +61,7 @@ std::string gains(const RunSummary<dim>& summary) {
   return parts.empty() ? "" : fmt::format("Compared with before: {}", fmt::join(parts, ", "));
 }
 
-template std::string gains(const RunSummary<2>&);
-template std::string gains(const RunSummary<3>&);
+template decltype(gains<2>) gains<2>;
+template decltype(gains<3>) gains<3>;
 
 }  // namespace wheelwright

@@ -10,10 +10,6 @@ namespace {
 constexpr int samples = 2;  // per pixel, along each axis
 const double sharp_edge = std::cos(40 * std::numbers::pi / 180);
 
-Vec<3> cross(const Vec<3>& a, const Vec<3>& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 Vec<3> unit_vector(Vec<3> v) {
   const double length = norm<3>(v);
   for (double& x : v) x = length > 0 ? x / length : 0;
@@ -41,11 +37,7 @@ struct Normals {
 
   Normals(const LitBody& body, const Camera& camera) {
     for (const auto& [a, b, c] : body.triangles) {
-      Vec<3> u, v;
-      for (int d = 0; d < 3; ++d) {
-        u[d] = body.points[b][d] - body.points[a][d];
-        v[d] = body.points[c][d] - body.points[a][d];
-      }
+      const Vec<3> u = body.points[b] - body.points[a], v = body.points[c] - body.points[a];
       sized.push_back(camera.turned(cross(u, v)));
       unit.push_back(unit_vector(sized.back()));
     }
@@ -58,7 +50,7 @@ struct Normals {
     for (int k = fans.begin[vertex]; k < fans.begin[vertex + 1]; ++k) {
       const int other = fans.triangles[k];
       if (dot<3>(unit[triangle], unit[other]) < sharp_edge) continue;
-      for (int d = 0; d < 3; ++d) sum[d] += sized[other][d];
+      sum += sized[other];
     }
     return unit_vector(sum);
   }

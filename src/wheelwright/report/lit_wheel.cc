@@ -8,17 +8,14 @@
 
 #include "wheelwright/geometry/cell_map.h"
 #include "wheelwright/report/colour_map.h"
-#include "wheelwright/report/colour_scale.h"
 #include "wheelwright/report/surface_vtp.h"
 #include "wheelwright/report/svg.h"
 
 namespace wheelwright {
 namespace {
 
-/// Size of the picture's parts, in pixels.
-constexpr double wheel_size = 640, margin = 40, top = 76, bar_space = 150, foot = 64;
-constexpr double picture_width = wheel_size + 2 * margin + bar_space,
-                 picture_height = wheel_size + top + foot;
+using P = DeformedLayout;
+constexpr double foot = 64;         // [pixels]
 constexpr int image_pixels = 1040;  // for screens with several pixels per unit of the picture
 constexpr double outliers = 0.01;   // fraction of the vertices beyond a scale without tail
 constexpr double half_view = 1.1;   // over the wheel's radius
@@ -96,7 +93,7 @@ std::string peak_text(const DeformedPicture<3>& picture) {
   return fmt::format(
       "<text x=\"{}\" y=\"{}\">largest {}: {} at radius {:.1f} mm, azimuth {:.2f}\u00b0, z = {:.1f} "
       "mm</text>\n",
-      margin, picture_height - 36, escape_xml(picture.scalar.name),
+      P::margin, P::top + P::wheel_size + foot - 36, escape_xml(picture.scalar.name),
       value_text(picture.peak->value, escape_xml(picture.scalar.unit)), 1e3 * std::hypot(x[0], x[1]),
       std::atan2(x[1], x[0]) * 180 / std::numbers::pi, 1e3 * x[2]);
 }
@@ -155,16 +152,12 @@ std::string deformed_svg(const SurfaceMesh& surface, const Lattice<3>& lattice,
       {.points = points, .triangles = surface.triangles, .colours = colours(scalar, scale)}};
   if (!picture.is_bonded) bodies.insert(bodies.begin(), ground(grid));
   const Image image = lit_image(bodies, wheel_camera(grid), image_pixels);
-  const double bar_x = margin + wheel_size + 40, bar_y = top + 0.5 * wheel_size + 160;
-  std::string svg = picture_beginning(picture, picture_width, picture_height, margin) +
-                    fmt::format("<image x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{2}\" href=\"{3}\"/>\n",
-                                margin, top, wheel_size, data_url(image)) +
-                    colour_bar(scale, picture.scalar.name, picture.scalar.unit, bar_x, bar_y) +
-                    peak_text(picture);
-  if (Press(lattice, picture).maximum() > 0.002 * grid.outer_radius)
-    svg += fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"12\" fill=\"#57606a\">{}</text>\n", margin,
-                       picture_height - 12, footnote(picture.magnification));
-  return svg + "</svg>\n";
+  const bool is_pressed = Press(lattice, picture).maximum() > 0.002 * grid.outer_radius;
+  return deformed_document(
+      picture,
+      fmt::format("<image x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{2}\" href=\"{3}\"/>\n", P::margin,
+                  P::top, P::wheel_size, data_url(image)),
+      scale, foot, peak_text(picture) + (is_pressed ? footnote(picture.magnification, foot) : ""));
 }
 
 }  // namespace wheelwright

@@ -41,9 +41,9 @@ void add_numbers(const DescribedWheel<dim>& wheel, Json& json) {
   }
 }
 
-template Json shown_numbers<2>();
-template Json shown_numbers<3>();
-template void add_numbers(const DescribedWheel<2>&, Json&);
-template void add_numbers(const DescribedWheel<3>&, Json&);
+template decltype(shown_numbers<2>) shown_numbers<2>;
+template decltype(shown_numbers<3>) shown_numbers<3>;
+template decltype(add_numbers<2>) add_numbers<2>;
+template decltype(add_numbers<3>) add_numbers<3>;
 
 }  // namespace wheelwright

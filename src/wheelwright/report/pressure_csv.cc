@@ -34,7 +34,7 @@ void write_pressure_csv(const std::filesystem::path& path, std::span<const Conta
   write_atomically(path, content);
 }
 
-template void write_pressure_csv<2>(const std::filesystem::path&, std::span<const ContactPoint>);
-template void write_pressure_csv<3>(const std::filesystem::path&, std::span<const ContactPoint>);
+template decltype(write_pressure_csv<2>) write_pressure_csv<2>;
+template decltype(write_pressure_csv<3>) write_pressure_csv<3>;
 
 }  // namespace wheelwright

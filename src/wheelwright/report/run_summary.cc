@@ -116,11 +116,11 @@ std::string failure_json(const std::string& title, const Failure& failure) {
   return json.dump(2) + '\n';
 }
 
-template std::vector<std::string> missing_lines(const RunSummary<2>&);
-template std::vector<std::string> missing_lines(const RunSummary<3>&);
-template std::string summary_table(const RunSummary<2>&);
-template std::string summary_table(const RunSummary<3>&);
-template std::string summary_json(const RunSummary<2>&);
-template std::string summary_json(const RunSummary<3>&);
+template decltype(missing_lines<2>) missing_lines<2>;
+template decltype(missing_lines<3>) missing_lines<3>;
+template decltype(summary_table<2>) summary_table<2>;
+template decltype(summary_table<3>) summary_table<3>;
+template decltype(summary_json<2>) summary_json<2>;
+template decltype(summary_json<3>) summary_json<3>;
 
 }  // namespace wheelwright

@@ -51,16 +51,10 @@ PicturePoint SectorPicture::point(const Vec<2>& x) const {
 std::string wheel_document(double width, const std::string& title, int n_sectors, const std::string& sector,
                            const std::string& on_wheel, const std::string& beside) {
   using P = SectorPicture;
-  std::string svg = fmt::format(
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
-      "font-family=\"Helvetica Neue,Helvetica,Arial,DejaVu Sans,sans-serif\" font-size=\"14\" "
-      "fill=\"#24292f\">\n"
-      "<title>{2}</title>\n<rect width=\"{0}\" height=\"{1}\" rx=\"8\" fill=\"#ffffff\"/>\n"
-      "<text x=\"{3}\" y=\"36\" font-size=\"20\" font-weight=\"600\">{2}</text>\n"
-      "<g transform=\"translate({4} {5}) scale({6})\">\n<g id=\"sector\">\n{7}</g>\n",
-      width, P::height, escape_xml(title), P::margin, P::margin + 0.5 * P::wheel_size,
-      P::top + 0.5 * P::wheel_size, 1.0 / P::units_per_pixel, sector);
+  std::string svg = titled_svg(width, P::height, title, P::margin) +
+                    fmt::format("<g transform=\"translate({} {}) scale({})\">\n<g id=\"sector\">\n{}</g>\n",
+                                P::margin + 0.5 * P::wheel_size, P::top + 0.5 * P::wheel_size,
+                                1.0 / P::units_per_pixel, sector);
   for (int k = 1; k < n_sectors; ++k)
     svg += fmt::format("<use href=\"#sector\" transform=\"rotate({:.6g})\"/>\n", -360.0 * k / n_sectors);
   return svg + on_wheel + "</g>\n" + beside + "</svg>\n";

@@ -4,7 +4,7 @@
 
 #include "wheelwright/geometry/contour.h"
 #include "wheelwright/geometry/level_set.h"
-#include "wheelwright/report/outline.h"
+#include "wheelwright/report/picture_polygon.h"
 
 namespace wheelwright {
 

@@ -75,10 +75,10 @@ struct Direction {
 };
 
 /// A stress, given in a frame whose first axis points in this direction, as components in the body frame.
-std::array<double, 4> in_body_frame(const Voigt<2>& s, const Direction& axis, double axial_stress_ratio) {
+std::array<double, 4> in_body_frame(const Voigt<2>& s, const Direction& axis, double axial_stress) {
   const auto [c, d] = axis;
   return {c * c * s[0] + d * d * s[1] - 2 * c * d * s[2], d * d * s[0] + c * c * s[1] + 2 * c * d * s[2],
-          axial_stress_ratio * (s[0] + s[1]), c * d * (s[0] - s[1]) + (c * c - d * d) * s[2]};
+          axial_stress, c * d * (s[0] - s[1]) + (c * c - d * d) * s[2]};
 }
 
 std::array<double, 6> in_body_frame(const Voigt<3>& s, const Direction& axis, double) {
@@ -89,6 +89,14 @@ std::array<double, 6> in_body_frame(const Voigt<3>& s, const Direction& axis, do
           c * d * (s[0] - s[1]) + (c * c - d * d) * s[5],
           d * s[4] + c * s[3],
           c * s[4] - d * s[3]};
+}
+
+/// The normal stress along the axle in addition to the components in the model's dimension.
+template <int dim>
+double axial_stress(const MaterialLaw<dim>& law, const Voigt<dim>& strain) {
+  double stress = 0, ignored = 0;
+  if (dim == 2) law.along_axle(one_strain<dim>(strain), {&stress, 1}, {&ignored, 1});
+  return stress;
 }
 
 /// A cell with material and its column round the ring.
@@ -132,8 +140,8 @@ RingField stress_field(const RollingModel<dim>& model, const CutDomain<dim>& dom
     of_column.push_back({std::cos(azimuth), std::sin(azimuth)});
   }
   for (int row = 0; row < grid.cells[0]; ++row) {
-    const Material& material = model.materials.in_row(row);
-    const ElasticElement<dim> element(grid, model.degree, {row}, material);
+    const MaterialLaw<dim>& law = model.materials.in_row(row);
+    const ElasticElement<dim> element(grid, model.degree, {row}, law);
     const std::vector<RingCell<dim>> cells = active_cells(lattice, domain, row);
     Matrix dofs(element.n_dofs(), static_cast<int>(cells.size()));
     for (size_t c = 0; c < cells.size(); ++c)
@@ -145,8 +153,8 @@ RingField stress_field(const RollingModel<dim>& model, const CutDomain<dim>& dom
       for (const size_t node : std::span(cells[c].nodes).first(element.n_nodes())) {
         Voigt<dim> at_point;
         std::copy_n(strain, n_strains<dim>, at_point.begin());
-        const auto at_node = in_body_frame(stress<dim>(material, at_point), of_column[cells[c].column],
-                                           material.axial_stress_ratio());
+        const auto at_node = in_body_frame(stress<dim>(law, at_point), of_column[cells[c].column],
+                                           axial_stress<dim>(law, at_point));
         for (int k = 0; k < components; ++k) sum[node][k] += at_node[k];
         ++count[node];
         strain += n_strains<dim>;
@@ -346,27 +354,25 @@ std::vector<ContactPoint> curve_points(std::vector<ContactPoint> points) {
   return points;
 }
 
-template PositionFields<2> position_fields(const StateSolver<2>&, const State<2>&, int);
-template void for_each_position(const StateSolver<2>&, const State<2>&,
-                                const std::function<void(int, PositionFields<2>)>&);
-template std::vector<PositionFields<2>> all_position_fields(const StateSolver<2>&, const State<2>&);
-template std::vector<NamedField> named_fields(const PositionFields<2>&);
+template decltype(position_fields<2>) position_fields<2>;
+template decltype(for_each_position<2>) for_each_position<2>;
+template decltype(all_position_fields<2>) all_position_fields<2>;
+template decltype(named_fields<2>) named_fields<2>;
 template Lattice<2> displacement_lattice(const RollingModel<2>&);
-template RingField vertical_field<2>(const RingField&, double);
-template RingField stress_field(const RollingModel<2>&, const CutDomain<2>&, const RingField&);
-template RingField repeated_field(const RollingModel<2>&, const LevelSet<2>&);
-template std::vector<ContactPoint> contact_points(const StateSolver<2>&, const State<2>&);
-template std::vector<ContactPoint> curve_points<2>(std::vector<ContactPoint>);
-template PositionFields<3> position_fields(const StateSolver<3>&, const State<3>&, int);
-template void for_each_position(const StateSolver<3>&, const State<3>&,
-                                const std::function<void(int, PositionFields<3>)>&);
-template std::vector<PositionFields<3>> all_position_fields(const StateSolver<3>&, const State<3>&);
-template std::vector<NamedField> named_fields(const PositionFields<3>&);
+template decltype(vertical_field<2>) vertical_field<2>;
+template decltype(stress_field<2>) stress_field<2>;
+template decltype(repeated_field<2>) repeated_field<2>;
+template decltype(contact_points<2>) contact_points<2>;
+template decltype(curve_points<2>) curve_points<2>;
+template decltype(position_fields<3>) position_fields<3>;
+template decltype(for_each_position<3>) for_each_position<3>;
+template decltype(all_position_fields<3>) all_position_fields<3>;
+template decltype(named_fields<3>) named_fields<3>;
 template Lattice<3> displacement_lattice(const RollingModel<3>&);
-template RingField vertical_field<3>(const RingField&, double);
-template RingField stress_field(const RollingModel<3>&, const CutDomain<3>&, const RingField&);
-template RingField repeated_field(const RollingModel<3>&, const LevelSet<3>&);
-template std::vector<ContactPoint> contact_points(const StateSolver<3>&, const State<3>&);
-template std::vector<ContactPoint> curve_points<3>(std::vector<ContactPoint>);
+template decltype(vertical_field<3>) vertical_field<3>;
+template decltype(stress_field<3>) stress_field<3>;
+template decltype(repeated_field<3>) repeated_field<3>;
+template decltype(contact_points<3>) contact_points<3>;
+template decltype(curve_points<3>) curve_points<3>;
 
 }  // namespace wheelwright

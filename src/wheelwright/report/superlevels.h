@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "wheelwright/report/outline.h"
+#include "wheelwright/report/picture_polygon.h"
 
 namespace wheelwright {
 

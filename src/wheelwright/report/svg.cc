@@ -6,7 +6,7 @@
 
 #include "wheelwright/base/text.h"
 #include "wheelwright/report/lit_wheel.h"
-#include "wheelwright/report/outline.h"
+#include "wheelwright/report/picture_polygon.h"
 
 namespace wheelwright {
 namespace {
@@ -177,6 +177,17 @@ std::string escape_xml(std::string_view text) {
       result += c;
   }
   return result;
+}
+
+std::string titled_svg(double width, double height, std::string_view title, double left) {
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
+      "font-family=\"Helvetica Neue,Helvetica,Arial,DejaVu Sans,sans-serif\" font-size=\"14\" "
+      "fill=\"#24292f\">\n"
+      "<title>{2}</title>\n<rect width=\"{0}\" height=\"{1}\" rx=\"8\" fill=\"#ffffff\"/>\n"
+      "<text x=\"{3}\" y=\"36\" font-size=\"20\" font-weight=\"600\">{2}</text>\n",
+      width, height, escape_xml(title), left);
 }
 
 std::string material_path(const PolarGrid<2>& grid, std::span<const Contour> contours, double units_per_metre,

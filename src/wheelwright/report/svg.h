@@ -14,6 +14,9 @@ namespace wheelwright {
 /// that XML excludes or that control a terminal.
 std::string escape_xml(std::string_view text);
 
+/// The start of an SVG document of this size in pixels: a white card with the title at `left`.
+std::string titled_svg(double width, double height, std::string_view title, double left);
+
 /// The `d` attribute of a path along the material's boundary, to be filled with the even-odd rule: exact arcs
 /// for rim and tread, polylines for the rest. y points down. Points closer than `spacing` [m] to the last one
 /// drawn are omitted.

@@ -35,8 +35,7 @@ TreadContactPoint<dim> free_point(const StateSolver<dim>& solver, const State<di
       state.observations().column(position * surface.n_columns + column) + surface.rows().displacement(point),
       dim, u.begin());
   const Vec<dim> place = rotated<dim>(surface.points[point].position, turn), elastic = rotated<dim>(u, turn);
-  Vec<dim> moved = displacement<dim>(state.contacts()[position].rim, place);
-  for (int d = 0; d < dim; ++d) moved[d] += elastic[d];
+  const Vec<dim> moved = displacement<dim>(state.contacts()[position].rim, place) + elastic;
   return {.position = rotated<dim>(place, ground),
           .displacement = rotated<dim>(moved, ground),
           .traction = {},
@@ -249,11 +248,11 @@ void write_ground_vtu(const std::filesystem::path& path, const PolarGrid<dim>& g
   write_atomically(path, vtu_parts(vtu_beginning(corners.size(), 1, mesh), {arrays.bytes()}));
 }
 
-template std::vector<TreadContact<2>> all_tread_contacts(const StateSolver<2>&, const State<2>&);
-template void write_tread_vtu<2>(const std::filesystem::path&, const TreadContact<2>&);
-template void write_ground_vtu(const std::filesystem::path&, const PolarGrid<2>&, double);
-template std::vector<TreadContact<3>> all_tread_contacts(const StateSolver<3>&, const State<3>&);
-template void write_tread_vtu<3>(const std::filesystem::path&, const TreadContact<3>&);
-template void write_ground_vtu(const std::filesystem::path&, const PolarGrid<3>&, double);
+template decltype(all_tread_contacts<2>) all_tread_contacts<2>;
+template decltype(write_tread_vtu<2>) write_tread_vtu<2>;
+template decltype(write_ground_vtu<2>) write_ground_vtu<2>;
+template decltype(all_tread_contacts<3>) all_tread_contacts<3>;
+template decltype(write_tread_vtu<3>) write_tread_vtu<3>;
+template decltype(write_ground_vtu<3>) write_ground_vtu<3>;
 
 }  // namespace wheelwright

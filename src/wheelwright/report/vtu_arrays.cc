@@ -71,8 +71,8 @@ std::string add_field(const NamedField& field, const FieldPoints<dim>& points, A
   return tags;
 }
 
-template std::string add_field(const NamedField&, const FieldPoints<2>&, AppendedArrays&);
-template std::string add_field(const NamedField&, const FieldPoints<3>&, AppendedArrays&);
+template decltype(add_field<2>) add_field<2>;
+template decltype(add_field<3>) add_field<3>;
 
 std::string vtu_name(std::string_view name, std::string_view unit) {
   return fmt::format("{}_{}", name, unit);

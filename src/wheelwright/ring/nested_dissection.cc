@@ -142,7 +142,7 @@ std::vector<int> nested_dissection(const SectorStiffness<dim>& sector, std::vect
   return nodes;
 }
 
-template std::vector<int> nested_dissection<2>(const SectorStiffness<2>&, std::vector<int>);
-template std::vector<int> nested_dissection<3>(const SectorStiffness<3>&, std::vector<int>);
+template decltype(nested_dissection<2>) nested_dissection<2>;
+template decltype(nested_dissection<3>) nested_dissection<3>;
 
 }  // namespace wheelwright

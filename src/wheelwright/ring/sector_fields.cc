@@ -168,19 +168,19 @@ double interior_residual(const CyclicStiffness<dim>& ring, const PartialCholesky
   return largest_force / (largest_stiffness * largest_displacement);
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                      \
-  template Matrix condense(const CyclicStiffness<dim>&, const PartialCholesky::Sweep&, SectorFields&);    \
-  template SectorFields displacement_fields(const CyclicStiffness<dim>&, const PartialCholesky::Sweep&,   \
-                                            const Matrix&, const SectorFields&, std::span<const double>); \
-  template SectorFields completed(const CyclicStiffness<dim>&, SectorFields);                             \
-  template PartialCholesky::Sweep boundary_sweep(const CyclicStiffness<dim>&, const CutDomain<dim>&,      \
-                                                 const SectorFields&);                                    \
-  template void gather(const CyclicStiffness<dim>&, std::span<const int>, const Matrix&, Matrix&);        \
-  template Matrix ghost_loads(const CyclicStiffness<dim>&, const Matrix&);                                \
-  template double interior_residual(const CyclicStiffness<dim>&, const PartialCholesky::Sweep&,           \
-                                    const SectorFields&, const SectorFields&);
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+template decltype(condense<2>) condense<2>;
+template decltype(displacement_fields<2>) displacement_fields<2>;
+template decltype(completed<2>) completed<2>;
+template decltype(boundary_sweep<2>) boundary_sweep<2>;
+template decltype(gather<2>) gather<2>;
+template decltype(ghost_loads<2>) ghost_loads<2>;
+template decltype(interior_residual<2>) interior_residual<2>;
+template decltype(condense<3>) condense<3>;
+template decltype(displacement_fields<3>) displacement_fields<3>;
+template decltype(completed<3>) completed<3>;
+template decltype(boundary_sweep<3>) boundary_sweep<3>;
+template decltype(gather<3>) gather<3>;
+template decltype(ghost_loads<3>) ghost_loads<3>;
+template decltype(interior_residual<3>) interior_residual<3>;
 
 }  // namespace wheelwright

@@ -238,7 +238,7 @@ std::vector<ReferencePoint<dim - 1>> contact_rule(int points, int degree) {
 template <int dim>
 struct ColumnCell {
   const ElasticElement<dim>& element;
-  const Material& material;
+  const MaterialLaw<dim>& law;
   std::vector<NodeMap<dim>> nodes;
   double angle;      ///< of its frame in the column's
   int to_image;      ///< cells from here to the mirror image in the column
@@ -297,15 +297,15 @@ class ColumnAssembly {
     fine.cells[0] = layer.rows;
     fine.cells[1] <<= layer.level;
     const double height = layer.inner_radius + (row + 0.5) * fine.cell_size()[0] - grid_.inner_radius;
-    const Material& material = materials_.in_row(static_cast<int>(height / grid_.cell_size()[0]));
-    const ElasticElement<dim> element(fine, degree_, {row}, material);
-    const Matrix stiffness = table_.bulk_stiffness(element, material, volume_rule_);
+    const MaterialLaw<dim>& law = materials_.in_row(static_cast<int>(height / grid_.cell_size()[0]));
+    const ElasticElement<dim> element(fine, degree_, {row}, law);
+    const Matrix stiffness = table_.bulk_stiffness(element, law, volume_rule_);
     const bool at_tread = &layer == &nodes_.all_layers().back() && row + 1 == layer.rows;
     add_face_rows(1 << layer.level, at_tread);
     for (int axial = 0; axial < axial_cells_; ++axial)
       for (int across = 0; across < (1 << layer.level); ++across) {
         ColumnCell<dim> cell{.element = element,
-                             .material = material,
+                             .law = law,
                              .nodes = cell_nodes(layer_index, row, across, axial),
                              .angle = across * fine.cell_size()[1],
                              .to_image = (1 << layer.level) - 1 - 2 * across,
@@ -333,7 +333,7 @@ class ColumnAssembly {
       if (next_across == 1 << nodes_.all_layers()[layer].level) continue;
       if (next_axial == axial_cells_ && !at_middle) continue;
       const Matrix jump = traction_jump_stiffness<dim>(
-          cell.element, cell.element, axis, axis == 1 ? fine.cell_size()[1] : 0.0, cell.material, weight);
+          cell.element, cell.element, axis, axis == 1 ? fine.cell_size()[1] : 0.0, cell.law, weight);
       auto nodes = cell.nodes;
       if (at_middle) {
         add_stiffness<dim>(half_of_symmetric_pair(jump, degree_), nodes, column_.stiffness);
@@ -395,7 +395,7 @@ class ColumnAssembly {
   }
 
   void add_contact_face(ColumnCell<dim>& cell) {
-    const double gamma = form_.gamma_0 * cell.material.scaling_modulus() / cell.element.plane_diameter();
+    const double gamma = form_.gamma_0 * cell.law.scaling_modulus() / cell.element.plane_diameter();
     append_images(mirror_images(face_rule_, 0), cell, point_images_);
     for (const auto& q : face_rule_) {
       Vec<dim> xi{}, outward{};
@@ -403,7 +403,7 @@ class ColumnAssembly {
       for (int d = 1; d < dim; ++d) xi[d] = q.xi[d - 1];
       const auto at = cell.element.at(xi);
       const auto surface = map_surface<dim>(at.jacobian, outward);
-      const auto traction = traction_map<dim>(cell.element, cell.material, at, surface.normal);
+      const auto traction = traction_map<dim>(cell.element, cell.law, at, surface.normal);
       const double weight = q.weight * surface.scale;
       const int q_of_column = static_cast<int>(column_.surface.points.size());
       add_rows<dim>(at.displacement, cell.nodes, rows_.displacement(q_of_column), cell.angle,
@@ -426,7 +426,7 @@ class ColumnAssembly {
       Vec<dim> radial{at.position[0], at.position[1]};
       const double radius = norm<dim>(radial);
       for (double& x : radial) x /= radius;
-      add_rows<dim>(traction_map<dim>(cell.element, cell.material, at, radial), cell.nodes,
+      add_rows<dim>(traction_map<dim>(cell.element, cell.law, at, radial), cell.nodes,
                     rows_.annulus_traction(static_cast<int>(column_.surface.annulus_weights.size())),
                     cell.angle, column_.observation);
       column_.surface.annulus_weights.push_back(q.weight * at.determinant);
@@ -437,7 +437,7 @@ class ColumnAssembly {
     for (const auto& q : volume_rule_) {
       auto at = cell.element.at(q.xi);
       const double weight = q.weight * at.determinant;
-      if (rows_.has_spin) add_spin(cell, at, weight * cell.material.density.value_or(0));
+      if (rows_.has_spin) add_spin(cell, at, weight * cell.law.density().value_or(0));
       for (auto& component : at.displacement)
         for (double& value : component) value *= weight;
       add_rows<dim>(at.displacement, cell.nodes, rows_.integral(), cell.angle, column_.observation);
@@ -458,7 +458,7 @@ class ColumnAssembly {
 
   const ElementTable<dim>& table_;
   const PolarGrid<dim>& grid_;
-  const Materials& materials_;
+  const Materials<dim>& materials_;
   const ColumnNodes<dim>& nodes_;
   const ContactForm& form_;
   int degree_, contact_points_, annulus_points_, axial_cells_ = 1;
@@ -513,9 +513,7 @@ Expected<TreadColumn<dim>> tread_column(const ElementTable<dim>& table, const Tr
   return column;
 }
 
-template Expected<TreadColumn<2>> tread_column(const ElementTable<2>&, const TreadGrid&, const ContactForm&,
-                                               int);
-template Expected<TreadColumn<3>> tread_column(const ElementTable<3>&, const TreadGrid&, const ContactForm&,
-                                               int);
+template decltype(tread_column<2>) tread_column<2>;
+template decltype(tread_column<3>) tread_column<3>;
 
 }  // namespace wheelwright

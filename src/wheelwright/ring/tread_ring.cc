@@ -207,12 +207,12 @@ Matrix nodal_displacements(const Tread<dim>& tread, const TreadField& field, con
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                     \
   template TreadLoads tread_loads(const Tread<dim>&, const Matrix&);                     \
   template TreadLoads tread_loads(const Tread<dim>&, const TreadForces&);                \
-  template Matrix base_loads(const Tread<dim>&, const TreadLoads&);                      \
-  template TreadField tread_field(const Tread<dim>&, const Matrix&, const TreadLoads&);  \
+  template decltype(base_loads<dim>) base_loads<dim>;                                    \
+  template decltype(tread_field<dim>) tread_field<dim>;                                  \
   template Matrix observations(const Tread<dim>&, const TreadField&, const TreadLoads&); \
   template Matrix observations(const Tread<dim>&, const TreadField&, const TreadLoads&,  \
                                std::span<const int>);                                    \
-  template Matrix nodal_displacements(const Tread<dim>&, const TreadField&, const TreadLoads&);
+  template decltype(nodal_displacements<dim>) nodal_displacements<dim>;
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)
 #undef WHEELWRIGHT_INSTANTIATE

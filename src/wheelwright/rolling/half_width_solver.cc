@@ -186,7 +186,7 @@ Expected<std::shared_ptr<const State<3>>> HalfWidthSolver::states(const CutShape
                                                                   LoadPositions positions,
                                                                   const Interrupt& interrupt) const {
   const bool upright = std::ranges::all_of(positions.grounds, [](const auto& g) { return g.camber == 0; });
-  if (!upright || !is_mirror_symmetric(shape.psi, MirrorPlane::width)) {
+  if (positions.on_whole_width || !upright || !is_mirror_symmetric(shape.psi, MirrorPlane::width)) {
     const auto problem = whole();
     if (!problem) return problem.failure();
     return (*problem)->states(shape, std::move(positions), interrupt);

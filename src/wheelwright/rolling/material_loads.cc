@@ -1,5 +1,7 @@
 #include "wheelwright/rolling/material_loads.h"
 
+#include <algorithm>
+
 #include "wheelwright/rolling/ring_displacement.h"
 #include "wheelwright/rolling/tread_cells.h"
 #include "wheelwright/state/material_integral.h"
@@ -10,23 +12,30 @@ namespace {
 
 /// The loads on one cell's dofs, one column per load case.
 template <int dim>
-Matrix cell_loads(const ElasticElement<dim>& element, const Material& material, const Matrix& strains,
+Matrix cell_loads(const ElasticElement<dim>& element, const MaterialLaw<dim>& law, const Matrix& strains,
                   std::span<const ReferencePoint<dim>> points, int n_sectors,
                   std::span<const typename FunctionalDerivative<dim>::Integral> integrals) {
   std::vector<typename ElasticElement<dim>::Point> at;
   for (const auto& point : points) at.push_back(element.at(point.xi));
-  Matrix loads(element.n_dofs(), strains.columns());
-  for_each_strain<dim>(strains, [&](int load_case, int q, const Voigt<dim>& strain) {
-    Voigt<dim> stress{};
+  const int n_cases = strains.columns();
+  const Matrix of_cases = by_load_case(strains);
+  Matrix loads(element.n_dofs(), n_cases), stress(n_cases, n_strains<dim>), slopes = stress;
+  for (int q = 0; q < static_cast<int>(points.size()); ++q) {
+    std::ranges::fill(stress.entries(), 0.0);
     for (const auto& [density, factors] : integrals) {
-      const Voigt<dim> by_strain = density->at(strain, material).by_strain;
-      for (int k = 0; k < n_strains<dim>; ++k) stress[k] += factors[load_case / n_sectors] * by_strain[k];
+      std::vector<double> of_case;
+      for (int load_case = 0; load_case < n_cases; ++load_case)
+        of_case.push_back(factors[load_case / n_sectors]);
+      density->slopes({strain_columns<dim>(of_cases, n_strains<dim> * q), n_sectors, law}, of_case,
+                      stress_columns<dim>(slopes, 0));
+      for (size_t i = 0; i < stress.entries().size(); ++i) stress.data()[i] += slopes.data()[i];
     }
     const double weight = points[q].weight * at[q].determinant;
-    for (int k = 0; k < n_strains<dim>; ++k)
-      for (int dof = 0; dof < element.n_dofs(); ++dof)
-        loads(dof, load_case) -= weight * stress[k] * at[q].strain[k][dof];
-  });
+    for (int load_case = 0; load_case < n_cases; ++load_case)
+      for (int k = 0; k < n_strains<dim>; ++k)
+        for (int dof = 0; dof < element.n_dofs(); ++dof)
+          loads(dof, load_case) -= weight * stress(load_case, k) * at[q].strain[k][dof];
+  }
   return loads;
 }
 

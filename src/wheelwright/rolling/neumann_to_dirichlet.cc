@@ -10,7 +10,7 @@ std::shared_ptr<const ElementTable<dim>> elements_of(const RollingModel<dim>& mo
   if (norm == DualNorm::elasticity)
     return std::make_shared<const ElementTable<dim>>(model.grid, model.degree, model.materials, model.ghost,
                                                      cell_stiffness<dim>, model.side_faces);
-  const Material material{model.materials.at_tread().scaling_modulus(), 0};
+  const Materials<dim> material(Material{model.materials.at_tread().scaling_modulus(), 0});
   return std::make_shared<const ElementTable<dim>>(model.grid, model.degree, material, model.ghost,
                                                    gradient_stiffness<dim>, model.side_faces);
 }

@@ -137,6 +137,20 @@ int components_in_contact(const RollingModel<dim>& model) {
   return model.contact.friction == 0 && model.camber == 0 ? 2 : dim;
 }
 
+/// Why the materials of a model are not those of a linear ring.
+template <int dim>
+std::optional<Failure> unsupported_material(const RollingModel<dim>& model) {
+  for (int row = 0; row < model.grid.cells[0]; ++row) {
+    const MaterialLaw<dim>& law = model.materials.in_row(row);
+    if (dim == 3 && law.isotropic() && law.isotropic()->plane == Plane::stress)
+      return Failure{FailureReason::unsupported_model, "plane stress is for two dimensions only"};
+    if (const auto fault = fault_of_linear_law<dim>(law))
+      return Failure{FailureReason::unsupported_model,
+                     "the material law does not suit linear elasticity: " + *fault};
+  }
+  return {};
+}
+
 }  // namespace
 
 template <int dim>
@@ -149,8 +163,7 @@ RollingProblem<dim>::RollingProblem(const RollingModel<dim>& model,
 
 template <int dim>
 Expected<RollingProblem<dim>> RollingProblem<dim>::create(const RollingModel<dim>& model) {
-  if (dim == 3 && model.materials.at_tread().plane == Plane::stress)
-    return Failure{FailureReason::unsupported_model, "plane stress is for two dimensions only"};
+  if (auto failure = unsupported_material(model)) return *failure;
   auto elements = std::make_unique<ElementTable<dim>>(model.grid, model.degree, model.materials, model.ghost,
                                                       cell_stiffness<dim>, model.side_faces);
   TreadGrid grid = model.tread;

@@ -13,8 +13,8 @@ namespace {
 
 /// Strains of some points of an element on its dofs, side by side.
 template <int dim>
-Matrix strain_columns(const ElasticElement<dim>& element,
-                      std::span<const typename ElasticElement<dim>::Point> points) {
+Matrix strain_maps(const ElasticElement<dim>& element,
+                   std::span<const typename ElasticElement<dim>::Point> points) {
   Matrix strains(element.n_dofs(), n_strains<dim> * static_cast<int>(points.size()));
   for (size_t q = 0; q < points.size(); ++q)
     for (int k = 0; k < n_strains<dim>; ++k)
@@ -101,19 +101,16 @@ std::vector<CellBoundary<dim>> cells_of(const RollingSolution<dim>& s, const Cut
   return cells;
 }
 
-/// sum over the load cases of m_j factor_i M(u_j), from the strains of all load cases at one point (one row
-/// per component, one column per case).
+/// sum over the load cases of m_j factor_i M(u_j) at one point.
 template <int dim>
-double integrand(const RollingSolution<dim>& s, const Material& material, const Matrix& strains,
-                 int first_row, std::span<const typename FunctionalDerivative<dim>::Integral> integrals) {
-  const int n_sectors = s.ring.n_sectors();
+double integrand(const RollingSolution<dim>& s, const StrainsAtPoint<dim>& point,
+                 std::span<const typename FunctionalDerivative<dim>::Integral> integrals) {
+  std::vector<double> values(point.n_cases());
   double sum = 0;
-  for (int j = 0; j < strains.columns(); ++j) {
-    Voigt<dim> strain;
-    std::copy_n(strains.column(j) + first_row, n_strains<dim>, strain.begin());
-    for (const auto& [density, factors] : integrals)
-      sum += s.positions.multiplicities[j / n_sectors] * factors[j / n_sectors] *
-             density->at(strain, material).density;
+  for (const auto& [density, factors] : integrals) {
+    density->densities(point, values);
+    for (int j = 0; j < point.n_cases(); ++j)
+      sum += s.positions.multiplicities[j / point.n_sectors] * factors[j / point.n_sectors] * values[j];
   }
   return sum;
 }
@@ -134,11 +131,11 @@ class Densities {
     const auto place = grid.cell_position(boundary.cell);
     const double angle = place[1] * grid.cell_size()[1];
     const auto& element = problem_.elements().element(place[0]);
-    const Material& material = problem_.elements().materials().in_row(place[0]);
+    const MaterialLaw<dim>& law = problem_.elements().materials().in_row(place[0]);
     const auto nodes = s_.ring.sector().space.cell_nodes(boundary.cell);
     std::vector<typename ElasticElement<dim>::Point> points;
     for (const auto& q : boundary.rule) points.push_back(element.at(q.xi));
-    const Matrix strains = strain_columns<dim>(element, points);
+    const Matrix strains = strain_maps<dim>(element, points);
     Matrix u(s_.displacement.modes.rows(), element.n_dofs()), p = u;
     gather(s_.ring, nodes, s_.displacement.modes, u);
     const Matrix strain_u = product(u, Op::none, strains, Op::none);
@@ -150,12 +147,12 @@ class Densities {
     for (size_t f = 0; f < functions_.size(); ++f) {
       gather(s_.ring, nodes, adjoints_[f].modes, p);
       const Matrix strain_p = product(p, Op::none, strains, Op::none);
-      densities.push_back(energy_and_work(functions_[f].energy, material, strain_u, strain_p));
+      densities.push_back(energy_and_work(functions_[f].energy, law, strain_u, strain_p));
       for (size_t q = 0; q < points.size(); ++q)
-        densities[f][q] += loads_[f].density(points[q], material, angle, p);
-      if (projected) add_projection(functions_[f].energy, material, u, p, dilatations, densities[f]);
+        densities[f][q] += loads_[f].density(points[q], law, angle, p);
+      if (projected) add_projection(functions_[f].energy, law, u, p, dilatations, densities[f]);
       const auto integrals = integrals_in_row<dim>(functions_[f].integrals, grid, place[0]);
-      if (!integrals.empty()) add_integrands(integrals, material, strain_u, densities[f]);
+      if (!integrals.empty()) add_integrands(integrals, law, strain_u, densities[f]);
     }
     return densities;
   }
@@ -181,21 +178,19 @@ class Densities {
  private:
   /// energy sigma(u):eps(u) / 2 + sigma(u):eps(p) from the strains of the modes at the points, one component
   /// after the other.
-  std::vector<double> energy_and_work(const std::vector<double>& energy, const Material& material,
+  std::vector<double> energy_and_work(const std::vector<double>& energy, const MaterialLaw<dim>& law,
                                       const Matrix& strain_u, const Matrix& strain_p) const {
     const int n_modes = strain_u.rows(), n_points = strain_u.columns() / n_strains<dim>;
     const Matrix weighted =
         energy.empty() ? Matrix(n_modes, strain_u.columns()) : energy_weighted(s_, energy, strain_u);
     std::vector<double> densities(n_points, 0.0);
+    Matrix sigma(n_modes, n_strains<dim>);
     for (int q = 0; q < n_points; ++q) {
       const int first = n_strains<dim> * q;
-      for (int mode = 0; mode < n_modes; ++mode) {
-        Voigt<dim> strain;
-        for (int k = 0; k < n_strains<dim>; ++k) strain[k] = strain_u(mode, first + k);
-        const Voigt<dim> sigma = stress<dim>(material, strain);
+      law.stress(strain_columns<dim>(strain_u, first), stress_columns<dim>(sigma, 0));
+      for (int mode = 0; mode < n_modes; ++mode)
         for (int k = 0; k < n_strains<dim>; ++k)
-          densities[q] += sigma[k] * (strain_p(mode, first + k) + 0.5 * weighted(mode, first + k));
-      }
+          densities[q] += sigma(mode, k) * (strain_p(mode, first + k) + 0.5 * weighted(mode, first + k));
     }
     return densities;
   }
@@ -205,8 +200,9 @@ class Densities {
   /// / 2) over its material, with K = lambda + 2 mu / dim. At the maximum q is the projection of div u, and
   /// the derivative to the shape is that of the integral for this q: K (q_u div p + q_p div u - q_u q_p)
   /// takes the place of K t_u t_p.
-  void add_projection(const std::vector<double>& energy, const Material& material, const Matrix& u,
+  void add_projection(const std::vector<double>& energy, const MaterialLaw<dim>& law, const Matrix& u,
                       const Matrix& p, const Matrix& dilatations, std::vector<double>& densities) const {
+    const Material& material = *law.isotropic();
     const double bulk = material.lambda() + 2 * material.mu() / dim;
     const Matrix of_u = product(u, Op::none, dilatations, Op::none);
     Matrix of_p = product(p, Op::none, dilatations, Op::none);
@@ -225,11 +221,12 @@ class Densities {
   }
 
   void add_integrands(std::span<const typename FunctionalDerivative<dim>::Integral> integrals,
-                      const Material& material, const Matrix& strain_u,
+                      const MaterialLaw<dim>& law, const Matrix& strain_u,
                       std::vector<double>& densities) const {
-    const Matrix of_cases = product(strain_u, Op::transpose, s_.displacement.weights, Op::transpose);
-    for (size_t q = 0; q < densities.size(); ++q)
-      densities[q] += integrand<dim>(s_, material, of_cases, n_strains<dim> * static_cast<int>(q), integrals);
+    const Matrix of_cases = product(s_.displacement.weights, Op::none, strain_u, Op::none);
+    for (int q = 0; q < static_cast<int>(densities.size()); ++q)
+      densities[q] += integrand<dim>(
+          s_, {strain_columns<dim>(of_cases, n_strains<dim> * q), s_.ring.n_sectors(), law}, integrals);
   }
 
   const RollingProblem<dim>& problem_;

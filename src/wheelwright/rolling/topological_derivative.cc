@@ -40,7 +40,7 @@ class Derivatives {
     const PolarGrid<dim>& grid = problem_.model().grid;
     const auto place = grid.cell_position(point.cell);
     const auto& element = problem_.elements().element(place[0]);
-    const Material& material = problem_.elements().materials().in_row(place[0]);
+    const MaterialLaw<dim>& law = problem_.elements().materials().in_row(place[0]);
     const auto nodes = s_.ring.sector().space.cell_nodes(point.cell);
     const auto at = element.at(point.xi);
     Matrix u(displacement_.modes.rows(), element.n_dofs()), p = u;
@@ -49,33 +49,37 @@ class Derivatives {
     std::vector<double> derivatives;
     for (size_t f = 0; f < functions_.size(); ++f) {
       gather(s_.ring, nodes, adjoints_[f].modes, p);
-      double sum = -loads_[f].density(at, material, place[1] * grid.cell_size()[1], p);
+      double sum = -loads_[f].density(at, law, place[1] * grid.cell_size()[1], p);
       const Matrix weighted = functions_[f].energy.empty() ? Matrix(u.rows(), u.columns())
                                                            : energy_weighted(s_, functions_[f].energy, u);
       const Matrix strain_p = strains_of<dim>(p, at), strain_w = strains_of<dim>(weighted, at);
       for (int mode = 0; mode < u.rows(); ++mode) {
         Voigt<dim> strain = voigt<dim>(strain_p, mode);
         for (int k = 0; k < n_strains<dim>; ++k) strain[k] += 0.5 * strain_w(k, mode);
-        sum -= work_on_small_hole<dim>(material, voigt<dim>(strain_u, mode), strain);
+        sum -= work_on_small_hole<dim>(*law.isotropic(), voigt<dim>(strain_u, mode), strain);
       }
-      derivatives.push_back(sum + of_integrals(functions_[f].integrals, material, strain_u, place[0]));
+      derivatives.push_back(sum + of_integrals(functions_[f].integrals, law, strain_u, place[0]));
     }
     return derivatives;
   }
 
  private:
   double of_integrals(std::span<const typename FunctionalDerivative<dim>::Integral> all,
-                      const Material& material, const Matrix& strain_u, int row) const {
+                      const MaterialLaw<dim>& law, const Matrix& strain_u, int row) const {
     const auto integrals = integrals_in_row<dim>(all, problem_.model().grid, row);
     if (integrals.empty()) return 0;
-    const Matrix of_cases = product(strain_u, Op::none, displacement_.weights, Op::transpose);
-    const int n_sectors = s_.ring.n_sectors();
     double sum = 0;
-    if constexpr (dim == 2)
-      for (int j = 0; j < of_cases.columns(); ++j)
-        for (const auto& [density, factors] : integrals)
-          sum += s_.positions.multiplicities[j / n_sectors] * factors[j / n_sectors] *
-                 removed_density(*density, material, voigt<dim>(of_cases, j));
+    if constexpr (dim == 2) {
+      const Matrix of_cases = product(displacement_.weights, Op::none, strain_u, Op::transpose);
+      const int n_sectors = s_.ring.n_sectors();
+      const StrainsAtPoint<2> point{strain_columns<2>(of_cases, 0), n_sectors, law};
+      for (const auto& [density, factors] : integrals) {
+        std::vector<double> of_case;
+        for (int j = 0; j < point.n_cases(); ++j)
+          of_case.push_back(s_.positions.multiplicities[j / n_sectors] * factors[j / n_sectors]);
+        sum += removed_density(*density, point, of_case);
+      }
+    }
     return sum;
   }
 
@@ -101,6 +105,10 @@ std::optional<Failure> unsupported(const RollingModel<dim>& model,
   if (model.distributed.hole_pressure != 0)
     return Failure{FailureReason::unsupported_model,
                    "the derivative to small holes is not known under a pressure in the holes"};
+  for (int row = 0; row < model.grid.cells[0]; ++row)
+    if (!model.materials.in_row(row).isotropic())
+      return Failure{FailureReason::unsupported_model,
+                     "the derivative to small holes is known for isotropic materials only"};
   if (dim == 3 && std::ranges::any_of(functions, [](const auto& f) { return !f.integrals.empty(); }))
     return Failure{FailureReason::unsupported_model,
                    "the derivative of stresses to small holes is not known in three dimensions"};

@@ -26,7 +26,7 @@ class WorkOfLoads {
   }
 
   /// p_0 div p - f.p; `p`: modes on the cell's dofs, `angle`: the cell's azimuth in the sector.
-  double density(const typename ElasticElement<dim>::Point& at, const Material& material, double angle,
+  double density(const typename ElasticElement<dim>::Point& at, const MaterialLaw<dim>& law, double angle,
                  const Matrix& p) const {
     if (s_.core_loads.empty()) return 0;
     double density = 0;
@@ -39,10 +39,10 @@ class WorkOfLoads {
       for (int i = 0; i < p.columns(); ++i) density += on_modes_(k, dim) * at.dilatation[i] * p(k, i);
       density -= dot<dim>(force, rotated<dim>(value, angle));
       if (on_modes_.columns() > dim + 1)
-        density -= on_modes_(k, dim + 1) * material.density.value_or(0) *
+        density -= on_modes_(k, dim + 1) * law.density().value_or(0) *
                    (at.position[0] * value[0] + at.position[1] * value[1]);
     }
-    return density - work_on_rim(at.position, material, angle);
+    return density - work_on_rim(at.position, law, angle);
   }
 
   /// -work_on_edge() at a point of an edge, where the boundary has this component of its unit normal along
@@ -60,7 +60,7 @@ class WorkOfLoads {
   }
 
  private:
-  double work_on_rim(const Vec<dim>& position, const Material& material, double angle) const {
+  double work_on_rim(const Vec<dim>& position, const MaterialLaw<dim>& law, double angle) const {
     const PolarGrid<dim>& grid = model_.grid;
     double work = 0;
     for (int i = 0; i < s_.positions.size(); ++i)
@@ -68,7 +68,7 @@ class WorkOfLoads {
         const double to_ground = angle + sector * grid.sector_angle() - s_.positions.grounds[i].azimuth(grid);
         const Vec<dim> x = rotated<dim>(position, to_ground);
         work += s_.positions.multiplicities[i] *
-                dot<dim>(model_.distributed.force_at(x, material.density.value_or(0)),
+                dot<dim>(model_.distributed.force_at(x, law.density().value_or(0)),
                          displacement<dim>(adjoint_.rim[i], x));
       }
     return work;

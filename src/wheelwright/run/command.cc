@@ -46,17 +46,17 @@ CommandResult Stop::execute(RunControl& run) const {
 }
 
 CommandResult Pause::execute(RunControl& run) const {
-  run.pause(0);
+  if (auto refusal = run.pause(0)) return *std::move(refusal);
   return fmt::format("paused after shape {}", run.iteration());
 }
 
 CommandResult Continue::execute(RunControl& run) const {
-  run.continue_run();
+  if (auto refusal = run.continue_run()) return *std::move(refusal);
   return std::string("continued");
 }
 
 CommandResult Step::execute(RunControl& run) const {
-  run.pause(1);
+  if (auto refusal = run.pause(1)) return *std::move(refusal);
   return fmt::format("one more shape after shape {}", run.iteration());
 }
 

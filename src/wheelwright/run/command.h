@@ -33,8 +33,9 @@ class RunControl {
   /// Saves and ends the run.
   virtual void stop() = 0;
   /// Waits for further commands, now or after this number of further accepted shapes.
-  virtual void pause(int after_shapes) = 0;
-  virtual void continue_run() = 0;
+  virtual std::optional<Refusal> pause(int after_shapes) = 0;
+  /// Also of a run whose search has ended: searches for better shapes again.
+  virtual std::optional<Refusal> continue_run() = 0;
   /// Continues with another case: it is checked like a case file, the current shape is evaluated under it,
   /// and the run's folder is updated. `what` describes the change, for display and for history.csv.
   virtual std::optional<Refusal> change_case(const Case& changed, const std::string& what) = 0;

@@ -61,9 +61,9 @@ void CommandLog<dim>::operator()(const Event<dim>& event, const RunView<dim>& ru
   const auto path = run.folder / command_log_file;
   if (const auto* started = std::get_if<RunStarted>(&event); started && !started->resumed_after)
     write_atomically(path, "");
-  if (const auto* done = std::get_if<CommandDone>(&event); done && done->was_executed && done->command) {
+  if (const auto* done = std::get_if<CommandDone>(&event); done && done->was_executed) {
     std::ofstream stream(path, std::ios::app | std::ios::binary);
-    if (!(stream << log_line({moments_.now(), *done->command})).flush()) throw OutputError(path, errno);
+    if (!(stream << log_line({moments_.now(), done->command})).flush()) throw OutputError(path, errno);
   }
   moments_.count<dim>(event);
 }

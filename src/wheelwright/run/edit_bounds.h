@@ -5,7 +5,7 @@
 #include <string>
 
 #include "wheelwright/case/case.h"
-#include "wheelwright/drawing/affine.h"
+#include "wheelwright/curves/affine.h"
 
 namespace wheelwright {
 

@@ -24,8 +24,8 @@ Stroke filling(const std::vector<Point>& edge) {
 }
 
 /// Discs at the corners of a path, and strips between them.
-std::vector<Outline> brush_outlines(const Paint& paint) {
-  std::vector<Outline> outlines;
+std::vector<DrawnOutline> brush_outlines(const Paint& paint) {
+  std::vector<DrawnOutline> outlines;
   const Point* last = nullptr;
   for (const Point& at : paint.path) {
     if (last && norm<2>(at - *last) < 1e-3 * paint.radius) continue;

@@ -5,7 +5,6 @@
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/dimension.h"
 #include "wheelwright/geometry/section.h"
-#include "wheelwright/report/described_wheel.h"
 #include "wheelwright/run/study.h"
 
 namespace wheelwright {
@@ -13,11 +12,16 @@ namespace {
 
 constexpr double mm = 1e3;
 
-/// Relative tolerance for curves and quadratic level sets.
-constexpr double tolerated = 0.01;
+/// Relative tolerance for curves and quadratic level sets; of radii more, because they follow from second
+/// derivatives.
+constexpr double tolerated = 0.01, tolerated_of_radii = 0.05;
 
 bool is_too_narrow(const std::optional<cad::Clearance>& measured, std::optional<double> least) {
   return measured && least && measured->width < (1 - tolerated) * *least;
+}
+
+bool is_too_sharp(const std::optional<cad::Bend>& corner, std::optional<double> minimum) {
+  return corner && minimum && corner->radius < (1 - tolerated_of_radii) * *minimum;
 }
 
 Vec<2> middle(const cad::Clearance& clearance) {
@@ -40,13 +44,20 @@ std::string too_narrow(const char* what, const cad::Clearance& measured, const c
 
 }  // namespace
 
-std::vector<std::string> feature_warnings(const Case& c, const cad::Clearances& measured) {
+std::vector<std::string> feature_warnings(const Case& c, const OutlineMeasures& measures) {
+  const cad::Clearances& measured = measures.clearances;
   std::vector<std::string> result;
   if (is_too_narrow(measured.wall, c.optimizer.minimum_wall))
     result.push_back(
         too_narrow("the thinnest wall", *measured.wall, "minimum_wall", *c.optimizer.minimum_wall));
   if (is_too_narrow(measured.gap, c.optimizer.minimum_gap))
     result.push_back(too_narrow("the narrowest gap", *measured.gap, "minimum_gap", *c.optimizer.minimum_gap));
+  if (const auto& corner = measures.roughness ? measures.roughness->internal_corner : std::nullopt;
+      is_too_sharp(corner, c.optimizer.minimum_radius))
+    result.push_back(
+        fmt::format("the sharpest internal corner, at {}, has a radius of {:.3g} mm: "
+                    "optimizer.minimum_radius = {:.4g} mm is not met",
+                    cad::place_of(corner->place), corner->radius * mm, *c.optimizer.minimum_radius * mm));
   const double cell = polar_grid<2>(c).resolution();
   if (measured.wall && measured.wall->width < least_cells_per_wall * cell && !is_a_band(c, *measured.wall))
     result.push_back(
@@ -56,11 +67,9 @@ std::vector<std::string> feature_warnings(const Case& c, const cad::Clearances& 
   return result;
 }
 
-Expected<cad::Clearances, cad::OutlineFault> initial_clearances(const Case& c) {
-  const auto measured = outline_measures(
+Expected<OutlineMeasures, cad::OutlineFault> initial_outline_measures(const Case& c) {
+  return outline_measures(
       in_dimension_of(c, [&](auto dim) { return mid_plane_section(initial_shape<dim>(c)); }));
-  if (!measured) return measured.failure();
-  return measured->clearances;
 }
 
 }  // namespace wheelwright

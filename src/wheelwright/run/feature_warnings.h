@@ -4,21 +4,22 @@
 #include <vector>
 
 #include "wheelwright/base/expected.h"
-#include "wheelwright/cad/clearance.h"
 #include "wheelwright/cad/outline_fault.h"
 #include "wheelwright/case/case.h"
+#include "wheelwright/report/described_wheel.h"
 
 namespace wheelwright {
 
 /// Minimum number of cells across a wall for an accurate stress.
 inline constexpr double least_cells_per_wall = 3;
 
-/// Warnings about an outline: a wall or gap more than 1 % narrower than the case allows, with its place, and
-/// a wall of less than three cells that is not a band at rim or tread.
-std::vector<std::string> feature_warnings(const Case& c, const cad::Clearances& measured);
+/// Warnings about an outline, each with its place: a wall or gap more than 1 % narrower than the case allows,
+/// an internal corner whose radius is more than 5 % smaller, and a wall of less than three cells that is not
+/// a band at rim or tread.
+std::vector<std::string> feature_warnings(const Case& c, const OutlineMeasures& measures);
 
-/// The thinnest wall and the narrowest gap of the initial shape; in 3D of its section in the middle of the
-/// width. Fails if no curves can be fitted.
-Expected<cad::Clearances, cad::OutlineFault> initial_clearances(const Case& c);
+/// Walls, gaps and corners of the initial shape; in 3D of its section in the middle of the width. Fails if no
+/// curves can be fitted.
+Expected<OutlineMeasures, cad::OutlineFault> initial_outline_measures(const Case& c);
 
 }  // namespace wheelwright

@@ -44,9 +44,15 @@ struct SaveRequested {
 
 /// A command was executed or refused.
 struct CommandDone {
-  const Command* command;  ///< null if issued by the run itself
-  std::string text;        ///< what was done, or why it was refused; may be empty
+  const Command& command;
+  std::string text;  ///< what was done, or why it was refused; may be empty
   bool was_executed;
+};
+
+/// The run left out a stage of its schedule, because it failed: a coarser grid, new holes.
+struct StageFailed {
+  std::string stage;   ///< e.g. "nucleation"
+  std::string reason;  ///< one line
 };
 
 /// The case has changed (RunView::study); the current shape is evaluated again next.
@@ -102,8 +108,8 @@ struct PositionShown {
 
 template <int dim>
 using Event = std::variant<RunStarted, TrialDone<dim>, ContactAdvanced, SaveRequested<dim>, CommandDone,
-                           CaseChanged, ShapeProposed<dim>, ShapeReplaced, GridChanged, RunWaits, RunProceeds,
-                           PositionShown<dim>, RunEnded<dim>>;
+                           StageFailed, CaseChanged, ShapeProposed<dim>, ShapeReplaced, GridChanged, RunWaits,
+                           RunProceeds, PositionShown<dim>, RunEnded<dim>>;
 
 template <int dim>
 class Observer;

@@ -140,6 +140,11 @@ double last_elapsed(const ReportRun<dim>& run) {
 std::string status_text(std::optional<StopReason> reason) { return reason ? text(*reason) : "not ended"; }
 
 template <int dim>
+std::string roughness_warning(const Case& c, const RunSummary<dim>& summary) {
+  return roughness_warning(c, roughness(summary.after.wheel), roughness(summary.before.wheel));
+}
+
+template <int dim>
 std::vector<std::string> flags(const Case& c, const RunSummary<dim>& summary,
                                std::optional<StopReason> reason) {
   const DescribedWheel<dim>& wheel = summary.after.wheel;
@@ -153,11 +158,8 @@ std::vector<std::string> flags(const Case& c, const RunSummary<dim>& summary,
     if (const auto warning = deformation_warning(wheel.loaded->summary.deformation); !warning.empty())
       result.push_back(warning);
   if (wheel.outline)
-    for (const std::string& warning : feature_warnings(c, wheel.outline->clearances))
-      result.push_back(warning);
-  if (const auto warning = roughness_warning(c, roughness(wheel), roughness(summary.before.wheel));
-      !warning.empty())
-    result.push_back(warning);
+    for (const std::string& warning : feature_warnings(c, *wheel.outline)) result.push_back(warning);
+  if (const auto warning = roughness_warning(c, summary); !warning.empty()) result.push_back(warning);
   for (const std::string& warning : warnings(with_levels_of_results(c))) result.push_back(warning);
   for (const std::string& line : missing_lines(summary)) result.push_back(line);
   for (const Remark& remark : summary.remarks) result.push_back(text(remark));
@@ -264,6 +266,7 @@ ReportRun<dim> report_of_results(const fs::path& folder, const Case& c, const Ru
   run.is_running = false;
   run.status = status_text(reason);
   run.flags = flags(c, summary, reason);
+  run.has_rough_edges = !roughness_warning(c, summary).empty();
   run.limits = limits(c, summary.after.wheel);
   run.summary = summary;
   if (!summary.changed_start.empty())

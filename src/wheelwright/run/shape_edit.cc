@@ -11,11 +11,11 @@ namespace wheelwright {
 namespace {
 
 /// A hole of this form in every sector of a ring of material.
-Composition in_all_sectors(const std::vector<Outline>& outlines, int n_sectors) {
+Composition in_all_sectors(const std::vector<DrawnOutline>& outlines, int n_sectors) {
   Figure figure{Fill::hole, {}};
   for (int sector = 0; sector < n_sectors; ++sector) {
     const Affine turn = Affine::rotation(2 * std::numbers::pi * sector / n_sectors);
-    for (const Outline& outline : outlines) figure.outlines.push_back(outline.mapped(turn));
+    for (const DrawnOutline& outline : outlines) figure.outlines.push_back(outline.mapped(turn));
   }
   return Composition({figure});
 }

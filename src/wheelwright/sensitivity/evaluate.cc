@@ -258,12 +258,12 @@ Expected<Evaluated<dim>> evaluate(const StateSolver<dim>& solver,
                                   std::span<const ShapeFunction<dim>> functions, const CutShape<dim>& shape,
                                   const Matrix* held_mean, const Interrupt& interrupt,
                                   const LoadCases<dim>& cases) {
-  const bool compares_images_alike = weights_are_mirror_symmetric(functions) &&
+  const bool compares_images_alike = are_mirror_symmetric(functions, MirrorPlane::azimuth) &&
                                      (!held_mean || is_mirror_symmetric(solver.tread_surface(), *held_mean));
-  auto states = states_of_cases(
-      solver, cases, shape,
-      compares_images_alike ? distinct_positions(solver, cases, shape.psi) : solver.all_positions(),
-      interrupt);
+  LoadPositions positions =
+      compares_images_alike ? distinct_positions(solver, cases, shape.psi) : solver.all_positions();
+  positions.on_whole_width = !are_mirror_symmetric(functions, MirrorPlane::width);
+  auto states = states_of_cases(solver, cases, shape, std::move(positions), interrupt);
   if (!states) return states.failure();
   std::vector<const State<dim>*> of_cases;
   for (const auto& state : *states) of_cases.push_back(state.get());

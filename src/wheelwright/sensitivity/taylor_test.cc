@@ -32,8 +32,7 @@ double directional_derivative(const std::vector<SurfaceSample<dim>>& gradient, c
     double rate = 0;
     for (size_t a = 0; a < values.size(); ++a) {
       rate += shape.value[a] * changes[a];
-      const Vec<dim> g = transpose_times<dim>(to_physical, shape.gradient[a]);
-      for (int d = 0; d < dim; ++d) slope[d] += values[a] * g[d];
+      slope += values[a] * transpose_times<dim>(to_physical, shape.gradient[a]);
     }
     sum -= sample.weight * sample.value * rate / norm<dim>(slope);
   }
@@ -81,17 +80,11 @@ Expected<TaylorTest> taylor_test(
   return Failure{FailureReason::unsupported_model, "there is no function named " + std::string(name)};
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                   \
-  template double directional_derivative(const std::vector<SurfaceSample<dim>>&, const LevelSet<dim>&, \
-                                         std::span<const double>, int);                                \
-  template Expected<std::vector<TaylorTest>> taylor_tests(                                             \
-      const std::function<Expected<Evaluation<dim>>(const LevelSet<dim>&)>&, const Evaluation<dim>&,   \
-      const LevelSet<dim>&, std::span<const double>, int, double, int);                                \
-  template Expected<TaylorTest> taylor_test(                                                           \
-      const std::function<Expected<Evaluation<dim>>(const LevelSet<dim>&)>&, const LevelSet<dim>&,     \
-      std::span<const double>, int, double, int, std::string_view);
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+template decltype(directional_derivative<2>) directional_derivative<2>;
+template decltype(taylor_tests<2>) taylor_tests<2>;
+template decltype(taylor_test<2>) taylor_test<2>;
+template decltype(directional_derivative<3>) directional_derivative<3>;
+template decltype(taylor_tests<3>) taylor_tests<3>;
+template decltype(taylor_test<3>) taylor_test<3>;
 
 }  // namespace wheelwright

@@ -42,6 +42,13 @@ void accumulate(const std::vector<double>& factors, const std::vector<std::vecto
   }
 }
 
+template <int dim>
+Voigt<dim> strain_of(const StrainsAtPoint<dim>& point, int load_case) {
+  Voigt<dim> strain;
+  for (int k = 0; k < n_strains<dim>; ++k) strain[k] = point.strains[k][load_case];
+  return strain;
+}
+
 }  // namespace
 
 template <int dim>
@@ -58,6 +65,22 @@ void add(const FunctionalDerivative<dim>& term, const std::vector<double>& facto
   accumulate(factors, term.growth, sum.growth);
 }
 
+template <int dim>
+void DensityOfStrain<dim>::densities(const StrainsAtPoint<dim>& point, std::span<double> values) const {
+  for (int j = 0; j < point.n_cases(); ++j) values[j] = at(strain_of(point, j), point.law).density;
+}
+
+template <int dim>
+void DensityOfStrain<dim>::slopes(const StrainsAtPoint<dim>& point, std::span<const double> factors,
+                                  const StressRows<dim>& slopes) const {
+  for (int j = 0; j < point.n_cases(); ++j) {
+    const Voigt<dim> by_strain = at(strain_of(point, j), point.law).by_strain;
+    for (int k = 0; k < n_strains<dim>; ++k) slopes[k][j] = factors[j] * by_strain[k];
+  }
+}
+
+template class DensityOfStrain<2>;
+template class DensityOfStrain<3>;
 template void add(const FunctionalDerivative<2>&, const std::vector<double>&, FunctionalDerivative<2>&);
 template void add(const FunctionalDerivative<3>&, const std::vector<double>&, FunctionalDerivative<3>&);
 

@@ -9,21 +9,52 @@
 
 namespace wheelwright {
 
-/// A function of the strain that is integrated over the material, including the tread: M(u) of (36). It may
+/// The strains of one point of a sector in all load cases. Load case i n_sectors + s is position i with the
+/// ground turned to it, seen at the point's image in sector s; or the same point with the ground s sectors
+/// back. If all positions were solved, the load cases are those of a whole turn of the wheel.
+template <int dim>
+struct StrainsAtPoint {
+  StrainRows<dim> strains;  ///< [component][load case]
+  int n_sectors;
+  const MaterialLaw<dim>& law;
+
+  int n_cases() const { return static_cast<int>(strains[0].size()); }
+};
+
+/// A function of the strains that is integrated over the material, including the tread: M(u) of (36). It may
 /// be zero in whole rows of cells.
 template <int dim>
 class MaterialDensity {
  public:
   virtual ~MaterialDensity() = default;
 
-  struct Value {
-    double density;        ///< M [of the function per m^2, or per m^3 when dim = 3]
-    Voigt<dim> by_strain;  ///< dM/d(eps), with respect to engineering shear strains
-  };
-  virtual Value at(const Voigt<dim>& strain, const Material& material) const = 0;
+  /// M of every load case [of the function per m^2, or per m^3 when dim = 3]. It may depend on the strains of
+  /// all load cases, such as their range over a turn; then all positions must be solved
+  /// (Functional::is_mirror_symmetric).
+  virtual void densities(const StrainsAtPoint<dim>& point, std::span<double> values) const = 0;
+
+  /// The derivative of sum_j factor_j M_j, j the load cases, with respect to all strains (engineering shear
+  /// strains).
+  virtual void slopes(const StrainsAtPoint<dim>& point, std::span<const double> factors,
+                      const StressRows<dim>& slopes) const = 0;
 
   /// Whether it counts in a radial row of cells, the first of them at the rim.
   virtual bool covers(const PolarGrid<dim>&, int) const { return true; }
+};
+
+/// A density that is the same function of the strain in every load case.
+template <int dim>
+class DensityOfStrain : public MaterialDensity<dim> {
+ public:
+  struct Value {
+    double density;        ///< M
+    Voigt<dim> by_strain;  ///< dM/d(eps)
+  };
+  virtual Value at(const Voigt<dim>& strain, const MaterialLaw<dim>& law) const = 0;
+
+  void densities(const StrainsAtPoint<dim>& point, std::span<double> values) const override;
+  void slopes(const StrainsAtPoint<dim>& point, std::span<const double> factors,
+              const StressRows<dim>& slopes) const override;
 };
 
 /// The derivative of the values J_i of one function with respect to the states u_i of the solved load

@@ -26,6 +26,9 @@ struct GroundPosition {
 struct LoadPositions {
   std::vector<GroundPosition> grounds;
   std::vector<double> multiplicities;  ///< number of a sector's positions that each represents
+  /// Whether derivatives are wanted of functions that are not their own mirror image in the middle plane of
+  /// the width: then no wheel is solved on half of its width; when dim = 3.
+  bool on_whole_width = false;
 
   int size() const { return static_cast<int>(grounds.size()); }
   /// Whether the ground touches at the first azimuth of a column in all of them.

@@ -4,9 +4,17 @@
 
 namespace wheelwright {
 
+Matrix by_load_case(const Matrix& strains) {
+  Matrix result(strains.columns(), strains.rows());
+  for (int i = 0; i < strains.rows(); ++i)
+    for (int j = 0; j < strains.columns(); ++j) result(j, i) = strains(i, j);
+  return result;
+}
+
 template <int dim>
-void for_each_strain(const StateSolver<dim>& solver, const State<dim>& state,
-                     const MaterialDensity<dim>& covered, const StrainVisitor<dim>& visit) {
+void for_each_cell(const StateSolver<dim>& solver, const State<dim>& state,
+                   const MaterialDensity<dim>& covered,
+                   const std::function<void(const StrainedCell<dim>&)>& visit) {
   const RollingModel<dim>& model = solver.model();
   const Displacement<dim>& displacement = state.displacement();
   MaterialRule<dim>(state.domain(), model.degree)
@@ -21,11 +29,8 @@ void for_each_strain(const StateSolver<dim>& solver, const State<dim>& state,
           weights.push_back(point.weight *
                             determinant<dim>(map.jacobian(ShapeFunctions<dim>(model.degree, point.xi))));
         }
-        const Material& material = model.materials.in_row(place[0]);
-        for_each_strain<dim>(displacement.strains(cell, xi),
-                             [&](int load_case, int q, const Voigt<dim>& strain) {
-                               visit(load_case / model.grid.n_sectors, weights[q], material, strain);
-                             });
+        visit({std::move(weights), by_load_case(displacement.strains(cell, xi)), model.grid.n_sectors,
+               model.materials.in_row(place[0])});
       });
 }
 
@@ -33,17 +38,21 @@ template <int dim>
 std::vector<double> material_integral(const StateSolver<dim>& solver, const State<dim>& state,
                                       const MaterialDensity<dim>& density) {
   std::vector<double> integrals(state.positions().size(), 0.0);
-  for_each_strain<dim>(solver, state, density,
-                       [&](int position, double weight, const Material& material, const Voigt<dim>& strain) {
-                         integrals[position] += weight * density.at(strain, material).density;
-                       });
+  for_each_cell<dim>(solver, state, density, [&](const StrainedCell<dim>& cell) {
+    Matrix values(cell.strains.rows(), cell.n_points());
+    for (int q = 0; q < cell.n_points(); ++q)
+      density.densities(cell.at(q), {values.column(q), static_cast<size_t>(values.rows())});
+    for (int j = 0; j < values.rows(); ++j)
+      for (int q = 0; q < cell.n_points(); ++q)
+        integrals[j / cell.n_sectors] += cell.weights[q] * values(j, q);
+  });
   return integrals;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                     \
-  template void for_each_strain(const StateSolver<dim>&, const State<dim>&, const MaterialDensity<dim>&, \
-                                const StrainVisitor<dim>&);                                              \
-  template std::vector<double> material_integral(const StateSolver<dim>&, const State<dim>&,             \
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                                   \
+  template void for_each_cell(const StateSolver<dim>&, const State<dim>&, const MaterialDensity<dim>&, \
+                              const std::function<void(const StrainedCell<dim>&)>&);                   \
+  template std::vector<double> material_integral(const StateSolver<dim>&, const State<dim>&,           \
                                                  const MaterialDensity<dim>&);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)

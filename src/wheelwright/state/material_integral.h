@@ -10,25 +10,27 @@ template <int dim>
 std::vector<double> material_integral(const StateSolver<dim>& solver, const State<dim>& state,
                                       const MaterialDensity<dim>& density);
 
-/// Calls visit(position, weight [m^2, or m^3 when dim = 3], material, strain) for every point of the same
-/// quadrature in the rows of cells that the density covers, in all sectors.
+/// The points of the same quadrature in one cell.
 template <int dim>
-using StrainVisitor = std::function<void(int, double, const Material&, const Voigt<dim>&)>;
-template <int dim>
-void for_each_strain(const StateSolver<dim>& solver, const State<dim>& state,
-                     const MaterialDensity<dim>& covered, const StrainVisitor<dim>& visit);
+struct StrainedCell {
+  std::vector<double> weights;  ///< of the points [m^2, or m^3 when dim = 3]
+  Matrix strains;               ///< one row per load case, n_strains columns per point
+  int n_sectors;
+  const MaterialLaw<dim>& law;
 
-/// Calls visit(load case, point of the cell, strain) for some points of a cell; load case = position *
-/// n_sectors
-/// + sector.
-template <int dim, class Visit>
-void for_each_strain(const Matrix& strains, Visit visit) {
-  for (int load_case = 0; load_case < strains.columns(); ++load_case)
-    for (int q = 0; q < strains.rows() / n_strains<dim>; ++q) {
-      Voigt<dim> strain;
-      std::copy_n(strains.column(load_case) + n_strains<dim> * q, n_strains<dim>, strain.begin());
-      visit(load_case, q, strain);
-    }
-}
+  int n_points() const { return static_cast<int>(weights.size()); }
+  StrainsAtPoint<dim> at(int point) const {
+    return {strain_columns<dim>(strains, n_strains<dim> * point), n_sectors, law};
+  }
+};
+
+/// Calls visit(cell) for every cell with material in the rows that the density covers.
+template <int dim>
+void for_each_cell(const StateSolver<dim>& solver, const State<dim>& state,
+                   const MaterialDensity<dim>& covered,
+                   const std::function<void(const StrainedCell<dim>&)>& visit);
+
+/// Strains at points of a cell in the layout of Displacement::strains(), one row per load case.
+Matrix by_load_case(const Matrix& strains);
 
 }  // namespace wheelwright

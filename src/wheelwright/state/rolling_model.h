@@ -47,7 +47,7 @@ struct RollingModel {
   PolarGrid<dim> grid;
   int degree = 2;                 ///< of the displacement, 1 or 2
   std::optional<int> cut_points;  ///< Gauss points per direction in cut cells; absent: degree + 2
-  Materials materials;
+  Materials<dim> materials;
   GhostPenalty ghost;
   SideFaces side_faces = SideFaces::free;  ///< when dim = 3
   ContactForm contact;

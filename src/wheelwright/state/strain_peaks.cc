@@ -6,43 +6,53 @@
 #include <vector>
 
 #include "wheelwright/base/parallel.h"
-#include "wheelwright/elasticity/von_mises.h"
 
 namespace wheelwright {
 namespace {
 
-/// The squared peaks of some cells: of the strain's deviator times mu, and of the largest principal strain.
+/// The squared peaks of some cells: of the von Mises stress, and of the largest principal strain.
 template <int dim>
 struct SquaredPeaks {
   explicit SquaredPeaks(int n_positions)
-      : deviator(n_positions, 0.0), places(n_positions, Vec<dim>{}), principal(n_positions, 0.0) {}
+      : von_mises(n_positions, 0.0), places(n_positions, Vec<dim>{}), principal(n_positions, 0.0) {}
 
   void add(const SquaredPeaks& other) {
-    for (size_t i = 0; i < deviator.size(); ++i) {
-      if (other.deviator[i] > deviator[i]) {
-        deviator[i] = other.deviator[i];
+    for (size_t i = 0; i < von_mises.size(); ++i) {
+      if (other.von_mises[i] > von_mises[i]) {
+        von_mises[i] = other.von_mises[i];
         places[i] = other.places[i];
       }
       principal[i] = std::max(principal[i], other.principal[i]);
     }
   }
 
-  std::vector<double> deviator;
+  std::vector<double> von_mises;
   std::vector<Vec<dim>> places;
   std::vector<double> principal;
 };
 
 /// Compares squares first: computes roots only if the current peak may be exceeded.
 template <int dim>
-double larger_squared_principal(double so_far, const double* strain, double axial_strain_ratio) {
+double larger_squared_principal(double so_far, const Voigt<dim>& strain, double axial) {
   double square = 0;
   for (int k = 0; k < dim; ++k) square += strain[k] * strain[k];
   for (int k = dim; k < n_strains<dim>; ++k) square += 0.5 * strain[k] * strain[k];
-  const double trace = strain[0] + strain[1];
-  const double axial = dim == 2 ? axial_strain_ratio * trace : 0;
   if (std::max(square, axial * axial) <= so_far) return so_far;  // e_1^2 <= e:e
-  for (const double e : principal_strains<dim>(strain, axial_strain_ratio)) so_far = std::max(so_far, e * e);
+  for (const double e : principal_strains<dim>(strain.data(), axial)) so_far = std::max(so_far, e * e);
   return so_far;
+}
+
+/// Strains of all load cases and points of a cell as in Displacement::strains(), one row per load case and
+/// point in it, one column per component.
+template <int dim>
+Matrix strains_by_component(const Matrix& strains) {
+  const int n_points = strains.rows() / n_strains<dim>;
+  Matrix result(strains.columns() * n_points, n_strains<dim>);
+  for (int j = 0; j < strains.columns(); ++j)
+    for (int q = 0; q < n_points; ++q)
+      for (int k = 0; k < n_strains<dim>; ++k)
+        result(j * n_points + q, k) = strains(q * n_strains<dim> + k, j);
+  return result;
 }
 
 template <int dim>
@@ -61,20 +71,25 @@ template <int dim>
 void add_cell(const StateSolver<dim>& solver, const Displacement<dim>& displacement, int cell,
               const std::vector<Vec<dim>>& points, SquaredPeaks<dim>& peaks) {
   const PolarGrid<dim>& grid = solver.model().grid;
-  const Material& material = solver.model().materials.in_row(grid.cell_position(cell)[0]);
-  const double squared_mu = material.mu() * material.mu(), axial = material.axial_strain_ratio();
-  const Matrix strains = displacement.strains(cell, points);
-  for (int j = 0; j < strains.columns(); ++j) {
-    const int position = j / grid.n_sectors;
-    for (size_t q = 0; q < points.size(); ++q) {
-      const double* strain = strains.column(j) + q * n_strains<dim>;
-      const double deviator = squared_mu * SquaredDeviator<dim>(strain, axial).value;
-      if (deviator > peaks.deviator[position]) {
-        peaks.deviator[position] = deviator;
-        peaks.places[position] = place_in_body<dim>(grid, cell, points[q], j % grid.n_sectors);
-      }
-      peaks.principal[position] = larger_squared_principal<dim>(peaks.principal[position], strain, axial);
+  const MaterialLaw<dim>& law = solver.model().materials.in_row(grid.cell_position(cell)[0]);
+  const Matrix strains = strains_by_component<dim>(displacement.strains(cell, points));
+  const auto columns = strain_columns<dim>(strains, 0);
+  std::vector<double> squares(strains.rows()), axial_stresses(dim == 2 ? strains.rows() : 0),
+      axial_strains(strains.rows());
+  law.squared_von_mises(columns, squares);
+  if (dim == 2) law.along_axle(columns, axial_stresses, axial_strains);
+  for (int i = 0; i < strains.rows(); ++i) {
+    const int n_points = static_cast<int>(points.size()), load_case = i / n_points,
+              position = load_case / grid.n_sectors;
+    if (squares[i] > peaks.von_mises[position]) {
+      peaks.von_mises[position] = squares[i];
+      peaks.places[position] =
+          place_in_body<dim>(grid, cell, points[i % n_points], load_case % grid.n_sectors);
     }
+    Voigt<dim> strain;
+    for (int k = 0; k < n_strains<dim>; ++k) strain[k] = strains(i, k);
+    peaks.principal[position] =
+        larger_squared_principal<dim>(peaks.principal[position], strain, axial_strains[i]);
   }
 }
 
@@ -96,10 +111,10 @@ std::vector<std::vector<Vec<dim>>> material_points(const CutDomain<dim>& domain,
 }  // namespace
 
 template <>
-std::array<double, 3> principal_strains<2>(const double* strain, double axial_strain_ratio) {
+std::array<double, 3> principal_strains<2>(const double* strain, double axial_strain) {
   const double mean = 0.5 * (strain[0] + strain[1]);
   const double radius = 0.5 * std::hypot(strain[0] - strain[1], strain[2]);
-  return {mean + radius, mean - radius, 2 * axial_strain_ratio * mean};
+  return {mean + radius, mean - radius, axial_strain};
 }
 
 /// The eigenvalues of a symmetric 3 x 3 matrix by the cosine of a third of an angle.
@@ -133,9 +148,9 @@ StrainPeaks<dim> strain_peaks(const StateSolver<dim>& solver, const State<dim>& 
   });
   SquaredPeaks<dim> all(n_positions);
   for (const auto& peaks : of_column) all.add(peaks);
-  for (double& square : all.deviator) square = std::sqrt(6 * square);
+  for (double& square : all.von_mises) square = std::sqrt(square);
   for (double& square : all.principal) square = std::sqrt(square);
-  return {std::move(all.deviator), std::move(all.places), std::move(all.principal)};
+  return {std::move(all.von_mises), std::move(all.places), std::move(all.principal)};
 }
 
 template StrainPeaks<2> strain_peaks(const StateSolver<2>&, const State<2>&);

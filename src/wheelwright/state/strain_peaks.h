@@ -10,9 +10,9 @@ namespace wheelwright {
 template <int dim>
 StrainPeaks<dim> strain_peaks(const StateSolver<dim>& solver, const State<dim>& state);
 
-/// The principal strains; `strain`: n_strains entries, shear strains as angles. When dim = 2, the one along
-/// the axle is `axial_strain_ratio` times the trace in the plane.
+/// The principal strains; `strain`: n_strains entries, shear strains as angles. When dim = 2, one of
+/// them is the given strain along the axle.
 template <int dim>
-std::array<double, 3> principal_strains(const double* strain, double axial_strain_ratio);
+std::array<double, 3> principal_strains(const double* strain, double axial_strain);
 
 }  // namespace wheelwright

@@ -36,12 +36,7 @@ const Side* find(const std::vector<Side>& sides, std::int32_t from, std::int32_t
 }
 
 Vec<3> doubled_area(Points points, const std::array<int, 3>& t) {
-  Vec<3> u, v;
-  for (int d = 0; d < 3; ++d) {
-    u[d] = points[t[1]][d] - points[t[0]][d];
-    v[d] = points[t[2]][d] - points[t[0]][d];
-  }
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+  return cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]]);
 }
 
 std::optional<SurfaceFault> find_bad_side(Points points, const std::vector<Side>& sides) {

@@ -26,10 +26,8 @@ ClippedVertices::Number ClippedVertices::number(const std::array<FineLattice::Po
   const auto [entry, is_new] = numbers_.try_emplace(key(lattice_, a, b), static_cast<int>(points_.size()));
   if (is_new) {
     const double share = corner.is_node() ? 0 : lattice_.crossing(a, b);
-    const Vec<3> x = lattice_.place(a), y = lattice_.place(b);
     places_.push_back(lattice_.point(a, b, share));
-    points_.emplace_back();
-    for (int d = 0; d < 3; ++d) points_.back()[d] = x[d] + share * (y[d] - x[d]);
+    points_.push_back(between(lattice_.place(a), lattice_.place(b), share));
   }
   return {entry->second, in_next_sector};
 }

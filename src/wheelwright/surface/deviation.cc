@@ -20,7 +20,7 @@ Vec<3> middle(const SurfaceMesh& mesh, const std::array<int, 3>& triangle, int c
   Vec<3> sum{};
   for (Vec<3>& corner : corners) {
     if (last - corner[1] > 0.5 * columns) corner[1] += columns;  // at the first azimuth of the next sector
-    for (int d = 0; d < 3; ++d) sum[d] += corner[d] / 3;
+    sum += corner / 3;
   }
   return sum;
 }
@@ -33,7 +33,7 @@ double distance(const LevelSet<3>& psi, const CellPoint& place, int map_degree) 
   Vec<3> reference{};
   for (std::size_t a = 0; a < nodal.size(); ++a) {
     value += shape.value[a] * nodal[a];
-    for (int d = 0; d < 3; ++d) reference[d] += shape.gradient[a][d] * nodal[a];
+    reference += nodal[a] * shape.gradient[a];
   }
   const Mat<3> jacobian =
       CellMap<3>(grid, map_degree, place.cell).jacobian(ShapeFunctions<3>(map_degree, place.xi));
@@ -56,7 +56,7 @@ SurfaceDeviation deviation(const SurfaceMesh& mesh, const LevelSet<3>& psi, int 
     const double found = distance(psi, place, map_degree);
     if (!(found > largest.distance)) continue;
     largest.distance = found;
-    for (int d = 0; d < 3; ++d) largest.place[d] = u[d] * grid.cell_size()[d];
+    largest.place = componentwise_product(u, grid.cell_size());
     largest.place[0] += grid.inner_radius;
   }
   return largest;

@@ -66,15 +66,9 @@ class SectorSurface {
   std::vector<SectorTriangle> triangles_;
 };
 
-Vec<3> cross(const Vec<3>& a, const Vec<3>& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Vec<3> difference(const Vec<3>& a, const Vec<3>& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
 double area(const SurfaceMesh& mesh, const std::array<int, 3>& t) {
   const Vec<3>&a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]];
-  return 0.5 * norm<3>(cross(difference(b, a), difference(c, a)));
+  return 0.5 * norm(cross(b - a, c - a));
 }
 
 }  // namespace

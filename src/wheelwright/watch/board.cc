@@ -21,12 +21,12 @@ double measure_named(const WatchedShape<dim>& shape, std::string_view name) {
 
 template <int dim>
 void Board<dim>::show(std::shared_ptr<const WatchedShape<dim>> shape) {
-  CurvePoint point{.version = 0,
-                   .shape = shape->number,
-                   .objective = shape->objective,
-                   .mean_travel = measure_named(*shape, "mean_travel"),
-                   .run_out = measure_named(*shape, "run_out"),
-                   .volume_fraction = shape->measure / sector_measure<dim>(shape->psi.lattice.grid())};
+  HistoryPoint point{.version = 0,
+                     .shape = shape->number,
+                     .objective = shape->objective,
+                     .mean_travel = measure_named(*shape, "mean_travel"),
+                     .run_out = measure_named(*shape, "run_out"),
+                     .volume_fraction = shape->measure / sector_measure<dim>(shape->psi.lattice.grid())};
   update([&](BoardView<dim>& view) {
     view.proposed.reset();
     if (!view.first) view.first = shape;
@@ -51,9 +51,9 @@ BoardView<dim> Board<dim>::view_after(long version, std::chrono::milliseconds pa
 }
 
 template <int dim>
-std::vector<CurvePoint> Board<dim>::curve_after(long version) const {
+std::vector<HistoryPoint> Board<dim>::curve_after(long version) const {
   const std::scoped_lock lock(mutex_);
-  const auto first = std::ranges::upper_bound(curve_, version, {}, &CurvePoint::version);
+  const auto first = std::ranges::upper_bound(curve_, version, {}, &HistoryPoint::version);
   return {first, curve_.end()};
 }
 

@@ -34,7 +34,7 @@ struct WatchedShape {
 };
 
 /// The values kept of every shape, for curves.
-struct CurvePoint {
+struct HistoryPoint {
   long version;  ///< of the board when the shape arrived
   int shape;
   double objective, mean_travel, run_out, volume_fraction;  ///< SI units
@@ -86,7 +86,7 @@ class Board {
   BoardView<dim> view_after(long version, std::chrono::milliseconds patience) const;
 
   /// The points of the curves that came after a version, oldest first.
-  std::vector<CurvePoint> curve_after(long version) const;
+  std::vector<HistoryPoint> curve_after(long version) const;
 
   /// Wakes all waiting callers.
   void close();
@@ -95,7 +95,7 @@ class Board {
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
   BoardView<dim> view_;
-  std::deque<CurvePoint> curve_;
+  std::deque<HistoryPoint> curve_;
   bool is_closed_ = false;
 };
 

@@ -29,6 +29,11 @@ void BoardObserver<dim>::operator()(const Event<dim>& event, const RunView<dim>&
       view.is_refusal = !done->was_executed;
       view.can_undo = run.can_undo;
     });
+  if (const auto* failed = std::get_if<StageFailed>(&event))
+    board_->update([&](BoardView<dim>& view) {
+      view.message = failed->stage + ": " + failed->reason;
+      view.is_refusal = true;
+    });
   if (const auto* ended = std::get_if<RunEnded<dim>>(&event))
     board_->update([&](BoardView<dim>& view) {
       view.activity = Activity::ended;

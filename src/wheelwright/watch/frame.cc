@@ -171,7 +171,7 @@ Json force_curve_json(const State<dim>& state, double width) {
 }  // namespace
 
 template <int dim>
-std::string frame_json(const BoardView<dim>& view, const std::vector<CurvePoint>& curve,
+std::string frame_json(const BoardView<dim>& view, const std::vector<HistoryPoint>& curve,
                        const FrameQuery& query) {
   Json json{{"version", view.version},
             {"activity", to_string(view.activity)},
@@ -180,7 +180,7 @@ std::string frame_json(const BoardView<dim>& view, const std::vector<CurvePoint>
             {"message", view.message},
             {"is_refusal", view.is_refusal}};
   Json points = Json::array();
-  for (const CurvePoint& p : curve)
+  for (const HistoryPoint& p : curve)
     points.push_back(
         {p.shape, number(p.objective), number(p.mean_travel), number(p.run_out), p.volume_fraction});
   json["curve"] = std::move(points);
@@ -226,9 +226,9 @@ std::string loaded_json(const BoardView<dim>& view, int load_case, int position)
   return text + "\"fields\":" + loaded_wheel(solved(shape, load_case), position) + '}';
 }
 
-template std::string loaded_json(const BoardView<2>&, int, int);
-template std::string loaded_json(const BoardView<3>&, int, int);
-template std::string frame_json(const BoardView<2>&, const std::vector<CurvePoint>&, const FrameQuery&);
-template std::string frame_json(const BoardView<3>&, const std::vector<CurvePoint>&, const FrameQuery&);
+template decltype(loaded_json<2>) loaded_json<2>;
+template decltype(loaded_json<3>) loaded_json<3>;
+template decltype(frame_json<2>) frame_json<2>;
+template decltype(frame_json<3>) frame_json<3>;
 
 }  // namespace wheelwright

@@ -18,7 +18,7 @@ struct FrameQuery {
 /// A view of a run as JSON: state, settings, the shape's numbers, the new points of the curves and, if dim =
 /// 2, the outline (that of a proposed shape, if there is one). In SI units, named at the end of the keys.
 template <int dim>
-std::string frame_json(const BoardView<dim>& view, const std::vector<CurvePoint>& curve,
+std::string frame_json(const BoardView<dim>& view, const std::vector<HistoryPoint>& curve,
                        const FrameQuery& query);
 
 /// The newest shape at one load position of a load case as JSON, deformed and coloured by stress: its number,

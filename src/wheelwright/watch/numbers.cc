@@ -38,7 +38,7 @@ Json warnings_json(const Case& c, const DescribedWheel<dim>& before, const Descr
     if (auto text = deformation_warning(now.loaded->summary.deformation); !text.empty())
       texts.push_back(std::move(text));
   if (now.outline)
-    for (auto& text : feature_warnings(c, now.outline->clearances)) texts.push_back(std::move(text));
+    for (auto& text : feature_warnings(c, *now.outline)) texts.push_back(std::move(text));
   if (auto text = roughness_warning(c, roughness(now), roughness(before)); !text.empty())
     texts.push_back(std::move(text));
   for (auto& text : warnings(c)) texts.push_back(std::move(text));

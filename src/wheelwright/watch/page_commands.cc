@@ -27,7 +27,7 @@ std::optional<PageCommands::Answer> PageCommands::answer(long ticket, std::chron
 
 void PageCommands::note(const CommandDone& done) {
   constexpr std::size_t max_answers = 256;
-  if (!done.command || !is_for_pages(*done.command)) return;
+  if (!is_for_pages(done.command)) return;
   {
     const std::scoped_lock lock(mutex_);
     answers_.push_back({++done_, done.was_executed, done.text});

@@ -141,13 +141,9 @@ Expected<std::filesystem::path, NoProduct> save_design(const std::filesystem::pa
   return file;
 }
 
-template Expected<std::string, NoProduct> design_report(const std::filesystem::path&, const LevelSet<2>&,
-                                                        const WatchedShape<2>&);
-template Expected<std::filesystem::path, NoProduct> save_design(const std::filesystem::path&,
-                                                                const std::string&, const WatchedShape<2>&);
-template Expected<std::string, NoProduct> design_report(const std::filesystem::path&, const LevelSet<3>&,
-                                                        const WatchedShape<3>&);
-template Expected<std::filesystem::path, NoProduct> save_design(const std::filesystem::path&,
-                                                                const std::string&, const WatchedShape<3>&);
+template decltype(design_report<2>) design_report<2>;
+template decltype(save_design<2>) save_design<2>;
+template decltype(design_report<3>) design_report<3>;
+template decltype(save_design<3>) save_design<3>;
 
 }  // namespace wheelwright

@@ -17,12 +17,9 @@ struct Loop {
 
 Vec<2> mean_point(const Contour& contour) {
   Vec<2> mean{};
-  for (const Vec<2>& x : contour.points)
-    for (int d = 0; d < 2; ++d) mean[d] += x[d] / static_cast<double>(contour.points.size());
+  for (const Vec<2>& x : contour.points) mean += x / static_cast<double>(contour.points.size());
   return mean;
 }
-
-double distance(const Vec<2>& a, const Vec<2>& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
 
 /// Whether the loop has images in all other sectors; if so, these are consumed too.
 bool take_images(std::vector<Loop>& loops, Loop& first, const PolarGrid<2>& grid) {

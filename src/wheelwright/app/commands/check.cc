@@ -50,8 +50,8 @@ class CheckCommand : public Subcommand {
     }
     const auto change = in_dimension_of(*c, [&](auto dim) { return volume_change_of_saved_shape<dim>(*c); });
     if (change) print("{}\n", text(*change));
-    const auto clearances = initial_clearances(*c);
-    if (clearances) print_lines(stdout, clearance_report(*clearances));
+    const auto measures = initial_outline_measures(*c);
+    if (measures) print_lines(stdout, clearance_report(measures->clearances));
     const auto planes = plane_comparison(*c);
     if (planes && *planes) print_lines(stdout, comparison_text(**planes));
     print_warnings(stdout, *c);
@@ -59,9 +59,9 @@ class CheckCommand : public Subcommand {
       if (const auto warning = plane_warning(*c, **planes)) print_warning(stdout, *warning);
     if (const auto warning = predicted_warning(*c)) print_warning(stdout, *warning);
     for (const std::string& warning : bound_warnings(*c)) print_warning(stdout, warning);
-    if (!clearances) print_warning(stdout, "walls and gaps were not measured: " + clearances.failure().what);
-    if (clearances)
-      for (const std::string& warning : feature_warnings(*c, *clearances)) print_warning(stdout, warning);
+    if (!measures) print_warning(stdout, "walls and gaps were not measured: " + measures.failure().what);
+    if (measures)
+      for (const std::string& warning : feature_warnings(*c, *measures)) print_warning(stdout, warning);
     return exit_done;
   }
 

@@ -1,6 +1,7 @@
 "use strict";
 const data = JSON.parse(document.getElementById("data").textContent);
 const svg = document.getElementById("plot");
+const { known, shown, scale } = plotAxes;
 const frame = { left: 90, right: 880, top: 20, bottom: 460 };
 
 function element(parent, name, attributes, text) {
@@ -12,8 +13,6 @@ function element(parent, name, attributes, text) {
   return made;
 }
 
-const known = value => value !== null && value !== undefined;
-const shown = (value, quantity) => known(value) ? Number((value * quantity.factor).toPrecision(5)).toString() : "";
 const report = design => `designs/${design.name}/report.html`;
 
 function thumbnail(parent, design) {
@@ -22,24 +21,6 @@ function thumbnail(parent, design) {
   picture.setAttribute("viewBox", "-50 -50 100 100");
   element(picture, "path", { d: design.outline });
   parent.appendChild(picture);
-}
-
-// The multiples of 1, 2 or 5 times a power of ten between two values, about `n` of them.
-function ticks(low, high, n) {
-  const least = (high - low) / n, power = 10 ** Math.floor(Math.log10(least));
-  const step = [1, 2, 5, 10].map(f => f * power).find(s => s >= least * (1 - 1e-9));
-  const all = [];
-  for (let k = Math.ceil(low / step); k * step <= high; ++k) all.push(Number((k * step).toPrecision(12)));
-  return all;
-}
-
-function scale(values, from, to) {
-  let low = Math.min(...values), high = Math.max(...values);
-  const more = high > low ? 0.06 * (high - low) : 0.01 * Math.abs(high) || 1;
-  low -= more;
-  high += more;
-  const of = value => from + (value - low) / (high - low) * (to - from);
-  return { of, ticks: ticks(low, high, 6) };
 }
 
 function card(parent, design, x, y) {

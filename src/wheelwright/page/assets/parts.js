@@ -1,9 +1,9 @@
 "use strict";
-// Drawing code shared by all pages.
+// Elements, painters and charts shared by the pages of runs.
 const parts = (() => {
+  const { curveColours } = colours;
+  const { wheelMesh, wheelSurface, surfacePositions, holeEdges, colourings } = meshes;
   const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-  const curveColours = ["#1f77b4", "#d1495b", "#2e8b57", "#b8860b", "#9565c4", "#008b8b", "#c2549d", "#737a88"];
-  const degree = 180 / Math.PI;
 
   // --- Elements ---------------------------------------------------------------------------------------
 
@@ -14,54 +14,7 @@ const parts = (() => {
     return made;
   }
 
-  // At most five digits, without unusual exponents.
-  function shown(value) {
-    if (!Number.isFinite(value)) return "-";
-    const size = Math.abs(value);
-    return size !== 0 && (size < 1e-4 || size >= 1e7) ? value.toExponential(3) : String(Number(value.toPrecision(5)));
-  }
-
-  function change(before, after) {
-    const percents = 100 * (after / before - 1);
-    if (!(Math.abs(percents) < 1e5)) return "";  // before is negligible
-    return Math.abs(percents) < 0.005 ? "0 %" : `${percents > 0 ? "+" : "\u2212"}${Math.abs(percents).toFixed(2)} %`;
-  }
-
-  const minutes = (seconds) => seconds < 100 ? `${seconds.toFixed(1)} s` : `${(seconds / 60).toFixed(1)} min`;
-
-  // --- Colours ----------------------------------------------------------------------------------------
-
-  const viridis = [[68, 1, 84], [72, 40, 120], [62, 74, 137], [49, 104, 142], [38, 130, 142], [31, 158, 137],
-    [53, 183, 121], [109, 205, 89], [180, 222, 44], [253, 231, 37]];
-  const gradient = `linear-gradient(90deg, ${viridis.map((c) => `rgb(${c})`).join(", ")})`;
-
   // --- The wheel loaded -------------------------------------------------------------------------------
-
-  function bytes(text) {
-    return Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
-  }
-
-  // One mesh of the whole wheel, from the mesh of sector 0 and the fields of all sectors.
-  function wheelMesh(run) {
-    const { fields, sectors } = run;
-    const points = new Float32Array(bytes(fields.points).buffer);
-    const triangles = new Uint32Array(bytes(fields.triangles).buffer);
-    const n = points.length / 2;
-    const places = new Float32Array(2 * n * sectors), corners = new Uint32Array(triangles.length * sectors);
-    for (let s = 0; s < sectors; ++s) {
-      const c = Math.cos(2 * Math.PI * s / sectors), d = Math.sin(2 * Math.PI * s / sectors);
-      for (let k = 0; k < n; ++k) {
-        places[2 * (s * n + k)] = c * points[2 * k] - d * points[2 * k + 1];
-        places[2 * (s * n + k) + 1] = d * points[2 * k] + c * points[2 * k + 1];
-      }
-      for (let k = 0; k < triangles.length; ++k) corners[s * triangles.length + k] = triangles[k] + s * n;
-    }
-    const positions = fields.positions.map((p) => ({
-      azimuth: p.azimuth_rad,
-      x: new Int16Array(bytes(p.x).buffer), y: new Int16Array(bytes(p.y).buffer), stress: bytes(p.root_of_stress),
-    }));
-    return { places, corners, positions };
-  }
 
   const vertexShader = `
     attribute vec2 place; attribute float dx, dy, stress;
@@ -132,14 +85,9 @@ const parts = (() => {
         attribute("stress", position.stress, 1, gl.UNSIGNED_BYTE, true)]);
     };
     take(run.fields);
-    const texture = gl.createTexture(), ramp = new Uint8Array(4 * 256);
-    for (let k = 0; k < 256; ++k) {
-      const at = k / 255 * (viridis.length - 1), low = Math.min(Math.floor(at), viridis.length - 2);
-      for (let c = 0; c < 3; ++c) ramp[4 * k + c] = viridis[low][c] + (at - low) * (viridis[low + 1][c] - viridis[low][c]);
-      ramp[4 * k + 3] = 255;
-    }
+    const texture = gl.createTexture();
     gl.bindTexture(gl.TEXTURE_2D, texture);
-    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, 256, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, ramp);
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, 256, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, colours.texture());
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE);
@@ -172,76 +120,6 @@ const parts = (() => {
 
   // --- The lit surface of a wheel in 3D ---------------------------------------------------------------
 
-  // The surface of the whole wheel from that of sector 0. Rim, tread, side faces and holes have separate vertices where
-  // they meet, so that the edges between them are sharp: `sources` contains the original vertices.
-  function wheelSurface(run) {
-    const { fields, sectors } = run;
-    const points = new Float32Array(bytes(fields.points).buffer);
-    const triangles = new Uint32Array(bytes(fields.triangles).buffer), parts = bytes(fields.parts);
-    const n = points.length / 3, places = new Float32Array(points.length * sectors);
-    for (let s = 0; s < sectors; ++s) {
-      const c = Math.cos(2 * Math.PI * s / sectors), d = Math.sin(2 * Math.PI * s / sectors);
-      for (let k = 0; k < n; ++k) {
-        const x = points[3 * k], y = points[3 * k + 1];
-        places.set([c * x - d * y, d * x + c * y, points[3 * k + 2] - run.width_m / 2], 3 * (s * n + k));
-      }
-    }
-    const known = new Map(), sources = [], corners = new Uint32Array(triangles.length * sectors);
-    for (let s = 0; s < sectors; ++s)
-      for (let k = 0; k < triangles.length; ++k) {
-        const vertex = (triangles[k] + s * n) % (n * sectors), key = 4 * vertex + parts[Math.floor(k / 3)];
-        if (!known.has(key)) {
-          known.set(key, sources.length);
-          sources.push(vertex);
-        }
-        corners[s * triangles.length + k] = known.get(key);
-      }
-    return { places, sources, corners, positions: surfacePositions(fields) };
-  }
-
-  // The edges of the holes on the side faces, as consecutive pairs of points.
-  function holeEdges(run) {
-    const { fields, sectors } = run, { places } = wheelSurface(run);
-    const triangles = new Uint32Array(bytes(fields.triangles).buffer), parts = bytes(fields.parts), n = places.length / 3;
-    const sides = (part, visit) => {
-      for (let s = 0; s < sectors; ++s)
-        for (let k = 0; k < triangles.length; ++k) {
-          if (parts[Math.floor(k / 3)] !== part) continue;
-          const next = k % 3 === 2 ? k - 2 : k + 1;
-          const ends = [k, next].map((corner) => (triangles[corner] + s * n / sectors) % n);
-          visit(ends, Math.min(...ends) * n + Math.max(...ends));
-        }
-    };
-    const ofHoles = new Set(), edges = [];
-    sides(3, (ends, key) => ofHoles.add(key));
-    sides(2, (ends, key) => {
-      if (ofHoles.has(key)) for (const vertex of ends) edges.push(...places.subarray(3 * vertex, 3 * vertex + 3));
-    });
-    return new Float32Array(edges);
-  }
-
-  const surfacePositions = (fields) => fields.positions.map((p) => ({
-    azimuth: p.azimuth_rad, stress: bytes(p.root_of_stress),
-    displacement: [p.x, p.y, p.z].map((text) => new Int16Array(bytes(text).buffer)),
-  }));
-
-  // What the colours can represent: a fraction in [0, 1] at a vertex, and the value at the end of the scale.
-  function colourings(run, surface) {
-    const { full_stress_Pa, full_displacement_m } = run.fields;
-    const size = ({ displacement }, v) => Math.hypot(...displacement.map((d) => d[v])) / 32767;
-    const most = Math.max(...surface.positions.map((position) => {
-      let largest = 0;
-      for (let v = 0; v < position.stress.length; ++v) largest = Math.max(largest, size(position, v));
-      return largest;
-    }));
-    return {
-      stress: { name: "von Mises stress, on a scale of square roots", end: full_stress_Pa * 1e-6, unit: "MPa", power: 2,
-        share: (position, v) => position.stress[v] / 255 },
-      displacement: { name: "displacement", end: most * full_displacement_m * 1e3, unit: "mm", power: 1,
-        share: (position, v) => most > 0 ? size(position, v) / most : 0 },
-    };
-  }
-
   // Draws the lit wheel on the ground: a function of the position, the magnification and the colouring. The wheel turns
   // under the mouse or a finger, and with the arrow keys; the mouse's wheel and + and - change its size.
   function surfacePainter(canvas, run) {
@@ -255,7 +133,7 @@ const parts = (() => {
     const wheel = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.MeshPhongMaterial(
       { vertexColors: THREE.VertexColors, shininess: 25, specular: 0x222222,
         polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 4 }));
-    let surface = null, full = 0, places = null, colours = null;
+    let surface = null, full = 0, places = null, shades = null;
     const kinds = {};
     // Replaces the shape by another one of the same wheel, or its load positions; visible when painted.
     let taken = {};
@@ -264,14 +142,14 @@ const parts = (() => {
       taken = fields;
       surface = isSame ? { ...surface, positions: surfacePositions(fields) } : wheelSurface({ ...run, fields });
       full = fields.full_displacement_m / 32767;
-      Object.assign(kinds, colourings({ fields }, surface));
+      Object.assign(kinds, colourings(fields, surface.positions));
       if (isSame) return;
       places = new Float32Array(3 * surface.sources.length);
-      colours = new Float32Array(3 * surface.sources.length);
+      shades = new Float32Array(3 * surface.sources.length);
       wheel.geometry.dispose();
       wheel.geometry = new THREE.BufferGeometry();
       wheel.geometry.setAttribute("position", new THREE.BufferAttribute(places, 3));
-      wheel.geometry.setAttribute("color", new THREE.BufferAttribute(colours, 3));
+      wheel.geometry.setAttribute("color", new THREE.BufferAttribute(shades, 3));
       wheel.geometry.setIndex(new THREE.BufferAttribute(surface.corners, 1));
     };
     take(run.fields);
@@ -310,9 +188,7 @@ const parts = (() => {
         places[3 * k] = surface.places[3 * v] + factor * dx[v];
         places[3 * k + 1] = surface.places[3 * v + 1] + factor * dy[v];
         places[3 * k + 2] = surface.places[3 * v + 2] + factor * dz[v];
-        const at = Math.min(1, brightened * share(position, v)) * (viridis.length - 1), low = Math.min(Math.floor(at), viridis.length - 2);
-        for (let c = 0; c < 3; ++c)
-          colours[3 * k + c] = (viridis[low][c] + (at - low) * (viridis[low + 1][c] - viridis[low][c])) / 255;
+        colours.write(shades, 3 * k, Math.min(1, brightened * share(position, v)), 255);
       });
       wheel.rotation.z = before.rotation.z = -Math.PI / 2 - position.azimuth;  // the ground's azimuth points down
       for (const name of ["position", "color"]) wheel.geometry.getAttribute(name).needsUpdate = true;
@@ -391,11 +267,6 @@ const parts = (() => {
     context.stroke();
   }
 
-  const roundMagnification = (wanted) => {
-    const power = 10 ** Math.floor(Math.log10(wanted));
-    return Math.max(1, [1, 2, 5, 10].map((m) => m * power).filter((m) => m <= wanted * 1.0001).pop());
-  };
-
   // --- The wheel as it is cut -------------------------------------------------------------------------
 
   // Edges as a path: closed polylines with x and y alternating, y up, each `copies` times around the axle.
@@ -467,6 +338,5 @@ const parts = (() => {
     return { figure, start, update, recolour };
   }
 
-  return { bytes, colour, curveColours, degree, element, shown, change, minutes, viridis, gradient, wheelPainter,
-    surfacePainter, drawGround, roundMagnification, wheelPath, paintWheel, chart };
+  return { colour, element, wheelPainter, surfacePainter, drawGround, wheelPath, paintWheel, chart };
 })();

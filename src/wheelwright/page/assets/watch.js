@@ -1,6 +1,7 @@
 "use strict";
 (() => {
-  const { colour, element, shown, change, chart, gradient } = parts;
+  const { colour, element, chart } = parts, { shown, short, briefChange, degree, words } = formats;
+  const { numberRows, boundRow, clauses, newest, pictureKey, isSameShape, sameOutline, travelCurve } = frameChanges;
   const at = (id) => document.getElementById(id);
 
   // --- The server -------------------------------------------------------------------------------------
@@ -41,7 +42,7 @@
   // --- What is shown ----------------------------------------------------------------------------------
 
   let frame = null;   // the newest view of the run
-  const curve = [];   // [shape, objective, mean travel, run-out, volume fraction] of the shapes so far
+  let curve = [];     // [shape, objective, mean travel, run-out, volume fraction] of the shapes so far
   const mostPoints = 4000;
   const wheel = at("wheel");
   const isSolid = () => frame?.wheel?.dimension === 3;
@@ -90,7 +91,7 @@
   let picturesPainted = 0;
   let held = false;      // whether the wheel stands still because the user points at it
   let loadCase = 0;
-  const peaks = [];      // the stress peaks of the last load positions, for a scale that does not flicker
+  let peaks = [];        // the stress peaks of the last load positions, for a scale that does not flicker
 
   const position = () => Number(at("position").value);
   const brightest = () => Math.max(...peaks, 1e-9);
@@ -100,13 +101,13 @@
     const n = frame.travel_m.length;
     at("position").max = n - 1;
     if (picture && pressed("roll") && !held && !edit) at("position").value = (position() + 1) % n;
-    const key = `${frame.shape_version} ${loadCase} ${position()}`;
+    const key = pictureKey({ shape_version: frame.shape_version, load_case: loadCase, position: position() });
     if (picture?.key === key) return;
     if (!pictures.has(key)) {
       const loaded = await (await ask(`/loaded?position=${position()}&case=${loadCase}`)).json();
       if (!loaded.fields) return;
-      loaded.key = `${loaded.shape_version} ${loaded.load_case} ${loaded.position}`;
-      if (pictures.size > 0 && !loaded.key.startsWith(`${picture.shape_version} ${picture.load_case} `)) pictures = new Map();
+      loaded.key = pictureKey(loaded);
+      if (pictures.size > 0 && !isSameShape(loaded, picture)) pictures = new Map();
       pictures.set(loaded.key, loaded);
       if (held && picture && loaded.position !== picture.position) at("position").value = picture.position;
       else await showPicture(loaded);
@@ -117,8 +118,7 @@
 
   async function showPicture(loaded) {
     picture = loaded;
-    peaks.push(loaded.fields.full_stress_Pa);
-    if (peaks.length > loaded.n_positions) peaks.splice(0, peaks.length - loaded.n_positions);
+    peaks = newest(peaks, [loaded.fields.full_stress_Pa], loaded.n_positions);
     if (isSolid()) await takeSolid(loaded);
     else scene.take(loaded);
     paint();
@@ -133,15 +133,12 @@
 
   function showLegend() {
     at("legend").hidden = false;
-    const end = brightest() * 1e-6;
-    at("scale-labels").replaceChildren(...[0, 0.25, 1].map((share) =>
-      element("span", {}, `${Number((share * end).toPrecision(3))}${share === 1 ? " MPa" : ""}`)));
+    at("scale-labels").replaceChildren(...formats.scaleLabels([0, 0.25, 1], { end: brightest() * 1e-6, unit: "MPa" })
+      .map((text) => element("span", {}, text)));
     const magnified = isSolid() ? solid?.magnified : scene.magnified;
     at("loaded-text").textContent = `von Mises stress${magnified ? `; displacements \u00d7 ${magnified}` : "; not deformed"}`;
   }
-  document.querySelector(".legend .scale").style.background = gradient;
-
-  const sameOutline = (a, b) => a === b || JSON.stringify(a) === JSON.stringify(b);
+  document.querySelector(".legend .scale").style.background = colours.gradient;
 
   function paint() {
     if (isSolid()) return solid?.draw?.();
@@ -198,8 +195,7 @@
   }
 
   function paintSolid({ fields, travel_m: travel }) {
-    const wanted = 0.03 * frame.wheel.outer_radius_m / Math.max(travel, 1e-12), before = solid.factor;
-    solid.factor = before > 0.4 * wanted && before < 1.25 * wanted ? before : parts.roundMagnification(wanted);
+    solid.factor = formats.steadyMagnification(solid.factor, travel, frame.wheel.outer_radius_m);
     solid.magnified = pressed("load") ? solid.factor : 0;
     solid.paint?.(0, solid.magnified, "stress", Math.sqrt(fields.full_stress_Pa / brightest()));
   }
@@ -283,43 +279,13 @@
   let edit = null;    // { tool, from, to, path, hole } while the user draws, in metres of the body
   let cursor = null;  // position of the keyboard cursor
 
-  const { turned } = stage;
-  const distance = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1]);
-
-  function isInside(points, [x, y]) {
-    let inside = false;
-    for (let i = 0, j = points.length - 1; i < points.length; j = i++)
-      if ((points[i][1] > y) !== (points[j][1] > y) &&
-          x < (points[j][0] - points[i][0]) * (y - points[i][1]) / (points[j][1] - points[i][1]) + points[i][0])
-        inside = !inside;
-    return inside;
-  }
-
-  // The edge of the hole around a point, with its centre.
-  function holeAt(point) {
-    for (const { in_every_sector, points_um } of frame.outline) {
-      const n = in_every_sector ? frame.wheel.sectors : 1;
-      for (let s = 0; s < n; ++s) {
-        const angle = 2 * Math.PI * s / n, edge = [];
-        for (let k = 0; k < points_um.length; k += 2) edge.push(turned([points_um[k] * 1e-6, points_um[k + 1] * 1e-6], angle));
-        if (!isInside(edge, point) || isInside(edge, [0, 0])) continue;
-        const sum = edge.reduce(([a, b], [x, y]) => [a + x, b + y], [0, 0]);
-        return { edge, centre: sum.map((v) => v / edge.length) };
-      }
-    }
-    return null;
-  }
-
   const holeTools = ["move", "resize", "fill"];
   const tipRadius = () => Number(tip.value) * 1e-3;
-  const factorOf = ({ from, to, hole }) =>
-    Math.min(5, Math.max(0.2, distance(to, hole.centre) / Math.max(1e-3, distance(from, hole.centre))));
-  const addedRadius = ({ from, to }) => Math.max(tipRadius(), distance(from, to));
 
   function begin(point) {
     const kind = tool();
     if (kind === "look" || !frame?.outline) return;
-    const hole = holeTools.includes(kind) ? holeAt(point) : null;
+    const hole = holeTools.includes(kind) ? edits.holeAt(point, frame.outline, frame.wheel.sectors) : null;
     if (holeTools.includes(kind) && !hole) {
       tell("there is no hole here", true);
       return;
@@ -332,38 +298,17 @@
   function go(point) {
     if (edit.isGiven) return;
     edit.to = point;
-    const least = Math.max(0.3 * tipRadius(), 1e-3);
-    if (edit.tool in brushes && distance(point, edit.path.at(-1)) > least && edit.path.length < 200) edit.path.push(point);
+    if (edit.tool in brushes && edits.extendsPath(edit, point, tipRadius())) edit.path.push(point);
     paint();
   }
 
   // Sends the command for what was drawn. It remains on the picture until the shape includes it.
   async function finish() {
-    const done = edit, { from, to } = done;
-    const by = [to[0] - from[0], to[1] - from[1]];
-    const command = {
-      move: () => ({ do: "move_hole", at_m: from, by_m: by, scale: 1 }),
-      resize: () => ({ do: "move_hole", at_m: from, by_m: [0, 0], scale: factorOf(done) }),
-      add: () => ({ do: "paint", as: "hole", path_m: [from], radius_m: addedRadius(done) }),
-      fill: () => ({ do: "fill_hole", at_m: from }),
-      paint: () => ({ do: "paint", as: "material", path_m: done.path, radius_m: tipRadius() }),
-      erase: () => ({ do: "paint", as: "hole", path_m: done.path, radius_m: tipRadius() }),
-    }[done.tool]();
+    const done = edit;
     done.isGiven = true;
-    await give(command);
+    await give(edits.commandOf(done, tipRadius()));
     if (edit === done) edit = null;
     paint();
-  }
-
-  // The edge drawn by a tool, in one sector.
-  function editedEdge({ tool: kind, from, to, hole }) {
-    if (kind === "move") return hole.edge.map(([x, y]) => [x + to[0] - from[0], y + to[1] - from[1]]);
-    if (kind === "resize") {
-      const f = factorOf(edit), [cx, cy] = hole.centre;
-      return hole.edge.map(([x, y]) => [cx + f * (x - cx), cy + f * (y - cy)]);
-    }
-    const radius = addedRadius(edit);
-    return Array.from({ length: 48 }, (_, k) => [from[0] + radius * Math.cos(k * Math.PI / 24), from[1] + radius * Math.sin(k * Math.PI / 24)]);
   }
 
   function paintEdit(context) {
@@ -382,7 +327,7 @@
         context.fillStyle = colour("--material");
         context.fill(scene.addLine(new Path2D(), edit.hole.edge, sectors));
       }
-      const path = scene.addLoose(new Path2D(), editedEdge(edit), sectors);
+      const path = scene.addLoose(new Path2D(), edits.edgeOf(edit, tipRadius()), sectors);
       context.fillStyle = colour("--paper");
       context.fill(path);
       context.strokeStyle = colour("--accent");
@@ -543,14 +488,7 @@
   // Numbers that take longer than a shape are requested at the page's pace: the whole table of the newest shape, a few
   // times a second. Those of the contact come with every shape.
   const betweenNumbers = 400;  // ms
-  const labels = { volume_fraction: "material", mass_kg: "mass", mean_travel_m: "travel", stiffness_N_per_m: "stiffness",
-    run_out_m: "run-out", force_variation_N: "force variation", peak_pressure_Pa: "peak pressure",
-    patch_length_m: "patch length", peak_von_mises_Pa: "peak stress", largest_strain: "largest strain",
-    minimum_wall_m: "thinnest wall", minimum_gap_m: "narrowest gap" };
-  const ids = { volume_fraction: "volume", mean_travel_m: "travel", run_out_m: "run-out", peak_pressure_Pa: "pressure" };
   let numbers = null, numbersOf = "", numbersAsked = 0;
-
-  const short = (value) => Number.isFinite(value) ? shown(Number(value.toPrecision(4))) : "\u2013";
 
   function numberRow(id, name, unit, before, now, text = short) {
     let row = at(`row-${id}`);
@@ -562,7 +500,7 @@
     const [, first, last, difference] = row.children;
     first.textContent = text(before);
     last.textContent = text(now);
-    difference.textContent = change(before, now).replace(/(\.\d)\d* %/, "$1\u2009%");
+    difference.textContent = briefChange(before, now);
   }
 
   function showNumbers() {
@@ -571,34 +509,25 @@
     at("numbers-of").replaceChildren("of shape ", element("span", { id: "number-shape" }, String(frame.shape)),
       frame.settings.load_cases.length > 0 ? ` in ${frame.settings.load_cases[loadCase].name}` : "");
     if (!numbers || numbers.load_case !== loadCase) return;
-    const now = { ...numbers.now, volume_fraction: frame.numbers.volume_fraction,
-      ...(frame.load_case === loadCase ? frame.contact_numbers : {}) };
-    for (const { key, unit, factor } of numbers.rows) {
-      if (!(key in labels) || (numbers.now[key] === undefined && numbers.before[key] === undefined)) continue;
-      numberRow(ids[key] ?? key, labels[key], unit, numbers.before[key] * factor, now[key] * factor);
-      // Grey: of an earlier shape.
-      const isLate = numbers.shape_version !== frame.shape_version && now[key] === numbers.now[key] && key !== "volume_fraction";
-      at(`number-${ids[key] ?? key}`).classList.toggle("late", isLate);
+    for (const { id, name, unit, before, now, isLate } of numberRows(frame, numbers, loadCase)) {
+      numberRow(id, name, unit, before, now);
+      at(`number-${id}`).classList.toggle("late", isLate);  // grey
     }
   }
 
   function showBounds() {
     at("bounds").hidden = frame.bounds.length === 0;
-    at("bound-rows").replaceChildren(...frame.bounds.map(({ name, shown: { unit, factor }, value, relation, limit, is_kept: isKept }) => {
-      const sign = { "<": "\u2264", ">": "\u2265", "=": "=" }[relation];
-      return element("tr", {}, element("th", { scope: "row" }, `${name.replaceAll("_", " ")} `, element("span", { class: "unit" }, unit)),
-        element("td", { class: "now" }, short(value * factor)), element("td", {}, `${sign} ${short(limit * factor)}`),
-        element("td", { class: isKept ? "good" : "bad" }, isKept ? "met" : "not met"));
-    }));
+    at("bound-rows").replaceChildren(...frame.bounds.map(boundRow).map(({ name, unit, value, limit, isKept }) =>
+      element("tr", {}, element("th", { scope: "row" }, `${name} `, element("span", { class: "unit" }, unit)),
+        element("td", { class: "now" }, value), element("td", {}, limit),
+        element("td", { class: isKept ? "good" : "bad" }, isKept ? "met" : "not met"))));
   }
 
   function showWarnings() {
     at("warnings").hidden = numbers.warnings.length === 0;
-    at("warnings").replaceChildren(...numbers.warnings.map((text) => {
-      // The rest after the first clause is shown on demand.
-      const told = text[0].toUpperCase() + text.slice(1), end = told.search(/[.;] /) + 1;
-      return element("li", {}, ...(end === 0 ? [told] : [element("details", {}, element("summary", {}, told.slice(0, end)), told.slice(end))]));
-    }));
+    // The rest after the first clause is shown on demand.
+    at("warnings").replaceChildren(...numbers.warnings.map(clauses).map(([told, rest]) =>
+      element("li", {}, ...(rest === "" ? [told] : [element("details", {}, element("summary", {}, told), rest)]))));
   }
 
   async function followNumbers() {
@@ -689,10 +618,8 @@
   const betweenCurves = 250;
   let curvesDrawn = 0, curvesOf = 0;  // when, and of which view
   function showCurves() {
-    const { sectors } = frame.wheel, n = frame.travel_m.length;
     charts.objective.update([{ name: "objective", x: curve.map((p) => p[0]), y: curve.map((p) => p[1]) }]);
-    charts.travel.update([{ name: "travel", x: [...frame.travel_m, 0].map((_, k) => k * 360 / sectors / n),
-      y: [...frame.travel_m, frame.travel_m[0]].map((t) => t * 1e3) }]);
+    charts.travel.update([{ name: "travel", ...travelCurve(frame.travel_m, frame.wheel.sectors) }]);
     charts.pressure.update([{ name: "pressure", x: frame.pressure.x_m.map((x) => x * 1e3),
       y: frame.pressure.pressure_Pa.map((p) => p * 1e-6) }]);
     if (frame.force_curve)
@@ -726,10 +653,9 @@
       wanted = v;
       send();
     };
-    const rounded = (v) => Number(v.toPrecision(digits)), told = (v) => Math.abs(v) >= 1e5 ? v.toExponential().replace("e+", "e") : String(v);
     slider.addEventListener("input", () => {
-      const v = rounded(fromSlider(Number(slider.value)));
-      number.value = told(v);
+      const v = sliders.rounded(fromSlider(Number(slider.value)), digits);
+      number.value = sliders.entry(v);
       want(v);
     });
     number.addEventListener("change", () => {
@@ -741,27 +667,20 @@
     return () => {
       if (isSending || document.activeElement === number) return;
       const v = value();
-      number.value = told(rounded(v));
+      number.value = sliders.entry(sliders.rounded(v, digits));
       slider.value = toSlider(v);
     };
   }
-
-  const linear = (low, high) => ({ toSlider: (v) => 1000 * (v - low) / (high - low),
-    fromSlider: (s) => low + (high - low) * s / 1000 });
-  // 0, and then powers from low to high.
-  const powers = (low, high) => ({
-    toSlider: (v) => v <= 0 ? 0 : Math.min(1000, Math.max(1, 1000 * Math.log(v / low) / Math.log(high / low))),
-    fromSlider: (s) => s === 0 ? 0 : low * (high / low) ** (s / 1000) });
 
   let settings = null;
   // The load of the chosen load case: mass, force or travel, and the rest.
   function loadSettings() {
     const one = (id, text, key, factor, first) => setting(id, text, {
-      ...(first > 0 ? linear(0.1 * first * factor, 3 * first * factor) : linear(3 * first * factor, -3 * first * factor)),
+      ...sliders.aroundLoad(first * factor),
       digits: 4, value: () => loadOf()[key] * factor, command: (v) => newLoad({ [key]: v / factor }) });
     const load = loadOf();
     const others = [["horizontal", "horizontal force [N]", "horizontal_force_N", 1], ["lateral", "lateral force [N]", "lateral_force_N", 1],
-      ["camber", "camber [\u00b0]", "camber_rad", parts.degree], ["torque", "torque [N m]", "torque_N_m", 1],
+      ["camber", "camber [\u00b0]", "camber_rad", degree], ["torque", "torque [N m]", "torque_N_m", 1],
       ["speed", "speed [m/s]", "speed_m_per_s", 1]];
     return [load.travel_m === undefined ? one("force", "load [N]", "force_N", 1, load.force_N)
       : one("travel", "travel [mm]", "travel_m", 1e3, load.travel_m),
@@ -769,23 +688,23 @@
   }
 
   function makeSettings() {
-    const weight = (id, text, key, low, high) => setting(id, text, { ...powers(low, high), digits: 3,
+    const weight = (id, text, key, low, high) => setting(id, text, { ...sliders.powers(low, high), digits: 3,
       value: () => frame.settings.weights[key], command: (v) => ({ do: "weights", [key]: v }) });
     // Minimum widths; 0 allows any.
     const ring = frame.wheel.outer_radius_m - frame.wheel.inner_radius_m;
-    const width = (id, text, key) => setting(id, text, { ...linear(0, 250 * ring), digits: 3,
+    const width = (id, text, key) => setting(id, text, { ...sliders.linear(0, 250 * ring), digits: 3,
       value: () => 1e3 * frame.settings[key], command: (v) => ({ do: "widths", [key]: v * 1e-3 }) });
     const relations = { at_least: "\u2265", at_most: "\u2264", equals: "=" };
     const limit = (k, bound, relation) => {
-      const { unit, factor } = bound.shown, first = bound[relation] * factor;
-      const range = first > 0 ? powers(0.2 * first, 5 * first) : linear(-1, 1);
-      return setting(`bound-${k}-${relation}`, `${bound.quantity.replaceAll("_", " ")} ${relations[relation]} [${unit}]`, {
-        ...range, digits: 4, value: () => frame.settings.bounds[k][relation] * factor,
+      const { unit, factor } = bound.shown;
+      return setting(`bound-${k}-${relation}`, `${words(bound.quantity)} ${relations[relation]} [${unit}]`, {
+        ...sliders.aroundBound(bound[relation] * factor), digits: 4,
+        value: () => frame.settings.bounds[k][relation] * factor,
         command: (v) => ({ do: "bound", constraint: k, [relation]: v / factor }) });
     };
     settings = [
       ...loadSettings(),
-      setting("volume", "material [%]", { ...linear(20, 95), digits: 3,
+      setting("volume", "material [%]", { ...sliders.linear(20, 95), digits: 3,
         value: () => 100 * frame.settings.volume_target, command: (v) => ({ do: "volume", target: v / 100 }) }),
       weight("stiff", "weight: stiff", "strain_energy", 0.01, 100),
       weight("even", "weight: even", "uniformity_dual", 1, 1e5),
@@ -844,8 +763,7 @@
     framed = performance.now();
     version = news.version;
     curveVersion = news.wheel ? version : 0;  // the first shape includes the edges of the initial one
-    curve.push(...news.curve);
-    if (curve.length > mostPoints) curve.splice(0, curve.length - mostPoints);
+    curve = newest(curve, news.curve, mostPoints);
     showState();
     if (!frame.wheel) return;
     if (!settings) startWheel();

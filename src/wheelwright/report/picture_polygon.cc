@@ -1,4 +1,4 @@
-#include "wheelwright/report/outline.h"
+#include "wheelwright/report/picture_polygon.h"
 
 #include <fmt/format.h>
 

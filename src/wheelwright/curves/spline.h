@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "wheelwright/drawing/curve.h"
+#include "wheelwright/curves/curve.h"
 
 namespace wheelwright {
 

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <array>
 #include <variant>
 #include <vector>
 
-#include "wheelwright/base/vec.h"
+#include "wheelwright/curves/bezier.h"
 
 namespace wheelwright::cad {
 
@@ -34,10 +33,6 @@ using Curve = std::variant<Line, Arc, Spline>;
 Vec<2> start_of(const Curve& curve);
 Vec<2> end_of(const Curve& curve);
 
-struct CurvePoint {
-  Vec<2> position;
-  Vec<2> velocity;  ///< derivative with respect to the parameter
-};
 /// At a parameter in [0, 1].
 CurvePoint at(const Curve& curve, double parameter);
 
@@ -52,18 +47,9 @@ Curve reversed(const Curve& curve);
 /// loop add up to the area that it encloses, positive if it runs counter-clockwise.
 double area_under(const Curve& curve);
 
-/// Four control points of a cubic.
-using Bezier = std::array<Vec<2>, 4>;
-
 /// The curve as cubics, one after the other: exact for lines and splines. Arcs deviate by at most
 /// `tolerance` [m].
 std::vector<Bezier> beziers(const Curve& curve, double tolerance);
-
-/// Number of equal steps of the parameter whose chords deviate from the cubic by at most `tolerance` [m].
-int n_chords(const Bezier& cubic, double tolerance);
-
-/// The cubic as cubics over equal parts of its parameter.
-std::vector<Bezier> divided(const Bezier& cubic, int parts);
 
 /// Points on the curve from its start up to, but without, its end. The chords between them and to the end
 /// deviate from the curve by at most `tolerance` [m].

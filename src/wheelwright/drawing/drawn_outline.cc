@@ -1,4 +1,4 @@
-#include "wheelwright/drawing/outline.h"
+#include "wheelwright/drawing/drawn_outline.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ struct Pieces {
   std::vector<int> loops;
 };
 
-Pieces pieces(const Outline& outline) {
+Pieces pieces(const DrawnOutline& outline) {
   Pieces result;
   for (std::size_t loop = 0; loop < outline.loops.size(); ++loop)
     for (const Curve& curve : outline.loops[loop].curves)
@@ -37,21 +37,21 @@ std::vector<Point> joints(const Curve& a, const Curve& b) {
 
 }  // namespace
 
-Outline Outline::mapped(const Affine& map) const {
-  Outline result = *this;
-  for (Loop& loop : result.loops)
+DrawnOutline DrawnOutline::mapped(const Affine& map) const {
+  DrawnOutline result = *this;
+  for (DrawnLoop& loop : result.loops)
     for (Curve& curve : loop.curves) curve = curve.mapped(map);
   return result;
 }
 
-Box box(const Outline& outline) {
+Box box(const DrawnOutline& outline) {
   Box result;
-  for (const Loop& loop : outline.loops)
+  for (const DrawnLoop& loop : outline.loops)
     for (const Curve& curve : loop.curves) result.add(curve.box());
   return result;
 }
 
-std::vector<Crossing> crossings(const Outline& outline, int most) {
+std::vector<Crossing> crossings(const DrawnOutline& outline, int most) {
   const double size = box(outline).size(), tolerance = touching * size;
   const Pieces divided = pieces(outline);
   const auto& curves = divided.curves;

@@ -5,7 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "wheelwright/drawing/affine.h"
+#include "wheelwright/curves/affine.h"
+#include "wheelwright/curves/bezier.h"
 
 namespace wheelwright {
 
@@ -54,7 +55,7 @@ class Curve {
   double relative_height() const;
 
   std::pair<Curve, Curve> split(double s) const;
-  Curve between(double s0, double s1) const;
+  Curve part(double s0, double s1) const;
   Curve reversed() const;
   Curve mapped(const Affine& map) const;
   /// The same curve with other ends, which must be almost the same points.
@@ -67,6 +68,7 @@ class Curve {
   enum class Kind { line, arc, cubic };
 
   Curve(Kind kind, const Point& start, const Point& end) : kind_(kind), start_(start), end_(end) {}
+  Bezier cubic() const { return {start_, control_[0], control_[1], end_}; }
   bool is_circular() const;
   NearestOnCurve nearest_end(const Point& x) const;
   NearestOnCurve nearest_on_line(const Point& x) const;

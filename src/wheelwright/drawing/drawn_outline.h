@@ -8,16 +8,16 @@
 namespace wheelwright {
 
 /// A closed chain of curves: each starts where the previous one ends, and the first where the last one ends.
-struct Loop {
+struct DrawnLoop {
   std::vector<Curve> curves;
   std::string place;  ///< where it comes from, for messages, e.g. "line 12, <path id=\"a\">"; may be empty
 };
 
 /// The plane region inside an odd number of its loops (even-odd rule) [m].
-struct Outline {
-  std::vector<Loop> loops;
+struct DrawnOutline {
+  std::vector<DrawnLoop> loops;
 
-  Outline mapped(const Affine& map) const;
+  DrawnOutline mapped(const Affine& map) const;
 };
 
 /// A place where the loops of an outline cross, touch or lie on each other.
@@ -27,7 +27,7 @@ struct Crossing {
 };
 
 /// Places where the loops of an outline meet, at most `most` of them.
-std::vector<Crossing> crossings(const Outline& outline, int most);
+std::vector<Crossing> crossings(const DrawnOutline& outline, int most);
 
 /// The distances from the axle between which a curve lies [m].
 struct RadialExtent {
@@ -37,6 +37,6 @@ struct RadialExtent {
 RadialExtent radial_extent(const Curve& curve);
 
 /// The smallest rectangle that contains the outline, or a slightly larger one.
-Box box(const Outline& outline);
+Box box(const DrawnOutline& outline);
 
 }  // namespace wheelwright

@@ -1,8 +1,11 @@
-#include "wheelwright/drawing/spline.h"
+#include "wheelwright/curves/spline.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
+
+#include "wheelwright/curves/blossom.h"
 
 namespace wheelwright {
 
@@ -10,21 +13,6 @@ namespace {
 
 /// The point (x, y) with weight w is (w x, w y, w).
 using Homogeneous = Vec<3>;
-
-/// The polar form (blossom) of the polynomial on the span from knots[span] at `arguments`, by de Boor's
-/// algorithm.
-template <int n>
-Vec<n> blossom(int degree, const std::vector<double>& knots, const std::vector<Vec<n>>& points, int span,
-               const std::vector<double>& arguments) {
-  std::vector<Vec<n>> d(points.begin() + (span - degree), points.begin() + span + 1);
-  for (int level = 1; level <= degree; ++level)
-    for (int i = degree; i >= level; --i) {
-      const double low = knots[span - degree + i], high = knots[i + span + 1 - level];
-      const double share = (arguments[level - 1] - low) / (high - low);
-      for (int k = 0; k < n; ++k) d[i][k] = (1 - share) * d[i - 1][k] + share * d[i][k];
-    }
-  return d[degree];
-}
 
 /// The control points of the Bezier pieces of a B-spline, one piece for each span that is not empty.
 template <int n>
@@ -34,11 +22,13 @@ std::vector<std::vector<Vec<n>>> bezier_points(int degree, const std::vector<dou
   for (int span = degree; span < static_cast<int>(points.size()); ++span) {
     const double low = knots[span], high = knots[span + 1];
     if (!(low < high)) continue;
+    const std::span around(&knots[span - degree + 1], 2 * degree);
     std::vector<Vec<n>> control;
     for (int j = 0; j <= degree; ++j) {
       std::vector<double> arguments(degree, low);
       for (int i = 0; i < j; ++i) arguments[degree - 1 - i] = high;
-      control.push_back(blossom<n>(degree, knots, points, span, arguments));
+      control.push_back(blossom(std::vector(points.begin() + (span - degree), points.begin() + span + 1),
+                                around, arguments));
     }
     if (!pieces.empty()) control.front() = pieces.back().back();
     pieces.push_back(std::move(control));
@@ -85,10 +75,8 @@ class RationalPiece {
     Homogeneous derivative{};
     const auto degree = static_cast<double>(d.size() - 1);
     for (; d.size() > 1; d.pop_back()) {
-      if (d.size() == 2)
-        for (int k = 0; k < 3; ++k) derivative[k] = degree * (d[1][k] - d[0][k]);
-      for (std::size_t i = 0; i + 1 < d.size(); ++i)
-        for (int k = 0; k < 3; ++k) d[i][k] = (1 - s) * d[i][k] + s * d[i + 1][k];
+      if (d.size() == 2) derivative = degree * (d[1] - d[0]);
+      for (std::size_t i = 0; i + 1 < d.size(); ++i) d[i] = (1 - s) * d[i] + s * d[i + 1];
     }
     return {d[0], derivative};
   }

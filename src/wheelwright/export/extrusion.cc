@@ -1,4 +1,4 @@
-#include "wheelwright/export/solid_mesh.h"
+#include "wheelwright/export/extrusion.h"
 
 #include "wheelwright/cad/triangulation.h"
 

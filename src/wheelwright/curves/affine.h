@@ -6,12 +6,6 @@ namespace wheelwright {
 
 using Point = Vec<2>;
 
-inline Point operator+(const Point& a, const Point& b) { return {a[0] + b[0], a[1] + b[1]}; }
-inline Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1]}; }
-inline Point operator*(double factor, const Point& a) { return {factor * a[0], factor * a[1]}; }
-inline double cross(const Point& a, const Point& b) { return a[0] * b[1] - a[1] * b[0]; }
-inline double distance(const Point& a, const Point& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
-
 /// The map x -> (xx x + xy y + dx, yx x + yy y + dy) of the plane.
 struct Affine {
   double xx = 1, xy = 0, yx = 0, yy = 1, dx = 0, dy = 0;

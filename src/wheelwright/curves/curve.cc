@@ -1,4 +1,4 @@
-#include "wheelwright/drawing/curve.h"
+#include "wheelwright/curves/curve.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,6 @@ namespace wheelwright {
 namespace {
 
 double clamped(double s) { return std::clamp(s, 0.0, 1.0); }
-
-Point middle(const Point& a, const Point& b, double s) { return a + s * (b - a); }
 
 }  // namespace
 
@@ -58,7 +56,7 @@ Curve Curve::circle_arc(const Point& centre, double radius, double from, double 
 }
 
 Curve Curve::quadratic(const Point& p0, const Point& p1, const Point& p2) {
-  return cubic(p0, middle(p0, p1, 2.0 / 3), middle(p2, p1, 2.0 / 3), p2);
+  return cubic(p0, between(p0, p1, 2.0 / 3), between(p2, p1, 2.0 / 3), p2);
 }
 
 Curve Curve::cubic(const Point& p0, const Point& p1, const Point& p2, const Point& p3) {
@@ -70,13 +68,12 @@ Curve Curve::cubic(const Point& p0, const Point& p1, const Point& p2, const Poin
 Point Curve::at(double s) const {
   if (s == 0) return start_;
   if (s == 1) return end_;
-  if (kind_ == Kind::line) return middle(start_, end_, s);
+  if (kind_ == Kind::line) return between(start_, end_, s);
   if (kind_ == Kind::arc) {
     const double t = from_ + s * (to_ - from_);
     return control_[0] + std::cos(t) * control_[1] + std::sin(t) * control_[2];
   }
-  const double r = 1 - s;
-  return r * r * r * start_ + 3 * r * r * s * control_[0] + 3 * r * s * s * control_[1] + s * s * s * end_;
+  return wheelwright::at(cubic(), s).position;
 }
 
 Point Curve::derivative(double s) const {
@@ -85,9 +82,7 @@ Point Curve::derivative(double s) const {
     const double speed = to_ - from_, t = from_ + s * speed;
     return speed * (std::cos(t) * control_[2] - std::sin(t) * control_[1]);
   }
-  const double r = 1 - s;
-  return 3 * (r * r * (control_[0] - start_) + 2 * r * s * (control_[1] - control_[0]) +
-              s * s * (end_ - control_[1]));
+  return wheelwright::at(cubic(), s).velocity;
 }
 
 Point Curve::second_derivative(double s) const {
@@ -126,9 +121,9 @@ Box Curve::box() const {
 }
 
 bool Curve::is_circular() const {
-  const double a2 = dot<2>(control_[1], control_[1]), b2 = dot<2>(control_[2], control_[2]);
+  const double a2 = dot(control_[1], control_[1]), b2 = dot(control_[2], control_[2]);
   constexpr double rounding = 1e-14;
-  return std::abs(a2 - b2) <= rounding * a2 && std::abs(dot<2>(control_[1], control_[2])) <= rounding * a2;
+  return std::abs(a2 - b2) <= rounding * a2 && std::abs(dot(control_[1], control_[2])) <= rounding * a2;
 }
 
 bool Curve::is_simple() const {
@@ -136,7 +131,7 @@ bool Curve::is_simple() const {
   constexpr double largest_turn = std::numbers::pi / 4;
   // What is no number counts as simple, which ends the division of a curve.
   const auto turn = [](const Point& a, const Point& b) {
-    return std::abs(std::atan2(cross(a, b), dot<2>(a, b)));
+    return std::abs(std::atan2(cross(a, b), dot(a, b)));
   };
   if (kind_ == Kind::arc)
     return !(std::abs(to_ - from_) > largest_turn || turn(derivative(0), derivative(1)) > largest_turn);
@@ -149,7 +144,7 @@ bool Curve::is_simple() const {
 double Curve::relative_height() const {
   if (kind_ == Kind::line) return 0;
   const Point chord = end_ - start_;
-  const double length2 = dot<2>(chord, chord);
+  const double length2 = dot(chord, chord);
   if (length2 == 0) return 0;
   const auto height = [&](const Point& p) { return std::abs(cross(chord, p - start_)) / length2; };
   // An arc is highest where its parameter is in the middle.
@@ -163,15 +158,15 @@ std::pair<Curve, Curve> Curve::split(double s) const {
   if (kind_ == Kind::arc) {
     first.to_ = second.from_ = from_ + s * (to_ - from_);
   } else if (kind_ == Kind::cubic) {
-    const Point left = middle(start_, control_[0], s), top = middle(control_[0], control_[1], s),
-                right = middle(control_[1], end_, s);
-    first.control_ = {left, middle(left, top, s), {}};
-    second.control_ = {middle(top, right, s), right, {}};
+    const Point left = between(start_, control_[0], s), top = between(control_[0], control_[1], s),
+                right = between(control_[1], end_, s);
+    first.control_ = {left, between(left, top, s), {}};
+    second.control_ = {between(top, right, s), right, {}};
   }
   return {first, second};
 }
 
-Curve Curve::between(double s0, double s1) const {
+Curve Curve::part(double s0, double s1) const {
   if (s0 <= 0) return s1 >= 1 ? *this : split(s1).first;
   const Curve rest = split(s0).second;
   return s1 >= 1 ? rest : rest.split((s1 - s0) / (1 - s0)).first.with_ends(at(s0), at(s1));
@@ -205,26 +200,26 @@ Curve Curve::with_ends(const Point& start, const Point& end) const {
 
 NearestOnCurve Curve::nearest_end(const Point& x) const {
   const Point to_start = x - start_, to_end = x - end_;
-  const double from_start = dot<2>(to_start, to_start), from_end = dot<2>(to_end, to_end);
+  const double from_start = dot(to_start, to_start), from_end = dot(to_end, to_end);
   return from_start <= from_end ? NearestOnCurve{0, from_start} : NearestOnCurve{1, from_end};
 }
 
 NearestOnCurve Curve::nearest_on_line(const Point& x) const {
   const Point along = end_ - start_;
-  const double length2 = dot<2>(along, along);
-  const double s = length2 > 0 ? clamped(dot<2>(x - start_, along) / length2) : 0;
+  const double length2 = dot(along, along);
+  const double s = length2 > 0 ? clamped(dot(x - start_, along) / length2) : 0;
   const Point away = x - at(s);
-  return {s, dot<2>(away, away)};
+  return {s, dot(away, away)};
 }
 
 NearestOnCurve Curve::nearest_on_circle(const Point& x) const {
   const Point from_centre = x - control_[0];
-  const double angle = std::atan2(dot<2>(from_centre, control_[2]), dot<2>(from_centre, control_[1]));
+  const double angle = std::atan2(dot(from_centre, control_[2]), dot(from_centre, control_[1]));
   const double span = to_ - from_, half = 0.5 * span;
   // The angle nearest to the middle of the arc.
   const double offset = std::remainder(angle - from_ - half, 2 * std::numbers::pi);
   if (std::abs(offset) > std::abs(half)) return nearest_end(x);
-  const double away = norm<2>(from_centre) - norm<2>(control_[1]);
+  const double away = norm(from_centre) - norm(control_[1]);
   return {0.5 + offset / span, away * away};
 }
 
@@ -235,9 +230,9 @@ double Curve::stationary_between(const Point& x, double low, double high) const 
   constexpr int most_steps = 60;
   for (int step = 0; step < most_steps && high - low > 1e-15; ++step) {
     const Point away = at(s) - x, first = derivative(s);
-    const double slope = dot<2>(away, first);
+    const double slope = dot(away, first);
     (slope < 0 ? low : high) = s;
-    const double curvature = dot<2>(first, first) + dot<2>(away, second_derivative(s));
+    const double curvature = dot(first, first) + dot(away, second_derivative(s));
     double next = s - slope / curvature;
     if (!(next > low && next < high)) next = 0.5 * (low + high);
     if (std::abs(next - s) < 1e-15) return next;
@@ -251,14 +246,14 @@ NearestOnCurve Curve::nearest(const Point& x) const {
   if (kind_ == Kind::arc && is_circular()) return nearest_on_circle(x);
   NearestOnCurve best = nearest_end(x);
   constexpr int intervals = 4;
-  double slope = dot<2>(start_ - x, derivative(0));
+  double slope = dot(start_ - x, derivative(0));
   for (int i = 1; i <= intervals; ++i) {
     const double s = static_cast<double>(i) / intervals;
-    const double next = dot<2>(at(s) - x, derivative(s));
+    const double next = dot(at(s) - x, derivative(s));
     if (slope < 0 && next >= 0) {
       const double found = stationary_between(x, s - 1.0 / intervals, s);
       const Point away = at(found) - x;
-      if (const double distance2 = dot<2>(away, away); distance2 < best.distance2) best = {found, distance2};
+      if (const double distance2 = dot(away, away); distance2 < best.distance2) best = {found, distance2};
     }
     slope = next;
   }
@@ -302,7 +297,7 @@ bool solve_meeting(const Curve& a, const Curve& b, double& s, double& t) {
   for (int step = 0; step < most_steps; ++step) {
     const Point gap = b.at(t) - a.at(s), da = a.derivative(s), db = b.derivative(t);
     const double area = cross(da, db);
-    if (std::abs(area) <= 1e-14 * norm<2>(da) * norm<2>(db)) return false;
+    if (std::abs(area) <= 1e-14 * norm(da) * norm(db)) return false;
     const double ds = cross(gap, db) / area, dt = cross(gap, da) / area;
     s = std::clamp(s + ds, -0.1, 1.1);
     t = std::clamp(t + dt, -0.1, 1.1);

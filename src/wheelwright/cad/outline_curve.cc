@@ -1,10 +1,11 @@
-#include "wheelwright/cad/curve.h"
+#include "wheelwright/cad/outline_curve.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <type_traits>
+#include <span>
 
+#include "wheelwright/curves/blossom.h"
 #include "wheelwright/geometry/cell_map.h"
 
 namespace wheelwright::cad {
@@ -12,54 +13,19 @@ namespace {
 
 constexpr int degree = 3;
 
-Vec<2> between(const Vec<2>& a, const Vec<2>& b, double t) {
-  return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])};
-}
-
 Vec<2> on_circle(const Arc& arc, double azimuth) {
-  return {arc.centre[0] + arc.radius * std::cos(azimuth), arc.centre[1] + arc.radius * std::sin(azimuth)};
-}
-
-double cross(const Vec<2>& a, const Vec<2>& b) { return a[0] * b[1] - a[1] * b[0]; }
-
-/// The blossom of the polynomial in the span [knots[k], knots[k + 1]): symmetric, affine in each argument,
-/// and equal to the spline where all arguments are.
-Vec<2> blossom(const Spline& spline, int k, std::array<double, degree> arguments) {
-  std::array<Vec<2>, degree + 1> d;
-  for (int i = 0; i <= degree; ++i) d[i] = spline.points[k - degree + i];
-  for (int level = 1; level <= degree; ++level)
-    for (int i = degree; i >= level; --i) {
-      const double low = spline.knots[k - degree + i], high = spline.knots[k + i + 1 - level];
-      d[i] = between(d[i - 1], d[i], (arguments[level - 1] - low) / (high - low));
-    }
-  return d[degree];
+  return arc.centre + arc.radius * Vec<2>{std::cos(azimuth), std::sin(azimuth)};
 }
 
 int n_spans(const Spline& spline) { return static_cast<int>(spline.points.size()) - degree; }
 
 Bezier bezier_of_span(const Spline& spline, int span) {
-  const int k = span + degree;
-  const double a = spline.knots[k], b = spline.knots[k + 1];
-  return {blossom(spline, k, {a, a, a}), blossom(spline, k, {a, a, b}), blossom(spline, k, {a, b, b}),
-          blossom(spline, k, {b, b, b})};
-}
-
-CurvePoint at(const Bezier& p, double t) {
-  const auto level = [t](const auto& points) {
-    std::array<Vec<2>, std::tuple_size_v<std::remove_cvref_t<decltype(points)>> - 1> result;
-    for (std::size_t i = 0; i < result.size(); ++i) result[i] = between(points[i], points[i + 1], t);
-    return result;
-  };
-  const auto line = level(level(p));
-  return {between(line[0], line[1], t),
-          {degree * (line[1][0] - line[0][0]), degree * (line[1][1] - line[0][1])}};
-}
-
-double area_under(const Bezier& p) {
-  // The integrals of the products of the Bernstein polynomials and their derivatives, times 10.
-  return (6 * cross(p[0], p[1]) + 3 * cross(p[0], p[2]) + cross(p[0], p[3]) + 3 * cross(p[1], p[2]) +
-          3 * cross(p[1], p[3]) + 6 * cross(p[2], p[3])) /
-         20;
+  Bezier points;
+  std::copy_n(spline.points.begin() + span, degree + 1, points.begin());
+  const std::span knots(&spline.knots[span + 1], 2 * degree);
+  const double a = knots[degree - 1], b = knots[degree];
+  const auto point = [&](std::array<double, degree> arguments) { return blossom(points, knots, arguments); };
+  return {point({a, a, a}), point({a, a, b}), point({a, b, b}), point({b, b, b})};
 }
 
 /// Number of equal parts of an arc whose chords deviate by at most `tolerance`.
@@ -73,8 +39,7 @@ int n_chords(const Arc& arc, double tolerance) {
 Bezier bezier_of_arc(const Arc& arc, double begin, double sweep) {
   const double handle = 4.0 / 3 * std::tan(sweep / 4) * arc.radius;
   const auto along = [&](double azimuth, double length) {
-    const Vec<2> p = on_circle(arc, azimuth);
-    return Vec<2>{p[0] - length * std::sin(azimuth), p[1] + length * std::cos(azimuth)};
+    return on_circle(arc, azimuth) + length * Vec<2>{-std::sin(azimuth), std::cos(azimuth)};
   };
   return {on_circle(arc, begin), along(begin, handle), along(begin + sweep, -handle),
           on_circle(arc, begin + sweep)};
@@ -107,8 +72,7 @@ std::vector<Bezier> beziers_of(const Spline& spline) {
 
 CurvePoint at(const Curve& curve, double parameter) {
   if (const auto* line = std::get_if<Line>(&curve))
-    return {between(line->start, line->end, parameter),
-            {line->end[0] - line->start[0], line->end[1] - line->start[1]}};
+    return {between(line->start, line->end, parameter), line->end - line->start};
   if (const auto* arc = std::get_if<Arc>(&curve)) {
     const double azimuth = arc->begin + parameter * arc->sweep;
     return {on_circle(*arc, azimuth),
@@ -121,9 +85,8 @@ CurvePoint at(const Curve& curve, double parameter) {
   const auto above = std::upper_bound(first + 1, last, u);
   const int span = static_cast<int>(above - first) - 1;
   const double low = *(above - 1), length = *above - low;
-  CurvePoint point = at(bezier_of_span(spline, span), (u - low) / length);
-  for (double& v : point.velocity) v *= whole / length;
-  return point;
+  const auto [position, velocity] = wheelwright::at(bezier_of_span(spline, span), (u - low) / length);
+  return {position, whole / length * velocity};
 }
 
 Vec<2> start_of(const Curve& curve) {
@@ -168,10 +131,10 @@ double area_under(const Curve& curve) {
   if (const auto* line = std::get_if<Line>(&curve)) return 0.5 * cross(line->start, line->end);
   if (const auto* arc = std::get_if<Arc>(&curve)) {
     const Vec<2> a = start_of(curve), b = end_of(curve);
-    return 0.5 * (arc->radius * arc->radius * arc->sweep + cross(arc->centre, {b[0] - a[0], b[1] - a[1]}));
+    return 0.5 * (arc->radius * arc->radius * arc->sweep + cross(arc->centre, b - a));
   }
   double sum = 0;
-  for (const Bezier& piece : beziers_of(std::get<Spline>(curve))) sum += area_under(piece);
+  for (const Bezier& piece : beziers_of(std::get<Spline>(curve))) sum += wheelwright::area_under(piece);
   return sum;
 }
 
@@ -179,28 +142,6 @@ std::vector<Bezier> beziers(const Curve& curve, double tolerance) {
   if (const auto* line = std::get_if<Line>(&curve)) return beziers_of(*line);
   if (const auto* arc = std::get_if<Arc>(&curve)) return beziers_of(*arc, tolerance);
   return beziers_of(std::get<Spline>(curve));
-}
-
-int n_chords(const Bezier& p, double tolerance) {
-  double second = 0;  // bound of the second derivative
-  for (int i = 0; i < 2; ++i)
-    second = std::max(second, 6 * std::hypot(p[i][0] - 2 * p[i + 1][0] + p[i + 2][0],
-                                             p[i][1] - 2 * p[i + 1][1] + p[i + 2][1]));
-  return std::max(1, static_cast<int>(std::ceil(std::sqrt(second / (8 * tolerance)))));
-}
-
-std::vector<Bezier> divided(const Bezier& cubic, int parts) {
-  std::vector<Bezier> result;
-  for (int i = 0; i < parts; ++i) {
-    const CurvePoint a = at(cubic, static_cast<double>(i) / parts),
-                     b = at(cubic, static_cast<double>(i + 1) / parts);
-    const double third = 1.0 / (degree * parts);
-    result.push_back({a.position,
-                      {a.position[0] + third * a.velocity[0], a.position[1] + third * a.velocity[1]},
-                      {b.position[0] - third * b.velocity[0], b.position[1] - third * b.velocity[1]},
-                      b.position});
-  }
-  return result;
 }
 
 std::vector<Vec<2>> flattened(const Curve& curve, double tolerance) {
@@ -212,8 +153,9 @@ std::vector<Vec<2>> flattened(const Curve& curve, double tolerance) {
     for (int i = 0; i < n; ++i) points.push_back(on_circle(*arc, arc->begin + i * arc->sweep / n));
   } else {
     for (const Bezier& piece : beziers_of(std::get<Spline>(curve))) {
-      const int n = n_chords(piece, tolerance);
-      for (int i = 0; i < n; ++i) points.push_back(at(piece, static_cast<double>(i) / n).position);
+      const int n = wheelwright::n_chords(piece, tolerance);
+      for (int i = 0; i < n; ++i)
+        points.push_back(wheelwright::at(piece, static_cast<double>(i) / n).position);
     }
   }
   return points;

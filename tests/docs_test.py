@@ -1,0 +1,94 @@
+"""Tests that the documents are consistent: tables are complete, and links, paths and names of tests exist. usage:
+docs_test.py, from the repository's top folder."""
+
+import re
+import unittest
+from pathlib import Path
+
+PAGES = sorted([Path("README.md"), Path("CONTRIBUTING.md"), Path("CHANGELOG.md"), *Path("docs").glob("*.md")])
+CODE_BLOCK = re.compile(r"^ *```.*?^ *```$|^(?:    [^\n]*\n)+", re.MULTILINE | re.DOTALL)
+
+
+def text_of(page):
+    return page.read_text(encoding="utf-8")
+
+
+def prose(page):
+    """Without blocks of code; with as many lines."""
+    return CODE_BLOCK.sub(lambda block: re.sub(r"[^\n]", "", block[0]), text_of(page))
+
+
+def anchors(page):
+    """Those that GitHub gives headings."""
+    found = set()
+    for heading in re.findall(r"^#+ (.*)$", prose(page), re.MULTILINE):
+        plain = re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", heading).replace("`", "").lower()
+        anchor = re.sub(r"[^\w\- ]", "", plain).replace(" ", "-")
+        number = 1
+        while anchor + (f"-{number}" if number > 1 else "") in found:
+            number += 1
+        found.add(anchor + (f"-{number}" if number > 1 else ""))
+    return found
+
+
+def cells(line):
+    """Of a line of a table: neither bars in code nor escaped ones separate."""
+    plain = re.sub(r"`[^`]*`|\\\||\$[^$]*\$", "", line.strip())
+    return plain.strip("|").count("|") + 1
+
+
+class Docs(unittest.TestCase):
+
+    def test_every_line_of_a_table_has_as_many_cells_as_its_head(self):
+        n_tables, wrong = 0, []
+        for page in PAGES:
+            head = None
+            for number, line in enumerate(prose(page).splitlines(), 1):
+                if not line.lstrip().startswith("|"):
+                    head = None
+                    continue
+                if head is None:
+                    head = cells(line)
+                    n_tables += 1
+                if cells(line) != head:
+                    wrong.append(f"{page}:{number}: {line[:100]}")
+        self.assertEqual(wrong, [])
+        self.assertGreater(n_tables, 20)
+
+    def test_links_lead_to_files_and_headings_that_exist(self):
+        n_links, wrong = 0, []
+        for page in PAGES:
+            for target in re.findall(r"\]\(([^)\s]+)\)|<img src=\"([^\"]+)\"", prose(page)):
+                path, _, anchor = (target[0] or target[1]).partition("#")
+                if re.match(r"\w+:", path):
+                    continue
+                n_links += 1
+                file = (page.parent / path).resolve() if path else page.resolve()
+                if not file.exists() or (anchor and anchor not in anchors(file)):
+                    wrong.append(f"{page}: {path}#{anchor}")
+        self.assertEqual(wrong, [])
+        self.assertGreater(n_links, 100)
+
+    def test_source_files_and_scripts_that_are_named_exist(self):
+        n_names, wrong = 0, []
+        for page in PAGES:
+            if page.name == "CHANGELOG.md":  # which also tells of what was removed
+                continue
+            for name in re.findall(r"`((?:[\w.-]+/)+[\w.-]+\.(?:cc|h|py|sh|txt|cmake|toml|js)|scripts/[\w-]+)`", text_of(page)):
+                if "NAME" in name or name.startswith(("build/", "runs/", "designs/", "failure/")):  # of the user
+                    continue
+                n_names += 1
+                if not any((top / name).exists() for top in (Path("."), Path("src"), Path("src/wheelwright"), Path("tests"))):
+                    wrong.append(f"{page}: {name}")
+        self.assertEqual(wrong, [])
+        self.assertGreater(n_names, 100)
+
+    def test_generated_parts_have_a_begin_and_an_end(self):
+        for page in PAGES:
+            marks = re.findall(r"^<!-- ([\w-]+): (begin|end) -->$", text_of(page), re.MULTILINE)
+            self.assertEqual(marks[::2], [(name, "begin") for name, _ in marks[::2]], page)
+            self.assertEqual(marks[1::2], [(name, "end") for name, _ in marks[::2]], page)
+
+
+if __name__ == "__main__":
+    unittest.main()

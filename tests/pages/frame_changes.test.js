@@ -1,0 +1,100 @@
+"use strict";
+const test = require("node:test");
+const assert = require("node:assert/strict");
+const { frameChanges } = require("./scripts.js").load("formats", "frame_changes");
+
+const near = (a, b) => assert.ok(Math.abs(a - b) <= 1e-12 * Math.max(1, Math.abs(b)), `${a} instead of ${b}`);
+
+// The numbers of shape 7 and a frame of shape 8, in load case 0.
+const numbers = { shape_version: 7, load_case: 0,
+  rows: [{ key: "volume_fraction", unit: "%", factor: 100 }, { key: "mean_travel_m", unit: "mm", factor: 1e3 },
+    { key: "peak_von_mises_Pa", unit: "MPa", factor: 1e-6 }, { key: "mass_kg", unit: "kg", factor: 1 },
+    { key: "unknown_to_the_page", unit: "", factor: 1 }],
+  before: { volume_fraction: 0.7, mean_travel_m: 2e-3, peak_von_mises_Pa: 3e6 },
+  now: { volume_fraction: 0.6, mean_travel_m: 1.5e-3, peak_von_mises_Pa: 2e6, unknown_to_the_page: 1 } };
+const frame = { shape_version: 8, load_case: 0, numbers: { volume_fraction: 0.55 }, contact_numbers: { mean_travel_m: 1.25e-3 } };
+const rowsById = (...of) => Object.fromEntries(frameChanges.numberRows(...of).map((row) => [row.id, row]));
+
+test("numbers that come with the frame replace those of the earlier shape", () => {
+  const { volume, travel, peak_von_mises_Pa: stress } = rowsById(frame, numbers, 0);
+  near(volume.now, 55);
+  near(travel.now, 1.25);
+  near(travel.before, 2);
+  near(stress.now, 2);
+});
+
+test("only what is left of the earlier shape is late", () => {
+  const { volume, travel, peak_von_mises_Pa: stress } = rowsById(frame, numbers, 0);
+  assert.deepEqual([volume.isLate, travel.isLate, stress.isLate], [false, false, true]);
+  for (const row of frameChanges.numberRows({ ...frame, shape_version: 7 }, numbers, 0)) assert.equal(row.isLate, false);
+});
+
+test("a frame of another load case changes only what belongs to the shape", () => {
+  const { volume, travel } = rowsById({ ...frame, load_case: 1 }, numbers, 0);
+  near(volume.now, 55);
+  near(travel.now, 1.5);
+  assert.equal(travel.isLate, true);
+});
+
+test("quantities without a value or a label have no row, and the others keep their order", () => {
+  assert.deepEqual(frameChanges.numberRows(frame, numbers, 0).map(({ id }) => id), ["volume", "travel", "peak_von_mises_Pa"]);
+});
+
+test("a quantity that only the initial shape has keeps its row", () => {
+  const { now } = numbers, rest = { ...now };
+  delete rest.peak_von_mises_Pa;
+  const { peak_von_mises_Pa: stress } = rowsById(frame, { ...numbers, now: rest }, 0);
+  near(stress.before, 3);
+  assert.ok(Number.isNaN(stress.now));
+});
+
+test("a bound is shown in its unit, with its relation", () => {
+  const bound = { name: "run_out_in_kerb", shown: { unit: "mm", factor: 1e3 }, value: 0.004, limit: 0.005, is_kept: true };
+  const signs = Object.entries({ "<": "\u2264", ">": "\u2265", "=": "=" });
+  for (const [relation, sign] of signs) {
+    const row = frameChanges.boundRow({ ...bound, relation });
+    assert.deepEqual([Number(row.value), row.limit, row.unit, row.isKept], [4, `${sign} 5`, "mm", true]);
+    assert.doesNotMatch(row.name, /_/);
+  }
+});
+
+test("the clauses of a warning together are the warning", () => {
+  for (const text of ["strains reach 12 %; the theory is linear; see below", "One sentence. And 2.5 more.", "no end", "it is 2.5 times"]) {
+    const [first, rest] = frameChanges.clauses(text);
+    assert.equal((first + rest).toLowerCase(), text.toLowerCase());
+    assert.equal(first[0], first[0].toUpperCase());
+  }
+  assert.deepEqual(frameChanges.clauses("a; b; c"), ["A;", " b; c"]);
+  assert.deepEqual(frameChanges.clauses("it is 2.5 times"), ["It is 2.5 times", ""]);
+});
+
+test("a list keeps its newest entries", () => {
+  const list = [1, 2, 3];
+  assert.deepEqual(frameChanges.newest(list, [4, 5], 4), [2, 3, 4, 5]);
+  assert.deepEqual(frameChanges.newest(list, [], 4), [1, 2, 3]);
+  assert.deepEqual(frameChanges.newest([], [1, 2, 3], 2), [2, 3]);
+  assert.deepEqual(list, [1, 2, 3]);
+});
+
+test("pictures differ by shape, load case and position", () => {
+  const picture = { shape_version: 1, load_case: 2, position: 3 };
+  for (const other of [{ shape_version: 12, load_case: 2 }, { load_case: 1 }, { position: 31 }])
+    assert.notEqual(frameChanges.pictureKey({ ...picture, ...other }), frameChanges.pictureKey(picture));
+  assert.ok(frameChanges.isSameShape(picture, { ...picture, position: 4 }));
+  assert.ok(!frameChanges.isSameShape(picture, { ...picture, load_case: 1 }));
+  assert.ok(!frameChanges.isSameShape(picture, { ...picture, shape_version: 2 }));
+});
+
+test("outlines are the same if all their points are", () => {
+  const outline = () => [{ in_every_sector: true, points_um: [1, 2, 3] }];
+  assert.ok(frameChanges.sameOutline(outline(), outline()));
+  assert.ok(!frameChanges.sameOutline(outline(), [{ in_every_sector: true, points_um: [1, 2, 4] }]));
+  assert.ok(!frameChanges.sameOutline(outline(), null));
+});
+
+test("the curve of the travel closes after one sector", () => {
+  const { x, y } = frameChanges.travelCurve([1e-3, 2e-3, 3e-3], 12);
+  [0, 10, 20, 30].forEach((azimuth, k) => near(x[k], azimuth));
+  [1, 2, 3, 1].forEach((travel, k) => near(y[k], travel));
+  assert.equal(x.length, y.length);
+});

@@ -1,0 +1,50 @@
+"use strict";
+const test = require("node:test");
+const assert = require("node:assert/strict");
+const { reportCurves } = require("./scripts.js").load("formats", "colours", "report_curves");
+
+const rolling = { azimuths_rad: [0, Math.PI / 18], travel_at_load_m: [1e-3, 2e-3], force_at_travel_N: null, travel_harmonics_m: [3e-6, 1e-6],
+  force_harmonics_N: null, peak_von_mises_Pa: [1e6, 4e6] };
+const run = { dimension: 2, sectors: 18, objective: { unit: "J/m", factor: 10 },
+  history: { iteration: [0, 1], "objective [J/m]": [5, null], "strain_energy [J/m]": [5, null], "uniformity_l2 [Pa]": [1, 2],
+    "mean_travel [m]": [null, null], "volume fraction": [0.7, 0.6] },
+  rolling: { before: null, after: rolling },
+  pressures: [{ x_m: [-1e-3, 1e-3], pressure_Pa: [0, 2e6] }, { x_m: [0], pressure_Pa: [1e6] }] };
+const starting = (title) => reportCurves.all(run).filter((chart) => chart.title.startsWith(title));
+
+test("only what has values is drawn", () => {
+  assert.equal(starting("Mean travel").length, 0);
+  assert.equal(starting("Radial force").length, 0);
+  assert.equal(starting("Spectrum").length, 1);
+  assert.equal(reportCurves.all({ history: {}, objective: run.objective }).length, 0);
+});
+
+test("a term that equals the objective is drawn once, and gaps remain gaps", () => {
+  const [{ curves }] = starting("Objective");
+  assert.equal(curves.length, 2);
+  assert.deepEqual(curves.map(({ y }) => y), [[50, null], [10, 20]]);
+  assert.deepEqual(curves[0].x, [0, 1]);
+});
+
+test("curves over a sector are closed", () => {
+  const [{ curves: [after] }] = starting("Travel at fixed load");
+  [0, 10, 20].forEach((azimuth, k) => assert.ok(Math.abs(after.x[k] - azimuth) < 1e-9));
+  assert.deepEqual(after.y, [1, 2, 1]);
+});
+
+test("a harmonic of a sector has as many waves per revolution as there are sectors", () => {
+  const [{ curves, options }] = starting("Spectrum");
+  assert.deepEqual(options.labels, ["18", "36"]);
+  curves[0].y.forEach((y, k) => assert.ok(Math.abs(y - [3, 1][k]) < 1e-9));
+});
+
+test("the bar of the largest stress has another colour", () => {
+  const [{ curves, options: { colours } }] = starting("Peak von Mises");
+  assert.deepEqual(curves[0].y, [1, 4]);
+  assert.notEqual(colours[0], colours[1]);
+});
+
+test("pressures are a curve for each position", () => {
+  const [{ curves }] = starting("Contact pressure");
+  assert.deepEqual(curves.map(({ x, y }) => [x, y]), [[[-1, 1], [0, 2]], [[0], [1]]]);
+});
