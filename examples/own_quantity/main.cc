@@ -15,11 +15,13 @@ template <int dim>
 class BulkEnergy : public MaterialDensityIntegral<dim> {
  public:
   std::string name() const override { return "bulk_energy"; }
+  bool is_mirror_symmetric(MirrorPlane) const override { return true; }
 
  private:
   using typename MaterialDensityIntegral<dim>::Value;
 
-  Value at(const Voigt<dim>& strain, const Material& material) const override {
+  Value at(const Voigt<dim>& strain, const MaterialLaw<dim>& law) const override {
+    const Material& material = *law.isotropic();
     const double bulk_modulus = material.lambda() + 2 * material.mu() / 3;
     double trace = 0;
     for (int d = 0; d < dim; ++d) trace += strain[d];
