@@ -55,9 +55,8 @@ void check_terms(const Case& c, Conflicts& found) {
       for (const Need& need : unmet_needs(single, quantity))
         of_case.push_back({{key, need.key}, need.problem, "change that key, or remove the term"});
       if (const auto constant = constancy(single, quantity))
-        of_case.push_back({{key, constant->key},
-                           constant->problem,
-                           constant->remedy + ", or remove the term"});
+        of_case.push_back(
+            {{key, constant->key}, constant->problem, constant->remedy + ", or remove the term"});
     });
   }
 }
