@@ -170,7 +170,7 @@ TEST_F(OwnQuantity, IsInHistoryPagesAndCheckpointsWithItsUnit) {
   const Case c = case_of(small_case(4, terms));
   auto board = std::make_shared<Board<2>>();
   {
-    auto run = Run<2>::begin(c, folder() / "straight");
+    auto run = wheelwright::Run<2>::begin(c, folder() / "straight");
     ASSERT_TRUE(run);
     run->add(std::make_unique<BoardObserver<2>>(board));
     CommandQueue commands;
@@ -195,12 +195,12 @@ TEST_F(OwnQuantity, IsInHistoryPagesAndCheckpointsWithItsUnit) {
   EXPECT_NE(page.find("\"outer_edges [m]\""), std::string::npos);
 
   {
-    auto run = Run<2>::begin(c, folder() / "stopped");
+    auto run = wheelwright::Run<2>::begin(c, folder() / "stopped");
     CommandQueue commands;
     run->add(std::make_unique<StopAfter>(commands, 2));
     run->execute(commands);
   }
-  auto resumed = Run<2>::resume(c, folder() / "stopped");
+  auto resumed = wheelwright::Run<2>::resume(c, folder() / "stopped");
   ASSERT_TRUE(resumed);
   EXPECT_EQ(resumed->resumption().shape, 2);
   CommandQueue commands;

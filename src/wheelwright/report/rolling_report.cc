@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "wheelwright/base/units.h"
+
 namespace wheelwright {
 namespace {
 
