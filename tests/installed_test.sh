@@ -120,6 +120,16 @@ loaded=$(LD_TRACE_LOADED_OBJECTS=1 "$folder/optimize_a_wheel/build/optimize_a_wh
 check_improvement "$folder/shapes_of_example" || fail "not improved: $(cat "$folder/shapes_of_example")"
 check_agreement "$folder/shapes_of_example" "$folder/shapes" || fail "not what the installed program finds"
 
+# A program that adds a quantity of its own, in the objective and in a bound of the case.
+printf '\n[[objective.term]]\nquantity = "bulk_energy"\n[[constraint]]\nquantity = "bulk_energy"\nat_most = 1e3\n' |
+  cat "$folder/case.toml" - >"$folder/own.toml"
+build_example own_quantity
+"$folder/own_quantity/build/own_quantity" "$folder/own.toml" "$folder/own_run"
+for file in history.csv report.html; do
+  grep -q '\<bulk_energy \[J/m\].*bounded bulk_energy \[J/m\]' "$folder/own_run/$file" ||
+    fail "no columns of the own quantity in $file"
+done
+
 export PKG_CONFIG_PATH=${library%/*}/pkgconfig
 read -ra package < <(pkg-config --cflags --libs wheelwright)
 "$compiler" "${flags[@]}" -std=c++20 "$folder/optimize_a_wheel/main.cc" -o "$folder/by_pkg_config" "${package[@]}"

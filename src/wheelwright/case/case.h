@@ -286,6 +286,13 @@ enum class OverPositions {
   each,   ///< every one
 };
 
+/// A term of the weighted sum besides those that have a key for their weight.
+struct ObjectiveTerm {
+  Quantity quantity = {};
+  double weight = 1;
+  bool operator==(const ObjectiveTerm&) const = default;
+};
+
 /// Weights of the functionals in J, and parameters of the functionals.
 struct Objective {
   Quantity minimize = {};  ///< by default the sum with the weights below
@@ -299,6 +306,7 @@ struct Objective {
   std::optional<double> length;                ///< L; absent: epsilon
   MeanStress mean = MeanStress::exact;
   DualNorm dual_norm = DualNorm::elasticity;  ///< of J_p2
+  std::vector<ObjectiveTerm> terms = {};
   bool operator==(const Objective&) const = default;
 };
 

@@ -164,12 +164,6 @@ double radial_cell(const Case& c) {
 
 bool minimizes_weighted_sum(const Case& c) { return c.objective.minimize == Quantity(); }
 
-bool holds_volume(const Case& c) {
-  const auto is_free = [](const Quantity& quantity) { return quantity->is_amount_of_material; };
-  return !is_free(c.objective.minimize) &&
-         std::ranges::none_of(c.constraints, is_free, &Constraint::quantity);
-}
-
 namespace {
 
 /// Whether quantities with this property are minimized, bounded or terms of the weighted sum.
@@ -179,10 +173,13 @@ bool optimizes_any(const Case& c, bool QuantityRow::*property) {
     return c.objective.*term.weight > 0 && has_it(built_in(term.quantity));
   };
   return has_it(c.objective.minimize) || std::ranges::any_of(c.constraints, has_it, &Constraint::quantity) ||
+         std::ranges::any_of(c.objective.terms, has_it, &ObjectiveTerm::quantity) ||
          std::ranges::any_of(objective_weights, is_such_term);
 }
 
 }  // namespace
+
+bool holds_volume(const Case& c) { return !optimizes_any(c, &QuantityRow::is_amount_of_material); }
 
 bool wants_annulus(const Case& c) {
   return c.objective.annulus_matches_dual.has_value() || optimizes_any(c, &QuantityRow::observes_annulus);

@@ -208,6 +208,7 @@ const SectionArray<PictureShape>& picture_shape_sections();
 const Section<Grid>& grid_section();
 const Section<GhostPenalty>& ghost_penalty_section();
 const Section<Objective>& objective_section();
+const SectionArray<ObjectiveTerm>& objective_term_sections();
 const SectionArray<Constraint>& constraint_sections();
 const Section<Volume>& volume_section();
 const Section<Optimizer>& optimizer_section();
@@ -245,6 +246,7 @@ void for_each_section(Visitor&& visit) {
   visit(grid_section());
   visit(ghost_penalty_section());
   visit(objective_section());
+  visit(objective_term_sections());
   visit(constraint_sections());
   visit(volume_section());
   visit(optimizer_section());

@@ -74,6 +74,8 @@ const Section<Objective>& objective_section() {
 
 namespace {
 
+ObjectiveTerm example_term() { return {.quantity = built_in("peak_von_mises"), .weight = 1e-6}; }
+
 Constraint example_constraint() {
   Constraint energy;
   energy.quantity = built_in("strain_energy");
@@ -82,6 +84,27 @@ Constraint example_constraint() {
 }
 
 }  // namespace
+
+const SectionArray<ObjectiveTerm>& objective_term_sections() {
+  static const SectionArray<ObjectiveTerm> sections{
+      .parent = "objective",
+      .name = "term",
+      .meaning =
+          "a further term of the weighted sum, summed over all load positions if the quantity has a value "
+          "at each; any number of tables",
+      .in = [](Case& c) -> std::vector<ObjectiveTerm>& { return c.objective.terms; },
+      .example = example_term(),
+      .keys = {{.name = "quantity",
+                .unit = "",
+                .field = QuantityField<ObjectiveTerm>{&ObjectiveTerm::quantity},
+                .meaning = "any quantity with a derivative",
+                .presence = Presence::required},
+               {.name = "weight",
+                .unit = "",
+                .field = NumberField<ObjectiveTerm>{&ObjectiveTerm::weight, between(0, 1e9)},
+                .meaning = "its weight, by which its number in SI units is multiplied"}}};
+  return sections;
+}
 
 const SectionArray<Constraint>& constraint_sections() {
   static const SectionArray<Constraint> sections{

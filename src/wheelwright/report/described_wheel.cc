@@ -172,17 +172,11 @@ WheelNumber<dim> number(std::string_view quantity,
           of->of == Positions::none};
 }
 
-}  // namespace
-
 template <int dim>
-const std::vector<WheelNumber<dim>>& wheel_numbers() {
+std::vector<WheelNumber<dim>> numbers_under_load() {
   using Wheel = DescribedWheel<dim>;
   using Loaded = LoadedWheel<dim>;
-  static const std::vector<WheelNumber<dim>> numbers{
-      number<dim>("volume_fraction", [](const Wheel& w) -> Number { return w.volume_fraction; }),
-      number<dim>(
-          "mass",
-          [](const Wheel& w) -> Number { return w.mass ? Number(*w.mass * width(w)) : std::nullopt; }),
+  return {
       {"load", UnitKind::force, "load_N",
        [](const Wheel& w) {
          return under_load(w, [&](const Loaded& l) { return l.rolling.load * width(w); });
@@ -230,24 +224,45 @@ const std::vector<WheelNumber<dim>>& wheel_numbers() {
                   [](const Wheel& w) {
                     return under_load(w, [](const Loaded& l) { return l.summary.deformation.strain; });
                   }),
-      number<dim>("strain_energy",
-                  [](const Wheel& w) {
-                    return under_load(w, [](const Loaded& l) { return l.summary.strain_energy; });
-                  }),
-      number<dim>("minimum_wall", [](const Wheel& w) { return width_of(w, &cad::Clearances::wall); }),
-      number<dim>("minimum_gap", [](const Wheel& w) { return width_of(w, &cad::Clearances::gap); }),
-      number<dim>("roughness",
-                  [](const Wheel& w) {
-                    return of_edges(w, [](const cad::Roughness& r) -> Number { return r.edge.turns; });
-                  }),
-      {"smallest radius of an internal corner", UnitKind::length, "internal_corner_radius_m",
-       [](const Wheel& w) {
-         return of_edges(w, [](const cad::Roughness& r) {
-           return r.internal_corner ? Number(r.internal_corner->radius) : std::nullopt;
-         });
-       },
-       true},
-  };
+      number<dim>("strain_energy", [](const Wheel& w) {
+        return under_load(w, [](const Loaded& l) { return l.summary.strain_energy; });
+      })};
+}
+
+/// Measured on the curves fitted to the edges.
+template <int dim>
+std::vector<WheelNumber<dim>> numbers_of_outline() {
+  using Wheel = DescribedWheel<dim>;
+  return {number<dim>("minimum_wall", [](const Wheel& w) { return width_of(w, &cad::Clearances::wall); }),
+          number<dim>("minimum_gap", [](const Wheel& w) { return width_of(w, &cad::Clearances::gap); }),
+          number<dim>("roughness",
+                      [](const Wheel& w) {
+                        return of_edges(w, [](const cad::Roughness& r) -> Number { return r.edge.turns; });
+                      }),
+          {"smallest radius of an internal corner", UnitKind::length, "internal_corner_radius_m",
+           [](const Wheel& w) {
+             return of_edges(w, [](const cad::Roughness& r) {
+               return r.internal_corner ? Number(r.internal_corner->radius) : std::nullopt;
+             });
+           },
+           true}};
+}
+
+}  // namespace
+
+template <int dim>
+const std::vector<WheelNumber<dim>>& wheel_numbers() {
+  using Wheel = DescribedWheel<dim>;
+  static const std::vector<WheelNumber<dim>> numbers = [] {
+    std::vector<WheelNumber<dim>> all{
+        number<dim>("volume_fraction", [](const Wheel& w) -> Number { return w.volume_fraction; }),
+        number<dim>("mass", [](const Wheel& w) -> Number {
+          return w.mass ? Number(*w.mass * width(w)) : std::nullopt;
+        })};
+    for (const auto& more : {numbers_under_load<dim>(), numbers_of_outline<dim>()})
+      all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }();
   return numbers;
 }
 

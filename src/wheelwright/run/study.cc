@@ -124,7 +124,17 @@ Expected<WeightedSum<dim>> objective_terms(const Case& c, const StateSolver<dim>
     term->weight = weights.*weight;
     terms.push_back(*std::move(term));
   }
-  return in_load_cases(c, std::move(terms));
+  WeightedSum<dim> of_shape;  // the same under every load
+  for (const auto& [quantity, weight] : c.objective.terms) {
+    if (!(weight > 0)) continue;
+    auto term = functional_of(quantity, Over::positions, quantity_context(c, solver));
+    if (!term) return term.failure();
+    term->weight *= weight;
+    (quantity->of == Positions::none ? of_shape : terms).push_back(*std::move(term));
+  }
+  terms = in_load_cases(c, std::move(terms));
+  terms.insert(terms.end(), of_shape.begin(), of_shape.end());
+  return terms;
 }
 
 }  // namespace
