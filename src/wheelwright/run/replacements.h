@@ -4,7 +4,7 @@
 #include <span>
 
 #include "wheelwright/evolution/evolver.h"
-#include "wheelwright/run/command.h"
+#include "wheelwright/run/run_control.h"
 
 namespace wheelwright {
 

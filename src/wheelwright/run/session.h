@@ -7,7 +7,7 @@
 
 #include "wheelwright/nucleation/nucleation.h"
 #include "wheelwright/run/checkpoint.h"
-#include "wheelwright/run/command.h"
+#include "wheelwright/run/run_control.h"
 #include "wheelwright/run/study.h"
 
 namespace wheelwright {

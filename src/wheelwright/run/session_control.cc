@@ -22,8 +22,7 @@ bool SessionControl<dim>::obey() {
 
 template <int dim>
 void SessionControl<dim>::execute(const Command& command) {
-  const CommandResult executed = std::visit(
-      [this](const auto& c) -> CommandResult { return c.execute(static_cast<RunControl&>(*this)); }, command);
+  const CommandResult executed = command.execute(*this);
   if (executed)
     journal_.notify(CommandDone{command, *executed, true});
   else

@@ -4,15 +4,13 @@
 
 namespace wheelwright {
 
-bool PageCommands::is_for_pages(const Command& command) {
-  return !std::holds_alternative<Save>(command) && !std::holds_alternative<Stop>(command) &&
-         !std::holds_alternative<Custom>(command);
-}
+bool PageCommands::is_for_pages(const Command& command) { return !command.is<Save>() && !command.is<Stop>(); }
 
 std::optional<long> PageCommands::give(Command command) {
   constexpr long max_waiting = 32;
   const std::scoped_lock lock(mutex_);
   if (given_ - done_ >= max_waiting) return {};
+  waiting_.push_back(command);
   queue_.push(std::move(command));
   return ++given_;
 }
@@ -27,9 +25,10 @@ std::optional<PageCommands::Answer> PageCommands::answer(long ticket, std::chron
 
 void PageCommands::note(const CommandDone& done) {
   constexpr std::size_t max_answers = 256;
-  if (!is_for_pages(done.command)) return;
   {
     const std::scoped_lock lock(mutex_);
+    if (waiting_.empty() || !waiting_.front().is_copy_of(done.command)) return;  // from elsewhere
+    waiting_.pop_front();
     answers_.push_back({++done_, done.was_executed, done.text});
     if (answers_.size() > max_answers) answers_.pop_front();
   }

@@ -24,7 +24,7 @@ class PageCommands {
 
   explicit PageCommands(CommandQueue& queue) : queue_(queue) {}
 
-  /// Whether pages may give such a command. Save, stop and commands of programs are not for pages.
+  /// Whether pages may give such a command: not Save and Stop.
   static bool is_for_pages(const Command& command);
 
   /// Empty while too many are waiting.
@@ -42,6 +42,7 @@ class PageCommands {
   CommandQueue& queue_;
   std::mutex mutex_;
   std::condition_variable answered_;
+  std::deque<Command> waiting_;  ///< given and not executed yet
   long given_ = 0, done_ = 0;
   std::deque<Answer> answers_;  ///< the last ones
   bool is_closed_ = false;

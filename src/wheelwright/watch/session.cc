@@ -125,7 +125,7 @@ template <int dim>
 PageAnswer WatchSession<dim>::command(const PageRequest& request) {
   const auto parsed = parse_command(request.body);
   if (!parsed) return message(400, false, parsed.failure().reason);
-  if (!PageCommands::is_for_pages(*parsed) || std::holds_alternative<TakeShape>(*parsed))
+  if (!PageCommands::is_for_pages(*parsed) || parsed->is<TakeShape>())
     return message(400, false, "not a command of a page");
   return executed(*parsed);
 }

@@ -1,4 +1,4 @@
-#include "wheelwright/run/command.h"
+#include "wheelwright/run/commands.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -19,6 +19,11 @@ CommandResult changed(RunControl& run, const Case& c, const std::string& what) {
   return what;
 }
 
+template <DeclaredCommand... C>
+CommandKinds kinds_of() {
+  return {command_kind<C>()...};
+}
+
 std::string load_text(const Load& load) {
   std::string text = load.travel ? fmt::format("rim travel {:.6g} m", *load.travel)
                                  : fmt::format("force {:.6g} N", load.force);
@@ -34,6 +39,31 @@ std::string load_text(const Load& load) {
 }
 
 }  // namespace
+
+CommandFields load_fields(Load& load) {
+  return {{"force_N", "", &load.force},
+          {"travel_m", "of the rim, in place of the force", &load.travel},
+          {"horizontal_force_N", "", &load.horizontal_force},
+          {"lateral_force_N", "", &load.lateral_force},
+          {"camber_rad", "", &load.camber},
+          {"torque_N_m", "", &load.torque},
+          {"body_force_N_per_m3", "[along the ground, down]", &load.body_force},
+          {"hole_pressure_Pa", "", &load.hole_pressure},
+          {"speed_m_per_s", "", &load.speed},
+          {"positions", "per sector", &load.positions}};
+}
+
+CommandFields NewLoad::fields() {
+  CommandFields fields{{"load_case", "its name; absent: the case has one load", &load_case}};
+  const CommandFields of_load = load_fields(load);
+  fields.insert(fields.end(), of_load.begin(), of_load.end());
+  return fields;
+}
+
+CommandKinds commands_of_every_run() {
+  return kinds_of<Save, Stop, Pause, Continue, Step, NewWeights, NewLoad, NewVolume, NewWidths, NewBound,
+                  Paint, MoveHole, FillHole, TakeShape, Reset, Undo>();
+}
 
 CommandResult Save::execute(RunControl& run) const {
   run.save();
@@ -119,7 +149,8 @@ CommandResult NewBound::execute(RunControl& run) const {
   set("at least", at_least, bound.at_least);
   set("at most", at_most, bound.at_most);
   set("equal to", equals, bound.equals);
-  return changed(run, c, fmt::format("new bound: {} {}", name(bound.quantity), fmt::join(words, ", ")));
+  return changed(run, c,
+                 fmt::format("new bound: {} {}", wheelwright::name(bound.quantity), fmt::join(words, ", ")));
 }
 
 CommandResult TakeShape::execute(RunControl& run) const {
