@@ -11,7 +11,9 @@
 #include "wheelwright/base/periodic.h"
 #include "wheelwright/base/shared_interrupt.h"
 #include "wheelwright/base/stopwatch.h"
+#include "wheelwright/contact/contact_results.h"
 #include "wheelwright/contact/contact_solver.h"
+#include "wheelwright/contact/contact_starts.h"
 #include "wheelwright/geometry/mirror.h"
 #include "wheelwright/rolling/contact_failure.h"
 #include "wheelwright/rolling/position_tree.h"
@@ -114,8 +116,14 @@ std::vector<bool> columns_in_zones(const PolarGrid<dim>& grid, const LoadPositio
 }
 
 template <int dim>
-bool is_bonded(const Tread<dim>& tread) {
-  return tread.form().counterpart == Counterpart::ring;
+std::shared_ptr<const ContactLaw<dim>> contact_law_of(const RollingModel<dim>& model) {
+  return model.contact_law ? model.contact_law : law_of<dim>(model.contact);
+}
+
+/// Whether the whole tread is in contact, in one linear problem, as that of a tread bonded to a ring.
+template <int dim>
+bool is_linear(const RollingModel<dim>& model) {
+  return contact_law_of(model)->is_linear();
 }
 
 /// The surface's compliance for contact zones at some positions, `half` columns to either side.
@@ -134,7 +142,7 @@ bool all_finite(const Matrix& a) {
 /// plane of the wheel.
 template <int dim>
 int components_in_contact(const RollingModel<dim>& model) {
-  return model.contact.friction == 0 && model.camber == 0 ? 2 : dim;
+  return !contact_law_of(model)->is_tangential() && model.camber == 0 ? 2 : dim;
 }
 
 /// Why the materials of a model are not those of a linear ring.
@@ -190,10 +198,10 @@ Expected<ContactState<dim>> solve_in_zone(const RollingModel<dim>& model, const 
                                           const std::optional<ContactState<dim>>& known,
                                           const Interrupt& interrupt) {
   std::vector<ContactUnknowns<dim>> starts;
-  if (known) starts.push_back(contact.start_from(*known));
-  starts.push_back(model.travel ? contact.undeformed_start()
-                                : contact.hertz_start(line_load(model), model.grid.outer_radius,
-                                                      model.materials.at_tread().contact_modulus()));
+  if (known) starts.push_back(start_from(contact, *known));
+  starts.push_back(model.travel ? undeformed_start(contact)
+                                : hertz_start(contact, line_load(model), model.grid.outer_radius,
+                                              model.materials.at_tread().contact_modulus()));
   auto state = solve_contact<dim>(contact, starts, interrupt);
   if (!state) return contact_failure(state.failure(), model, contact);
   return *std::move(state);
@@ -208,10 +216,11 @@ Expected<RolledContact<dim>> roll_to(const RollingModel<dim>& model, const Tread
                                      const std::optional<ContactState<dim>>& neighbour,
                                      const Interrupt& interrupt) {
   const PolarGrid<dim>& grid = model.grid;
-  if (is_bonded(tread)) {
+  const auto law = contact_law_of(model);
+  if (law->is_linear()) {
     const int n = grid.ring_columns();
-    ReducedContact<dim> contact(surface, tread, grid, ground, {ground.column - n / 2, n},
-                                rim_control(model, preload), preload);
+    auto contact = reduced_contact<dim>(surface, tread, grid, ground, {ground.column - n / 2, n}, law,
+                                        rim_control(model, preload), preload);
     auto state = solve_in_zone<dim>(model, contact, {}, interrupt);
     if (!state) return state.failure();
     return RolledContact<dim>{std::move(contact), *std::move(state)};
@@ -226,8 +235,9 @@ Expected<RolledContact<dim>> roll_to(const RollingModel<dim>& model, const Tread
     const int width = 2 * half - 1;
     if (width > (wider ? *wider : surface).width())
       wider = surface_compliance<dim>(ring, tread, grid, {{ground}, {1}}, half);
-    ReducedContact<dim> contact(wider ? *wider : surface, tread, grid, ground,
-                                {ground.column - half, 2 * half}, rim_control(model, preload), preload);
+    auto contact =
+        reduced_contact<dim>(wider ? *wider : surface, tread, grid, ground, {ground.column - half, 2 * half},
+                             law, rim_control(model, preload), preload);
     auto state = solve_in_zone(model, contact, known, interrupt);
     if (!state) return state.failure();
     if (!touches_edge(*state) || half >= largest_half)
@@ -245,7 +255,7 @@ Expected<RolledContact<dim>> reload(const RollingModel<dim>& model, const Tread<
   ReducedContact<dim> contact = before.contact.under(rim_control(model, preload));
   auto state = solve_in_zone<dim>(model, contact, before.state, Interrupt());
   if (!state) return state.failure();
-  if (touches_edge(*state) && !is_bonded(tread))
+  if (touches_edge(*state) && !is_linear(model))
     return roll_to<dim>(model, tread, ring, surface, ground, preload, *state);
   return RolledContact<dim>{std::move(contact), *std::move(state)};
 }
@@ -277,7 +287,7 @@ Expected<std::vector<RolledContact<dim>>> roll_to_all(RollingSolution<dim>& s, c
       if (!*all[position]) return all[position]->failure();
       widest = std::max(widest, (**all[position]).contact.zone().n_columns);
     }
-    if (widest > s.surface->width() + 1 && !is_bonded(tread))
+    if (widest > s.surface->width() + 1 && !is_linear(s.model))
       s.surface = std::make_shared<const SurfaceCompliance<dim>>(
           surface_compliance(s.ring, tread, s.model.grid, s.positions, widest / 2));
   }
@@ -355,7 +365,7 @@ typename RollingProblem<dim>::CondensedLoads RollingProblem<dim>::preload(Rollin
     std::copy_n(free.observed.column(i * n_columns), s.preloads[i].observations.entries().size(),
                 s.preloads[i].observations.data());
   }
-  if (loads.angular_speed != 0 && !is_bonded(tread_)) {
+  if (loads.angular_speed != 0 && !is_linear(s.model)) {
     const DistributedLoads<dim> rotation{.angular_speed = loads.angular_speed};
     find_standing_points(without_ground(s, rotation, {s.positions.grounds.front()}).observed, s);
   }
@@ -425,7 +435,7 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::roll(
   const bool between_columns =
       std::ranges::any_of(positions.grounds, [](const GroundPosition& ground) { return ground.offset > 0; });
   const int likely_half = std::min(columns_in_contact(model, between_columns), (n_columns - 1) / 2);
-  if (!surface && is_bonded(tread_))
+  if (!surface && is_linear(model))
     surface = std::make_shared<const SurfaceCompliance<dim>>(shape->ring, tread_, n_columns / 2);
   if (!surface || surface->width() < 2 * likely_half - 1)
     surface = std::make_shared<const SurfaceCompliance<dim>>(
@@ -458,7 +468,7 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::roll(
     if (reach == Ground::touched)
       if (auto failure = no_contact(model, contact, state)) return *failure;
     const ContactZone& zone = contact.zone();
-    const Matrix loads = contact.contact_loads(state);
+    const Matrix loads = contact_loads(contact, state);
     for (int c = 0; c < zone.n_columns; ++c)
       std::copy_n(loads.column(c), loads.rows(),
                   s.tread_loads.column(i * n_columns + wrap(zone.first_column + c, n_columns)));
