@@ -68,9 +68,9 @@ Expected<std::vector<ContactAdjoint>> contact_multipliers(
   // With Te p = h + F^T m: m - W Phi'^T F^T m + sum_k beta_k W Phi'^T m_k = Phi'^T (W h + dJ/dPhi) and, for
   // every free motion, sum gamma m.m_k = dJ/d(motion k). m vanishes off the active points; on them the matrix
   // is the tangent's, transposed.
-  const ActiveSystem<dim> system = active_system(contact, state.augmented);
+  const ActiveSystem<dim> system = active_system<dim>(contact, state.augmented);
   const Matrix& forward = system.matrix;
-  Matrix a(forward.rows(), forward.rows()), m = right_hand_sides(contact, system, functions);
+  Matrix a(forward.rows(), forward.rows()), m = right_hand_sides<dim>(contact, system, functions);
   for (int j = 0; j < a.columns(); ++j)
     for (int i = 0; i < a.rows(); ++i) a(i, j) = forward(j, i);
   if (!lu_solve(a, m)) return Failure{FailureReason::no_contact, "the adjoint contact system is singular"};
@@ -80,7 +80,7 @@ Expected<std::vector<ContactAdjoint>> contact_multipliers(
   for (int f = 0; f < m.columns(); ++f) {
     std::vector<Vec<dim>> multiplier(contact.n_points(), Vec<dim>{});
     for (int k = 0; k < n_active; ++k) multiplier[system.active[k] / nc][system.active[k] % nc] = m(k, f);
-    ContactAdjoint adjoint = adjoint_of(contact, multiplier, functions[f].rim.towards_ground);
+    ContactAdjoint adjoint = adjoint_of<dim>(contact, multiplier, functions[f].rim.towards_ground);
     for (int k = 0; k < contact.n_free(); ++k)
       adjoint.rim = combined(adjoint.rim, -m(n_active + k, f), contact.rim().free[k].direction);
     result.push_back(std::move(adjoint));

@@ -56,7 +56,7 @@ ActiveSystem<dim> active_system(const ReducedContact<dim>& contact, const std::v
 template <int dim>
 std::optional<ContactTangent<dim>> ContactTangent<dim>::at(const ReducedContact<dim>& contact,
                                                            const ContactUnknowns<dim>& x) {
-  ActiveSystem<dim> system = active_system(contact, x.augmented);
+  ActiveSystem<dim> system = active_system<dim>(contact, x.augmented);
   auto factor = LuFactor::factor(std::move(system.matrix));
   if (!factor) return {};
   return ContactTangent(contact, std::move(system), *std::move(factor));
