@@ -106,8 +106,8 @@ std::vector<ContactUnknowns<dim>> ContactTangent<dim>::solve(
   return residuals;
 }
 
-template ActiveSystem<2> active_system(const ReducedContact<2>&, const std::vector<Vec<2>>&);
-template ActiveSystem<3> active_system(const ReducedContact<3>&, const std::vector<Vec<3>>&);
+template ActiveSystem<2> active_system<2>(const ReducedContact<2>&, const std::vector<Vec<2>>&);
+template ActiveSystem<3> active_system<3>(const ReducedContact<3>&, const std::vector<Vec<3>>&);
 template class ContactTangent<2>;
 template class ContactTangent<3>;
 
