@@ -1,10 +1,9 @@
-#include "wheelwright/contact/contact_law.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
+#include "wheelwright/contact/contact_responses.h"
 #include "wheelwright/elasticity/contact_form.h"
 
 namespace wheelwright {

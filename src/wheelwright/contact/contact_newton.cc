@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "wheelwright/contact/contact_starts.h"
 #include "wheelwright/contact/newton_tangent.h"
 
 namespace wheelwright {
@@ -269,9 +270,9 @@ NewtonEnd<dim> without_rounding_errors(const ReducedContact<dim>& contact, Conta
 }
 
 template <int dim>
-Expected<ContactState<dim>> solve_bonded(const ReducedContact<dim>& contact) {
+Expected<ContactState<dim>> solve_linear(const ReducedContact<dim>& contact) {
   constexpr int solves = 2;
-  ContactUnknowns<dim> x = contact.zero_start();
+  ContactUnknowns<dim> x = zero_start(contact);
   NewtonTangent<dim> tangent(contact);
   for (int k = 0; k < solves; ++k) {
     const auto step = tangent.step(x, contact.residual(x));
@@ -282,7 +283,7 @@ Expected<ContactState<dim>> solve_bonded(const ReducedContact<dim>& contact) {
   const auto residual = contact.residual(x);
   if (norm.vanishes(residual, x)) return contact.state(x, solves);
   return Failure{FailureReason::inaccurate_solution,
-                 fmt::format("bonded tread: residual {:.3g} Pa", norm(residual))};
+                 fmt::format("linear contact: residual {:.3g} Pa", norm(residual))};
 }
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                  \
@@ -291,7 +292,7 @@ Expected<ContactState<dim>> solve_bonded(const ReducedContact<dim>& contact) {
   template NewtonEnd<dim> without_rounding_errors(const ReducedContact<dim>&, ContactUnknowns<dim>);  \
   template NewtonEnd<dim> newton(const ReducedContact<dim>&, ContactUnknowns<dim>, Cycling,           \
                                  const Interrupt&, int);                                              \
-  template Expected<ContactState<dim>> solve_bonded(const ReducedContact<dim>&);
+  template Expected<ContactState<dim>> solve_linear(const ReducedContact<dim>&);
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)
 #undef WHEELWRIGHT_INSTANTIATE

@@ -36,8 +36,9 @@ NewtonEnd<dim> newton(const ReducedContact<dim>& contact, ContactUnknowns<dim> s
 template <int dim>
 NewtonEnd<dim> without_rounding_errors(const ReducedContact<dim>& contact, ContactUnknowns<dim> x);
 
-/// A bonded tread: one linear solve, and another one that lowers its rounding errors.
+/// A linear law, as that of a bonded tread: one linear solve, and another one that lowers its rounding
+/// errors.
 template <int dim>
-Expected<ContactState<dim>> solve_bonded(const ReducedContact<dim>& contact);
+Expected<ContactState<dim>> solve_linear(const ReducedContact<dim>& contact);
 
 }  // namespace wheelwright

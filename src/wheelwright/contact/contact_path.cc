@@ -6,6 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "wheelwright/contact/contact_tangent.h"
+
 namespace wheelwright {
 namespace {
 
@@ -153,7 +155,7 @@ class Path {
  public:
   /// Empty if the tangent at the start is singular.
   static std::optional<Path> from(const ReducedContact<2>& contact, const Unknowns& start) {
-    auto factored = contact.tangent(start);
+    auto factored = ContactTangent<2>::at(contact, start);
     if (!factored) return {};
     return Path(contact, start, *std::move(factored));
   }
@@ -248,7 +250,7 @@ class Path {
     Unknowns middle = x_;
     add(-sense_ * next_.distance / 2, rate_, middle);
     if (pieces_of(middle) != pieces_) return;
-    auto factored = contact_->tangent(middle);
+    auto factored = ContactTangent<2>::at(*contact_, middle);
     if (!factored) return;
     go(next_.distance / 2);
     tangent_ = ChangingTangent(*std::move(factored));

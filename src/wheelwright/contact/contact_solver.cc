@@ -7,6 +7,7 @@
 
 #include "wheelwright/contact/contact_newton.h"
 #include "wheelwright/contact/contact_path.h"
+#include "wheelwright/contact/contact_starts.h"
 #include "wheelwright/contact/friction_limit.h"
 
 namespace wheelwright {
@@ -29,7 +30,7 @@ NewtonAttempts<dim> newton_from_each(const ReducedContact<dim>& contact,
   int iterations = 0;
   for (const ContactUnknowns<dim>& start : starts) {
     if (attempts.end.converged || interrupt.requested()) break;
-    attempts.end = newton(contact, contact.touching(start), when_cycling, interrupt, iterations);
+    attempts.end = newton(contact, touching(contact, start), when_cycling, interrupt, iterations);
     iterations += attempts.end.iterations;
     if (!attempts.end.converged) attempts.last_iterates.push_back(attempts.end.x);
   }
@@ -137,7 +138,7 @@ NewtonEnd<3> led_from(const ReducedContact<3>& contact, const ContactUnknowns<3>
 NewtonEnd<2> where_newton_cycles(const ReducedContact<2>& contact, const NewtonAttempts<2>& newton,
                                  std::span<const ContactUnknowns<2>> starts, const Interrupt& interrupt) {
   std::vector<ContactUnknowns<2>> beginnings = newton.last_iterates;
-  for (const ContactUnknowns<2>& start : starts) beginnings.push_back(contact.touching(start));
+  for (const ContactUnknowns<2>& start : starts) beginnings.push_back(touching(contact, start));
   NewtonEnd<2> end;
   int iterations = newton.end.iterations;
   for (const ContactUnknowns<2>& x : beginnings) {
@@ -151,7 +152,7 @@ NewtonEnd<2> where_newton_cycles(const ReducedContact<2>& contact, const NewtonA
 
 NewtonEnd<3> where_newton_cycles(const ReducedContact<3>& contact, const NewtonAttempts<3>& newton,
                                  std::span<const ContactUnknowns<3>> starts, const Interrupt& interrupt) {
-  NewtonEnd<3> end = newton_by_given_friction(contact, contact.touching(starts.back()), interrupt);
+  NewtonEnd<3> end = newton_by_given_friction(contact, touching(contact, starts.back()), interrupt);
   end.iterations += newton.end.iterations;
   return end;
 }
@@ -215,8 +216,8 @@ template <int dim>
 Expected<ContactState<dim>, ContactFailure> solve_contact(const ReducedContact<dim>& contact,
                                                           std::span<const ContactUnknowns<dim>> starts,
                                                           const Interrupt& interrupt) {
-  if (contact.is_bonded()) {
-    auto state = solve_bonded(contact);
+  if (contact.law().is_linear()) {
+    auto state = solve_linear(contact);
     if (!state) return ContactFailure{state.failure()};
     return *std::move(state);
   }

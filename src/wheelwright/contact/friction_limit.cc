@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "wheelwright/contact/contact_newton.h"
+#include "wheelwright/contact/contact_starts.h"
 
 namespace wheelwright {
 namespace {
@@ -56,7 +57,7 @@ std::optional<Sliding> sliding_along(const ReducedContact<dim>& contact, const V
                                      const RimMotion& push, const ContactUnknowns<dim>& start,
                                      const Interrupt& interrupt) {
   const ReducedContact<dim> sliding = held_along_ground(contact.sliding_along(direction));
-  const auto end = newton(sliding, sliding.touching(held(contact.touching(start), contact.rim())),
+  const auto end = newton(sliding, touching(sliding, held(touching(contact, start), contact.rim())),
                           Cycling::change_fewer, interrupt);
   if (!end.converged) return {};
   Sliding result{0, 0};

@@ -6,7 +6,7 @@ template <int dim>
 std::optional<ContactUnknowns<dim>> NewtonTangent<dim>::step(const ContactUnknowns<dim>& x,
                                                              const ContactUnknowns<dim>& residual) {
   if (!factored_ || factored_->tangents() != contact_->tangents(x.augmented))
-    factored_ = contact_->tangent(x);
+    factored_ = ContactTangent<dim>::at(*contact_, x);
   if (!factored_) return {};
   auto step = factored_->solve(residual);
   if (!contact_->keeps_rim_near(step)) return {};

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "wheelwright/contact/reduced_contact.h"
+#include "wheelwright/contact/contact_tangent.h"
 
 namespace wheelwright {
 

@@ -32,13 +32,6 @@ bool is_on_outer_line(const SectorSpace<dim>& space, const std::array<int, dim>&
   return p[0] == space.degree() * space.core_rows() && p[1] >= 0 && p[1] <= space.last_line();
 }
 
-/// The boundary nodes of a sector, as all sectors number them, and its interior nodes.
-template <int dim>
-struct BoundaryLayout {
-  std::vector<std::array<int, dim>> interface_nodes;  ///< not on the outer line; none twice
-  std::vector<int> interior_nodes, trailing_nodes;    ///< node numbers
-};
-
 template <int dim>
 BoundaryLayout<dim> boundary_layout(const SectorSpace<dim>& space) {
   std::vector<char> trailing(space.n_nodes(), 0);
@@ -85,12 +78,55 @@ std::shared_ptr<const BoundarySymmetry> without_symmetry(int n_interface, int n_
   return symmetry;
 }
 
+/// The numbers of a sector's boundary unknowns.
+template <int dim>
+class BoundaryNumbers {
+ public:
+  BoundaryNumbers(const SectorSpace<dim>& space, const BoundaryLayout<dim>& layout) : space_(space) {
+    for (const auto& p : layout.interface_nodes)
+      interface_index_.emplace(p, static_cast<int>(interface_index_.size()));
+    if constexpr (dim == 3) axial_nodes_ = space.degree() * space.grid().cells[2] + 1;
+  }
+
+  int axial_nodes() const { return axial_nodes_; }
+  int n_interface() const { return dim * static_cast<int>(interface_index_.size()); }
+  int n_outer() const { return dim * space_.last_line() * axial_nodes_; }
+
+  /// The first unknown of a node at a position in the sector's own period; -1 if it is not on the boundary.
+  int first_unknown(const std::array<int, dim>& p) const {
+    if (is_on_outer_line<dim>(space_, p)) {
+      int line = p[1];
+      if constexpr (dim == 3) line = line * axial_nodes_ + p[2];
+      return n_interface() + dim * line;
+    }
+    const auto found = interface_index_.find(p);
+    return found == interface_index_.end() ? -1 : dim * found->second;
+  }
+
+ private:
+  const SectorSpace<dim>& space_;
+  std::map<std::array<int, dim>, int> interface_index_;
+  int axial_nodes_ = 1;
+};
+
 }  // namespace
 
 template <int dim>
-CyclicStiffness<dim>::CyclicStiffness(SectorStiffness<dim> sector, PartialCholesky sector_factor,
-                                      const SectorHarmonics& harmonics)
-    : sector_(std::move(sector)), sector_factor_(std::move(sector_factor)), harmonics_(harmonics) {}
+CyclicStiffness<dim>::CyclicStiffness(SectorStiffness<dim> sector, FactoredSector factored,
+                                      const SectorHarmonics& harmonics, Boundary boundary,
+                                      std::shared_ptr<const BoundarySymmetry> symmetry,
+                                      std::optional<InterfaceModes> modes,
+                                      std::vector<HarmonicFactor> harmonic_factors)
+    : sector_(std::move(sector)),
+      sector_factor_(std::move(factored.factor)),
+      harmonics_(harmonics),
+      row_(std::move(factored.row)),
+      trailing_(std::move(boundary.trailing)),
+      n_boundary_(boundary.size()),
+      n_outer_(boundary.n_outer),
+      symmetry_(std::move(symmetry)),
+      modes_(std::move(modes)),
+      harmonic_factors_(std::move(harmonic_factors)) {}
 
 template <int dim>
 Expected<CyclicStiffness<dim>> CyclicStiffness<dim>::factor(SectorStiffness<dim> sector,
@@ -98,79 +134,90 @@ Expected<CyclicStiffness<dim>> CyclicStiffness<dim>::factor(SectorStiffness<dim>
                                                             const SectorHarmonics& harmonics,
                                                             std::optional<InterfaceRoute> route) {
   const BoundaryLayout<dim> layout = boundary_layout(sector.space);
+  auto factored = factor_sector(sector, layout);
+  if (!factored) return factored.failure();
+  Boundary boundary = boundary_of(sector.space, layout);
+  CoupledSectors coupled(boundary.trailing, factored->factor.release_schur(), boundary.size());
+  auto symmetry = symmetry_of(coupled, boundary);
+  OfHarmonics of_harmonics = reduced_to_modes(std::move(coupled), boundary, symmetry,
+                                              route.value_or(best_route(*symmetry, harmonics)));
+  auto factors = factor_harmonics(of_harmonics.coupled, of_harmonics.symmetry, outer_stiffness, harmonics);
+  if (!factors) return factors.failure();
+  return CyclicStiffness(std::move(sector), *std::move(factored), harmonics, std::move(boundary),
+                         std::move(symmetry), std::move(of_harmonics.modes), *std::move(factors));
+}
+
+/// Eliminates the interior of a sector.
+template <int dim>
+Expected<typename CyclicStiffness<dim>::FactoredSector> CyclicStiffness<dim>::factor_sector(
+    const SectorStiffness<dim>& sector, const BoundaryLayout<dim>& layout) {
   std::vector<int> nodes = nested_dissection(sector, layout.interior_nodes);
   nodes.insert(nodes.end(), layout.trailing_nodes.begin(), layout.trailing_nodes.end());
-  auto factored =
+  auto factor =
       PartialCholesky::factor(sector.matrix, dim, nodes, static_cast<int>(layout.trailing_nodes.size()));
-  if (!factored) return factored.failure();
-  CyclicStiffness ring(std::move(sector), *std::move(factored), harmonics);
-  ring.row_.resize(dim * nodes.size());
+  if (!factor) return factor.failure();
+  std::vector<int> row(dim * nodes.size());
   for (int k = 0; k < static_cast<int>(nodes.size()); ++k)
-    for (int c = 0; c < dim; ++c) ring.row_[dim * nodes[k] + c] = dim * k + c;
+    for (int c = 0; c < dim; ++c) row[dim * nodes[k] + c] = dim * k + c;
+  return FactoredSector{*std::move(factor), std::move(row)};
+}
 
-  const SectorSpace<dim>& own_space = ring.sector_.space;
-  const PolarGrid<dim>& grid = own_space.grid();
-  const int period = own_space.last_line();
-  int axial_nodes = 1;
-  if constexpr (dim == 3) axial_nodes = own_space.degree() * grid.cells[2] + 1;
-  std::map<std::array<int, dim>, int> interface_index;
-  for (const auto& p : layout.interface_nodes)
-    interface_index.emplace(p, static_cast<int>(interface_index.size()));
-  const int n_interface = dim * static_cast<int>(interface_index.size());
-  ring.n_outer_ = dim * period * axial_nodes;
-  ring.n_boundary_ = n_interface + ring.n_outer_;
-  /// The first unknown of a node at a position in the sector's own period; -1 if it is not on the boundary.
-  const auto first_unknown = [&](const std::array<int, dim>& p) {
-    if (is_on_outer_line<dim>(own_space, p)) {
-      int line = p[1];
-      if constexpr (dim == 3) line = line * axial_nodes + p[2];
-      return n_interface + dim * line;
-    }
-    const auto found = interface_index.find(p);
-    return found == interface_index.end() ? -1 : dim * found->second;
-  };
-  BoundaryMirror azimuth, width;
-  azimuth.unknowns.resize(ring.n_boundary_);
-  width.unknowns.resize(ring.n_boundary_);
+template <int dim>
+typename CyclicStiffness<dim>::Boundary CyclicStiffness<dim>::boundary_of(const SectorSpace<dim>& space,
+                                                                          const BoundaryLayout<dim>& layout) {
+  const BoundaryNumbers<dim> numbers(space, layout);
+  Boundary boundary{numbers.n_interface(), numbers.n_outer(), {}, {}, {}};
+  BoundaryMirror width;
+  boundary.azimuth.unknowns.resize(boundary.size());
+  width.unknowns.resize(boundary.size());
   bool has_images_across = dim == 3;
   for (int node : layout.trailing_nodes) {
-    const auto [p, shift] = boundary_node<dim>(own_space, own_space.position(node));
+    const auto [p, shift] = boundary_node<dim>(space, space.position(node));
     auto behind = p, across = p;
-    if (p[1] > 0) behind[1] = period - p[1];
-    if constexpr (dim == 3) across[2] = axial_nodes - 1 - p[2];
-    const int first = first_unknown(p), image = first_unknown(behind), image_across = first_unknown(across);
+    if (p[1] > 0) behind[1] = space.last_line() - p[1];
+    if constexpr (dim == 3) across[2] = numbers.axial_nodes() - 1 - p[2];
+    const int first = numbers.first_unknown(p), image = numbers.first_unknown(behind),
+              image_across = numbers.first_unknown(across);
     has_images_across &= image_across >= 0;
     const double of_derivative = p[1] == -1 ? -1 : 1;  // the first one changes its sign with the azimuth
     for (int c = 0; c < dim; ++c) {
-      ring.trailing_.push_back({first + c, shift});
-      azimuth.unknowns[first + c] = {image + c, p[1] <= 0 ? 0 : 1, of_derivative * (c == 1 ? -1.0 : 1.0)};
+      boundary.trailing.push_back({first + c, shift});
+      boundary.azimuth.unknowns[first + c] = {image + c, p[1] <= 0 ? 0 : 1,
+                                              of_derivative * (c == 1 ? -1.0 : 1.0)};
       width.unknowns[first + c] = {image_across + c, 0, c == 2 ? -1.0 : 1.0};
     }
   }
+  if (has_images_across) boundary.width = std::move(width);
+  return boundary;
+}
 
-  CoupledSectors coupled(ring.trailing_, ring.sector_factor_.release_schur(), ring.n_boundary_);
+template <int dim>
+std::shared_ptr<const BoundarySymmetry> CyclicStiffness<dim>::symmetry_of(const CoupledSectors& coupled,
+                                                                          const Boundary& boundary) {
   auto symmetry = std::make_shared<BoundarySymmetry>();
-  symmetry->n_interface = n_interface;
-  if (coupled.commute_with_azimuth(azimuth)) symmetry->azimuth = std::move(azimuth);
-  if (has_images_across && coupled.commute_with_width(width)) {
-    for (const double sign : {1.0, -1.0}) symmetry->classes.emplace_back(width, n_interface, sign);
-    symmetry->width = std::move(width);
+  symmetry->n_interface = boundary.n_interface;
+  if (coupled.commute_with_azimuth(boundary.azimuth)) symmetry->azimuth = boundary.azimuth;
+  if (boundary.width && coupled.commute_with_width(*boundary.width)) {
+    for (const double sign : {1.0, -1.0})
+      symmetry->classes.emplace_back(*boundary.width, boundary.n_interface, sign);
+    symmetry->width = boundary.width;
   } else {
-    symmetry->classes.emplace_back(ring.n_boundary_, n_interface);
+    symmetry->classes.emplace_back(boundary.size(), boundary.n_interface);
   }
-  ring.symmetry_ = symmetry;
-  std::shared_ptr<const BoundarySymmetry> of_harmonics = symmetry;
-  if (route.value_or(best_route(*symmetry, harmonics)) == InterfaceRoute::strong_modes &&
-      coupled.farthest == 1)
-    ring.modes_ = InterfaceModes::find(coupled.by_difference[1], coupled.by_difference[2], n_interface);
-  if (ring.modes_) {
-    coupled = CoupledSectors(ring.modes_->release_stiffness());
-    of_harmonics = without_symmetry(ring.modes_->n_strong(), ring.n_outer_);
-  }
-  auto factors = factor_harmonics(coupled, of_harmonics, outer_stiffness, harmonics);
-  if (!factors) return factors.failure();
-  ring.harmonic_factors_ = *std::move(factors);
-  return ring;
+  return symmetry;
+}
+
+template <int dim>
+typename CyclicStiffness<dim>::OfHarmonics CyclicStiffness<dim>::reduced_to_modes(
+    CoupledSectors coupled, const Boundary& boundary, std::shared_ptr<const BoundarySymmetry> symmetry,
+    InterfaceRoute route) {
+  std::optional<InterfaceModes> modes;
+  if (route == InterfaceRoute::strong_modes && coupled.farthest == 1)
+    modes = InterfaceModes::find(coupled.by_difference[1], coupled.by_difference[2], boundary.n_interface);
+  if (!modes) return {std::move(coupled), std::move(symmetry), {}};
+  CoupledSectors of_modes(modes->release_stiffness());
+  auto without = without_symmetry(modes->n_strong(), boundary.n_outer);
+  return {std::move(of_modes), std::move(without), std::move(modes)};
 }
 
 template <int dim>

@@ -18,6 +18,13 @@ enum class InterfaceRoute {
   strong_modes,  ///< also all of them if most modes are strong
 };
 
+/// The boundary nodes of a sector, as all sectors number them, and its interior nodes.
+template <int dim>
+struct BoundaryLayout {
+  std::vector<std::array<int, dim>> interface_nodes;  ///< not on the outer line; none twice
+  std::vector<int> interior_nodes, trailing_nodes;    ///< node numbers
+};
+
 /// The factored stiffness of the ring's core plus the contribution of the tread on its outer line, by cyclic
 /// symmetry: one real factorization of one sector, condensed onto its boundary (Schur complement), and a
 /// small Hermitian system for every harmonic of the sectors.
@@ -89,9 +96,6 @@ class CyclicStiffness {
   Matrix trailing_displacements(const Matrix& boundary) const;
 
  private:
-  CyclicStiffness(SectorStiffness<dim> sector, PartialCholesky sector_factor,
-                  const SectorHarmonics& harmonics);
-
   struct Trailing {
     int boundary;  ///< index among the boundary unknowns
     int shift;     ///< sectors ahead
@@ -109,6 +113,38 @@ class CyclicStiffness {
     std::vector<Matrix> by_difference;  ///< from -farthest to farthest
   };
 
+  // The stages of factor(), each made from those before it.
+  struct FactoredSector {
+    PartialCholesky factor;
+    std::vector<int> row;  ///< elimination index of a sector dof
+  };
+  /// The boundary unknowns, and how they are reflected.
+  struct Boundary {
+    int n_interface, n_outer;
+    std::vector<Trailing> trailing;
+    BoundaryMirror azimuth;
+    std::optional<BoundaryMirror> width;  ///< absent if an unknown has no image across the width
+    int size() const { return n_interface + n_outer; }
+  };
+  /// What the harmonics are made of: the coupling of the boundary's unknowns, or of the strong modes and the
+  /// outer line.
+  struct OfHarmonics {
+    CoupledSectors coupled;
+    std::shared_ptr<const BoundarySymmetry> symmetry;
+    std::optional<InterfaceModes> modes;
+  };
+  static Expected<FactoredSector> factor_sector(const SectorStiffness<dim>& sector,
+                                                const BoundaryLayout<dim>& layout);
+  static Boundary boundary_of(const SectorSpace<dim>& space, const BoundaryLayout<dim>& layout);
+  static std::shared_ptr<const BoundarySymmetry> symmetry_of(const CoupledSectors& coupled,
+                                                             const Boundary& boundary);
+  static OfHarmonics reduced_to_modes(CoupledSectors coupled, const Boundary& boundary,
+                                      std::shared_ptr<const BoundarySymmetry> symmetry, InterfaceRoute route);
+
+  CyclicStiffness(SectorStiffness<dim> sector, FactoredSector factored, const SectorHarmonics& harmonics,
+                  Boundary boundary, std::shared_ptr<const BoundarySymmetry> symmetry,
+                  std::optional<InterfaceModes> modes, std::vector<HarmonicFactor> harmonic_factors);
+
   /// The ring's stiffness, with that of the outer line, for every harmonic; it must be positive definite.
   static Expected<std::vector<HarmonicFactor>> factor_harmonics(
       const CoupledSectors& coupled, const std::shared_ptr<const BoundarySymmetry>& of_harmonics,
@@ -119,7 +155,7 @@ class CyclicStiffness {
   SectorHarmonics harmonics_;
   std::vector<int> row_;
   std::vector<Trailing> trailing_;
-  int n_boundary_ = 0, n_outer_ = 0;
+  int n_boundary_, n_outer_;
   std::shared_ptr<const BoundarySymmetry> symmetry_;
   std::optional<InterfaceModes> modes_;  ///< absent if the harmonics have all unknowns
   std::vector<HarmonicFactor> harmonic_factors_;

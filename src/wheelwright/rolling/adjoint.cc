@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "wheelwright/base/periodic.h"
+#include "wheelwright/contact/contact_adjoint.h"
 #include "wheelwright/rolling/material_loads.h"
 
 namespace wheelwright {
@@ -191,7 +192,7 @@ Expected<ContactParts> contact_adjoints(const RollingSolution<dim>& s,
       if (!functions[f].rim.empty()) of_functions.back().rim = functions[f].rim[i];
       if (!functions[f].tractions.empty()) of_functions.back().tractions = functions[f].tractions[i];
     }
-    const auto adjoints = s.contacts[i].adjoints(s.states[i], of_functions);
+    const auto adjoints = contact_multipliers<dim>(s.contacts[i], s.states[i], of_functions);
     if (!adjoints) return adjoints.failure();
     for (int f = 0; f < n_functions; ++f) {
       const ContactAdjoint& adjoint = (*adjoints)[f];

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <set>
 
+#include "wheelwright/contact/contact_results.h"
+#include "wheelwright/contact/contact_starts.h"
 #include "wheelwright/contact/friction_limit.h"
 
 namespace wheelwright {
@@ -74,7 +76,7 @@ Failure overload(const RollingModel<dim>& model, const std::string& what) {
 template <int dim>
 Expected<ContactState<dim>, ContactFailure> without_friction(const ReducedContact<dim>& contact) {
   const ReducedContact<dim> smooth = held_along_ground(contact.sliding_along({}));
-  const ContactUnknowns<dim> start = smooth.undeformed_start();
+  const ContactUnknowns<dim> start = undeformed_start(smooth);
   return solve_contact<dim>(smooth, std::span(&start, 1));
 }
 
@@ -109,7 +111,8 @@ std::optional<Failure> reason_in(const ContactState<dim>& smooth, const RollingM
   constexpr double largest_strain = 0.25;
   if (auto under = rim_under_ground(model, smooth.rim)) return under;
   const FrictionLimit limit = smooth_limit(contact, smooth);
-  if (limit.is_exceeded() && limit.needed > 0) return sliding(limit, model);
+  if (contact.law().coulomb_friction() && limit.is_exceeded() && limit.needed > 0)
+    return sliding(limit, model);
   double peak = 0;
   for (const Vec<dim>& traction : smooth.traction) peak = std::max(peak, -traction[0]);
   const double strain = peak / model.materials.at_tread().contact_modulus();
@@ -176,7 +179,7 @@ std::optional<Failure> no_contact(const RollingModel<dim>& model, const ReducedC
   failure.detail += fmt::format(
       ", or more grid.tread_levels: the nearest of the contact's points is {:.4g} m above "
       "the ground",
-      contact.smallest_gap(state));
+      smallest_gap(contact, state));
   return failure;
 }
 

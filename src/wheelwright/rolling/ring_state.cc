@@ -4,6 +4,7 @@
 
 #include "wheelwright/base/parallel.h"
 #include "wheelwright/base/stopwatch.h"
+#include "wheelwright/contact/contact_results.h"
 #include "wheelwright/geometry/mirror.h"
 #include "wheelwright/rolling/growth_gradient.h"
 #include "wheelwright/rolling/neumann_to_dirichlet.h"
@@ -25,7 +26,7 @@ class RingState : public State<dim> {
         boundary_(boundary_points(problem, solution_)),
         edges_(edge_points(problem, solution_)) {
     for (size_t i = 0; i < solution_.contacts.size(); ++i)
-      contacts_.push_back(solution_.contacts[i].patch(solution_.states[i]));
+      contacts_.push_back(contact_patch(solution_.contacts[i], solution_.states[i]));
   }
 
   const RollingModel<dim>& model() const override { return solution_.model; }
@@ -91,7 +92,8 @@ class RingState : public State<dim> {
       for (const auto& failure : failures)
         if (failure) return *failure;
       result.emplace_back();
-      for (const RolledContact<dim>& one : rolled) result.back().push_back(one.contact.patch(one.state));
+      for (const RolledContact<dim>& one : rolled)
+        result.back().push_back(contact_patch(one.contact, one.state));
     }
     return result;
   }

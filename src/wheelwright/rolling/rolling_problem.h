@@ -1,19 +1,11 @@
 #pragma once
 
 #include "wheelwright/ring/tread_ring.h"
-#include "wheelwright/rolling/distributed_loads.h"
-#include "wheelwright/rolling/standing_point.h"
+#include "wheelwright/rolling/preload.h"
+#include "wheelwright/rolling/rolled_contact.h"
 #include "wheelwright/state/state.h"
 
 namespace wheelwright {
-
-/// Data shared by the direct problems of one shape under all loads.
-template <int dim>
-struct FactoredShape {
-  CutDomain<dim> domain;
-  CyclicStiffness<dim> ring;
-  std::vector<PhaseTime> phases;  ///< of cutting, assembly and factorization
-};
 
 /// The direct problems of some load positions for one shape. Load cases of the core are numbered position *
 /// n_sectors + sector; matrices of the tread have one column per (position, ring column). Position i
@@ -102,21 +94,6 @@ class RollingProblem : public StateSolver<dim> {
   RollingProblem(const RollingModel<dim>& model, std::unique_ptr<ElementTable<dim>> elements,
                  Tread<dim> tread);
 
-  /// Loads in the core after elimination: their modes, and what they are on the boundary.
-  struct CondensedLoads {
-    SectorFields core;
-    typename CyclicStiffness<dim>::EliminatedInterface boundary;
-  };
-  /// Distributed loads at some load positions, and what the tread observes of them without the ground.
-  struct WithoutGround {
-    AppliedLoads applied;
-    CondensedLoads condensed;
-    Matrix observed;
-  };
-  WithoutGround without_ground(const RollingSolution<dim>& s, const DistributedLoads<dim>& loads,
-                               const std::vector<GroundPosition>& grounds) const;
-  CondensedLoads preload(RollingSolution<dim>& s) const;
-  void find_standing_points(const Matrix& observed, RollingSolution<dim>& s) const;
   Expected<std::shared_ptr<const FactoredShape<dim>>> factor(const CutShape<dim>& shape) const;
   /// Whether the wheel must touch the ground at every position.
   enum class Ground { touched, out_of_reach };
@@ -131,30 +108,5 @@ class RollingProblem : public StateSolver<dim> {
   SectorHarmonics harmonics_;
   Tread<dim> tread_;
 };
-
-/// One load position's contact problem and its solution.
-template <int dim>
-struct RolledContact {
-  ReducedContact<dim> contact;
-  ContactState<dim> state;
-};
-
-/// The contact of a single load position, on a ring factored by solve(). The zone is widened until it
-/// contains the contact; for a bonded tread it is the whole tread. `neighbour`: a solution to start from;
-/// `preload`: the effect of all loads but the ground's.
-template <int dim>
-Expected<RolledContact<dim>> roll_to(const RollingModel<dim>& model, const Tread<dim>& tread,
-                                     const CyclicStiffness<dim>& ring, const SurfaceCompliance<dim>& surface,
-                                     GroundPosition ground, const Preload& preload,
-                                     const std::optional<ContactState<dim>>& neighbour,
-                                     const Interrupt& interrupt = {});
-
-/// The same position under the loads or the travel of `model`, which differs in nothing else. It costs
-/// little as long as the contact stays in the zone of `before`.
-template <int dim>
-Expected<RolledContact<dim>> reload(const RollingModel<dim>& model, const Tread<dim>& tread,
-                                    const CyclicStiffness<dim>& ring, const SurfaceCompliance<dim>& surface,
-                                    GroundPosition ground, const Preload& preload,
-                                    const RolledContact<dim>& before);
 
 }  // namespace wheelwright

@@ -7,6 +7,7 @@
 #include "wheelwright/elasticity/materials.h"
 #include "wheelwright/elasticity/side_faces.h"
 #include "wheelwright/geometry/polar_grid.h"
+#include "wheelwright/state/contact_law.h"
 #include "wheelwright/state/rim.h"
 
 namespace wheelwright {
@@ -51,6 +52,8 @@ struct RollingModel {
   GhostPenalty ghost;
   SideFaces side_faces = SideFaces::free;  ///< when dim = 3
   ContactForm contact;
+  /// In place of the law of `contact`, whose friction then does not count; null: that law.
+  std::shared_ptr<const ContactLaw<dim>> contact_law = {};
   int contact_points = 5;       ///< Gauss points on each contact face, along the axle at most degree + 1
   TreadGrid tread;              ///< rows that are condensed once per run, and their refinement
   double load;                  ///< P [N/m when dim = 2, N when dim = 3]

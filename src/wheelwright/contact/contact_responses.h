@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "wheelwright/base/vec.h"
+#include "wheelwright/state/contact_law.h"
 
 namespace wheelwright {
 
@@ -21,15 +21,6 @@ template <int dim>
 double tangential_norm(const Vec<dim>& z) {
   return std::sqrt(tangential_dot<dim>(z, z));
 }
-
-/// The contact traction on the body and its tangent, in the ground frame: component 0 along n_y (into the
-/// ground), the others tangential.
-template <int dim>
-struct ContactResponse {
-  Vec<dim> traction;  ///< Phi(z)
-  Mat<dim>
-      tangent;  ///< d Phi_i / d z_j, including the dependence of the friction threshold on z_0: (56), (57)
-};
 
 /// Phi(z) of (18), (23): Phi_n = -[z_n]_-, Phi_t = z_t projected onto the ball of radius F [z_n]_- (19).
 template <int dim>
@@ -100,14 +91,7 @@ ContactResponse<dim> bonded_response(const Vec<dim>& z) {
   return r;
 }
 
-/// The status of a point by its augmented traction: whether it touches, and whether its tangential traction
-/// has reached the threshold.
-struct ContactStatus {
-  bool touches, slides;
-  bool operator==(const ContactStatus&) const = default;
-};
-
-/// Under Coulomb's law; a point that does not touch does not slide either.
+/// The status of a point under Coulomb's law; a point that does not touch does not slide either.
 template <int dim>
 ContactStatus contact_status(const Vec<dim>& z, double friction) {
   const bool touches = z[0] < 0;
