@@ -109,7 +109,6 @@ const SectionArray<SpokeShape>& spoke_shape_sections() {
       .keys = {
           fill_key<SpokeShape>(choice<&SpokeShape::as>({"material", "hole"})),
           {.name = "kind",
-           .unit = "",
            .field = choice<&SpokeShape::kind>({"straight", "curved", "forked", "pair"}),
            .meaning = "curved: a circular arc; forked: two branches from a stem; pair: a straight spoke and "
                       "its mirror image"},
@@ -138,7 +137,6 @@ namespace {
 template <class Struct>
 Key<Struct> path_key(std::string_view meaning) {
   return {.name = "path",
-          .unit = "",
           .field = TextField<Struct>{&Struct::path, ""},
           .meaning = meaning,
           .presence = Presence::required};
@@ -146,16 +144,13 @@ Key<Struct> path_key(std::string_view meaning) {
 
 template <class Struct>
 Key<Struct> copies_key(std::string_view meaning) {
-  return {.name = "count",
-          .unit = "",
-          .field = IntegerField<Struct>{&Struct::count, between(1, 100000)},
-          .meaning = meaning};
+  return {
+      .name = "count", .field = IntegerField<Struct>{&Struct::count, between(1, 100000)}, .meaning = meaning};
 }
 
 template <class Struct>
 Key<Struct> checksum_key() {
   return {.name = "checksum",
-          .unit = "",
           .field = TextField<Struct>{&Struct::checksum, "any file is taken"},
           .meaning = "CRC-32 of the file; another file is refused. Runs write it into their own case file"};
 }
@@ -168,7 +163,6 @@ const Section<SavedShape>& saved_shape_section() {
       .meaning = "the shape to begin with, if it is that of an earlier run ([saved shapes](shapes.md))",
       .in = [](Case& c) -> SavedShape& { return c.saved_shape; },
       .keys = {{.name = "from",
-                .unit = "",
                 .field = TextField<SavedShape>{&SavedShape::from, "holes and shapes are drawn"},
                 .meaning = "the folder of a run, for its last saved shape, or a file of this kind "
                            "(shape.levelset); relative to the folder of the case file; the grid may differ, "
@@ -191,11 +185,9 @@ const SectionArray<FileShape>& file_shape_sections() {
           fill_key<FileShape>(choice<&FileShape::as>({"material", "hole"})),
           path_key<FileShape>("the file, .svg or .dxf; relative to the folder of the case file"),
           {.name = "unit",
-           .unit = "",
            .field = choice<&FileShape::unit>({"file", "m", "cm", "mm", "in"}),
            .meaning = "unit of the numbers in the drawing; file: the file must say it"},
           {.name = "axle",
-           .unit = "",
            .field = OptionalPointField<FileShape>{&FileShape::axle, between(-1e9, 1e9),
                                                   "the centre of the page of an SVG, the origin of a DXF"},
            .meaning = "[x, y] of the axle in the drawing, in its own unit and axes"},
@@ -217,7 +209,6 @@ const SectionArray<PictureShape>& picture_shape_sections() {
           fill_key<PictureShape>(choice<&PictureShape::as>({"material", "hole"})),
           path_key<PictureShape>("the file, .png; relative to the folder of the case file"),
           {.name = "layout",
-           .unit = "",
            .field = choice<&PictureShape::layout>({"wheel", "sector"}),
            .meaning =
                "wheel: the whole wheel, the axle in the middle; sector: one of `count` equal parts, "
@@ -228,7 +219,6 @@ const SectionArray<PictureShape>& picture_shape_sections() {
                                                       "none, for a sector; required for a wheel"},
            .meaning = "width of the whole picture of a wheel"},
           {.name = "threshold",
-           .unit = "",
            .field = NumberField<PictureShape>{&PictureShape::threshold, between(0.01, 0.99)},
            .meaning = "what is darker is drawn; 0 is white and 1 is black"},
           copies_key<PictureShape>("how often the picture is repeated round the full wheel"),
