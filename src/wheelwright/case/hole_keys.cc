@@ -9,7 +9,7 @@ const SectionArray<HoleRing>& ring_sections() {
       .meaning =
           "holes of the initial shape: equal circles, evenly spaced about the axle; give any number of rings",
       .in = [](Case& c) -> std::vector<HoleRing>& { return c.holes.rings; },
-      .example = {.count = 16, .center_radius = 0.27, .radius = 0.04, .phase = {}},
+      .example = {.count = 16, .center_radius = 0.27, .radius = 0.04},
       .keys = {count_key<HoleRing>(), center_radius_key<HoleRing>(),
                length_key(&HoleRing::radius, "radius", "radius of each hole"),
                phase_key<HoleRing>(phase_of_centre)}};
@@ -41,7 +41,7 @@ const SectionArray<HoleSphere>& sphere_sections() {
           "in 3D, spherical holes of the initial shape, evenly spaced about the axle; give any number of "
           "them",
       .in = [](Case& c) -> std::vector<HoleSphere>& { return c.holes.spheres; },
-      .example = {.count = 16, .center_radius = 0.27, .radius = 0.03, .z = 0, .phase = {}},
+      .example = {.count = 16, .center_radius = 0.27, .radius = 0.03, .z = 0},
       .keys = {count_key<HoleSphere>(),
                center_radius_key<HoleSphere>(),
                length_key(&HoleSphere::radius, "radius", "radius of each hole"),
@@ -56,7 +56,7 @@ const SectionArray<HoleSphere>& sphere_sections() {
 namespace {
 
 HoleTapered conical_holes() {
-  HoleTapered holes{.count = 16, .center_radius = 0.27, .profile = {}, .phase = {}};
+  HoleTapered holes{.count = 16, .center_radius = 0.27, .profile = {}};
   holes.profile = {{-0.06, 0.04}, {0, 0.03}, {0.06, 0.04}};
   return holes;
 }

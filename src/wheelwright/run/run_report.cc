@@ -238,20 +238,10 @@ ReportRun<dim> report_of_folder(const fs::path& folder, const Case& c) {
                      .is_running = true,
                      .program = program_text(),
                      .case_text = content(folder / "case.toml"),
-                     .seconds = 0,
                      .load = load_text(rolling_model<dim>(c)),
                      .objective = shown_unit(c.objective.minimize, c.wheel),
                      .grid = polar_grid<dim>(c),
-                     .trials = 0,
-                     .rejected = {},
-                     .events = {},
-                     .history = {},
-                     .outlines = read_outlines(folder),
-                     .flags = {},
-                     .limits = {},
-                     .summary = {},
-                     .wheel = {},
-                     .contact_points = {}};
+                     .outlines = read_outlines(folder)};
   read_history(folder / history_file, run);
   run.seconds = last_elapsed(run);
   std::erase_if(run.history, [](const HistoryCurve& curve) { return curve.name.ends_with("[s]"); });
