@@ -210,8 +210,8 @@ PolarGrid<dim> polar_grid(const Case& c) {
   if constexpr (dim == 3) grid.cells[2] = c.grid.axial_cells;
   return grid;
 }
-template PolarGrid<2> polar_grid(const Case&);
-template PolarGrid<3> polar_grid(const Case&);
+template decltype(polar_grid<2>) polar_grid<2>;
+template decltype(polar_grid<3>) polar_grid<3>;
 
 Bands bands(const Case& c) {
   const double ring = c.wheel.outer_radius - c.wheel.inner_radius, usual = ring / 14;

@@ -493,18 +493,13 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::roll(
 
 template class RollingProblem<2>;
 template class RollingProblem<3>;
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                        \
-  template std::vector<double> case_multiplicities(const RollingSolution<dim>&);                            \
-  template SectorFields complete_displacement(const RollingSolution<dim>&);                                 \
-  template Expected<RolledContact<dim>> roll_to(const RollingModel<dim>&, const Tread<dim>&,                \
-                                                const CyclicStiffness<dim>&, const SurfaceCompliance<dim>&, \
-                                                GroundPosition, const Preload&,                             \
-                                                const std::optional<ContactState<dim>>&, const Interrupt&); \
-  template Expected<RolledContact<dim>> reload(const RollingModel<dim>&, const Tread<dim>&,                 \
-                                               const CyclicStiffness<dim>&, const SurfaceCompliance<dim>&,  \
-                                               GroundPosition, const Preload&, const RolledContact<dim>&);
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+template decltype(case_multiplicities<2>) case_multiplicities<2>;
+template decltype(complete_displacement<2>) complete_displacement<2>;
+template decltype(roll_to<2>) roll_to<2>;
+template decltype(reload<2>) reload<2>;
+template decltype(case_multiplicities<3>) case_multiplicities<3>;
+template decltype(complete_displacement<3>) complete_displacement<3>;
+template decltype(roll_to<3>) roll_to<3>;
+template decltype(reload<3>) reload<3>;
 
 }  // namespace wheelwright
