@@ -542,6 +542,13 @@ TEST(Picture, PatternsThatTouchAtCornersStayClosedOutlines) {
 
 // --- Repetitions
 
+std::vector<int> repetitions(const Composition& shape, int most, double tolerance) {
+  std::vector<int> result{1};
+  for (int n = 2; n <= most; ++n)
+    if (repeats(shape, n, tolerance)) result.push_back(n);
+  return result;
+}
+
 TEST(Symmetry, FindsTheNumbersOfEqualSectors) {
   const auto wheel = [](const std::vector<double>& azimuths) {
     Figure figure{Fill::hole, {}};

@@ -36,6 +36,13 @@ void expect_equal(const RingField& a, const RingField& b, double tolerance) {
   EXPECT_LT(worst, tolerance * scale);
 }
 
+std::vector<PositionFields<2>> all_position_fields(const StateSolver<2>& solver, const State<2>& state) {
+  std::vector<PositionFields<2>> all;
+  for_each_position<2>(solver, state,
+                       [&](int, PositionFields<2> fields) { all.push_back(std::move(fields)); });
+  return all;
+}
+
 /// Points in contact, which both zones hold; beyond them zones may end one column apart.
 std::vector<ContactPoint> touching(const std::vector<ContactPoint>& points, int position) {
   std::vector<ContactPoint> result;

@@ -7,7 +7,7 @@
 #include <functional>
 #include <numbers>
 
-#include "wheelwright/cad/outline_fault.h"
+#include "wheelwright/cad/outline.h"
 #include "wheelwright/case/case.h"
 #include "wheelwright/geometry/cell_map.h"
 #include "wheelwright/report/described_wheel.h"

@@ -6,7 +6,6 @@
 
 #include "wheelwright/cut/measure.h"
 #include "wheelwright/evolution/redistance.h"
-#include "wheelwright/evolution/spline_redistance.h"
 #include "wheelwright/geometry/shapes.h"
 
 using namespace wheelwright;

@@ -9,6 +9,11 @@
 namespace wheelwright {
 namespace {
 
+bool is_utf8(std::string_view text) {
+  while (const std::size_t length = utf8_length(text)) text.remove_prefix(length);
+  return text.empty();
+}
+
 /// The bit pattern of UTF-8 for a number, well-formed or not, in a given number of bytes.
 std::string encoded(unsigned code, int bytes) {
   if (bytes == 1) return {static_cast<char>(code)};

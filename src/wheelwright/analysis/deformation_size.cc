@@ -128,9 +128,7 @@ struct Side {
   size_t curve, index;  ///< of its curve, and along it
 };
 
-double turn(const Vec<2>& a, const Vec<2>& b, const Vec<2>& c) {
-  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-}
+double turn(const Vec<2>& a, const Vec<2>& b, const Vec<2>& c) { return cross(b - a, c - a); }
 
 /// Whether the inner parts of two sides cross.
 bool cross(const Side& a, const Side& b) {
@@ -146,7 +144,7 @@ bool any_cross(const std::vector<std::vector<Vec<2>>>& curves) {
   for (size_t c = 0; c < curves.size(); ++c)
     for (size_t k = 0; k < curves[c].size(); ++k) {
       const Side side{curves[c][k], curves[c][(k + 1) % curves[c].size()], c, k};
-      longest = std::max(longest, std::hypot(side.to[0] - side.from[0], side.to[1] - side.from[1]));
+      longest = std::max(longest, distance(side.from, side.to));
       sides.push_back(side);
     }
   const auto square = [&](double x) { return static_cast<std::int64_t>(std::floor(x / longest)); };

@@ -114,11 +114,6 @@ Deviation of_curves(const Outline& outline, const ZeroContour& zero) {
   return deviation;
 }
 
-double distance_to_side(const Vec<2>& p, const Vec<2>& a, const Vec<2>& b) {
-  const Vec<2> side = b - a, from_a = p - a;
-  return distance(from_a, std::clamp(dot(from_a, side) / dot(side, side), 0.0, 1.0) * side);
-}
-
 /// Polygons with corners at most `step` apart, and the corners' neighbours.
 struct DenseCorners {
   std::vector<Vec<2>> points;
@@ -151,8 +146,8 @@ Deviation of_contour(const LevelSet<2>& psi, const std::vector<Polygon>& polygon
     for (const Vec<2>& p : contour.points) {
       const int corner = nearest.index_of_nearest(p);
       const Vec<2>& q = dense.points[corner];
-      deviation.include(std::min(distance_to_side(p, dense.points[dense.before[corner]], q),
-                                 distance_to_side(p, q, dense.points[dense.after[corner]])),
+      deviation.include(std::min(distance_to_segment(p, dense.points[dense.before[corner]], q),
+                                 distance_to_segment(p, q, dense.points[dense.after[corner]])),
                         p);
     }
   }

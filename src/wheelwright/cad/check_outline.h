@@ -5,7 +5,7 @@
 
 #include "wheelwright/base/expected.h"
 #include "wheelwright/cad/clearance.h"
-#include "wheelwright/cad/outline_fault.h"
+#include "wheelwright/cad/outline.h"
 #include "wheelwright/cad/roughness.h"
 
 namespace wheelwright::cad {

@@ -9,7 +9,7 @@
 #include "wheelwright/cad/circle_fit.h"
 #include "wheelwright/cad/contour_samples.h"
 #include "wheelwright/cad/spline_fit.h"
-#include "wheelwright/geometry/cell_map.h"
+#include "wheelwright/geometry/representative_contours.h"
 
 namespace wheelwright::cad {
 namespace {
@@ -24,58 +24,6 @@ constexpr double sample_distance = 3;
 constexpr double corner_angle = 20 * std::numbers::pi / 180;
 /// A kink of this angle also becomes a corner if no spline follows the contour otherwise [rad].
 constexpr double least_corner_angle = std::numbers::pi / 180;
-
-Vec<2> centroid(const Contour& contour) {
-  Vec<2> sum{};
-  Vec<2> a = contour.points.back();
-  for (const Vec<2>& b : contour.points) {
-    sum += cross(a, b) * (a + b) / 6;
-    a = b;
-  }
-  return sum / signed_area(contour);
-}
-
-/// The free contours of one sector: one of each group of images.
-class Representatives {
- public:
-  Representatives(const std::vector<Contour>& contours, const PolarGrid<2>& grid) : grid_(grid) {
-    for (const Contour& contour : contours)
-      if (contour.kind == ContourKind::free && !is_image(contour)) {
-        chosen_.push_back(&contour);
-        marks_.push_back({centroid(contour), signed_area(contour)});
-      }
-  }
-
-  const std::vector<const Contour*>& contours() const { return chosen_; }
-
-  /// Whether the contour lies about the axle, so that it is its own image.
-  bool is_about_axle(std::size_t i) const { return norm(marks_[i].centroid) < tolerance(); }
-
- private:
-  /// Disjoint contours differ in one of these.
-  struct Mark {
-    Vec<2> centroid;
-    double area;
-  };
-
-  double tolerance() const { return 1e-7 * grid_.outer_radius; }
-
-  bool is_image(const Contour& contour) const {
-    const Mark mark{centroid(contour), signed_area(contour)};
-    for (const Mark& other : marks_) {
-      if (std::abs(mark.area - other.area) > tolerance() * tolerance() + 1e-6 * std::abs(mark.area)) continue;
-      for (int sector = 1; sector < grid_.n_sectors; ++sector) {
-        const Vec<2> image = wheelwright::rotated<2>(other.centroid, sector * grid_.sector_angle());
-        if (distance(image, mark.centroid) < tolerance()) return true;
-      }
-    }
-    return false;
-  }
-
-  PolarGrid<2> grid_;
-  std::vector<const Contour*> chosen_;
-  std::vector<Mark> marks_;
-};
 
 OutlineFault described(const NoFit& fault, double tolerance) {
   return {fmt::format("no curve follows the contour within {:.3g} mm at {}; the deviation is {:.3g} mm",
@@ -190,15 +138,13 @@ Expected<Outline, OutlineFault> fit_outline(const LevelSet<2>& psi, double toler
   const auto contours = material_contours(psi, contour_subdivisions(psi.lattice.degree()));
   if (const auto fault = broken_edge(contours, grid)) return *fault;
   const ZeroContour zero(psi);
-  const Representatives of_sector(contours, grid);
   Outline outline{{circle_about_axle(LoopKind::outer_edge, grid.outer_radius),
                    circle_about_axle(LoopKind::bore, grid.inner_radius)}};
-  for (std::size_t i = 0; i < of_sector.contours().size(); ++i) {
-    const Contour& contour = *of_sector.contours()[i];
-    auto curves = fit_loop(sample(contour, zero, sample_distance * tolerance), share_of_fit * tolerance);
+  for (const auto& [contour, is_about_axle] : representatives(contours, grid)) {
+    auto curves = fit_loop(sample(*contour, zero, sample_distance * tolerance), share_of_fit * tolerance);
     if (!curves) return described(curves.failure(), tolerance);
-    const Loop loop{signed_area(contour) > 0 ? LoopKind::island : LoopKind::hole, *std::move(curves)};
-    const int n_images = of_sector.is_about_axle(i) ? 1 : grid.n_sectors;
+    const Loop loop{signed_area(*contour) > 0 ? LoopKind::island : LoopKind::hole, *std::move(curves)};
+    const int n_images = is_about_axle ? 1 : grid.n_sectors;
     for (int sector = 0; sector < n_images; ++sector)
       outline.loops.push_back(rotated_loop(loop, sector * grid.sector_angle()));
   }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "wheelwright/base/expected.h"
-#include "wheelwright/cad/outline_fault.h"
+#include "wheelwright/cad/outline.h"
 
 namespace wheelwright::cad {
 

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
+
+#include "wheelwright/geometry/place.h"
 
 namespace wheelwright::cad {
 
@@ -96,6 +99,11 @@ std::string text(const CurveCount& count) {
   if (count.splines > 0)
     result += fmt::format(" and {} of {}", some(count.splines, "spline"), some(count.cubics, "cubic"));
   return result;
+}
+
+std::string place_of(const Vec<2>& point) {
+  const double azimuth = std::atan2(point[1], point[0]);
+  return place_text<2>({norm(point), azimuth < 0 ? azimuth + 2 * std::numbers::pi : azimuth});
 }
 
 std::vector<Vec<2>> flattened(const Loop& loop, double tolerance) {

@@ -51,6 +51,14 @@ CurveCount count(const Outline& outline);
 /// The numbers as text, e.g. "18 loops: 2 arcs and 16 splines of 412 cubics".
 std::string text(const CurveCount& count);
 
+/// Why an outline cannot be created or must not be used.
+struct OutlineFault {
+  std::string what;  ///< one line, with the place
+};
+
+/// A Cartesian point as text, e.g. "azimuth 12.34 deg, radius 270.1 mm".
+std::string place_of(const Vec<2>& point);
+
 /// A loop as a closed polygon that deviates by at most `tolerance` [m].
 std::vector<Vec<2>> flattened(const Loop& loop, double tolerance);
 

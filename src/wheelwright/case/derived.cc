@@ -206,8 +206,8 @@ PolarGrid<dim> polar_grid(const Case& c) {
   if constexpr (dim == 3) grid.cells[2] = c.grid.axial_cells;
   return grid;
 }
-template PolarGrid<2> polar_grid(const Case&);
-template PolarGrid<3> polar_grid(const Case&);
+template decltype(polar_grid<2>) polar_grid<2>;
+template decltype(polar_grid<3>) polar_grid<3>;
 
 Bands bands(const Case& c) {
   const double ring = c.wheel.outer_radius - c.wheel.inner_radius, usual = ring / 14;
@@ -245,14 +245,10 @@ void for_each_in_sector(const Case& c, int count, const std::optional<double>& p
 
 std::vector<Circle> sector_holes(const Case& c) {
   std::vector<Circle> holes;
-  for (const HoleRing& ring : c.holes.rings)
-    for_each_in_sector(c, ring.count, ring.phase, [&](double azimuth) {
-      holes.push_back({ring.center_radius, azimuth, ring.radius});
+  for (const NamedRing& named : named_rings(c))
+    for_each_in_sector(c, named.ring.count, named.ring.phase, [&](double azimuth) {
+      holes.push_back({named.ring.center_radius, azimuth, named.ring.radius});
     });
-  for (const HoleCircle& circle : c.holes.circles) {
-    const auto [x, y] = circle.center;
-    holes.push_back({std::hypot(x, y), std::atan2(y, x), circle.radius});
-  }
   return holes;
 }
 

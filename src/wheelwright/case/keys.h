@@ -149,7 +149,7 @@ enum class Presence { has_default, required };
 template <class Struct>
 struct Key {
   std::string_view name;
-  std::string_view unit;  ///< empty for pure numbers and words
+  std::string_view unit = {};  ///< empty for pure numbers and words
   std::variant<NumberField<Struct>, OptionalNumberField<Struct>, IntegerField<Struct>,
                OptionalIntegerField<Struct>, TextField<Struct>, PointField<Struct>,
                OptionalPointField<Struct>, PointsField<Struct>, ChoiceField<Struct>, QuantityField<Struct>>

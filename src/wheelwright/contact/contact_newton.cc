@@ -286,15 +286,15 @@ Expected<ContactState<dim>> solve_linear(const ReducedContact<dim>& contact) {
                  fmt::format("linear contact: residual {:.3g} Pa", norm(residual))};
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                  \
-  template bool touches(const ContactUnknowns<dim>&);                                                 \
-  template ContactUnknowns<dim> sticking_somewhere(const ReducedContact<dim>&, ContactUnknowns<dim>); \
-  template NewtonEnd<dim> without_rounding_errors(const ReducedContact<dim>&, ContactUnknowns<dim>);  \
-  template NewtonEnd<dim> newton(const ReducedContact<dim>&, ContactUnknowns<dim>, Cycling,           \
-                                 const Interrupt&, int);                                              \
-  template Expected<ContactState<dim>> solve_linear(const ReducedContact<dim>&);
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+template decltype(touches<2>) touches<2>;
+template decltype(sticking_somewhere<2>) sticking_somewhere<2>;
+template decltype(without_rounding_errors<2>) without_rounding_errors<2>;
+template decltype(newton<2>) newton<2>;
+template decltype(solve_linear<2>) solve_linear<2>;
+template decltype(touches<3>) touches<3>;
+template decltype(sticking_somewhere<3>) sticking_somewhere<3>;
+template decltype(without_rounding_errors<3>) without_rounding_errors<3>;
+template decltype(newton<3>) newton<3>;
+template decltype(solve_linear<3>) solve_linear<3>;
 
 }  // namespace wheelwright

@@ -237,11 +237,7 @@ Expected<ContactState<dim>, ContactFailure> solve_contact(const ReducedContact<d
   return failure_of(contact, end, limit);
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                  \
-  template Expected<ContactState<dim>, ContactFailure> solve_contact( \
-      const ReducedContact<dim>&, std::span<const ContactUnknowns<dim>>, const Interrupt&);
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+template decltype(solve_contact<2>) solve_contact<2>;
+template decltype(solve_contact<3>) solve_contact<3>;
 
 }  // namespace wheelwright

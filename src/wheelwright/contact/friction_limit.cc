@@ -113,13 +113,11 @@ std::optional<FrictionLimit> friction_limit(const ReducedContact<dim>& contact,
                        .normal_force = 0.5 * (pushed->normal_force + pulled->normal_force)};
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                               \
-  template double force_along_ground(const ReducedContact<dim>&);                  \
-  template ReducedContact<dim> held_along_ground(const ReducedContact<dim>&);      \
-  template std::optional<FrictionLimit> friction_limit(const ReducedContact<dim>&, \
-                                                       const ContactUnknowns<dim>&, const Interrupt&);
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+template decltype(force_along_ground<2>) force_along_ground<2>;
+template decltype(held_along_ground<2>) held_along_ground<2>;
+template decltype(friction_limit<2>) friction_limit<2>;
+template decltype(force_along_ground<3>) force_along_ground<3>;
+template decltype(held_along_ground<3>) held_along_ground<3>;
+template decltype(friction_limit<3>) friction_limit<3>;
 
 }  // namespace wheelwright

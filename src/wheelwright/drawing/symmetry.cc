@@ -68,11 +68,4 @@ bool repeats(const Composition& shape, int n, double tolerance) {
   return asymmetry(shape, n, tolerance).distance < tolerance;
 }
 
-std::vector<int> repetitions(const Composition& shape, int most, double tolerance) {
-  std::vector<int> result{1};
-  for (int n = 2; n <= most; ++n)
-    if (repeats(shape, n, tolerance)) result.push_back(n);
-  return result;
-}
-
 }  // namespace wheelwright

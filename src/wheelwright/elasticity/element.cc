@@ -448,22 +448,17 @@ Matrix half_of_symmetric_pair(const Matrix& form, int degree) {
   return half;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                        \
-  template Vec<dim> traction<dim>(const Voigt<dim>&, const Vec<dim>&);                                      \
-  template class ElasticElement<dim>;                                                                       \
-  template std::array<std::array<double, ElasticElement<dim>::max_dofs>, dim> traction_map<dim>(            \
-      const ElasticElement<dim>&, const MaterialLaw<dim>&, const ElasticElement<dim>::Point&,               \
-      const Vec<dim>&);                                                                                     \
-  template Matrix cell_stiffness<dim>(const ElasticElement<dim>&, const MaterialLaw<dim>&,                  \
-                                      std::span<const ReferencePoint<dim>>);                                \
-  template Matrix gradient_stiffness<dim>(const ElasticElement<dim>&, const MaterialLaw<dim>&,              \
-                                          std::span<const ReferencePoint<dim>>);                            \
-  template Matrix ghost_stiffness<dim>(const ElasticElement<dim>&, const ElasticElement<dim>&, int, double, \
-                                       const MaterialLaw<dim>&, const GhostPenalty&);                       \
-  template Matrix traction_jump_stiffness<dim>(const ElasticElement<dim>&, const ElasticElement<dim>&, int, \
-                                               double, const MaterialLaw<dim>&, double);                    \
-  template GhostHalves divided_ghost_stiffness<dim>(const ElasticElement<dim>&, double,                     \
-                                                    const MaterialLaw<dim>&, const GhostPenalty&);
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                             \
+  template decltype(traction<dim>) traction<dim>;                                                \
+  template class ElasticElement<dim>;                                                            \
+  template std::array<std::array<double, ElasticElement<dim>::max_dofs>, dim> traction_map<dim>( \
+      const ElasticElement<dim>&, const MaterialLaw<dim>&, const ElasticElement<dim>::Point&,    \
+      const Vec<dim>&);                                                                          \
+  template decltype(cell_stiffness<dim>) cell_stiffness<dim>;                                    \
+  template decltype(gradient_stiffness<dim>) gradient_stiffness<dim>;                            \
+  template decltype(ghost_stiffness<dim>) ghost_stiffness<dim>;                                  \
+  template decltype(traction_jump_stiffness<dim>) traction_jump_stiffness<dim>;                  \
+  template decltype(divided_ghost_stiffness<dim>) divided_ghost_stiffness<dim>;
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)
 #undef WHEELWRIGHT_INSTANTIATE

@@ -52,11 +52,9 @@ std::optional<std::string> fault_of_linear_law(const MaterialLaw<dim>& law) {
   return {};
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim) \
-  template class MaterialLaw<dim>;   \
-  template std::optional<std::string> fault_of_linear_law(const MaterialLaw<dim>&);
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+template class MaterialLaw<2>;
+template decltype(fault_of_linear_law<2>) fault_of_linear_law<2>;
+template class MaterialLaw<3>;
+template decltype(fault_of_linear_law<3>) fault_of_linear_law<3>;
 
 }  // namespace wheelwright

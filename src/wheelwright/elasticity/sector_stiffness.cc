@@ -102,7 +102,7 @@ SectorStiffness<dim> sector_stiffness(const CutDomain<dim>& domain, const Elemen
 
 template class ElementTable<2>;
 template class ElementTable<3>;
-template SectorStiffness<2> sector_stiffness(const CutDomain<2>&, const ElementTable<2>&, int);
-template SectorStiffness<3> sector_stiffness(const CutDomain<3>&, const ElementTable<3>&, int);
+template decltype(sector_stiffness<2>) sector_stiffness<2>;
+template decltype(sector_stiffness<3>) sector_stiffness<3>;
 
 }  // namespace wheelwright

@@ -51,7 +51,7 @@ Voigt<2> strain_around_hole(const Material& material, const Voigt<2>& distant, c
                               half * sine + shear * cosine});
 }
 
-template Voigt<2> strain_of_hole<2>(const Material&, const Voigt<2>&);
-template Voigt<3> strain_of_hole<3>(const Material&, const Voigt<3>&);
+template decltype(strain_of_hole<2>) strain_of_hole<2>;
+template decltype(strain_of_hole<3>) strain_of_hole<3>;
 
 }  // namespace wheelwright

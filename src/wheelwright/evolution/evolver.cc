@@ -9,7 +9,6 @@
 #include "wheelwright/evolution/multilinear.h"
 #include "wheelwright/evolution/redistance.h"
 #include "wheelwright/evolution/spline_level_set.h"
-#include "wheelwright/evolution/spline_redistance.h"
 #include "wheelwright/evolution/sub_cell_filter.h"
 #include "wheelwright/evolution/transport.h"
 #include "wheelwright/evolution/widening.h"

@@ -74,13 +74,11 @@ ShapeResult<dim> finished_shape(const Evolver<dim>& evolver, LevelSet<dim> psi,
   return UnfinishedShape<dim>{std::move(psi), measure, std::move(removed), failure};
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                       \
-  template ShapeResult<dim> next_shape(const Evolver<dim>&, const LevelSet<dim>&, const ShapeMotion&,      \
-                                       const ShapeRequirements&);                                          \
-  template ShapeResult<dim> measured_shape(const Evolver<dim>&, const LevelSet<dim>&, const FeatureSize&); \
-  template ShapeResult<dim> finished_shape(const Evolver<dim>&, LevelSet<dim>, const ShapeRequirements&);
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+template decltype(next_shape<2>) next_shape<2>;
+template decltype(measured_shape<2>) measured_shape<2>;
+template decltype(finished_shape<2>) finished_shape<2>;
+template decltype(next_shape<3>) next_shape<3>;
+template decltype(measured_shape<3>) measured_shape<3>;
+template decltype(finished_shape<3>) finished_shape<3>;
 
 }  // namespace wheelwright

@@ -1,7 +1,9 @@
 #include "wheelwright/evolution/redistance.h"
 
 #include "wheelwright/evolution/closest_point.h"
+#include "wheelwright/evolution/cubic_interpolant.h"
 #include "wheelwright/evolution/seeds.h"
+#include "wheelwright/evolution/spline_level_set.h"
 #include "wheelwright/geometry/nearest_point.h"
 
 namespace wheelwright {
@@ -16,8 +18,8 @@ Vec<dim> point_of(const Lattice<dim>& lattice, int node) {
   return point;
 }
 
-}  // namespace
-
+/// The points of {psi = 0} that are closest to the nodes, one for each, in units of the node spacing of the
+/// lattice. They may lie in the neighbouring sectors. Empty where psi has one sign.
 template <int dim>
 std::vector<Vec<dim>> closest_points(const LevelSet<dim>& psi) {
   const auto& lattice = psi.lattice;
@@ -35,6 +37,7 @@ std::vector<Vec<dim>> closest_points(const LevelSet<dim>& psi) {
   return result;
 }
 
+/// The distances of the nodes from these points, with the signs of psi; psi itself where there are none.
 template <int dim>
 LevelSet<dim> signed_distances(const LevelSet<dim>& psi, const std::vector<Vec<dim>>& closest) {
   LevelSet<dim> result = psi;
@@ -46,16 +49,31 @@ LevelSet<dim> signed_distances(const LevelSet<dim>& psi, const std::vector<Vec<d
   return result;
 }
 
+}  // namespace
+
 template <int dim>
 LevelSet<dim> redistance(const LevelSet<dim>& psi) {
   return signed_distances<dim>(psi, closest_points(psi));
 }
 
-template decltype(closest_points<2>) closest_points<2>;
-template decltype(closest_points<3>) closest_points<3>;
-template decltype(signed_distances<2>) signed_distances<2>;
-template decltype(signed_distances<3>) signed_distances<3>;
+template <int dim>
+LevelSet<dim> redistanced_coefficients(const LevelSet<dim>& psi) {
+  constexpr int corrections = 4;
+  const auto closest = closest_points(psi);
+  LevelSet<dim> coefficients = spline_coefficients(signed_distances<dim>(psi, closest));
+  if (psi.lattice.degree() == 1) return coefficients;
+  for (int k = 0; k < corrections && !closest.empty(); ++k) {
+    const LevelSet<dim> shape = spline_level_set(coefficients);
+    const CubicInterpolant<dim> value(shape);
+    for (std::size_t node = 0; node < closest.size(); ++node)
+      coefficients.values[node] -= value(closest[node]).value;
+  }
+  return coefficients;
+}
+
 template decltype(redistance<2>) redistance<2>;
 template decltype(redistance<3>) redistance<3>;
+template decltype(redistanced_coefficients<2>) redistanced_coefficients<2>;
+template decltype(redistanced_coefficients<3>) redistanced_coefficients<3>;
 
 }  // namespace wheelwright

@@ -1,19 +1,8 @@
 #pragma once
 
-#include <vector>
-
 #include "wheelwright/geometry/level_set.h"
 
 namespace wheelwright {
-
-/// The points of {psi = 0} that are closest to the nodes, one for each, in units of the node spacing of the
-/// lattice: those of redistance(). They may lie in the neighbouring sectors. Empty where psi has one sign.
-template <int dim>
-std::vector<Vec<dim>> closest_points(const LevelSet<dim>& psi);
-
-/// The distances of the nodes from these points, with the signs of psi; psi itself where there are none.
-template <int dim>
-LevelSet<dim> signed_distances(const LevelSet<dim>& psi, const std::vector<Vec<dim>>& closest);
 
 /// Reinitialization: returns the signed distance [m] to {psi = 0} at all nodes, with the signs of psi, by the
 /// closest-point method (Chopp 2001; Saye 2014). The zero set is that of the cubic interpolant. Seed points
@@ -23,5 +12,12 @@ LevelSet<dim> signed_distances(const LevelSet<dim>& psi, const std::vector<Vec<d
 /// unchanged.
 template <int dim>
 LevelSet<dim> redistance(const LevelSet<dim>& psi);
+
+/// Coefficients (spline_level_set.h) that are about the signed distance to {psi = 0}, and whose spline has
+/// this zero set. The distance has kinks midway between edges, which a spline rounds off: without corrections
+/// the edges of its spline are off by up to a fifth of a cell at walls and gaps a few cells wide, with them
+/// by less than a hundredth on average. A psi of one sign is returned unchanged.
+template <int dim>
+LevelSet<dim> redistanced_coefficients(const LevelSet<dim>& psi);
 
 }  // namespace wheelwright

@@ -47,13 +47,11 @@ FunctionalValue<dim> RatioOfMeans<dim>::evaluate(const StateSolver<dim>& solver,
   return value;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                       \
-  template void add_over_positions(const LoadPositions&, const FunctionalDerivative<dim>&, \
-                                   std::span<const double>, FunctionalDerivative<dim>&);   \
-  template class FunctionOfPositions<dim>;                                                 \
-  template class RatioOfMeans<dim>;
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+template decltype(add_over_positions<2>) add_over_positions<2>;
+template class FunctionOfPositions<2>;
+template class RatioOfMeans<2>;
+template decltype(add_over_positions<3>) add_over_positions<3>;
+template class FunctionOfPositions<3>;
+template class RatioOfMeans<3>;
 
 }  // namespace wheelwright

@@ -71,12 +71,11 @@ bool row_is_inside(const PolarGrid<dim>& grid, int row, double from_tread) {
   return outer <= grid.outer_radius - from_tread + 1e-9 * height;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim) \
-  template class VonMisesPower<dim>; \
-  template class PeakVonMises<dim>;  \
-  template bool row_is_inside(const PolarGrid<dim>&, int, double);
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+template class VonMisesPower<2>;
+template class PeakVonMises<2>;
+template decltype(row_is_inside<2>) row_is_inside<2>;
+template class VonMisesPower<3>;
+template class PeakVonMises<3>;
+template decltype(row_is_inside<3>) row_is_inside<3>;
 
 }  // namespace wheelwright

@@ -367,7 +367,7 @@ Expected<WeightedFunctional<dim>> functional_of(const Quantity& quantity, Over o
   return term;
 }
 
-template Expected<WeightedFunctional<2>> functional_of(const Quantity&, Over, const QuantityContext<2>&);
-template Expected<WeightedFunctional<3>> functional_of(const Quantity&, Over, const QuantityContext<3>&);
+template decltype(functional_of<2>) functional_of<2>;
+template decltype(functional_of<3>) functional_of<3>;
 
 }  // namespace wheelwright

@@ -17,7 +17,7 @@ bool are_mirror_symmetric(std::span<const ShapeFunction<dim>> functions, MirrorP
   });
 }
 
-template bool are_mirror_symmetric(std::span<const ShapeFunction<2>>, MirrorPlane);
-template bool are_mirror_symmetric(std::span<const ShapeFunction<3>>, MirrorPlane);
+template decltype(are_mirror_symmetric<2>) are_mirror_symmetric<2>;
+template decltype(are_mirror_symmetric<3>) are_mirror_symmetric<3>;
 
 }  // namespace wheelwright

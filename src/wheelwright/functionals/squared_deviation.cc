@@ -25,9 +25,7 @@ FunctionalValue<dim> squared_deviation(const TreadSurface<dim>& tread, const Sta
   return value;
 }
 
-template FunctionalValue<2> squared_deviation(const TreadSurface<2>&, const State<2>&, const Matrix&,
-                                              std::span<const WeightedTraction>);
-template FunctionalValue<3> squared_deviation(const TreadSurface<3>&, const State<3>&, const Matrix&,
-                                              std::span<const WeightedTraction>);
+template decltype(squared_deviation<2>) squared_deviation<2>;
+template decltype(squared_deviation<3>) squared_deviation<3>;
 
 }  // namespace wheelwright

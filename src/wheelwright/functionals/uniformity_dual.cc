@@ -38,7 +38,7 @@ FunctionalValue<dim> UniformityDual<dim>::evaluate(const StateSolver<dim>& solve
 
 template class UniformityDual<2>;
 template class UniformityDual<3>;
-template Matrix traction_deviation(const TreadSurface<2>&, const State<2>&, const Matrix&);
-template Matrix traction_deviation(const TreadSurface<3>&, const State<3>&, const Matrix&);
+template decltype(traction_deviation<2>) traction_deviation<2>;
+template decltype(traction_deviation<3>) traction_deviation<3>;
 
 }  // namespace wheelwright

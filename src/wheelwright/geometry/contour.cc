@@ -284,21 +284,10 @@ double perimeter(const Contour& contour) {
   double length = 0;
   Vec<2> a = contour.points.back();
   for (const Vec<2>& b : contour.points) {
-    length += std::hypot(b[0] - a[0], b[1] - a[1]);
+    length += distance(a, b);
     a = b;
   }
   return length;
-}
-
-BoundingBox bounding_box(const Contour& contour) {
-  BoundingBox box{contour.points.front(), contour.points.front()};
-  for (const Vec<2>& p : contour.points) {
-    for (int d = 0; d < 2; ++d) {
-      box.lower[d] = std::min(box.lower[d], p[d]);
-      box.upper[d] = std::max(box.upper[d], p[d]);
-    }
-  }
-  return box;
 }
 
 std::vector<std::vector<MaterialPolygon>> material_polygons(const LevelSet<2>& psi, int subdivisions) {

@@ -37,11 +37,6 @@ double signed_area(const Contour& contour);
 /// Length of the contour [m].
 double perimeter(const Contour& contour);
 
-struct BoundingBox {
-  Vec<2> lower, upper;
-};
-BoundingBox bounding_box(const Contour& contour);
-
 /// A convex piece of the material of one cell: 3 to 6 corners in the unit cell, counter-clockwise in (radius,
 /// azimuth).
 using MaterialPolygon = std::vector<Vec<2>>;

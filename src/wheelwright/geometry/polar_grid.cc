@@ -9,7 +9,7 @@ double sector_measure(const PolarGrid<dim>& grid) {
   return dim == 3 ? area * grid.width : area;
 }
 
-template double sector_measure<2>(const PolarGrid<2>&);
-template double sector_measure<3>(const PolarGrid<3>&);
+template decltype(sector_measure<2>) sector_measure<2>;
+template decltype(sector_measure<3>) sector_measure<3>;
 
 }  // namespace wheelwright

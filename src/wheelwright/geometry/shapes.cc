@@ -15,13 +15,6 @@ double distance_from_centre(const PolarGrid<dim>& grid, double centre_radius, do
   return std::hypot(polar[0] - centre_radius, chord);
 }
 
-double distance_to_segment(const Vec<2>& x, const Vec<2>& a, const Vec<2>& b) {
-  const Vec<2> along{b[0] - a[0], b[1] - a[1]}, from{x[0] - a[0], x[1] - a[1]};
-  const double square = dot<2>(along, along);
-  const double t = square > 0 ? std::clamp(dot<2>(from, along) / square, 0.0, 1.0) : 0;
-  return std::hypot(from[0] - t * along[0], from[1] - t * along[1]);
-}
-
 /// The radius of a tapered hole at a height.
 double radius_at(const std::vector<Vec<2>>& profile, double height) {
   if (height <= profile.front()[0]) return profile.front()[1];

@@ -72,11 +72,11 @@ std::optional<Vec<2>> ZeroContour::projection(const Vec<2>& point) const {
   for (int k = 0; k < max_steps; ++k) {
     const Value value = at(x);
     const double slope2 = dot<2>(value.gradient, value.gradient);
-    const Vec<2> step{-value.psi / slope2 * value.gradient[0], -value.psi / slope2 * value.gradient[1]};
+    const Vec<2> step = -value.psi / slope2 * value.gradient;
     const double length = norm<2>(step);
     if (!(length < farthest)) return {};
-    x = {x[0] + step[0], x[1] + step[1]};
-    if (std::hypot(x[0] - point[0], x[1] - point[1]) > farthest) return {};
+    x += step;
+    if (distance(x, point) > farthest) return {};
     if (length < converged) return x;
   }
   return {};

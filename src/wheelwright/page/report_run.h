@@ -77,24 +77,24 @@ struct ReportRun {
   bool is_running;        ///< if so, the page reloads itself
   std::string program;    ///< version, compiler and libraries
   std::string case_text;  ///< case.toml
-  double seconds;         ///< of computation
+  double seconds = 0;     ///< of computation
   std::string load;       ///< as readable text
   ShownUnit objective;
   PolarGrid<dim> grid;
-  int trials;
-  std::map<std::string, int> rejected;  ///< trials, by reason
-  std::vector<HoleEvents> events;       ///< the newest ones, oldest first
-  int events_omitted = 0;               ///< older events that are not in `events`
-  std::vector<HistoryCurve> history;
+  int trials = 0;
+  std::map<std::string, int> rejected = {};  ///< trials, by reason
+  std::vector<HoleEvents> events = {};       ///< the newest ones, oldest first
+  int events_omitted = 0;                    ///< older events that are not in `events`
+  std::vector<HistoryCurve> history = {};
   std::vector<ShapeOutline> outlines;
-  std::optional<ShapeOutline> given = {};  ///< the wheel of the case, if the first shape differs from it
-  std::vector<std::string> flags;          ///< warnings, in sentences
-  bool has_rough_edges = false;            ///< teeth or ripples that cannot be cut
-  std::vector<std::string> limits;         ///< what was not checked or not computed, in sentences
-  std::optional<RunSummary<dim>> summary;  ///< absent while the run continues
-  std::optional<ShownWheel<dim>> wheel;    ///< the last shape
+  std::optional<ShapeOutline> given = {};       ///< the wheel of the case, if the first shape differs from it
+  std::vector<std::string> flags = {};          ///< warnings, in sentences
+  bool has_rough_edges = false;                 ///< teeth or ripples that cannot be cut
+  std::vector<std::string> limits = {};         ///< what was not checked or not computed, in sentences
+  std::optional<RunSummary<dim>> summary = {};  ///< absent while the run continues
+  std::optional<ShownWheel<dim>> wheel = {};    ///< the last shape
   std::vector<LoadedPositions<dim>> other_loads = {};
-  std::vector<ContactPoint> contact_points;
+  std::vector<ContactPoint> contact_points = {};
 };
 
 /// A run as the page holds it.

@@ -9,7 +9,7 @@
 #include "wheelwright/analysis/shape_summary.h"
 #include "wheelwright/base/units.h"
 #include "wheelwright/cad/clearance.h"
-#include "wheelwright/cad/outline_fault.h"
+#include "wheelwright/cad/outline.h"
 #include "wheelwright/cad/roughness.h"
 #include "wheelwright/state/load_case.h"
 

@@ -179,11 +179,7 @@ Vec<3> Camera::turned(const Vec<3>& direction) const {
   return {dot<3>(axes_[0], direction), dot<3>(axes_[1], direction), dot<3>(axes_[2], direction)};
 }
 
-Vec<3> Camera::seen(const Vec<3>& point) const {
-  Vec<3> result = turned({point[0] - centre_[0], point[1] - centre_[1], point[2] - centre_[2]});
-  for (double& x : result) x /= half_;
-  return result;
-}
+Vec<3> Camera::seen(const Vec<3>& point) const { return turned(point - centre_) / half_; }
 
 Image lit_image(const std::vector<LitBody>& bodies, const Camera& camera, int pixels) {
   Canvas canvas(samples * pixels);

@@ -130,11 +130,8 @@ std::string azimuth_mark(const PictureView& view, const Vec<2>& axle, const Vec<
   constexpr double length = 10, text_distance = 22;
   if (!view.holds(axle) || !view.holds(rim)) return "";
   const Vec<2> a = view.pixel(axle), b = view.pixel(rim);
-  const double radius = std::hypot(b[0] - a[0], b[1] - a[1]);
-  const auto inward = [&](double distance) {
-    return Vec<2>{b[0] + (a[0] - b[0]) * distance / radius, b[1] + (a[1] - b[1]) * distance / radius};
-  };
-  const Vec<2> end = inward(length), text = inward(text_distance);
+  const double radius = distance(a, b);
+  const Vec<2> end = b + length * (a - b) / radius, text = b + text_distance * (a - b) / radius;
   return fmt::format(
              "<path fill=\"none\" stroke=\"{}\" stroke-width=\"2\" d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\"/>\n",
              ink, b[0], b[1], end[0], end[1]) +

@@ -292,15 +292,6 @@ void for_each_position(const StateSolver<dim>& solver, const State<dim>& state,
 }
 
 template <int dim>
-std::vector<PositionFields<dim>> all_position_fields(const StateSolver<dim>& solver,
-                                                     const State<dim>& state) {
-  std::vector<PositionFields<dim>> all;
-  for_each_position<dim>(solver, state,
-                         [&](int, PositionFields<dim> fields) { all.push_back(std::move(fields)); });
-  return all;
-}
-
-template <int dim>
 std::vector<NamedField> named_fields(const PositionFields<dim>& fields) {
   return {{"displacement", unit<dim>(UnitKind::length), fields.displacement},
           {.name = "stress",
@@ -356,7 +347,6 @@ std::vector<ContactPoint> curve_points(std::vector<ContactPoint> points) {
 
 template decltype(position_fields<2>) position_fields<2>;
 template decltype(for_each_position<2>) for_each_position<2>;
-template decltype(all_position_fields<2>) all_position_fields<2>;
 template decltype(named_fields<2>) named_fields<2>;
 template Lattice<2> displacement_lattice(const RollingModel<2>&);
 template decltype(vertical_field<2>) vertical_field<2>;
@@ -366,7 +356,6 @@ template decltype(contact_points<2>) contact_points<2>;
 template decltype(curve_points<2>) curve_points<2>;
 template decltype(position_fields<3>) position_fields<3>;
 template decltype(for_each_position<3>) for_each_position<3>;
-template decltype(all_position_fields<3>) all_position_fields<3>;
 template decltype(named_fields<3>) named_fields<3>;
 template Lattice<3> displacement_lattice(const RollingModel<3>&);
 template decltype(vertical_field<3>) vertical_field<3>;

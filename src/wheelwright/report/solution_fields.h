@@ -45,11 +45,6 @@ template <int dim>
 void for_each_position(const StateSolver<dim>& solver, const State<dim>& state,
                        const std::function<void(int, PositionFields<dim>)>& visit);
 
-/// The fields of all of them.
-template <int dim>
-std::vector<PositionFields<dim>> all_position_fields(const StateSolver<dim>& solver,
-                                                     const State<dim>& solution);
-
 /// Displacement, stress and von Mises stress, by the names that they have in files.
 template <int dim>
 std::vector<NamedField> named_fields(const PositionFields<dim>& fields);

@@ -23,7 +23,7 @@ std::string polyline_path(const std::vector<Vec<2>>& points, double units_per_me
   std::string path;
   Vec<2> last{};
   for (const Vec<2>& p : points) {
-    if (!path.empty() && std::hypot(p[0] - last[0], p[1] - last[1]) < spacing) continue;
+    if (!path.empty() && distance(p, last) < spacing) continue;
     path += fmt::format("{}{:.{}f} {:.{}f}", path.empty() ? 'M' : 'L', p[0] * units_per_metre, decimals,
                         -p[1] * units_per_metre, decimals);
     last = p;
@@ -59,8 +59,7 @@ std::vector<PicturePolygon> thinned(const std::vector<Contour>& contours, double
     PicturePolygon points;
     Vec<2> last{};
     for (const Vec<2>& p : contour.points) {
-      if (!points.empty() && std::hypot(p[0] - last[0], p[1] - last[1]) < point_spacing / pixels_per_metre)
-        continue;
+      if (!points.empty() && distance(p, last) < point_spacing / pixels_per_metre) continue;
       const double units = units_per_pixel * pixels_per_metre;
       points.push_back(
           {static_cast<int>(std::lround(p[0] * units)), static_cast<int>(std::lround(-p[1] * units))});

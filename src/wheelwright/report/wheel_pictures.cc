@@ -15,6 +15,37 @@ namespace {
 
 constexpr double window_in_thicknesses = 0.75;  // half the view of the contact over the ring's thickness
 
+/// The stress on the whole wheel, with the forces on this width [m].
+template <int dim>
+DeformedPicture<dim> stress_picture(const std::string& title, double width,
+                                    const PositionFields<dim>& fields) {
+  NamedField stress = von_mises_field(fields.stress);
+  stress.name = "von Mises stress";
+  return {.title = title,
+          .displacement = fields.displacement,
+          .magnification = picture_magnification(fields.displacement, fields.lattice.grid().outer_radius),
+          .contact_azimuth = fields.ground_azimuth,
+          .is_bonded = fields.is_bonded,
+          .window = {},
+          .scalar = std::move(stress),
+          .scale = ScaleKind::without_tail,
+          .rim = fields.rim,
+          .travel = fields.travel,
+          .rim_force = dim == 2 ? scaled(width, fields.rim_force) : fields.rim_force,
+          .contact = fields.contact,
+          .peak = fields.von_mises};
+}
+
+/// The same with the displacement towards the ground instead.
+template <int dim>
+DeformedPicture<dim> with_displacement(DeformedPicture<dim> picture) {
+  picture.scalar = {"displacement down", unit<dim>(UnitKind::length),
+                    vertical_field<dim>(picture.displacement, picture.contact_azimuth)};
+  picture.scale = ScaleKind::all;
+  picture.peak = {};
+  return picture;
+}
+
 }  // namespace
 
 int worst_position(std::span<const double> strain_energy) {
@@ -25,66 +56,30 @@ void write_wheel_pictures(const std::filesystem::path& folder, const PictureName
                           const LevelSet<2>& shape, const CutDomain<2>& domain,
                           const PositionFields<2>& fields) {
   const PolarGrid<2>& grid = shape.lattice.grid();
-  NamedField stress = von_mises_field(fields.stress);
-  stress.name = "von Mises stress";
-  const NamedField vertical{"displacement down", unit<2>(UnitKind::length),
-                            vertical_field<2>(fields.displacement, fields.ground_azimuth)};
-  const double magnification = picture_magnification(fields.displacement, grid.outer_radius);
-  const auto draw = [&](const char* file, double factor, std::optional<double> window,
-                        const NamedField& scalar, ScaleKind scale, std::optional<DrawnPeak<2>> peak) {
-    write_atomically(folder / (names.prefix + file),
-                     deformed_svg(shape, fields.lattice,
-                                  {.title = names.title,
-                                   .displacement = fields.displacement,
-                                   .magnification = factor,
-                                   .contact_azimuth = fields.ground_azimuth,
-                                   .is_bonded = fields.is_bonded,
-                                   .window = window,
-                                   .scalar = scalar,
-                                   .scale = scale,
-                                   .rim = fields.rim,
-                                   .travel = fields.travel,
-                                   .rim_force = scaled(names.width, fields.rim_force),
-                                   .contact = fields.contact,
-                                   .peak = peak}));
+  const auto write = [&](const char* file, const DeformedPicture<2>& picture) {
+    write_atomically(folder / (names.prefix + file), deformed_svg(shape, fields.lattice, picture));
   };
-  draw("stress.svg", magnification, {}, stress, ScaleKind::without_tail, fields.von_mises);
-  draw("stress_contact.svg", 1, window_in_thicknesses * (grid.outer_radius - grid.inner_radius), stress,
-       ScaleKind::without_tail, fields.von_mises);
-  draw("displacement.svg", magnification, {}, vertical, ScaleKind::all, {});
+  const auto stress = stress_picture(names.title, names.width, fields);
+  auto contact = stress;
+  contact.magnification = 1;
+  contact.window = window_in_thicknesses * (grid.outer_radius - grid.inner_radius);
+  write("stress.svg", stress);
+  write("stress_contact.svg", contact);
+  write("displacement.svg", with_displacement(stress));
   write_atomically(folder / (names.prefix + "mesh.svg"), mesh_svg(shape, domain, names.title));
 }
 
 void write_wheel_pictures(const std::filesystem::path& folder, const PictureNames& names,
                           const LevelSet<3>& shape, const CutDomain<3>&, const PositionFields<3>& fields) {
-  const PolarGrid<3>& grid = shape.lattice.grid();
-  NamedField stress = von_mises_field(fields.stress);
-  stress.name = "von Mises stress";
-  const NamedField vertical{"displacement down", unit<3>(UnitKind::length),
-                            vertical_field<3>(fields.displacement, fields.ground_azimuth)};
-  const double magnification = picture_magnification(fields.displacement, grid.outer_radius);
   const SurfaceMesh surface = shape_boundary(shape, fields.lattice.degree());
-  const auto draw = [&](const char* file, const NamedField& scalar, ScaleKind scale,
-                        std::optional<DrawnPeak<3>> peak) {
-    write_atomically(folder / (names.prefix + file), deformed_svg(surface, fields.lattice,
-                                                                  {.title = names.title,
-                                                                   .displacement = fields.displacement,
-                                                                   .magnification = magnification,
-                                                                   .contact_azimuth = fields.ground_azimuth,
-                                                                   .is_bonded = fields.is_bonded,
-                                                                   .window = {},
-                                                                   .scalar = scalar,
-                                                                   .scale = scale,
-                                                                   .rim = fields.rim,
-                                                                   .travel = fields.travel,
-                                                                   .rim_force = fields.rim_force,
-                                                                   .contact = fields.contact,
-                                                                   .peak = peak}));
+  const auto write = [&](const char* file, const DeformedPicture<3>& picture) {
+    write_atomically(folder / (names.prefix + file), deformed_svg(surface, fields.lattice, picture));
   };
-  draw("stress.svg", stress, ScaleKind::without_tail, fields.von_mises);
-  draw("displacement.svg", vertical, ScaleKind::all, {});
+  const auto stress = stress_picture(names.title, names.width, fields);
+  write("stress.svg", stress);
+  write("displacement.svg", with_displacement(stress));
   write_atomically(folder / (names.prefix + "pressure.svg"),
-                   pressure_map_svg(names.title, grid, fields.contact));
+                   pressure_map_svg(names.title, shape.lattice.grid(), fields.contact));
 }
 
 }  // namespace wheelwright

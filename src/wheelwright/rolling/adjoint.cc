@@ -292,7 +292,7 @@ Expected<std::vector<Adjoint>> solve_adjoints(const RollingProblem<dim>& problem
 }
 
 #define WHEELWRIGHT_INSTANTIATE(dim)                                                                       \
-  template Matrix energy_weighted(const RollingSolution<dim>&, const std::vector<double>&, Matrix);        \
+  template decltype(energy_weighted<dim>) energy_weighted<dim>;                                            \
   template Expected<std::vector<Adjoint>> solve_adjoints(                                                  \
       const RollingProblem<dim>&, const RollingSolution<dim>&, std::span<const FunctionalDerivative<dim>>, \
       const SectorFields&, const PartialCholesky::Sweep&);

@@ -192,14 +192,11 @@ Failure contact_failure(const ContactFailure& failure, const RollingModel<dim>& 
   return failure;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                               \
-  template Failure contact_failure(const ContactFailure&, const RollingModel<dim>&,                \
-                                   const ReducedContact<dim>&);                                    \
-  template std::optional<Failure> rim_under_ground(const RollingModel<dim>&, const RimMotion&);    \
-  template std::optional<Failure> no_contact(const RollingModel<dim>&, const ReducedContact<dim>&, \
-                                             const ContactState<dim>&);
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+template decltype(contact_failure<2>) contact_failure<2>;
+template decltype(rim_under_ground<2>) rim_under_ground<2>;
+template decltype(no_contact<2>) no_contact<2>;
+template decltype(contact_failure<3>) contact_failure<3>;
+template decltype(rim_under_ground<3>) rim_under_ground<3>;
+template decltype(no_contact<3>) no_contact<3>;
 
 }  // namespace wheelwright

@@ -176,12 +176,7 @@ AppliedLoads applied_loads(const DistributedLoads<dim>& loads, const CutDomain<d
   return applied;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                         \
-  template AppliedLoads applied_loads(const DistributedLoads<dim>&, const CutDomain<dim>&,   \
-                                      const ElementTable<dim>&, const CyclicStiffness<dim>&, \
-                                      const Tread<dim>&, std::span<const GroundPosition>);
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+template decltype(applied_loads<2>) applied_loads<2>;
+template decltype(applied_loads<3>) applied_loads<3>;
 
 }  // namespace wheelwright

@@ -95,11 +95,7 @@ MaterialLoads material_loads(const RollingProblem<dim>& problem, const RollingSo
   return loads;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                             \
-  template MaterialLoads material_loads(const RollingProblem<dim>&, const RollingSolution<dim>&, \
-                                        std::span<const typename FunctionalDerivative<dim>::Integral>);
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+template decltype(material_loads<2>) material_loads<2>;
+template decltype(material_loads<3>) material_loads<3>;
 
 }  // namespace wheelwright

@@ -158,10 +158,10 @@ Expected<typename StateSolver<dim>::TractionMap> RollingProblem<dim>::neumann_to
   return traction_map<dim>(model_, norm);
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                       \
-  template std::shared_ptr<const State<dim>> ring_state(const RollingProblem<dim>&, RollingSolution<dim>); \
-  template Expected<std::shared_ptr<const State<dim>>> RollingProblem<dim>::states(                        \
-      const CutShape<dim>&, LoadPositions, const Interrupt&) const;                                        \
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                \
+  template decltype(ring_state<dim>) ring_state<dim>;                               \
+  template Expected<std::shared_ptr<const State<dim>>> RollingProblem<dim>::states( \
+      const CutShape<dim>&, LoadPositions, const Interrupt&) const;                 \
   template Expected<StateSolver<dim>::TractionMap> RollingProblem<dim>::neumann_to_dirichlet(DualNorm) const;
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)

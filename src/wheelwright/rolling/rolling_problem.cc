@@ -204,9 +204,9 @@ Expected<RollingSolution<dim>> RollingProblem<dim>::roll(
 
 template class RollingProblem<2>;
 template class RollingProblem<3>;
-template std::vector<double> case_multiplicities(const RollingSolution<2>&);
-template std::vector<double> case_multiplicities(const RollingSolution<3>&);
-template SectorFields complete_displacement(const RollingSolution<2>&);
-template SectorFields complete_displacement(const RollingSolution<3>&);
+template decltype(case_multiplicities<2>) case_multiplicities<2>;
+template decltype(complete_displacement<2>) complete_displacement<2>;
+template decltype(case_multiplicities<3>) case_multiplicities<3>;
+template decltype(complete_displacement<3>) complete_displacement<3>;
 
 }  // namespace wheelwright

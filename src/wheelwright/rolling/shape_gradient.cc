@@ -335,16 +335,11 @@ ShapeGradients shape_gradients(const RollingProblem<dim>& problem, const Rolling
           .phases = {}};
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                               \
-  template std::vector<SurfacePoint<dim>> boundary_points(const RollingProblem<dim>&,              \
-                                                          const RollingSolution<dim>&);            \
-  template std::vector<SurfacePoint<dim>> edge_points(const RollingProblem<dim>&,                  \
-                                                      const RollingSolution<dim>&);                \
-  template ShapeGradients shape_gradients(const RollingProblem<dim>&, const RollingSolution<dim>&, \
-                                          std::span<const FunctionalDerivative<dim>>,              \
-                                          std::span<const Adjoint>);
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+template decltype(boundary_points<2>) boundary_points<2>;
+template decltype(edge_points<2>) edge_points<2>;
+template decltype(shape_gradients<2>) shape_gradients<2>;
+template decltype(boundary_points<3>) boundary_points<3>;
+template decltype(edge_points<3>) edge_points<3>;
+template decltype(shape_gradients<3>) shape_gradients<3>;
 
 }  // namespace wheelwright

@@ -29,7 +29,7 @@ StandingPoint<dim> standing_point(const Tread<dim>& tread, const PolarGrid<dim>&
   return lowest;
 }
 
-template StandingPoint<2> standing_point(const Tread<2>&, const PolarGrid<2>&, GroundPosition, const Matrix&);
-template StandingPoint<3> standing_point(const Tread<3>&, const PolarGrid<3>&, GroundPosition, const Matrix&);
+template decltype(standing_point<2>) standing_point<2>;
+template decltype(standing_point<3>) standing_point<3>;
 
 }  // namespace wheelwright

@@ -289,15 +289,12 @@ std::shared_ptr<const State<dim>> turned_state(std::shared_ptr<const State<dim>>
                                                   columns, std::move(phases));
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                             \
-  template std::vector<int> possible_first_columns(const PolarGrid<dim>&, bool);                 \
-  template int best_first_column(const CutDomain<dim>&, const ElementTable<dim>&, int,           \
-                                 std::span<const int>);                                          \
-  template TurnedShape<dim> turned_back(const LevelSet<dim>&, const CutDomain<dim>&, int);       \
-  template LoadPositions turned_back(LoadPositions, const PolarGrid<dim>&, int);                 \
-  template std::shared_ptr<const State<dim>> turned_state(std::shared_ptr<const State<dim>>,     \
-                                                          std::shared_ptr<const CutDomain<dim>>, \
-                                                          LoadPositions, int, std::vector<PhaseTime>);
+#define WHEELWRIGHT_INSTANTIATE(dim)                                                       \
+  template decltype(possible_first_columns<dim>) possible_first_columns<dim>;              \
+  template decltype(best_first_column<dim>) best_first_column<dim>;                        \
+  template TurnedShape<dim> turned_back(const LevelSet<dim>&, const CutDomain<dim>&, int); \
+  template LoadPositions turned_back(LoadPositions, const PolarGrid<dim>&, int);           \
+  template decltype(turned_state<dim>) turned_state<dim>;
 WHEELWRIGHT_INSTANTIATE(2)
 WHEELWRIGHT_INSTANTIATE(3)
 #undef WHEELWRIGHT_INSTANTIATE

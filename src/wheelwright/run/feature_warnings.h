@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "wheelwright/base/expected.h"
-#include "wheelwright/cad/outline_fault.h"
+#include "wheelwright/cad/outline.h"
 #include "wheelwright/case/case.h"
 #include "wheelwright/report/described_wheel.h"
 

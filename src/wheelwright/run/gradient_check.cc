@@ -232,12 +232,9 @@ Expected<std::vector<GradientCheck>> check_gradients(const Study<dim>& study, co
   return best;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                     \
-  template std::vector<double> test_direction(const LevelSet<dim>&, int, double);                        \
-  template Expected<std::vector<GradientCheck>> check_gradients(const Study<dim>&, const LevelSet<dim>&, \
-                                                                const Interrupt&);
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+template decltype(test_direction<2>) test_direction<2>;
+template decltype(check_gradients<2>) check_gradients<2>;
+template decltype(test_direction<3>) test_direction<3>;
+template decltype(check_gradients<3>) check_gradients<3>;
 
 }  // namespace wheelwright

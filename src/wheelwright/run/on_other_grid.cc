@@ -31,9 +31,7 @@ Expected<OnOtherGrid<dim>> on_other_grid(const OptimizationState<dim>& state, co
   return moved;
 }
 
-template Expected<OnOtherGrid<2>> on_other_grid(const OptimizationState<2>&, const Lattice<2>&,
-                                                const Evolver<2>&);
-template Expected<OnOtherGrid<3>> on_other_grid(const OptimizationState<3>&, const Lattice<3>&,
-                                                const Evolver<3>&);
+template decltype(on_other_grid<2>) on_other_grid<2>;
+template decltype(on_other_grid<3>) on_other_grid<3>;
 
 }  // namespace wheelwright

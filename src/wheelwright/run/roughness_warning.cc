@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "wheelwright/cad/fit_outline.h"
-#include "wheelwright/cad/outline_fault.h"
+#include "wheelwright/cad/outline.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/run/study.h"
 

@@ -156,8 +156,7 @@ std::optional<Draft> draft_as(std::vector<Shape> Shapes::*shapes, const char* na
                                  .center_radius = h.center_radius,
                                  .length = length,
                                  .width = h.width(length),
-                                 .angle = h.angle,
-                                 .phase = {}});
+                                 .angle = h.angle});
                }};
 }
 
@@ -174,13 +173,7 @@ std::optional<Draft> draft_ellipses(const DraftSpace& space, Random& random) {
 std::optional<Draft> draft_spokes(const DraftSpace& space, Random& random, SpokeKind kind) {
   const int count = draw_count(space, random, fewest, kind == SpokeKind::straight ? 40 : 24);
   const double spacing = 2 * pi / count;
-  SpokeShape spoke{.order = 2,
-                   .kind = kind,
-                   .count = count,
-                   .fork_radius = {},
-                   .inner_radius = {},
-                   .outer_radius = {},
-                   .phase = {}};
+  SpokeShape spoke{.order = 2, .kind = kind, .count = count};
   std::string words;
   switch (kind) {
     case SpokeKind::straight:
@@ -208,7 +201,7 @@ std::optional<Draft> draft_spokes(const DraftSpace& space, Random& random, Spoke
                .minimum = space.wall,
                .most = largest,
                .draw = [spoke](Case& c, double thickness) {
-                 c.shapes.annuli.push_back({.order = 1, .inner_radius = {}, .outer_radius = {}});
+                 c.shapes.annuli.push_back({.order = 1});
                  c.shapes.spokes.push_back(spoke);
                  c.shapes.spokes.back().thickness = thickness;
                }};

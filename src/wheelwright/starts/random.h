@@ -27,11 +27,6 @@ class Random {
 
   bool coin() { return below(2) == 1; }
 
-  template <class Value>
-  const Value& pick(const std::vector<Value>& values) {
-    return values[below(static_cast<int>(values.size()))];
-  }
-
  private:
   static std::uint32_t low_word(std::uint64_t x) { return static_cast<std::uint32_t>(x); }
   static std::uint32_t high_word(std::uint64_t x) { return static_cast<std::uint32_t>(x >> 32); }

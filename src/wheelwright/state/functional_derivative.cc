@@ -81,7 +81,7 @@ void DensityOfStrain<dim>::slopes(const StrainsAtPoint<dim>& point, std::span<co
 
 template class DensityOfStrain<2>;
 template class DensityOfStrain<3>;
-template void add(const FunctionalDerivative<2>&, const std::vector<double>&, FunctionalDerivative<2>&);
-template void add(const FunctionalDerivative<3>&, const std::vector<double>&, FunctionalDerivative<3>&);
+template decltype(add<2>) add<2>;
+template decltype(add<3>) add<3>;
 
 }  // namespace wheelwright

@@ -30,9 +30,9 @@ std::vector<double> of_all(const LoadPositions& positions, const std::vector<dou
   return all;
 }
 
-template LoadPositions load_positions(const PolarGrid<2>&, int, double);
-template LoadPositions load_positions(const PolarGrid<3>&, int, double);
-template LoadPositions load_positions_without_images(const PolarGrid<2>&, int, double);
-template LoadPositions load_positions_without_images(const PolarGrid<3>&, int, double);
+template decltype(load_positions<2>) load_positions<2>;
+template decltype(load_positions<3>) load_positions<3>;
+template decltype(load_positions_without_images<2>) load_positions_without_images<2>;
+template decltype(load_positions_without_images<3>) load_positions_without_images<3>;
 
 }  // namespace wheelwright

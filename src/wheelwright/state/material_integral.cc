@@ -49,13 +49,9 @@ std::vector<double> material_integral(const StateSolver<dim>& solver, const Stat
   return integrals;
 }
 
-#define WHEELWRIGHT_INSTANTIATE(dim)                                                                   \
-  template void for_each_cell(const StateSolver<dim>&, const State<dim>&, const MaterialDensity<dim>&, \
-                              const std::function<void(const StrainedCell<dim>&)>&);                   \
-  template std::vector<double> material_integral(const StateSolver<dim>&, const State<dim>&,           \
-                                                 const MaterialDensity<dim>&);
-WHEELWRIGHT_INSTANTIATE(2)
-WHEELWRIGHT_INSTANTIATE(3)
-#undef WHEELWRIGHT_INSTANTIATE
+template decltype(for_each_cell<2>) for_each_cell<2>;
+template decltype(material_integral<2>) material_integral<2>;
+template decltype(for_each_cell<3>) for_each_cell<3>;
+template decltype(material_integral<3>) material_integral<3>;
 
 }  // namespace wheelwright

@@ -26,8 +26,8 @@ bool is_axially_symmetric(const RollingModel<dim>& model) {
          (model.lateral_force == 0 && model.camber == 0 && model.distributed.body_force[dim - 1] == 0);
 }
 
-template bool is_axially_symmetric(const RollingModel<2>&);
-template bool is_axially_symmetric(const RollingModel<3>&);
+template decltype(is_axially_symmetric<2>) is_axially_symmetric<2>;
+template decltype(is_axially_symmetric<3>) is_axially_symmetric<3>;
 template RimControl rim_control(const RollingModel<2>&);
 template RimControl rim_control(const RollingModel<3>&);
 template bool is_mirror_symmetric(const RollingModel<2>&);

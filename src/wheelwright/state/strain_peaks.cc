@@ -153,7 +153,7 @@ StrainPeaks<dim> strain_peaks(const StateSolver<dim>& solver, const State<dim>& 
   return {std::move(all.von_mises), std::move(all.places), std::move(all.principal)};
 }
 
-template StrainPeaks<2> strain_peaks(const StateSolver<2>&, const State<2>&);
-template StrainPeaks<3> strain_peaks(const StateSolver<3>&, const State<3>&);
+template decltype(strain_peaks<2>) strain_peaks<2>;
+template decltype(strain_peaks<3>) strain_peaks<3>;
 
 }  // namespace wheelwright

@@ -83,7 +83,7 @@ double removed_density(const MaterialDensity<2>& density, const StrainsAtPoint<2
   return sum - value - product(slopes, opening);
 }
 
-template double work_on_small_hole<2>(const Material&, const Voigt<2>&, const Voigt<2>&);
-template double work_on_small_hole<3>(const Material&, const Voigt<3>&, const Voigt<3>&);
+template decltype(work_on_small_hole<2>) work_on_small_hole<2>;
+template decltype(work_on_small_hole<3>) work_on_small_hole<3>;
 
 }  // namespace wheelwright

@@ -29,11 +29,6 @@
 namespace wheelwright {
 namespace {
 
-template <int dim>
-double volume_share(const LevelSet<dim>& psi, double measure) {
-  return measure / sector_measure<dim>(psi.lattice.grid());
-}
-
 NoProduct no_product(const Failure& failure) {
   return {fmt::format("{}: {}", to_string(failure.reason), failure.detail)};
 }
