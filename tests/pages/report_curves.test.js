@@ -6,7 +6,7 @@ const { reportCurves } = require("./scripts.js").load("formats", "colours", "rep
 const rolling = { azimuths_rad: [0, Math.PI / 18], travel_at_load_m: [1e-3, 2e-3], force_at_travel_N: null, travel_harmonics_m: [3e-6, 1e-6],
   force_harmonics_N: null, peak_von_mises_Pa: [1e6, 4e6] };
 const run = { dimension: 2, sectors: 18, objective: { unit: "J/m", factor: 10 },
-  history: { iteration: [0, 1], "objective [J/m]": [5, null], "strain_energy [J/m]": [5, null], "uniformity_l2 [Pa]": [1, 2],
+  history: { iteration: [0, 1], "objective [J/m]": [5, null], "strain_energy [J/m]": [5, null], "uniformity_l2 [J/m]": [1, 2],
     "mean_travel [m]": [null, null], "volume fraction": [0.7, 0.6] },
   rolling: { before: null, after: rolling },
   pressures: [{ x_m: [-1e-3, 1e-3], pressure_Pa: [0, 2e6] }, { x_m: [0], pressure_Pa: [1e6] }] };
