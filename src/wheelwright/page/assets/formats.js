@@ -5,9 +5,10 @@ const formats = (() => {
 
   // At most five digits, without unusual exponents.
   function shown(value) {
-    if (!Number.isFinite(value)) return "-";
+    if (!Number.isFinite(value)) return "\u2013";
     const size = Math.abs(value);
-    return size !== 0 && (size < 1e-4 || size >= 1e7) ? value.toExponential(3) : String(Number(value.toPrecision(5)));
+    const text = size !== 0 && (size < 1e-4 || size >= 1e7) ? value.toExponential(3) : String(Number(value.toPrecision(5)));
+    return text.replace(/^-/, "\u2212");
   }
 
   // At most four digits.

@@ -31,7 +31,7 @@ const frameChanges = (() => {
   // A warning as its first clause and the rest, which is "" if there is but one clause.
   function clauses(text) {
     const told = sentence(text), end = told.search(/[.;] /) + 1;
-    return end === 0 ? [told, ""] : [told.slice(0, end), told.slice(end)];
+    return end === 0 ? [told, ""] : [told.slice(0, end - 1), sentence(told.slice(end).trim())];
   }
 
   // A new list: at most `most` entries, the newest ones.

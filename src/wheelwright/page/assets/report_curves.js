@@ -47,9 +47,9 @@ const reportCurves = (() => {
 
   // The terms of the objective are the columns between it and the first measure; those of its unit share its chart.
   function terms(run) {
-    const names = Object.keys(run.history), from = names.findIndex((name) => name.startsWith("objective"));
-    const unit = names[from]?.split(" [")[1];
-    return names.slice(from + 1, names.findIndex((name) => name.startsWith("mean_travel")))
+    const names = Object.keys(run.history), place = (word) => names.findIndex((name) => name.startsWith(word));
+    const from = place("objective"), to = place("mean_travel"), unit = names[from]?.split(" [")[1];
+    return names.slice(from + 1, to < 0 ? names.length : to)
       .filter((name) => name.endsWith(` [${unit}`) && !name.includes(" in "));
   }
 

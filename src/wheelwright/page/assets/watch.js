@@ -35,7 +35,7 @@
   }
 
   function tell(text, isRefusal) {
-    at("message").textContent = text;
+    at("message").textContent = at("message").title = text;
     at("message").classList.toggle("refused", isRefusal);
   }
 
@@ -638,13 +638,18 @@
     const number = element("input", { type: "number", id: `${id}-number`, step: "any", "aria-label": `${label}, as a number` });
     at("sliders").append(element("div", { class: "setting" }, element("label", { for: id }, label), slider, number));
     let wanted = null, isSending = false, sent = null;
+    const showValue = () => {
+      const v = value();
+      number.value = sliders.entry(sliders.rounded(v, digits));
+      slider.value = toSlider(v);
+    };
     const send = async () => {
       if (isSending) return;
       isSending = true;
       while (wanted !== null) {
         sent = wanted;
         wanted = null;
-        await give(command(sent));
+        if (!await give(command(sent)) && wanted === null) showValue();
       }
       isSending = false;
     };
@@ -663,12 +668,9 @@
       slider.value = toSlider(Number(number.value));
       want(Number(number.value));
     });
-    // The value of the run, unless the user is changing it.
+    // Shows the value of the run, unless the user is changing it. After a refusal the run's value returns at once.
     return () => {
-      if (isSending || document.activeElement === number) return;
-      const v = value();
-      number.value = sliders.entry(sliders.rounded(v, digits));
-      slider.value = toSlider(v);
+      if (!isSending && document.activeElement !== number) showValue();
     };
   }
 
