@@ -13,10 +13,10 @@
 #include "wheelwright/base/parallel.h"
 #include "wheelwright/base/process_settings.h"
 #include "wheelwright/base/stopwatch.h"
-#include "wheelwright/contact/contact_starts.h"
-#include "wheelwright/contact/newton_tangent.h"
-#include "wheelwright/cut/measure.h"
-#include "wheelwright/evolution/evolver.h"
+#include "wheelwright/mechanics/contact/contact_starts.h"
+#include "wheelwright/mechanics/contact/newton_tangent.h"
+#include "wheelwright/shape/cut/measure.h"
+#include "wheelwright/shape/evolution/evolver.h"
 
 namespace wheelwright::bench {
 namespace {

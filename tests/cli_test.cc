@@ -20,9 +20,9 @@
 #include "wheelwright/app/guarded.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/files/level_set_file.h"
-#include "wheelwright/geometry/topology.h"
 #include "wheelwright/run/folder_lock.h"
 #include "wheelwright/run/problem_size.h"
+#include "wheelwright/shape/geometry/topology.h"
 
 namespace wheelwright::testing {
 namespace {

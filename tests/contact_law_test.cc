@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <random>
 
-#include "wheelwright/contact/contact_responses.h"
-#include "wheelwright/elasticity/contact_form.h"
+#include "wheelwright/mechanics/contact/contact_responses.h"
+#include "wheelwright/mechanics/elasticity/contact_form.h"
 
 namespace wheelwright {
 namespace {

@@ -1,4 +1,4 @@
-#include "wheelwright/contact/contact_path.h"
+#include "wheelwright/mechanics/contact/contact_path.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 
 #include "tests/random_wheels.h"
 #include "tests/support.h"
-#include "wheelwright/contact/contact_solver.h"
-#include "wheelwright/contact/contact_starts.h"
-#include "wheelwright/contact/newton_tangent.h"
+#include "wheelwright/mechanics/contact/contact_solver.h"
+#include "wheelwright/mechanics/contact/contact_starts.h"
+#include "wheelwright/mechanics/contact/newton_tangent.h"
 #include "wheelwright/run/study.h"
 
 namespace wheelwright {

@@ -1,11 +1,11 @@
-#include "wheelwright/geometry/contour.h"
+#include "wheelwright/shape/geometry/contour.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "wheelwright/geometry/cell_map.h"
+#include "wheelwright/shape/geometry/cell_map.h"
 
 namespace wheelwright {
 namespace {

@@ -2,18 +2,18 @@
 #include <numbers>
 
 #include "tests/run_support.h"
+#include "wheelwright/cad/drawing/parts.h"
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/read.h"
-#include "wheelwright/cut/measure.h"
-#include "wheelwright/drawing/parts.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/files/level_set_file.h"
-#include "wheelwright/geometry/contour.h"
 #include "wheelwright/run/command_json.h"
 #include "wheelwright/run/command_log.h"
 #include "wheelwright/run/command_queue.h"
 #include "wheelwright/run/edit_bounds.h"
 #include "wheelwright/run/run.h"
+#include "wheelwright/shape/cut/measure.h"
+#include "wheelwright/shape/geometry/contour.h"
 
 // Commands that change the shape of a run, by exact areas and centres, and what is written of commands.
 

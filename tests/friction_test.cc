@@ -6,11 +6,11 @@
 #include <string>
 
 #include "tests/support.h"
-#include "wheelwright/contact/contact_adjoint.h"
-#include "wheelwright/contact/contact_results.h"
-#include "wheelwright/cut/measure.h"
-#include "wheelwright/rolling/adjoint.h"
-#include "wheelwright/sensitivity/taylor_test.h"
+#include "wheelwright/mechanics/contact/contact_adjoint.h"
+#include "wheelwright/mechanics/contact/contact_results.h"
+#include "wheelwright/mechanics/rolling/adjoint.h"
+#include "wheelwright/optimization/sensitivity/taylor_test.h"
+#include "wheelwright/shape/cut/measure.h"
 
 namespace wheelwright {
 namespace {

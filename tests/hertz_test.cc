@@ -3,8 +3,8 @@
 #include <numbers>
 
 #include "tests/support.h"
-#include "wheelwright/contact/contact_solver.h"
-#include "wheelwright/contact/contact_starts.h"
+#include "wheelwright/mechanics/contact/contact_solver.h"
+#include "wheelwright/mechanics/contact/contact_starts.h"
 
 namespace wheelwright {
 namespace {

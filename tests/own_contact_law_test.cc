@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support.h"
-#include "wheelwright/contact/contact_responses.h"
+#include "wheelwright/mechanics/contact/contact_responses.h"
 
 namespace wheelwright {
 namespace {

@@ -4,11 +4,11 @@
 #include "tests/run_support.h"
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/write.h"
-#include "wheelwright/functionals/boundary_integral.h"
+#include "wheelwright/optimization/sensitivity/taylor_test.h"
+#include "wheelwright/quantities/functionals/boundary_integral.h"
 #include "wheelwright/run/run.h"
-#include "wheelwright/sensitivity/taylor_test.h"
-#include "wheelwright/watch/board_observer.h"
-#include "wheelwright/watch/frame.h"
+#include "wheelwright/web/watch/board_observer.h"
+#include "wheelwright/web/watch/frame.h"
 
 // A quantity that a program adds: from its case file to all that a run writes.
 

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include "tests/support.h"
-#include "wheelwright/geometry/mirror.h"
-#include "wheelwright/report/solution_fields.h"
-#include "wheelwright/report/tread_contact.h"
-#include "wheelwright/state/strain_peaks.h"
+#include "wheelwright/mechanics/state/strain_peaks.h"
+#include "wheelwright/output/report/solution_fields.h"
+#include "wheelwright/output/report/tread_contact.h"
+#include "wheelwright/shape/geometry/mirror.h"
 
 namespace wheelwright {
 namespace {

@@ -4,14 +4,14 @@
 #include <cmath>
 
 #include "tests/support.h"
-#include "wheelwright/contact/contact_solver.h"
-#include "wheelwright/contact/contact_starts.h"
-#include "wheelwright/functionals/strain_energy.h"
-#include "wheelwright/functionals/uniformity_annulus.h"
-#include "wheelwright/functionals/uniformity_dual.h"
-#include "wheelwright/geometry/shapes.h"
-#include "wheelwright/sensitivity/evaluate.h"
-#include "wheelwright/sensitivity/taylor_test.h"
+#include "wheelwright/mechanics/contact/contact_solver.h"
+#include "wheelwright/mechanics/contact/contact_starts.h"
+#include "wheelwright/optimization/sensitivity/evaluate.h"
+#include "wheelwright/optimization/sensitivity/taylor_test.h"
+#include "wheelwright/quantities/functionals/strain_energy.h"
+#include "wheelwright/quantities/functionals/uniformity_annulus.h"
+#include "wheelwright/quantities/functionals/uniformity_dual.h"
+#include "wheelwright/shape/geometry/shapes.h"
 
 namespace wheelwright {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "wheelwright/report/svg.h"
+#include "wheelwright/output/report/svg.h"
 
 namespace wheelwright {
 namespace {

@@ -2,7 +2,7 @@
 // change of volume, which a nearly incompressible material should not have. Run again, it continues a run
 // that was stopped. usage: own_quantity CASE FOLDER
 
-#include <wheelwright/functionals/material_density_integral.h>
+#include <wheelwright/quantities/functionals/material_density_integral.h>
 #include <wheelwright/wheelwright.h>
 
 #include <cstdio>

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "tests/fuzz/target.h"
-#include "wheelwright/drawing/parts.h"
+#include "wheelwright/cad/drawing/parts.h"
 #include "wheelwright/run/command_json.h"
 #include "wheelwright/run/command_log.h"
 

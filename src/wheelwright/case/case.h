@@ -8,14 +8,14 @@
 #include <variant>
 #include <vector>
 
-#include "wheelwright/drawing/fill.h"
-#include "wheelwright/elasticity/contact_form.h"
-#include "wheelwright/elasticity/dual_norm.h"
-#include "wheelwright/elasticity/ghost_penalty.h"
-#include "wheelwright/elasticity/material.h"
-#include "wheelwright/elasticity/side_faces.h"
-#include "wheelwright/functionals/quantities.h"
-#include "wheelwright/geometry/level_set.h"
+#include "wheelwright/cad/drawing/fill.h"
+#include "wheelwright/mechanics/elasticity/contact_form.h"
+#include "wheelwright/mechanics/elasticity/dual_norm.h"
+#include "wheelwright/mechanics/elasticity/ghost_penalty.h"
+#include "wheelwright/mechanics/elasticity/material.h"
+#include "wheelwright/mechanics/elasticity/side_faces.h"
+#include "wheelwright/quantities/functionals/quantities.h"
+#include "wheelwright/shape/geometry/level_set.h"
 
 namespace wheelwright {
 

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "wheelwright/case/case.h"
-#include "wheelwright/geometry/bands.h"
-#include "wheelwright/geometry/shapes.h"
+#include "wheelwright/shape/geometry/bands.h"
+#include "wheelwright/shape/geometry/shapes.h"
 
 namespace wheelwright {
 

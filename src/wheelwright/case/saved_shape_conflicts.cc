@@ -8,7 +8,7 @@
 #include "wheelwright/case/number_text.h"
 #include "wheelwright/case/section_conflicts.h"
 #include "wheelwright/case/shape_symmetry.h"
-#include "wheelwright/geometry/values_on.h"
+#include "wheelwright/shape/geometry/values_on.h"
 
 namespace wheelwright {
 

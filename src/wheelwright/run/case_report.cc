@@ -12,7 +12,7 @@
 #include "wheelwright/case/overload.h"
 #include "wheelwright/case/shape_symmetry.h"
 #include "wheelwright/case/shown_value.h"
-#include "wheelwright/rolling/contact_failure.h"
+#include "wheelwright/mechanics/rolling/contact_failure.h"
 #include "wheelwright/run/problem_size.h"
 
 namespace wheelwright {

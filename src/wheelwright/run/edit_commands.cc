@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "wheelwright/drawing/parts.h"
+#include "wheelwright/cad/drawing/parts.h"
 #include "wheelwright/run/commands.h"
 #include "wheelwright/run/edit_bounds.h"
 

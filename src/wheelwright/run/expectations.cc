@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "wheelwright/case/objective_weights.h"
-#include "wheelwright/report/described_wheel.h"
+#include "wheelwright/output/report/described_wheel.h"
 #include "wheelwright/run/bounded_functions.h"
 
 namespace wheelwright {

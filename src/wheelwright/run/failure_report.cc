@@ -7,12 +7,12 @@
 
 #include "wheelwright/case/shown_value.h"
 #include "wheelwright/case/write.h"
-#include "wheelwright/cut/measure.h"
 #include "wheelwright/files/atomic_file.h"
 #include "wheelwright/files/level_set_file.h"
-#include "wheelwright/geometry/section.h"
-#include "wheelwright/report/svg.h"
+#include "wheelwright/output/report/svg.h"
 #include "wheelwright/run/own_drawings.h"
+#include "wheelwright/shape/cut/measure.h"
+#include "wheelwright/shape/geometry/section.h"
 
 namespace wheelwright {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "wheelwright/evolution/protected_bands.h"
+#include "wheelwright/shape/evolution/protected_bands.h"
 
 namespace wheelwright {
 namespace {

@@ -1,8 +1,8 @@
 #include "wheelwright/run/final_results.h"
 
-#include "wheelwright/cut/measure.h"
 #include "wheelwright/run/given_wheel.h"
 #include "wheelwright/run/summarized_run.h"
+#include "wheelwright/shape/cut/measure.h"
 
 namespace wheelwright {
 namespace {

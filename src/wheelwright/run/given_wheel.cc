@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "wheelwright/cut/measure.h"
+#include "wheelwright/shape/cut/measure.h"
 
 namespace wheelwright {
 namespace {

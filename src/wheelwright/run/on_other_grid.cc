@@ -1,8 +1,8 @@
 #include "wheelwright/run/on_other_grid.h"
 
-#include "wheelwright/evolution/regrid.h"
-#include "wheelwright/geometry/components.h"
-#include "wheelwright/geometry/values_on.h"
+#include "wheelwright/shape/evolution/regrid.h"
+#include "wheelwright/shape/geometry/components.h"
+#include "wheelwright/shape/geometry/values_on.h"
 
 namespace wheelwright {
 namespace {

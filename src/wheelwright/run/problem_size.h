@@ -1,7 +1,7 @@
 #pragma once
 
 #include "wheelwright/case/case.h"
-#include "wheelwright/rolling/cost_estimate.h"
+#include "wheelwright/mechanics/rolling/cost_estimate.h"
 
 namespace wheelwright {
 

@@ -8,8 +8,8 @@
 
 #include "wheelwright/case/read.h"
 #include "wheelwright/case/write.h"
-#include "wheelwright/evolution/regrid.h"
 #include "wheelwright/files/level_set_file.h"
+#include "wheelwright/shape/evolution/regrid.h"
 
 namespace wheelwright {
 namespace {

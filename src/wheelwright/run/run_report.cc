@@ -13,7 +13,6 @@
 #include "wheelwright/case/derived.h"
 #include "wheelwright/case/shown_value.h"
 #include "wheelwright/files/csv.h"
-#include "wheelwright/geometry/section.h"
 #include "wheelwright/run/case_report.h"
 #include "wheelwright/run/failure_report.h"
 #include "wheelwright/run/feature_warnings.h"
@@ -23,6 +22,7 @@
 #include "wheelwright/run/run_title.h"
 #include "wheelwright/run/stop_text.h"
 #include "wheelwright/run/study.h"
+#include "wheelwright/shape/geometry/section.h"
 
 namespace wheelwright {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "wheelwright/nucleation/nucleation.h"
+#include "wheelwright/optimization/nucleation/nucleation.h"
 #include "wheelwright/run/checkpoint.h"
 #include "wheelwright/run/run_control.h"
 #include "wheelwright/run/study.h"

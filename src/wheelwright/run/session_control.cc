@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "wheelwright/cut/measure.h"
 #include "wheelwright/run/case_file.h"
 #include "wheelwright/run/replacements.h"
+#include "wheelwright/shape/cut/measure.h"
 
 namespace wheelwright {
 

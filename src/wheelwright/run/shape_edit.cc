@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "wheelwright/drawing/composed_level_set.h"
-#include "wheelwright/geometry/contour.h"
+#include "wheelwright/cad/drawing/composed_level_set.h"
+#include "wheelwright/shape/geometry/contour.h"
 
 namespace wheelwright {
 namespace {

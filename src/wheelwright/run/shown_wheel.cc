@@ -2,9 +2,9 @@
 
 #include <span>
 
-#include "wheelwright/report/shape_boundary.h"
-#include "wheelwright/report/surface_vtp.h"
-#include "wheelwright/report/wheel_pictures.h"
+#include "wheelwright/output/report/shape_boundary.h"
+#include "wheelwright/output/report/surface_vtp.h"
+#include "wheelwright/output/report/wheel_pictures.h"
 
 namespace wheelwright {
 namespace {

@@ -5,20 +5,20 @@
 #include <algorithm>
 #include <numeric>
 
-#include "wheelwright/analysis/deformation_size.h"
+#include "wheelwright/cad/drawing/composed_level_set.h"
 #include "wheelwright/case/drawn_shapes.h"
 #include "wheelwright/case/objective_weights.h"
 #include "wheelwright/case/shown_value.h"
-#include "wheelwright/cut/measure.h"
-#include "wheelwright/drawing/composed_level_set.h"
-#include "wheelwright/evolution/regrid.h"
-#include "wheelwright/evolution/volume.h"
-#include "wheelwright/functionals/mean_contact_stress.h"
-#include "wheelwright/geometry/components.h"
-#include "wheelwright/geometry/section.h"
-#include "wheelwright/geometry/values_on.h"
-#include "wheelwright/rolling/half_width_solver.h"
+#include "wheelwright/mechanics/rolling/half_width_solver.h"
+#include "wheelwright/quantities/analysis/deformation_size.h"
+#include "wheelwright/quantities/functionals/mean_contact_stress.h"
 #include "wheelwright/run/bounded_functions.h"
+#include "wheelwright/shape/cut/measure.h"
+#include "wheelwright/shape/evolution/regrid.h"
+#include "wheelwright/shape/evolution/volume.h"
+#include "wheelwright/shape/geometry/components.h"
+#include "wheelwright/shape/geometry/section.h"
+#include "wheelwright/shape/geometry/values_on.h"
 
 namespace wheelwright {
 namespace {

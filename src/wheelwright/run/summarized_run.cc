@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "wheelwright/case/shown_value.h"
-#include "wheelwright/optimize/constraints.h"
+#include "wheelwright/optimization/optimizer/constraints.h"
 #include "wheelwright/run/bounded_functions.h"
 #include "wheelwright/run/given_wheel.h"
 #include "wheelwright/run/remarks.h"
